@@ -1,0 +1,397 @@
+"""Edit: the one frozen table of every number a person can set.
+
+Traits, sliders, shader uniforms, command-line flags, recipes and the parameter page
+of the documentation all derive from the fields below; nothing else lists them.
+A field whose default is ``None`` is *automatic*: it takes the value that the analysis
+found in the photo (``Scene.automatic``), so an edit that names nothing moves nothing.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import json
+import math
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal, NamedTuple
+
+RECIPE_VERSION = 1
+METHODS = ("ratio", "thesis", "thesis_literal")
+
+Point = tuple[float, float]
+
+
+class EditError(ValueError):
+    """A recipe or parameter value that cannot be used; the message says what to do."""
+
+
+class Parameter(NamedTuple):
+    """One row of the table, as seen by sliders, uniforms, flags and the docs.
+
+    ``kind`` is ``"number"``, ``"choice"`` or ``"data"`` (strokes and hints: kept in
+    the recipe, never a slider or a uniform).
+    """
+
+    name: str
+    kind: str
+    default: Any
+    minimum: float
+    maximum: float
+    step: float
+    unit: str
+    label: str
+    section: str
+    help: str
+    choices: tuple[str, ...]
+    advanced: bool
+
+
+def _number(
+    default: float | None,
+    span: tuple[float, float],
+    step: float,
+    unit: str,
+    label: str,
+    section: str,
+    text: str,
+    *,
+    advanced: bool = False,
+) -> Any:
+    return field(
+        default=default,
+        metadata={
+            "kind": "number",
+            "span": span,
+            "step": step,
+            "unit": unit,
+            "label": label,
+            "section": section,
+            "help": text,
+            "advanced": advanced,
+        },
+    )
+
+
+def _choice(default: str, choices: tuple[str, ...], label: str, section: str, text: str) -> Any:
+    return field(
+        default=default,
+        metadata={
+            "kind": "choice",
+            "choices": choices,
+            "label": label,
+            "section": section,
+            "help": text,
+        },
+    )
+
+
+def _data(default: Any, label: str, text: str) -> Any:
+    return field(
+        default=default,
+        metadata={"kind": "data", "label": label, "section": "corrections", "help": text},
+    )
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A brush stroke that corrects a map.
+
+    Parameters
+    ----------
+    label : {"sky", "not_sky"}
+        What the person says lies under the brush.
+    points : tuple of (x, y)
+        Polyline in fractions of the picture's width and height, 0–1.
+    radius : float
+        Brush radius in fractions of the picture's longer side.
+    """
+
+    label: Literal["sky", "not_sky"]
+    points: tuple[Point, ...]
+    radius: float = 0.01
+
+
+@dataclass(frozen=True, kw_only=True)
+class Edit:
+    """Every parameter of one edit. ``Edit()`` moves nothing."""
+
+    # fmt: off
+    sun_azimuth: float | None = _number(None, (-180, 180), 0.1, "°", "Azimuth", "sun",
+        "Sun's azimuth, relative to the camera's heading, positive to the right.")
+    sun_elevation: float | None = _number(None, (-12, 90), 0.1, "°", "Elevation", "sun",
+        "Sun's apparent elevation above the horizon; negative is twilight.")
+    sun_size: float = _number(1.0, (0, 5), 0.05, "×", "Disc size", "sun",
+        "Diameter of the drawn disc in units of the sun's own 0.533°; 0 draws none.")
+    sky_strength: float = _number(1.0, (0, 1), 0.01, "", "Sky", "sky",
+        "How far the sky follows the moved sun; 0 is exactly off.")
+    aerosol_optical_depth: float | None = _number(None, (0, 0.6), 0.005, "", "Haze", "sky",
+        "Aerosol optical depth at 550 nm (AOD).")
+    angstrom_exponent: float | None = _number(None, (0, 2), 0.05, "", "Ångström exponent", "sky",
+        "How much more aerosol scatters blue than red: large for fine smoke, 0 for fog.",
+        advanced=True)
+    aerosol_asymmetry: float | None = _number(None, (0, 0.95), 0.01, "", "Forward lobe g", "sky",
+        "Cornette–Shanks asymmetry of the aerosol: how tight the white ring round the sun is.",
+        advanced=True)
+    aerosol_albedo: float | None = _number(None, (0.7, 1), 0.01, "", "Aerosol albedo", "sky",
+        "Single-scattering albedo of the aerosol; below 1 it absorbs.", advanced=True)
+    ozone: float | None = _number(None, (0, 500), 5, "DU", "Ozone", "sky",
+        "Ozone column in Dobson units; it makes the blue hour blue.", advanced=True)
+    ground_albedo: float | None = _number(None, (0, 1), 0.01, "", "Ground albedo", "sky",
+        "Share of light that the land reflects back into the sky.", advanced=True)
+    altitude: float | None = _number(None, (0, 30000), 10, "m", "Altitude", "sky",
+        "Camera's height above sea level.", advanced=True)
+    cloud_strength: float = _number(1.0, (0, 1), 0.01, "", "Clouds", "clouds",
+        "How far the clouds follow the moved sun; 0 is exactly off.")
+    silver_lining: float = _number(1.0, (0, 3), 0.05, "", "Silver lining", "clouds",
+        "Forward scattering in thin cloud edges near the sun.")
+    land_strength: float = _number(1.0, (0, 1), 0.01, "", "Land", "land",
+        "How far the land follows the moved sun; 0 is exactly off.")
+    land_facing: float = _number(0.5, (0, 1), 0.01, "", "Upright surfaces", "land",
+        "Share of the land's surfaces that face the camera; the rest faces the zenith.")
+    colourfulness: float = _number(0.5, (0, 1), 0.01, "", "Colour loss in shade", "land",
+        "How much colour the land loses when the sun's disc is hidden (thesis eq. 3.8).")
+    exposure: float = _number(0.0, (-4, 4), 0.05, "EV", "Exposure", "light",
+        "Exposure compensation of the moved picture.")
+    auto_exposure: float = _number(0.8, (0, 1), 0.01, "", "Automatic exposure", "light",
+        "How far the camera re-exposes as the light falls: 0 locked, 1 fully automatic.")
+    method: str = _choice("ratio", METHODS, "Method", "match",
+        "ratio (default), thesis (corrected equations) or thesis_literal (as printed).")
+    sun_sky_ratio: float = _number(1000.0, (0, 5000), 10, "×", "Sun to sky ratio", "thesis",
+        "F^s: weight of sun pixels in the sky's mean colour (methods thesis*).", advanced=True)
+    thesis_saturation: float = _number(1.0, (0, 1), 0.01, "", "Contrast s", "thesis",
+        "s of eq. 3.8 when the sun is fully hidden (methods thesis*).", advanced=True)
+    cloud_ratio_min: float = _number(0.62, (0, 2), 0.01, "", "Cloud r/b minimum", "thesis",
+        "m_min of eq. 3.5: encoded red/blue above it is cloud.", advanced=True)
+    cloud_ratio_max: float = _number(1.0, (0, 3), 0.01, "", "Cloud r/b maximum", "thesis",
+        "m_max of eq. 3.6: encoded red/blue at which softness reaches 1.", advanced=True)
+    blend_distance: float = _number(0.35, (0.01, 2), 0.01, "", "Blend distance d_m", "thesis",
+        "d_m of eq. 3.12, in picture widths.", advanced=True)
+    blend_power: float = _number(1.0, (0.1, 8), 0.1, "", "Blend power B_fp", "thesis",
+        "B_fp of eq. 3.12.", advanced=True)
+    strokes: tuple[Stroke, ...] = _data((), "Strokes",
+        "Sky / not-sky strokes, replayed in order.")
+    sun_hint: Point | None = _data(None, "Sun in the photo",
+        "Where the person says the photo's own sun is, in fractions of width and height.")
+    horizon_hint: tuple[Point, Point] | None = _data(None, "Horizon in the photo",
+        "Two points of the horizon that the person set, in fractions of width and height.")
+    fov_hint: float | None = _data(None, "Vertical field of view",
+        "Vertical field of view in degrees that the person set.")
+    # fmt: on
+
+    def __post_init__(self) -> None:
+        for parameter in PARAMETERS:
+            checked = _check(parameter, getattr(self, parameter.name))
+            object.__setattr__(self, parameter.name, checked)
+
+    def replace(self, **changes: Any) -> Edit:
+        """Return a copy with the named parameters changed.
+
+        Raises
+        ------
+        EditError
+            For an unknown name (the nearest spelling is suggested) or a value out of range.
+        """
+        _refuse_unknown(changes)
+        return dataclasses.replace(self, **changes)
+
+    def changed(self) -> dict[str, Any]:
+        """Parameters that differ from their defaults, by name."""
+        return {
+            p.name: getattr(self, p.name)
+            for p in PARAMETERS
+            if getattr(self, p.name) != p.default
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the recipe: plain JSON types, ``version`` first, non-default values only."""
+        recipe: dict[str, Any] = {"version": RECIPE_VERSION}
+        for name, value in self.changed().items():
+            recipe[name] = _plain(value)
+        return recipe
+
+    @classmethod
+    def from_dict(cls, recipe: dict[str, Any]) -> Edit:
+        """Build an Edit from a recipe (see ``to_dict``). Never executes anything.
+
+        Raises
+        ------
+        EditError
+            When the recipe is not a mapping, comes from a newer version, or holds an
+            unknown name or an impossible value.
+        """
+        if not isinstance(recipe, dict):
+            raise EditError(
+                f"A recipe is a JSON object, not {type(recipe).__name__}. "
+                "Pass what Edit.to_dict() returned."
+            )
+        version = recipe.get("version", RECIPE_VERSION)
+        if isinstance(version, bool) or not isinstance(version, int) or version < 1:
+            raise EditError(f"Recipe version {version!r} is not a positive whole number.")
+        if version > RECIPE_VERSION:
+            raise EditError(
+                f"This recipe has version {version}, this sunwidget reads up to "
+                f"{RECIPE_VERSION}. Update sunwidget to open it."
+            )
+        values = {k: v for k, v in recipe.items() if k != "version"}
+        _refuse_unknown(values)
+        return cls(**values)
+
+    def to_json(self) -> str:
+        """Return the recipe as indented JSON text."""
+        return json.dumps(self.to_dict(), indent=2)
+
+    @classmethod
+    def from_json(cls, text: str) -> Edit:
+        """Build an Edit from JSON text; raises EditError like ``from_dict``."""
+        try:
+            recipe = json.loads(text)
+        except (json.JSONDecodeError, RecursionError) as error:
+            raise EditError(f"The recipe is not valid JSON: {error}") from error
+        return cls.from_dict(recipe)
+
+    def to_code(self) -> str:
+        """Return runnable Python that builds this Edit (``import sunwidget as sw`` first)."""
+        arguments = []
+        for name, value in self.changed().items():
+            if name == "strokes":
+                inner = ", ".join(
+                    f"sw.Stroke({s.label!r}, {s.points!r}, radius={s.radius!r})" for s in value
+                )
+                arguments.append(f"strokes=({inner},)")
+            else:
+                arguments.append(f"{name}={value!r}")
+        return f"sw.Edit({', '.join(arguments)})"
+
+
+def _table() -> tuple[Parameter, ...]:
+    rows = []
+    for f in fields(Edit):
+        m = f.metadata
+        low, high = m.get("span", (0.0, 0.0))
+        rows.append(
+            Parameter(
+                name=f.name,
+                kind=m["kind"],
+                default=f.default,
+                minimum=float(low),
+                maximum=float(high),
+                step=float(m.get("step", 0)),
+                unit=m.get("unit", ""),
+                label=m["label"],
+                section=m["section"],
+                help=m["help"],
+                choices=m.get("choices", ()),
+                advanced=m.get("advanced", False),
+            )
+        )
+    return tuple(rows)
+
+
+PARAMETERS: tuple[Parameter, ...] = _table()
+NUMBERS: tuple[Parameter, ...] = tuple(p for p in PARAMETERS if p.kind == "number")
+_BY_NAME = {p.name: p for p in PARAMETERS}
+
+
+def parameter(name: str) -> Parameter:
+    """Return the table's row for ``name``; raises EditError with the nearest spelling."""
+    _refuse_unknown([name])
+    return _BY_NAME[name]
+
+
+def unknown_name_message(name: str) -> str:
+    """Say that ``name`` is no parameter and suggest the nearest spelling."""
+    near = difflib.get_close_matches(str(name), _BY_NAME, n=1)
+    hint = f" Did you mean {near[0]!r}?" if near else " See sunwidget.PARAMETERS for the list."
+    return f"Unknown parameter {str(name)[:80]!r}.{hint}"
+
+
+def _refuse_unknown(names: Any) -> None:
+    for name in names:
+        if name not in _BY_NAME:
+            raise EditError(unknown_name_message(name))
+
+
+def _check(p: Parameter, value: Any) -> Any:
+    if p.kind == "choice":
+        if value not in p.choices:
+            raise EditError(f"{p.name} must be one of {', '.join(p.choices)}, not {value!r:.80}.")
+        return value
+    if p.kind == "number":
+        if value is None and p.default is None:
+            return None
+        return _check_number(p.name, value, p.minimum, p.maximum, p.unit)
+    if p.name == "strokes":
+        return _check_strokes(value)
+    if value is None:
+        return None
+    if p.name == "fov_hint":
+        return _check_number(p.name, value, 5, 150, "°")
+    if p.name == "sun_hint":
+        return _check_point(p.name, value)
+    points = _check_points(p.name, value)
+    if len(points) != 2 or points[0][0] == points[1][0]:
+        raise EditError(f"{p.name} needs two points with different x, not {value!r:.80}.")
+    return points
+
+
+def _check_number(name: str, value: Any, low: float, high: float, unit: str = "") -> float:
+    try:
+        number = math.nan if isinstance(value, (str, bytes, bool)) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise EditError(f"{name} must be a number from {low:g} to {high:g}, not {value!r:.80}.")
+    if not low <= number <= high:
+        raise EditError(f"{name} = {number:g} is outside {low:g} to {high:g} {unit}".rstrip() + ".")
+    return number
+
+
+def _check_point(name: str, value: Any) -> Point:
+    if not isinstance(value, (tuple, list)) or len(value) != 2:
+        raise EditError(f"{name} must be a pair (x, y), not {value!r:.80}.")
+    return (
+        _check_number(f"{name} x", value[0], -10, 10),
+        _check_number(f"{name} y", value[1], -10, 10),
+    )
+
+
+def _check_points(name: str, value: Any) -> tuple[Point, ...]:
+    if not isinstance(value, (tuple, list)) or not value:
+        raise EditError(f"{name} must be a list of (x, y) pairs, not {value!r:.80}.")
+    return tuple(_check_point(name, point) for point in value)
+
+
+def _check_strokes(value: Any) -> tuple[Stroke, ...]:
+    if not isinstance(value, (tuple, list)):
+        raise EditError(f"strokes must be a list of strokes, not {value!r:.80}.")
+    checked = []
+    for stroke in value:
+        if isinstance(stroke, Stroke):
+            stroke = dataclasses.asdict(stroke)
+        if not isinstance(stroke, dict) or not {"label", "points"} <= stroke.keys():
+            raise EditError(f"A stroke needs a label and points, not {stroke!r:.80}.")
+        if stroke["label"] not in ("sky", "not_sky"):
+            raise EditError(f"A stroke's label is 'sky' or 'not_sky', not {stroke['label']!r:.80}.")
+        extra = stroke.keys() - {"label", "points", "radius"}
+        if extra:
+            raise EditError(f"A stroke has no {min(map(str, extra))!r:.80}.")
+        checked.append(
+            Stroke(
+                stroke["label"],
+                _check_points("stroke", stroke["points"]),
+                _check_number("stroke radius", stroke.get("radius", 0.01), 0.0005, 0.5),
+            )
+        )
+    return tuple(checked)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Stroke):
+        return {
+            "label": value.label,
+            "points": [list(point) for point in value.points],
+            "radius": value.radius,
+        }
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    return value
