@@ -1,0 +1,53 @@
+"""sunwidget: move the sun in a photograph.
+
+>>> import sunwidget as sw
+>>> scene = sw.analyze(sw.sample("coast"))
+>>> picture = sw.render(scene, sw.Edit(sun_elevation=3))
+
+Every name below is loaded when it is first used (PEP 562), so that ``import sunwidget``
+costs milliseconds although OpenCV, onnxruntime and the GL stack stand behind it.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+__version__ = "0.1.0"
+
+# Public name -> (module, name in it).
+_HOMES: dict[str, tuple[str, str]] = {
+    "PARAMETERS": ("sunwidget.edit", "PARAMETERS"),
+    "Camera": ("sunwidget.camera", "Camera"),
+    "Edit": ("sunwidget.edit", "Edit"),
+    "EditError": ("sunwidget.edit", "EditError"),
+    "Photo": ("sunwidget.photo", "Photo"),
+    "PhotoError": ("sunwidget.photo", "PhotoError"),
+    "Scene": ("sunwidget.analysis.scene", "Scene"),
+    "Stroke": ("sunwidget.edit", "Stroke"),
+    "SunEditor": ("sunwidget.widgets", "SunEditor"),
+    "analyze": ("sunwidget.analysis.scene", "analyze"),
+    "open": ("sunwidget.photo", "open_photo"),
+    "render": ("sunwidget.renderer.render", "render"),
+    "sample": ("sunwidget.photo", "sample"),
+    "save": ("sunwidget.export.stills", "save"),
+    "sweep": ("sunwidget.export.sweep", "sweep"),
+}
+
+__all__ = [  # noqa: PLE0604 - the table above is the one list of names
+    *_HOMES,
+    "__version__",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'sunwidget' has no attribute {name!r}")
+    module, attribute = _HOMES[name]
+    value = getattr(importlib.import_module(module), attribute)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOMES})
