@@ -1,0 +1,83 @@
+# Every target does its own set-up, once: what is there already is left alone.
+SHELL := bash
+.DEFAULT_GOAL := help
+.PHONY: help demo lab test bench build wheel clean gl chromium
+
+PYTHON ?=
+export PYTHON
+PY := .venv/bin/python
+# A stamp lies inside what it vouches for, so that removing the one removes the other.
+VENV := .venv/made-venv
+LAB := .venv/made-lab
+TEST := .venv/made-test
+NODE_MODULES := js/node_modules/.made
+STATIC := sunwidget/static/.made
+FRONT_END := $(shell find js sunwidget/shaders -path js/node_modules -prune -o -type f -print 2>/dev/null)
+say = @printf '\033[1m==> %s\033[0m\n'
+
+help:
+	@echo 'make demo    maps, a still and a sunset film of the bundled photo'
+	@echo 'make lab     open the quickstart notebook in JupyterLab'
+	@echo 'make test    every check: lint, types, JavaScript, Python, browser, notebooks'
+	@echo 'make bench   measure speed; table and build/bench.json'
+	@echo 'make build   build the front end into sunwidget/static'
+	@echo 'make wheel   a wheel in dist/, front end inside'
+	@echo 'make clean   remove everything that was built (not .venv, not node_modules)'
+
+demo: $(LAB) gl
+	@if scripts/setup.sh node; then $(MAKE) --no-print-directory build; \
+	  else echo 'The notebook front end is left out; maps, stills and films need none.'; fi
+	@.venv/bin/sunwidget demo -o build/demo
+	@echo 'Open the notebook: make lab'
+
+lab: $(LAB) $(STATIC) gl
+	@.venv/bin/jupyter lab $(if $(filter 0,$(shell id -u)),--allow-root) notebooks/01_quickstart.ipynb
+
+# PYTEST="-k camera" passes arguments on.
+test: $(TEST) $(STATIC) gl chromium
+	@scripts/check.sh -- $(PYTEST)
+
+bench: $(TEST) $(STATIC) gl
+	@$(PY) bench/bench.py $(BENCH)
+
+build: $(STATIC)
+
+wheel: $(TEST) $(STATIC)
+	@$(PY) -m build --wheel
+
+clean:
+	rm -rf build dist sunwidget/static .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find . \( -name .venv -o -name node_modules -o -name .git \) -prune -o -name __pycache__ -print0 | xargs -0 rm -rf
+
+gl: $(VENV)
+	@scripts/setup.sh gl
+
+chromium:
+	@scripts/setup.sh chromium
+
+$(VENV): pyproject.toml
+	@scripts/setup.sh venv
+	$(say) 'Python packages of sunwidget'
+	@$(PY) -m pip install --quiet --editable .
+	@touch $@
+
+$(LAB): $(VENV)
+	$(say) 'Python packages for the notebook and films'
+	@$(PY) -m pip install --quiet --editable '.[lab,video]'
+	@touch $@
+
+$(TEST): $(VENV)
+	$(say) 'Python packages for the tests'
+	@$(PY) -m pip install --quiet --editable '.[test]'
+	@touch $@ $(LAB)
+
+$(NODE_MODULES): js/package.json js/package-lock.json
+	@scripts/setup.sh node
+	$(say) 'JavaScript packages'
+	@cd js && npm $(if $(wildcard js/node_modules),install,ci) --no-audit --no-fund --loglevel=error
+	@touch $@
+
+$(STATIC): $(NODE_MODULES) $(FRONT_END)
+	$(say) 'Front end'
+	@npm --prefix js run --silent build
+	@touch $@
