@@ -1,0 +1,241 @@
+"""Write ``constants.json`` and ``shaders/lib/constants.glsl``, the physical constants of both hosts.
+
+Run ``python -m sunwidget.atmosphere.generate_constants`` after changing anything here; it needs
+colour-science (CIE 1931 2° observer) and pvlib (ASTM G-173 spectrum; ozone of Bird & Riordan
+1984), which the package itself does not. Only the small results are committed.
+"""
+
+from __future__ import annotations
+
+import json
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sunwidget.atmosphere.rayleigh import rayleigh_coefficient
+
+Array = NDArray[np.float64]
+
+HERE = Path(__file__).parent
+JSON_PATH = HERE / "constants.json"
+GLSL_PATH = HERE.parent / "shaders" / "lib" / "constants.glsl"
+
+WAVELENGTHS = np.array([640.0, 580.0, 510.0, 440.0])
+TABLE = np.arange(360.0, 831.0, 5.0)
+GROUND_RADIUS = 6_360_000.0
+TOP_RADIUS = 6_460_000.0
+RAYLEIGH_SCALE_HEIGHT = 8_430.0
+MIE_SCALE_HEIGHT = 1_200.0
+OZONE_LAYER = (10_000.0, 25_000.0, 40_000.0)
+# 1 DU = 0.01 mm of pure gas at 0 °C and 1 atm: 2.6867e20 molecules per m².
+MOLECULES_PER_DOBSON = 2.6867e20
+SUN_ANGULAR_RADIUS_DEG = 0.533 / 2
+LUMINOUS_EFFICACY = 683.0
+
+# Rec. 709 primaries, D65 white; XYZ to linear RGB (IEC 61966-2-1, Annex F precision).
+XYZ_TO_REC709 = np.array(
+    [
+        [3.2404542, -1.5371385, -0.4985314],
+        [-0.9692660, 1.8760108, 0.0415560],
+        [0.0556434, -0.2040259, 1.0572252],
+    ]
+)
+
+
+def solar_irradiance(at: Array) -> Array:
+    """Extraterrestrial irradiance (ASTM G-173-03) averaged over ±5 nm, W m⁻² nm⁻¹."""
+    from pvlib.spectrum import get_reference_spectra
+
+    spectrum = get_reference_spectra(standard="ASTM G173-03")["extraterrestrial"]
+    nm = np.asarray(spectrum.index, float)
+    fine = np.arange(-5.0, 5.01, 0.5)
+    values = np.interp(at[:, None] + fine, nm, np.asarray(spectrum, float))
+    return np.trapezoid(values, fine, axis=1) / 10.0
+
+
+def solar_irradiance_1nm(at: Array) -> Array:
+    """Extraterrestrial irradiance (ASTM G-173-03) without smoothing, W m⁻² nm⁻¹."""
+    from pvlib.spectrum import get_reference_spectra
+
+    spectrum = get_reference_spectra(standard="ASTM G173-03")["extraterrestrial"]
+    return np.interp(at, np.asarray(spectrum.index, float), np.asarray(spectrum, float))
+
+
+def ozone_cross_section(at: Array) -> Array:
+    """Ozone absorption per molecule in m², from Bird & Riordan (NREL TR-215-2436, 1984).
+
+    Their table (public domain, in pvlib as the coefficients of ``spectrl2``) gives base-e
+    coefficients per atm-cm; 1 atm-cm = 1000 DU. It is zero at and below 440 nm, where the true
+    optical depth of 300 DU is 0.001.
+    """
+    from pvlib.spectrum import spectrl2
+
+    table = __import__(spectrl2.__module__, fromlist=["_SPECTRL2_COEFFS"])._SPECTRL2_COEFFS
+    per_atm_cm = np.interp(at, table["wavelength"], table["ozone_absorption"])
+    return per_atm_cm / (1000 * MOLECULES_PER_DOBSON)
+
+
+def colour_matching(at: Array) -> Array:
+    """CIE 1931 2° colour-matching functions, (n, 3)."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        import colour
+
+        functions = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
+    nm = np.asarray(functions.wavelengths, float)
+    values = np.asarray(functions.values, float)
+    return np.stack([np.interp(at, nm, values[:, k]) for k in range(3)], axis=1)
+
+
+def training_spectra(at: Array) -> Array:
+    """Smooth shares of sunlight as skies and suns show them, (n, wavelengths).
+
+    Scattering spectra (white, aerosol, Rayleigh, twice scattered) seen through every
+    combination of air, aerosol and ozone that a sun from zenith to twilight meets.
+    """
+    rayleigh = rayleigh_coefficient(at) * RAYLEIGH_SCALE_HEIGHT
+    ozone = ozone_cross_section(at) * MOLECULES_PER_DOBSON
+    micrometres = at / 550.0
+    spectra = []
+    for air in (0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 30.0):
+        for aerosol, alpha in ((0.0, 1.0), (0.06, 0.8), (0.3, 1.4), (0.3, 0.3)):
+            for dobson in (0.0, 300.0, 2000.0, 5000.0):
+                depth = air * (rayleigh + aerosol * micrometres**-alpha) + dobson * ozone
+                transmittance = np.exp(-depth)
+                for source in (
+                    np.ones_like(at),
+                    micrometres**-1.0,
+                    micrometres**-2.5,
+                    micrometres**-4.0,
+                    1 - np.exp(-rayleigh * 4),
+                ):
+                    spectra.append(source * transmittance)
+    return np.array(spectra)
+
+
+def spectral_to_xyz(solar: Array) -> Array:
+    """3×4 matrix from radiance at the four wavelengths to XYZ in kcd m⁻² (Y = luminance).
+
+    Least squares over ``training_spectra``, each weighted by 1/Y, so that chromaticity counts
+    alike in bright and dark skies.
+    """
+    nm = np.arange(360.0, 831.0, 1.0)
+    weights = solar_irradiance_1nm(nm)[:, None] * colour_matching(nm)
+    spectra = training_spectra(nm)
+    xyz = spectra @ weights * (LUMINOUS_EFFICACY / 1000)
+    samples = np.stack([np.interp(WAVELENGTHS, nm, row) for row in spectra]) * solar
+    scale = 1 / xyz[:, 1:2]
+    matrix, *_ = np.linalg.lstsq(samples * scale, xyz * scale, rcond=None)
+    return matrix.T
+
+
+def constants() -> dict[str, Any]:
+    """Everything that both hosts need, as plain JSON types."""
+    solar = solar_irradiance(WAVELENGTHS)
+    to_xyz = spectral_to_xyz(solar)
+    rounded = {
+        "wavelengths_nm": WAVELENGTHS,
+        "rayleigh_per_m": rayleigh_coefficient(WAVELENGTHS),
+        "ozone_m2": ozone_cross_section(WAVELENGTHS),
+        "solar_W_m2_nm": solar,
+        "spectral_to_xyz": to_xyz,
+        "spectral_to_rec709": XYZ_TO_REC709 @ to_xyz,
+    }
+    table = {
+        "wavelength_nm": TABLE,
+        "solar_W_m2_nm": solar_irradiance(TABLE),
+        "ozone_m2": ozone_cross_section(TABLE),
+        "cie_1931_xyz": colour_matching(TABLE),
+    }
+    return {
+        "ground_radius_m": GROUND_RADIUS,
+        "top_radius_m": TOP_RADIUS,
+        "rayleigh_scale_height_m": RAYLEIGH_SCALE_HEIGHT,
+        "mie_scale_height_m": MIE_SCALE_HEIGHT,
+        "ozone_layer_m": list(OZONE_LAYER),
+        "molecules_per_dobson": MOLECULES_PER_DOBSON,
+        "sun_angular_radius_deg": SUN_ANGULAR_RADIUS_DEG,
+        "luminous_efficacy_lm_W": LUMINOUS_EFFICACY,
+        "xyz_to_rec709": XYZ_TO_REC709.tolist(),
+        **{k: _rounded(v) for k, v in rounded.items()},
+        "table": {k: _rounded(v) for k, v in table.items()},
+    }
+
+
+def glsl(c: dict[str, Any]) -> str:
+    """Return the text of ``lib/constants.glsl``."""
+
+    def vec4(values: list[float]) -> str:
+        return "vec4(" + ", ".join(_float(v) for v in values) + ")"
+
+    # Optical depth per metre (or per Dobson unit) keeps every exponent within float range.
+    per_dobson = [x * c["molecules_per_dobson"] for x in c["ozone_m2"]]
+    columns = np.array(c["spectral_to_rec709"]).T
+    matrix = ",\n    ".join(", ".join(_float(v) for v in column) for column in columns)
+    low, peak, high = c["ozone_layer_m"]
+    radius = np.radians(c["sun_angular_radius_deg"])
+    limb = limb_darkening_exponents(np.array(c["wavelengths_nm"]))
+    lines = [
+        "// Generated by sunwidget/atmosphere/generate_constants.py; do not edit.",
+        "// Wavelengths in RGBA: 640, 580, 510, 440 nm. Lengths in metres.",
+        "#define Length float",
+        "#define Angle float",
+        "#define Number float",
+        "#define DimensionlessSpectrum vec4",
+        "#define ScatteringSpectrum vec4  // 1/m",
+        "#define IrradianceSpectrum vec4  // W m^-2 nm^-1",
+        "#define RadianceSpectrum vec4  // W m^-2 sr^-1 nm^-1",
+        "",
+        "const float PI = 3.14159265358979;",
+        f"const Length GROUND_RADIUS = {_float(c['ground_radius_m'])};",
+        f"const Length TOP_RADIUS = {_float(c['top_radius_m'])};",
+        f"const Length ATMOSPHERE_HEIGHT = {_float(c['top_radius_m'] - c['ground_radius_m'])};",
+        f"const Length RAYLEIGH_SCALE_HEIGHT = {_float(c['rayleigh_scale_height_m'])};",
+        f"const Length MIE_SCALE_HEIGHT = {_float(c['mie_scale_height_m'])};",
+        f"const Length OZONE_BOTTOM = {_float(low)};",
+        f"const Length OZONE_PEAK = {_float(peak)};",
+        f"const Length OZONE_TOP = {_float(high)};",
+        f"const Angle SUN_ANGULAR_RADIUS = {_float(radius)};",
+        f"const vec4 WAVELENGTHS = {vec4(c['wavelengths_nm'])};  // nm",
+        "// Bodhaine et al. 1999, sea level.",
+        f"const ScatteringSpectrum RAYLEIGH_SCATTERING = {vec4(c['rayleigh_per_m'])};",
+        "// Vertical absorption optical depth of one Dobson unit, Bird & Riordan 1984.",
+        f"const vec4 OZONE_DEPTH_PER_DOBSON = {vec4(per_dobson)};",
+        "// ASTM G-173-03 extraterrestrial, mean over 10 nm.",
+        f"const IrradianceSpectrum SOLAR_IRRADIANCE = {vec4(c['solar_W_m2_nm'])};",
+        "// Limb darkening mu^a; Neckel & Labs 1994 by power law.",
+        f"const vec4 LIMB_DARKENING = {vec4(list(limb))};",
+        "// Radiance at the four wavelengths to linear Rec. 709 in kcd m^-2.",
+        f"const mat4x3 SPECTRAL_TO_REC709 = mat4x3(\n    {matrix});",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def limb_darkening_exponents(wavelength_nm: Array) -> Array:
+    """Exponent a of the disc's profile μ^a: 0.397, 0.503, 0.652 at 680, 550, 440 nm, linear between."""
+    return np.interp(wavelength_nm, [440.0, 550.0, 680.0], [0.652, 0.503, 0.397])
+
+
+def _rounded(values: Array) -> Any:
+    return np.vectorize(lambda v: float(f"{v:.7g}"))(values).tolist()
+
+
+def _float(value: float) -> str:
+    text = f"{value:.9g}"
+    return text if any(mark in text for mark in ".e") else text + ".0"
+
+
+def main() -> None:
+    """Write both files."""
+    c = constants()
+    JSON_PATH.write_text(json.dumps(c, indent=1) + "\n", encoding="utf-8")
+    GLSL_PATH.parent.mkdir(parents=True, exist_ok=True)
+    GLSL_PATH.write_text(glsl(c), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
