@@ -1,0 +1,56 @@
+"""Read shaders and the frame graph from the package and resolve their includes.
+
+The browser's twin is ``js/src/gl/include.js``; a test asserts that both expand every
+pass to the same text.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import re
+from importlib.resources import files
+from typing import Any
+
+_INCLUDE = re.compile(r'^[ \t]*#include "([^"]+)"[ \t]*$', re.MULTILINE)
+
+EGL_HEADER = "#version 330\n"
+FULL_SCREEN_TRIANGLE = (
+    EGL_HEADER
+    + """
+void main() {
+  vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(corner, 0.0, 1.0);
+}
+"""
+)
+
+
+def read_shader(path: str) -> str:
+    """Return the text of ``sunwidget/shaders/<path>`` as it lies in the package."""
+    return files("sunwidget").joinpath("shaders", *path.split("/")).read_text("utf-8")
+
+
+def resolve_includes(path: str, _seen: set[str] | None = None) -> str:
+    """Return the text of a shader with every ``#include`` expanded.
+
+    A file is expanded where it is first mentioned and dropped at later mentions, so a
+    library may include what it needs without care for order.
+    """
+    seen = {path} if _seen is None else _seen
+
+    def expand(match: re.Match[str]) -> str:
+        name = match.group(1)
+        if name in seen:
+            return ""
+        seen.add(name)
+        return resolve_includes(name, seen)
+
+    return _INCLUDE.sub(expand, read_shader(path))
+
+
+@functools.cache
+def frame_graph() -> dict[str, Any]:
+    """Return ``shaders/graph.json`` as plain data."""
+    graph: dict[str, Any] = json.loads(read_shader("graph.json"))
+    return graph

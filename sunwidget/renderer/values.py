@@ -1,0 +1,47 @@
+"""Where a uniform's value comes from: the Edit, the Scene or the host.
+
+The browser's twin is ``js/src/gl/values.js``. Two states exist: ``source``, the unmoved
+picture, and ``edit``, the current one. In the source state every parameter has its
+default, and every automatic one what the analysis found.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from sunwidget.edit import METHODS, NUMBERS, Edit
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+Value = float | int | tuple[float, ...]
+
+
+def parameter_values(edit: Edit, automatic: Mapping[str, float]) -> dict[str, Value]:
+    """Return every number of ``edit`` with automatic ones filled in, and ``method``'s index."""
+    values: dict[str, Value] = {"method": METHODS.index(edit.method)}
+    for p in NUMBERS:
+        value = getattr(edit, p.name)
+        values[p.name] = float(automatic[p.name] if value is None else value)
+    return values
+
+
+def states(edit: Edit, automatic: Mapping[str, float]) -> dict[str, dict[str, Value]]:
+    """Return the values of both states, each with the ``source_…`` names added."""
+    source = parameter_values(Edit(), automatic)
+    current = parameter_values(edit, automatic)
+    fixed = {f"source_{name}": value for name, value in source.items()}
+    # The method is no property of the picture: both states are drawn by the chosen one.
+    source["method"] = current["method"]
+    return {"source": {**source, **fixed}, "edit": {**current, **fixed}}
+
+
+def uniform_value(shader: str, name: str, *tables: Mapping[str, Any]) -> Any:
+    """Look ``name`` up in ``tables`` in turn; a miss names shader and uniform."""
+    for table in tables:
+        if name in table:
+            return table[name]
+    raise KeyError(
+        f"Shader {shader!r} declares uniform {name!r}, which is neither a parameter of edit.py, "
+        "a scene uniform of graph.json nor a host uniform."
+    )

@@ -1,0 +1,114 @@
+// The picture, method "ratio": every term is a ratio new/old of one model at two suns, so an
+// unmoved sun multiplies by exactly one. Where a ratio means nothing (clipped pixels, the old
+// disc and its halo, extreme ratios) the frame cross-fades to the matched model itself.
+
+#include "lib/picture.glsl"
+#include "lib/response.glsl"
+#include "lib/atmosphere.glsl"
+#include "lib/sky.glsl"
+#include "lib/daylight.glsl"
+#include "lib/output.glsl"
+
+uniform sampler2D photo;
+uniform sampler2D layers;
+uniform sampler2D surface;
+uniform sampler2D backdrop;
+uniform sampler2D sky_source;
+uniform sampler2D sky_edit;
+uniform sampler2D light_source;
+uniform sampler2D light_edit;
+uniform sampler2D visibility_source;
+uniform sampler2D visibility_edit;
+uniform sampler2D meter_source;
+uniform sampler2D meter_edit;
+uniform vec3 sky_gain;
+
+uniform float source_sun_azimuth;
+uniform float source_sun_elevation;
+uniform float source_land_facing;
+uniform float sun_size;
+uniform float sky_strength;
+uniform float cloud_strength;
+uniform float silver_lining;
+uniform float land_strength;
+uniform float land_facing;
+uniform float colourfulness;
+uniform float exposure;
+uniform float auto_exposure;
+
+const float kDiscRadius = 0.2665;  // degrees
+// Over this many degrees of movement the old sun's glare gives way to the sky behind it: long
+// enough that a pixel's drag shows no step, short enough that a moved sun leaves no ghost.
+const float kGlareFade = 4.0;
+
+// Henyey–Greenstein lobe over its isotropic value, g = 0.8.
+float GetForwardLobe(float cosine) {
+  const float g = 0.8;
+  return (1.0 - g * g) / pow(1.0 + g * g - 2.0 * g * cosine, 1.5);
+}
+
+vec3 GetCloud(sampler2D light, sampler2D visibility, vec3 sun, vec3 view, float opacity) {
+  float forward = silver_lining * GetForwardLobe(dot(sun, view)) * (1.0 - opacity);
+  // Clouds see the sun past the hills that hide it from the camera.
+  return sky_gain * GetCloudRadiance(light, 1.0, 0.25 * forward);
+}
+
+void main() {
+  vec2 pixel = GetPixel();
+  vec2 place = pixel / frame_size;
+  ivec2 texel = ivec2(pixel - tile_origin);
+  vec3 view = GetViewDirection(place);
+  vec3 display = ReadPicture(photo, place).rgb;
+  vec3 scene = GetSceneLight(display);
+  vec4 layer = ReadPicture(layers, place);
+  float glare = ReadPicture(surface, place).r;
+  vec3 sky_before = texelFetch(sky_source, ivec2(texel), 0).rgb;
+  vec3 sky_now = texelFetch(sky_edit, ivec2(texel), 0).rgb;
+
+  vec3 sun_before = GetDirection(source_sun_azimuth, source_sun_elevation);
+  vec3 sun_now = GetDirection(sun_azimuth, sun_elevation);
+  float turn = degrees(2.0 * asin(min(0.5 * length(sun_now - sun_before), 1.0)));
+  float moved = smoothstep(0.0, kGlareFade, turn);
+
+  float stops = exposure + auto_exposure * (texelFetch(meter_source, ivec2(0), 0).r - texelFetch(meter_edit, ivec2(0), 0).r);
+  float gain = exp2(stops);
+
+  // Sky and clouds.
+  vec3 clean = sky_before * exp(4.0 * ReadBilinear(backdrop, place).rgb - 2.0);
+  vec3 sky = scene + glare * moved * (clean - scene);
+  float opacity = layer.g;
+  vec3 veil_before = (1.0 - opacity) * sky_before + opacity * GetCloud(light_source, visibility_source, sun_before, view, opacity);
+  vec3 veil_now = (1.0 - opacity) * sky_now + opacity * GetCloud(light_edit, visibility_edit, sun_now, view, opacity);
+  vec3 plain = GetRatio(sky_now, sky_before);
+  vec3 veiled = GetRatio(veil_now, veil_before);
+  vec3 ratio = plain + cloud_strength * (veiled - plain);
+  // Beyond 8x (or an eighth) noise and clipping would be amplified: trust the model there.
+  float extreme = smoothstep(2.5, 4.0, abs(log2(GetLuminance(ratio) * gain)));
+  vec3 relit = sky * ratio;
+  relit += extreme * moved * (clean * ratio - relit);
+  vec3 sky_out = sky + sky_strength * (gain * relit - sky);
+
+  // The new disc: limb-darkened, reddened on its way, behind clouds and land.
+  float pixel_degrees = degrees(1.0 / (camera_focal * frame_size.y));
+  float from_sun = degrees(2.0 * asin(min(0.5 * length(view - sun_now), 1.0)));
+  float radius = kDiscRadius * sun_size;
+  float disc = 1.0 - smoothstep(radius - 0.5 * pixel_degrees, radius + 0.5 * pixel_degrees, from_sun);
+  disc *= step(1e-3, radius) * moved * sky_strength * (1.0 - opacity) * (1.0 - opacity);
+  disc *= smoothstep(-pixel_degrees, pixel_degrees, degrees(asin(clamp(view.y, -1.0, 1.0))));
+  vec3 limb = GetLimbDarkening(min(from_sun / max(radius, 1e-3), 1.0));
+  sky_out += disc * gain * sky_gain * limb * GetLightTexel(light_edit, 7) / kDiscSolidAngle;
+
+  // Land: ratio of irradiances, with the visible share of the disc.
+  float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;
+  float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
+  vec3 land_ratio = GetRatio(GetLandIrradiance(light_edit, visible_now, land_facing, sun_now),
+                             GetLandIrradiance(light_source, visible_before, source_land_facing, sun_before));
+  vec3 land = scene * land_ratio;
+  float hidden = clamp(visible_before - visible_now, 0.0, 1.0) * colourfulness;
+  land += hidden * (vec3(GetLuminance(land)) - land) * 0.5;
+  vec3 land_out = scene + land_strength * (gain * land - scene);
+
+  // Written as differences, so that what did not change adds exactly nothing.
+  vec3 out_scene = scene + layer.r * (sky_out - scene) + (1.0 - layer.r) * (land_out - scene);
+  WriteFrame(display, GetDisplayLight(out_scene) - GetDisplayLight(scene), pixel);
+}

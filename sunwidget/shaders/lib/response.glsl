@@ -1,0 +1,33 @@
+// The camera's response: display-linear x in [0, 1] against scene-linear r >= 0.
+// x = (1 - exp(-w r)) / w, a straight line for small r and a shoulder above; w = 0 is a
+// straight line throughout, w = 1 the curve of negative film and of most tone mappers' middle.
+// The slope at zero is one, so r and x share their unit in the shadows.
+
+uniform float response_shoulder;  // w in [0, 0.995]
+
+const vec3 kRec709Luminance = vec3(0.2126, 0.7152, 0.0722);
+
+float GetLuminance(vec3 color) {
+  return dot(color, kRec709Luminance);
+}
+
+vec3 GetSceneLight(vec3 display) {
+  float w = max(response_shoulder, 1e-4);
+  return -log(max(1.0 - w * max(display, vec3(0.0)), vec3(0.003))) / w;
+}
+
+vec3 GetDisplayLight(vec3 scene) {
+  float w = max(response_shoulder, 1e-4);
+  return (1.0 - exp(-w * max(scene, vec3(0.0)))) / w;
+}
+
+// IEC 61966-2-1 transfer function.
+vec3 EncodeSrgb(vec3 light) {
+  vec3 x = clamp(light, 0.0, 1.0);
+  return mix(12.92 * x, 1.055 * pow(max(x, vec3(1e-8)), vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), x));
+}
+
+// new / old that is exactly one when the two agree to the bit, on every driver.
+vec3 GetRatio(vec3 now, vec3 before) {
+  return 1.0 + (now - before) / before;
+}

@@ -1,0 +1,36 @@
+// What a camera's exposure meter would see: the mean log2 luminance of the picture with this
+// sun, from the model alone. One pixel; r = log2 of luminance in the photo's scene-linear unit.
+
+#include "lib/picture.glsl"
+#include "lib/atmosphere.glsl"
+#include "lib/sky.glsl"
+#include "lib/matched_sky.glsl"
+#include "lib/daylight.glsl"
+
+uniform sampler2D sky_view;
+uniform sampler2D light;
+uniform sampler2D layers;
+uniform float land_facing;
+
+out vec4 result;
+
+const int kColumns = 12;
+const int kRows = 9;
+const float kLandAlbedo = 0.18;
+
+void main() {
+  float sum = 0.0;
+  vec3 sun = GetDirection(sun_azimuth, sun_elevation);
+  // The meter averages, so a half-visible sun stands for any state of the disc: whether a
+  // twig hides the sun must not change the exposure.
+  vec3 land = sky_gain * kLandAlbedo / 3.14159265 * GetLandIrradiance(light, 0.5, land_facing, sun);
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      vec2 place = (vec2(column, row) + 0.5) / vec2(kColumns, kRows);
+      float sky = ReadBilinear(layers, place).r;
+      vec3 color = mix(land, GetMatchedSky(sky_view, GetViewDirection(place)), sky);
+      sum += log2(max(dot(color, vec3(0.2126, 0.7152, 0.0722)), 1e-20));
+    }
+  }
+  result = vec4(sum / float(kColumns * kRows), 0.0, 0.0, 1.0);
+}

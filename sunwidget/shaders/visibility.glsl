@@ -1,0 +1,41 @@
+// How much of the sun's disc the picture leaves visible: one pixel, r in [0, 1].
+// Land hides it (sky matte), clouds veil it (opacity); the horizon itself is light.glsl's
+// affair, so only the part of the disc above it is counted here. Outside the picture the
+// edge's answer fades to "visible" over a tenth of the picture.
+
+#include "lib/picture.glsl"
+
+uniform sampler2D layers;
+uniform float sun_azimuth;
+uniform float sun_elevation;
+
+out vec4 result;
+
+const float kDiscRadius = 0.2665;  // degrees
+const int kRings = 3;
+const int kSpokes = 12;
+
+float GetOpening(vec3 direction) {
+  vec3 at = GetPlaceOfDirection(direction);
+  if (at.z <= 0.0) return 1.0;
+  vec4 layer = ReadBilinear(layers, at.xy);
+  vec2 outside = max(max(-at.xy, at.xy - 1.0), 0.0);
+  return mix(layer.r * (1.0 - layer.g), 1.0, smoothstep(0.0, 0.1, max(outside.x, outside.y)));
+}
+
+void main() {
+  float open = 0.0;
+  float above = 0.0;
+  for (int ring = 0; ring < kRings; ++ring) {
+    // Rings of equal area.
+    float radius = kDiscRadius * sqrt((float(ring) + 0.5) / float(kRings));
+    for (int spoke = 0; spoke < kSpokes; ++spoke) {
+      float turn = 6.28318531 * (float(spoke) + 0.5 * float(ring)) / float(kSpokes);
+      float elevation = sun_elevation + radius * sin(turn);
+      float weight = smoothstep(-0.05, 0.05, elevation) + 1e-4;
+      open += weight * GetOpening(GetDirection(sun_azimuth + radius * cos(turn), elevation));
+      above += weight;
+    }
+  }
+  result = vec4(open / above, 0.0, 0.0, 1.0);
+}
