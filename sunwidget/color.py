@@ -1,0 +1,168 @@
+"""Transfer functions and primaries: between code values and linear Rec. 709 light.
+
+A :class:`ColorProfile` is three tone curves and one matrix. Its two directions are
+exact inverses in float, so a code value that nothing touched comes back as itself.
+Matrices go through the D50 profile connection space with the Bradford-adapted Rec. 709
+primaries that every sRGB profile stores (Lindbloom 2017).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)
+"""Rec. 709 luminance weights of linear R, G, B."""
+
+REC709_TO_D50 = np.array(
+    [
+        [0.4360747, 0.3850649, 0.1430804],
+        [0.2225045, 0.7168786, 0.0606169],
+        [0.0139322, 0.0971045, 0.7141733],
+    ]
+)
+
+# Pixels handled at a time, so that temporaries stay near 50 MB whatever the picture's size.
+_STRIP_PIXELS = 1 << 20
+
+
+@dataclass(frozen=True)
+class ParametricCurve:
+    """ICC parametric curve: y = (a·x + b)^g + e for x ≥ d, else c·x + f (ICC.1:2022, 10.18)."""
+
+    g: float
+    a: float = 1.0
+    b: float = 0.0
+    c: float = 0.0
+    d: float = 0.0
+    e: float = 0.0
+    f: float = 0.0
+
+    def decode(self, code: NDArray[Any]) -> NDArray[Any]:
+        """Code values (0–1) to linear light (0–1), in the precision of the input."""
+        power = np.maximum(self.a * code + self.b, 0) ** self.g + self.e
+        if self.d <= 0:
+            return power
+        return np.where(code >= self.d, power, self.c * code + self.f)
+
+    def encode(self, light: NDArray[Any]) -> NDArray[Any]:
+        """Linear light (0–1) to code values (0–1), in the precision of the input."""
+        power = (np.maximum(light - self.e, 0) ** (1 / self.g) - self.b) / self.a
+        if self.d <= 0:
+            return power
+        toe = (light - self.f) / self.c if self.c > 0 else np.zeros_like(light)
+        # Judged by the toe's own end: curves may have a tiny step at d.
+        return np.where(light > self.c * self.d + self.f, np.maximum(power, self.d), toe)
+
+
+@dataclass(frozen=True, eq=False)
+class TableCurve:
+    """A tone curve as equally spaced samples (ICC 'curv' with a table), interpolated linearly."""
+
+    samples: NDArray[np.float64]
+
+    @cached_property
+    def _grid(self) -> NDArray[np.float64]:
+        return np.linspace(0.0, 1.0, len(self.samples))
+
+    def decode(self, code: NDArray[Any]) -> NDArray[Any]:
+        """Code values (0–1) to linear light (0–1)."""
+        return np.interp(code, self._grid, self.samples).astype(code.dtype)
+
+    def encode(self, light: NDArray[Any]) -> NDArray[Any]:
+        """Linear light (0–1) to code values (0–1)."""
+        return np.interp(light, self.samples, self._grid).astype(light.dtype)
+
+
+Curve = ParametricCurve | TableCurve
+
+LINEAR_CURVE = ParametricCurve(1.0)
+SRGB_CURVE = ParametricCurve(2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045)
+"""IEC 61966-2-1. A shoulder of 1.055·y^(1/2.4) − 0.055 over a toe of 12.92·y."""
+
+
+def srgb_to_linear(code: NDArray[Any]) -> Floats:
+    """Decode sRGB values (any shape, 0–1) to linear light, float32. Not clamped above 1."""
+    return np.asarray(SRGB_CURVE.decode(np.asarray(code, np.float32)), np.float32)
+
+
+def linear_to_srgb(light: NDArray[Any]) -> Floats:
+    """Encode linear light (any shape) as sRGB values, float32. Clamped to 0–1."""
+    clamped = np.clip(np.asarray(light, np.float32), 0, 1)
+    return np.asarray(SRGB_CURVE.encode(clamped), np.float32)
+
+
+@dataclass(frozen=True, eq=False)
+class ColorProfile:
+    """A matrix/TRC colour space: three tone curves and a matrix to linear Rec. 709.
+
+    Parameters
+    ----------
+    curves : tuple of three curves
+        Tone curves of R, G, B, from code values (0–1) to linear light.
+    matrix : (3, 3) float64 array or None
+        Linear RGB of the space to linear Rec. 709; None where they are the same.
+    name : str
+        What the profile calls itself.
+    """
+
+    curves: tuple[Curve, Curve, Curve]
+    matrix: NDArray[np.float64] | None = None
+    name: str = "sRGB"
+
+    @property
+    def is_srgb(self) -> bool:
+        """True when code values are sRGB as they stand."""
+        return self.matrix is None and all(curve == SRGB_CURVE for curve in self.curves)
+
+    def decode(self, codes: NDArray[Any]) -> Floats:
+        """Integer code values (H, W, 3), uint8 or uint16, to linear Rec. 709 float32.
+
+        Colours outside Rec. 709 come out below 0 or above 1; they are kept.
+        """
+        light = np.empty(codes.shape, np.float32)
+        tables = self._tables(codes.dtype)
+        for rows in strips(codes.shape):
+            for channel, table in enumerate(tables):
+                light[rows, :, channel] = table[codes[rows, :, channel]]
+            if self.matrix is not None:
+                light[rows] = light[rows] @ self.matrix.T
+        return light
+
+    def encode(self, light: NDArray[Any], dtype: Any = np.uint8) -> NDArray[Any]:
+        """Linear Rec. 709 (H, W, 3) to rounded code values, uint8 or uint16.
+
+        Colours outside the profile's gamut are clamped channel by channel.
+        """
+        codes = np.empty(light.shape, dtype)
+        top = np.iinfo(codes.dtype).max
+        inverse = None if self.matrix is None else np.linalg.inv(self.matrix)
+        for rows in strips(light.shape):
+            strip = np.asarray(light[rows], np.float32)
+            if inverse is not None:
+                strip = (strip @ inverse.T).astype(np.float32)
+            strip = np.clip(strip, 0, 1)
+            for channel, curve in enumerate(self.curves):
+                value = np.clip(curve.encode(strip[..., channel]), 0, 1)
+                codes[rows, :, channel] = np.rint(value * top)
+        return codes
+
+    def _tables(self, dtype: Any) -> list[Floats]:
+        code = np.linspace(0.0, 1.0, np.iinfo(dtype).max + 1)
+        return [curve.decode(code).astype(np.float32) for curve in self.curves]
+
+
+SRGB = ColorProfile((SRGB_CURVE,) * 3)
+
+
+def strips(shape: tuple[int, ...], pixels: int = _STRIP_PIXELS) -> list[slice]:
+    """Row ranges of a picture of ``shape``, about ``pixels`` pixels each."""
+    height, width = shape[:2]
+    step = max(1, pixels // max(width, 1))
+    return [slice(top, min(top + step, height)) for top in range(0, height, step)]

@@ -1,0 +1,397 @@
+"""Picture files to code values: bytes in, :class:`Decoded` out, or a PhotoError that says why.
+
+Pillow reads everything it can read without loss; OpenCV reads colour at 16 bits a
+channel and float TIFF, which Pillow would cut to 8 bits or refuse.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import struct
+import threading
+import warnings
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sunwidget import exif as exif_tags
+from sunwidget.color import SRGB, ColorProfile
+from sunwidget.icc import ProfileError, color_space, read_profile
+
+MAX_PIXELS = 200_000_000
+"""Largest picture that is opened. Above it, a few kilobytes could ask for all of memory."""
+
+# Never EPS, WMF and the like: those formats can start other programs.
+_FORMATS = ("JPEG", "MPO", "PNG", "TIFF", "WEBP", "BMP", "GIF", "AVIF")
+_READABLE = "JPEG, PNG, TIFF, WebP, AVIF, BMP or GIF"
+_FOREIGN = {
+    b"%PDF": "a PDF",
+    b"<svg": "an SVG drawing",
+    b"<?xm": "an XML file",
+    b"<!DO": "a web page",
+    b"<htm": "a web page",
+    b"PK\x03\x04": "a ZIP archive",
+    b"8BPS": "a Photoshop file",
+    b"v/1\x01": "an OpenEXR file",
+    b"#?RA": "a Radiance HDR file",
+}
+_bomb_lock = threading.Lock()
+
+
+class PhotoError(ValueError):
+    """A picture that cannot be opened or written; the message says what to do."""
+
+
+class PhotoWarning(UserWarning):
+    """A picture was opened, but not everything in it could be kept."""
+
+
+@dataclass
+class Decoded:
+    """A picture as its file stores it, turned upright.
+
+    ``codes`` is (H, W, 3) uint8 or uint16 in ``profile``, or float32 linear Rec. 709.
+    ``exif`` is a Pillow Exif or None; ``notes`` are sentences for the person.
+    """
+
+    codes: NDArray[Any]
+    alpha: NDArray[np.float32] | None = None
+    profile: ColorProfile = SRGB
+    icc: bytes | None = None
+    exif: Any = None
+    xmp: bytes | None = None
+    dpi: tuple[float, float] | None = None
+    format: str | None = None
+    turned: bool = False
+    notes: list[str] = field(default_factory=list)
+
+
+def decode_bytes(data: bytes, name: str) -> Decoded:
+    """Decode the picture file ``data``; ``name`` is what error messages call it.
+
+    Raises
+    ------
+    PhotoError
+        When the bytes are no picture, a damaged one, or one of more than MAX_PIXELS.
+    """
+    if not data:
+        raise PhotoError(f"{name} is empty (0 bytes). Copy or download it again.")
+    image = _open(data, name)
+    if image is None:
+        return _decode_odd_tiff(data, name)
+    with image:
+        return decode_image(image, name, data)
+
+
+def decode_image(image: Any, name: str, data: bytes | None = None) -> Decoded:
+    """Decode a Pillow image; with ``data``, its file, deep pictures keep their 16 bits."""
+    check_size(*image.size, name)
+    notes = []
+    if getattr(image, "n_frames", 1) > 1 and image.format != "MPO":
+        notes.append(f"{name} holds {image.n_frames} frames; only the first is used.")
+    # Read before the pixels: the info of some formats changes while they load.
+    deep = data is not None and _is_deep(image)
+    try:
+        image.load()
+    except Exception as error:  # decoders fail in many ways; all mean a damaged file
+        raise PhotoError(
+            f"{name} is damaged: its {image.format or 'picture'} data ends early or makes no "
+            f"sense ({_reason(error)}). Copy or download it again."
+        ) from error
+    metadata = exif_tags.load(_exif_block(image))
+    found = _opencv(data) if deep and data is not None else None
+    if deep and found is None:
+        notes.append(f"The 16-bit channels of {name} could only be read with 8 bits.")
+    icc = image.info.get("icc_profile") or None
+    result = Decoded(np.empty(0), icc=icc, exif=metadata, format=_format(image), notes=notes)
+    if found is not None:
+        _fill_from_array(result, found, name)
+    else:
+        _fill_from_image(result, image, name)
+    _apply_profile(result, name)
+    _turn_upright(result)
+    xmp = image.info.get("xmp")
+    result.xmp = xmp.encode() if isinstance(xmp, str) else xmp
+    if result.xmp and result.turned:
+        result.xmp = re.sub(rb'(tiff:Orientation(?:>|="))\d', rb"\g<1>1", result.xmp)
+    result.dpi = _dpi(image)
+    return result
+
+
+def check_size(width: int, height: int, name: str) -> None:
+    """Refuse pictures without pixels and those of more than MAX_PIXELS."""
+    if width < 1 or height < 1:
+        raise PhotoError(f"{name} has no pixels ({width}×{height}).")
+    if width * height > MAX_PIXELS:
+        raise PhotoError(
+            f"{name} has {width}×{height} pixels, {width * height / 1e6:.0f} million; sunwidget "
+            f"opens up to {MAX_PIXELS / 1e6:.0f} million. Scale it down first."
+        )
+
+
+def split_alpha(array: NDArray[Any], name: str) -> tuple[NDArray[Any], NDArray[np.float32] | None]:
+    """Split (H, W), (H, W, 1–4) into colour (H, W, 3) and alpha (H, W) in 0–1 or None."""
+    if array.ndim == 2:
+        array = array[..., None]
+    channels = array.shape[2] if array.ndim == 3 else 0
+    if not 1 <= channels <= 4:
+        hint = ""
+        if array.ndim == 3 and array.shape[0] in (1, 3, 4):
+            hint = " The channels come last: use numpy.moveaxis(array, 0, -1)."
+        raise PhotoError(
+            f"{name} has the shape {array.shape}; expected (H, W), (H, W, 3) or (H, W, 4).{hint}"
+        )
+    alpha = None
+    if channels in (2, 4):
+        top = np.iinfo(array.dtype).max if array.dtype.kind == "u" else 1
+        alpha = np.clip(array[..., -1].astype(np.float32) / np.float32(top), 0, 1)
+    color = array[..., :3] if channels >= 3 else np.repeat(array[..., :1], 3, axis=2)
+    return np.ascontiguousarray(color), alpha
+
+
+def _open(data: bytes, name: str) -> Any:
+    from PIL import Image, UnidentifiedImageError
+
+    # Pillow's own limit against decompression bombs is lower than ours, a warning up to a
+    # point, and global. It is lifted only while the header is read; check_size() follows.
+    with _bomb_lock:
+        limit, Image.MAX_IMAGE_PIXELS = Image.MAX_IMAGE_PIXELS, None
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                return Image.open(io.BytesIO(data), formats=_FORMATS)
+        except UnidentifiedImageError as error:
+            if data[:4] in (b"II*\0", b"MM\0*"):
+                return None
+            raise PhotoError(_unknown(data, name)) from error
+        except Exception as error:  # header parsers fail in many ways
+            raise PhotoError(f"{name} has a damaged header ({_reason(error)}).") from error
+        finally:
+            Image.MAX_IMAGE_PIXELS = limit
+
+
+def _unknown(data: bytes, name: str) -> str:
+    what = next((text for head, text in _FOREIGN.items() if data.startswith(head)), None)
+    if data[4:8] == b"ftyp" and data[8:11] in (b"hei", b"hev", b"mif", b"crx"):
+        what = "a HEIC photo or camera raw file"
+    if what:
+        return f"{name} is {what}. Export it as {_READABLE} and open that."
+    known = (b"\xff\xd8", b"\x89PNG", b"RIFF", b"GIF8", b"BM")
+    if data.startswith(known):
+        return f"{name} is damaged: it starts like a picture but makes no sense. Copy it again."
+    return f"{name} is not a picture that sunwidget reads. Expected {_READABLE}."
+
+
+def _reason(error: BaseException) -> str:
+    return (str(error).splitlines() or [type(error).__name__])[0][:120] or type(error).__name__
+
+
+def _format(image: Any) -> str | None:
+    return "JPEG" if image.format == "MPO" else image.format
+
+
+def _exif_block(image: Any) -> bytes:
+    try:
+        block = image.getexif().tobytes() if image.format == "TIFF" else image.info.get("exif")
+        if not block:
+            block = image.getexif().tobytes()
+    except Exception:  # damaged metadata must not cost the picture
+        return b""
+    return block if isinstance(block, bytes) else b""
+
+
+def _is_deep(image: Any) -> bool:
+    """True for 16-bit colour, which Pillow decodes to 8 bits."""
+    if image.mode not in ("RGB", "RGBA", "LA"):
+        return False
+    return any(";16" in str(tile[3]) for tile in image.tile)
+
+
+def _opencv(data: bytes) -> NDArray[Any] | None:
+    """Decode with OpenCV to (H, W) or (H, W, 3 or 4) RGB order; None when it cannot."""
+    import cv2
+
+    try:
+        found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
+    except cv2.error:
+        return None
+    if found is None or found.dtype not in (np.uint16, np.float32):
+        return None
+    if found.ndim == 3 and found.shape[2] in (3, 4):
+        order = [2, 1, 0, 3][: found.shape[2]]
+        found = found[..., order]
+    return np.asarray(found)
+
+
+def _decode_odd_tiff(data: bytes, name: str) -> Decoded:
+    """A TIFF that Pillow does not know: RGB in 32-bit float."""
+    tags = _tiff_tags(data)
+    width, height = tags.get(256, 0), tags.get(257, 0)
+    if isinstance(width, int) and isinstance(height, int) and width and height:
+        check_size(width, height, name)
+        found = _opencv(data) if tags.get(262) in (1, 2) else None
+        if found is not None and found.shape[:2] == (height, width):
+            result = Decoded(np.empty(0), format="TIFF")
+            _fill_from_array(result, found, name)
+            return result
+    raise PhotoError(
+        f"{name} is a TIFF of an unusual or damaged kind. Save it with 8 or 16 bits a channel, "
+        "RGB or grey, and open that."
+    )
+
+
+def _tiff_tags(data: bytes) -> dict[int, Any]:
+    from PIL import TiffImagePlugin
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            directory = TiffImagePlugin.ImageFileDirectory_v2(data[:8])
+            stream = io.BytesIO(data)
+            stream.seek(directory.next)
+            directory.load(stream)
+            return dict(directory)
+    except Exception:  # a damaged directory: the caller says so
+        return {}
+
+
+def _fill_from_array(result: Decoded, found: NDArray[Any], name: str) -> None:
+    result.codes, result.alpha = split_alpha(found, name)
+    if result.codes.dtype.kind == "f":
+        check_light(result.codes, name)
+
+
+def check_light(light: NDArray[Any], name: str) -> None:
+    """Refuse float pictures that hold no light: NaN, infinity, negative luminance."""
+    bad = light.size - int(np.isfinite(light).sum())
+    if bad:
+        raise PhotoError(
+            f"{name} holds {bad} values that are NaN or infinite. Replace them first, "
+            "for example with numpy.nan_to_num."
+        )
+    luminance = light @ np.array([0.2126, 0.7152, 0.0722], light.dtype)
+    # Single channels below 0 are colours outside Rec. 709; negative luminance is no colour.
+    # The margin is for resampling, which undershoots beside bright edges.
+    lowest = float(luminance.min())
+    if lowest < -0.05 * max(1.0, float(luminance.max())):
+        raise PhotoError(
+            f"{name} holds negative light (luminance down to {lowest:.3g}). Floats are taken as "
+            "linear Rec. 709 light, 0 = black, 1 = white."
+        )
+
+
+def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
+    mode = image.mode
+    if mode == "F":
+        _fill_from_array(result, np.asarray(image, np.float32), name)
+    elif mode.startswith("I"):
+        deep = np.asarray(image).astype(np.int64)
+        if deep.min() < 0 or deep.max() > 65535:
+            raise PhotoError(f"{name} has 32-bit whole numbers. Save it with 16 bits a channel.")
+        _fill_from_array(result, deep.astype(np.uint16), name)
+    elif mode in ("RGB", "RGBA", "L", "LA"):
+        if "transparency" in image.info:
+            image = image.convert("LA" if mode == "L" else "RGBA")
+        _fill_from_array(result, np.asarray(image), name)
+    elif mode == "CMYK":
+        _fill_from_array(result, np.asarray(_separate_cmyk(result, image, name)), name)
+    else:  # palettes, bilevel, YCbCr, Lab, premultiplied alpha
+        has_alpha = "transparency" in image.info or mode in ("PA", "RGBa", "La")
+        try:
+            converted = image.convert("RGBA" if has_alpha else "RGB")
+        except ValueError as error:
+            raise PhotoError(f"{name} has pixels of the kind {mode}. Save it as RGB.") from error
+        _fill_from_array(result, np.asarray(converted), name)
+
+
+def _separate_cmyk(result: Decoded, image: Any, name: str) -> Any:
+    icc, result.icc = result.icc, None
+    result.notes.append(f"{name} is CMYK; it was converted to sRGB and will be saved as RGB.")
+    try:
+        if icc and color_space(icc) == "CMYK":
+            return _through_littlecms(image, icc)
+    except ProfileError:
+        result.notes.append(f"The CMYK profile of {name} is damaged; its colours are approximate.")
+    return image.convert("RGB")
+
+
+def _through_littlecms(image: Any, icc: bytes) -> Any:
+    from PIL import ImageCms
+
+    try:
+        source = ImageCms.ImageCmsProfile(io.BytesIO(icc))
+        target = ImageCms.createProfile("sRGB")
+        return ImageCms.profileToProfile(image, source, target, outputMode="RGB")
+    except (ImageCms.PyCMSError, OSError) as error:
+        raise ProfileError(str(error)) from error
+
+
+def _apply_profile(result: Decoded, name: str) -> None:
+    """Settle ``result.profile`` and ``result.icc`` so that the codes mean what they say."""
+    icc = result.icc
+    if icc is None or result.codes.dtype.kind == "f":
+        result.icc = None
+        return
+    try:
+        profile = read_profile(icc)
+    except (ProfileError, struct.error):
+        result.icc = None
+        _convert_through_lut(result, icc, name)
+        return
+    if profile.name != "grey":
+        result.profile = profile
+        return
+    # A grey profile cannot describe the coloured picture that an edit makes of it.
+    result.icc = None
+    if not profile.is_srgb:
+        result.codes = SRGB.encode(profile.decode(result.codes), result.codes.dtype)
+        result.notes.append(f"The grey tone curve of {name} was converted to sRGB.")
+
+
+def _convert_through_lut(result: Decoded, icc: bytes, name: str) -> None:
+    from PIL import Image
+
+    try:
+        if color_space(icc) != "RGB":
+            raise ProfileError("not an RGB profile")
+        eight = result.codes
+        if eight.dtype == np.uint16:
+            eight = np.rint(eight / 257.0).astype(np.uint8)
+        result.codes = np.asarray(_through_littlecms(Image.fromarray(eight), icc)).copy()
+        result.notes.append(
+            f"The colour profile of {name} is a look-up table; the picture was converted to "
+            "sRGB with 8 bits a channel."
+        )
+    except ProfileError:
+        result.notes.append(f"The colour profile of {name} cannot be read; sRGB is assumed.")
+
+
+def _turn_upright(result: Decoded) -> None:
+    way = exif_tags.orientation(result.exif) if result.exif is not None else 1
+    result.turned = way >= 5
+    if way != 1:
+        result.codes = np.ascontiguousarray(upright(result.codes, way))
+        if result.alpha is not None:
+            result.alpha = np.ascontiguousarray(upright(result.alpha, way))
+
+
+def upright(array: NDArray[Any], way: int) -> NDArray[Any]:
+    """Turn an array stored in EXIF orientation ``way`` (1–8) upright; a view."""
+    if way >= 5:
+        array = np.swapaxes(array, 0, 1)
+    if way in (2, 3, 6, 7):
+        array = array[:, ::-1]
+    if way in (3, 4, 7, 8):
+        array = array[::-1]
+    return array
+
+
+def _dpi(image: Any) -> tuple[float, float] | None:
+    try:
+        across, down = (float(value) for value in image.info["dpi"])
+    except (KeyError, TypeError, ValueError, ZeroDivisionError):
+        return None
+    return (across, down) if 1 <= across <= 65535 and 1 <= down <= 65535 else None

@@ -1,0 +1,268 @@
+"""What a photo's EXIF says about its camera, place and time; and EXIF fit to be written again.
+
+EXIF is untrusted and often wrong: every reader here returns None rather than nonsense,
+and none of them raises.
+"""
+
+from __future__ import annotations
+
+import datetime
+import json
+import math
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+_ORIENTATION = 0x0112
+_EXIF_IFD = 0x8769
+_GPS_IFD = 0x8825
+_USER_COMMENT = 0x9286
+_PIXEL_WIDTH, _PIXEL_HEIGHT = 0xA002, 0xA003
+_MAKER_NOTE = 0x927C
+# Tags that describe how one particular file stores its pixels, and metadata that travels
+# by another way (XMP 700, ICC 34675). A copied picture must not inherit them.
+_STORAGE_TAGS = frozenset(
+    {254, 255, 256, 257, 258, 259, 262, 266, 273, 277, 278, 279, 280, 281, 284, 290, 291, 297}
+    | {301, 317, 318, 319, 320, 321, 322, 323, 324, 325, 330, 332, 333, 334, 336, 338, 339, 340}
+    | {341, 342, 347, *range(512, 522), 529, 530, 531, 532, 700, 34377, 34675, 37724, 50341}
+)
+_MM_PER_UNIT = {2: 25.4, 3: 10.0, 4: 1.0, 5: 0.001}
+_DIAGONAL_35MM = 43.267  # hypot(36, 24)
+
+ASSUMED_FOV = 50.0
+"""Vertical field of view in degrees of a photo that does not tell its own."""
+
+
+@dataclass(frozen=True)
+class CameraFacts:
+    """Facts of the shot, each None when the file does not tell.
+
+    Lengths in millimetres; ``stored_size`` is the width and height that the camera wrote,
+    before turning; latitude and longitude in degrees, north and east positive; heading in
+    degrees from north, clockwise; altitude in metres.
+    """
+
+    focal_length: float | None = None
+    focal_35mm: float | None = None
+    focal_plane_mm_per_px: float | None = None
+    digital_zoom: float = 1.0
+    stored_size: tuple[float, float] | None = None
+    latitude: float | None = None
+    longitude: float | None = None
+    altitude: float | None = None
+    heading: float | None = None
+    time: datetime.datetime | None = None
+
+
+def load(block: bytes) -> Any:
+    """Parse an EXIF block (with or without its ``Exif\\0\\0`` head) into a Pillow Exif, or None."""
+    from PIL import Image
+
+    exif = Image.Exif()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            exif.load(block)
+            exif.get_ifd(_EXIF_IFD)
+            exif.get_ifd(_GPS_IFD)
+    except Exception:  # a hostile block may fail anywhere inside Pillow's parser
+        return None
+    return exif
+
+
+def orientation(exif: Any) -> int:
+    """Return the orientation tag, 1–8; 1 when it is missing or senseless."""
+    value = exif.get(_ORIENTATION, 1)
+    return value if isinstance(value, int) and 1 <= value <= 8 else 1
+
+
+def dump(
+    exif: Any, size: tuple[int, int] | None = None, recipe: dict[str, Any] | None = None
+) -> bytes | None:
+    """Serialise for an upright picture of ``size`` (width, height), without a stale thumbnail.
+
+    ``recipe`` is kept as JSON in the user comment. Returns None when nothing is left to say.
+    """
+    from PIL import Image
+
+    kept = Image.Exif()
+    # Only plain values: a private maker's tag that does not serialise is left behind.
+    for tag, value in dict(exif).items() if exif is not None else ():
+        if tag not in _STORAGE_TAGS and tag not in (_EXIF_IFD, _GPS_IFD) and tag < 0xC000:
+            kept[tag] = value
+    if _ORIENTATION in kept:
+        kept[_ORIENTATION] = 1
+    for ifd in (_EXIF_IFD, _GPS_IFD):
+        values = dict(exif.get_ifd(ifd)) if exif is not None else {}
+        values.pop(0xA005, None)  # interoperability pointer: an offset into the old file
+        if ifd == _EXIF_IFD:
+            if size is not None and (_PIXEL_WIDTH in values or _PIXEL_HEIGHT in values):
+                values[_PIXEL_WIDTH], values[_PIXEL_HEIGHT] = size
+            if recipe is not None:
+                values[_USER_COMMENT] = b"ASCII\0\0\0" + json.dumps(recipe).encode("ascii")
+        if values:
+            kept.get_ifd(ifd).update(values)
+            kept[ifd] = kept.get_ifd(ifd)
+    if not dict(kept):
+        return None
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return kept.tobytes()
+    except Exception:  # a value that Pillow read but cannot write (private tags)
+        return None
+
+
+def recipe(exif: Any) -> dict[str, Any] | None:
+    """Return the recipe that :func:`dump` wrote, or None."""
+    comment = exif.get_ifd(_EXIF_IFD).get(_USER_COMMENT) if exif is not None else None
+    if not isinstance(comment, bytes) or not comment.startswith(b"ASCII\0\0\0{"):
+        return None
+    try:
+        found = json.loads(comment[8:])
+    except (ValueError, RecursionError):
+        return None
+    return found if isinstance(found, dict) else None
+
+
+def camera_facts(exif: Any) -> CameraFacts:
+    """Collect the facts of the shot from a Pillow Exif."""
+    if exif is None:
+        return CameraFacts()
+    shot, gps = exif.get_ifd(_EXIF_IFD), exif.get_ifd(_GPS_IFD)
+    unit = _number(shot.get(0xA210)) or 2.0
+    per_unit = _positive(shot.get(0xA20E))
+    mm = _MM_PER_UNIT.get(int(unit))
+    width, height = _positive(shot.get(_PIXEL_WIDTH)), _positive(shot.get(_PIXEL_HEIGHT))
+    return CameraFacts(
+        focal_length=_positive(shot.get(0x920A)),
+        focal_35mm=_positive(shot.get(0xA405)),
+        focal_plane_mm_per_px=mm / per_unit if mm and per_unit else None,
+        digital_zoom=_positive(shot.get(0xA404)) or 1.0,
+        stored_size=(width, height) if width and height else None,
+        latitude=_degrees(gps.get(2), gps.get(1), "S", 90),
+        longitude=_degrees(gps.get(4), gps.get(3), "W", 180),
+        altitude=_altitude(gps),
+        heading=_heading(gps),
+        time=_time(exif, shot, gps),
+    )
+
+
+def field_of_view(facts: CameraFacts, size: tuple[int, int], turned: bool) -> float | None:
+    """Vertical field of view in degrees of a picture of ``size`` (width, height), or None.
+
+    Tries the focal plane's resolution, then the 35 mm equivalent by the diagonal
+    convention f_px = f₃₅·hypot(W, H)/43.267. ``turned`` says that the picture was turned by
+    a quarter after the camera stored it. A digital zoom is a crop of the sensor that the
+    35 mm equivalent already contains (as ExifTool reads it) and the focal plane's
+    resolution does not.
+    """
+    stored = (size[1], size[0]) if turned else size
+    from_plane = _focal_from_plane(facts, stored)
+    from_35mm = _focal_from_35mm(facts, stored)
+    # Software that resizes a photo often leaves the focal plane's resolution stale; a
+    # contradiction of more than a fifth to the 35 mm equivalent gives that away.
+    stale = from_plane and from_35mm and not 0.8 < from_plane / from_35mm < 1.25
+    for focal in (None if stale else from_plane, from_35mm):
+        if focal:
+            degrees = math.degrees(2 * math.atan(size[1] / 2 / focal))
+            if 0.5 <= degrees <= 150:
+                return degrees
+    return None
+
+
+def _focal_from_plane(facts: CameraFacts, stored: tuple[int, int]) -> float | None:
+    if not (facts.focal_length and facts.focal_plane_mm_per_px):
+        return None
+    pixels = facts.focal_length / facts.focal_plane_mm_per_px * facts.digital_zoom
+    return pixels * _resized(facts, stored)
+
+
+def _focal_from_35mm(facts: CameraFacts, stored: tuple[int, int]) -> float | None:
+    if not facts.focal_35mm:
+        return None
+    width, height = facts.stored_size or stored
+    return facts.focal_35mm * math.hypot(width, height) / _DIAGONAL_35MM * _resized(facts, stored)
+
+
+def _resized(facts: CameraFacts, stored: tuple[int, int]) -> float:
+    """How much smaller the picture is than the camera's; 1 for a crop (another aspect)."""
+    if facts.stored_size is None:
+        return 1.0
+    across, down = stored[0] / facts.stored_size[0], stored[1] / facts.stored_size[1]
+    if abs(across / down - 1) < 0.02:
+        return across
+    # Cropped: the scale is unknown. Full resolution is the likeliest, but a picture that
+    # reaches beyond the camera's own frame must have been enlarged.
+    return max(1.0, across, down)
+
+
+def _number(value: Any) -> float | None:
+    if isinstance(value, (tuple, list)) and len(value) == 1:
+        value = value[0]
+    try:
+        number = float(value)
+    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _positive(value: Any) -> float | None:
+    number = _number(value)
+    return number if number is not None and number > 0 else None
+
+
+def _degrees(value: Any, reference: Any, negative: str, limit: float) -> float | None:
+    if not isinstance(value, (tuple, list)) or not 1 <= len(value) <= 3:
+        return None
+    parts = [_number(part) for part in value]
+    if any(part is None for part in parts):
+        return None
+    degrees = sum(part / 60**power for power, part in enumerate(parts) if part is not None)
+    if not 0 <= degrees <= limit:
+        return None
+    return -degrees if _text(reference).upper().startswith(negative) else degrees
+
+
+def _altitude(gps: dict[int, Any]) -> float | None:
+    metres = _number(gps.get(6))
+    if metres is None:
+        return None
+    below = gps.get(5) in (1, b"\x01")
+    return -metres if below else metres
+
+
+def _heading(gps: dict[int, Any]) -> float | None:
+    degrees = _number(gps.get(17))
+    return degrees % 360 if degrees is not None and 0 <= degrees <= 360 else None
+
+
+def _time(exif: Any, shot: dict[int, Any], gps: dict[int, Any]) -> datetime.datetime | None:
+    """Time of the shot: with a zone from the GPS or the offset tag, else local and naive."""
+    stamp = gps.get(7)
+    if gps.get(29) and isinstance(stamp, (tuple, list)) and len(stamp) == 3:
+        numbers = [_number(part) for part in stamp]
+        try:
+            day = datetime.datetime.strptime(_text(gps[29]), "%Y:%m:%d")
+            seconds = sum(
+                part * step for part, step in zip(numbers, (3600, 60, 1), strict=True) if part
+            )
+            return day.replace(tzinfo=datetime.UTC) + datetime.timedelta(seconds=seconds)
+        except (ValueError, OverflowError):
+            pass
+    text = _text(shot.get(0x9003) or exif.get(0x0132))
+    try:
+        moment = datetime.datetime.strptime(text[:19], "%Y:%m:%d %H:%M:%S")
+    except ValueError:
+        return None
+    try:
+        zone = datetime.datetime.strptime(_text(shot.get(0x9011)), "%z").tzinfo
+    except ValueError:
+        zone = None
+    return moment.replace(tzinfo=zone)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, bytes):
+        value = value.decode("latin-1")
+    return value.strip("\0 ") if isinstance(value, str) else ""

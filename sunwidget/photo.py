@@ -1,0 +1,325 @@
+"""Photo: linear-light pixels, and everything of the file that must survive an edit.
+
+Pixel (0, 0) is the top-left one; EXIF orientation is already applied.
+"""
+
+from __future__ import annotations
+
+import datetime
+import difflib
+import os
+import stat
+import sys
+import warnings
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sunwidget import exif as exif_tags
+from sunwidget.color import SRGB, ColorProfile, strips
+from sunwidget.decode import (
+    Decoded,
+    PhotoError,
+    PhotoWarning,
+    check_light,
+    check_size,
+    decode_bytes,
+    decode_image,
+    split_alpha,
+)
+
+__all__ = ["FieldOfView", "Photo", "PhotoError", "PhotoWarning", "open_photo"]
+
+
+class FieldOfView(NamedTuple):
+    """Vertical field of view in degrees, and where it comes from: "exif" or "assumed"."""
+
+    vertical: float
+    source: str
+
+
+@dataclass(frozen=True, eq=False)
+class Photo:
+    """A picture as it was opened. Made by :func:`open_photo`.
+
+    Attributes
+    ----------
+    encoded : (H, W, 3) uint8, uint16 or float32 array, read-only
+        The code values of the file in its own ``profile``, upright; float32 is linear
+        Rec. 709 light already. Grey is repeated in all channels.
+    profile : ColorProfile
+        How ``encoded`` becomes light.
+    alpha : (H, W) float32 array in 0–1, or None
+        Opacity that the file stores; it takes no part in the edit and is saved again.
+    name, format : str
+        File name, or "array"; "JPEG", "PNG", "TIFF", "WEBP" … or None.
+    icc, exif, xmp : bytes or None
+        Metadata to be written again; the orientation in ``exif`` is 1.
+    dpi : (float, float) or None
+        Print resolution.
+    facts : CameraFacts
+        What the EXIF says about the shot.
+    turned : bool
+        True when EXIF orientation turned the picture by a quarter.
+    recipe : dict or None
+        Recipe of the edit that made this picture, when sunwidget wrote it.
+    notes : tuple of str
+        Sentences about what could not be kept; also given as PhotoWarning.
+    """
+
+    encoded: NDArray[Any]
+    name: str = "array"
+    format: str | None = None
+    profile: ColorProfile = SRGB
+    alpha: NDArray[np.float32] | None = None
+    icc: bytes | None = None
+    exif: bytes | None = None
+    xmp: bytes | None = None
+    dpi: tuple[float, float] | None = None
+    facts: exif_tags.CameraFacts = field(default_factory=exif_tags.CameraFacts)
+    turned: bool = False
+    recipe: dict[str, Any] | None = None
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        self.encoded.flags.writeable = False
+        if self.alpha is not None:
+            self.alpha.flags.writeable = False
+
+    def __repr__(self) -> str:
+        width, height = self.size
+        return f"<Photo {self.name!r} {width}×{height}, {self.bit_depth} bit, {self.profile.name}>"
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        return self.encoded.shape[1], self.encoded.shape[0]
+
+    @property
+    def width(self) -> int:
+        """Width in pixels."""
+        return self.size[0]
+
+    @property
+    def height(self) -> int:
+        """Height in pixels."""
+        return self.size[1]
+
+    @property
+    def bit_depth(self) -> int:
+        """Bits a channel: 8, 16, or 32 for float light."""
+        return self.encoded.dtype.itemsize * 8
+
+    @cached_property
+    def pixels(self) -> NDArray[np.float32]:
+        """Linear Rec. 709 light, (H, W, 3) float32, read-only, 1 = white.
+
+        Not clamped: colours of a wider gamut have channels below 0 or above 1.
+        """
+        if self.encoded.dtype.kind == "f":
+            return self.encoded
+        light = self.profile.decode(self.encoded)
+        light.flags.writeable = False
+        return light
+
+    @cached_property
+    def field_of_view(self) -> FieldOfView:
+        """Vertical field of view in degrees and its source, "exif" or "assumed" (50°)."""
+        degrees = exif_tags.field_of_view(self.facts, self.size, self.turned)
+        if degrees is None:
+            return FieldOfView(exif_tags.ASSUMED_FOV, "assumed")
+        return FieldOfView(degrees, "exif")
+
+    @property
+    def latitude(self) -> float | None:
+        """Degrees north, from the EXIF's GPS block."""
+        return self.facts.latitude
+
+    @property
+    def longitude(self) -> float | None:
+        """Degrees east, from the EXIF's GPS block."""
+        return self.facts.longitude
+
+    @property
+    def heading(self) -> float | None:
+        """Where the camera looked, degrees from north, clockwise."""
+        return self.facts.heading
+
+    @property
+    def time(self) -> datetime.datetime | None:
+        """Time of the shot; naive local time when the file names no zone."""
+        return self.facts.time
+
+    def preview(self, long_edge: int = 2048) -> NDArray[np.uint8]:
+        """Return the picture as sRGB uint8 (h, w, 3), no longer than ``long_edge`` pixels.
+
+        Averaged over areas in linear light; never enlarged; colours outside sRGB are
+        clamped. An 8-bit sRGB photo that is small enough comes back as it is.
+        """
+        width, height = self.size
+        scale = min(1.0, long_edge / max(width, height))
+        if scale == 1.0:
+            if self.encoded.dtype == np.uint8 and self.profile.is_srgb:
+                return self.encoded
+            return SRGB.encode(self.pixels)
+        small = (max(1, round(width * scale)), max(1, round(height * scale)))
+        return SRGB.encode(self._shrunk(small))
+
+    def _shrunk(self, size: tuple[int, int]) -> NDArray[np.float32]:
+        """Area average in linear light; strip by strip, so that 150 MP need no float copy."""
+        import cv2
+
+        narrow = np.empty((self.height, size[0], 3), np.float32)
+        for rows in strips(self.encoded.shape):
+            part = self.encoded[rows]
+            light = part if part.dtype.kind == "f" else self.profile.decode(part)
+            target = (size[0], light.shape[0])
+            narrow[rows] = cv2.resize(light, target, interpolation=cv2.INTER_AREA)
+        return np.asarray(cv2.resize(narrow, size, interpolation=cv2.INTER_AREA), np.float32)
+
+
+def open_photo(source: Any) -> Photo:
+    """Open a photo. Public as ``sunwidget.open``.
+
+    Parameters
+    ----------
+    source : path, bytes, binary file object, PIL image, array or Photo
+        Arrays are (H, W), (H, W, 3) or (H, W, 4), also with 1 or 2 channels: uint8 and
+        uint16 are taken as sRGB code values, floats as *linear* Rec. 709 light with
+        1 = white. A Photo is returned as it is.
+
+    Returns
+    -------
+    Photo
+
+    Raises
+    ------
+    PhotoError
+        For everything that cannot be opened; the message says what to do.
+
+    Warns
+    -----
+    PhotoWarning
+        When something in the file could not be kept, such as further frames.
+    """
+    if isinstance(source, Photo):
+        return source
+    if isinstance(source, (str, os.PathLike)):
+        name, data = _read_path(source)
+        decoded = decode_bytes(data, name)
+    elif isinstance(source, (bytes, bytearray, memoryview)):
+        name = "picture"
+        decoded = decode_bytes(bytes(source), name)
+    elif _is_pil(source):
+        name = os.path.basename(getattr(source, "filename", "") or "") or "image"
+        decoded = decode_image(source.copy() if source.format is None else source, name)
+    elif callable(getattr(source, "read", None)):
+        name, data = _read_stream(source)
+        decoded = decode_bytes(data, name)
+    elif hasattr(source, "__array__") or isinstance(source, (list, tuple)):
+        name = "array"
+        decoded = _from_array(source)
+    else:
+        raise PhotoError(
+            f"Cannot open {type(source).__name__} as a photo. Pass a path, bytes, a file opened "
+            "with mode 'rb', a PIL image or a NumPy array."
+        )
+    for note in decoded.notes:
+        warnings.warn(note, PhotoWarning, stacklevel=2)
+    return _photo(decoded, name)
+
+
+def _photo(decoded: Decoded, name: str) -> Photo:
+    return Photo(
+        encoded=decoded.codes if decoded.codes.flags.owndata else decoded.codes.copy(),
+        name=name,
+        format=decoded.format,
+        profile=decoded.profile,
+        alpha=decoded.alpha,
+        icc=decoded.icc,
+        exif=exif_tags.dump(decoded.exif),
+        xmp=decoded.xmp,
+        dpi=decoded.dpi,
+        facts=exif_tags.camera_facts(decoded.exif),
+        turned=decoded.turned,
+        recipe=exif_tags.recipe(decoded.exif),
+        notes=tuple(decoded.notes),
+    )
+
+
+def _read_path(source: Any) -> tuple[str, bytes]:
+    text = os.fspath(source)
+    if isinstance(text, str) and "://" in text[:10]:
+        raise PhotoError(f"{text[:80]} is an address; sunwidget never downloads. Save it first.")
+    name = os.path.basename(os.fsdecode(text)) or os.fsdecode(text)
+    try:
+        path = Path(os.fsdecode(text)).expanduser()
+        mode = path.stat().st_mode
+        if stat.S_ISDIR(mode):
+            raise PhotoError(f"{path} is a folder. Pass the path of one picture in it.")
+        if not stat.S_ISREG(mode):
+            raise PhotoError(f"{path} is a device or pipe, not a file. Pass a picture file.")
+        return name, path.read_bytes()
+    except FileNotFoundError as error:
+        raise PhotoError(_missing(path)) from error
+    except PermissionError as error:
+        raise PhotoError(f"No permission to read {path}. Check the file's access rights.") from error
+    except (OSError, ValueError, RuntimeError) as error:
+        if isinstance(error, PhotoError):
+            raise
+        raise PhotoError(f"Cannot read {os.fsdecode(text)[:200]!r}: {error}.") from error
+
+
+def _missing(path: Path) -> str:
+    try:
+        near = difflib.get_close_matches(path.name, os.listdir(path.parent), n=1)
+    except OSError:
+        return f"There is no file {path}, nor a folder {path.parent}."
+    hint = f" Did you mean {near[0]!r}?" if near else f" Looked in {path.parent.absolute()}."
+    return f"There is no file {path}.{hint}"
+
+
+def _read_stream(source: Any) -> tuple[str, bytes]:
+    label = getattr(source, "name", None)
+    name = os.path.basename(label) if isinstance(label, str) and label else "picture"
+    try:
+        data = source.read()
+    except Exception as error:  # whatever a person's own file object may do
+        raise PhotoError(f"Reading {name} failed: {error}.") from error
+    if not isinstance(data, (bytes, bytearray)):
+        raise PhotoError(f"{name} was opened as text. Open it with mode 'rb'.")
+    return name, bytes(data)
+
+
+def _is_pil(source: Any) -> bool:
+    """Tell PIL images without importing Pillow: an image exists only when it is imported."""
+    module = sys.modules.get("PIL.Image")
+    return module is not None and isinstance(source, module.Image)
+
+
+def _from_array(source: Any) -> Decoded:
+    try:
+        array = np.asarray(source)
+    except (ValueError, TypeError) as error:
+        raise PhotoError(f"This array cannot be read: {error}.") from error
+    if array.ndim >= 2:
+        check_size(array.shape[1], array.shape[0], "The array")
+    kind = array.dtype
+    if kind not in (np.uint8, np.uint16) and kind.kind != "f":
+        raise PhotoError(
+            f"The array has the type {kind}; expected uint8 or uint16 (sRGB), or float "
+            "(linear light). Convert it, for example with .astype('uint8')."
+        )
+    if kind.kind == "f":
+        with np.errstate(over="ignore"):
+            array = array.astype(np.float32)
+    else:
+        array = array.astype(kind.newbyteorder("="))
+    codes, alpha = split_alpha(array, "The array")
+    if codes.dtype.kind == "f":
+        check_light(codes, "The array")
+    return Decoded(codes, alpha)
