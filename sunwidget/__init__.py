@@ -29,7 +29,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "analyze": ("sunwidget.analysis.scene", "analyze"),
     "open": ("sunwidget.photo", "open_photo"),
     "render": ("sunwidget.renderer.render", "render"),
-    "sample": ("sunwidget.photo", "sample"),
+    "sample": ("sunwidget.samples", "sample"),
     "save": ("sunwidget.export.stills", "save"),
     "sweep": ("sunwidget.export.sweep", "sweep"),
 }

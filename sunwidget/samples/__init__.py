@@ -1,0 +1,45 @@
+"""The sample pictures that come with the package, so that a first cell always runs.
+
+They are computer-generated renders, not photographs: four procedural landscapes,
+path-traced at 1536×1024 by the developers, with a fictional but consistent camera, date,
+place and heading in their EXIF (it agrees with the sun in the picture). MIT, like the code.
+"""
+
+from __future__ import annotations
+
+import difflib
+from importlib import resources
+
+from sunwidget.photo import Photo, PhotoError, open_photo
+
+NAMES = ("coast", "mountains", "meadow", "harbour")
+"""Names that :func:`sample` knows."""
+
+
+def sample(name: str = "coast") -> Photo:
+    """Open a bundled sample picture (a render, not a photograph).
+
+    Parameters
+    ----------
+    name : {"coast", "mountains", "meadow", "harbour"}
+        Which one.
+
+    Returns
+    -------
+    Photo
+        1536×1024, 8-bit sRGB, with focal length, time, place and heading in its EXIF.
+
+    Raises
+    ------
+    PhotoError
+        For an unknown name; the nearest spelling is suggested.
+    """
+    if name not in NAMES:
+        near = difflib.get_close_matches(str(name), NAMES, n=1)
+        hint = f" Did you mean {near[0]!r}?" if near else ""
+        raise PhotoError(
+            f"There is no sample {str(name)[:80]!r}.{hint} The samples are {', '.join(NAMES)}."
+        )
+    file = resources.files(__name__) / f"{name}.jpg"
+    with resources.as_file(file) as path:
+        return open_photo(path)
