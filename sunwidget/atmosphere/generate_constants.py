@@ -1,4 +1,4 @@
-"""Write ``constants.json`` and ``shaders/lib/constants.glsl``, the physical constants of both hosts.
+"""Write the physical constants of both hosts: ``constants.json``, ``shaders/lib/constants.glsl``.
 
 Run ``python -m sunwidget.atmosphere.generate_constants`` after changing anything here; it needs
 colour-science (CIE 1931 2° observer) and pvlib (ASTM G-173 spectrum; ozone of Bird & Riordan
@@ -7,6 +7,7 @@ colour-science (CIE 1931 2° observer) and pvlib (ASTM G-173 spectrum; ozone of 
 
 from __future__ import annotations
 
+import importlib
 import json
 import warnings
 from pathlib import Path
@@ -53,7 +54,7 @@ def solar_irradiance(at: Array) -> Array:
     nm = np.asarray(spectrum.index, float)
     fine = np.arange(-5.0, 5.01, 0.5)
     values = np.interp(at[:, None] + fine, nm, np.asarray(spectrum, float))
-    return np.trapezoid(values, fine, axis=1) / 10.0
+    return np.asarray(values.mean(axis=1))
 
 
 def solar_irradiance_1nm(at: Array) -> Array:
@@ -71,9 +72,8 @@ def ozone_cross_section(at: Array) -> Array:
     coefficients per atm-cm; 1 atm-cm = 1000 DU. It is zero at and below 440 nm, where the true
     optical depth of 300 DU is 0.001.
     """
-    from pvlib.spectrum import spectrl2
-
-    table = __import__(spectrl2.__module__, fromlist=["_SPECTRL2_COEFFS"])._SPECTRL2_COEFFS
+    # The function shadows its module of the same name; the table has no public name.
+    table = vars(importlib.import_module("pvlib.spectrum.spectrl2"))["_SPECTRL2_COEFFS"]
     per_atm_cm = np.interp(at, table["wavelength"], table["ozone_absorption"])
     return per_atm_cm / (1000 * MOLECULES_PER_DOBSON)
 
@@ -98,21 +98,20 @@ def training_spectra(at: Array) -> Array:
     """
     rayleigh = rayleigh_coefficient(at) * RAYLEIGH_SCALE_HEIGHT
     ozone = ozone_cross_section(at) * MOLECULES_PER_DOBSON
-    micrometres = at / 550.0
+    ratio = at / 550.0
+    sources = (
+        np.ones_like(at),
+        ratio**-1.0,
+        ratio**-2.5,
+        ratio**-4.0,
+        1 - np.exp(-rayleigh * 4),
+    )
     spectra = []
     for air in (0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 30.0):
         for aerosol, alpha in ((0.0, 1.0), (0.06, 0.8), (0.3, 1.4), (0.3, 0.3)):
             for dobson in (0.0, 300.0, 2000.0, 5000.0):
-                depth = air * (rayleigh + aerosol * micrometres**-alpha) + dobson * ozone
-                transmittance = np.exp(-depth)
-                for source in (
-                    np.ones_like(at),
-                    micrometres**-1.0,
-                    micrometres**-2.5,
-                    micrometres**-4.0,
-                    1 - np.exp(-rayleigh * 4),
-                ):
-                    spectra.append(source * transmittance)
+                depth = air * (rayleigh + aerosol * ratio**-alpha) + dobson * ozone
+                spectra.extend(source * np.exp(-depth) for source in sources)
     return np.array(spectra)
 
 
@@ -216,7 +215,7 @@ def glsl(c: dict[str, Any]) -> str:
 
 
 def limb_darkening_exponents(wavelength_nm: Array) -> Array:
-    """Exponent a of the disc's profile μ^a: 0.397, 0.503, 0.652 at 680, 550, 440 nm, linear between."""
+    """Exponent a of the disc's profile μ^a: 0.397, 0.503, 0.652 at 680, 550, 440 nm."""
     return np.interp(wavelength_nm, [440.0, 550.0, 680.0], [0.652, 0.503, 0.397])
 
 

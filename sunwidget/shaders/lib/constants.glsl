@@ -24,12 +24,12 @@ const ScatteringSpectrum RAYLEIGH_SCATTERING = vec4(6.199358e-06, 9.251008e-06, 
 // Vertical absorption optical depth of one Dobson unit, Bird & Riordan 1984.
 const vec4 OZONE_DEPTH_PER_DOBSON = vec4(8.03846132e-05, 0.000119565216, 3.99999926e-05, 0.0);
 // ASTM G-173-03 extraterrestrial, mean over 10 nm.
-const IrradianceSpectrum SOLAR_IRRADIANCE = vec4(1.62988, 1.8366, 1.92465, 1.82631);
+const IrradianceSpectrum SOLAR_IRRADIANCE = vec4(1.630338, 1.836524, 1.924005, 1.826819);
 // Limb darkening mu^a; Neckel & Labs 1994 by power law.
 const vec4 LIMB_DARKENING = vec4(0.429615385, 0.478538462, 0.557181818, 0.652);
 // Radiance at the four wavelengths to linear Rec. 709 in kcd m^-2.
 const mat4x3 SPECTRAL_TO_REC709 = mat4x3(
-    52.86434, -5.617208, 0.2595843,
-    63.58098, 35.67644, -9.819908,
-    -35.62444, 46.04092, 17.38192,
-    6.221666, -8.149372, 60.01419);
+    52.84948, -5.61563, 0.2595113,
+    63.58361, 35.67792, -9.820315,
+    -35.63638, 46.05636, 17.38775,
+    6.219932, -8.147101, 59.99747);

@@ -1,0 +1,104 @@
+// Radiance of the sky around the camera, without the sun's disc: azimuth from the sun along x
+// (half the circle; the other half mirrors it), elevation along y, zenith in row 0, everything
+// divided by GuessRadiance. See lib/sky.glsl for the layout and the description in the last row.
+// Below the horizon: the ground under air light.
+
+#include "lib/sky.glsl"
+
+uniform float sun_azimuth;    // degrees from the camera's heading, + right
+uniform float sun_elevation;  // degrees, apparent
+uniform float altitude;       // m
+uniform vec2 pass_size;
+uniform vec2 tile_origin;
+uniform sampler2D columns;
+uniform sampler2D multiple_scattering;
+out vec4 result;
+
+const int STEPS = 32;
+
+Length GetCameraHeight() {
+  // One metre keeps the horizon below the eye; grazing rays would else start in the ground.
+  return clamp(altitude, 1.0, 0.99 * ATMOSPHERE_HEIGHT);
+}
+
+SkyView DescribeSky() {
+  float h = GetCameraHeight();
+  vec3 density = GetDensity(h);
+  // Optical depths overhead, never zero, so that the division is safe without air or haze.
+  vec4 rayleigh = RAYLEIGH_SCATTERING * RAYLEIGH_SCALE_HEIGHT * density.x + 1e-4;
+  vec4 mie = GetMieExtinction() * aerosol_albedo * MIE_SCALE_HEIGHT * density.y;
+  return SkyView(GetSunDirection(sun_azimuth, sun_elevation), aerosol_asymmetry, rayleigh, mie,
+                 asin(GetCosineOfHorizon(h)));
+}
+
+// What a Lambertian ground sends up at the point where the sun has cosine mu_s. The sky's share
+// of its light follows from the mean radiance around it, which multiple_scattering knows.
+RadianceSpectrum GetGroundRadiance(Number mu_s) {
+  vec4 sun = max(mu_s, 0.0) * GetTransmittanceToSun(columns, 0.0, mu_s);
+  vec4 mean = FetchBilinear(multiple_scattering, GetMultipleScatteringCoordinate(1.0, mu_s));
+  vec4 sky = max(2.0 * PI * mean - ground_albedo * sun, 0.0) / (1.0 + ground_albedo);
+  return ground_albedo / PI * (sun + sky);
+}
+
+RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu) {
+  float r = GROUND_RADIUS + h;
+  bool ground = RayIntersectsGround(h, mu);
+  float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
+  vec4 mie_extinction = GetMieExtinction();
+  vec4 ozone_absorption = GetOzoneAbsorption();
+  float rayleigh_phase = RayleighPhase(nu);
+  float mie_phase = MiePhase(aerosol_asymmetry, nu);
+
+  vec4 transmittance = vec4(1.0);
+  vec4 radiance = vec4(0.0);
+  for (int i = 0; i < STEPS; ++i) {
+    float u = (float(i) + 0.5) / float(STEPS);
+    float t = d * u * u;
+    float dt = 2.0 * d * u / float(STEPS);
+    float h_t = GetAltitudeAlongRay(h, mu, t);
+    float mu_s_t = clamp((r * mu_s + t * nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
+    vec3 density = GetDensity(h_t);
+    vec4 rayleigh = RAYLEIGH_SCATTERING * density.x;
+    vec4 mie = mie_extinction * density.y;
+    vec4 extinction = rayleigh + mie + ozone_absorption * density.z;
+    mie *= aerosol_albedo;
+    vec4 once = GetTransmittanceToSun(columns, h_t, mu_s_t)
+        * (rayleigh * rayleigh_phase + mie * mie_phase);
+    vec4 more = (rayleigh + mie)
+        * FetchBilinear(multiple_scattering, GetMultipleScatteringCoordinate(h_t, mu_s_t));
+    radiance += transmittance * (once + more) * IntegrateTransmittance(extinction, dt);
+    transmittance *= exp(-extinction * dt);
+  }
+  if (ground) {
+    float mu_s_ground = clamp((r * mu_s + d * nu) / GROUND_RADIUS, -1.0, 1.0);
+    radiance += transmittance * GetGroundRadiance(mu_s_ground);
+  }
+  return SOLAR_IRRADIANCE * radiance;
+}
+
+void main() {
+  vec2 texel = gl_FragCoord.xy + tile_origin - 0.5;
+  SkyView view = DescribeSky();
+  ivec2 rows = GetSkyViewRows(int(pass_size.y));
+  int row = int(texel.y + 0.5);
+  int column = int(texel.x + 0.5);
+  if (row == rows.y) {
+    result = column == 0 ? vec4(view.sun, view.asymmetry)
+        : column == 1 ? view.rayleigh
+        : column == 2 ? view.mie
+        : vec4(view.horizon);
+    return;
+  }
+  float h = GetCameraHeight();
+  float elevation = GetElevationOfRow(float(row), rows, view.horizon);
+  float azimuth = GetAzimuthOfColumn(float(column) / (pass_size.x - 1.0));
+  float mu = sin(elevation);
+  if (row == rows.x - 1) {
+    mu = GetCosineOfHorizon(h);  // exactly grazing, from above
+  } else if (row == rows.x) {
+    mu = GetCosineOfHorizon(h) - 1e-6;  // and from below
+  }
+  float mu_s = view.sun.y;
+  float nu = mu * mu_s + cos(elevation) * sqrt(max(1.0 - mu_s * mu_s, 0.0)) * cos(azimuth);
+  result = ComputeSkyRadiance(h, mu, mu_s, nu) / GuessRadiance(view, nu);
+}
