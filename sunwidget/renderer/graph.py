@@ -124,9 +124,10 @@ class FrameGraph:
         x, y, width, height = tile
         host = {**host_values, "tile_origin": (float(x), float(y))}
         for row in frame_graph()["passes"]:
-            if method in row.get("when", [method]):
-                size = self._size(row["size"], (width, height), host_values["frame_size"])
-                self._run_pass(row, size, state_values[row["state"]], scene_values, host)
+            if method not in row.get("when", [method]):
+                continue
+            size = self._size(row["size"], (width, height), host_values["frame_size"])
+            self._run_pass(row, size, state_values[row["state"]], scene_values, host)
             if row["name"] == until:
                 return self.targets[until]
         raise KeyError(f"The frame graph has no pass {until!r} for method {method!r}.")
@@ -151,7 +152,7 @@ class FrameGraph:
         program = self.programs.get(shader)
         host = {**host, "pass_size": (float(size[0]), float(size[1]))}
         values: dict[str, Any] = {}
-        key: list[Any] = [size]
+        key: list[Any] = [size, shader]
         for uniform in self.programs.uniforms[shader]:
             if uniform in inputs:
                 key.append(self._version(inputs[uniform]))

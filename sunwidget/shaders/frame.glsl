@@ -4,12 +4,12 @@
 
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
-#include "lib/atmosphere.glsl"
 #include "lib/sky.glsl"
 #include "lib/daylight.glsl"
 #include "lib/output.glsl"
 
 uniform sampler2D photo;
+uniform sampler2D columns;
 uniform sampler2D layers;
 uniform sampler2D surface;
 uniform sampler2D backdrop;
@@ -23,9 +23,12 @@ uniform sampler2D meter_source;
 uniform sampler2D meter_edit;
 uniform vec3 sky_gain;
 
+uniform float sun_azimuth;
+uniform float sun_elevation;
 uniform float source_sun_azimuth;
 uniform float source_sun_elevation;
 uniform float source_land_facing;
+uniform float altitude;
 uniform float sun_size;
 uniform float sky_strength;
 uniform float cloud_strength;
@@ -36,7 +39,6 @@ uniform float colourfulness;
 uniform float exposure;
 uniform float auto_exposure;
 
-const float kDiscRadius = 0.2665;  // degrees
 // Over this many degrees of movement the old sun's glare gives way to the sky behind it: long
 // enough that a pixel's drag shows no step, short enough that a moved sun leaves no ghost.
 const float kGlareFade = 4.0;
@@ -65,8 +67,8 @@ void main() {
   vec3 sky_before = texelFetch(sky_source, ivec2(texel), 0).rgb;
   vec3 sky_now = texelFetch(sky_edit, ivec2(texel), 0).rgb;
 
-  vec3 sun_before = GetDirection(source_sun_azimuth, source_sun_elevation);
-  vec3 sun_now = GetDirection(sun_azimuth, sun_elevation);
+  vec3 sun_before = GetSunDirection(source_sun_azimuth, source_sun_elevation);
+  vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
   float turn = degrees(2.0 * asin(min(0.5 * length(sun_now - sun_before), 1.0)));
   float moved = smoothstep(0.0, kGlareFade, turn);
 
@@ -88,15 +90,11 @@ void main() {
   relit += extreme * moved * (clean * ratio - relit);
   vec3 sky_out = sky + sky_strength * (gain * relit - sky);
 
-  // The new disc: limb-darkened, reddened on its way, behind clouds and land.
-  float pixel_degrees = degrees(1.0 / (camera_focal * frame_size.y));
-  float from_sun = degrees(2.0 * asin(min(0.5 * length(view - sun_now), 1.0)));
-  float radius = kDiscRadius * sun_size;
-  float disc = 1.0 - smoothstep(radius - 0.5 * pixel_degrees, radius + 0.5 * pixel_degrees, from_sun);
-  disc *= step(1e-3, radius) * moved * sky_strength * (1.0 - opacity) * (1.0 - opacity);
-  disc *= smoothstep(-pixel_degrees, pixel_degrees, degrees(asin(clamp(view.y, -1.0, 1.0))));
-  vec3 limb = GetLimbDarkening(min(from_sun / max(radius, 1e-3), 1.0));
-  sky_out += disc * gain * sky_gain * limb * GetLightTexel(light_edit, 7) / kDiscSolidAngle;
+  // The new disc, reddened on its way, behind clouds; the matte hides it behind land.
+  float pixel_angle = 1.0 / (camera_focal * frame_size.y);
+  vec4 disc = GetSunDiscRadiance(columns, view, sun_now, altitude, sun_size, pixel_angle);
+  float clear = (1.0 - opacity) * (1.0 - opacity);
+  sky_out += moved * sky_strength * clear * gain * sky_gain * max(SpectralToRec709(disc), vec3(0.0));
 
   // Land: ratio of irradiances, with the visible share of the disc.
   float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;

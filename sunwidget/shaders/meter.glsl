@@ -2,7 +2,6 @@
 // sun, from the model alone. One pixel; r = log2 of luminance in the photo's scene-linear unit.
 
 #include "lib/picture.glsl"
-#include "lib/atmosphere.glsl"
 #include "lib/sky.glsl"
 #include "lib/matched_sky.glsl"
 #include "lib/daylight.glsl"
@@ -10,6 +9,8 @@
 uniform sampler2D sky_view;
 uniform sampler2D light;
 uniform sampler2D layers;
+uniform float sun_azimuth;
+uniform float sun_elevation;
 uniform float land_facing;
 
 out vec4 result;
@@ -20,7 +21,7 @@ const float kLandAlbedo = 0.18;
 
 void main() {
   float sum = 0.0;
-  vec3 sun = GetDirection(sun_azimuth, sun_elevation);
+  vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
   // The meter averages, so a half-visible sun stands for any state of the disc: whether a
   // twig hides the sun must not change the exposure.
   vec3 land = sky_gain * kLandAlbedo / 3.14159265 * GetLandIrradiance(light, 0.5, land_facing, sun);

@@ -2,7 +2,6 @@
 // Drawn twice, at the photo's own sun and at the moved one; their quotient relights the sky.
 
 #include "lib/picture.glsl"
-#include "lib/atmosphere.glsl"
 #include "lib/sky.glsl"
 #include "lib/matched_sky.glsl"
 

@@ -4,6 +4,7 @@
 // edge's answer fades to "visible" over a tenth of the picture.
 
 #include "lib/picture.glsl"
+#include "lib/sky.glsl"
 
 uniform sampler2D layers;
 uniform float sun_azimuth;
@@ -33,7 +34,7 @@ void main() {
       float turn = 6.28318531 * (float(spoke) + 0.5 * float(ring)) / float(kSpokes);
       float elevation = sun_elevation + radius * sin(turn);
       float weight = smoothstep(-0.05, 0.05, elevation) + 1e-4;
-      open += weight * GetOpening(GetDirection(sun_azimuth + radius * cos(turn), elevation));
+      open += weight * GetOpening(GetSunDirection(sun_azimuth + radius * cos(turn), elevation));
       above += weight;
     }
   }

@@ -22,12 +22,6 @@ vec3 GetPlaceOfDirection(vec3 direction) {
   return vec3(0.5 + ray.x / depth * camera_focal / aspect, 0.5 + ray.y / depth * camera_focal, ray.z);
 }
 
-vec3 GetDirection(float azimuth_degrees, float elevation_degrees) {
-  float azimuth = radians(azimuth_degrees);
-  float elevation = radians(elevation_degrees);
-  return vec3(sin(azimuth) * cos(elevation), sin(elevation), cos(azimuth) * cos(elevation));
-}
-
 // Bilinear by hand, clamped at the edge: no filter state, so both hosts agree.
 vec4 ReadBilinear(sampler2D image, vec2 place) {
   vec2 size = vec2(textureSize(image, 0));
