@@ -135,12 +135,17 @@ class ColorProfile:
                 light[rows] = light[rows] @ self.matrix.T
         return light
 
-    def encode(self, light: NDArray[Any], dtype: Any = np.uint8) -> NDArray[Any]:
+    def encode(
+        self, light: NDArray[Any], dtype: Any = np.uint8, *, dither: bool = False
+    ) -> NDArray[Any]:
         """Linear Rec. 709 (H, W, 3) to rounded code values, uint8 or uint16.
 
-        Colours outside the profile's gamut are clamped channel by channel.
+        Colours outside the profile's gamut are clamped channel by channel. ``dither`` adds
+        triangular noise of half a level, the same on every call; a value that lies on a
+        level stays on it.
         """
         codes = np.empty(light.shape, dtype)
+        rng = np.random.default_rng(0)
         top = np.iinfo(codes.dtype).max
         inverse = None if self.matrix is None else np.linalg.inv(self.matrix)
         for rows in strips(light.shape):
@@ -149,8 +154,12 @@ class ColorProfile:
                 strip = (strip @ inverse.T).astype(np.float32)
             strip = np.clip(strip, 0, 1)
             for channel, curve in enumerate(self.curves):
-                value = np.clip(curve.encode(strip[..., channel]), 0, 1)
-                codes[rows, :, channel] = np.rint(value * top)
+                level = np.clip(curve.encode(strip[..., channel]), 0, 1) * top
+                if dither:
+                    noise = rng.random(level.shape, np.float32)
+                    noise += rng.random(level.shape, np.float32)
+                    level = np.clip(level + (noise - 1) / 2, 0, top)
+                codes[rows, :, channel] = np.rint(level)
         return codes
 
     def _tables(self, dtype: Any) -> list[Floats]:

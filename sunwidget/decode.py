@@ -6,12 +6,15 @@ channel and float TIFF, which Pillow would cut to 8 bits or refuse.
 
 from __future__ import annotations
 
+import contextlib
+import importlib
 import io
 import re
 import struct
 import threading
 import warnings
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -25,7 +28,7 @@ MAX_PIXELS = 200_000_000
 """Largest picture that is opened. Above it, a few kilobytes could ask for all of memory."""
 
 # Never EPS, WMF and the like: those formats can start other programs.
-_FORMATS = ("JPEG", "MPO", "PNG", "TIFF", "WEBP", "BMP", "GIF", "AVIF")
+_PLUGINS = ("Jpeg", "Mpo", "Png", "Tiff", "WebP", "Bmp", "Gif", "Avif")
 _READABLE = "JPEG, PNG, TIFF, WebP, AVIF, BMP or GIF"
 _FOREIGN = {
     b"%PDF": "a PDF",
@@ -88,7 +91,7 @@ def decode_bytes(data: bytes, name: str) -> Decoded:
 
 def decode_image(image: Any, name: str, data: bytes | None = None) -> Decoded:
     """Decode a Pillow image; with ``data``, its file, deep pictures keep their 16 bits."""
-    check_size(*image.size, name)
+    check_size(image.width, image.height, name)
     notes = []
     if getattr(image, "n_frames", 1) > 1 and image.format != "MPO":
         notes.append(f"{name} holds {image.n_frames} frames; only the first is used.")
@@ -115,8 +118,8 @@ def decode_image(image: Any, name: str, data: bytes | None = None) -> Decoded:
     _turn_upright(result)
     xmp = image.info.get("xmp")
     result.xmp = xmp.encode() if isinstance(xmp, str) else xmp
-    if result.xmp and result.turned:
-        result.xmp = re.sub(rb'(tiff:Orientation(?:>|="))\d', rb"\g<1>1", result.xmp)
+    if result.xmp:
+        result.xmp = re.sub(rb"""(tiff:Orientation(?:>|=["']))\d""", rb"\g<1>1", result.xmp)
     result.dpi = _dpi(image)
     return result
 
@@ -155,6 +158,7 @@ def split_alpha(array: NDArray[Any], name: str) -> tuple[NDArray[Any], NDArray[n
 def _open(data: bytes, name: str) -> Any:
     from PIL import Image, UnidentifiedImageError
 
+    formats = _formats()
     # Pillow's own limit against decompression bombs is lower than ours, a warning up to a
     # point, and global. It is lifted only while the header is read; check_size() follows.
     with _bomb_lock:
@@ -162,7 +166,7 @@ def _open(data: bytes, name: str) -> Any:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                return Image.open(io.BytesIO(data), formats=_FORMATS)
+                return Image.open(io.BytesIO(data), formats=formats)
         except UnidentifiedImageError as error:
             if data[:4] in (b"II*\0", b"MM\0*"):
                 return None
@@ -171,6 +175,17 @@ def _open(data: bytes, name: str) -> Any:
             raise PhotoError(f"{name} has a damaged header ({_reason(error)}).") from error
         finally:
             Image.MAX_IMAGE_PIXELS = limit
+
+
+@cache
+def _formats() -> tuple[str, ...]:
+    """Load Pillow's readers for our formats and return their names; AVIF came with 11.3."""
+    from PIL import Image
+
+    for plugin in _PLUGINS:
+        with contextlib.suppress(ImportError):
+            importlib.import_module(f"PIL.{plugin}ImagePlugin")
+    return tuple(name for plugin in _PLUGINS if (name := plugin.upper()) in Image.OPEN)
 
 
 def _unknown(data: bytes, name: str) -> str:
@@ -198,13 +213,13 @@ def _exif_block(image: Any) -> bytes:
         block = image.getexif().tobytes() if image.format == "TIFF" else image.info.get("exif")
         if not block:
             block = image.getexif().tobytes()
-    except Exception:  # damaged metadata must not cost the picture
+    except Exception:  # noqa: BLE001 - damaged metadata must not cost the picture
         return b""
     return block if isinstance(block, bytes) else b""
 
 
 def _is_deep(image: Any) -> bool:
-    """True for 16-bit colour, which Pillow decodes to 8 bits."""
+    """Tell 16-bit colour, which Pillow would decode to 8 bits."""
     if image.mode not in ("RGB", "RGBA", "LA"):
         return False
     return any(";16" in str(tile[3]) for tile in image.tile)
@@ -227,7 +242,7 @@ def _opencv(data: bytes) -> NDArray[Any] | None:
 
 
 def _decode_odd_tiff(data: bytes, name: str) -> Decoded:
-    """A TIFF that Pillow does not know: RGB in 32-bit float."""
+    """Decode a TIFF that Pillow does not know: RGB in 32-bit float."""
     tags = _tiff_tags(data)
     width, height = tags.get(256, 0), tags.get(257, 0)
     if isinstance(width, int) and isinstance(height, int) and width and height:
@@ -254,7 +269,7 @@ def _tiff_tags(data: bytes) -> dict[int, Any]:
             stream.seek(directory.next)
             directory.load(stream)
             return dict(directory)
-    except Exception:  # a damaged directory: the caller says so
+    except Exception:  # noqa: BLE001 - a damaged directory; the caller says so
         return {}
 
 

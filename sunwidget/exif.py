@@ -6,7 +6,7 @@ and none of them raises.
 
 from __future__ import annotations
 
-import datetime
+import datetime as dt
 import json
 import math
 import warnings
@@ -51,11 +51,11 @@ class CameraFacts:
     longitude: float | None = None
     altitude: float | None = None
     heading: float | None = None
-    time: datetime.datetime | None = None
+    time: dt.datetime | None = None
 
 
 def load(block: bytes) -> Any:
-    """Parse an EXIF block (with or without its ``Exif\\0\\0`` head) into a Pillow Exif, or None."""
+    """Parse an EXIF block into a Pillow Exif; None when it is damaged."""
     from PIL import Image
 
     exif = Image.Exif()
@@ -65,7 +65,7 @@ def load(block: bytes) -> Any:
             exif.load(block)
             exif.get_ifd(_EXIF_IFD)
             exif.get_ifd(_GPS_IFD)
-    except Exception:  # a hostile block may fail anywhere inside Pillow's parser
+    except Exception:  # noqa: BLE001 - a hostile block may fail anywhere inside Pillow's parser
         return None
     return exif
 
@@ -109,7 +109,7 @@ def dump(
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return kept.tobytes()
-    except Exception:  # a value that Pillow read but cannot write (private tags)
+    except Exception:  # noqa: BLE001 - a private tag that Pillow reads but cannot write
         return None
 
 
@@ -237,26 +237,26 @@ def _heading(gps: dict[int, Any]) -> float | None:
     return degrees % 360 if degrees is not None and 0 <= degrees <= 360 else None
 
 
-def _time(exif: Any, shot: dict[int, Any], gps: dict[int, Any]) -> datetime.datetime | None:
+def _time(exif: Any, shot: dict[int, Any], gps: dict[int, Any]) -> dt.datetime | None:
     """Time of the shot: with a zone from the GPS or the offset tag, else local and naive."""
     stamp = gps.get(7)
     if gps.get(29) and isinstance(stamp, (tuple, list)) and len(stamp) == 3:
         numbers = [_number(part) for part in stamp]
         try:
-            day = datetime.datetime.strptime(_text(gps[29]), "%Y:%m:%d")
+            day = dt.datetime.strptime(_text(gps[29]) + " +0000", "%Y:%m:%d %z")
             seconds = sum(
                 part * step for part, step in zip(numbers, (3600, 60, 1), strict=True) if part
             )
-            return day.replace(tzinfo=datetime.UTC) + datetime.timedelta(seconds=seconds)
+            return day.astimezone(dt.UTC) + dt.timedelta(seconds=seconds)
         except (ValueError, OverflowError):
             pass
     text = _text(shot.get(0x9003) or exif.get(0x0132))
     try:
-        moment = datetime.datetime.strptime(text[:19], "%Y:%m:%d %H:%M:%S")
+        moment = dt.datetime.strptime(text[:19], "%Y:%m:%d %H:%M:%S")  # noqa: DTZ007 - see below
     except ValueError:
         return None
     try:
-        zone = datetime.datetime.strptime(_text(shot.get(0x9011)), "%z").tzinfo
+        zone = dt.datetime.strptime(_text(shot.get(0x9011)), "%z").tzinfo
     except ValueError:
         zone = None
     return moment.replace(tzinfo=zone)

@@ -5,7 +5,7 @@ Pixel (0, 0) is the top-left one; EXIF orientation is already applied.
 
 from __future__ import annotations
 
-import datetime
+import datetime as dt
 import difflib
 import os
 import stat
@@ -150,7 +150,7 @@ class Photo:
         return self.facts.heading
 
     @property
-    def time(self) -> datetime.datetime | None:
+    def time(self) -> dt.datetime | None:
         """Time of the shot; naive local time when the file names no zone."""
         return self.facts.time
 
@@ -215,7 +215,7 @@ def open_photo(source: Any) -> Photo:
         name = "picture"
         decoded = decode_bytes(bytes(source), name)
     elif _is_pil(source):
-        name = os.path.basename(getattr(source, "filename", "") or "") or "image"
+        name = Path(str(getattr(source, "filename", ""))).name or "image"
         decoded = decode_image(source.copy() if source.format is None else source, name)
     elif callable(getattr(source, "read", None)):
         name, data = _read_stream(source)
@@ -255,28 +255,28 @@ def _read_path(source: Any) -> tuple[str, bytes]:
     text = os.fspath(source)
     if isinstance(text, str) and "://" in text[:10]:
         raise PhotoError(f"{text[:80]} is an address; sunwidget never downloads. Save it first.")
-    name = os.path.basename(os.fsdecode(text)) or os.fsdecode(text)
+    path = Path(os.fsdecode(text))
     try:
-        path = Path(os.fsdecode(text)).expanduser()
+        path = path.expanduser()
         mode = path.stat().st_mode
         if stat.S_ISDIR(mode):
             raise PhotoError(f"{path} is a folder. Pass the path of one picture in it.")
         if not stat.S_ISREG(mode):
             raise PhotoError(f"{path} is a device or pipe, not a file. Pass a picture file.")
-        return name, path.read_bytes()
+        return path.name, path.read_bytes()
     except FileNotFoundError as error:
         raise PhotoError(_missing(path)) from error
     except PermissionError as error:
-        raise PhotoError(f"No permission to read {path}. Check the file's access rights.") from error
+        raise PhotoError(f"No permission to read {path}. Check its access rights.") from error
     except (OSError, ValueError, RuntimeError) as error:
         if isinstance(error, PhotoError):
             raise
-        raise PhotoError(f"Cannot read {os.fsdecode(text)[:200]!r}: {error}.") from error
+        raise PhotoError(f"Cannot read {str(path)[:200]!r}: {error}.") from error
 
 
 def _missing(path: Path) -> str:
     try:
-        near = difflib.get_close_matches(path.name, os.listdir(path.parent), n=1)
+        near = difflib.get_close_matches(path.name, (p.name for p in path.parent.iterdir()), n=1)
     except OSError:
         return f"There is no file {path}, nor a folder {path.parent}."
     hint = f" Did you mean {near[0]!r}?" if near else f" Looked in {path.parent.absolute()}."
@@ -285,7 +285,7 @@ def _missing(path: Path) -> str:
 
 def _read_stream(source: Any) -> tuple[str, bytes]:
     label = getattr(source, "name", None)
-    name = os.path.basename(label) if isinstance(label, str) and label else "picture"
+    name = Path(label).name if isinstance(label, str) and label else "picture"
     try:
         data = source.read()
     except Exception as error:  # whatever a person's own file object may do
