@@ -1,0 +1,47 @@
+"""Clouds: how opaque they are and how soft, by colour (thesis 3.1.4).
+
+``METHODS`` maps a name to a function ``(Working, sky, minimum, maximum) -> Clouds``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from sunwidget.analysis.working import Working
+from sunwidget.edit import parameter
+
+MINIMUM: float = parameter("cloud_ratio_min").default
+MAXIMUM: float = parameter("cloud_ratio_max").default
+
+
+class Clouds(NamedTuple):
+    """Opacity and the thesis' softness C^s, each (h, w) float32 in [0, 1]."""
+
+    opacity: np.ndarray
+    softness: np.ndarray
+
+
+def rb_ratio(
+    working: Working, sky: np.ndarray, minimum: float = MINIMUM, maximum: float = MAXIMUM
+) -> Clouds:
+    """Red over blue (Long et al. 2006; thesis equations 3.5 and 3.6), encoded values.
+
+    The mask of equation 3.5 is softened over ± 0.05 of the ratio; softness is clamped to [0, 1].
+    """
+    red, blue = working.encoded[..., 0], working.encoded[..., 2]
+    ratio = red / np.maximum(blue, 1 / 255)
+    softness = np.clip((ratio - minimum) / max(maximum - minimum, 1e-3), 0, 1)
+    opacity = np.clip((ratio - minimum) / 0.1 + 0.5, 0, 1)
+    return Clouds((opacity * sky).astype(np.float32), (softness * sky).astype(np.float32))
+
+
+METHODS: dict[str, Callable[..., Clouds]] = {"rb_ratio": rb_ratio}
+
+
+def without(clouds: Clouds, mask: np.ndarray) -> Clouds:
+    """Take the sun's pixels out: r/b calls them cloud (thesis 3.1.3)."""
+    keep = 1 - mask
+    return Clouds(clouds.opacity * keep, clouds.softness * keep)

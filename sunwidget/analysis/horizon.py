@@ -1,0 +1,165 @@
+"""Horizon: the line that the earth would draw behind everything that stands on it (thesis 3.1.2).
+
+``METHODS`` maps a name to a function ``(sky, …) -> Horizon`` in the pixels of the sky map.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from sunwidget.camera import Point
+
+TOLERANCE = 0.004  # of the height: how far a sea horizon strays from a line
+MAXIMUM_ROLL = 20.0
+LEVEL_ROW = 0.52  # of the height: where the horizon lies when a level camera sees none
+
+
+@dataclass(frozen=True)
+class Horizon:
+    """The horizon as a line.
+
+    Parameters
+    ----------
+    row : float
+        Row at the picture's centre column in pixels; may lie outside the picture.
+    roll : float
+        Degrees by which the line falls to the right.
+    confidence : float
+        0 (a guess: no horizon is seen) … 1 (a line across the whole picture, or given).
+    source : str
+        Name of the method, "hint", or "assumed".
+    """
+
+    row: float
+    roll: float = 0.0
+    confidence: float = 0.0
+    source: str = "assumed"
+
+    def scaled(self, zoom_x: float, zoom_y: float) -> Horizon:
+        """Return the same horizon for a picture ``zoom`` times as large."""
+        slope = math.tan(math.radians(self.roll)) * zoom_y / zoom_x
+        roll = math.degrees(math.atan(slope))
+        return Horizon(self.row * zoom_y, roll, self.confidence, self.source)
+
+
+def from_hint(hint: float | tuple[Point, Point], width: int) -> Horizon:
+    """Take the horizon a person set: the row at the centre, or two points, in pixels."""
+    if isinstance(hint, tuple):
+        (x0, y0), (x1, y1) = hint
+        slope = (y1 - y0) / (x1 - x0)
+        row = y0 + slope * (width / 2 - x0)
+        return Horizon(row, math.degrees(math.atan(slope)), 1.0, "hint")
+    return Horizon(float(hint), 0.0, 1.0, "hint")
+
+
+def row_argmax(sky: np.ndarray) -> Horizon:
+    """Take the row with most vertical edges of the sky mask (thesis equations 3.3 and 3.4).
+
+    One degree of roll spreads a horizon over many rows and hides it from this method.
+    """
+    edges = np.abs(np.diff((sky > 0.5).astype(np.int8), axis=0)).sum(axis=1)
+    if not edges.size or edges.max() == 0:
+        return _unseen(sky)
+    row = int(edges.argmax())
+    return Horizon(row + 1.0, 0.0, float(edges[row] / sky.shape[1]), "row_argmax")
+
+
+def robust_line(sky: np.ndarray) -> Horizon:
+    """Fit a line with roll to the lower edge of the sky.
+
+    Whatever stands on the earth can only push the skyline up, so a skyline below the line
+    counts against it and one above it does not. A line that enough of the skyline agrees with
+    is taken; otherwise the horizon is assumed level, at the skyline's lowest part or lower.
+    """
+    height, width = sky.shape
+    columns, border = skyline(sky)
+    if columns.size < 2:
+        return _unseen(sky)
+    row, slope, share = _best_line(columns - width / 2, border, height, width)
+    if share >= 0.3:
+        roll = math.degrees(math.atan(slope))
+        confidence = min(1.0, (share - 0.2) / 0.6)
+        return Horizon(row, roll, float(confidence), "robust_line")
+    lowest = float(np.quantile(border, 0.98))
+    return Horizon(max(lowest, LEVEL_ROW * height), 0.0, min(0.2, share), "assumed")
+
+
+METHODS: dict[str, Callable[[np.ndarray], Horizon]] = {
+    "row_argmax": row_argmax,
+    "robust_line": robust_line,
+}
+
+
+def skyline(sky: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return columns (pixel centres) and the row below the lowest sky pixel of each.
+
+    Patches of sky smaller than 0.5 % of the picture are left out, and so are columns without
+    sky and columns where it reaches the lower frame.
+    """
+    import cv2
+
+    height, width = sky.shape
+    mask = (sky > 0.5).astype(np.uint8)
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask, connectivity=4)
+    large = np.flatnonzero(stats[:, cv2.CC_STAT_AREA] >= 0.005 * mask.size)
+    mask = np.isin(labels, large[large > 0])
+    seen = mask.any(axis=0)
+    border = height - np.argmax(mask[::-1], axis=0).astype(np.float64)
+    seen &= border < height
+    columns = np.flatnonzero(seen)
+    return columns + 0.5, border[columns]
+
+
+def _unseen(sky: np.ndarray) -> Horizon:
+    """Guess without a skyline: below a picture full of sky, level otherwise."""
+    height = sky.shape[0]
+    full = sky.size > 0 and float(np.mean(sky > 0.5)) > 0.95
+    return Horizon(height * (1.1 if full else LEVEL_ROW), 0.0, 0.0, "assumed")
+
+
+def _best_line(x: np.ndarray, y: np.ndarray, height: int, width: int) -> tuple[float, float, float]:
+    """Return row at x = 0, slope, and the share of all columns that agree with the line."""
+    tolerance = max(1.0, TOLERANCE * height)
+    anchors = np.unique(np.linspace(0, x.size - 1, 72).round().astype(int))
+    first, second = np.triu_indices(anchors.size, k=1)
+    run = x[anchors[second]] - x[anchors[first]]
+    wide = run >= 0.2 * width
+    if not wide.any():
+        return float(np.median(y)), 0.0, 0.0
+    first, second, run = anchors[first[wide]], anchors[second[wide]], run[wide]
+    slopes = (y[second] - y[first]) / run
+    rows = y[first] - slopes * x[first]
+    # A level line through every anchor, too: two noisy anchors rarely agree on it.
+    slopes = np.concatenate([slopes, np.zeros(anchors.size)])
+    rows = np.concatenate([rows, y[anchors]])
+    level = np.abs(slopes) <= math.tan(math.radians(MAXIMUM_ROLL))
+    slopes, rows = slopes[level], rows[level]
+    score, _ = _score(x, y, rows, slopes, tolerance, width)
+    best = int(score.argmax())
+    row, slope = float(rows[best]), float(slopes[best])
+    for _ in range(3):  # least squares on the columns that agree
+        near = np.abs(y - row - slope * x) <= tolerance
+        if np.count_nonzero(near) < 2 or np.ptp(x[near]) < 0.2 * width:
+            break
+        slope, row = (float(v) for v in np.polyfit(x[near], y[near], 1))
+    score, share = _score(x, y, np.array([row]), np.array([slope]), tolerance, width)
+    return row, slope, float(max(0.0, min(share[0], score[0])))
+
+
+def _score(
+    x: np.ndarray,
+    y: np.ndarray,
+    rows: np.ndarray,
+    slopes: np.ndarray,
+    tolerance: float,
+    width: int,
+) -> tuple[np.ndarray, np.ndarray]:
+    residual = y[None] - rows[:, None] - slopes[:, None] * x[None]
+    near = (np.abs(residual) <= tolerance).sum(axis=1) / width
+    below = (residual > 2 * tolerance).sum(axis=1) / width
+    tilt = np.degrees(np.arctan(np.abs(slopes)))
+    return near - 1.5 * below - 0.01 * tilt, near

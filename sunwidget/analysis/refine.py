@@ -1,0 +1,279 @@
+"""Refinement: from the network's coarse sky to a matte that follows the skyline (thesis 3.1.1.2).
+
+Two steps. A method of ``METHODS`` decides sky or land on a copy of at most 384 px and says where
+it is sure; then a guided filter, weighted by that sureness, carries the decision to every pixel of
+the photo along its own edges (He et al., "Guided image filtering", 2013; weights after Liba et
+al., "Sky optimization", 2020, section 3.2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from sunwidget.analysis.working import Working, code_values, resize, shrink
+from sunwidget.edit import Stroke
+from sunwidget.photo import Photo
+
+SIDE = 384
+MINIMUM_SIDE = 4  # below this there is no neighbourhood to refine in
+
+
+class Decision(NamedTuple):
+    """Sky or land at low resolution.
+
+    ``sky`` (h, w) float32 in [0, 1], and ``sureness`` (h, w) float32 in (0, 1].
+    """
+
+    sky: np.ndarray
+    sureness: np.ndarray
+
+
+def none(working: Working, probability: np.ndarray) -> Decision:
+    """Keep the coarse map as it is."""
+    return Decision(probability, np.ones_like(probability))
+
+
+def grabcut_rect(working: Working, probability: np.ndarray) -> Decision:
+    """GrabCut from the bounding box of the coarse mask, as the thesis does.
+
+    Source: Rother et al., "GrabCut", 2004. Nothing outside the box can become sky, and land
+    inside it is told from sky by colour alone.
+    """
+    import cv2
+
+    image, coarse = _small(working, probability)
+    labels = np.full(coarse.shape, cv2.GC_BGD, np.uint8)
+    rows, columns = np.nonzero(coarse > 0.5)
+    if rows.size:
+        box = slice(rows.min(), rows.max() + 1), slice(columns.min(), columns.max() + 1)
+        labels[box] = cv2.GC_PR_FGD
+    return _decision(cut(image, labels, iterations=5), coarse)
+
+
+def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
+    """GrabCut from a trimap: sure where the network is sure and away from its own skyline."""
+    image, coarse = _small(working, probability)
+    return _decision(cut(image, trimap(coarse), iterations=2), coarse)
+
+
+METHODS: dict[str, Callable[[Working, np.ndarray], Decision]] = {
+    "none": none,
+    "grabcut_rect": grabcut_rect,
+    "grabcut_mask": grabcut_mask,
+}
+
+
+def _small(working: Working, probability: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    image = shrink(working.bytes, SIDE)
+    return image, resize(probability, image.shape[1], image.shape[0])
+
+
+def trimap(coarse: np.ndarray, sure: float = 0.95, band: int = 5) -> np.ndarray:
+    """Turn probabilities into GrabCut labels: sure above ``sure`` and ``band`` px inside."""
+    import cv2
+
+    sky = (coarse > 0.5).astype(np.uint8)
+    ellipse = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * band + 1, 2 * band + 1))
+    # Beyond the frame everything goes on as inside it: no band along the frame itself.
+    inside = cv2.erode(sky, ellipse)
+    outside = cv2.erode(1 - sky, ellipse)
+    labels = np.where(sky == 1, cv2.GC_PR_FGD, cv2.GC_PR_BGD).astype(np.uint8)
+    labels[(inside == 1) & (coarse > sure)] = cv2.GC_FGD
+    labels[(outside == 1) & (coarse < 1 - sure)] = cv2.GC_BGD
+    return labels
+
+
+def cut(image: np.ndarray, labels: np.ndarray, iterations: int) -> np.ndarray:
+    """Run GrabCut and return (h, w) bool sky; the labels stand when there is nothing to learn.
+
+    Deterministic: OpenCV's generator is seeded, so that recipes replay to the bit.
+    """
+    import cv2
+
+    sky = (labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)
+    unsure = (labels == cv2.GC_PR_FGD) | (labels == cv2.GC_PR_BGD)
+    components = 5  # of GrabCut's colour models: fewer pixels than that cannot be clustered
+    enough = min(np.count_nonzero(sky), np.count_nonzero(~sky)) > components
+    if not enough or not unsure.any() or min(labels.shape) < MINIMUM_SIDE:
+        return np.asarray(sky)
+    cv2.setRNGSeed(0)
+    labels = labels.copy()
+    models = np.zeros((1, 65)), np.zeros((1, 65))
+    cv2.grabCut(
+        np.ascontiguousarray(image), labels, None, *models, iterations, cv2.GC_INIT_WITH_MASK
+    )
+    return (labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)
+
+
+def _decision(sky: np.ndarray, coarse: np.ndarray) -> Decision:
+    """Add the sureness: low along the skyline and where network and GrabCut disagree."""
+    import cv2
+
+    mask = sky.astype(np.uint8)
+    edge = cv2.morphologyEx(mask, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8))
+    agreement = np.where(sky, coarse, 1 - coarse)
+    sureness = np.clip(agreement, 0.05, 1) * np.where(edge == 1, 0.05, 1)
+    return Decision(mask.astype(np.float32), sureness.astype(np.float32))
+
+
+def matte(
+    photo: Photo,
+    working: Working,
+    decision: Decision,
+    strokes: Sequence[Stroke] = (),
+    radius: int = 6,
+    epsilon: float = 1e-4,
+) -> np.ndarray:
+    """Carry a decision to the photo's own resolution along its edges.
+
+    Parameters
+    ----------
+    photo : Photo
+    working : Working
+        Its small copy, on which the filter's coefficients are found.
+    decision : Decision
+        Low-resolution sky and sureness.
+    strokes : sequence of Stroke
+        Set hard under the brush.
+    radius : int
+        Half side of the filter's window in working pixels.
+    epsilon : float
+        Variance of the encoded photo below which an area is taken for flat.
+
+    Returns
+    -------
+    (H, W) float32
+        Alpha matte, 1 = sky.
+    """
+    width, height = photo.size
+    if min(working.width, working.height) < MINIMUM_SIDE:
+        alpha = np.clip(resize(decision.sky, width, height), 0, 1)
+    else:
+        sky = resize(decision.sky, working.width, working.height)
+        sureness = resize(decision.sureness, working.width, working.height)
+        slope, offset = guided_coefficients(working.guide, sky, sureness, radius, epsilon)
+        alpha = np.empty((height, width), np.float32)
+        strip = max(1, 2**22 // width)  # bounds the memory of a 24 MP photo
+        for top in range(0, height, strip):
+            rows = slice(top, min(top + strip, height))
+            a = _rows(slope, rows, height, width)
+            guide = code_values(photo, rows)
+            alpha[rows] = np.einsum("hwc,hwc->hw", a, guide) + _rows(offset, rows, height, width)
+        # Stretch the ends: a guided filter leaves sure pixels a few percent short of 0 and 1.
+        alpha = np.clip((alpha - 0.06) / 0.88, 0, 1)
+    for stroke in strokes:
+        alpha[paint(stroke, width, height)] = stroke.label == "sky"
+    return alpha
+
+
+def paint(stroke: Stroke, width: int, height: int) -> np.ndarray:
+    """Return the pixels under the brush, (height, width) bool; at least one pixel wide."""
+    import cv2
+
+    canvas = np.zeros((height, width), np.uint8)
+    fraction = 4  # bits of sub-pixel position
+    points = np.array(
+        [
+            [(x * width - 0.5) * 2**fraction, (y * height - 0.5) * 2**fraction]
+            for x, y in stroke.points
+        ]
+    )
+    points = np.clip(np.round(points), -(2**24), 2**24).astype(np.int32)
+    radius = max(stroke.radius * max(width, height), 0.5)
+    cv2.polylines(
+        canvas,
+        [points.reshape(-1, 1, 2)],
+        False,
+        1,
+        max(1, round(2 * radius)),
+        cv2.LINE_8,
+        fraction,
+    )
+    for x, y in points:
+        cv2.circle(
+            canvas, (int(x), int(y)), round(radius * 2**fraction), 1, -1, cv2.LINE_8, fraction
+        )
+    return canvas > 0
+
+
+def _rows(small: np.ndarray, rows: slice, height: int, width: int) -> np.ndarray:
+    """Rows of ``resize(small, width, height)`` without making the whole of it."""
+    import cv2
+
+    if small.shape[:2] == (height, width):
+        return small[rows]
+    zoom = np.array([small.shape[1] / width, small.shape[0] / height])
+    matrix = np.array(
+        [[zoom[0], 0, zoom[0] / 2 - 0.5], [0, zoom[1], (rows.start + 0.5) * zoom[1] - 0.5]]
+    )
+    return cv2.warpAffine(
+        small,
+        matrix,
+        (width, rows.stop - rows.start),
+        flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+        borderMode=cv2.BORDER_REPLICATE,
+    )
+
+
+def guided_coefficients(
+    guide: np.ndarray, target: np.ndarray, weight: np.ndarray, radius: int, epsilon: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Fit ``target ≈ slope · guide + offset`` in every window, weighted, and average the fits.
+
+    Parameters
+    ----------
+    guide : (h, w, 3) float32
+    target, weight : (h, w) float32
+    radius : int
+        Half side of the window in pixels.
+    epsilon : float
+        Ridge on the slope, in squared units of the guide.
+
+    Returns
+    -------
+    slope (h, w, 3), offset (h, w) : float32
+    """
+    import cv2
+
+    side = (2 * radius + 1, 2 * radius + 1)
+
+    def mean(x: np.ndarray) -> np.ndarray:
+        return cv2.blur(np.ascontiguousarray(x), side, borderType=cv2.BORDER_REFLECT)
+
+    total = np.maximum(mean(weight), 1e-6)
+    mean_guide = mean(guide * weight[..., None]) / total[..., None]
+    mean_target = mean(target * weight) / total
+    covariance = mean(guide * (weight * target)[..., None]) / total[..., None]
+    covariance -= mean_guide * mean_target[..., None]
+    products = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
+    second = np.stack([guide[..., i] * guide[..., j] for i, j in products[:4]], axis=-1)
+    third = np.stack([guide[..., i] * guide[..., j] for i, j in products[4:]], axis=-1)
+    moments = np.concatenate(
+        [mean(second * weight[..., None]), mean(third * weight[..., None])], axis=-1
+    )
+    moments /= total[..., None]
+    rr, rg, rb, gg, gb, bb = (
+        moments[..., k] - mean_guide[..., i] * mean_guide[..., j]
+        for k, (i, j) in enumerate(products)
+    )
+    rr, gg, bb = rr + epsilon, gg + epsilon, bb + epsilon
+    # Inverse of the symmetric 3 × 3 covariance by cofactors.
+    c00, c01, c02 = gg * bb - gb * gb, gb * rb - rg * bb, rg * gb - gg * rb
+    c11, c12, c22 = rr * bb - rb * rb, rb * rg - rr * gb, rr * gg - rg * rg
+    determinant = rr * c00 + rg * c01 + rb * c02
+    r, g, b = covariance[..., 0], covariance[..., 1], covariance[..., 2]
+    slope = (
+        np.stack(
+            [c00 * r + c01 * g + c02 * b, c01 * r + c11 * g + c12 * b, c02 * r + c12 * g + c22 * b],
+            axis=-1,
+        )
+        / np.maximum(determinant, 1e-18)[..., None]
+    )
+    offset = mean_target - np.einsum("hwc,hwc->hw", slope, mean_guide)
+    # Windows that know more count more in the average, too.
+    average = mean(total)
+    slope = mean(slope * total[..., None]) / average[..., None]
+    return slope.astype(np.float32), (mean(offset * total) / average).astype(np.float32)

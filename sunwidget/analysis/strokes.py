@@ -1,0 +1,63 @@
+"""Strokes: a person says *sky* or *not sky*, and the map follows (thesis 3.1.1.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from sunwidget.analysis.refine import SIDE, Decision, cut, paint
+from sunwidget.analysis.working import Working, resize, shrink
+from sunwidget.edit import Stroke
+
+
+def apply_strokes(working: Working, decision: Decision, strokes: Sequence[Stroke]) -> Decision:
+    """Replay strokes in order on a decision; deterministic.
+
+    A stroke acts on what is like the pixels under it, connected to them, and wrongly labelled:
+    everything else keeps its label.
+    """
+    if not strokes:
+        return decision
+    import cv2
+
+    image = shrink(working.bytes, SIDE)
+    height, width = image.shape[:2]
+    sky = resize(decision.sky, width, height) > 0.5
+    sureness = resize(decision.sureness, width, height)
+    lab = cv2.cvtColor(image, cv2.COLOR_RGB2LAB).astype(np.float32)
+    fixed = np.full(sky.shape, -1, np.int8)
+    for stroke in strokes:
+        under = paint(stroke, width, height)
+        if not under.any():
+            continue
+        wanted = stroke.label == "sky"
+        fixed[under] = wanted
+        region = _alike(lab, under, (sky != wanted) | under)
+        labels = np.where(sky, cv2.GC_FGD, cv2.GC_BGD).astype(np.uint8)
+        labels[region] = cv2.GC_PR_FGD if wanted else cv2.GC_PR_BGD
+        labels[fixed == 1], labels[fixed == 0] = cv2.GC_FGD, cv2.GC_BGD
+        after = cut(image, labels, iterations=1)
+        sky = np.where(region | under, after, sky)
+        sureness = np.where(region, 1, sureness)
+        sky[fixed == 1], sky[fixed == 0] = True, False
+    edge = cv2.morphologyEx(sky.astype(np.uint8), cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8))
+    sureness = np.where(edge == 1, np.minimum(sureness, 0.05), sureness)
+    return Decision(sky.astype(np.float32), sureness.astype(np.float32))
+
+
+def _alike(lab: np.ndarray, under: np.ndarray, candidates: np.ndarray) -> np.ndarray:
+    """Return what is connected to the brush through candidates of like colour."""
+    import cv2
+
+    # Distance to the nearest of a few colours under the brush, so that a stroke over a brick
+    # wall takes bricks and mortar.
+    samples = lab[under]
+    samples = samples[:: max(1, len(samples) // 64)]
+    distance = np.full(lab.shape[:2], np.inf, np.float32)
+    for sample in samples:
+        distance = np.minimum(distance, np.linalg.norm(lab - sample, axis=2))
+    like = ((distance < 12) & candidates) | under
+    _, labels = cv2.connectedComponents(like.astype(np.uint8), connectivity=8)
+    keep = np.unique(labels[under])
+    return np.isin(labels, keep[keep > 0])
