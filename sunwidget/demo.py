@@ -1,0 +1,52 @@
+"""What ``sunwidget demo`` makes: the whole way, once, with a bundled picture."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Callable
+from pathlib import Path
+
+from sunwidget.edit import Edit
+
+SAMPLE = "coast"
+STILL = Edit(sun_elevation=3)
+SUNSET = (14.0, -4.0)
+FILM_SIZE = (960, 640)
+
+
+def demo(
+    folder: Path, progress: Callable[[float, str], object] | None = None
+) -> list[tuple[Path, str]]:
+    """Analyse the sample, write its maps, a still, a recipe and a sunset film.
+
+    Returns (path, what it is) in the order of making. Its own files are replaced. Without
+    the ``video`` extra the film is a WebP.
+    """
+    import sunwidget as sw
+    from sunwidget.export.maps import save_maps
+
+    report = progress or (lambda _fraction, _message: None)
+    folder.mkdir(parents=True, exist_ok=True)
+    scene = sw.analyze(sw.sample(SAMPLE), progress=lambda f, text: report(0.3 * f, text))
+    save_maps(scene, folder / "maps", overwrite=True)
+    made = [(folder / "maps", "what the analysis found: overview.png, scene.json, every map")]
+
+    still = folder / "still.png"
+    sw.save((scene, STILL), still, overwrite=True)
+    made.append((still, f"the same picture with the sun at {STILL.sun_elevation:g}°"))
+    recipe = folder / "recipe.json"
+    recipe.write_text(STILL.to_json() + "\n", "utf-8")
+    made.append((recipe, f"its recipe: sunwidget render sample:{SAMPLE} --recipe {recipe} -o …"))
+
+    suffix = ".mp4" if importlib.util.find_spec("imageio_ffmpeg") else ".webp"
+    ends = [Edit(sun_elevation=elevation) for elevation in SUNSET]
+    film = sw.sweep(
+        scene,
+        ends,
+        folder / f"sunset{suffix}",
+        size=FILM_SIZE,
+        overwrite=True,
+        progress=lambda f, text: report(0.4 + 0.6 * f, text),
+    )
+    made.append((film, f"a sunset from {SUNSET[0]:g}° to {SUNSET[1]:g}°"))
+    return made

@@ -1,0 +1,204 @@
+import json
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import sunwidget as sw
+from sunwidget import cli
+from sunwidget.cli import main
+from sunwidget.edit import NUMBERS, PARAMETERS, Edit
+
+
+@pytest.fixture(scope="module")
+def photo(tmp_path_factory):
+    """A small copy of a sample, so that every command takes a second."""
+    path = tmp_path_factory.mktemp("photo") / "coast.png"
+    Image.fromarray(sw.sample("coast").preview(long_edge=240)).save(path)
+    return str(path)
+
+
+def fails(capsys, *arguments):
+    """Run a command that must fail; return the one line it says."""
+    try:
+        status = main(list(arguments))
+    except SystemExit as stop:
+        status = stop.code
+    said = capsys.readouterr().err
+    assert status == 2
+    assert "Traceback" not in said
+    assert said.count("\n") == 1
+    return said
+
+
+def parse(*arguments):
+    return cli._parser().parse_args(arguments)
+
+
+def test_every_parameter_has_a_flag():
+    for p in PARAMETERS:
+        if p.kind == "number":
+            options = parse("render", "x.jpg", "-o", "y.png", cli._flag(p.name), str(p.maximum))
+            assert getattr(cli._edit(options), p.name) == p.maximum
+        elif p.kind == "choice":
+            for choice in p.choices:
+                options = parse("render", "x.jpg", "-o", "y.png", cli._flag(p.name), choice)
+                assert getattr(cli._edit(options), p.name) == choice
+
+
+def test_every_number_has_an_end_in_a_sweep():
+    for p in NUMBERS:
+        options = parse("sweep", "x", "-o", "y.gif", cli._flag("to_" + p.name), str(p.minimum))
+        assert getattr(cli._edit(options, "to_", Edit()), p.name) == p.minimum
+
+
+def test_help_names_every_parameter(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["render", "--help"])
+    assert stop.value.code == 0
+    said = capsys.readouterr().out
+    assert all(cli._flag(p.name) in said for p in PARAMETERS if p.kind != "data")
+
+
+def test_no_flag_is_an_unmoved_edit():
+    assert cli._edit(parse("render", "x.jpg", "-o", "y.png")) == Edit()
+
+
+def test_flags_win_over_the_recipe(tmp_path):
+    recipe = tmp_path / "recipe.json"
+    recipe.write_text(Edit(sun_elevation=3, exposure=1).to_json())
+    options = parse("render", "x", "-o", "y", "--recipe", str(recipe), "--exposure", "-1")
+    assert cli._edit(options) == Edit(sun_elevation=3, exposure=-1)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["render"], "required"),
+        (["render", "x.jpg", "-o", "y.png", "--sun-elevation", "high"], "invalid float"),
+        (["render", "x.jpg", "-o", "y.png", "--sun-elevation", "91"], "outside -12 to 90"),
+        (["render", "x.jpg", "-o", "y.png", "--sun-elevation", "nan"], "must be a number"),
+        (["render", "x.jpg", "-o", "y.png", "--sun-elev", "3"], "unrecognized"),
+        (["render", "x.jpg", "-o", "y.png", "--method", "magic"], "invalid choice"),
+        (["render", "x.jpg", "-o", "y.png", "--size", "big"], "1920x1080"),
+        (["render", "x.jpg", "-o", "y.png", "--sun", "3"], "joined by commas"),
+        (["render", "no-such-photo.jpg", "-o", "y.png"], "no file"),
+        (["render", "sample:beach", "-o", "y.png"], "no sample"),
+        (["render", "x.jpg", "-o", "y.png", "--recipe", "no-such.json"], "no-such.json"),
+        (["sweep", "x.jpg", "-o", "y.gif"], "Nothing moves"),
+        (["batch", "x.jpg"], "invalid choice"),
+    ],
+)
+def test_a_mistake_is_one_line_and_status_2(capsys, arguments, message):
+    assert message in fails(capsys, *arguments)
+
+
+def test_a_broken_recipe_is_one_line(capsys, tmp_path):
+    recipe = tmp_path / "recipe.json"
+    recipe.write_text('{"sun_elevatoin": 3}')
+    said = fails(capsys, "render", "x.jpg", "-o", "y.png", "--recipe", str(recipe))
+    assert "Did you mean 'sun_elevation'" in said
+
+
+def test_a_broken_photo_is_one_line(capsys, tmp_path):
+    broken = tmp_path / "broken.jpg"
+    broken.write_bytes(b"\xff\xd8\xff\xe0 no picture")
+    assert "broken.jpg" in fails(capsys, "render", str(broken), "-o", str(tmp_path / "y.png"))
+
+
+def test_an_existing_picture_is_refused_before_any_work(capsys, tmp_path):
+    output = tmp_path / "out.png"
+    output.write_bytes(b"mine")
+    assert "--overwrite" in fails(capsys, "render", "no-such-photo.jpg", "-o", str(output))
+    assert output.read_bytes() == b"mine"
+
+
+def test_render_writes_the_moved_picture(photo, tmp_path):
+    output = tmp_path / "out.png"
+    assert main(["render", photo, "--sun-elevation", "1", "-o", str(output)]) == 0
+    before, after = (np.asarray(Image.open(p).convert("RGB"), float) for p in (photo, output))
+    assert after.shape == before.shape
+    assert np.abs(after - before).mean() > 3
+
+
+def test_render_of_an_unmoved_sun_changes_no_pixel(photo, tmp_path):
+    output = tmp_path / "out.png"
+    assert main(["render", photo, "-o", str(output)]) == 0
+    before, after = (np.asarray(Image.open(p).convert("RGB"), int) for p in (photo, output))
+    assert np.abs(after - before).max() <= 1
+
+
+def test_render_scales_to_the_asked_size(photo, tmp_path):
+    output = tmp_path / "out.png"
+    assert main(["render", photo, "--size", "90x60", "-o", str(output)]) == 0
+    assert Image.open(output).size == (90, 60)
+
+
+def test_analyze_writes_maps_and_facts_and_obeys_hints(photo, tmp_path, capsys):
+    folder = tmp_path / "maps"
+    hints = ["--horizon", "100", "--fov", "40", "--sun", "120,30"]
+    assert main(["analyze", photo, "-o", str(folder), *hints]) == 0
+    said = capsys.readouterr().out.split()
+    assert {path.name for path in folder.iterdir()} == {line.rsplit("/", 1)[1] for line in said}
+    facts = json.loads((folder / "scene.json").read_text())
+    assert facts["camera"]["fov_vertical_deg"] == pytest.approx(40)
+    assert facts["horizon"]["row"] == pytest.approx(100)
+    assert facts["sun"]["x"] == pytest.approx(120, abs=3)
+    sky = np.asarray(Image.open(folder / "sky.png"))
+    assert sky.shape == (160, 240)
+    assert sky[:20].mean() > 200
+    assert sky[-20:].mean() < 50
+
+
+def test_analyze_takes_a_mask_for_the_sky(photo, tmp_path):
+    mask = np.zeros((160, 240), np.uint8)
+    mask[:70] = 255
+    path = tmp_path / "mask.png"
+    Image.fromarray(mask).save(path)
+    assert main(["analyze", photo, "-o", str(tmp_path / "maps"), "--sky", str(path)]) == 0
+    sky = np.asarray(Image.open(tmp_path / "maps" / "sky.png"))
+    assert sky[:60].min() > 250
+    assert sky[80:].max() < 5
+
+
+def test_sweep_writes_a_film(photo, tmp_path):
+    film = tmp_path / "sunset.webp"
+    ends = ["--sun-elevation", "10", "--to-sun-elevation", "-2", "--frames", "3"]
+    assert main(["sweep", photo, "-o", str(film), *ends]) == 0
+    with Image.open(film) as frames:
+        assert frames.n_frames == 3
+        assert frames.size == (240, 160)
+
+
+def test_doctor_finds_everything_essential(capsys):
+    assert main(["doctor"]) == 0
+    said = capsys.readouterr().out
+    assert "MISSING" not in said
+    assert re.search(r"^ok +EGL +\S+.*OpenGL [34]\.", said, re.MULTILINE)
+    assert re.search(r"^ok +sky network +[\d.]+ MB", said, re.MULTILINE)
+
+
+def test_doctor_fails_and_says_what_to_install_without_contrib(capsys, monkeypatch):
+    import cv2
+
+    monkeypatch.delattr(cv2, "ximgproc")
+    assert main(["doctor"]) == 1
+    said = capsys.readouterr().out
+    assert re.search(r"^MISSING OpenCV", said, re.MULTILINE)
+    assert "opencv-contrib-python-headless" in said
+
+
+def test_doctor_reports_a_broken_check_instead_of_breaking(capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "onnxruntime", None)
+    assert main(["doctor"]) == 1
+    assert re.search(r"^MISSING sky network +\w*Error", capsys.readouterr().out, re.MULTILINE)
+
+
+def test_the_command_is_installed():
+    done = subprocess.run(
+        [sys.executable, "-m", "sunwidget", "--version"], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == sw.__version__
