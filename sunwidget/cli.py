@@ -212,7 +212,7 @@ def _render(options: argparse.Namespace) -> int:
         sw.save((scene, edit), options.output, overwrite=options.overwrite)
     else:
         picture = sw.render(scene, edit, size=options.size)
-        sw.save(picture, options.output, overwrite=options.overwrite)
+        sw.save(picture, options.output, like=scene, overwrite=options.overwrite)
     print(f"{options.output}  ({time.perf_counter() - begin:.1f} s)")
     return 0
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import subprocess
 import tempfile
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sunwidget.edit import NUMBERS, PARAMETERS, Edit, EditError
+from sunwidget.export.files import complete_or_absent, target
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -76,19 +76,15 @@ def sweep(
     ModuleNotFoundError
         When MP4 is asked for without the ``video`` extra.
     """
-    path = Path(path)
-    write = _writer(path.suffix.lower())
+    write = _writer(Path(path).suffix.lower())
     if not 1 <= fps <= 120:
         raise ValueError(f"fps = {fps!r} is outside 1 to 120 frames a second.")
-    if path.exists() and not overwrite:
-        raise FileExistsError(f"{path} exists already. Pass overwrite=True to replace it.")
-    if not path.parent.is_dir():
-        raise FileNotFoundError(f"There is no folder {path.parent} to write {path.name} into.")
+    path = target(path, overwrite=overwrite)
     row = film_edits(edits, frames, fps, scene.automatic)
     size = film_size((scene.camera.width, scene.camera.height), size)
     if path.suffix.lower() == ".mp4":
         size = (size[0] - size[0] % 2, size[1] - size[1] % 2)
-    with _complete_or_absent(path, overwrite=overwrite) as unfinished:
+    with complete_or_absent(path, overwrite=overwrite) as unfinished:
         write(_render(scene, row, size, progress), unfinished, size, fps)
     return path
 
@@ -159,25 +155,6 @@ def _render(
         yield render(scene, edit, size=size)
         if progress is not None:
             progress(done / len(edits), f"frame {done} of {len(edits)}")
-
-
-@contextlib.contextmanager
-def _complete_or_absent(path: Path, *, overwrite: bool) -> Iterator[Path]:
-    """Yield a temporary name beside ``path`` that becomes ``path`` only when all went well."""
-    handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=".sunwidget-", dir=path.parent)
-    os.close(handle)
-    unfinished = Path(name)
-    try:
-        yield unfinished
-        # mkstemp makes files private; a film gets what the umask gives any new file.
-        mask = os.umask(0)
-        os.umask(mask)
-        unfinished.chmod(0o666 & ~mask)
-        if path.exists() and not overwrite:
-            raise FileExistsError(f"{path} appeared while it was being rendered; it was kept.")
-        unfinished.replace(path)
-    finally:
-        unfinished.unlink(missing_ok=True)
 
 
 def _writer(suffix: str) -> Callable[[Frames, Path, tuple[int, int], float], None]:
