@@ -24,6 +24,9 @@ class _Parser(argparse.ArgumentParser):
 
     def __init__(self, **options: Any) -> None:
         super().__init__(allow_abbrev=False, **options)
+        self.add_argument(
+            "--debug", action="store_true", default=argparse.SUPPRESS, help="show an error's stack"
+        )
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message}\n")
@@ -41,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("sunwidget: stopped; nothing half-written was left.", file=sys.stderr)
         return 130
     except Exception as error:  # a person at a prompt wants the sentence, not the stack
-        if options.debug:
+        if "debug" in options:
             raise
         sentence = " ".join(str(error).split()) or type(error).__name__
         print(f"sunwidget: {sentence}", file=sys.stderr)
@@ -54,7 +57,6 @@ def _parser() -> argparse.ArgumentParser:
 
     parser = _Parser(prog="sunwidget", description="Move the sun in a photograph.")
     parser.add_argument("--version", action="version", version=sunwidget.__version__)
-    parser.add_argument("--debug", action="store_true", help="show the traceback of an error")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
 
     render = commands.add_parser("render", help="write the photo with its sun moved")
@@ -182,7 +184,10 @@ def _scene(options: argparse.Namespace) -> Any:
     if "sky" in hints:
         hints["sky"] = _sky(hints["sky"])
     with _Progress("analysis") as progress:
-        return sw.analyze(photo, progress=progress, **hints)
+        scene = sw.analyze(photo, progress=progress, **hints)
+    for warning in scene.warnings:
+        print(f"sunwidget: {warning}", file=sys.stderr)
+    return scene
 
 
 def _horizon(values: tuple[float, ...]) -> Any:
