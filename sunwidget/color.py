@@ -135,6 +135,13 @@ class ColorProfile:
                 light[rows] = light[rows] @ self.matrix.T
         return light
 
+    def to_light(self, values: NDArray[Any]) -> Floats:
+        """Float code values (H, W, 3), 0–1 and beyond, to linear Rec. 709 float32."""
+        light = np.empty(values.shape, np.float32)
+        for channel, curve in enumerate(self.curves):
+            light[..., channel] = curve.decode(values[..., channel])
+        return light if self.matrix is None else (light @ self.matrix.T).astype(np.float32)
+
     def encode(
         self, light: NDArray[Any], dtype: Any = np.uint8, *, dither: bool = False
     ) -> NDArray[Any]:

@@ -90,21 +90,41 @@ def decode_bytes(data: bytes, name: str) -> Decoded:
 
 
 def decode_image(image: Any, name: str, data: bytes | None = None) -> Decoded:
-    """Decode a Pillow image; with ``data``, its file, deep pictures keep their 16 bits."""
-    check_size(image.width, image.height, name)
-    notes = []
-    if getattr(image, "n_frames", 1) > 1 and image.format != "MPO":
-        notes.append(f"{name} holds {image.n_frames} frames; only the first is used.")
-    # Read before the pixels: the info of some formats changes while they load.
-    deep = data is not None and _is_deep(image)
+    """Decode a Pillow image; with ``data``, its file, deep pictures keep their 16 bits.
+
+    Raises
+    ------
+    PhotoError
+        As :func:`decode_bytes`.
+    """
     try:
-        image.load()
+        return _decode_image(image, name, data)
+    except PhotoError:
+        raise
+    except MemoryError as error:
+        raise PhotoError(f"There is not enough memory to open {name}. Scale it down.") from error
     except Exception as error:  # decoders fail in many ways; all mean a damaged file
         raise PhotoError(
             f"{name} is damaged: its {image.format or 'picture'} data ends early or makes no "
             f"sense ({_reason(error)}). Copy or download it again."
         ) from error
+
+
+def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
+    check_size(image.width, image.height, name)
+    notes = []
+    if getattr(image, "n_frames", 1) > 1 and image.format != "MPO":
+        notes.append(f"{name} holds {image.n_frames} frames; only the first is used.")
+    deep = data is not None and _is_deep(image)
+    # Loading turns a TIFF and makes it forget its orientation; a PNG tells it only then.
+    way = image.getexif().get(274, 1) if image.format == "TIFF" else None
+    image.load()
     metadata = exif_tags.load(_exif_block(image))
+    if deep and image.format == "TIFF" and image.tag_v2.get(284, 1) != 1:
+        # Neither Pillow nor OpenCV reads this kind rightly, and neither says so.
+        raise PhotoError(
+            f"{name} is a TIFF with 16 bits in separate planes. Save it with interleaved channels."
+        )
     found = _opencv(data) if deep and data is not None else None
     if deep and found is None:
         notes.append(f"The 16-bit channels of {name} could only be read with 8 bits.")
@@ -115,7 +135,7 @@ def decode_image(image: Any, name: str, data: bytes | None = None) -> Decoded:
     else:
         _fill_from_image(result, image, name)
     _apply_profile(result, name)
-    _turn_upright(result)
+    _turn_upright(result, way if way is not None else exif_tags.orientation(metadata))
     xmp = image.info.get("xmp")
     result.xmp = xmp.encode() if isinstance(xmp, str) else xmp
     if result.xmp:
@@ -172,7 +192,10 @@ def _open(data: bytes, name: str) -> Any:
                 return None
             raise PhotoError(_unknown(data, name)) from error
         except Exception as error:  # header parsers fail in many ways
-            raise PhotoError(f"{name} has a damaged header ({_reason(error)}).") from error
+            raise PhotoError(
+                f"{name} is damaged: its header makes no sense ({_reason(error)}). Copy or "
+                "download it again."
+            ) from error
         finally:
             Image.MAX_IMAGE_PIXELS = limit
 
@@ -222,6 +245,8 @@ def _is_deep(image: Any) -> bool:
     """Tell 16-bit colour, which Pillow would decode to 8 bits."""
     if image.mode not in ("RGB", "RGBA", "LA"):
         return False
+    if image.format == "TIFF":
+        return image.tag_v2.get(258, (8,))[0] == 16
     return any(";16" in str(tile[3]) for tile in image.tile)
 
 
@@ -233,8 +258,10 @@ def _opencv(data: bytes) -> NDArray[Any] | None:
         found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
     except cv2.error:
         return None
-    if found is None or found.dtype not in (np.uint16, np.float32):
+    if found is None or found.dtype not in (np.uint16, np.float32, np.float64):
         return None
+    if found.dtype == np.float64:
+        found = found.astype(np.float32)
     if found.ndim == 3 and found.shape[2] in (3, 4):
         order = [2, 1, 0, 3][: found.shape[2]]
         found = found[..., order]
@@ -242,15 +269,19 @@ def _opencv(data: bytes) -> NDArray[Any] | None:
 
 
 def _decode_odd_tiff(data: bytes, name: str) -> Decoded:
-    """Decode a TIFF that Pillow does not know: RGB in 32-bit float."""
+    """Decode a TIFF that Pillow does not know: RGB in float."""
     tags = _tiff_tags(data)
     width, height = tags.get(256, 0), tags.get(257, 0)
     if isinstance(width, int) and isinstance(height, int) and width and height:
         check_size(width, height, name)
-        found = _opencv(data) if tags.get(262) in (1, 2) else None
-        if found is not None and found.shape[:2] == (height, width):
-            result = Decoded(np.empty(0), format="TIFF")
+        found = _opencv(data) if tags.get(262) in (1, 2) and tags.get(284, 1) == 1 else None
+        result = Decoded(np.empty(0), format="TIFF", exif=exif_tags.load(data))
+        result.turned = exif_tags.orientation(result.exif) >= 5
+        upright_size = (width, height) if result.turned else (height, width)
+        if found is not None and found.shape[:2] == upright_size:
+            result.icc = tags.get(34675)
             _fill_from_array(result, found, name)
+            _apply_profile(result, name)
             return result
     raise PhotoError(
         f"{name} is a TIFF of an unusual or damaged kind. Save it with 8 or 16 bits a channel, "
@@ -347,14 +378,17 @@ def _through_littlecms(image: Any, icc: bytes) -> Any:
 def _apply_profile(result: Decoded, name: str) -> None:
     """Settle ``result.profile`` and ``result.icc`` so that the codes mean what they say."""
     icc = result.icc
-    if icc is None or result.codes.dtype.kind == "f":
-        result.icc = None
+    if icc is None:
         return
     try:
         profile = read_profile(icc)
     except (ProfileError, struct.error):
         result.icc = None
         _convert_through_lut(result, icc, name)
+        return
+    if result.codes.dtype.kind == "f":
+        result.icc = None
+        result.codes = profile.to_light(result.codes)
         return
     if profile.name != "grey":
         result.profile = profile
@@ -370,7 +404,7 @@ def _convert_through_lut(result: Decoded, icc: bytes, name: str) -> None:
     from PIL import Image
 
     try:
-        if color_space(icc) != "RGB":
+        if color_space(icc) != "RGB" or result.codes.dtype.kind == "f":
             raise ProfileError("not an RGB profile")
         eight = result.codes
         if eight.dtype == np.uint16:
@@ -384,10 +418,9 @@ def _convert_through_lut(result: Decoded, icc: bytes, name: str) -> None:
         result.notes.append(f"The colour profile of {name} cannot be read; sRGB is assumed.")
 
 
-def _turn_upright(result: Decoded) -> None:
-    way = exif_tags.orientation(result.exif) if result.exif is not None else 1
-    result.turned = way >= 5
-    if way != 1:
+def _turn_upright(result: Decoded, way: int) -> None:
+    result.turned = way in (5, 6, 7, 8)
+    if way != 1 and result.format != "TIFF":  # Pillow and OpenCV turn TIFF themselves
         result.codes = np.ascontiguousarray(upright(result.codes, way))
         if result.alpha is not None:
             result.alpha = np.ascontiguousarray(upright(result.alpha, way))

@@ -72,7 +72,7 @@ def load(block: bytes) -> Any:
 
 def orientation(exif: Any) -> int:
     """Return the orientation tag, 1–8; 1 when it is missing or senseless."""
-    value = exif.get(_ORIENTATION, 1)
+    value = exif.get(_ORIENTATION, 1) if exif is not None else 1
     return value if isinstance(value, int) and 1 <= value <= 8 else 1
 
 
