@@ -47,7 +47,9 @@ class StripContext(nn.Module):
         self.row = nn.Conv2d(channels, middle, (3, 1), padding=(1, 0))
         self.column = nn.Conv2d(channels, middle, (1, 3), padding=(0, 1))
         self.photo = nn.Conv2d(channels, middle, 1)
-        self.mix = nn.Sequential(nn.Conv2d(middle, channels, 1, bias=False), nn.BatchNorm2d(channels))
+        self.mix = nn.Sequential(
+            nn.Conv2d(middle, channels, 1, bias=False), nn.BatchNorm2d(channels)
+        )
 
     def forward(self, x: Tensor) -> Tensor:
         rows = self.row(x.mean(3, keepdim=True))
@@ -63,10 +65,14 @@ class Merge(nn.Module):
         super().__init__()
         self.lift = nn.Conv2d(deep, outputs, 1, bias=False)
         self.skip = nn.Conv2d(skip, outputs, 1, bias=False)
-        self.join = nn.Sequential(nn.BatchNorm2d(outputs), nn.ReLU(inplace=True), conv(outputs, outputs))
+        self.join = nn.Sequential(
+            nn.BatchNorm2d(outputs), nn.ReLU(inplace=True), conv(outputs, outputs)
+        )
 
     def forward(self, deep: Tensor, skip: Tensor) -> Tensor:
-        lifted = F.interpolate(self.lift(deep), scale_factor=2.0, mode="bilinear", align_corners=False)
+        lifted = F.interpolate(
+            self.lift(deep), scale_factor=2.0, mode="bilinear", align_corners=False
+        )
         return self.join(lifted + self.skip(skip))
 
 
@@ -75,14 +81,14 @@ class SkyNet(nn.Module):
 
     def __init__(self) -> None:
         super().__init__()
-        self.half = conv(3, 32, 3, 2)
+        self.stem = conv(3, 32, 3, 2)
         self.quarter = nn.Sequential(conv(32, 64, 3, 2), Residual(64, 64))
         self.eighth = nn.Sequential(conv(64, 96, 3, 2), Residual(96, 96))
         self.sixteenth = nn.Sequential(
             conv(96, 160, 3, 2), Residual(160, 80), StripContext(160, 64), Residual(160, 80)
         )
         self.deep = nn.Sequential(
-            conv(160, 224, 3, 2), Residual(224, 96), StripContext(224, 96), Residual(224, 96), StripContext(224, 96)
+            conv(160, 224, 3, 2), Residual(224, 88), StripContext(224, 96), Residual(224, 88)
         )
         self.to_sixteenth = Merge(224, 160, 96)
         self.to_eighth = Merge(96, 96, 64)
@@ -93,7 +99,7 @@ class SkyNet(nn.Module):
 
     def features(self, image: Tensor) -> tuple[Tensor, Tensor]:
         """Logits at full resolution and at 1/8 of it."""
-        half = self.half(image * 4.0 - 2.0)
+        half = self.stem(image * 4.0 - 2.0)
         quarter = self.quarter(half)
         eighth = self.eighth(quarter)
         sixteenth = self.sixteenth(eighth)

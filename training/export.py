@@ -1,0 +1,118 @@
+"""Writes a checkpoint's averaged weights as the ONNX file that the package ships.
+
+``python -m training.export --checkpoint build/sky/last.pt --out sunwidget/analysis/models/sky.onnx``
+
+Contract: ``image`` float32 ``(1, 3, H, W)``, RGB, sRGB-encoded in [0, 1] -> ``sky`` float32 ``(1, 1, H, W)`` in [0, 1].
+Made for 384 x 384; other multiples of 32 work. Weights are stored as float16 and cast when the session is created.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import onnx
+import torch
+from onnx import helper, numpy_helper
+from torch import nn
+from torch.nn.utils.fusion import fuse_conv_bn_eval
+
+from training.model import STRIDE, SkyNet, SkyProbability
+
+SIZE = 384
+LIMIT = 5_000_000
+TOLERANCE = 0.02
+"""Largest difference of any pixel between PyTorch in float32 and the file, whose weights carry 11 bits."""
+
+
+def fold(module: nn.Module) -> None:
+    """Merges every batch normalisation that directly follows a convolution into it, in place."""
+    for child in module.children():
+        fold(child)
+    if isinstance(module, nn.Sequential):
+        for i in range(len(module) - 1):
+            if isinstance(module[i], nn.Conv2d) and isinstance(module[i + 1], nn.BatchNorm2d):
+                module[i], module[i + 1] = (
+                    fuse_conv_bn_eval(module[i], module[i + 1]),
+                    nn.Identity(),
+                )
+
+
+def load(checkpoint: Path) -> SkyNet:
+    """The averaged network of a checkpoint, ready for inference."""
+    network = SkyNet()
+    network.load_state_dict(torch.load(checkpoint, weights_only=True)["average"])
+    return network.eval()
+
+
+def halve(model: onnx.ModelProto) -> None:
+    """Stores large float32 initialisers as float16 followed by a cast, in place."""
+    graph = model.graph
+    casts = []
+    for weight in graph.initializer:
+        if weight.data_type != onnx.TensorProto.FLOAT or np.prod(weight.dims) < 64:
+            continue
+        name, values = weight.name, numpy_helper.to_array(weight)
+        weight.CopyFrom(numpy_helper.from_array(values.astype(np.float16), f"{name}_half"))
+        casts.append(helper.make_node("Cast", [f"{name}_half"], [name], to=onnx.TensorProto.FLOAT))
+    for cast in reversed(casts):
+        graph.node.insert(0, cast)
+
+
+def export(checkpoint: Path, out: Path) -> None:
+    """Exports, compares with PyTorch, and refuses a file that is too large or too different."""
+    import onnxruntime
+
+    network = SkyProbability(load(checkpoint)).eval()
+    image = torch.rand(1, 3, SIZE, SIZE)
+    with torch.no_grad():
+        expected = network(image).numpy()
+        fold(network)
+        height = torch.export.Dim("height", min=2, max=64) * STRIDE
+        width = torch.export.Dim("width", min=2, max=64) * STRIDE
+        with tempfile.TemporaryDirectory() as folder:
+            full = Path(folder) / "full.onnx"
+            torch.onnx.export(
+                network,
+                (image,),
+                full,
+                input_names=["image"],
+                output_names=["sky"],
+                dynamic_shapes={"image": {2: height, 3: width}},
+                dynamo=True,
+                external_data=False,
+            )
+            model = onnx.load(full)
+    halve(model)
+    for node in model.graph.node:  # the exporter notes source lines of this machine
+        del node.metadata_props[:]
+        node.doc_string = ""
+    del model.graph.metadata_props[:]
+    model.doc_string = "Sky probability; see MODEL_CARD.md"
+    onnx.checker.check_model(model, full_check=True)
+    data = model.SerializeToString()
+    session = onnxruntime.InferenceSession(data, providers=["CPUExecutionProvider"])
+    off = float(np.abs(session.run(None, {"image": image.numpy()})[0] - expected).max())
+    if len(data) > LIMIT or off > TOLERANCE:
+        raise SystemExit(
+            f"{len(data)} bytes (limit {LIMIT}), off by {off:.4f} (limit {TOLERANCE}): not written"
+        )
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_bytes(data)
+    print(f"{out}: {len(data) / 1e6:.2f} MB, differs from PyTorch by at most {off:.5f}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--checkpoint", type=Path, default=Path("build/sky/last.pt"))
+    parser.add_argument("--out", type=Path, default=Path("sunwidget/analysis/models/sky.onnx"))
+    options = parser.parse_args()
+    export(options.checkpoint, options.out)
+
+
+if __name__ == "__main__":
+    main()
