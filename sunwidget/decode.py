@@ -338,13 +338,15 @@ def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
         if deep.min() < 0 or deep.max() > 65535:
             raise PhotoError(f"{name} has 32-bit whole numbers. Save it with 16 bits a channel.")
         _fill_from_array(result, deep.astype(np.uint16), name)
+    elif mode == "1":
+        _fill_from_array(result, np.asarray(image.convert("L")), name)
     elif mode in ("RGB", "RGBA", "L", "LA"):
         if "transparency" in image.info:
             image = image.convert("LA" if mode == "L" else "RGBA")
         _fill_from_array(result, np.asarray(image), name)
     elif mode == "CMYK":
         _fill_from_array(result, np.asarray(_separate_cmyk(result, image, name)), name)
-    else:  # palettes, bilevel, YCbCr, Lab, premultiplied alpha
+    else:  # palettes, YCbCr, Lab, premultiplied alpha
         has_alpha = "transparency" in image.info or mode in ("PA", "RGBa", "La")
         try:
             converted = image.convert("RGBA" if has_alpha else "RGB")

@@ -235,7 +235,7 @@ def open_photo(source: Any) -> Photo:
 
 def _photo(decoded: Decoded, name: str) -> Photo:
     return Photo(
-        encoded=decoded.codes if decoded.codes.flags.owndata else decoded.codes.copy(),
+        encoded=decoded.codes,
         name=name,
         format=decoded.format,
         profile=decoded.profile,
@@ -308,7 +308,7 @@ def _from_array(source: Any) -> Decoded:
         raise PhotoError(f"This array cannot be read: {error}.") from error
     if array.ndim >= 2:
         check_size(array.shape[1], array.shape[0], "The array")
-    kind = array.dtype
+    kind = array.dtype  # both ways below copy: a Photo shares no memory with its source
     if kind not in (np.uint8, np.uint16) and kind.kind != "f":
         raise PhotoError(
             f"The array has the type {kind}; expected uint8 or uint16 (sRGB), or float "

@@ -168,6 +168,8 @@ def png_file(samples, depth=8, color_type=2, chunks=(), size=None):
         rows = [b"\0" + row.astype(">u2").tobytes() for row in samples]
     elif depth == 8:
         rows = [b"\0" + row.astype(np.uint8).tobytes() for row in samples]
+    elif depth == 1:
+        rows = [b"\0" + row.tobytes() for row in np.packbits(samples.astype(bool), axis=1)]
     else:
         weights = (2**depth) ** np.arange(8 // depth)[::-1].astype(np.int64)
         pad = -width % (8 // depth)

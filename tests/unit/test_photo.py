@@ -281,7 +281,6 @@ def test_the_preview_averages_light_not_code_values():
 def test_the_preview_is_the_same_however_it_is_cut_into_strips(monkeypatch):
     photo = open_photo(corpus.ramp(301, 203))
     whole = photo.preview(97)
-    monkeypatch.setattr("sunwidget.color._STRIP_PIXELS", 203 * 17)
     monkeypatch.setattr("sunwidget.color.strips.__defaults__", (203 * 17,))
     assert np.array_equal(photo.preview(97), whole)
 
