@@ -110,7 +110,8 @@ def _sky_network() -> Iterator[Finding]:
 
     model = files("sunwidget").joinpath("analysis", "models", "sky.onnx").read_bytes()
     session = onnxruntime.InferenceSession(model, providers=["CPUExecutionProvider"])
-    shape = "×".join(str(n) for n in session.get_inputs()[0].shape)
+    sides = session.get_inputs()[0].shape
+    shape = "×".join(str(n) if isinstance(n, int) else "any" for n in sides)
     detail = f"{len(model) / 1e6:.1f} MB, input {shape}, onnxruntime {onnxruntime.__version__}"
     yield Finding("sky network", True, True, detail)
 
