@@ -10,6 +10,7 @@ import dataclasses
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -137,7 +138,7 @@ class Scene:
         """Values of the frame graph's scene uniforms: floats and tuples of floats."""
         return self._uniforms
 
-    @property
+    @cached_property
     def _uniforms(self) -> dict[str, Any]:
         small = self.working
         sky = resize(self.sky, small.width, small.height)
