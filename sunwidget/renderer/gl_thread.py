@@ -20,7 +20,7 @@ T = TypeVar("T")
 
 _EGL_HELP = (
     "sunwidget renders exports with OpenGL through EGL, and no EGL context could be made: {why}\n"
-    "On Debian or Ubuntu: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri libgles2\n"
+    "On Debian or Ubuntu: apt-get install libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri\n"
     "`sunwidget doctor` shows what was found."
 )
 
