@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-_EGL_PACKAGES = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri libgles2"
+_EGL_PACKAGES = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
 
 
 class Finding(NamedTuple):
