@@ -101,16 +101,39 @@ def dump(
             if recipe is not None:
                 values[_USER_COMMENT] = b"ASCII\0\0\0" + json.dumps(recipe).encode("ascii")
         if values:
-            kept.get_ifd(ifd).update(values)
-            kept[ifd] = kept.get_ifd(ifd)
+            kept[ifd] = values
     if not dict(kept):
         return None
+    block = _serialised(kept)
+    if block is not None:
+        return block
+    # One value that Pillow reads but cannot write must not cost the others.
+    for tag in list(kept):
+        if tag in (_EXIF_IFD, _GPS_IFD):
+            kept[tag] = {k: v for k, v in kept[tag].items() if _writable(tag, k, v)}
+        elif not _writable(None, tag, kept[tag]):
+            del kept[tag]
+    return _serialised(kept)
+
+
+def _serialised(exif: Any) -> bytes | None:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            return kept.tobytes()
-    except Exception:  # noqa: BLE001 - a private tag that Pillow reads but cannot write
+            return exif.tobytes()
+    except Exception:  # noqa: BLE001 - a private tag fails anywhere inside Pillow's writer
         return None
+
+
+def _writable(ifd: int | None, tag: int, value: Any) -> bool:
+    from PIL import Image
+
+    alone = Image.Exif()
+    if ifd is None:
+        alone[tag] = value
+    else:
+        alone[ifd] = {tag: value}
+    return _serialised(alone) is not None
 
 
 def recipe(exif: Any) -> dict[str, Any] | None:

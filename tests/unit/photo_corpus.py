@@ -72,11 +72,7 @@ def table_profile(space, labs):
     """A profile that is a look-up table: one Lab value for each corner of the device cube."""
     channels = {b"RGB ": 3, b"CMYK": 4}[space]
     assert len(labs) == 2**channels
-    grid = bytes(
-        round(value)
-        for L, a, b in labs
-        for value in (L * 2.55, a + 128, b + 128)
-    )
+    grid = bytes(round(value) for L, a, b in labs for value in (L * 2.55, a + 128, b + 128))
     straight = bytes(range(256))
     lut = b"mft1" + bytes(4) + bytes((channels, 3, 2, 0))
     lut += struct.pack(">9i", *(65536 if i % 4 == 0 else 0 for i in range(9)))

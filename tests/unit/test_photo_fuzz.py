@@ -1,0 +1,78 @@
+"""Whatever bytes come in, a Photo or a PhotoError comes out."""
+
+import warnings
+
+import numpy as np
+import photo_corpus as corpus
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from sunwidget.photo import PhotoError, PhotoWarning, open_photo
+
+BASE = corpus.ramp(16, 16)
+SEEDS = {
+    "jpeg": corpus.jpeg_file(
+        BASE,
+        exif=corpus.exif_block({0x010F: "Maker"}, {0xA405: 28}, {1: "N", 2: (1.0, 2.0, 3.0)}, 6),
+        icc_profile=corpus.DISPLAY_P3,
+    ),
+    "png": corpus.png_file(BASE, chunks=[corpus.icc_chunk(corpus.ADOBE_RGB)]),
+    "png16": corpus.png16_file(corpus.ramp16(16, 16)),
+    "tiff": corpus.pillow_file(BASE, "TIFF", compression="tiff_lzw"),
+    "tiff16": corpus.tiff_file(corpus.ramp16(16, 16)),
+    "tiff_float": corpus.tiff_file((BASE / 255).astype(np.float32), photometric="rgb"),
+    "webp": corpus.pillow_file(BASE, "WEBP", lossless=True),
+    "gif": corpus.pillow_file(BASE, "GIF"),
+    "bmp": corpus.pillow_file(BASE, "BMP"),
+}
+# No deadline: the machine that runs this may be busy.
+relaxed = settings(
+    deadline=None, max_examples=120, suppress_health_check=[HealthCheck.too_slow], derandomize=True
+)
+
+
+def opens_or_says_why(data):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # a library's own warning must not leak either
+        warnings.simplefilter("ignore", PhotoWarning)
+        try:
+            photo = open_photo(data)
+        except PhotoError:
+            return
+        assert photo.encoded.ndim == 3
+        assert photo.size[0] * photo.size[1] <= 200_000_000
+        if photo.size[0] * photo.size[1] < 1_000_000:
+            assert photo.preview(8).dtype == np.uint8
+
+
+@given(st.binary(max_size=400))
+@relaxed
+def test_random_bytes(data):
+    opens_or_says_why(data)
+
+
+@given(st.sampled_from([b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n", b"II*\0", b"MM\0*", b"GIF89a"]))
+@relaxed
+def test_a_magic_number_alone(head):
+    opens_or_says_why(head)
+
+
+@pytest.mark.parametrize("kind", SEEDS)
+@given(data=st.data())
+@relaxed
+def test_mutated_files(kind, data):
+    seed = bytearray(SEEDS[kind])
+    # Headers are where the offsets and sizes are: mutate them more often than the rest.
+    reach = data.draw(st.sampled_from([64, 256, len(seed)]))
+    for _ in range(data.draw(st.integers(1, 6))):
+        where = data.draw(st.integers(0, min(reach, len(seed)) - 1))
+        seed[where] = data.draw(st.sampled_from([0, 1, 2, 0x7F, 0x80, 0xFE, 0xFF, 42]))
+    opens_or_says_why(bytes(seed))
+
+
+@pytest.mark.parametrize("kind", SEEDS)
+def test_files_cut_at_every_length(kind):
+    seed = SEEDS[kind]
+    for length in range(0, len(seed), max(1, len(seed) // 100)):
+        opens_or_says_why(seed[:length])
