@@ -4,6 +4,7 @@
 // Below the horizon: the ground under air light.
 
 #include "lib/sky.glsl"
+#include "lib/multiple.glsl"
 
 uniform float sun_azimuth;    // degrees from the camera's heading, + right
 uniform float sun_elevation;  // degrees, apparent
@@ -14,7 +15,9 @@ uniform sampler2D columns;
 uniform sampler2D multiple_scattering;
 out vec4 result;
 
-const int STEPS = 32;
+// The light field is smooth: one look-up serves a group of steps.
+const int GROUPS = 8;
+const int GROUP_STEPS = 4;
 
 Length GetCameraHeight() {
   // One metre keeps the horizon below the eye; grazing rays would else start in the ground.
@@ -31,13 +34,11 @@ SkyView DescribeSky() {
                  asin(GetCosineOfHorizon(h)));
 }
 
-// What a Lambertian ground sends up at the point where the sun has cosine mu_s. The sky's share
-// of its light follows from the mean radiance around it, which multiple_scattering knows.
+// What a Lambertian ground sends up at the point where the sun has cosine mu_s.
 RadianceSpectrum GetGroundRadiance(Number mu_s) {
   vec4 sun = max(mu_s, 0.0) * GetTransmittanceToSun(columns, 0.0, mu_s);
-  vec4 mean = FetchBilinear(multiple_scattering, GetMultipleScatteringCoordinate(1.0, mu_s));
-  vec4 sky = max(2.0 * PI * mean - ground_albedo * sun, 0.0) / (1.0 + ground_albedo);
-  return ground_albedo / PI * (sun + sky);
+  LightField field = GetLightField(multiple_scattering, 0.0, mu_s);
+  return ground_albedo / PI * (sun + GetFieldIrradiance(field));
 }
 
 RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu) {
@@ -49,25 +50,38 @@ RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu)
   float rayleigh_phase = RayleighPhase(nu);
   float mie_phase = MiePhase(aerosol_asymmetry, nu);
 
+  vec2 mie_moments = GetMieMoments(aerosol_asymmetry);
   vec4 transmittance = vec4(1.0);
   vec4 radiance = vec4(0.0);
-  for (int i = 0; i < STEPS; ++i) {
-    float u = (float(i) + 0.5) / float(STEPS);
-    float t = d * u * u;
-    float dt = 2.0 * d * u / float(STEPS);
-    float h_t = GetAltitudeAlongRay(h, mu, t);
-    float mu_s_t = clamp((r * mu_s + t * nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
-    vec3 density = GetDensity(h_t);
-    vec4 rayleigh = RAYLEIGH_SCATTERING * density.x;
-    vec4 mie = mie_extinction * density.y;
-    vec4 extinction = rayleigh + mie + ozone_absorption * density.z;
-    mie *= aerosol_albedo;
-    vec4 once = GetTransmittanceToSun(columns, h_t, mu_s_t)
-        * (rayleigh * rayleigh_phase + mie * mie_phase);
-    vec4 more = (rayleigh + mie)
-        * FetchBilinear(multiple_scattering, GetMultipleScatteringCoordinate(h_t, mu_s_t));
-    radiance += transmittance * (once + more) * IntegrateTransmittance(extinction, dt);
-    transmittance *= exp(-extinction * dt);
+  for (int group = 0; group < GROUPS; ++group) {
+    float u_group = (float(group) + 0.5) / float(GROUPS);
+    float t_group = d * u_group * u_group;
+    float h_group = GetAltitudeAlongRay(h, mu, t_group);
+    float r_group = GROUND_RADIUS + h_group;
+    float mu_s_group = clamp((r * mu_s + t_group * nu) / r_group, -1.0, 1.0);
+    float mu_group = clamp((r * mu + t_group) / r_group, -1.0, 1.0);
+    LightField field = GetLightField(multiple_scattering, h_group, mu_s_group);
+    vec2 view = GetDirectionInField(mu_group, mu_s_group, nu);
+    vec4 through_air = GetFieldThroughAir(field, view);
+    vec4 through_haze = GetFieldThroughHaze(field, view, mie_moments);
+    for (int i = 0; i < GROUP_STEPS; ++i) {
+      float steps = float(GROUPS * GROUP_STEPS);
+      float u = (float(group * GROUP_STEPS + i) + 0.5) / steps;
+      float t = d * u * u;
+      float dt = 2.0 * d * u / steps;
+      float h_t = GetAltitudeAlongRay(h, mu, t);
+      float mu_s_t = clamp((r * mu_s + t * nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
+      vec3 density = GetDensity(h_t);
+      vec4 rayleigh = RAYLEIGH_SCATTERING * density.x;
+      vec4 mie = mie_extinction * density.y;
+      vec4 extinction = rayleigh + mie + ozone_absorption * density.z;
+      mie *= aerosol_albedo;
+      vec4 sun = GetTransmittanceToSun(columns, h_t, mu_s_t);
+      vec4 source = rayleigh * (sun * rayleigh_phase + through_air)
+          + mie * (sun * mie_phase + through_haze);
+      radiance += transmittance * source * IntegrateTransmittance(extinction, dt);
+      transmittance *= exp(-extinction * dt);
+    }
   }
   if (ground) {
     float mu_s_ground = clamp((r * mu_s + d * nu) / GROUND_RADIUS, -1.0, 1.0);

@@ -134,22 +134,6 @@ DimensionlessSpectrum GetTransmittanceToSun(sampler2D columns, Length h, Number 
       * smoothstep(-SUN_ANGULAR_RADIUS, SUN_ANGULAR_RADIUS, above);
 }
 
-// ---- Multiple scattering --------------------------------------------------------------------
-// x: mu_s on a signed square-root scale (dense at the terminator; below -0.4 it is night),
-// y: square root of the altitude.
-
-const float NIGHT_COSINE = -0.4;
-
-vec2 GetMultipleScatteringCoordinate(Length h, Number mu_s) {
-  float root = mu_s < 0.0 ? -sqrt(min(mu_s / NIGHT_COSINE, 1.0)) : sqrt(mu_s);
-  return vec2(0.5 + 0.5 * root, sqrt(h / ATMOSPHERE_HEIGHT));
-}
-
-Number GetSunCosineOfMultipleScattering(Number x) {
-  float root = 2.0 * x - 1.0;
-  return root * root * (root < 0.0 ? NIGHT_COSINE : 1.0);
-}
-
 // ---- Integration along a ray ----------------------------------------------------------------
 
 // Integral of exp(-extinction t) over t from 0 to dt; series where 1 - exp() would cancel.

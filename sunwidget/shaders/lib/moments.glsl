@@ -1,0 +1,25 @@
+// Moments of a radiance that was drawn for the quadrature of lib/multiple.glsl.
+
+#include "lib/multiple.glsl"
+
+Number GetMomentWeight(int moment, vec2 direction) {
+  return moment == 0 ? 1.0
+      : moment == 1 ? direction.x
+      : moment == 2 ? direction.y
+      : moment == 3 ? direction.x * direction.x - 1.0 / 3.0
+      : moment == 4 ? direction.y * direction.y - 1.0 / 3.0
+      : direction.x * direction.y;
+}
+
+// `cell`: sun and altitude within a tile of `size`.
+vec4 GetMoment(sampler2D radiance, int azimuths, int moment, ivec2 cell, ivec2 size) {
+  vec4 sum = vec4(0.0);
+  for (int j = 0; j < ZENITHS; ++j) {
+    for (int k = 0; k < azimuths; ++k) {
+      float weight = GetMomentWeight(moment, GetFieldDirection(j, k, azimuths));
+      sum += 0.5 * WEIGHTS[j % 4] / float(azimuths) * weight
+          * texelFetch(radiance, ivec2(k, j) * size + cell, 0);
+    }
+  }
+  return sum;
+}

@@ -1,0 +1,56 @@
+// Radiance of twice-scattered sunlight, laid out as first_order with half the azimuths: what is
+// left after two scatterings is smooth.
+
+#include "lib/multiple.glsl"
+
+uniform vec2 pass_size;
+uniform vec2 tile_origin;
+uniform sampler2D first_field;
+out vec4 result;
+
+const int STEPS = 12;
+
+void main() {
+  ivec2 texel = ivec2(gl_FragCoord.xy + tile_origin);
+  ivec2 size = ivec2(pass_size) / ivec2(SECOND_AZIMUTHS, ZENITHS);
+  ivec2 tile = texel / size;
+  vec2 place = vec2(texel - tile * size) / vec2(size - 1);
+  float mu_s = GetSunCosineOfField(place.x);
+  float h = GetAltitudeOfField(place.y);
+  vec2 direction = GetFieldDirection(tile.y, tile.x, SECOND_AZIMUTHS);
+  float mu = direction.y;
+  float nu = mu * mu_s + direction.x * sqrt(1.0 - mu_s * mu_s);
+
+  vec4 mie_extinction = GetMieExtinction();
+  vec4 ozone_absorption = GetOzoneAbsorption();
+  vec2 mie_moments = GetMieMoments(aerosol_asymmetry);
+  float r = GROUND_RADIUS + h;
+  bool ground = RayIntersectsGround(h, mu);
+  float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
+  vec4 transmittance = vec4(1.0);
+  vec4 radiance = vec4(0.0);
+  for (int i = 0; i < STEPS; ++i) {
+    float u = (float(i) + 0.5) / float(STEPS);
+    float t = d * u * u;
+    float dt = 2.0 * d * u / float(STEPS);
+    float h_t = GetAltitudeAlongRay(h, mu, t);
+    float r_t = GROUND_RADIUS + h_t;
+    float mu_s_t = clamp((r * mu_s + t * nu) / r_t, -1.0, 1.0);
+    vec2 view = GetDirectionInField(clamp((r * mu + t) / r_t, -1.0, 1.0), mu_s_t, nu);
+    vec3 density = GetDensity(h_t);
+    vec4 rayleigh = RAYLEIGH_SCATTERING * density.x;
+    vec4 mie = mie_extinction * density.y;
+    vec4 extinction = rayleigh + mie + ozone_absorption * density.z;
+    LightField field = GetLightField(first_field, h_t, mu_s_t);
+    vec4 source = rayleigh * GetFieldThroughAir(field, view)
+        + aerosol_albedo * mie * GetFieldThroughHaze(field, view, mie_moments);
+    radiance += transmittance * source * IntegrateTransmittance(extinction, dt);
+    transmittance *= exp(-extinction * dt);
+  }
+  if (ground) {
+    float mu_s_ground = clamp((r * mu_s + d * nu) / GROUND_RADIUS, -1.0, 1.0);
+    radiance += transmittance * ground_albedo / PI
+        * GetFieldIrradiance(GetLightField(first_field, 0.0, mu_s_ground));
+  }
+  result = radiance;
+}
