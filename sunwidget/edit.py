@@ -146,7 +146,7 @@ class Edit:
         "Forward scattering in thin cloud edges near the sun.")
     land_strength: float = _number(1.0, (0, 1), 0.01, "", "Land", "land",
         "How far the land follows the moved sun; 0 is exactly off.")
-    land_facing: float = _number(0.5, (0, 1), 0.01, "", "Upright surfaces", "land",
+    land_facing: float = _number(0.15, (0, 1), 0.01, "", "Upright surfaces", "land",
         "Share of the land's surfaces that face the camera; the rest faces the zenith.")
     colourfulness: float = _number(0.5, (0, 1), 0.01, "", "Colour loss in shade", "land",
         "How much colour the land loses when the sun's disc is hidden (thesis eq. 3.8).")

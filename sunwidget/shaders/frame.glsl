@@ -5,6 +5,7 @@
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
 #include "lib/sky.glsl"
+#include "lib/matched_sky.glsl"
 #include "lib/daylight.glsl"
 #include "lib/output.glsl"
 
@@ -15,13 +16,14 @@ uniform sampler2D surface;
 uniform sampler2D backdrop;
 uniform sampler2D sky_source;
 uniform sampler2D sky_edit;
+uniform sampler2D sky_view_source;
+uniform sampler2D sky_view_edit;
 uniform sampler2D light_source;
 uniform sampler2D light_edit;
 uniform sampler2D visibility_source;
 uniform sampler2D visibility_edit;
 uniform sampler2D meter_source;
 uniform sampler2D meter_edit;
-uniform vec3 sky_gain;
 
 uniform float sun_azimuth;
 uniform float sun_elevation;
@@ -49,10 +51,10 @@ float GetForwardLobe(float cosine) {
   return (1.0 - g * g) / pow(1.0 + g * g - 2.0 * g * cosine, 1.5);
 }
 
-vec3 GetCloud(sampler2D light, sampler2D visibility, vec3 sun, vec3 view, float opacity) {
+// Clouds see the sun past the hills that hide it from the camera.
+vec3 GetCloud(sampler2D light, vec3 sun, vec3 view, float opacity) {
   float forward = silver_lining * GetForwardLobe(dot(sun, view)) * (1.0 - opacity);
-  // Clouds see the sun past the hills that hide it from the camera.
-  return sky_gain * GetCloudRadiance(light, 1.0, 0.25 * forward);
+  return sky_gain * GetCloudRadiance(light, 0.25 * forward);
 }
 
 void main() {
@@ -79,8 +81,8 @@ void main() {
   vec3 clean = sky_before * exp(4.0 * ReadBilinear(backdrop, place).rgb - 2.0);
   vec3 sky = scene + glare * moved * (clean - scene);
   float opacity = layer.g;
-  vec3 veil_before = (1.0 - opacity) * sky_before + opacity * GetCloud(light_source, visibility_source, sun_before, view, opacity);
-  vec3 veil_now = (1.0 - opacity) * sky_now + opacity * GetCloud(light_edit, visibility_edit, sun_now, view, opacity);
+  vec3 veil_before = (1.0 - opacity) * sky_before + opacity * GetCloud(light_source, sun_before, view, opacity);
+  vec3 veil_now = (1.0 - opacity) * sky_now + opacity * GetCloud(light_edit, sun_now, view, opacity);
   vec3 plain = GetRatio(sky_now, sky_before);
   vec3 veiled = GetRatio(veil_now, veil_before);
   vec3 ratio = plain + cloud_strength * (veiled - plain);
@@ -96,11 +98,32 @@ void main() {
   float clear = (1.0 - opacity) * (1.0 - opacity);
   sky_out += moved * sky_strength * clear * gain * sky_gain * max(SpectralToRec709(disc), vec3(0.0));
 
-  // Land: ratio of irradiances, with the visible share of the disc.
+  // Land: ratio of irradiances, with the visible share of the disc. What rises above the
+  // horizon stands upright.
   float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;
   float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
-  vec3 land_ratio = GetRatio(GetLandIrradiance(light_edit, visible_now, land_facing, sun_now),
-                             GetLandIrradiance(light_source, visible_before, source_land_facing, sun_before));
+  float upright = smoothstep(-0.005, 0.02, view.y);
+  float facing_before = mix(source_land_facing, 1.0, upright * 0.8);
+  float facing_now = mix(land_facing, 1.0, upright * 0.8);
+  vec3 irradiance_before = GetLandIrradiance(light_source, visible_before, facing_before, sun_before);
+  vec3 irradiance_now = GetLandIrradiance(light_edit, visible_now, facing_now, sun_now);
+  vec3 land_ratio = GetRatio(irradiance_now, irradiance_before);
+  // What exceeds white paint in this light is a mirror image of the sky and the sun (water, wet
+  // road, glass): that part follows what it mirrors, the rest is lit as land.
+  float white = GetLuminance(sky_gain * irradiance_before) / 3.14159265;
+  float mirror = 1.0 - min(white / max(GetLuminance(scene), 1e-6), 1.0);
+  mirror = max(mirror, ReadPicture(surface, place).g);
+  if (mirror > 0.0) {
+    // Waves tilt: what they mirror lies somewhat above the exact reflection.
+    vec3 up = normalize(vec3(view.x, abs(view.y) + 0.1, view.z));
+    vec3 glint_before = sky_gain * visible_before * GetLightTexel(light_source, 1);
+    vec3 glint_now = sky_gain * visible_now * GetLightTexel(light_edit, 1);
+    vec3 mirrored = GetRatio(
+        GetMirrorRadiance(GetMatchedSky(sky_view_edit, up), glint_now, sun_now, view),
+        GetMirrorRadiance(GetMatchedSky(sky_view_source, up), glint_before, sun_before, view));
+    // A clipped glint does not say how bright it was: let it fade freely, but hardly grow.
+    land_ratio += mirror * (min(mirrored, vec3(2.0)) - land_ratio);
+  }
   vec3 land = scene * land_ratio;
   float hidden = clamp(visible_before - visible_now, 0.0, 1.0) * colourfulness;
   land += hidden * (vec3(GetLuminance(land)) - land) * 0.5;

@@ -1,10 +1,10 @@
-// The light at the camera, eight texels:
+// The light at the camera, nine texels:
 //   0  sky's irradiance on a horizontal surface            4  ... on one that faces left
 //   1  sun's irradiance at normal incidence, times the     5  ... on one that faces away
 //      visible share of its disc                           6  mean radiance of the sky ahead
 //   2  sky's irradiance on an upright surface that faces   7  sun's irradiance at normal
 //      the camera                                             incidence, as if fully risen
-//   3  ... on one that faces right
+//   3  ... on one that faces right                        8  as 1, at the height of clouds
 // in W m^-2 nm^-1 (6: W m^-2 sr^-1 nm^-1). Upright surfaces see the sky above the horizon only,
 // not the ground. "Ahead" weighs each direction by its cosine to the heading.
 
@@ -18,6 +18,8 @@ out vec4 result;
 
 // Every second row and every fourth column: trapezoids over the sky view's own samples.
 const int COLUMN_STRIDE = 4;
+// Clouds stand in the sun after the land has lost it: 1.6 degrees longer at this height.
+const Length CLOUD_HEIGHT = 2500.0;
 
 // Share of the light from `direction` that counts in texel `index`.
 Number GetWeight(int index, vec3 direction) {
@@ -71,6 +73,10 @@ void main() {
   float h = clamp(altitude, 1.0, 0.99 * ATMOSPHERE_HEIGHT);
   float above = asin(clamp(sun.y, -1.0, 1.0)) - asin(GetCosineOfHorizon(h));
   vec4 risen = SOLAR_IRRADIANCE * GetTransmittanceToTop(columns, h, sun.y);
+  if (index == 8) {
+    result = SOLAR_IRRADIANCE * GetTransmittanceToSun(columns, min(h + CLOUD_HEIGHT, 0.99 * ATMOSPHERE_HEIGHT), sun.y);
+    return;
+  }
   vec4 sky = IntegrateSky(index);
   result = index == 1 ? risen * GetVisibleFractionOfDisc(above) : index == 7 ? risen : sky;
 }

@@ -7,15 +7,38 @@ vec3 GetLightTexel(sampler2D light, int index) {
 
 // Irradiance of a landscape seen from the camera: `facing` of its surfaces stand upright and
 // face the viewer, the rest lie flat. `visible` is the share of the disc that is not hidden.
+// Ground is rough: grains, blades and waves catch a low sun that a plane would lose, so the
+// cosine runs out softly (half of kRoughness at grazing light) instead of at zero.
+const float kRoughness = 0.35;
+
+float GetRoughCosine(float cosine) {
+  return 0.5 * (cosine + sqrt(cosine * cosine + kRoughness * kRoughness));
+}
+
 vec3 GetLandIrradiance(sampler2D light, float visible, float facing, vec3 sun_direction) {
   vec3 sky = mix(GetLightTexel(light, 0), GetLightTexel(light, 2), facing);
-  float cosine = mix(max(sun_direction.y, 0.0), max(-sun_direction.z, 0.0), facing);
+  float cosine = mix(GetRoughCosine(sun_direction.y), GetRoughCosine(-sun_direction.z), facing);
   return sky + visible * cosine * GetLightTexel(light, 1);
 }
 
-// Radiance of a white cloud: it sees the sky above and around, and the sun from any side.
-// `forward` adds the forward lobe of thin cloud (silver lining).
-vec3 GetCloudRadiance(sampler2D light, float visible, float forward) {
+// Radiance of a white cloud: it sees the sky above and around, and the sun of its own height
+// from any side. `forward` adds the forward lobe of thin cloud (silver lining).
+vec3 GetCloudRadiance(sampler2D light, float forward) {
   vec3 sky = 0.5 * (GetLightTexel(light, 0) + GetLightTexel(light, 2));
-  return (sky + visible * 0.5 * (1.0 + forward) * GetLightTexel(light, 1)) / 3.14159265;
+  return (sky + 0.5 * (1.0 + forward) * GetLightTexel(light, 8)) / 3.14159265;
+}
+
+// Radiance that a rough mirror lying flat (water, wet road) sends towards `view`: the sky above,
+// and the sun's glint by Cox & Munk 1954, whose slopes are normal with variance kSlopeVariance.
+// Fresnel's share is left out: it cancels in a ratio.
+const float kSlopeVariance = 0.03;
+
+vec3 GetMirrorRadiance(vec3 mirrored_sky, vec3 sun_light, vec3 sun, vec3 view) {
+  vec3 facet = sun - view;  // halfway between the sun and the viewer, not normalised
+  float rise = max(facet.y, 1e-3);
+  float slope = dot(facet.xz, facet.xz) / (rise * rise);
+  float steepness = rise / max(length(facet), 1e-3);
+  float density = exp(-slope / (2.0 * kSlopeVariance)) / (6.2831853 * kSlopeVariance);
+  float spread = 4.0 * max(-view.y, 0.03) * steepness * steepness * steepness * steepness;
+  return mirrored_sky + sun_light * density / max(spread, 1e-3);
 }
