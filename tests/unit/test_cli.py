@@ -173,6 +173,18 @@ def test_sweep_writes_a_film(photo, tmp_path):
         assert frames.size == (240, 160)
 
 
+def test_demo_writes_what_it_names(tmp_path, monkeypatch, capsys):
+    import sunwidget.demo
+
+    monkeypatch.setattr(sunwidget.demo, "FILM_SIZE", (96, 64))
+    assert main(["demo", "-o", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    for name in ("maps", "still.png", "recipe.json", "sunset.mp4"):
+        assert (tmp_path / name).exists()
+        assert f"{tmp_path / name}  " in said
+    assert np.asarray(Image.open(tmp_path / "still.png")).shape == (1024, 1536, 3)
+
+
 def test_doctor_finds_everything_essential(capsys):
     assert main(["doctor"]) == 0
     said = capsys.readouterr().out
