@@ -238,12 +238,15 @@ def test_damaged_exif_costs_no_picture():
 
 def test_one_value_that_cannot_be_written_costs_no_other():
     read = exif.load(corpus.exif_block({0x010F: "Maker"}, {0xA405: 28, 0x927C: b"secret"}))
-    read.get_ifd(0x8769)[0x829A] = float("nan")
+    read.get_ifd(0x8825).update({2: (float("nan"),) * 3, 17: 10.0})
+    read[0x8825] = read.get_ifd(0x8825)
+    with pytest.raises(ValueError, match="NaN"):
+        read.tobytes()
     again = exif.load(exif.dump(read))
     assert again[0x010F] == "Maker"
     assert again.get_ifd(0x8769)[0xA405] == 28
     assert again.get_ifd(0x8769)[0x927C] == b"secret"
-    assert 0x829A not in again.get_ifd(0x8769)
+    assert dict(again.get_ifd(0x8825)) == {17: 10.0}
 
 
 def test_a_recipe_survives_in_the_comment():
