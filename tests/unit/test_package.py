@@ -34,6 +34,18 @@ def test_the_version_is_the_one_that_is_installed(root):
     assert f"version: {sunwidget.__version__}\n" in (root / "CITATION.cff").read_text("utf-8")
 
 
+def test_the_parameter_page_is_what_the_table_says(root):
+    done = subprocess.run(
+        [sys.executable, "-c", "import parameter_page; print(parameter_page.page(), end='')"],
+        cwd=root / "scripts",
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    page = (root / "docs" / "parameters.md").read_text("utf-8")
+    assert page == done.stdout, "run: python scripts/parameter_page.py"
+
+
 def fresh(code):
     """Run ``code`` in a new interpreter and return what it printed."""
     done = subprocess.run(
