@@ -12,7 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sunwidget.analysis.working import LUMINANCE, resize
+from sunwidget.analysis.fit import SkyFit, view_angles, with_glare
+from sunwidget.analysis.working import LUMINANCE, Working, resize
+from sunwidget.camera import Camera
 
 RANGE = 2.0
 """The stored field spans ±2 in natural logarithm: a seventh to seven times the model."""
@@ -34,45 +36,65 @@ class Backdrop:
     glare: np.ndarray
 
 
-def backdrop(
-    scene_light: np.ndarray,
-    display: np.ndarray,
-    model: np.ndarray,
-    sky: np.ndarray,
-    angle_to_sun: np.ndarray | None,
-) -> Backdrop:
-    """Fill the log residual across clipped pixels and the old sun's halo.
+LONG_SIDE = 256
+
+
+def behind_sun(
+    working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit, *, visible: bool
+) -> tuple[SkyFit, Backdrop]:
+    """Measure the camera's glare and fill the log residual across the old sun.
 
     Parameters
     ----------
-    scene_light : (h, w, 3) float32
-        The photo through the inverse camera response.
-    display : (h, w, 3) float32
-        The photo in linear Rec. 709, where clipping shows.
-    model : (h, w, 3) float32
-        The fitted sky without disc at the photo's own sun, in the unit of ``scene_light``.
+    working : Working
+        The small photo.
     sky : (h, w) float32
-        Sky matte.
-    angle_to_sun : (h, w) float32 or None
-        Degrees between each pixel and the sun; ``None`` when the photo does not show it.
+        Sky matte at its size.
+    camera : Camera
+    fit : SkyFit
+        Model and response, fitted at the photo's own sun.
+    visible : bool
+        Whether the photo shows the sun: otherwise there is no glare to take away.
 
     Returns
     -------
-    Backdrop
-        At the size of the inputs.
+    SkyFit, Backdrop
+        The fit with its glare profile; the field at no more than ``LONG_SIDE`` pixels.
     """
-    log_residual = np.log(np.maximum(scene_light, 1e-4) / np.maximum(model, 1e-6))
-    log_residual = np.clip(log_residual, -RANGE, RANGE).astype(np.float32)
+    scale = min(1.0, LONG_SIDE / max(working.width, working.height))
+    size = (max(1, round(working.width * scale)), max(1, round(working.height * scale)))
+    display = np.asarray(resize(working.linear, *size), np.float32)
+    matte = np.asarray(resize(sky, *size), np.float32)
+    azimuth, elevation = view_angles(camera, *size)
+    scene_light = fit.response.scene_light(display)
+    model = fit.model(azimuth, np.maximum(elevation, 0.2))
+    angle = _angle_between(azimuth, elevation, fit.sun)
     clipped = _smoothstep(0.90, 0.97, display.max(-1))
-    if angle_to_sun is None:
-        glare = np.zeros(sky.shape, np.float32)
-    else:
-        glare = _glare(log_residual @ LUMINANCE, clipped, sky, angle_to_sun)
-    weight = (sky > 0.98) * (1 - clipped) * np.square(1 - glare)
+    if visible:
+        residual = _log_residual(scene_light, model) @ LUMINANCE
+        fit = with_glare(fit, residual, angle, (matte > 0.95) & (clipped < 0.3))
+        a, b, c = fit.glare
+        model = model * (1 + a * (1 + (angle / b) ** 2) ** -c)[..., None]
+    log_residual = _log_residual(scene_light, model)
+    glare = _glare(log_residual @ LUMINANCE, clipped, matte, angle) if visible else 0 * matte
+    weight = (matte > 0.98) * (1 - clipped) * np.square(1 - glare)
     filled = fill_by_pyramid(log_residual, weight.astype(np.float32))
-    # Outside the glare the field is only a fallback for extreme ratios: its slow part serves.
     encoded = (filled + RANGE) / (2 * RANGE)
-    return Backdrop(_dithered(encoded), glare)
+    return fit, Backdrop(_dithered(encoded), glare.astype(np.float32))
+
+
+def _log_residual(scene_light: np.ndarray, model: np.ndarray) -> np.ndarray:
+    ratio = np.maximum(scene_light, 1e-4) / np.maximum(model, 1e-6)
+    return np.clip(np.log(ratio), -RANGE, RANGE).astype(np.float32)
+
+
+def _angle_between(
+    azimuth: np.ndarray, elevation: np.ndarray, sun: tuple[float, float]
+) -> np.ndarray:
+    az, el = np.radians(azimuth - sun[0]), np.radians(elevation)
+    sun_el = np.radians(sun[1])
+    cosine = np.sin(el) * np.sin(sun_el) + np.cos(el) * np.cos(sun_el) * np.cos(az)
+    return np.asarray(np.degrees(np.arccos(np.clip(cosine, -1, 1))), np.float32)
 
 
 def fill_by_pyramid(values: np.ndarray, weight: np.ndarray) -> np.ndarray:

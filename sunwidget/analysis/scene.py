@@ -19,14 +19,16 @@ from sunwidget.analysis import clouds as cloud_stage
 from sunwidget.analysis import depth as depth_stage
 from sunwidget.analysis import horizon as horizon_stage
 from sunwidget.analysis import match, refine
+from sunwidget.analysis.backdrop import behind_sun
 from sunwidget.analysis import sky as sky_stage
 from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis import water as water_stage
 from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.fit import fit_sky
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.strokes import apply_strokes
 from sunwidget.analysis.sun import SunObservation
-from sunwidget.analysis.working import Working, resize, shrink
+from sunwidget.analysis.working import Working, resize
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.camera import Camera, Point
 from sunwidget.edit import PARAMETERS, Edit, Stroke
@@ -75,12 +77,14 @@ class Scene:
     depth : (H, W) float32
         Metres along the optical axis, inf for the sky.
     water : (H, W) float32
-    backdrop : (H/4, W/4, 3) float32
-        The picture without the old sun, linear.
+    backdrop : (h, w, 3) float32
+        The slow log residual of photo over model, encoded (analysis/backdrop.py).
+    glare : (h, w) float32
+        Where the backdrop replaces the photo once the sun has moved.
     assumed_sun : (azimuth, elevation)
         Degrees; where the sun is taken to be while ``sun`` is None.
     response : dict
-        Further uniforms from the fit: ``response_shoulder`` and ``sky_gain``.
+        Further uniforms from the fit: camera response, gain and glare.
     warnings : tuple of str
         What a person should know; each says what to do.
     hints : Hints
@@ -101,6 +105,7 @@ class Scene:
     depth: np.ndarray = field(repr=False)
     water: np.ndarray = field(repr=False)
     backdrop: np.ndarray = field(repr=False)
+    glare: np.ndarray = field(repr=False)
     assumed_sun: tuple[float, float]
     response: dict[str, Any]
     warnings: tuple[str, ...]
@@ -156,6 +161,8 @@ class Scene:
             "photo_sky_linear_mean": _weighted_mean(small.linear, sky),
             "photo_land_linear_mean": _weighted_mean(small.linear, 1 - sky),
             "response_shoulder": 0.0,
+            "response_contrast": 1.0,
+            "glare_profile": (0.0, 3.0, 2.0),
             "sky_gain": (1.0, 1.0, 1.0),
         } | self.response
 
@@ -166,11 +173,10 @@ class Scene:
     def surface(self) -> np.ndarray:
         """(H, W, 3) float32 in [0, 1]: glare, water, 0.
 
-        Glare is where the photo says nothing about the sky behind: clipped pixels, and the old
-        sun's blot with its halo, fading outwards.
+        Glare is where the photo says nothing about the sky behind: the old sun's clipped core
+        and its halo, fading outwards.
         """
-        small = self.working
-        glare = resize(_glare(small, self.sky, self.sun), self.width, self.height)
+        glare = resize(self.glare, self.width, self.height)
         return np.stack([glare, self.water, np.zeros_like(glare)], axis=-1)
 
     def corrected(self, edit: Edit) -> Scene:
@@ -294,6 +300,7 @@ def analyze(
         depth=empty,
         water=empty,
         backdrop=empty,
+        glare=empty,
         assumed_sun=(0.0, 0.0),
         response={},
         warnings=(),
@@ -370,6 +377,18 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
         *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll
     )
     sun = sun_stage.observe(seed, blot, sky, camera, working)
+
+    step("fit", 0.82, "Fitting the atmosphere")
+    fitted = fit_sky(
+        working,
+        sky,
+        cover.opacity,
+        camera,
+        None if sun is None else (sun.azimuth, sun.elevation),
+        sun_stage.assume(working, sky, camera),
+    )
+    visible = sun is not None and sun.visible
+    fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
     scene = dataclasses.replace(
         base,
         sky=matte,
@@ -378,11 +397,19 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
         sun=sun,
         horizon=horizon,
         camera=camera,
-        assumed_sun=sun_stage.assume(working, sky, camera),
+        atmosphere=fitted.atmosphere,
+        assumed_sun=fitted.sun,
+        response={
+            "response_shoulder": fitted.response.shoulder,
+            "response_contrast": fitted.response.contrast,
+            "sky_gain": fitted.gain,
+            "glare_profile": fitted.glare,
+        },
         warnings=_warnings(photo, sky, sun, blot, horizon, camera, hints),
         hints=hints,
         timings=step.timings,
-        backdrop=shrink(working.linear, max(1, max(photo.size) // 4)),
+        backdrop=behind.field,
+        glare=behind.glare,
         _corrected={},
     )
 
@@ -437,25 +464,6 @@ def _warnings(
             "of view is assumed. Pass fov= in degrees."
         )
     return tuple(notes)
-
-
-def _glare(working: Working, sky: np.ndarray, sun: SunObservation | None) -> np.ndarray:
-    import cv2
-
-    # Two clipped channels tell nothing of the colour; one alone is a saturated sunset.
-    second = np.sort(working.encoded, axis=2)[..., 1]
-    clipped = np.clip((second - 0.97) / 0.025, 0, 1)
-    size = working.width, working.height
-    glare = clipped * resize(sky, *size)
-    if sun is not None and sun.visible:
-        x, y = sun.x / working.zoom[0], sun.y / working.zoom[1]
-        columns, rows = np.arange(size[0]) + 0.5 - x, np.arange(size[1])[:, None] + 0.5 - y
-        radius = max(sun.radius_px / working.zoom[1], 1.0)
-        distance = np.hypot(columns, rows) / radius
-        halo = np.clip(1 - (distance - 1.2) / 1.8, 0, 1)
-        glare = np.maximum(glare, halo * halo * (3 - 2 * halo))
-    soft = cv2.GaussianBlur(glare.astype(np.float32), (0, 0), 1.5)
-    return np.clip(np.maximum(soft, glare), 0, 1).astype(np.float32)
 
 
 def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:

@@ -1,9 +1,10 @@
-// The camera's response: display-linear x in [0, 1] against scene-linear r >= 0.
-// x = (1 - exp(-w r)) / w, a straight line for small r and a shoulder above; w = 0 is a
-// straight line throughout, w = 1 the curve of negative film and of most tone mappers' middle.
-// The slope at zero is one, so r and x share their unit in the shadows.
+// The camera's response: display-linear x in [0, 1] against scene-linear light.
+// x = (1 - exp(-w r)) / w with r = light^contrast: a straight line for small r and a shoulder
+// above. w = 0 is a straight line throughout, w = 1 the middle of film and of most tone mappers.
+// Both are fitted to the photo's sky (analysis/fit.py).
 
 uniform float response_shoulder;  // w in [0, 0.995]
+uniform float response_contrast;  // 0.7 .. 1.15
 
 const vec3 kRec709Luminance = vec3(0.2126, 0.7152, 0.0722);
 
@@ -13,12 +14,13 @@ float GetLuminance(vec3 color) {
 
 vec3 GetSceneLight(vec3 display) {
   float w = max(response_shoulder, 1e-4);
-  return -log(max(1.0 - w * max(display, vec3(0.0)), vec3(0.003))) / w;
+  vec3 r = -log(max(1.0 - w * max(display, vec3(0.0)), vec3(0.003))) / w;
+  return pow(max(r, vec3(1e-6)), vec3(1.0 / response_contrast));
 }
 
 vec3 GetDisplayLight(vec3 scene) {
   float w = max(response_shoulder, 1e-4);
-  return (1.0 - exp(-w * max(scene, vec3(0.0)))) / w;
+  return (1.0 - exp(-w * pow(max(scene, vec3(1e-9)), vec3(response_contrast)))) / w;
 }
 
 // IEC 61966-2-1 transfer function.

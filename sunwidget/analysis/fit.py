@@ -1,0 +1,273 @@
+"""Fit the sky model to the photo: aerosol, exposure, white balance, camera response, glare.
+
+The fit is made once, at the photo's own sun, on clear-sky pixels, and then frozen. It compares
+in the encoded domain, where a photo's noise is even, and is robust: what a model cannot explain
+(thin cloud, haze banks) weighs no more than a tenth of the scale.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+
+from sunwidget.analysis.working import LUMINANCE, Working
+from sunwidget.atmosphere.constants import SPECTRAL_TO_REC709
+from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.atmosphere.sky import SkyTable
+from sunwidget.camera import Camera
+
+# What is searched. Finer steps change no picture visibly: gain and contrast absorb the rest.
+_OPTICAL_DEPTHS = (0.01, 0.03, 0.06, 0.12, 0.25, 0.5)
+_ASYMMETRIES = (0.6, 0.76, 0.88)
+_SHOULDERS = (0.5, 0.8, 0.95)
+_CONTRASTS = (0.7, 0.85, 1.0, 1.15)
+_SAMPLES = 250
+_ANGSTROM, _ALBEDO = 1.3, 0.9
+_LARGEST_ERROR = 0.1
+DEFAULT_SHOULDER = 0.9
+
+
+@dataclass(frozen=True)
+class Response:
+    """The camera's response x = (1 - exp(-w r)) / w, r = light ** contrast (response.glsl).
+
+    Parameters
+    ----------
+    shoulder : float
+        w, 0 (straight line) to 0.995.
+    contrast : float
+        Exponent between scene light and r.
+    """
+
+    shoulder: float = DEFAULT_SHOULDER
+    contrast: float = 1.0
+
+    def scene_light(self, display: np.ndarray) -> np.ndarray:
+        """Display-linear [0, 1] to scene-linear light."""
+        w = max(self.shoulder, 1e-4)
+        r = -np.log(np.maximum(1 - w * np.maximum(display, 0), 0.003)) / w
+        return np.asarray(np.power(np.maximum(r, 1e-6), 1 / self.contrast), np.float32)
+
+    def display_light(self, scene: np.ndarray) -> np.ndarray:
+        """Scene-linear light to display-linear."""
+        w = max(self.shoulder, 1e-4)
+        r = np.power(np.maximum(scene, 1e-9), self.contrast)
+        return np.asarray((1 - np.exp(-w * r)) / w, np.float32)
+
+
+@dataclass(frozen=True)
+class SkyFit:
+    """What the fit found.
+
+    Parameters
+    ----------
+    atmosphere : Atmosphere
+        With its residual: mean absolute error of the encoded sky, [0, 1].
+    response : Response
+    gain : tuple of 3 floats
+        Scene-linear light per kcd m⁻² of the model, for R, G, B.
+    glare : tuple of 3 floats
+        Moffat profile (a, b in degrees, c) of the camera's glare round the sun.
+    sun : (azimuth, elevation)
+        Degrees; the given sun, or the one that explains the sky best.
+    """
+
+    atmosphere: Atmosphere
+    response: Response
+    gain: tuple[float, float, float]
+    glare: tuple[float, float, float]
+    sun: tuple[float, float]
+
+    def model(self, azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
+        """Return the matched clear sky (..., 3) in scene-linear light, without glare."""
+        return model_sky(self.atmosphere, azimuth, elevation, self.sun) * np.array(self.gain)
+
+
+def model_sky(
+    atmosphere: Atmosphere | SkyTable,
+    azimuth: np.ndarray,
+    elevation: np.ndarray,
+    sun: tuple[float, float],
+) -> np.ndarray:
+    """Return the model's sky (..., 3) in linear Rec. 709, kcd m⁻²; angles in degrees."""
+    table = SkyTable(atmosphere) if isinstance(atmosphere, Atmosphere) else atmosphere
+    spectral = table.radiance(elevation, azimuth - sun[0], sun[1])
+    color = spectral @ np.asarray(SPECTRAL_TO_REC709).reshape(3, 4).T
+    # As matched_sky.glsl: saturated spectra keep a share of the luminance in each channel.
+    luminance = np.maximum(color @ LUMINANCE, 1e-12)[..., None]
+    return np.asarray(np.maximum(color, 0.02 * luminance))
+
+
+def fit_sky(
+    working: Working,
+    sky: np.ndarray,
+    clouds: np.ndarray,
+    camera: Camera,
+    sun: tuple[float, float] | None,
+    assumed: tuple[float, float],
+) -> SkyFit:
+    """Fit model and camera to the clear sky of a photo.
+
+    Parameters
+    ----------
+    working : Working
+        The small photo.
+    sky, clouds : (h, w) float32
+        Sky matte and cloud opacity at the size of ``working``.
+    camera : Camera
+        Of the photo (any size; only its angles are used).
+    sun : (azimuth, elevation) or None
+        The photo's own sun in degrees, or ``None`` to find it from the sky's colours.
+    assumed : (azimuth, elevation)
+        Where to start when the sky cannot tell.
+
+    Returns
+    -------
+    SkyFit
+        With defaults and no residual where the photo has too little sky.
+    """
+    azimuth, elevation = view_angles(camera, working.width, working.height)
+    light = working.linear
+    usable = (sky > 0.98) & (light.max(-1) < 0.95) & (elevation > 0.3)
+    clear = usable & (clouds < 0.2)
+    chosen = clear if clear.sum() >= 200 else usable
+    if chosen.sum() < 60:
+        return _without_sky(light, sky, sun or assumed)
+    index = np.flatnonzero(chosen)
+    # A regular stride, not a random draw: the same photo always gives the same fit.
+    index = index[:: max(1, index.size // _SAMPLES)]
+    where = (azimuth.ravel()[index], elevation.ravel()[index])
+    display = light.reshape(-1, 3)[index].astype(np.float64)
+    if sun is None:
+        sun = _search_sun(display, where, assumed)
+
+    # First the air under a middling response, then the response under the likeliest airs.
+    airs = []
+    for depth, asymmetry in itertools.product(_OPTICAL_DEPTHS, _ASYMMETRIES):
+        atmosphere = Atmosphere(
+            aerosol_optical_depth=depth,
+            aerosol_asymmetry=asymmetry,
+            angstrom_exponent=_ANGSTROM,
+            aerosol_albedo=_ALBEDO,
+        )
+        model = model_sky(atmosphere, *where, sun)
+        airs.append((_compare(display, model, Response())[0], atmosphere, model))
+    airs.sort(key=lambda air: air[0])
+    trials = []
+    for _, atmosphere, model in airs[:4]:
+        for shoulder, contrast in itertools.product(_SHOULDERS, _CONTRASTS):
+            response = Response(shoulder, contrast)
+            error, gain = _compare(display, model, response)
+            # Prefer the plain: a bent response must earn its place.
+            trials.append((error + 0.004 * abs(contrast - 1), atmosphere, response, gain))
+    error, atmosphere, response, gain = min(trials, key=lambda trial: trial[0])
+    fitted = SkyFit(
+        atmosphere.replace(residual=float(error)),
+        response,
+        (float(gain[0]), float(gain[1]), float(gain[2])),
+        (0.0, 3.0, 2.0),
+        sun,
+    )
+    return fitted
+
+
+def with_glare(
+    fit: SkyFit, log_residual: np.ndarray, angle: np.ndarray, trusted: np.ndarray
+) -> SkyFit:
+    """Return the fit with the camera's glare round a visible sun.
+
+    Parameters
+    ----------
+    fit : SkyFit
+    log_residual : (h, w) float32
+        log luminance of photo over model, scene-linear.
+    angle : (h, w) float32
+        Degrees from the sun.
+    trusted : (h, w) bool
+        Unclipped sky.
+    """
+    edges = np.concatenate([np.arange(0, 10, 0.5), np.arange(10, 41, 2.0)])
+    centres, medians = [], []
+    for low, high in itertools.pairwise(edges):
+        ring = trusted & (angle >= low) & (angle < high)
+        if ring.sum() >= 12:
+            centres.append((low + high) / 2)
+            medians.append(float(np.median(log_residual[ring])))
+    if len(centres) < 5:
+        return fit
+    theta, level = np.array(centres), np.array(medians)
+    outer = level[theta >= 0.5 * theta[-1]]
+    excess = np.clip(np.exp(level - np.median(outer)) - 1, -0.5, 20)
+    best = (float(np.square(excess).sum()), 0.0, 3.0, 2.0)
+    for width, power in itertools.product((0.5, 1.0, 2.0, 4.0, 7.0), (1.0, 1.5, 2.5)):
+        shape = (1 + (theta / width) ** 2) ** -power
+        height = float(np.clip((shape @ excess) / (shape @ shape), 0, 30))
+        cost = float(np.square(excess - height * shape).sum())
+        if cost < best[0]:
+            best = (cost, height, width, power)
+    return SkyFit(fit.atmosphere, fit.response, fit.gain, best[1:], fit.sun)
+
+
+def view_angles(camera: Camera, width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return azimuth and elevation (height, width) in degrees of a shrunk picture's pixels."""
+    rows, columns = np.mgrid[:height, :width] + 0.5
+    azimuth, elevation = camera.angles(
+        columns * camera.width / width, rows * camera.height / height
+    )
+    return np.asarray(azimuth), np.asarray(elevation)
+
+
+def _compare(
+    display: np.ndarray, model: np.ndarray, response: Response
+) -> tuple[float, np.ndarray]:
+    """Best gain per channel, and the mean truncated error in the encoded domain."""
+    logs = np.log(response.scene_light(display)) - np.log(model)
+    gain = np.exp(np.median(logs, 0))
+    predicted = np.clip(response.display_light(model * gain), 0, 1)
+    error = np.abs(predicted ** (1 / 2.2) - display ** (1 / 2.2))
+    # White balance explains a tint, not a sunset: a red sky wants a low sun, not red gain.
+    tint = max(0.0, abs(float(np.log(gain[0] / gain[2]))) - 0.4)
+    return float(np.minimum(error, _LARGEST_ERROR).mean()) + 0.02 * tint, gain
+
+
+def _search_sun(
+    display: np.ndarray, where: tuple[np.ndarray, np.ndarray], assumed: tuple[float, float]
+) -> tuple[float, float]:
+    """Direction of an unseen sun: coarse search over the sphere, starting from the assumed one."""
+    step = max(1, display.shape[0] // 120)
+    display, where = display[::step], (where[0][::step], where[1][::step])
+    response = Response()
+    grid = itertools.product(range(-150, 181, 30), (-2.0, 2.0, 8.0, 18.0, 35.0, 60.0))
+    candidates = [assumed, *grid]
+    best_error, best = np.inf, assumed
+    for depth in (0.03, 0.12):
+        table = SkyTable(
+            Atmosphere(
+                aerosol_optical_depth=depth,
+                aerosol_asymmetry=0.76,
+                angstrom_exponent=_ANGSTROM,
+                aerosol_albedo=_ALBEDO,
+            )
+        )
+        for candidate in candidates:
+            error, _ = _compare(display, model_sky(table, *where, candidate), response)
+            # The sky must speak clearly to overrule the assumption.
+            if candidate == assumed:
+                error *= 0.9
+            if error < best_error:
+                best_error, best = error, (float(candidate[0]), float(candidate[1]))
+    return best
+
+
+def _without_sky(light: np.ndarray, sky: np.ndarray, sun: tuple[float, float]) -> SkyFit:
+    """Defaults, exposed so that grey land under this sun has the land's mean light."""
+    response = Response()
+    atmosphere = Atmosphere()
+    overhead = model_sky(atmosphere, np.array([0.0]), np.array([45.0]), sun)[0]
+    land = sky < 0.5
+    seen = response.scene_light(light[land] if land.any() else light.reshape(-1, 3))
+    level = float(np.median(seen @ LUMINANCE))
+    gain = max(level, 1e-3) / max(float(overhead @ LUMINANCE) * 0.5, 1e-9)
+    return SkyFit(atmosphere, response, (gain, gain, gain), (0.0, 3.0, 2.0), sun)
