@@ -90,7 +90,7 @@ void main() {
   float extreme = smoothstep(2.5, 4.0, abs(log2(GetLuminance(ratio) * gain)));
   vec3 relit = sky * ratio;
   relit += extreme * moved * (clean * ratio - relit);
-  vec3 sky_out = sky + sky_strength * (gain * relit - sky);
+  vec3 sky_out = scene + sky_strength * (gain * relit - scene);
 
   // The new disc, reddened on its way, behind clouds; the matte hides it behind land.
   float pixel_angle = 1.0 / (camera_focal * frame_size.y);
