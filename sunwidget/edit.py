@@ -13,7 +13,7 @@ import difflib
 import json
 import math
 from dataclasses import dataclass, field, fields
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, Self
 
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
@@ -23,6 +23,10 @@ Point = tuple[float, float]
 
 class EditError(ValueError):
     """A recipe or parameter value that cannot be used; the message says what to do."""
+
+
+class UnknownParameterError(EditError, TypeError):
+    """A name that is no parameter; also a TypeError, as for any unknown keyword."""
 
 
 class Parameter(NamedTuple):
@@ -178,6 +182,11 @@ class Edit:
         "Vertical field of view in degrees that the person set.")
     # fmt: on
 
+    def __new__(cls, **values: Any) -> Self:
+        """Refuse unknown keywords with a suggestion, which the generated __init__ cannot."""
+        _refuse_unknown(values)
+        return super().__new__(cls)
+
     def __post_init__(self) -> None:
         for parameter in PARAMETERS:
             checked = _check(parameter, getattr(self, parameter.name))
@@ -197,9 +206,7 @@ class Edit:
     def changed(self) -> dict[str, Any]:
         """Parameters that differ from their defaults, by name."""
         return {
-            p.name: getattr(self, p.name)
-            for p in PARAMETERS
-            if getattr(self, p.name) != p.default
+            p.name: getattr(self, p.name) for p in PARAMETERS if getattr(self, p.name) != p.default
         }
 
     def to_dict(self) -> dict[str, Any]:
@@ -226,10 +233,10 @@ class Edit:
             )
         version = recipe.get("version", RECIPE_VERSION)
         if isinstance(version, bool) or not isinstance(version, int) or version < 1:
-            raise EditError(f"Recipe version {version!r} is not a positive whole number.")
+            raise EditError(f"Recipe version {_shown(version)} is not a positive whole number.")
         if version > RECIPE_VERSION:
             raise EditError(
-                f"This recipe has version {version}, this sunwidget reads up to "
+                f"This recipe has version {_shown(version)}, this sunwidget reads up to "
                 f"{RECIPE_VERSION}. Update sunwidget to open it."
             )
         values = {k: v for k, v in recipe.items() if k != "version"}
@@ -245,7 +252,8 @@ class Edit:
         """Build an Edit from JSON text; raises EditError like ``from_dict``."""
         try:
             recipe = json.loads(text)
-        except (json.JSONDecodeError, RecursionError) as error:
+        # TypeError: no text at all; ValueError: bad syntax, bad UTF-8, numbers of 5000 digits.
+        except (TypeError, ValueError, RecursionError) as error:
             raise EditError(f"The recipe is not valid JSON: {error}") from error
         return cls.from_dict(recipe)
 
@@ -305,16 +313,24 @@ def unknown_name_message(name: str) -> str:
     return f"Unknown parameter {str(name)[:80]!r}.{hint}"
 
 
+def _shown(value: Any) -> str:
+    """Return the start of a value's repr, which may itself fail on hostile input."""
+    try:
+        return repr(value)[:80]
+    except (ValueError, RecursionError):  # numbers of 5000 digits, lists a thousand deep
+        return f"this {type(value).__name__}"
+
+
 def _refuse_unknown(names: Any) -> None:
     for name in names:
         if name not in _BY_NAME:
-            raise EditError(unknown_name_message(name))
+            raise UnknownParameterError(unknown_name_message(name))
 
 
 def _check(p: Parameter, value: Any) -> Any:
     if p.kind == "choice":
-        if value not in p.choices:
-            raise EditError(f"{p.name} must be one of {', '.join(p.choices)}, not {value!r:.80}.")
+        if not isinstance(value, str) or value not in p.choices:
+            raise EditError(f"{p.name} must be one of {', '.join(p.choices)}, not {_shown(value)}.")
         return value
     if p.kind == "number":
         if value is None and p.default is None:
@@ -330,7 +346,7 @@ def _check(p: Parameter, value: Any) -> Any:
         return _check_point(p.name, value)
     points = _check_points(p.name, value)
     if len(points) != 2 or points[0][0] == points[1][0]:
-        raise EditError(f"{p.name} needs two points with different x, not {value!r:.80}.")
+        raise EditError(f"{p.name} needs two points with different x, not {_shown(value)}.")
     return points
 
 
@@ -340,7 +356,7 @@ def _check_number(name: str, value: Any, low: float, high: float, unit: str = ""
     except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
-        raise EditError(f"{name} must be a number from {low:g} to {high:g}, not {value!r:.80}.")
+        raise EditError(f"{name} must be a number from {low:g} to {high:g}, not {_shown(value)}.")
     if not low <= number <= high:
         raise EditError(f"{name} = {number:g} is outside {low:g} to {high:g} {unit}".rstrip() + ".")
     return number
@@ -348,7 +364,7 @@ def _check_number(name: str, value: Any, low: float, high: float, unit: str = ""
 
 def _check_point(name: str, value: Any) -> Point:
     if not isinstance(value, (tuple, list)) or len(value) != 2:
-        raise EditError(f"{name} must be a pair (x, y), not {value!r:.80}.")
+        raise EditError(f"{name} must be a pair (x, y), not {_shown(value)}.")
     return (
         _check_number(f"{name} x", value[0], -10, 10),
         _check_number(f"{name} y", value[1], -10, 10),
@@ -357,24 +373,24 @@ def _check_point(name: str, value: Any) -> Point:
 
 def _check_points(name: str, value: Any) -> tuple[Point, ...]:
     if not isinstance(value, (tuple, list)) or not value:
-        raise EditError(f"{name} must be a list of (x, y) pairs, not {value!r:.80}.")
+        raise EditError(f"{name} must be a list of (x, y) pairs, not {_shown(value)}.")
     return tuple(_check_point(name, point) for point in value)
 
 
 def _check_strokes(value: Any) -> tuple[Stroke, ...]:
     if not isinstance(value, (tuple, list)):
-        raise EditError(f"strokes must be a list of strokes, not {value!r:.80}.")
+        raise EditError(f"strokes must be a list of strokes, not {_shown(value)}.")
     checked = []
     for stroke in value:
         if isinstance(stroke, Stroke):
             stroke = dataclasses.asdict(stroke)
         if not isinstance(stroke, dict) or not {"label", "points"} <= stroke.keys():
-            raise EditError(f"A stroke needs a label and points, not {stroke!r:.80}.")
+            raise EditError(f"A stroke needs a label and points, not {_shown(stroke)}.")
         if stroke["label"] not in ("sky", "not_sky"):
             raise EditError(f"A stroke's label is 'sky' or 'not_sky', not {stroke['label']!r:.80}.")
         extra = stroke.keys() - {"label", "points", "radius"}
         if extra:
-            raise EditError(f"A stroke has no {min(map(str, extra))!r:.80}.")
+            raise EditError(f"A stroke has no {_shown(min(map(str, extra)))}.")
         checked.append(
             Stroke(
                 stroke["label"],
