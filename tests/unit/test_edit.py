@@ -241,7 +241,9 @@ def test_a_recipe_of_a_newer_version_asks_for_an_update(version):
         Edit.from_dict({"version": version, "teleport": 1})
 
 
-@pytest.mark.parametrize("version", [0, -1, 1.5, "1", None, True, [], pytest.param(-(10**5000), id="deep")])
+@pytest.mark.parametrize(
+    "version", [0, -1, 1.5, "1", None, True, [], pytest.param(-(10**5000), id="deep")]
+)
 def test_a_senseless_version_is_refused(version):
     with pytest.raises(EditError, match=r"[Vv]ersion"):
         Edit.from_dict({"version": version})
