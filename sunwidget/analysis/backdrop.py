@@ -37,6 +37,7 @@ class Backdrop:
 
 
 LONG_SIDE = 256
+_MODEL_SIDE = 80
 
 
 def behind_sun(
@@ -65,16 +66,13 @@ def behind_sun(
     size = (max(1, round(working.width * scale)), max(1, round(working.height * scale)))
     display = np.asarray(resize(working.linear, *size), np.float32)
     matte = np.asarray(resize(sky, *size), np.float32)
-    azimuth, elevation = view_angles(camera, *size)
+    angle = _angle_to_sun(camera, size, fit.sun)
     scene_light = fit.response.scene_light(display)
-    model = fit.model(azimuth, np.maximum(elevation, 0.2))
-    angle = _angle_between(azimuth, elevation, fit.sun)
     clipped = _smoothstep(0.90, 0.97, display.max(-1))
     if visible:
-        residual = _log_residual(scene_light, model) @ LUMINANCE
+        residual = _log_residual(scene_light, matched_sky(fit, camera, size)) @ LUMINANCE
         fit = with_glare(fit, residual, angle, (matte > 0.95) & (clipped < 0.3))
-        a, b, c = fit.glare
-        model = model * (1 + a * (1 + (angle / b) ** 2) ** -c)[..., None]
+    model = matched_sky(fit, camera, size)
     log_residual = _log_residual(scene_light, model)
     glare = _glare(log_residual @ LUMINANCE, clipped, matte, angle) if visible else 0 * matte
     weight = (matte > 0.98) * (1 - clipped) * np.square(1 - glare)
@@ -83,14 +81,34 @@ def behind_sun(
     return fit, Backdrop(_dithered(encoded), glare.astype(np.float32))
 
 
+def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+    """Return the fitted sky with the camera's glare at ``size`` (w, h): (h, w, 3) scene-linear.
+
+    Marched on a coarser grid: without its disc the sky's logarithm is smooth.
+    """
+    import cv2
+
+    scale = min(1.0, _MODEL_SIDE / max(size))
+    coarse = max(1, round(size[0] * scale)), max(1, round(size[1] * scale))
+    azimuth, elevation = view_angles(camera, *coarse)
+    logs = np.log(fit.model(azimuth, np.maximum(elevation, 0.2))).astype(np.float32)
+    model = np.exp(cv2.resize(logs, size, interpolation=cv2.INTER_LINEAR))
+    height, width, power = fit.glare
+    if height > 0:
+        angle = _angle_to_sun(camera, size, fit.sun)
+        model = model * (1 + height * (1 + (angle / width) ** 2) ** -power)[..., None]
+    return model.reshape(size[1], size[0], 3).astype(np.float32)
+
+
 def _log_residual(scene_light: np.ndarray, model: np.ndarray) -> np.ndarray:
     ratio = np.maximum(scene_light, 1e-4) / np.maximum(model, 1e-6)
     return np.clip(np.log(ratio), -RANGE, RANGE).astype(np.float32)
 
 
-def _angle_between(
-    azimuth: np.ndarray, elevation: np.ndarray, sun: tuple[float, float]
+def _angle_to_sun(
+    camera: Camera, size: tuple[int, int], sun: tuple[float, float]
 ) -> np.ndarray:
+    azimuth, elevation = view_angles(camera, *size)
     az, el = np.radians(azimuth - sun[0]), np.radians(elevation)
     sun_el = np.radians(sun[1])
     cosine = np.sin(el) * np.sin(sun_el) + np.cos(el) * np.cos(sun_el) * np.cos(az)

@@ -10,7 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sunwidget.analysis.backdrop import matched_sky
+from sunwidget.analysis.fit import SkyFit
+from sunwidget.analysis.unmix import cloud_white, unmix
 from sunwidget.analysis.working import Working
+from sunwidget.camera import Camera
 from sunwidget.edit import parameter
 
 MINIMUM: float = parameter("cloud_ratio_min").default
@@ -38,7 +42,16 @@ def rb_ratio(
     return Clouds((opacity * sky).astype(np.float32), (softness * sky).astype(np.float32))
 
 
-METHODS: dict[str, Callable[..., Clouds]] = {"rb_ratio": rb_ratio}
+def veil(working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit) -> np.ndarray:
+    """Opacity (h, w) float32 by un-mixing the photo from the fitted clear sky (unmix.py)."""
+    clear = matched_sky(fit, camera, (working.width, working.height))
+    light = fit.response.scene_light(working.linear)
+    return unmix(light, clear, cloud_white(fit), sky)[0]
+
+
+# "unmix" needs the fitted sky, which needs a first idea of the clouds: that is r/b again, whose
+# softness C^s stays; ``veil`` then gives the opacity.
+METHODS: dict[str, Callable[..., Clouds]] = {"rb_ratio": rb_ratio, "unmix": rb_ratio}
 
 
 def without(clouds: Clouds, mask: np.ndarray) -> Clouds:

@@ -21,7 +21,7 @@ from sunwidget.camera import Camera
 # What is searched. Finer steps change no picture visibly: gain and contrast absorb the rest.
 _OPTICAL_DEPTHS = (0.01, 0.03, 0.06, 0.12, 0.25, 0.5)
 _ASYMMETRIES = (0.6, 0.76, 0.88)
-_SHOULDERS = (0.5, 0.8, 0.95)
+_SHOULDERS = (0.5, 0.8, 0.95, 0.99)
 _CONTRASTS = (0.7, 0.85, 1.0, 1.15)
 _SAMPLES = 250
 _ANGSTROM, _ALBEDO = 1.3, 0.9
@@ -161,16 +161,15 @@ def fit_sky(
             response = Response(shoulder, contrast)
             error, gain = _compare(display, model, response)
             # Prefer the plain: a bent response must earn its place.
-            trials.append((error + 0.004 * abs(contrast - 1), atmosphere, response, gain))
+            trials.append((error + 0.015 * abs(contrast - 1), atmosphere, response, gain))
     error, atmosphere, response, gain = min(trials, key=lambda trial: trial[0])
-    fitted = SkyFit(
+    return SkyFit(
         atmosphere.replace(residual=float(error)),
         response,
         (float(gain[0]), float(gain[1]), float(gain[2])),
         (0.0, 3.0, 2.0),
         sun,
     )
-    return fitted
 
 
 def with_glare(

@@ -19,10 +19,10 @@ from sunwidget.analysis import clouds as cloud_stage
 from sunwidget.analysis import depth as depth_stage
 from sunwidget.analysis import horizon as horizon_stage
 from sunwidget.analysis import match, refine
-from sunwidget.analysis.backdrop import behind_sun
 from sunwidget.analysis import sky as sky_stage
 from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis import water as water_stage
+from sunwidget.analysis.backdrop import behind_sun
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import fit_sky
 from sunwidget.analysis.horizon import Horizon
@@ -221,7 +221,7 @@ def analyze(
     fov: float | None = None,
     sky: Any = None,
     refine: str = "grabcut_mask",
-    clouds: str = "rb_ratio",
+    clouds: str = "unmix",
     horizon_method: str = "robust_line",
     sun_method: str = "disc_fit",
     depth: str = "ground_plane",
@@ -379,16 +379,20 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
     sun = sun_stage.observe(seed, blot, sky, camera, working)
 
     step("fit", 0.82, "Fitting the atmosphere")
-    fitted = fit_sky(
-        working,
-        sky,
-        cover.opacity,
-        camera,
-        None if sun is None else (sun.azimuth, sun.elevation),
-        sun_stage.assume(working, sky, camera),
-    )
+    sun_angles = None if sun is None else (sun.azimuth, sun.elevation)
     visible = sun is not None and sun.visible
+    assumed = sun_stage.assume(working, sky, camera)
+    fitted = fit_sky(working, sky, cover.opacity, camera, sun_angles, assumed)
+    if hints.method("clouds") == "unmix":
+        # The colour of the clear sky tells the clouds, and without them it is known better.
+        opacity = cloud_stage.veil(working, sky, camera, fitted)
+        fitted = fit_sky(working, sky, opacity, camera, fitted.sun, assumed)
     fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
+    if hints.method("clouds") == "unmix":
+        opacity = cloud_stage.veil(working, sky, camera, fitted)
+        cover = cloud_stage.Clouds(opacity, cover.softness)
+        if blot is not None:
+            cover = cloud_stage.without(cover, blot.mask)
     scene = dataclasses.replace(
         base,
         sky=matte,
