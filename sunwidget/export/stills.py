@@ -173,7 +173,7 @@ def _still(
     """Bring whatever a person passed to codes and metadata. ``exact``: ``bits`` was asked for."""
     if isinstance(picture, Photo):
         own = _own_bits(picture.bit_depth, bits, exact=exact)
-        return _with_metadata(encode_like(picture, picture.pixels, bit_depth=own), picture)
+        return _with_metadata(_own_codes(picture, own), picture)
     if hasattr(picture, "photo"):
         picture = (picture, None)
     if isinstance(picture, tuple) and len(picture) == 2 and hasattr(picture[0], "photo"):
@@ -185,15 +185,21 @@ def _still(
     array = open_photo(picture if not isinstance(picture, tuple) else list(picture))
     own = _own_bits(array.bit_depth, bits, exact=exact)
     if like is None:
-        return _with_metadata(encode_like(array, array.pixels, bit_depth=own), array)
+        return _with_metadata(_own_codes(array, own), array)
     if like.profile.is_srgb:
-        codes = encode_like(array, array.pixels, bit_depth=own)
+        codes = _own_codes(array, own)
     else:
         codes = encode_like(like, array.pixels, bit_depth=own)
     still = _with_metadata(codes, like)
     if array.alpha is not None:
         still.alpha = _alpha_codes(array.alpha, codes)
     return still
+
+
+def _own_codes(photo: Photo, bits: int) -> NDArray[Any]:
+    if photo.bit_depth == bits:
+        return photo.encoded
+    return encode_like(photo, photo.pixels, bit_depth=bits)
 
 
 def _own_bits(depth: int, bits: int, *, exact: bool) -> int:
