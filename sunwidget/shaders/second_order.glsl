@@ -23,7 +23,8 @@ void main() {
 
   vec4 mie_extinction = GetMieExtinction();
   vec4 ozone_absorption = GetOzoneAbsorption();
-  vec2 mie_moments = GetMieMoments(aerosol_asymmetry);
+  vec3 mie_moments = GetMieMoments(aerosol_asymmetry);
+  float lobe = GetLobe(mie_moments, nu);
   float r = GROUND_RADIUS + h;
   bool ground = RayIntersectsGround(h, mu);
   float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
@@ -43,7 +44,7 @@ void main() {
     vec4 extinction = rayleigh + mie + ozone_absorption * density.z;
     LightField field = GetLightField(first_field, h_t, mu_s_t);
     vec4 source = rayleigh * GetFieldThroughAir(field, view)
-        + aerosol_albedo * mie * GetFieldThroughHaze(field, view, mie_moments);
+        + aerosol_albedo * mie * GetFieldThroughHaze(field, view, mie_moments, lobe);
     radiance += transmittance * source * IntegrateTransmittance(extinction, dt);
     transmittance *= exp(-extinction * dt);
   }

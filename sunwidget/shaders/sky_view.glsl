@@ -50,7 +50,8 @@ RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu)
   float rayleigh_phase = RayleighPhase(nu);
   float mie_phase = MiePhase(aerosol_asymmetry, nu);
 
-  vec2 mie_moments = GetMieMoments(aerosol_asymmetry);
+  vec3 mie_moments = GetMieMoments(aerosol_asymmetry);
+  float lobe = GetLobe(mie_moments, nu);
   vec4 transmittance = vec4(1.0);
   vec4 radiance = vec4(0.0);
   for (int group = 0; group < GROUPS; ++group) {
@@ -63,7 +64,7 @@ RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu)
     LightField field = GetLightField(multiple_scattering, h_group, mu_s_group);
     vec2 view = GetDirectionInField(mu_group, mu_s_group, nu);
     vec4 through_air = GetFieldThroughAir(field, view);
-    vec4 through_haze = GetFieldThroughHaze(field, view, mie_moments);
+    vec4 through_haze = GetFieldThroughHaze(field, view, mie_moments, lobe);
     for (int i = 0; i < GROUP_STEPS; ++i) {
       float steps = float(GROUPS * GROUP_STEPS);
       float u = (float(group * GROUP_STEPS + i) + 0.5) / steps;
