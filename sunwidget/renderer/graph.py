@@ -151,6 +151,9 @@ class FrameGraph:
         name, shader, inputs = row["name"], row["shader"], row["inputs"]
         program = self.programs.get(shader)
         host = {**host, "pass_size": (float(size[0]), float(size[1]))}
+        if row["size"] != "frame":
+            # Only frame-sized passes are drawn piece by piece; a table is drawn whole.
+            host["tile_origin"] = (0.0, 0.0)
         values: dict[str, Any] = {}
         key: list[Any] = [size, shader]
         for uniform in self.programs.uniforms[shader]:

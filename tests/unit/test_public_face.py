@@ -1,5 +1,6 @@
 """The contract of the public names, checked from outside with the bundled samples."""
 
+import importlib
 import itertools
 
 import cv2
@@ -92,6 +93,16 @@ def test_types_agree_with_one_another(coast):
 @pytest.mark.parametrize("size", [(192, 128), (101, 77), (1, 1), (2, 300)])
 def test_render_returns_the_asked_size(coast, size):
     assert sw.render(coast, sw.Edit(sun_elevation=4), size=size).shape == (size[1], size[0], 3)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_picture_drawn_in_bands_is_the_picture_drawn_at_once(coast, monkeypatch, method):
+    module = importlib.import_module("sunwidget.renderer.render")  # a function hides it
+
+    edit = sw.Edit(sun_elevation=4, method=method)
+    whole = sw.render(coast, edit, size=SMALL)
+    monkeypatch.setattr(module, "_BAND_PIXELS", 5000)
+    assert np.array_equal(sw.render(coast, edit, size=SMALL), whole)
 
 
 @pytest.mark.parametrize("bad", [{"dtype": "int7"}, {"size": (0, 5)}, {"method": "magic"}])
