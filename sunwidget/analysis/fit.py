@@ -161,7 +161,8 @@ def fit_sky(
             response = Response(shoulder, contrast)
             error, gain = _compare(display, model, response)
             # Prefer the plain: a bent response must earn its place.
-            trials.append((error + 0.015 * abs(contrast - 1), atmosphere, response, gain))
+            error += 0.015 * abs(contrast - 1) + 0.004 * abs(shoulder - DEFAULT_SHOULDER)
+            trials.append((error, atmosphere, response, gain))
     error, atmosphere, response, gain = min(trials, key=lambda trial: trial[0])
     return SkyFit(
         atmosphere.replace(residual=float(error)),

@@ -362,6 +362,10 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
     if found and 0 <= found[0] < working.width and 0 <= found[1] < working.height:
         grow = sun_stage.METHODS[hints.method("sun")]
         blot = grow(working, sky, found[0], found[1], focal)
+        # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
+        disc = sun_stage.in_sky(blot, sky)
+        sky = np.maximum(sky, disc)
+        matte = np.maximum(matte, resize(disc, *photo.size))
 
     step("clouds", 0.75, "Finding clouds")
     cover = cloud_stage.METHODS[hints.method("clouds")](working, sky)

@@ -176,6 +176,20 @@ def _aureole(luminance: np.ndarray, sky: np.ndarray, column: int, row: int, radi
     return float(np.mean(worst[usable] < 0.02))
 
 
+def in_sky(blot: Blot, sky: np.ndarray) -> np.ndarray:
+    """Return the blot with a soft rim, (h, w) float32, where it is surrounded by sky; else zeros."""
+    import cv2
+
+    if not 0 < blot.radius < 0.1 * max(sky.shape):
+        return np.zeros_like(sky)
+    reach = 2 * math.ceil(0.25 * blot.radius + 2) + 1
+    ring = cv2.dilate(blot.mask, np.ones((3 * reach, 3 * reach), np.uint8)) - blot.mask
+    if ring.sum() < 1 or float((ring * sky).sum() / ring.sum()) < 0.6:
+        return np.zeros_like(sky)
+    grown = cv2.dilate(blot.mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
+    return np.clip(cv2.GaussianBlur(grown, (0, 0), reach / 6), 0, 1).astype(np.float32)
+
+
 def observe(
     seed: Point | None,
     blot: Blot | None,
