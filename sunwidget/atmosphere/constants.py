@@ -41,12 +41,14 @@ def rayleigh_optical_depth(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:
 
 def ozone_cross_section(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:
     """Return ozone's absorption cross-section in m² per molecule (Bird & Riordan 1984)."""
-    return np.interp(wavelength_nm, _TABLE["wavelength_nm"], _TABLE["ozone_m2"])
+    return np.interp(np.asarray(wavelength_nm, float), _TABLE["wavelength_nm"], _TABLE["ozone_m2"])
 
 
 def solar_irradiance(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:
     """Return the sun's irradiance above the air in W m⁻² nm⁻¹ (ASTM G-173-03, 10 nm means)."""
-    return np.interp(wavelength_nm, _TABLE["wavelength_nm"], _TABLE["solar_W_m2_nm"])
+    return np.interp(
+        np.asarray(wavelength_nm, float), _TABLE["wavelength_nm"], _TABLE["solar_W_m2_nm"]
+    )
 
 
 def colour_matching(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:

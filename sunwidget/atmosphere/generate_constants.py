@@ -106,7 +106,7 @@ def training_spectra(at: Array) -> Array:
         ratio**-4.0,
         1 - np.exp(-rayleigh * 4),
     )
-    spectra = []
+    spectra: list[Array] = []
     for air in (0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 30.0):
         for aerosol, alpha in ((0.0, 1.0), (0.06, 0.8), (0.3, 1.4), (0.3, 0.3)):
             for dobson in (0.0, 300.0, 2000.0, 5000.0):
@@ -128,7 +128,7 @@ def spectral_to_xyz(solar: Array) -> Array:
     samples = np.stack([np.interp(WAVELENGTHS, nm, row) for row in spectra]) * solar
     scale = 1 / xyz[:, 1:2]
     matrix, *_ = np.linalg.lstsq(samples * scale, xyz * scale, rcond=None)
-    return matrix.T
+    return np.asarray(matrix.T, float)
 
 
 def constants() -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Geometry, densities, phase functions, columns and transmittance: the twin of ``lib/atmosphere.glsl``.
+"""Geometry, densities, phase functions, columns and transmittance; as ``lib/atmosphere.glsl``.
 
 Lengths are metres, ``h`` an altitude above the ground, ``mu`` the cosine of a ray's zenith angle,
 ``nu`` that of the angle between ray and sun. Everything broadcasts and is float64.
@@ -70,7 +70,7 @@ def cosine_of_horizon(h: ArrayLike) -> Array:
 
 
 def distance_to_boundary(h: ArrayLike, mu: ArrayLike) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the distance to the ground or the top, whichever a ray meets, and if it is the ground."""
+    """Return the distance to what a ray meets, ground or top, and whether it is the ground."""
     h, mu = np.broadcast_arrays(np.asarray(h, float), np.asarray(mu, float))
     r_mu = (GROUND_RADIUS + h) * mu
     q = h * (2 * GROUND_RADIUS + h)
@@ -100,7 +100,7 @@ def density(h: ArrayLike) -> Array:
 def extinction_coefficients(
     atmosphere: Atmosphere, wavelength_nm: ArrayLike = WAVELENGTHS
 ) -> Array:
-    """Return extinction of air, aerosol and ozone at full density in 1/m, shape (3, wavelengths)."""
+    """Return extinction of air, aerosol and ozone at full density, 1/m, shape (3, wavelengths)."""
     nm = np.asarray(wavelength_nm, float)
     low, _, high = OZONE_LAYER
     aerosol = atmosphere.aerosol_optical_depth * (nm / 550) ** -atmosphere.angstrom_exponent
@@ -133,7 +133,7 @@ def relative_air_mass(elevation_deg: ArrayLike, h: float = 0.0) -> Array:
 
 
 def columns_to_top(h: ArrayLike, mu: ArrayLike) -> Array:
-    """Return ``integrate_columns`` from a table (0.1 %); rays below the horizon count as grazing."""
+    """Return ``integrate_columns`` from a table (0.1 %); rays below the horizon graze it."""
     h = np.asarray(h, float)
     mu = np.maximum(mu, cosine_of_horizon(h))
     rho = np.sqrt(h * (2 * GROUND_RADIUS + h))

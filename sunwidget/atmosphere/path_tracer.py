@@ -178,7 +178,7 @@ def _lambert(up: Array, rng: np.random.Generator) -> Array:
 
 
 def _around(axis: Array, cosine: Array, rng: np.random.Generator) -> Array:
-    """Unit vectors at a given cosine from ``axis`` and a random angle about it."""
+    """Draw unit vectors at a given cosine from ``axis`` and a random angle about it."""
     helper = np.where(np.abs(axis[:, :1]) < 0.5, [[1.0, 0, 0]], [[0, 1.0, 0]])
     first = np.cross(axis, helper)
     first /= np.linalg.norm(first, axis=1)[:, None]
