@@ -15,6 +15,7 @@ check() {
 }
 
 check "ruff (lint)" .venv/bin/ruff check .
+check "ruff (format)" .venv/bin/ruff format --check --quiet .
 check "mypy (types)" .venv/bin/mypy
 check "tsc and Biome (JavaScript types and lint)" npm --prefix js run --silent check
 check "JavaScript tests" npm --prefix js run --silent test

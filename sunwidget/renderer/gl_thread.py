@@ -42,9 +42,7 @@ class _Worker:
             try:
                 import moderngl
 
-                self.context = moderngl.create_context(
-                    standalone=True, backend="egl", require=330
-                )
+                self.context = moderngl.create_context(standalone=True, backend="egl", require=330)
             except Exception as error:  # moderngl raises bare Exception here
                 raise RendererError(_EGL_HELP.format(why=error)) from error
             # Dropping a Python wrapper frees its GL object at the next ctx.gc() on this
