@@ -188,6 +188,19 @@ def _look_up(codes: NDArray[Any], tables: list[Floats]) -> Floats:
 
 SRGB = ColorProfile((SRGB_CURVE,) * 3)
 
+# Adobe RGB (1998): the same D65 white, another green; matrix by its primaries, section 4.3.
+ADOBE_RGB = ColorProfile(
+    (ParametricCurve(2.19921875),) * 3,
+    np.array(
+        [
+            [1.3983557, -0.3983557, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, -0.0429289, 1.0429289],
+        ]
+    ),
+    "Adobe RGB",
+)
+
 
 def strips(shape: tuple[int, ...], pixels: int = _STRIP_PIXELS) -> list[slice]:
     """Row ranges of a picture of ``shape``, about ``pixels`` pixels each."""

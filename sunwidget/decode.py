@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget import exif as exif_tags
-from sunwidget.color import SRGB, ColorProfile
+from sunwidget.color import ADOBE_RGB, SRGB, ColorProfile, ParametricCurve
 from sunwidget.icc import ProfileError, color_space, read_profile
 
 MAX_PIXELS = 200_000_000
@@ -135,6 +135,8 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
     else:
         _fill_from_image(result, image, name)
     _apply_profile(result, name)
+    if icc is None:
+        _apply_hints(result, image.info, name)
     _turn_upright(result, way if way is not None else exif_tags.orientation(metadata))
     xmp = image.info.get("xmp")
     result.xmp = xmp.encode() if isinstance(xmp, str) else xmp
@@ -254,10 +256,16 @@ def _opencv(data: bytes) -> NDArray[Any] | None:
     """Decode with OpenCV to (H, W) or (H, W, 3 or 4) RGB order; None when it cannot."""
     import cv2
 
+    # OpenCV writes to stderr about files that it cannot read; the PhotoError says it better.
+    logging = cv2.utils.logging
+    level = logging.getLogLevel()
+    logging.setLogLevel(logging.LOG_LEVEL_SILENT)
     try:
         found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
     except cv2.error:
         return None
+    finally:
+        logging.setLogLevel(level)
     if found is None or found.dtype not in (np.uint16, np.float32, np.float64):
         return None
     if found.dtype == np.float64:
@@ -337,6 +345,8 @@ def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
         deep = np.asarray(image).astype(np.int64)
         if deep.min() < 0 or deep.max() > 65535:
             raise PhotoError(f"{name} has 32-bit whole numbers. Save it with 16 bits a channel.")
+        if image.format == "TIFF" and image.tag_v2.get(262) == 0:
+            deep = 65535 - deep  # white is zero, which Pillow minds only with 8 bits
         _fill_from_array(result, deep.astype(np.uint16), name)
     elif mode == "1":
         _fill_from_array(result, np.asarray(image.convert("L")), name)
@@ -398,8 +408,25 @@ def _apply_profile(result: Decoded, name: str) -> None:
     # A grey profile cannot describe the coloured picture that an edit makes of it.
     result.icc = None
     if not profile.is_srgb:
-        result.codes = SRGB.encode(profile.decode(result.codes), result.codes.dtype)
+        _convert(result, profile)
         result.notes.append(f"The grey tone curve of {name} was converted to sRGB.")
+
+
+def _apply_hints(result: Decoded, info: dict[str, Any], name: str) -> None:
+    """Convert a picture to sRGB that names another encoding without carrying a profile."""
+    if result.codes.dtype.kind == "f":
+        return
+    gamma = info.get("gamma")  # PNG's gAMA, which its sRGB chunk overrides
+    if exif_tags.says_adobe_rgb(result.exif):
+        _convert(result, ADOBE_RGB)
+        result.notes.append(f"{name} is Adobe RGB by its EXIF alone; it was converted to sRGB.")
+    elif gamma and "srgb" not in info and 0.1 <= gamma <= 10 and abs(gamma - 0.45455) > 0.02:
+        _convert(result, ColorProfile((ParametricCurve(1 / gamma),) * 3))
+        result.notes.append(f"{name} has a gamma of {gamma:.3g}; it was converted to sRGB.")
+
+
+def _convert(result: Decoded, profile: ColorProfile) -> None:
+    result.codes = SRGB.encode(profile.decode(result.codes), result.codes.dtype)
 
 
 def _convert_through_lut(result: Decoded, icc: bytes, name: str) -> None:

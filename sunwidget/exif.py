@@ -76,6 +76,16 @@ def orientation(exif: Any) -> int:
     return value if isinstance(value, int) and 1 <= value <= 8 else 1
 
 
+def says_adobe_rgb(exif: Any) -> bool:
+    """Tell the mark of cameras set to Adobe RGB that embed no profile (DCF 2.0, "R03")."""
+    if exif is None or exif.get_ifd(_EXIF_IFD).get(0xA001) == 1:
+        return False
+    try:
+        return _text(exif.get_ifd(0xA005).get(1)) == "R03"
+    except Exception:  # noqa: BLE001 - a damaged pointer
+        return False
+
+
 def dump(
     exif: Any, size: tuple[int, int] | None = None, recipe: dict[str, Any] | None = None
 ) -> bytes | None:

@@ -242,8 +242,11 @@ def readable():
     palette = np.random.default_rng(3).integers(0, 256, (16, 3)).astype(np.uint8)
     index = (np.arange(24 * 32).reshape(24, 32) // 3) % 16
     light = (base / 255.0).astype(np.float32) ** 2.2
-    frames = [Image.fromarray(base), Image.fromarray(255 - base)]
-    two = {"save_all": True, "append_images": frames[1:]}
+
+    def two():
+        # Made anew each time: Pillow leaves an encoder's settings on the frames it wrote.
+        return {"save_all": True, "append_images": [Image.fromarray(255 - base)]}
+
     cmyk = Image.fromarray(255 - np.dstack([base, np.full_like(grey, 255)]), "CMYK")
     naive = np.asarray(cmyk.convert("RGB"))
     bits = (grey > 128).astype(np.uint8)
@@ -256,6 +259,10 @@ def readable():
         "jpeg_progressive": Readable(jpeg_file(base, progressive=True), base, near),
         "jpeg_grey": Readable(jpeg_file(grey), grey3, near),
         "jpeg_cmyk": Readable(jpeg_file(cmyk), naive, near, note="CMYK"),
+        # Phones keep a second picture, such as a depth map, behind the first.
+        "jpeg_mpo": Readable(
+            pillow_file(base, "MPO", quality=95, subsampling=0, **two()), base, near
+        ),
         "jpeg_wrong_icc": Readable(jpeg_file(base, icc_profile=b"no"), base, near, note="profile"),
         "png": Readable(png_file(base), base),
         "png_grey": Readable(png_file(grey, color_type=0), grey3),
@@ -276,7 +283,7 @@ def readable():
         "png_16_grey_alpha": Readable(
             png16_file(la16), np.repeat(deep[..., :1], 3, -1), alpha=deep[..., 1] / 65535
         ),
-        "png_animated": Readable(pillow_file(frames[0], "PNG", **two), base, note="2 frames"),
+        "png_animated": Readable(pillow_file(base, "PNG", **two()), base, note="2 frames"),
         "tiff": Readable(pillow_file(base, "TIFF"), base),
         "tiff_lzw": Readable(pillow_file(base, "TIFF", compression="tiff_lzw"), base),
         "tiff_grey": Readable(tiff_file(grey), grey3),
@@ -289,15 +296,23 @@ def readable():
             deep,
             alpha=deep[..., 0] / 65535,
         ),
+        "tiff_16_tiles": Readable(tiff_file(deep, tile=(16, 16)), deep),
+        "tiff_16_deflate": Readable(tiff_file(deep, compression="zlib", predictor=True), deep),
+        "tiff_16_big": Readable(tiff_file(deep, bigtiff=True), deep),
+        "tiff_16_white_is_zero": Readable(
+            tiff_file(deep[..., 0], photometric="miniswhite"),
+            np.repeat(65535 - deep[..., :1], 3, -1),
+        ),
+        "tiff_white_is_zero": Readable(tiff_file(grey, photometric="miniswhite"), 255 - grey3),
         "tiff_float": Readable(tiff_file(light, photometric="rgb"), light),
         "tiff_float_grey": Readable(tiff_file(light[..., 0]), np.repeat(light[..., :1], 3, -1)),
-        "tiff_pages": Readable(pillow_file(frames[0], "TIFF", **two), base, note="2 frames"),
+        "tiff_pages": Readable(pillow_file(base, "TIFF", **two()), base, note="2 frames"),
         "webp": Readable(pillow_file(base, "WEBP", lossless=True), base),
         "webp_alpha": Readable(
             pillow_file(rgba, "WEBP", lossless=True, exact=True), base, alpha=alpha / 255
         ),
         "webp_animated": Readable(
-            pillow_file(frames[0], "WEBP", lossless=True, **two), base, note="2 frames"
+            pillow_file(base, "WEBP", lossless=True, **two()), base, note="2 frames"
         ),
         "gif": Readable(
             pillow_file(Image.fromarray(palette[index]).quantize(16), "GIF"), palette[index]

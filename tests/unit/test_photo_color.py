@@ -199,6 +199,40 @@ def test_a_table_profile_is_converted_with_a_note():
     assert red > 100 + blue
 
 
+def adobe_by_exif(color_space=65535):
+    block = corpus.exif_block(shot={0xA001: color_space, 0xA005: {1: "R03"}})
+    return corpus.png_file(all_levels(), chunks=[(b"eXIf", block[6:])])
+
+
+def test_adobe_rgb_named_by_exif_alone_is_converted_to_srgb():
+    with pytest.warns(PhotoWarning, match="Adobe RGB by its EXIF"):
+        photo = open_photo(adobe_by_exif())
+    profiled = with_profile(all_levels(), corpus.ADOBE_RGB)
+    assert photo.profile.is_srgb
+    assert np.abs(photo.encoded.astype(int) - profiled.preview(30_000)).max() <= 1
+
+
+def test_an_srgb_mark_wins_over_the_adobe_one():
+    assert np.array_equal(open_photo(adobe_by_exif(1)).encoded, all_levels())
+
+
+@pytest.mark.parametrize("gamma", [1.0, 0.55, 0.3])
+def test_a_png_with_another_gamma_is_converted_to_srgb(gamma):
+    chunk = (b"gAMA", round(gamma * 100_000).to_bytes(4, "big"))
+    with pytest.warns(PhotoWarning, match="has a gamma of"):
+        photo = open_photo(corpus.png16_file(all_deep_levels(), chunks=[chunk]))
+    expected = linear_to_srgb((all_deep_levels() / 65535) ** (1 / gamma))
+    assert np.abs(photo.encoded / 65535 - expected).max() < 2e-5
+
+
+@pytest.mark.parametrize("extra", [[], [(b"sRGB", b"\0")]])
+def test_the_gamma_that_every_srgb_png_names_changes_nothing(extra):
+    chunks = [*extra, (b"gAMA", (45455 if not extra else 100_000).to_bytes(4, "big"))]
+    assert np.array_equal(
+        open_photo(corpus.png_file(corpus.ramp(), chunks=chunks)).encoded, corpus.ramp()
+    )
+
+
 @pytest.mark.parametrize("length", [0, 100, 131, 132, 140, 200, 300, 400])
 def test_a_profile_that_was_cut_is_left_out_with_a_note(length):
     with pytest.warns(PhotoWarning, match="profile"):
