@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sunwidget.camera import Point
+from sunwidget.camera import Camera, Point
 
 TOLERANCE = 0.004  # of the height: how far a sea horizon strays from a line
 MAXIMUM_ROLL = 20.0
@@ -163,3 +163,17 @@ def _score(
     below = (residual > 2 * tolerance).sum(axis=1) / width
     tilt = np.degrees(np.arctan(np.abs(slopes)))
     return near - 1.5 * below - 0.01 * tilt, near
+
+
+def above(camera: Camera, width: int, height: int) -> np.ndarray:
+    """Return 1 above the horizon and 0 below, (height, width) float32, with a soft edge.
+
+    The edge lies 0.8 % of the height under the line, so that a line a little too high cuts
+    nothing off the sky.
+    """
+    (x0, y0), (x1, y1) = camera.pixel(-10.0, 0.0), camera.pixel(10.0, 0.0)
+    slope = (y1 - y0) / (x1 - x0)
+    columns = (np.arange(width) + 0.5) * camera.width / width
+    line = (y0 + slope * (columns - x0)) / camera.height
+    rows = ((np.arange(height) + 0.5) / height)[:, None]
+    return np.clip((line + 0.012 - rows) / 0.008, 0, 1).astype(np.float32)

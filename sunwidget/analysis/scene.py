@@ -22,7 +22,7 @@ from sunwidget.analysis import match, refine
 from sunwidget.analysis import sky as sky_stage
 from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis import water as water_stage
-from sunwidget.analysis.backdrop import behind_sun
+from sunwidget.analysis.backdrop import behind_sun, fill_by_pyramid
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import fit_sky
 from sunwidget.analysis.horizon import Horizon
@@ -35,6 +35,7 @@ from sunwidget.edit import PARAMETERS, Edit, Stroke
 from sunwidget.photo import Photo, open_photo
 
 Progress = Callable[[float, str], Any]
+SURE_HORIZON = 0.6  # confidence from which nothing below the horizon can be sky
 NO_SKY = 0.005  # share of the picture below which the photo counts as without sky
 
 
@@ -380,6 +381,10 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
     camera = Camera.from_horizon(
         *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll
     )
+    if hints.horizon is not None or horizon.confidence >= SURE_HORIZON:
+        # Water that mirrors the sky is not sky.
+        sky = sky * horizon_stage.above(camera, *sky.shape[::-1])
+        matte = matte * horizon_stage.above(camera, *photo.size)
     sun = sun_stage.observe(seed, blot, sky, camera, working)
 
     step("fit", 0.82, "Fitting the atmosphere")
@@ -394,9 +399,12 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
     fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
     if hints.method("clouds") == "unmix":
         opacity = cloud_stage.veil(working, sky, camera, fitted)
-        cover = cloud_stage.Clouds(opacity, cover.softness)
-        if blot is not None:
-            cover = cloud_stage.without(cover, blot.mask)
+        # Round the sun whiteness tells nothing: continue the clouds from around it, thinned,
+        # since a sun that the photo shows is not behind a thick one.
+        glare = resize(behind.glare, working.width, working.height)
+        filled = fill_by_pyramid(opacity[..., None], 1 - glare)[..., 0]
+        cover = cloud_stage.Clouds(filled * (1 - 0.7 * glare), cover.softness)
+
     scene = dataclasses.replace(
         base,
         sky=matte,

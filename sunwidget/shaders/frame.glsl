@@ -51,10 +51,12 @@ float GetForwardLobe(float cosine) {
   return (1.0 - g * g) / pow(1.0 + g * g - 2.0 * g * cosine, 1.5);
 }
 
-// Clouds see the sun past the hills that hide it from the camera.
-vec3 GetCloud(sampler2D light, vec3 sun, vec3 view, float opacity) {
+// Light of a cloud of this opacity: what falls on it, and what comes through it from the sky
+// behind and around, the more the thinner it is.
+vec3 GetCloud(sampler2D light, vec3 sky_behind, vec3 sun, vec3 view, float opacity) {
   float forward = silver_lining * GetForwardLobe(dot(sun, view)) * (1.0 - opacity);
-  return sky_gain * GetCloudRadiance(light, 0.25 * forward);
+  vec3 lit = sky_gain * GetCloudRadiance(light, 0.25 * forward);
+  return mix(lit, sky_behind, 0.7 * (1.0 - opacity) + 0.15);
 }
 
 void main() {
@@ -81,8 +83,8 @@ void main() {
   vec3 clean = sky_before * exp(4.0 * ReadBilinear(backdrop, place).rgb - 2.0);
   vec3 sky = scene + glare * moved * (clean - scene);
   float opacity = layer.g;
-  vec3 veil_before = (1.0 - opacity) * sky_before + opacity * GetCloud(light_source, sun_before, view, opacity);
-  vec3 veil_now = (1.0 - opacity) * sky_now + opacity * GetCloud(light_edit, sun_now, view, opacity);
+  vec3 veil_before = (1.0 - opacity) * sky_before + opacity * GetCloud(light_source, sky_before, sun_before, view, opacity);
+  vec3 veil_now = (1.0 - opacity) * sky_now + opacity * GetCloud(light_edit, sky_now, sun_now, view, opacity);
   vec3 plain = GetRatio(sky_now, sky_before);
   vec3 veiled = GetRatio(veil_now, veil_before);
   vec3 ratio = plain + cloud_strength * (veiled - plain);

@@ -18,8 +18,9 @@ out vec4 result;
 
 // Every second row and every fourth column: trapezoids over the sky view's own samples.
 const int COLUMN_STRIDE = 4;
-// Clouds stand in the sun after the land has lost it: 1.6 degrees longer at this height.
-const Length CLOUD_HEIGHT = 2500.0;
+// Clouds stand in the sun after the land has lost it: 2.3 degrees longer at this height,
+// between cumulus (2 km) and cirrus (8 km and more).
+const Length CLOUD_HEIGHT = 5000.0;
 
 // Share of the light from `direction` that counts in texel `index`.
 Number GetWeight(int index, vec3 direction) {
