@@ -10,7 +10,6 @@ import contextlib
 import importlib
 import io
 import re
-import struct
 import threading
 import warnings
 from dataclasses import dataclass, field
@@ -21,11 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget import exif as exif_tags
-from sunwidget.color import ADOBE_RGB, SRGB, ColorProfile, ParametricCurve
-from sunwidget.icc import ProfileError, color_space, read_profile
-
-MAX_PIXELS = 200_000_000
-"""Largest picture that is opened. Above it, a few kilobytes could ask for all of memory."""
+from sunwidget.color import SRGB, ColorProfile
+from sunwidget.color_management import Coded, by_hints, by_profile, cmyk_to_srgb
+from sunwidget.layout import PhotoError, check_light, check_size, split_alpha, upright
 
 # Never EPS, WMF and the like: those formats can start other programs.
 _PLUGINS = ("Jpeg", "Mpo", "Png", "Tiff", "WebP", "Bmp", "Gif", "Avif")
@@ -42,14 +39,6 @@ _FOREIGN = {
     b"#?RA": "a Radiance HDR file",
 }
 _bomb_lock = threading.Lock()
-
-
-class PhotoError(ValueError):
-    """A picture that cannot be opened or written; the message says what to do."""
-
-
-class PhotoWarning(UserWarning):
-    """A picture was opened, but not everything in it could be kept."""
 
 
 @dataclass
@@ -134,9 +123,10 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
         _fill_from_array(result, found, name)
     else:
         _fill_from_image(result, image, name)
-    _apply_profile(result, name)
-    if icc is None:
-        _apply_hints(result, image.info, name)
+    if result.icc is not None:
+        _take(result, by_profile(result.codes, result.icc, name))
+    elif icc is None:
+        _take(result, by_hints(result.codes, metadata, image.info, name))
     _turn_upright(result, way if way is not None else exif_tags.orientation(metadata))
     xmp = image.info.get("xmp")
     result.xmp = xmp.encode() if isinstance(xmp, str) else xmp
@@ -144,37 +134,6 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
         result.xmp = re.sub(rb"""(tiff:Orientation(?:>|=["']))\d""", rb"\g<1>1", result.xmp)
     result.dpi = _dpi(image)
     return result
-
-
-def check_size(width: int, height: int, name: str) -> None:
-    """Refuse pictures without pixels and those of more than MAX_PIXELS."""
-    if width < 1 or height < 1:
-        raise PhotoError(f"{name} has no pixels ({width}×{height}).")
-    if width * height > MAX_PIXELS:
-        raise PhotoError(
-            f"{name} has {width}×{height} pixels, {width * height / 1e6:.0f} million; sunwidget "
-            f"opens up to {MAX_PIXELS / 1e6:.0f} million. Scale it down first."
-        )
-
-
-def split_alpha(array: NDArray[Any], name: str) -> tuple[NDArray[Any], NDArray[np.float32] | None]:
-    """Split (H, W), (H, W, 1–4) into colour (H, W, 3) and alpha (H, W) in 0–1 or None."""
-    if array.ndim == 2:
-        array = array[..., None]
-    channels = array.shape[2] if array.ndim == 3 else 0
-    if not 1 <= channels <= 4:
-        hint = ""
-        if array.ndim == 3 and array.shape[0] in (1, 3, 4):
-            hint = " The channels come last: use numpy.moveaxis(array, 0, -1)."
-        raise PhotoError(
-            f"{name} has the shape {array.shape}; expected (H, W), (H, W, 3) or (H, W, 4).{hint}"
-        )
-    alpha = None
-    if channels in (2, 4):
-        top = np.iinfo(array.dtype).max if array.dtype.kind == "u" else 1
-        alpha = np.clip(array[..., -1].astype(np.float32) / np.float32(top), 0, 1)
-    color = array[..., :3] if channels >= 3 else np.repeat(array[..., :1], 3, axis=2)
-    return np.ascontiguousarray(color), alpha
 
 
 def _open(data: bytes, name: str) -> Any:
@@ -287,9 +246,9 @@ def _decode_odd_tiff(data: bytes, name: str) -> Decoded:
         result.turned = exif_tags.orientation(result.exif) >= 5
         upright_size = (width, height) if result.turned else (height, width)
         if found is not None and found.shape[:2] == upright_size:
-            result.icc = tags.get(34675)
             _fill_from_array(result, found, name)
-            _apply_profile(result, name)
+            if isinstance(icc := tags.get(34675), bytes):
+                _take(result, by_profile(result.codes, icc, name))
             return result
     raise PhotoError(
         f"{name} is a TIFF of an unusual or damaged kind. Save it with 8 or 16 bits a channel, "
@@ -318,23 +277,9 @@ def _fill_from_array(result: Decoded, found: NDArray[Any], name: str) -> None:
         check_light(result.codes, name)
 
 
-def check_light(light: NDArray[Any], name: str) -> None:
-    """Refuse float pictures that hold no light: NaN, infinity, negative luminance."""
-    bad = light.size - int(np.isfinite(light).sum())
-    if bad:
-        raise PhotoError(
-            f"{name} holds {bad} values that are NaN or infinite. Replace them first, "
-            "for example with numpy.nan_to_num."
-        )
-    luminance = light @ np.array([0.2126, 0.7152, 0.0722], light.dtype)
-    # Single channels below 0 are colours outside Rec. 709; negative luminance is no colour.
-    # The margin is for resampling, which undershoots beside bright edges.
-    lowest = float(luminance.min())
-    if lowest < -0.05 * max(1.0, float(luminance.max())):
-        raise PhotoError(
-            f"{name} holds negative light (luminance down to {lowest:.3g}). Floats are taken as "
-            "linear Rec. 709 light, 0 = black, 1 = white."
-        )
+def _take(result: Decoded, coded: Coded) -> None:
+    result.codes, result.profile, result.icc = coded.codes, coded.profile, coded.icc
+    result.notes.extend(coded.notes)
 
 
 def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
@@ -355,7 +300,10 @@ def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
             image = image.convert("LA" if mode == "L" else "RGBA")
         _fill_from_array(result, np.asarray(image), name)
     elif mode == "CMYK":
-        _fill_from_array(result, np.asarray(_separate_cmyk(result, image, name)), name)
+        converted, notes = cmyk_to_srgb(image, result.icc, name)
+        result.icc = None
+        result.notes.extend(notes)
+        _fill_from_array(result, np.asarray(converted), name)
     else:  # palettes, YCbCr, Lab, premultiplied alpha
         has_alpha = "transparency" in image.info or mode in ("PA", "RGBa", "La")
         try:
@@ -365,105 +313,12 @@ def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
         _fill_from_array(result, np.asarray(converted), name)
 
 
-def _separate_cmyk(result: Decoded, image: Any, name: str) -> Any:
-    icc, result.icc = result.icc, None
-    result.notes.append(f"{name} is CMYK; it was converted to sRGB and will be saved as RGB.")
-    try:
-        if icc and color_space(icc) == "CMYK":
-            return _through_littlecms(image, icc)
-    except ProfileError:
-        result.notes.append(f"The CMYK profile of {name} is damaged; its colours are approximate.")
-    return image.convert("RGB")
-
-
-def _through_littlecms(image: Any, icc: bytes) -> Any:
-    from PIL import ImageCms
-
-    try:
-        source = ImageCms.ImageCmsProfile(io.BytesIO(icc))
-        target = ImageCms.createProfile("sRGB")
-        return ImageCms.profileToProfile(image, source, target, outputMode="RGB")
-    except (ImageCms.PyCMSError, OSError) as error:
-        raise ProfileError(str(error)) from error
-
-
-def _apply_profile(result: Decoded, name: str) -> None:
-    """Settle ``result.profile`` and ``result.icc`` so that the codes mean what they say."""
-    icc = result.icc
-    if icc is None:
-        return
-    try:
-        profile = read_profile(icc)
-    except (ProfileError, struct.error):
-        result.icc = None
-        _convert_through_lut(result, icc, name)
-        return
-    if result.codes.dtype.kind == "f":
-        result.icc = None
-        result.codes = profile.to_light(result.codes)
-        return
-    if profile.name != "grey":
-        result.profile = profile
-        return
-    # A grey profile cannot describe the coloured picture that an edit makes of it.
-    result.icc = None
-    if not profile.is_srgb:
-        _convert(result, profile)
-        result.notes.append(f"The grey tone curve of {name} was converted to sRGB.")
-
-
-def _apply_hints(result: Decoded, info: dict[str, Any], name: str) -> None:
-    """Convert a picture to sRGB that names another encoding without carrying a profile."""
-    if result.codes.dtype.kind == "f":
-        return
-    gamma = info.get("gamma")  # PNG's gAMA, which its sRGB chunk overrides
-    if exif_tags.says_adobe_rgb(result.exif):
-        _convert(result, ADOBE_RGB)
-        result.notes.append(f"{name} is Adobe RGB by its EXIF alone; it was converted to sRGB.")
-    elif gamma and "srgb" not in info and 0.1 <= gamma <= 10 and abs(gamma - 0.45455) > 0.02:
-        _convert(result, ColorProfile((ParametricCurve(1 / gamma),) * 3))
-        result.notes.append(f"{name} has a gamma of {gamma:.3g}; it was converted to sRGB.")
-
-
-def _convert(result: Decoded, profile: ColorProfile) -> None:
-    result.codes = SRGB.encode(profile.decode(result.codes), result.codes.dtype)
-
-
-def _convert_through_lut(result: Decoded, icc: bytes, name: str) -> None:
-    from PIL import Image
-
-    try:
-        if color_space(icc) != "RGB" or result.codes.dtype.kind == "f":
-            raise ProfileError("not an RGB profile")
-        eight = result.codes
-        if eight.dtype == np.uint16:
-            eight = np.rint(eight / 257.0).astype(np.uint8)
-        result.codes = np.asarray(_through_littlecms(Image.fromarray(eight), icc)).copy()
-        result.notes.append(
-            f"The colour profile of {name} is a look-up table; the picture was converted to "
-            "sRGB with 8 bits a channel."
-        )
-    except ProfileError:
-        result.notes.append(f"The colour profile of {name} cannot be read; sRGB is assumed.")
-
-
 def _turn_upright(result: Decoded, way: int) -> None:
     result.turned = way in (5, 6, 7, 8)
     if way != 1 and result.format != "TIFF":  # Pillow and OpenCV turn TIFF themselves
         result.codes = np.ascontiguousarray(upright(result.codes, way))
         if result.alpha is not None:
             result.alpha = np.ascontiguousarray(upright(result.alpha, way))
-
-
-def upright(array: NDArray[Any], way: int) -> NDArray[Any]:
-    """Turn an array stored in EXIF orientation ``way`` (1–8) upright; a view."""
-    if way >= 5:
-        array = np.swapaxes(array, 0, 1)
-    if way in (2, 3, 6, 7):
-        array = array[:, ::-1]
-    if way in (3, 4, 7, 8):
-        array = array[::-1]
-    return array
 
 
 def _dpi(image: Any) -> tuple[float, float] | None:

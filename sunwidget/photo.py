@@ -21,16 +21,8 @@ from numpy.typing import NDArray
 
 from sunwidget import exif as exif_tags
 from sunwidget.color import SRGB, ColorProfile, strips
-from sunwidget.decode import (
-    Decoded,
-    PhotoError,
-    PhotoWarning,
-    check_light,
-    check_size,
-    decode_bytes,
-    decode_image,
-    split_alpha,
-)
+from sunwidget.decode import Decoded, decode_bytes, decode_image
+from sunwidget.layout import PhotoError, PhotoWarning, check_light, check_size, split_alpha
 
 __all__ = ["FieldOfView", "Photo", "PhotoError", "PhotoWarning", "open_photo"]
 
