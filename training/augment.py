@@ -1,6 +1,7 @@
 """What a training photo goes through: cropping, new skies, drawn things, light and camera.
 
-Images are ``(S, S, 3)`` uint8 sRGB; targets ``(S, S)`` uint8, 255 = sky, soft at edges; validity 255 or 0.
+Images are ``(S, S, 3)`` uint8 sRGB; targets ``(S, S)`` uint8, 255 = sky, soft at edges; validity
+255 or 0.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ class Sample:
 
 
 def crop(photo: np.ndarray, box: tuple[int, int, int, int], size: int) -> Sample:
-    """The ``box`` (top, left, height, width, pixels) of an ``(H, W, 4)`` photo, squeezed to a square."""
+    """The ``box`` (top, left, height, width) of an ``(H, W, 4)`` photo, squeezed to a square."""
     top, left, height, width = box
     part = np.ascontiguousarray(photo[top : top + height, left : left + width])
     shrinks = height * width > size * size
@@ -84,7 +85,7 @@ def rotate(sample: Sample, random: Random) -> Sample:
 
 
 def other_sky(size: int, random: Random, sky: Source, photo: Source) -> np.ndarray:
-    """A sky to put behind a foreground: all-sky photo, another photo's upper part, or a drawn one; uint8."""
+    """A sky for a foreground: all-sky photo, another photo's upper part, or a drawn one; uint8."""
     draw = random.random()
     if draw < 0.45:
         texture = sky()
@@ -103,7 +104,7 @@ def other_sky(size: int, random: Random, sky: Source, photo: Source) -> np.ndarr
 
 
 def replace_sky(sample: Sample, random: Random, sky: Source, photo: Source) -> Sample:
-    """Another sky behind this foreground, whose light follows the new sky's colour part of the way."""
+    """Another sky behind this foreground, whose light partly follows the new sky's colour."""
     image = sample.image.astype(np.float32)
     new = other_sky(image.shape[0], random, sky, photo).astype(np.float32)
     alpha = sample.target.astype(np.float32)[..., None] / 255.0
@@ -118,19 +119,19 @@ def replace_sky(sample: Sample, random: Random, sky: Source, photo: Source) -> S
 
 
 def relight(image: np.ndarray, target: np.ndarray, random: Random) -> np.ndarray:
-    """Silhouette, night or haze: light that the training photos rarely show; float image in [0, 1]."""
+    """Silhouette, night, haze, glow: light that the photos rarely show; float image in [0, 1]."""
     draw = random.random()
-    alpha = target.astype(np.float32)[..., None] / 255.0 if draw < 0.22 else 0.0
-    if draw < 0.10:  # back-light
+    alpha = target.astype(np.float32)[..., None] / 255.0 if draw < 0.17 else 0.0
+    if draw < 0.08:  # back-light
         image = image * (alpha + (1 - alpha) * random.uniform(0.03, 0.35))
-    elif draw < 0.22:  # night: everything dark and cool, some lamps below
+    elif draw < 0.17:  # night: everything dark and cool, some lamps below
         tint = np.array(
             [random.uniform(0.3, 1.0), random.uniform(0.4, 0.9), random.uniform(0.6, 1.2)],
             np.float32,
         )
         image = cv2.pow(image, random.uniform(1.0, 1.4)) * tint * random.uniform(0.2, 0.8)
         image = lamps(image * (alpha + (1 - alpha) * random.uniform(0.4, 1.3)), target, random)
-    elif draw < 0.32:  # haze, thicker towards the horizon
+    elif draw < 0.24:  # haze, thicker towards the horizon
         rows = np.linspace(0, 1, image.shape[0], dtype=np.float32)[:, None, None]
         thick = np.clip(
             random.uniform(0.3, 0.85) * (1 - np.abs(rows - random.uniform(0.3, 0.7))), 0, 1
@@ -139,7 +140,7 @@ def relight(image: np.ndarray, target: np.ndarray, random: Random) -> np.ndarray
             np.float32
         )
         image = image * (1 - thick) + veil * thick
-    elif draw < 0.40:  # glow around a low sun
+    elif draw < 0.30:  # glow around a low sun
         ramp = np.linspace(0, 1, image.shape[0], dtype=np.float32)
         distance = ((ramp - random.uniform(0.1, 0.7)) ** 2)[:, None] + (ramp - random.random()) ** 2
         glow = np.exp(-distance / random.uniform(0.005, 0.12))[..., None] * random.uniform(0.3, 1.0)
@@ -212,9 +213,9 @@ def augment(photo: np.ndarray, size: int, random: Random, sky: Source, other: So
     if random.random() < 0.25:
         sample = rotate(sample, random)
     share = cv2.mean(sample.target)[0] / 255.0
-    if 0.03 < share and random.random() < 0.3:
+    if share > 0.03 and random.random() < 0.25:
         sample = replace_sky(sample, random, sky, other)
-    if 0.1 < share and random.random() < 0.15:
+    if share > 0.1 and random.random() < 0.15:
         sample.image, sample.target = draw_thin_things(sample.image, sample.target, random)
     sample.image = photometric(sample.image, sample.target, random)
     return sample

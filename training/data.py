@@ -1,6 +1,7 @@
 """Training photos: read once, packed into one memory-mapped file, served as augmented batches.
 
-Masks on disk: 255 sky, 0 not sky, 128 ignore. In the pack every photo is ``(H, W, 4)`` uint8: sRGB and its mask.
+Masks on disk: 255 sky, 0 not sky, 128 ignore. In the pack every photo is ``(H, W, 4)`` uint8: sRGB
+and its mask.
 """
 
 from __future__ import annotations
@@ -46,13 +47,13 @@ def barred(folder: Path) -> set[str]:
 
 
 def held_out(folder: str, name: str) -> bool:
-    """Whether a photo belongs to the validation split; neighbouring video frames share their fate."""
+    """Whether a photo belongs to the validation split; neighbouring frames share their fate."""
     key = name[:-7] if folder == "camvid" else name
     return hashlib.sha256(f"{folder}/{key}".encode()).digest()[0] % HELD_OUT == 0
 
 
 def read_pair(image: Path, mask: Path | None) -> np.ndarray:
-    """One photo as ``(H, W, 4)`` uint8: sRGB, then the mask (255 everywhere without a mask file)."""
+    """One photo as ``(H, W, 4)`` uint8: sRGB, then the mask (255 without a mask file)."""
     rgb = cv2.cvtColor(cv2.imread(str(image), cv2.IMREAD_COLOR), cv2.COLOR_BGR2RGB)
     label = (
         np.full(rgb.shape[:2], 255, np.uint8)
@@ -116,7 +117,10 @@ class Pack:
 
 
 class Batches(IterableDataset):
-    """Endless augmented batches: image ``(N, 3, S, S)``, target and loss weight ``(N, 1, S, S)``, all uint8."""
+    """Endless augmented batches, all uint8.
+
+    Image ``(N, 3, S, S)``, target and loss weight ``(N, 1, S, S)``.
+    """
 
     def __init__(self, root: Path, cache: Path, size: int, batch: int, seed: int) -> None:
         self.root, self.cache, self.size, self.batch, self.seed = root, cache, size, batch, seed
@@ -152,7 +156,10 @@ def stack(samples: list[Sample]) -> tuple[torch.Tensor, torch.Tensor, torch.Tens
 
 
 def edge_weight(sample: Sample) -> np.ndarray:
-    """Weight of every pixel in the loss, ``(S, S)`` uint8: 0 unknown, 85 inside, up to 255 within 2 px of an edge."""
+    """Weight of every pixel in the loss, ``(S, S)`` uint8.
+
+    0 where nothing is known, 85 inside, up to 255 within 2 px of an edge.
+    """
     edge = cv2.morphologyEx(sample.target, cv2.MORPH_GRADIENT, np.ones((5, 5), np.uint8))
     return np.where(sample.valid > 0, 85 + (edge // 3) * 2, 0).astype(np.uint8)
 

@@ -1,9 +1,12 @@
-"""Scores the bare network: photo squeezed to 384 x 384, its output stretched back to the photo and cut at 0.5.
+"""Scores the bare network.
+
+The photo is squeezed to 384 x 384, the output stretched back to the photo and cut at 0.5.
 
 ``python -m training.evaluate --data ../shared/data/eval``
 
-Prints, per folder that holds images/ and masks/: pooled IoU, share of wrong pixels (MCR), 10th percentile of the
-photos' IoU, and the median time of a run. These folders are for measuring; nothing is trained or chosen on them.
+Prints, per folder that holds images/ and masks/: pooled IoU, share of wrong pixels (MCR), 10th
+percentile of the photos' IoU, and the median time of a run. These folders are for measuring;
+nothing is trained or chosen on them.
 """
 
 from __future__ import annotations
@@ -30,7 +33,7 @@ class Score:
     mistakes: dict[str, float] = field(default_factory=dict)
 
     def add(self, name: str, sky: np.ndarray, mask: np.ndarray) -> None:
-        """``sky`` is boolean ``(H, W)``; ``mask`` uint8 alike: 255 sky, 0 not, anything between unknown."""
+        """``sky`` boolean ``(H, W)``; ``mask`` uint8 alike: 255 sky, 0 not, between unknown."""
         truth, known = mask > 191, (mask > 191) | (mask < 64)
         shared, union = int((sky & truth & known).sum()), int(((sky | truth) & known).sum())
         wrong, total = int(((sky != truth) & known).sum()), int(known.sum())
@@ -43,7 +46,8 @@ class Score:
     def __str__(self) -> str:
         low = np.percentile(list(self.ious.values()), 10) if self.ious else np.nan
         iou = self.shared / max(self.union, 1)
-        return f"iou={iou:.4f} mcr={self.wrong / max(self.total, 1):.4f} iou_p10={low:.4f} photos={len(self.mistakes)}"
+        mcr = self.wrong / max(self.total, 1)
+        return f"iou={iou:.4f} mcr={mcr:.4f} iou_p10={low:.4f} photos={len(self.mistakes)}"
 
 
 def probability(session: onnxruntime.InferenceSession, rgb: np.ndarray, size: int) -> np.ndarray:
@@ -56,7 +60,7 @@ def probability(session: onnxruntime.InferenceSession, rgb: np.ndarray, size: in
 
 
 def overlay(rgb: np.ndarray, sky: np.ndarray, mask: np.ndarray) -> np.ndarray:
-    """Photo beside itself with missed sky in red and invented sky in yellow; ``(H, 2 W, 3)`` uint8."""
+    """Photo, then missed sky in red and invented sky in yellow; ``(H, 2 W, 3)`` uint8."""
     shown = rgb.astype(np.float32) * 0.6
     shown[sky & (mask < 64)] += (110, 110, 0)
     shown[~sky & (mask > 191)] += (120, 0, 0)

@@ -1,9 +1,11 @@
 """Writes a checkpoint's averaged weights as the ONNX file that the package ships.
 
-``python -m training.export --checkpoint build/sky/last.pt --out sunwidget/analysis/models/sky.onnx``
+``python -m training.export --checkpoint build/sky/last.pt``
 
-Contract: ``image`` float32 ``(1, 3, H, W)``, RGB, sRGB-encoded in [0, 1] -> ``sky`` float32 ``(1, 1, H, W)`` in [0, 1].
-Made for 384 x 384; other multiples of 32 work. Weights are stored as float16 and cast when the session is created.
+Contract: ``image`` float32 ``(1, 3, H, W)``, RGB, sRGB-encoded in [0, 1] -> ``sky`` float32
+``(1, 1, H, W)`` in [0, 1].
+Made for 384 x 384; other multiples of 32 work. Weights are stored as float16 and cast when the
+session is created.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from training.model import STRIDE, SkyNet, SkyProbability
 SIZE = 384
 LIMIT = 5_000_000
 TOLERANCE = 0.02
-"""Largest difference of any pixel between PyTorch in float32 and the file, whose weights carry 11 bits."""
+"""Largest difference of any pixel between PyTorch in float32 and the file with float16 weights."""
 
 
 def fold(module: nn.Module) -> None:

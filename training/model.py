@@ -1,8 +1,9 @@
 """SkyNet: a small residual encoder-decoder that says how much of every pixel is sky.
 
-Plain 3x3 convolutions rather than depthwise ones: on CPUs with bfloat16 matrix units they train several times
-faster per parameter, and the size budget (5 MB) is kept by storing the weights as float16. Strip pooling (Hou et al.
-2020) gives every pixel its whole row and column, which is what tells a wall from a sky of the same colour.
+Plain 3x3 convolutions rather than depthwise ones: on CPUs with bfloat16 matrix units they train
+several times faster per parameter, and the size budget (5 MB) is kept by storing the weights as
+float16. Strip pooling (Hou et al. 2020) gives every pixel its whole row and column, which helps to
+tell a wall from a sky of the same colour.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class Residual(nn.Module):
 
 
 class StripContext(nn.Module):
-    """Adds each position its row's, its column's and the whole photo's mean feature; any height and width."""
+    """Adds each position the means of its row, its column and the whole photo; any size."""
 
     def __init__(self, channels: int, middle: int) -> None:
         super().__init__()
@@ -114,7 +115,7 @@ class SkyNet(nn.Module):
 
 
 class SkyProbability(nn.Module):
-    """The shipped graph: ``image`` in, sigmoid of SkyNet's logits out, ``(N, 1, H, W)`` in [0, 1]."""
+    """The shipped graph: ``image`` in, sigmoid of the logits out, ``(N, 1, H, W)`` in [0, 1]."""
 
     def __init__(self, network: SkyNet) -> None:
         super().__init__()

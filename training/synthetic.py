@@ -1,4 +1,4 @@
-"""Drawn training material: skies, bare trees, wires and masts with exact masks, and rooms without any sky."""
+"""Drawn training material: skies, trees, wires and masts with exact masks, rooms without sky."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Random = np.random.Generator
 
 
 def gradient_sky(size: int, random: Random) -> np.ndarray:
-    """A clear sky from noon blue over sunset to night, with stars or a moon at times; ``(S, S, 3)`` uint8 sRGB."""
+    """A sky from noon over sunset to night, at times stars or a moon; ``(S, S, 3)`` uint8 sRGB."""
     palettes = (
         ((60, 110, 190), (190, 215, 235)),  # noon
         ((40, 60, 120), (250, 170, 90)),  # sunset
@@ -70,7 +70,7 @@ def _branch(
 ) -> None:
     """Draws a branch and its children, 16 sub-pixel steps per pixel."""
     end = at + length * np.array([np.cos(angle), -np.sin(angle)])
-    pixels = max(1, int(round(width)))
+    pixels = max(1, round(width))
     ends = [tuple(int(v * 16) for v in p) for p in (at, end)]
     cv2.line(canvas, ends[0], ends[1], 255.0 * min(1.0, max(width, 0.25)), pixels, cv2.LINE_AA, 4)
     if depth == 0:
@@ -177,7 +177,7 @@ def _surface(
 
 
 def room(size: int, random: Random, photo: Callable[[], np.ndarray]) -> np.ndarray:
-    """The inside of a box in perspective: ceiling, walls, floor, lamps, furniture-like blocks; ``(S, S, 3)`` uint8."""
+    """A box in perspective from inside, with lamps and furniture; ``(S, S, 3)`` uint8."""
     x0, x1 = np.sort(random.uniform(-0.2, 1.2, 2)) * size
     y0, y1 = random.uniform(-0.1, 0.4) * size, random.uniform(0.5, 1.1) * size
     far = 3.0 * size
