@@ -176,11 +176,14 @@ def _glare(
     ended = np.flatnonzero(halo < 0.02)
     if ended.size:
         halo[ended[0] :] = 0.0
+    # Bloom reaches well past the burnt core, and a fill that starts inside it would keep a ghost.
+    core = max(0.5 * np.count_nonzero(burnt > 0.3), 0.4)
+    halo = np.maximum(halo, 1 - _smoothstep(1.5 * core, 4.0 * core + 0.5, rings))
     radial = np.interp(angle, rings, halo).astype(np.float32)
     # Clipped pixels that touch the halo belong to it, whatever their shape.
-    core = (clipped > 0.5) & (sky > 0.3)
-    labels = cv2.connectedComponents(core.astype(np.uint8))[1]
-    touched = np.unique(labels[core & (radial > 0.3)])
+    burnt_out = (clipped > 0.5) & (sky > 0.3)
+    labels = cv2.connectedComponents(burnt_out.astype(np.uint8))[1]
+    touched = np.unique(labels[burnt_out & (radial > 0.3)])
     mine = np.isin(labels, touched[touched > 0]).astype(np.float32)
     size = max(3, round(0.02 * max(sky.shape))) | 1
     mine = cv2.GaussianBlur(cv2.dilate(mine, np.ones((size, size), np.uint8)), (0, 0), size / 3)

@@ -399,11 +399,10 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
     fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
     if hints.method("clouds") == "unmix":
         opacity = cloud_stage.veil(working, sky, camera, fitted)
-        # Round the sun whiteness tells nothing: continue the clouds from around it, thinned,
-        # since a sun that the photo shows is not behind a thick one.
+        # Round the sun whiteness tells nothing: continue the clouds from around it.
         glare = resize(behind.glare, working.width, working.height)
         filled = fill_by_pyramid(opacity[..., None], 1 - glare)[..., 0]
-        cover = cloud_stage.Clouds(filled * (1 - 0.7 * glare), cover.softness)
+        cover = cloud_stage.Clouds(filled, cover.softness)
 
     scene = dataclasses.replace(
         base,

@@ -1,12 +1,14 @@
 // How much of the sun's disc the picture leaves visible: one pixel, r in [0, 1].
 // Land hides it (sky matte), clouds veil it (opacity); the horizon itself is light.glsl's
-// affair, so only the part of the disc above it is counted here. Outside the picture the
+// affair, so only the part of the disc above it is counted here. A sun that the photo shows (its
+// glare, in `surface`) is not behind the thick cloud that its whiteness pretends. Outside the picture the
 // edge's answer fades to "visible" over a tenth of the picture.
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
 
 uniform sampler2D layers;
+uniform sampler2D surface;
 uniform float sun_azimuth;
 uniform float sun_elevation;
 
@@ -21,7 +23,8 @@ float GetOpening(vec3 direction) {
   if (at.z <= 0.0) return 1.0;
   vec4 layer = ReadBilinear(layers, at.xy);
   vec2 outside = max(max(-at.xy, at.xy - 1.0), 0.0);
-  return mix(layer.r * (1.0 - layer.g), 1.0, smoothstep(0.0, 0.1, max(outside.x, outside.y)));
+  float cloud = layer.g * (1.0 - 0.8 * ReadBilinear(surface, at.xy).r);
+  return mix(layer.r * (1.0 - cloud), 1.0, smoothstep(0.0, 0.1, max(outside.x, outside.y)));
 }
 
 void main() {
