@@ -22,6 +22,8 @@ _TABLE = {name: np.array(values) for name, values in _DATA["table"].items()}
 GROUND_RADIUS: float = _DATA["ground_radius_m"]
 TOP_RADIUS: float = _DATA["top_radius_m"]
 RAYLEIGH_SCALE_HEIGHT: float = _DATA["rayleigh_scale_height_m"]
+MESOSPHERE_ALTITUDE: float = _DATA["mesosphere_altitude_m"]
+MESOSPHERE_SCALE_HEIGHT: float = _DATA["mesosphere_scale_height_m"]
 MIE_SCALE_HEIGHT: float = _DATA["mie_scale_height_m"]
 OZONE_LAYER: tuple[float, float, float] = tuple(_DATA["ozone_layer_m"])
 MOLECULES_PER_DOBSON: float = _DATA["molecules_per_dobson"]
@@ -36,7 +38,9 @@ XYZ_TO_REC709: Array = np.array(_DATA["xyz_to_rec709"])
 
 def rayleigh_optical_depth(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:
     """Return the vertical Rayleigh optical depth of the model from sea level up."""
-    return rayleigh_coefficient(wavelength_nm) * RAYLEIGH_SCALE_HEIGHT
+    above = np.exp(-MESOSPHERE_ALTITUDE / RAYLEIGH_SCALE_HEIGHT)
+    column = RAYLEIGH_SCALE_HEIGHT * (1 - above) + MESOSPHERE_SCALE_HEIGHT * above
+    return rayleigh_coefficient(wavelength_nm) * column
 
 
 def ozone_cross_section(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:

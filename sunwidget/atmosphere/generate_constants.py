@@ -29,6 +29,10 @@ TABLE = np.arange(360.0, 831.0, 5.0)
 GROUND_RADIUS = 6_360_000.0
 TOP_RADIUS = 6_460_000.0
 RAYLEIGH_SCALE_HEIGHT = 8_430.0
+# One exponential of 8.43 km has the right column and is five times too dense at 80 km, where
+# deep twilight comes from. Above 40 km (0.9 % of the column) it falls as the mesosphere does.
+MESOSPHERE_ALTITUDE = 40_000.0
+MESOSPHERE_SCALE_HEIGHT = 6_500.0
 MIE_SCALE_HEIGHT = 1_200.0
 OZONE_LAYER = (10_000.0, 25_000.0, 40_000.0)
 # 1 DU = 0.01 mm of pure gas at 0 °C and 1 atm: 2.6867e20 molecules per m².
@@ -153,6 +157,8 @@ def constants() -> dict[str, Any]:
         "ground_radius_m": GROUND_RADIUS,
         "top_radius_m": TOP_RADIUS,
         "rayleigh_scale_height_m": RAYLEIGH_SCALE_HEIGHT,
+        "mesosphere_altitude_m": MESOSPHERE_ALTITUDE,
+        "mesosphere_scale_height_m": MESOSPHERE_SCALE_HEIGHT,
         "mie_scale_height_m": MIE_SCALE_HEIGHT,
         "ozone_layer_m": list(OZONE_LAYER),
         "molecules_per_dobson": MOLECULES_PER_DOBSON,
@@ -193,6 +199,9 @@ def glsl(c: dict[str, Any]) -> str:
         f"const Length TOP_RADIUS = {_float(c['top_radius_m'])};",
         f"const Length ATMOSPHERE_HEIGHT = {_float(c['top_radius_m'] - c['ground_radius_m'])};",
         f"const Length RAYLEIGH_SCALE_HEIGHT = {_float(c['rayleigh_scale_height_m'])};",
+        "// Above 40 km (0.9 % of the column) air thins faster; deep twilight comes from there.",
+        f"const Length MESOSPHERE_ALTITUDE = {_float(c['mesosphere_altitude_m'])};",
+        f"const Length MESOSPHERE_SCALE_HEIGHT = {_float(c['mesosphere_scale_height_m'])};",
         f"const Length MIE_SCALE_HEIGHT = {_float(c['mie_scale_height_m'])};",
         f"const Length OZONE_BOTTOM = {_float(low)};",
         f"const Length OZONE_PEAK = {_float(peak)};",

@@ -13,6 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from sunwidget.atmosphere.constants import (
     GROUND_RADIUS,
+    MESOSPHERE_ALTITUDE,
+    MESOSPHERE_SCALE_HEIGHT,
     MIE_SCALE_HEIGHT,
     MOLECULES_PER_DOBSON,
     OZONE_LAYER,
@@ -92,9 +94,9 @@ def density(h: ArrayLike) -> Array:
     h = np.asarray(h, float)
     low, peak, high = OZONE_LAYER
     ozone = np.maximum(0, np.minimum((h - low) / (peak - low), (high - h) / (high - peak)))
-    return np.stack(
-        [np.exp(-h / RAYLEIGH_SCALE_HEIGHT), np.exp(-h / MIE_SCALE_HEIGHT), ozone], axis=-1
-    )
+    thin = 1 / MESOSPHERE_SCALE_HEIGHT - 1 / RAYLEIGH_SCALE_HEIGHT
+    air = np.exp(-h / RAYLEIGH_SCALE_HEIGHT - np.maximum(h - MESOSPHERE_ALTITUDE, 0) * thin)
+    return np.stack([air, np.exp(-h / MIE_SCALE_HEIGHT), ozone], axis=-1)
 
 
 def extinction_coefficients(

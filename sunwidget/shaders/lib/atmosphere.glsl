@@ -62,7 +62,9 @@ Number GetVisibleFractionOfDisc(Angle above) {
 vec3 GetDensity(Length h) {
   float below = (h - OZONE_BOTTOM) / (OZONE_PEAK - OZONE_BOTTOM);
   float above = (OZONE_TOP - h) / (OZONE_TOP - OZONE_PEAK);
-  return vec3(exp(-h / RAYLEIGH_SCALE_HEIGHT), exp(-h / MIE_SCALE_HEIGHT),
+  float thin = 1.0 / MESOSPHERE_SCALE_HEIGHT - 1.0 / RAYLEIGH_SCALE_HEIGHT;
+  float air = h / RAYLEIGH_SCALE_HEIGHT + max(h - MESOSPHERE_ALTITUDE, 0.0) * thin;
+  return vec3(exp(-air), exp(-h / MIE_SCALE_HEIGHT),
               max(0.0, min(below, above)));
 }
 
