@@ -11,7 +11,6 @@ import importlib
 import io
 import re
 import threading
-import warnings
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -145,8 +144,7 @@ def _open(data: bytes, name: str) -> Any:
     with _bomb_lock:
         limit, Image.MAX_IMAGE_PIXELS = Image.MAX_IMAGE_PIXELS, None
         try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
+            with exif_tags.quiet():
                 return Image.open(io.BytesIO(data), formats=formats)
         except UnidentifiedImageError as error:
             if data[:4] in (b"II*\0", b"MM\0*"):
@@ -260,8 +258,7 @@ def _tiff_tags(data: bytes) -> dict[int, Any]:
     from PIL import TiffImagePlugin
 
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with exif_tags.quiet():
             directory = TiffImagePlugin.ImageFileDirectory_v2(data[:8])
             stream = io.BytesIO(data)
             stream.seek(directory.next)

@@ -6,16 +6,20 @@ and none of them raises.
 
 from __future__ import annotations
 
+import contextlib
 import datetime as dt
 import json
 import math
+import threading
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 _ORIENTATION = 0x0112
 _EXIF_IFD = 0x8769
 _GPS_IFD = 0x8825
+_INTEROPERABILITY_IFD = 0xA005
 _USER_COMMENT = 0x9286
 _PIXEL_WIDTH, _PIXEL_HEIGHT = 0xA002, 0xA003
 _MAKER_NOTE = 0x927C
@@ -26,6 +30,7 @@ _STORAGE_TAGS = frozenset(
     | {301, 317, 318, 319, 320, 321, 322, 323, 324, 325, 330, 332, 333, 334, 336, 338, 339, 340}
     | {341, 342, 347, *range(512, 522), 529, 530, 531, 532, 700, 34377, 34675, 37724, 50341}
 )
+_filters_lock = threading.RLock()
 _MM_PER_UNIT = {2: 25.4, 3: 10.0, 4: 1.0, 5: 0.001}
 _DIAGONAL_35MM = 43.267  # hypot(36, 24)
 
@@ -60,14 +65,36 @@ def load(block: bytes) -> Any:
 
     exif = Image.Exif()
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with quiet():
             exif.load(block)
-            exif.get_ifd(_EXIF_IFD)
-            exif.get_ifd(_GPS_IFD)
+            for ifd in (_EXIF_IFD, _GPS_IFD, _INTEROPERABILITY_IFD):
+                exif.get_ifd(ifd)
+            # Pillow decodes values when they are asked for, and may fail then: ask now.
+            for tag in list(exif):
+                if not _decodes(exif, tag):
+                    del exif[tag]
     except Exception:  # noqa: BLE001 - a hostile block may fail anywhere inside Pillow's parser
         return None
     return exif
+
+
+def _decodes(exif: Any, tag: int) -> bool:
+    try:
+        return exif[tag] is not None
+    except Exception:  # noqa: BLE001 - likewise
+        return False
+
+
+@contextlib.contextmanager
+def quiet() -> Iterator[None]:
+    """Silence the warnings of libraries, one thread at a time.
+
+    The list of warning filters belongs to the whole process; two threads that save and
+    restore it crosswise would silence every warning for good.
+    """
+    with _filters_lock, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
 
 
 def orientation(exif: Any) -> int:
@@ -81,7 +108,7 @@ def says_adobe_rgb(exif: Any) -> bool:
     if exif is None or exif.get_ifd(_EXIF_IFD).get(0xA001) == 1:
         return False
     try:
-        return _text(exif.get_ifd(0xA005).get(1)) == "R03"
+        return _text(exif.get_ifd(_INTEROPERABILITY_IFD).get(1)) == "R03"
     except Exception:  # noqa: BLE001 - a damaged pointer
         return False
 
@@ -104,7 +131,7 @@ def dump(
         kept[_ORIENTATION] = 1
     for ifd in (_EXIF_IFD, _GPS_IFD):
         values = dict(exif.get_ifd(ifd)) if exif is not None else {}
-        values.pop(0xA005, None)  # interoperability pointer: an offset into the old file
+        values.pop(_INTEROPERABILITY_IFD, None)  # an offset into the old file
         if ifd == _EXIF_IFD:
             if size is not None and (_PIXEL_WIDTH in values or _PIXEL_HEIGHT in values):
                 values[_PIXEL_WIDTH], values[_PIXEL_HEIGHT] = size
@@ -128,8 +155,7 @@ def dump(
 
 def _serialised(exif: Any) -> bytes | None:
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with quiet():
             return exif.tobytes()
     except Exception:  # noqa: BLE001 - a private tag fails anywhere inside Pillow's writer
         return None
