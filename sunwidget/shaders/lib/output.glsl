@@ -32,7 +32,7 @@ void WriteFrame(vec3 photo_light, vec3 change, vec2 pixel) {
   }
   vec3 code = EncodeSrgb(light);
   uvec2 at = uvec2(pixel);
-  vec3 noise = vec3(GetNoise(at, 0u) - GetNoise(at, 3u), GetNoise(at, 1u) - GetNoise(at, 4u), GetNoise(at, 2u) - GetNoise(at, 5u));
+  float noise = GetNoise(at, 0u) - GetNoise(at, 1u);
   // Unchanged pixels keep their own code values.
   float touched = step(1e-6, max(abs(change.r), max(abs(change.g), abs(change.b))));
   result = vec4(code + touched * dither / 255.0 * noise, 1.0);

@@ -34,10 +34,8 @@ vec4 ReadBilinear(sampler2D image, vec2 place) {
   return mix(top, bottom, share.y);
 }
 
-// A texture of the picture's own size is read exactly; a smaller one bilinearly.
+// For textures of the picture's size or more: exact where the sizes agree.
 vec4 ReadPicture(sampler2D image, vec2 place) {
-  if (textureSize(image, 0) == ivec2(frame_size)) {
-    return texelFetch(image, clamp(ivec2(place * frame_size), ivec2(0), ivec2(frame_size) - 1), 0);
-  }
-  return ReadBilinear(image, place);
+  ivec2 size = textureSize(image, 0);
+  return texelFetch(image, clamp(ivec2(place * vec2(size)), ivec2(0), size - 1), 0);
 }

@@ -12,9 +12,16 @@ float GetLuminance(vec3 color) {
   return dot(color, kRec709Luminance);
 }
 
+// How near to its asymptote the response is inverted; brighter values count as this bright.
+const float kDeepestShoulder = 0.003;
+
+float GetWhiteLevel() {
+  return (1.0 - kDeepestShoulder) / max(response_shoulder, 1e-4);
+}
+
 vec3 GetSceneLight(vec3 display) {
   float w = max(response_shoulder, 1e-4);
-  vec3 r = -log(max(1.0 - w * max(display, vec3(0.0)), vec3(0.003))) / w;
+  vec3 r = -log(max(1.0 - w * max(display, vec3(0.0)), vec3(kDeepestShoulder))) / w;
   return pow(max(r, vec3(1e-6)), vec3(1.0 / response_contrast));
 }
 
