@@ -23,8 +23,9 @@ if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
 
 # Frame-sized passes are drawn in bands of about this many pixels, so that memory stays
-# bounded at any size: three RGBA32F targets of 2 MP are 100 MB.
-_BAND_PIXELS = 2_000_000
+# bounded at any size: three RGBA32F targets of 2.1 MP are 100 MB. A 1080p frame is one band,
+# so that a film computes the sky of the unmoved sun once and not for each frame.
+_BAND_PIXELS = 2_100_000
 _OUTPUT = {"uint8": (255, np.uint8), "uint16": (65535, np.uint16)}
 
 
