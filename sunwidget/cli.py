@@ -7,6 +7,7 @@ stderr and exit status 2, without a traceback (``--debug`` shows it).
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 import time
 import warnings
@@ -24,6 +25,8 @@ class _Parser(argparse.ArgumentParser):
 
     def __init__(self, **options: Any) -> None:
         super().__init__(allow_abbrev=False, **options)
+        # A sun left of the picture, --sun -300,200, is a value and no flag.
+        self._negative_number_matcher = re.compile(r"-\d[\d.,e+-]*$", re.IGNORECASE)
         self.add_argument(
             "--debug", action="store_true", default=argparse.SUPPRESS, help="show an error's stack"
         )

@@ -67,6 +67,12 @@ def test_no_flag_is_an_unmoved_edit():
     assert cli._edit(parse("render", "x.jpg", "-o", "y.png")) == Edit()
 
 
+def test_negative_values_need_no_equals_sign():
+    options = parse("render", "x", "-o", "y", "--sun", "-300,-2.5", "--sun-elevation", "-3")
+    assert options.sun == (-300, -2.5)
+    assert options.sun_elevation == -3
+
+
 def test_flags_win_over_the_recipe(tmp_path):
     recipe = tmp_path / "recipe.json"
     recipe.write_text(Edit(sun_elevation=3, exposure=1).to_json())
