@@ -156,7 +156,7 @@ class Edit:
         "How much colour the land loses when the sun's disc is hidden (thesis eq. 3.8).")
     exposure: float = _number(0.0, (-4, 4), 0.05, "EV", "Exposure", "light",
         "Exposure compensation of the moved picture.")
-    auto_exposure: float = _number(0.8, (0, 1), 0.01, "", "Automatic exposure", "light",
+    auto_exposure: float = _number(0.9, (0, 1), 0.01, "", "Automatic exposure", "light",
         "How far the camera re-exposes as the light falls: 0 locked, 1 fully automatic.")
     method: str = _choice("ratio", METHODS, "Method", "match",
         "ratio (default), thesis (corrected equations) or thesis_literal (as printed).")

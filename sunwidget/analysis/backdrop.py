@@ -38,6 +38,7 @@ class Backdrop:
 
 LONG_SIDE = 256
 _MODEL_SIDE = 80
+_LARGEST_GLARE = 15.0  # degrees; a halo wider than this is sky or cloud
 
 
 def behind_sun(
@@ -153,7 +154,7 @@ def _glare(
     """Weight of the old sun's clipped core and of the halo that the model does not explain."""
     import cv2
 
-    rings = np.arange(0.0, min(40.0, float(angle.max())) + 0.5, 0.5)
+    rings = np.arange(0.0, min(_LARGEST_GLARE, float(angle.max())) + 0.5, 0.5)
     which = np.clip((angle / 0.5).astype(int), 0, len(rings) - 1)
     usable = (sky > 0.9) & (clipped < 0.5)
     profile = np.full(len(rings), np.nan)
@@ -179,6 +180,7 @@ def _glare(
     # Bloom reaches well past the burnt core, and a fill that starts inside it would keep a ghost.
     core = max(0.5 * np.count_nonzero(burnt > 0.3), 0.4)
     halo = np.maximum(halo, 1 - _smoothstep(1.5 * core, 4.0 * core + 0.5, rings))
+    halo *= 1 - _smoothstep(0.6 * _LARGEST_GLARE, _LARGEST_GLARE, rings)
     radial = np.interp(angle, rings, halo).astype(np.float32)
     # Clipped pixels that touch the halo belong to it, whatever their shape.
     burnt_out = (clipped > 0.5) & (sky > 0.3)

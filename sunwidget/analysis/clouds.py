@@ -43,10 +43,19 @@ def rb_ratio(
 
 
 def veil(working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit) -> np.ndarray:
-    """Opacity (h, w) float32 by un-mixing the photo from the fitted clear sky (unmix.py)."""
+    """Opacity (h, w) float32 by un-mixing the photo from the fitted clear sky (unmix.py).
+
+    A guided filter (He et al. 2010) ties it to the picture: compression blocks and noise in
+    the colour differences would else show as soon as cloud and sky are lit apart.
+    """
+    import cv2
+
     clear = matched_sky(fit, camera, (working.width, working.height))
     light = fit.response.scene_light(working.linear)
-    return unmix(light, clear, cloud_white(fit), sky)[0]
+    opacity = unmix(light, clear, cloud_white(fit), sky)[0]
+    radius = max(2, round(0.008 * max(sky.shape)))
+    smooth = cv2.ximgproc.guidedFilter(working.encoded, opacity, radius, 2e-3)
+    return np.asarray(np.clip(smooth, 0, 1) * sky, np.float32)
 
 
 # "unmix" needs the fitted sky, which needs a first idea of the clouds: that is r/b again, whose
