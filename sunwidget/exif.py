@@ -153,6 +153,27 @@ def dump(
     return _serialised(kept)
 
 
+def shortened(block: bytes, limit: int) -> tuple[bytes | None, str]:
+    """Make a block fit into ``limit`` bytes by leaving out as little as possible.
+
+    Returns the block, or None when nothing helps, and what was left out.
+    """
+    for tags, what in (
+        ((_MAKER_NOTE,), "maker's note"),
+        ((_USER_COMMENT,), "comment with the recipe"),
+        ((_MAKER_NOTE, _USER_COMMENT), "maker's note and the comment with the recipe"),
+    ):
+        exif = load(block)
+        if exif is None:
+            break
+        for tag in tags:
+            exif.get_ifd(_EXIF_IFD).pop(tag, None)
+        shorter = dump(exif)
+        if shorter is not None and len(shorter) <= limit:
+            return shorter, what
+    return None, "metadata"
+
+
 def _serialised(exif: Any) -> bytes | None:
     try:
         with quiet():

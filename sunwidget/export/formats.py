@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget import exif as exif_tags
 from sunwidget.photo import PhotoError, PhotoWarning
 
 # A JPEG segment holds 65533 bytes, of which Pillow's EXIF head takes six.
@@ -55,11 +56,16 @@ def jpeg(still: Still) -> bytes:
     options: dict[str, Any] = {"subsampling": 0 if still.quality >= 90 else 2}
     if still.dpi:
         options["dpi"] = still.dpi
-    for name, block in (("exif", still.exif), ("xmp", still.xmp)):
-        if block and len(block) > _SEGMENT:
-            _warn(f"The {name.upper()} metadata is too long for a JPEG and is left out.")
-        elif block:
-            options[name] = block
+    block = still.exif
+    if block and len(block) > _SEGMENT:
+        block, missing = exif_tags.shortened(block, _SEGMENT)
+        _warn(f"The EXIF is too long for a JPEG: its {missing} is left out. PNG and TIFF keep it.")
+    if block:
+        options["exif"] = block
+    if still.xmp and len(still.xmp) > _SEGMENT:
+        _warn("The XMP metadata is too long for a JPEG and is left out.")
+    elif still.xmp:
+        options["xmp"] = still.xmp
     return _pillow(still, "JPEG", options)
 
 

@@ -11,19 +11,17 @@ import difflib
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget import exif as exif_tags
 from sunwidget.color import strips
+from sunwidget.edit import Edit
 from sunwidget.export.files import complete_or_absent, target
 from sunwidget.export.formats import FORMATS, Encoder, Still
 from sunwidget.photo import Photo, PhotoError, open_photo
-
-if TYPE_CHECKING:
-    from sunwidget.edit import Edit
 
 # Light that differs less than this from the photo's own is the photo's own: it is the
 # noise of float32 arithmetic, but near black a gamma of 2.2 would blow it up to dozens
@@ -176,13 +174,13 @@ def _still(
         return _with_metadata(_own_codes(picture, own), picture)
     if hasattr(picture, "photo"):
         picture = (picture, None)
-    if isinstance(picture, tuple) and len(picture) == 2 and hasattr(picture[0], "photo"):
-        scene, edit = picture
+    if isinstance(picture, tuple):
+        scene, edit = _scene_and_edit(picture)
         photo: Photo = scene.photo
         own = _own_bits(photo.bit_depth, bits, exact=exact)
         codes = _rendered(scene, edit, own, progress)
         return _with_metadata(codes, photo, edit.to_dict() if edit is not None else None)
-    array = open_photo(picture if not isinstance(picture, tuple) else list(picture))
+    array = open_photo(picture)
     own = _own_bits(array.bit_depth, bits, exact=exact)
     if like is None:
         return _with_metadata(_own_codes(array, own), array)
@@ -194,6 +192,18 @@ def _still(
     if array.alpha is not None:
         still.alpha = _alpha_codes(array.alpha, codes)
     return still
+
+
+def _scene_and_edit(pair: tuple[Any, ...]) -> tuple[Any, Edit | None]:
+    if len(pair) == 2 and hasattr(pair[0], "photo"):
+        scene, edit = pair
+        if edit is None or isinstance(edit, Edit):
+            return scene, edit
+        if isinstance(edit, dict):
+            return scene, Edit.from_dict(edit)
+    raise PhotoError(
+        f"A tuple to save is (scene, edit), not ({', '.join(type(x).__name__ for x in pair)})."
+    )
 
 
 def _own_codes(photo: Photo, bits: int) -> NDArray[Any]:

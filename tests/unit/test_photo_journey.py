@@ -58,7 +58,6 @@ def test_a_moved_sun_gives_a_picture_of_finite_light(journey):
 
 def test_a_picture_too_wide_for_the_gpu_is_rendered_or_refused_with_a_reason():
     scene = sw.analyze(READABLE["very_wide"].data)
-    limit = 16_384  # of llvmpipe; a GPU with a greater one draws the picture
     try:
         out = rendered(scene, sw.Edit())
     except ValueError as error:
@@ -66,5 +65,5 @@ def test_a_picture_too_wide_for_the_gpu_is_rendered_or_refused_with_a_reason():
     else:
         assert out.shape == (100, 20_000, 3)
         return
-    assert f"20000×100 exceeds this renderer's limit of {limit}" in message
+    assert "20000×100 exceeds this renderer's limit" in message
     assert "Scale it down" in message

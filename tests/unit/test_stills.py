@@ -15,7 +15,7 @@ from PIL import Image, PngImagePlugin
 
 from sunwidget import exif
 from sunwidget.color import linear_to_srgb
-from sunwidget.edit import Edit
+from sunwidget.edit import Edit, Stroke
 from sunwidget.export import stills
 from sunwidget.export.stills import encode_like, save
 from sunwidget.photo import PhotoError, PhotoWarning, open_photo
@@ -247,6 +247,38 @@ def test_jpeg_leaves_out_what_does_not_fit_and_says_so(tmp_path):
     with pytest.warns(PhotoWarning, match="XMP metadata is too long"):
         path = save(photo, tmp_path / "out.jpg")
     assert open_photo(path).xmp is None
+
+
+@pytest.mark.parametrize(
+    ("note", "points", "missing"),
+    [
+        (60_000, 500, "maker's note"),
+        (10, 4000, "comment with the recipe"),
+        (70_000, 4000, "maker's note and the comment"),
+    ],
+)
+def test_a_long_exif_loses_only_what_does_not_fit_into_jpeg(
+    tmp_path, renderer, note, points, missing
+):
+    block = corpus.exif_block({0x010F: "Maker"}, {0xA405: 28, 0x927C: bytes(note)})
+    photo = open_photo(corpus.png_file(corpus.ramp(), chunks=[(b"eXIf", block[6:])]))
+    line = tuple((i / 7919, i / 7907) for i in range(points))
+    edit = Edit(strokes=(Stroke("sky", line),))
+    with pytest.warns(PhotoWarning, match=f"its {missing}"):
+        again = open_photo(save((FakeScene(photo), edit), tmp_path / "out.jpg"))
+    assert again.facts == photo.facts
+    assert exif.load(again.exif)[0x010F] == "Maker"
+    kept = open_photo(save((FakeScene(photo), edit), tmp_path / "out.png"))
+    assert Edit.from_dict(kept.recipe) == edit
+
+
+def test_a_recipe_may_stand_for_the_edit_and_other_tuples_are_refused(tmp_path, renderer):
+    scene = FakeScene(rich_photo())
+    again = open_photo(save((scene, {"exposure": 1}), tmp_path / "out.png"))
+    assert Edit.from_dict(again.recipe) == Edit(exposure=1)
+    for wrong in ((scene, 3), (scene,), (scene.photo, Edit()), (1, 2)):
+        with pytest.raises(PhotoError, match=r"is \(scene, edit\), not"):
+            save(wrong, tmp_path / "no.png")
 
 
 def test_transparency_is_left_out_of_jpeg_with_a_warning(tmp_path):
