@@ -71,10 +71,11 @@ $(TEST): $(VENV)
 	@$(PY) -m pip install --quiet --editable '.[test]'
 	@touch $@ $(LAB)
 
+# Not `npm ci`: it refuses a lock file that lacks the optional packages of other platforms.
 $(NODE_MODULES): js/package.json js/package-lock.json
 	@scripts/setup.sh node
 	$(say) 'JavaScript packages'
-	@cd js && npm $(if $(wildcard js/node_modules),install,ci) --no-audit --no-fund --loglevel=error
+	@npm --prefix js install --no-save --no-audit --no-fund --loglevel=error
 	@touch $@
 
 $(STATIC): $(NODE_MODULES) $(FRONT_END)

@@ -25,5 +25,5 @@ class FrontEndHook(BuildHookInterface):
                 "The front end is not built (sunwidget/static is empty) and npm was not found. "
                 "Install Node 20 or newer, then run `make build`."
             )
-        subprocess.run([npm, "ci"], cwd=root / "js", check=True)
+        subprocess.run([npm, "install", "--no-save"], cwd=root / "js", check=True)
         subprocess.run([npm, "run", "build"], cwd=root / "js", check=True)
