@@ -40,10 +40,11 @@ def demo(
 
     suffix = ".mp4" if importlib.util.find_spec("imageio_ffmpeg") else ".webp"
     ends = [Edit(sun_elevation=elevation) for elevation in SUNSET]
-    film = sw.sweep(
+    film = folder / f"sunset{suffix}"
+    sw.sweep(
         scene,
         ends,
-        folder / f"sunset{suffix}",
+        film,
         size=FILM_SIZE,
         overwrite=True,
         progress=lambda f, text: report(0.4 + 0.6 * f, text),
