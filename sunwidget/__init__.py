@@ -23,6 +23,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "EditError": ("sunwidget.edit", "EditError"),
     "Photo": ("sunwidget.photo", "Photo"),
     "PhotoError": ("sunwidget.photo", "PhotoError"),
+    "PhotoWarning": ("sunwidget.photo", "PhotoWarning"),
     "Scene": ("sunwidget.analysis.scene", "Scene"),
     "Stroke": ("sunwidget.edit", "Stroke"),
     "SunEditor": ("sunwidget.widgets", "SunEditor"),
