@@ -276,8 +276,11 @@ def _demo(options: argparse.Namespace) -> int:
 
 def _refuse_existing(path: Path, overwrite: bool) -> None:
     """Fail before the work, not after it."""
+    from sunwidget.export.files import target
+
     if path.exists() and not overwrite:
         raise FileExistsError(f"{path} exists already. Add --overwrite to replace it.")
+    target(path, overwrite=True)
 
 
 def _one_line_warning(message: Warning | str, *_rest: Any, **_more: Any) -> None:
