@@ -1,0 +1,179 @@
+"""Shaders and the frame graph as text: includes, rows, inputs and the names of uniforms."""
+
+import functools
+import re
+from importlib.resources import files
+
+import pytest
+
+from sunwidget.edit import METHODS, NUMBERS
+from sunwidget.renderer import shader_source
+from sunwidget.renderer.shader_source import frame_graph, read_shader, resolve_includes
+
+SCENE_TEXTURES = {"photo", "layers", "surface", "backdrop"}
+HOST_UNIFORMS = {
+    "frame_size",
+    "tile_origin",
+    "pass_size",
+    "canvas_flip",
+    "output_transfer",
+    "dither",
+    "view",
+}
+SHADERS = sorted({row["shader"] for row in frame_graph()["passes"]})
+_DECLARATION = re.compile(r"^\s*uniform\s+(\w+)\s+(\w+)\s*;", re.MULTILINE)
+
+
+def declared(shader):
+    """Type by name of every uniform that the expanded shader declares."""
+    return {name: kind for kind, name in _DECLARATION.findall(resolve_includes(f"{shader}.glsl"))}
+
+
+@pytest.fixture
+def folder(monkeypatch):
+    """Shaders that a test writes itself."""
+    texts = {}
+
+    def read(path):
+        if path not in texts:
+            raise FileNotFoundError(path)
+        return texts[path]
+
+    monkeypatch.setattr(shader_source, "read_shader", read)
+    return texts
+
+
+def test_an_include_is_replaced_by_the_files_text(folder):
+    folder.update({"a.glsl": '#include "lib/b.glsl"\nvoid main() {}\n', "lib/b.glsl": "float b;\n"})
+    assert resolve_includes("a.glsl") == "float b;\n\nvoid main() {}\n"
+
+
+def test_a_file_is_expanded_at_its_first_mention_only(folder):
+    folder.update({"a.glsl": '#include "b"\n#include "b"\n', "b": "B"})
+    assert resolve_includes("a.glsl") == "B\n\n"
+
+
+def test_nested_includes_come_before_who_needs_them_and_once(folder):
+    folder.update(
+        {"a": '#include "b"\n#include "c"\nA', "b": '#include "c"\nB', "c": "C"},
+    )
+    assert resolve_includes("a").split() == ["C", "B", "A"]
+
+
+def test_files_that_include_each_other_end(folder):
+    folder.update({"a": '#include "b"\nA', "b": '#include "a"\nB'})
+    assert resolve_includes("a").split() == ["B", "A"]
+
+
+def test_the_same_file_in_two_shaders_is_expanded_in_both(folder):
+    folder.update({"a": '#include "c"\nA', "b": '#include "c"\nB', "c": "C"})
+    assert [resolve_includes(name).split() for name in "ab"] == [["C", "A"], ["C", "B"]]
+
+
+def test_an_include_in_a_comment_is_left_alone(folder):
+    folder["a"] = '// #include "nothing"\nA'
+    assert resolve_includes("a") == folder["a"]
+
+
+def test_an_unknown_file_is_an_error_that_names_it(folder):
+    folder["a"] = '#include "lib/missing.glsl"\n'
+    with pytest.raises(FileNotFoundError, match="lib/missing.glsl"):
+        resolve_includes("a")
+
+
+def test_an_unknown_shader_of_the_package_is_an_error_that_names_it():
+    with pytest.raises(FileNotFoundError, match="no_such_pass"):
+        read_shader("no_such_pass.glsl")
+
+
+def test_hosts_prepend_version_and_precision_so_no_shader_names_them():
+    for shader in SHADERS:
+        text = resolve_includes(f"{shader}.glsl")
+        assert "#version" not in text, shader
+        assert not re.search(r"^\s*precision\s", text, re.MULTILINE), shader
+        assert "#include" not in re.sub("//.*", "", text), shader
+
+
+def test_sampling_is_texel_fetch_only_so_that_no_filter_state_exists():
+    for shader in SHADERS:
+        text = re.sub("//.*", "", resolve_includes(f"{shader}.glsl"))
+        assert not re.search(r"\btexture(Lod|Grad|Offset|2D)?\s*\(", text), shader
+
+
+def test_every_shader_file_is_drawn_by_some_pass():
+    folder = files("sunwidget").joinpath("shaders")
+    names = {f.name.removesuffix(".glsl") for f in folder.iterdir() if f.name.endswith(".glsl")}
+    assert names == set(SHADERS)
+
+
+def test_every_library_file_is_included_by_some_pass():
+    used = set()
+    for shader in SHADERS:
+        pending = [f"{shader}.glsl"]
+        while pending:
+            found = re.findall(r'#include "([^"]+)"', read_shader(pending.pop()))
+            pending += [name for name in found if name not in used]
+            used |= set(found)
+    folder = files("sunwidget").joinpath("shaders", "lib")
+    assert {f"lib/{f.name}" for f in folder.iterdir()} == used
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_input_is_a_scene_texture_or_drawn_before(method):
+    ready = set(SCENE_TEXTURES)
+    for row in frame_graph()["passes"]:
+        if method in row.get("when", METHODS):
+            assert set(row["inputs"].values()) <= ready, row["name"]
+            assert row["name"] not in ready, f"{row['name']} is drawn twice for {method}"
+            ready.add(row["name"])
+    assert "frame" in ready
+
+
+def test_only_known_states_formats_methods_and_sizes_occur():
+    for row in frame_graph()["passes"]:
+        assert row["state"] in ("source", "edit"), row["name"]
+        assert row["format"] == ("output" if row["name"] == "frame" else "rgba32f")
+        assert set(row.get("when", METHODS)) <= set(METHODS)
+        assert row["size"] == "frame" or len(row["size"]) == 2
+
+
+def test_each_pass_hands_every_sampler_its_input_and_no_other():
+    for row in frame_graph()["passes"]:
+        uniforms = declared(row["shader"])
+        samplers = {name for name, kind in uniforms.items() if kind == "sampler2D"}
+        assert samplers == set(row["inputs"]), row["name"]
+
+
+@pytest.mark.parametrize("shader", SHADERS)
+def test_every_uniform_has_a_source_for_its_value(shader):
+    parameters = {p.name for p in NUMBERS} | {"method"}
+    known = parameters | {f"source_{name}" for name in parameters}
+    known |= set(frame_graph()["scene_uniforms"]) | HOST_UNIFORMS
+    for name, kind in declared(shader).items():
+        if kind != "sampler2D":
+            assert name in known, f"{shader}: {name}"
+
+
+def test_scene_uniforms_have_the_type_that_the_shaders_declare():
+    types = frame_graph()["scene_uniforms"]
+    for shader in SHADERS:
+        for name, kind in declared(shader).items():
+            if name in types:
+                assert kind == types[name], f"{shader}: {name}"
+
+
+def test_every_scene_uniform_is_used_by_some_shader():
+    used = set().union(*map(declared, SHADERS))
+    assert set(frame_graph()["scene_uniforms"]) <= used
+
+
+@functools.cache
+def code_of_shaders():
+    return [re.sub("//.*", "", resolve_includes(f"{shader}.glsl")) for shader in SHADERS]
+
+
+@pytest.mark.parametrize("name", [p.name for p in NUMBERS])
+def test_every_number_of_the_table_takes_part_in_some_shader(name):
+    # Mentioned at least twice in one shader: where it is declared, and where it is used. No
+    # number is for the analysis alone, so a slider that does nothing cannot exist.
+    assert any(len(re.findall(rf"\b{name}\b", text)) >= 2 for text in code_of_shaders())
