@@ -21,7 +21,9 @@ from sunwidget.atmosphere.parameters import Atmosphere
 
 Array = NDArray[np.float64]
 
-NIGHT_COSINE = -0.4
+NIGHT_COSINE = -0.35
+NIGHT_SHARE = 0.65
+TWILIGHT_SCALE_HEIGHT = 24_000.0
 MOMENTS = 7
 _LOBE_SAMPLES = 5
 _WAVELENGTHS_AT_ONCE = 8
@@ -71,9 +73,28 @@ def window_for(sun_elevation: Array, quality: Quality) -> Window:
 
 
 def sun_coordinate(mu_s: Array) -> Array:
-    """Map the cosine of the sun's zenith angle to [0, 1], dense at the terminator."""
-    night = -np.sqrt(np.clip(mu_s / NIGHT_COSINE, 0, 1))
-    return 0.5 + 0.5 * np.where(mu_s < 0, night, np.sqrt(np.maximum(mu_s, 0)))
+    """Map the cosine of the sun's zenith angle to [0, 1], dense at the terminator and below."""
+    night = NIGHT_SHARE * (1 - np.clip(mu_s / NIGHT_COSINE, 0, 1) ** (2 / 3))
+    day = NIGHT_SHARE + (1 - NIGHT_SHARE) * np.sqrt(np.maximum(mu_s, 0))
+    return np.where(mu_s < 0, night, day)
+
+
+def suns_of(quality: Quality, window: Window) -> Array:
+    """Return the cosines of the sun's zenith angle that a table holds."""
+    x = np.linspace(0, 1, quality.suns)[window.first : window.last + 1]
+    night = np.maximum(1 - x / NIGHT_SHARE, 0)
+    day = np.maximum(x - NIGHT_SHARE, 0) / (1 - NIGHT_SHARE)
+    return NIGHT_COSINE * night**1.5 + day**2
+
+
+def twilight(mu_s: Array) -> Array:
+    """Return a rough guess of how the light falls once the sun is down (a factor e each degree).
+
+    What is interpolated is the light over this guess.
+    """
+    return np.asarray(
+        np.exp(-0.5 * GROUND_RADIUS / TWILIGHT_SCALE_HEIGHT * np.minimum(mu_s, 0) ** 2)
+    )
 
 
 def sun_cosine(h: Array | float, mu_s: Array, nu: Array, t: Array, h_t: Array | float) -> Array:
@@ -101,8 +122,10 @@ class Field:
         """Return the moments at altitudes and sun cosines, shape (..., 7, w)."""
         rows, suns, _, wavelengths = self.moments.shape
         place = sun_coordinate(mu_s) * (self.quality.suns - 1) - self.window.first
-        table = self.moments.reshape(rows, suns, -1)
+        guess = twilight(suns_of(self.quality, self.window))
+        table = (self.moments / guess[:, None, None]).reshape(rows, suns, -1)
         found = optics.bilinear(table, np.cbrt(h / optics.ATMOSPHERE_HEIGHT), place / (suns - 1))
+        found *= twilight(mu_s)[..., None]
         return found.reshape(*found.shape[:-1], MOMENTS, wavelengths)
 
 
@@ -189,8 +212,7 @@ class _Rays:
     """Directions from every altitude under every sun: all that no atmosphere changes."""
 
     def __init__(self, quality: Quality, window: Window, azimuths: int, steps: int) -> None:
-        root = np.linspace(-1, 1, quality.suns)[window.first : window.last + 1]
-        mu_s = (root**2 * np.where(root < 0, NIGHT_COSINE, 1))[None, :, None, None, None]
+        mu_s = suns_of(quality, window)[None, :, None, None, None]
         height = np.linspace(0, 1, quality.altitudes) ** 3 * optics.ATMOSPHERE_HEIGHT
         h = np.maximum(height, 1.0)[:, None, None, None, None]
         nodes, weights = np.polynomial.legendre.leggauss(quality.zeniths // 2)

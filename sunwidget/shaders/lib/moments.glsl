@@ -13,7 +13,7 @@ Number GetMomentWeight(int moment, vec2 direction, Number mu_s) {
       : 0.5 * nu * (5.0 * nu * nu - 3.0);
 }
 
-// `cell`: sun and altitude within a tile of `size`.
+// `cell`: sun and altitude within a tile of `size`. Over GetTwilight, as the field is kept.
 vec4 GetMoment(sampler2D radiance, int azimuths, int moment, ivec2 cell, ivec2 size) {
   float mu_s = GetSunCosineOfField(float(cell.x) / float(size.x - 1));
   vec4 sum = vec4(0.0);
@@ -24,5 +24,5 @@ vec4 GetMoment(sampler2D radiance, int azimuths, int moment, ivec2 cell, ivec2 s
           * texelFetch(radiance, ivec2(k, j) * size + cell, 0);
     }
   }
-  return sum;
+  return sum / GetTwilight(mu_s);
 }

@@ -11,7 +11,8 @@
 //
 // with <> the mean over all directions w from which light comes, per unit of solar irradiance.
 // The last one says how much light haze has gathered around the sun, beyond what the others hold.
-// Texture: seven tiles side by side in this order; within a tile mu_s along x, altitude along y.
+// Texture: seven tiles side by side in this order, over GetTwilight; within a tile mu_s along x,
+// altitude along y.
 
 #include "lib/atmosphere.glsl"
 
@@ -35,19 +36,29 @@ struct LightField {
 };
 
 // ---- Coordinates ----------------------------------------------------------------------------
-// mu_s on a signed square-root scale (dense at the terminator; below -0.4 it is night), altitude
-// on a cube-root scale (haze lies low).
+// mu_s is dense about the terminator and below it, altitude on a cube-root scale (haze lies low).
+// Once the sun is down the light falls by a factor of e every degree, far too fast to interpolate;
+// the table holds it over a rough guess of that fall, the density at the height of the shadow.
 
-const float NIGHT_COSINE = -0.4;
+const float NIGHT_COSINE = -0.35;
+const float NIGHT_SHARE = 0.65;  // of the table
+const Length TWILIGHT_SCALE_HEIGHT = 24000.0;
 
 vec2 GetFieldCoordinate(Length h, Number mu_s) {
-  float root = mu_s < 0.0 ? -sqrt(min(mu_s / NIGHT_COSINE, 1.0)) : sqrt(mu_s);
-  return vec2(0.5 + 0.5 * root, pow(h / ATMOSPHERE_HEIGHT, 1.0 / 3.0));
+  float night = NIGHT_SHARE * (1.0 - pow(clamp(mu_s / NIGHT_COSINE, 0.0, 1.0), 2.0 / 3.0));
+  float day = NIGHT_SHARE + (1.0 - NIGHT_SHARE) * sqrt(max(mu_s, 0.0));
+  return vec2(mu_s < 0.0 ? night : day, pow(h / ATMOSPHERE_HEIGHT, 1.0 / 3.0));
 }
 
 Number GetSunCosineOfField(Number x) {
-  float root = 2.0 * x - 1.0;
-  return root * root * (root < 0.0 ? NIGHT_COSINE : 1.0);
+  float night = max(1.0 - x / NIGHT_SHARE, 0.0);
+  float day = max(x - NIGHT_SHARE, 0.0) / (1.0 - NIGHT_SHARE);
+  return NIGHT_COSINE * night * sqrt(night) + day * day;
+}
+
+Number GetTwilight(Number mu_s) {
+  float down = min(mu_s, 0.0);
+  return exp(-0.5 * GROUND_RADIUS / TWILIGHT_SCALE_HEIGHT * down * down);
 }
 
 Length GetAltitudeOfField(Number y) {
@@ -83,12 +94,14 @@ LightField GetLightField(sampler2D field, Length h, Number mu_s) {
   vec2 place = clamp(GetFieldCoordinate(h, mu_s), 0.0, 1.0) * vec2(last);
   ivec2 corner = min(ivec2(place), last - 1);
   vec2 part = place - vec2(corner);
-  return LightField(FetchMoment(field, corner, part), FetchMoment(field, corner + next, part),
-                    FetchMoment(field, corner + 2 * next, part),
-                    FetchMoment(field, corner + 3 * next, part),
-                    FetchMoment(field, corner + 4 * next, part),
-                    FetchMoment(field, corner + 5 * next, part),
-                    FetchMoment(field, corner + 6 * next, part));
+  float twilight = GetTwilight(mu_s);
+  return LightField(twilight * FetchMoment(field, corner, part),
+                    twilight * FetchMoment(field, corner + next, part),
+                    twilight * FetchMoment(field, corner + 2 * next, part),
+                    twilight * FetchMoment(field, corner + 3 * next, part),
+                    twilight * FetchMoment(field, corner + 4 * next, part),
+                    twilight * FetchMoment(field, corner + 5 * next, part),
+                    twilight * FetchMoment(field, corner + 6 * next, part));
 }
 
 // First three Legendre moments of the Cornette-Shanks phase function (HG's are g, g^2, g^3).
