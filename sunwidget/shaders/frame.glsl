@@ -4,8 +4,6 @@
 
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
-#include "lib/sky.glsl"
-#include "lib/disc_patch.glsl"
 #include "lib/output.glsl"
 
 uniform sampler2D photo;
@@ -20,8 +18,6 @@ uniform sampler2D mirror_edit;
 uniform sampler2D disc;
 uniform sampler2D terms;
 
-uniform float source_sun_azimuth;
-uniform float source_sun_elevation;
 uniform float sky_strength;
 uniform float cloud_strength;
 uniform float silver_lining;
@@ -36,6 +32,14 @@ float GetForwardLobe(float cosine) {
   const float g = 0.8;
   float base = 1.0 + g * g - 2.0 * g * cosine;
   return (1.0 - g * g) / (base * sqrt(base));
+}
+
+// The new disc where its picture lies (disc.glsl), nothing elsewhere.
+vec3 ReadDisc(vec3 view, vec3 sun) {
+  float ahead = dot(view, sun);
+  vec2 place = 0.5 + 0.5 * vec2(dot(view, GetTerm(11)), dot(view, GetTerm(12))) / max(ahead, 1e-3);
+  vec2 within = step(vec2(0.0), place) * step(place, vec2(1.0));
+  return step(0.0, ahead) * within.x * within.y * ReadBilinear(disc, place).rgb;
 }
 
 // Light of a cloud of this opacity: what falls on it, and what comes through it from the sky
@@ -56,8 +60,8 @@ void main() {
   vec4 marks = ReadPicture(surface, place);
   vec3 sky_before = texelFetch(sky_source, texel, 0).rgb;
   vec3 sky_now = texelFetch(sky_edit, texel, 0).rgb;
-  vec3 sun_before = GetSunDirection(source_sun_azimuth, source_sun_elevation);
-  vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
+  vec3 sun_before = GetTerm(9);
+  vec3 sun_now = GetTerm(10);
   vec3 general = GetTerm(0);
   float gain = general.x;
   float moved = general.y;
@@ -78,7 +82,7 @@ void main() {
   relit += extreme * moved * (clean * ratio - relit);
   // The new disc, behind clouds; the matte hides it behind land.
   float clear = (1.0 - opacity) * (1.0 - opacity);
-  relit += moved * clear * ReadDisc(disc, view, sun_now);
+  relit += moved * clear * ReadDisc(view, sun_now);
   vec3 sky_out = scene + sky_strength * (gain * relit - scene);
 
   // Land: ratio of irradiances. What rises above the horizon stands upright.

@@ -3,11 +3,14 @@
 //   0  exposure gain, how far the sun has moved (0..1), colour lost in shade, unused
 //   1  light on lying land before     2  on upright land before     3, 4  the same now
 //   5  light of a cloud before        6  what its forward lobe adds, before     7, 8  now
+//   9  direction of the sun before   10  now
+//  11, 12  right and up of the disc's picture, divided by its reach
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
 #include "lib/matched_sky.glsl"
 #include "lib/daylight.glsl"
+#include "lib/disc_patch.glsl"
 
 uniform sampler2D light_source;
 uniform sampler2D light_edit;
@@ -16,8 +19,6 @@ uniform sampler2D visibility_edit;
 uniform sampler2D meter_source;
 uniform sampler2D meter_edit;
 uniform vec2 tile_origin;
-uniform float sun_azimuth;
-uniform float sun_elevation;
 uniform float source_sun_azimuth;
 uniform float source_sun_elevation;
 uniform float land_facing;
@@ -58,6 +59,14 @@ void main() {
     term = sky_gain * (GetCloudRadiance(light_source, 1.0) - GetCloudRadiance(light_source, 0.0));
   } else if (index == 7) {
     term = sky_gain * GetCloudRadiance(light_edit, 0.0);
+  } else if (index == 9) {
+    term = sun_before;
+  } else if (index == 10) {
+    term = sun_now;
+  } else if (index == 11) {
+    term = GetDiscRight() / GetDiscReach();
+  } else if (index == 12) {
+    term = GetDiscUp() / GetDiscReach();
   } else {
     term = sky_gain * (GetCloudRadiance(light_edit, 1.0) - GetCloudRadiance(light_edit, 0.0));
   }

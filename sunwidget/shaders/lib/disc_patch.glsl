@@ -22,11 +22,3 @@ vec3 GetDiscUp() {
   float elevation = radians(sun_elevation);
   return vec3(-sin(elevation) * sin(azimuth), cos(elevation), -sin(elevation) * cos(azimuth));
 }
-
-vec3 ReadDisc(sampler2D disc, vec3 view, vec3 sun) {
-  float ahead = dot(view, sun);
-  vec2 offset = vec2(dot(view, GetDiscRight()), dot(view, GetDiscUp())) / max(ahead, 1e-3);
-  vec2 place = 0.5 + 0.5 * offset / GetDiscReach();
-  float inside = step(0.0, ahead) * step(0.0, min(min(place.x, place.y), min(1.0 - place.x, 1.0 - place.y)));
-  return inside * ReadBilinear(disc, place).rgb;
-}
