@@ -11,6 +11,7 @@ import importlib
 import io
 import re
 import threading
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -213,16 +214,11 @@ def _opencv(data: bytes) -> NDArray[Any] | None:
     """Decode with OpenCV to (H, W) or (H, W, 3 or 4) RGB order; None when it cannot."""
     import cv2
 
-    # OpenCV writes to stderr about files that it cannot read; the PhotoError says it better.
-    logging = cv2.utils.logging
-    level = logging.getLogLevel()
-    logging.setLogLevel(logging.LOG_LEVEL_SILENT)
     try:
-        found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
+        with _quiet_opencv():
+            found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
     except cv2.error:
         return None
-    finally:
-        logging.setLogLevel(level)
     if found is None or found.dtype not in (np.uint16, np.float32, np.float64):
         return None
     if found.dtype == np.float64:
@@ -231,6 +227,21 @@ def _opencv(data: bytes) -> NDArray[Any] | None:
         order = [2, 1, 0, 3][: found.shape[2]]
         found = found[..., order]
     return np.asarray(found)
+
+
+@contextlib.contextmanager
+def _quiet_opencv() -> Iterator[None]:
+    """Keep OpenCV from writing to stderr about bad files; a PhotoError says it better."""
+    import cv2
+
+    # Until OpenCV 4.10 the two functions lay elsewhere.
+    home = cv2.utils.logging if hasattr(cv2.utils, "logging") else cv2
+    level = home.getLogLevel()
+    home.setLogLevel(0)
+    try:
+        yield
+    finally:
+        home.setLogLevel(level)
 
 
 def _decode_odd_tiff(data: bytes, name: str) -> Decoded:

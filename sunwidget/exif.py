@@ -67,8 +67,8 @@ def load(block: bytes) -> Any:
     try:
         with quiet():
             exif.load(block)
-            for ifd in (_EXIF_IFD, _GPS_IFD, _INTEROPERABILITY_IFD):
-                exif.get_ifd(ifd)
+            exif.get_ifd(_EXIF_IFD)
+            exif.get_ifd(_GPS_IFD)
             # Pillow decodes values when they are asked for, and may fail then: ask now.
             for tag in list(exif):
                 if not _decodes(exif, tag):
@@ -108,8 +108,9 @@ def says_adobe_rgb(exif: Any) -> bool:
     if exif is None or exif.get_ifd(_EXIF_IFD).get(0xA001) == 1:
         return False
     try:
-        return _text(exif.get_ifd(_INTEROPERABILITY_IFD).get(1)) == "R03"
-    except Exception:  # noqa: BLE001 - a damaged pointer
+        with quiet():
+            return _text(exif.get_ifd(_INTEROPERABILITY_IFD).get(1)) == "R03"
+    except Exception:  # noqa: BLE001 - a damaged pointer; before Pillow 13 also a missing one
         return False
 
 
