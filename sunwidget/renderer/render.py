@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any
 
@@ -162,7 +163,7 @@ def render_pass(
 
 def _checked_size(size: Any) -> tuple[int, int]:
     try:
-        width, height = (int(n) for n in size)
+        width, height = (operator.index(n) for n in size)
     except (TypeError, ValueError):
         width = height = 0
     if width < 1 or height < 1:

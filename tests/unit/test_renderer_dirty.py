@@ -1,0 +1,126 @@
+"""A pass runs again only when a value that it reads changed."""
+
+import importlib
+
+import numpy as np
+import pytest
+from relight_scenes import known_scene
+
+from sunwidget.edit import Edit
+from sunwidget.renderer.gl_thread import on_gl_thread
+from sunwidget.renderer.shader_source import frame_graph
+
+module = importlib.import_module("sunwidget.renderer.render")
+SUN_PASSES = {
+    "sky_view_edit",
+    "light_edit",
+    "visibility_edit",
+    "sky_edit",
+    "meter_edit",
+    "mirror_edit",
+    "disc",
+    "terms",
+    "frame",
+}
+AIR_PASSES = {
+    "first_order_edit",
+    "first_field_edit",
+    "second_order_edit",
+    "multiple_scattering_edit",
+}
+
+
+@pytest.fixture
+def passes_run_by():
+    """Render an edit; return the names of the passes that ran."""
+    scene = known_scene()
+
+    def draw(edit):
+        graph = on_gl_thread(
+            lambda context: module._renderer(context).graph(scene, (scene.width, scene.height))
+        )
+        before = dict(graph.runs)
+        module.render(scene, edit)
+        return {name for name, count in graph.runs.items() if count != before.get(name, 0)}
+
+    return draw
+
+
+def test_the_same_edit_again_runs_no_pass(passes_run_by):
+    passes_run_by(Edit(sun_elevation=5))
+    assert passes_run_by(Edit(sun_elevation=5)) == set()
+
+
+def test_moving_the_sun_runs_neither_the_source_nor_multiple_scattering(passes_run_by):
+    passes_run_by(Edit(sun_elevation=5))
+    assert passes_run_by(Edit(sun_elevation=6)) == SUN_PASSES
+
+
+def test_more_haze_runs_the_edits_air_and_no_source(passes_run_by):
+    passes_run_by(Edit(sun_elevation=5))
+    ran = passes_run_by(Edit(sun_elevation=5, aerosol_optical_depth=0.33))
+    assert ran > AIR_PASSES
+    assert not {name for name in ran if name.endswith("_source")}
+    assert not ran & {"columns", "scene_light", "sky_behind"}
+
+
+@pytest.mark.parametrize("name", ["exposure", "auto_exposure", "colourfulness"])
+def test_exposure_runs_the_terms_and_the_frame_only(passes_run_by, name):
+    passes_run_by(Edit(sun_elevation=5, **{name: 0.25}))
+    assert passes_run_by(Edit(sun_elevation=5, **{name: 0.75})) == {"terms", "frame"}
+
+
+@pytest.mark.parametrize(
+    "name", ["sky_strength", "cloud_strength", "silver_lining", "land_strength"]
+)
+def test_a_strength_runs_the_frame_only(passes_run_by, name):
+    passes_run_by(Edit(sun_elevation=5, **{name: 0.25}))
+    assert passes_run_by(Edit(sun_elevation=5, **{name: 0.75})) == {"frame"}
+
+
+def test_a_parameter_of_the_thesis_leaves_the_ratio_picture_alone(passes_run_by):
+    passes_run_by(Edit(sun_elevation=5))
+    assert passes_run_by(Edit(sun_elevation=5, sun_sky_ratio=10, blend_power=3)) == set()
+
+
+def test_changing_the_method_and_back_gives_the_same_picture():
+    scene = known_scene()
+    first = module.render(scene, Edit(sun_elevation=5))
+    thesis = module.render(scene, Edit(sun_elevation=5, method="thesis"))
+    assert np.abs(thesis.astype(int) - first).max() > 8
+    assert np.array_equal(module.render(scene, Edit(sun_elevation=5)), first)
+
+
+def test_literal_after_corrected_thesis_runs_the_frame_alone(passes_run_by):
+    passes_run_by(Edit(sun_elevation=5, method="thesis"))
+    assert passes_run_by(Edit(sun_elevation=5, method="thesis_literal")) == {"frame"}
+
+
+def test_a_new_texture_is_drawn(passes_run_by):
+    scene = known_scene()
+    size = (scene.width, scene.height)
+    edit = Edit(sun_elevation=5)
+    first = module.render(scene, edit)
+    textures = module.scene_textures(scene, size)
+    graph = on_gl_thread(lambda context: module._renderer(context).graph(scene, size))
+    try:
+        on_gl_thread(lambda _: graph.set_texture("photo", textures["photo"] * np.float32(0.5)))
+        assert passes_run_by(edit) == {"scene_light", "frame"}
+        assert module.render(scene, edit).mean() < 0.9 * first.mean()
+    finally:
+        on_gl_thread(lambda _: graph.set_texture("photo", textures["photo"]))
+    assert np.array_equal(module.render(scene, edit), first)
+
+
+def test_every_pass_of_a_method_runs_on_a_fresh_picture():
+    scene = known_scene()
+
+    def task(context):
+        fresh = module._Renderer(context).graph(scene, (48, 32))
+        module._draw(fresh, scene, Edit(method="thesis"), (48, 32), "uint8", None)
+        return fresh.runs
+
+    rows = frame_graph()["passes"]
+    assert on_gl_thread(task) == {
+        row["name"]: 1 for row in rows if "thesis" in row.get("when", ["thesis"])
+    }
