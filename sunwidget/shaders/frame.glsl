@@ -95,7 +95,12 @@ void main() {
   // does not say how bright it was: let it fade freely, but hardly grow.
   float white = GetLuminance(lit_before) / 3.14159265;
   float mirror = max(1.0 - min(white / max(GetLuminance(scene), 1e-6), 1.0), marks.g);
-  vec3 mirrored = GetRatio(ReadBilinear(mirror_edit, place).rgb, ReadBilinear(mirror_source, place).rgb);
+  vec4 mirror_before = ReadBilinear(mirror_source, place);
+  vec4 mirror_now = ReadBilinear(mirror_edit, place);
+  // Only what is burnt white is taken for the sun itself, the rest for sky.
+  float burnt = smoothstep(0.7, 0.95, min(display.r, min(display.g, display.b)));
+  vec3 mirrored = GetRatio(mirror_now.rgb + burnt * mirror_now.a * GetTerm(14),
+                           mirror_before.rgb + burnt * mirror_before.a * GetTerm(13));
   land_ratio += mirror * (min(mirrored, vec3(2.0)) - land_ratio);
   vec3 land = scene * land_ratio;
   land += general.z * (vec3(GetLuminance(land)) - land);

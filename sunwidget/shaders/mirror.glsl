@@ -1,5 +1,6 @@
-// What a level rough mirror (water, wet road) shows at each place below the horizon: the sky
-// above it and the sun's glint. Slow, so a quarter of the size is enough.
+// What a level rough mirror (water, wet road) shows at each place below the horizon: rgb the sky
+// above it, a the sun's glint per unit of its light. Fresnel's share is left out: it cancels in
+// a ratio. Slow, so a quarter of the size is enough.
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
@@ -7,8 +8,6 @@
 #include "lib/daylight.glsl"
 
 uniform sampler2D sky_view;
-uniform sampler2D light;
-uniform sampler2D visibility;
 uniform vec2 pass_size;
 uniform float sun_azimuth;
 uniform float sun_elevation;
@@ -20,7 +19,6 @@ void main() {
   view.y = min(view.y, -0.002);
   // Waves tilt: what they mirror lies somewhat above the exact reflection.
   vec3 up = normalize(vec3(view.x, 0.1 - view.y, view.z));
-  vec3 glint = sky_gain * texelFetch(visibility, ivec2(0), 0).r * GetLightTexel(light, 1);
   vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
-  result = vec4(GetMirrorRadiance(GetMatchedSky(sky_view, up), glint, sun, view), 1.0);
+  result = vec4(GetMatchedSky(sky_view, up), GetGlint(sun, view));
 }

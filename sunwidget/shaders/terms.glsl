@@ -5,6 +5,7 @@
 //   5  light of a cloud before        6  what its forward lobe adds, before     7, 8  now
 //   9  direction of the sun before   10  now
 //  11, 12  right and up of the disc's picture, divided by its reach
+//  13  the sun's light on water before   14  now
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
@@ -67,6 +68,10 @@ void main() {
     term = GetDiscRight() / GetDiscReach();
   } else if (index == 12) {
     term = GetDiscUp() / GetDiscReach();
+  } else if (index == 13) {
+    term = sky_gain * visible_before * GetLightTexel(light_source, 1);
+  } else if (index == 14) {
+    term = sky_gain * visible_now * GetLightTexel(light_edit, 1);
   } else {
     term = sky_gain * (GetCloudRadiance(light_edit, 1.0) - GetCloudRadiance(light_edit, 0.0));
   }

@@ -28,17 +28,16 @@ vec3 GetCloudRadiance(sampler2D light, float forward) {
   return (sky + 0.5 * (1.0 + forward) * GetLightTexel(light, 8)) / 3.14159265;
 }
 
-// Radiance that a rough mirror lying flat (water, wet road) sends towards `view`: the sky above,
-// and the sun's glint by Cox & Munk 1954, whose slopes are normal with variance kSlopeVariance.
-// Fresnel's share is left out: it cancels in a ratio.
+// The sun's glint on rough level water, per unit of the sun's irradiance and of Fresnel's share,
+// towards `view`: Cox & Munk 1954, slopes normal with variance kSlopeVariance.
 const float kSlopeVariance = 0.03;
 
-vec3 GetMirrorRadiance(vec3 mirrored_sky, vec3 sun_light, vec3 sun, vec3 view) {
+float GetGlint(vec3 sun, vec3 view) {
   vec3 facet = sun - view;  // halfway between the sun and the viewer, not normalised
   float rise = max(facet.y, 1e-3);
   float slope = dot(facet.xz, facet.xz) / (rise * rise);
   float steepness = rise / max(length(facet), 1e-3);
   float density = exp(-slope / (2.0 * kSlopeVariance)) / (6.2831853 * kSlopeVariance);
   float spread = 4.0 * max(-view.y, 0.03) * steepness * steepness * steepness * steepness;
-  return mirrored_sky + sun_light * density / max(spread, 1e-3);
+  return density / max(spread, 1e-3);
 }
