@@ -1,0 +1,30 @@
+/** Line icons on a 20 × 20 grid, drawn with the text's colour. */
+
+import { shape } from "./element.js";
+
+const PATHS = {
+  sun: "M10 6.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6ZM10 1.5v2M10 16.5v2M1.5 10h2M16.5 10h2M4 4l1.4 1.4M14.6 14.6 16 16M4 16l1.4-1.4M14.6 5.4 16 4",
+  horizon:
+    "M1.5 12.5h17M5.5 12.5a4.5 4.5 0 0 1 9 0M10 3.5v2M3.8 6.2l1.3 1.3M16.2 6.2l-1.3 1.3M5 16h10",
+  pick: "M10 2v4M10 14v4M2 10h4M14 10h4M10 9.2v1.6M9.2 10h1.6",
+  sky: "M12.5 3.2 16.8 7.5 8.5 15.8 3.5 17l1.2-5ZM11 4.8 15.2 9",
+  not_sky:
+    "M8.2 16.5 3.3 11.6a1.2 1.2 0 0 1 0-1.7l6.6-6.6a1.2 1.2 0 0 1 1.7 0l5 5a1.2 1.2 0 0 1 0 1.7l-6.5 6.5ZM6.5 6.8l6.7 6.7M8.2 16.5H17",
+  undo: "M7 4 3 8l4 4M3.4 8H12a4.5 4.5 0 0 1 0 9H8",
+  redo: "M13 4l4 4-4 4M16.6 8H8a4.5 4.5 0 0 0 0 9h4",
+  reset: "M4 10a6 6 0 1 0 1.9-4.4M4 3v3.6h3.6",
+  before: "M3 4h14v12H3ZM10 2.5v15M10 4h7v12h-7",
+  save: "M10 3v9M6.2 8.5 10 12.3l3.8-3.8M3.5 14v2.5h13V14",
+  chevron: "M7 5l5 5-5 5",
+};
+
+/** @typedef {keyof typeof PATHS} IconName */
+
+/** @param {IconName} name */
+export function icon(name) {
+  return shape(
+    "svg",
+    { viewBox: "0 0 20 20", class: "sw-icon", "aria-hidden": "true" },
+    shape("path", { d: PATHS[name] }),
+  );
+}

@@ -1,0 +1,118 @@
+/** A labelled slider with a value field, for one number of the parameter table. */
+
+import { element } from "./element.js";
+
+/**
+ * @typedef {{
+ *   node: HTMLElement,
+ *   show: (value: number | null, automatic: number | undefined) => void,
+ * }} Slider
+ */
+
+/**
+ * @param {{
+ *   parameter: import("../types.js").Parameter,
+ *   onBegin: () => void,
+ *   onInput: (value: number | null) => void,
+ *   onCommit: () => void,
+ * }} options `onInput(null)` returns an automatic parameter to what the analysis found
+ * @returns {Slider}
+ */
+export function slider({ parameter: p, onBegin, onInput, onCommit }) {
+  const decimals = Math.max(0, Math.ceil(-Math.log10(p.step) - 1e-9));
+  const bounds = { min: p.minimum, max: p.maximum, step: p.step };
+  const range = element("input", {
+    ...bounds,
+    type: "range",
+    // Steps are for keys and the field; a pointer is as fine as the screen.
+    "aria-label": p.unit ? `${p.label} in ${p.unit}` : p.label,
+    class: "sw-range",
+  });
+  const field = element("input", {
+    type: "text",
+    inputmode: "decimal",
+    class: "sw-field",
+    "aria-label": `${p.label}, value`,
+    spellcheck: "false",
+    autocomplete: "off",
+  });
+  const automatic = p.default === null;
+  const badge = element("button", {
+    type: "button",
+    class: "sw-auto",
+    title: automatic ? "Return to what was found in the photo" : "Return to the default",
+    "aria-label": `Reset ${p.label}`,
+  });
+  badge.textContent = automatic ? "auto" : "↺";
+  const node = element(
+    "div",
+    { class: "sw-slider", title: p.help, "data-parameter": p.name },
+    element("span", { class: "sw-label" }, p.label),
+    badge,
+    element("span", { class: "sw-value" }, field, element("span", { class: "sw-unit" }, p.unit)),
+    range,
+  );
+
+  let shown = "";
+  const reset = () => {
+    onBegin();
+    onInput(/** @type {number | null} */ (p.default));
+    onCommit();
+  };
+  badge.addEventListener("click", reset);
+  node.addEventListener("dblclick", (event) => {
+    if (event.target !== field) reset();
+  });
+  range.addEventListener("input", () => {
+    onBegin();
+    onInput(Number(range.value));
+  });
+  range.addEventListener("change", onCommit);
+  field.addEventListener("focus", () => field.select());
+  field.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") field.blur();
+    if (event.key === "Escape") {
+      field.value = shown;
+      field.blur();
+    }
+    const step = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (step) {
+      event.preventDefault();
+      field.value = String(Number(field.value) + step * p.step * (event.shiftKey ? 10 : 1));
+      accept();
+    }
+    event.stopPropagation();
+  });
+  field.addEventListener("blur", () => {
+    if (field.value !== shown) accept();
+  });
+
+  function accept() {
+    const value = Number(field.value.replace(",", ".").replace("−", "-"));
+    if (field.value.trim() === "" || !Number.isFinite(value)) {
+      field.value = shown;
+      return;
+    }
+    onBegin();
+    onInput(Math.min(p.maximum, Math.max(p.minimum, value)));
+    onCommit();
+  }
+
+  return {
+    node,
+    show(value, found) {
+      const effective = value ?? found;
+      const known = effective !== undefined && effective !== null;
+      const isDefault = value === p.default;
+      node.classList.toggle("sw-default", isDefault);
+      node.classList.toggle("sw-is-auto", automatic && isDefault);
+      range.disabled = !known;
+      shown = known ? effective.toFixed(decimals) : "";
+      if (field !== field.ownerDocument.activeElement || field.value !== shown) field.value = shown;
+      if (!known) return;
+      range.value = String(effective);
+      const share = (effective - p.minimum) / (p.maximum - p.minimum);
+      range.style.setProperty("--sw-share", String(Math.min(1, Math.max(0, share))));
+    },
+  };
+}

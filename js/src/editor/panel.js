@@ -1,0 +1,65 @@
+/** The sliders, drawn from the kernel's parameter table. */
+
+import { choice } from "../controls/choice.js";
+import { element } from "../controls/element.js";
+import { section } from "../controls/section.js";
+import { slider } from "../controls/slider.js";
+
+/** @param {string} name */
+const title = (name) => name[0].toUpperCase() + name.slice(1);
+
+/**
+ * @param {import("./view.js").View} view
+ * @returns {{ node: HTMLElement, show: () => void }}
+ */
+export function panel(view) {
+  const { state } = view;
+  const node = element("div", { class: "sw-panel", role: "group", "aria-label": "Parameters" });
+  /** @type {(() => void)[]} */
+  const updates = [];
+
+  /** @param {import("../types.js").Parameter} p */
+  const row = (p) => {
+    if (p.kind === "choice") {
+      const control = choice({
+        parameter: p,
+        onChange: (value) => state.set({ [p.name]: value }),
+      });
+      updates.push(() => control.show(String(state.values[p.name] ?? p.default)));
+      return control.node;
+    }
+    const control = slider({
+      parameter: p,
+      onBegin: () => state.begin(),
+      onInput: (value) => state.set({ [p.name]: value }),
+      onCommit: () => state.commit(),
+    });
+    updates.push(() => {
+      const value = /** @type {number | null} */ (state.values[p.name]);
+      control.show(value, view.scene?.automatic[p.name]);
+    });
+    return control.node;
+  };
+
+  const shown = view.parameters.filter((p) => p.kind !== "data");
+  for (const name of new Set(shown.map((p) => p.section))) {
+    const rows = shown.filter((p) => p.section === name);
+    const main = rows.filter((p) => !p.advanced);
+    const more = rows.filter((p) => p.advanced);
+    const body = main.map(row);
+    if (main.length && more.length) {
+      body.push(section({ title: "More", open: false, className: "sw-more" }, ...more.map(row)));
+    }
+    node.append(
+      main.length
+        ? section({ title: title(name) }, ...body)
+        : section({ title: title(name), open: false }, ...more.map(row)),
+    );
+  }
+  return {
+    node,
+    show: () => {
+      for (const update of updates) update();
+    },
+  };
+}

@@ -1,0 +1,192 @@
+/**
+ * The edit as this view shows it, and its way to and from the model's traits.
+ *
+ * The view draws from `values` at once; traits follow, throttled while a gesture lasts and
+ * exactly at its end. The history is plain data on the model (`_history`), written by
+ * whoever made the step, so undo is the same from the browser, from Python and in a second
+ * view.
+ */
+
+/**
+ * @typedef {import("../types.js").Edit} Edit
+ * @typedef {import("../types.js").History} History
+ * @typedef {import("../types.js").Model} Model
+ * @typedef {import("../types.js").Parameter} Parameter
+ */
+
+const THROTTLE_MS = 100;
+export const HISTORY_LENGTH = 100;
+
+export class EditState {
+  /**
+   * @param {Model} model
+   * @param {Parameter[]} parameters
+   * @param {AbortSignal} signal
+   */
+  constructor(model, parameters, signal) {
+    this.model = model;
+    this.parameters = parameters;
+    /** @type {Set<() => void>} */
+    this.listeners = new Set();
+    /** @type {Edit} */
+    this.values = {};
+    for (const { name } of parameters) this.values[name] = model.get(name);
+    /** @type {Edit | null} recipe at the start of the gesture under way */
+    this.before = null;
+    /** @type {Set<string>} names not yet sent */
+    this.unsent = new Set();
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.timer = undefined;
+
+    const onTrait = () => this.pull();
+    for (const { name } of parameters) model.on(`change:${name}`, onTrait);
+    const onHistory = () => this.notify();
+    model.on("change:_history", onHistory);
+    signal.addEventListener("abort", () => {
+      clearTimeout(this.timer);
+      for (const { name } of parameters) model.off(`change:${name}`, onTrait);
+      model.off("change:_history", onHistory);
+      this.listeners.clear();
+    });
+  }
+
+  /** @param {() => void} listener called after every change */
+  subscribe(listener) {
+    this.listeners.add(listener);
+  }
+
+  notify() {
+    for (const listener of this.listeners) listener();
+  }
+
+  /** Take what the model holds, except what this view has changed and not yet sent. */
+  pull() {
+    let moved = false;
+    for (const { name } of this.parameters) {
+      if (this.unsent.has(name)) continue;
+      const value = this.model.get(name);
+      if (equal(value, this.values[name])) continue;
+      this.values[name] = value;
+      moved = true;
+    }
+    if (moved) this.notify();
+  }
+
+  /**
+   * Change values. Outside a gesture (`begin` … `commit`) it is a step of its own.
+   *
+   * @param {Edit} changes
+   */
+  set(changes) {
+    const single = this.before === null;
+    if (single) this.begin();
+    for (const [name, value] of Object.entries(changes)) {
+      if (equal(this.values[name], value)) continue;
+      this.values[name] = value;
+      this.unsent.add(name);
+    }
+    this.notify();
+    if (single) this.commit();
+    else this.timer ??= setTimeout(() => this.push(), THROTTLE_MS);
+  }
+
+  /** Start a gesture: all changes until `commit` are one step of the history. */
+  begin() {
+    this.before ??= this.recipe();
+  }
+
+  /** End the gesture and send its final values. */
+  commit() {
+    const before = this.before;
+    this.before = null;
+    if (before && !equal(before, this.recipe())) {
+      const { past } = this.history();
+      this.writeHistory({ past: [...past, before].slice(-HISTORY_LENGTH), future: [] });
+    }
+    this.push();
+  }
+
+  /** End the gesture and return to where it began. */
+  cancel() {
+    if (!this.before) return;
+    const before = this.before;
+    this.before = null;
+    this.apply(before);
+  }
+
+  /** Send what is unsent. */
+  push() {
+    clearTimeout(this.timer);
+    this.timer = undefined;
+    const names = [...this.unsent];
+    // model.set calls back at once; `pull` leaves what is still listed as unsent alone.
+    for (const name of names) this.model.set(name, this.values[name]);
+    this.unsent.clear();
+    this.model.save_changes();
+  }
+
+  /** Values that differ from their defaults, by name. */
+  recipe() {
+    /** @type {Edit} */
+    const recipe = {};
+    for (const p of this.parameters) {
+      if (!equal(this.values[p.name], p.default)) recipe[p.name] = this.values[p.name];
+    }
+    return recipe;
+  }
+
+  /**
+   * Take over a whole recipe; what it does not name returns to its default.
+   *
+   * @param {Edit} recipe
+   */
+  apply(recipe) {
+    for (const p of this.parameters) {
+      const value = p.name in recipe ? recipe[p.name] : p.default;
+      if (equal(this.values[p.name], value)) continue;
+      this.values[p.name] = value;
+      this.unsent.add(p.name);
+    }
+    this.push();
+    this.notify();
+  }
+
+  /** @returns {History} */
+  history() {
+    const { past = [], future = [] } = this.model.get("_history") ?? {};
+    return { past, future };
+  }
+
+  /** @param {History} history */
+  writeHistory(history) {
+    this.model.set("_history", history);
+  }
+
+  undo() {
+    const { past, future } = this.history();
+    const recipe = past.at(-1);
+    if (!recipe) return;
+    this.writeHistory({ past: past.slice(0, -1), future: [this.recipe(), ...future] });
+    this.apply(recipe);
+  }
+
+  redo() {
+    const { past, future } = this.history();
+    const recipe = future[0];
+    if (!recipe) return;
+    this.writeHistory({ past: [...past, this.recipe()], future: future.slice(1) });
+    this.apply(recipe);
+  }
+
+  /** Every parameter to its default, as one step. */
+  reset() {
+    this.begin();
+    this.set(Object.fromEntries(this.parameters.map((p) => [p.name, p.default])));
+    this.commit();
+  }
+}
+
+/** @type {(a: unknown, b: unknown) => boolean} */
+export function equal(a, b) {
+  return a === b || JSON.stringify(a) === JSON.stringify(b);
+}

@@ -1,0 +1,110 @@
+/** Tools, history, before/after and saving. */
+
+import { button, holdButton, radioButtons } from "../controls/button.js";
+import { element } from "../controls/element.js";
+
+/** @typedef {import("./view.js").View} View */
+
+/** @type {{ value: string, icon: import("../controls/icons.js").IconName, label: string, title: string }[]} */
+const TOOLS = [
+  {
+    value: "sun",
+    icon: "sun",
+    label: "Move the sun",
+    title: "Move the sun (1): drag it, also out of the picture",
+  },
+  {
+    value: "horizon",
+    icon: "horizon",
+    label: "Set the horizon",
+    title: "Set the horizon (2): drag the line or its ends",
+  },
+  {
+    value: "pick",
+    icon: "pick",
+    label: "Point at the photo's sun",
+    title: "Point at the photo's own sun (3)",
+  },
+  {
+    value: "sky",
+    icon: "sky",
+    label: "Brush: sky",
+    title: "Brush: this is sky (4). [ and ] change its size",
+  },
+  {
+    value: "not_sky",
+    icon: "not_sky",
+    label: "Brush: not sky",
+    title: "Brush: this is not sky (5). [ and ] change its size",
+  },
+];
+
+/** @param {View} view */
+export function toolbar(view) {
+  const { state } = view;
+  const tools = radioButtons({
+    label: "Tool",
+    choices: TOOLS,
+    value: view.tool,
+    onChange: (tool) => view.setTool(tool),
+  });
+  const undo = button({
+    icon: "undo",
+    label: "Undo",
+    title: "Undo (Ctrl+Z)",
+    onClick: () => state.undo(),
+  });
+  const redo = button({
+    icon: "redo",
+    label: "Redo",
+    title: "Redo (Ctrl+Shift+Z)",
+    onClick: () => state.redo(),
+  });
+  const reset = button({
+    icon: "reset",
+    label: "Reset",
+    title: "Everything back to the photo",
+    onClick: () => state.reset(),
+  });
+  const before = holdButton({
+    icon: "before",
+    label: "Before",
+    title: "Show the photo as it was: hold, or click to keep (B)",
+    onChange: (on) => view.setBefore(on),
+  });
+  const save = button({
+    icon: "save",
+    label: "Save",
+    title: "Render at full size and download",
+    caption: true,
+    onClick: () => view.save(),
+  });
+  const size = element("input", {
+    type: "range",
+    class: "sw-range sw-brush-size",
+    min: 0.003,
+    max: 0.06,
+    step: 0.001,
+    "aria-label": "Brush size",
+  });
+  size.addEventListener("input", () => view.setBrushRadius(Number(size.value)));
+  const node = element("div", { class: "sw-toolbar", role: "toolbar", "aria-label": "Sun editor" });
+  const end = element("div", { class: "sw-group sw-end" }, before.node, save);
+  node.append(tools.node, size, element("div", { class: "sw-group" }, undo, redo, reset), end);
+  return {
+    node,
+    before,
+    show() {
+      tools.show(view.tool);
+      const { past, future } = state.history();
+      undo.disabled = past.length === 0;
+      redo.disabled = future.length === 0;
+      reset.disabled = Object.keys(state.recipe()).length === 0;
+      save.disabled = !view.scene || view.saving;
+      const painting = view.tool === "sky" || view.tool === "not_sky";
+      size.hidden = !painting;
+      size.value = String(view.brushRadius);
+      size.style.setProperty("--sw-share", String((view.brushRadius - 0.003) / 0.057));
+    },
+  };
+}

@@ -1,0 +1,362 @@
+/**
+ * One view of a SunEditor: it draws from its own state, and the traits follow.
+ *
+ * The photo is shown as soon as its bytes are there; the composited frame fades in over it
+ * when the analysis (`_scene`, `_layers`, `_surface`, `_backdrop`) has arrived.
+ */
+
+import { Camera } from "../camera.js";
+import { Channel } from "../channel.js";
+import { element } from "../controls/element.js";
+import { Frame } from "../frame.js";
+import { decodePicture } from "../gl/texture.js";
+import { BrushTool } from "./brush_tool.js";
+import { HorizonTool } from "./horizon_tool.js";
+import { panel } from "./panel.js";
+import { PickTool } from "./pick_tool.js";
+import { onShortcut } from "./shortcuts.js";
+import { paintSkyMask } from "./sky_mask.js";
+import { Stage } from "./stage.js";
+import { EditState } from "./state.js";
+import { SunTool } from "./sun_tool.js";
+import { toolbar } from "./toolbar.js";
+
+/**
+ * @typedef {import("../types.js").Model} Model
+ * @typedef {import("../types.js").Parameter} Parameter
+ * @typedef {import("../types.js").Point} Point
+ * @typedef {import("../types.js").Scene} Scene
+ * @typedef {import("../types.js").Status} Status
+ * @typedef {{
+ *   node: SVGElement, draw: () => void, end: () => void, cancel: () => void,
+ *   begin: (place: Point, event: PointerEvent) => void,
+ *   move: (place: Point, event: PointerEvent) => void,
+ *   hover?: (place: Point) => void,
+ * }} Tool
+ */
+
+const PICTURES = ["layers", "surface", "backdrop"];
+const SLOW_FRAME_MS = 40; // slower frames than this are drawn smaller while a drag lasts
+const SMALLEST_SCALE = 0.35;
+const SETTLED_MS = 160; // after this long without a change the frame is drawn in full
+
+export class View {
+  /**
+   * @param {Model} model
+   * @param {HTMLElement} root
+   * @param {AbortSignal} signal ends the view
+   */
+  constructor(model, root, signal) {
+    this.model = model;
+    this.root = root;
+    /** @type {Parameter[]} */
+    this.parameters = model.get("_parameters");
+    this.state = new EditState(model, this.parameters, signal);
+    this.channel = new Channel(model, signal);
+    this.stage = new Stage(signal);
+    this.frame = new Frame(this.stage.canvas, this.parameters);
+    /** @type {Scene | null} */
+    this.scene = null;
+    /** @type {Camera | null} */
+    this.camera = null;
+    this.tool = "sun";
+    this.brushRadius = 0.015;
+    this.saving = false;
+    /** @type {[number, number]} size of the full preview in pixels */
+    this.size = [0, 0];
+    this.scale = 1;
+    this.loads = 0;
+    this.request = 0;
+    this.lastFrame = 0;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.settle = undefined;
+
+    /** @type {Record<string, Tool>} */
+    this.tools = {
+      sun: new SunTool(this),
+      horizon: new HorizonTool(this),
+      pick: new PickTool(this),
+      sky: new BrushTool(this, "sky"),
+      not_sky: new BrushTool(this, "not_sky"),
+    };
+    this.panel = panel(this);
+    this.toolbar = toolbar(this);
+    this.readout = element("div", { class: "sw-readout" });
+    this.notes = element("div", { class: "sw-notes" });
+    this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
+    this.build();
+    this.listen(signal);
+    this.showStatus();
+    void this.loadPhoto();
+    void this.loadScene();
+    this.show();
+  }
+
+  build() {
+    const { sun, horizon, pick, sky, not_sky } = this.tools;
+    for (const tool of [horizon, pick, sky, not_sky, sun]) this.stage.overlay.append(tool.node);
+    const main = element(
+      "div",
+      { class: "sw-main" },
+      this.stage.node,
+      this.message,
+      element("div", { class: "sw-foot" }, this.readout, this.notes),
+    );
+    const body = element("div", { class: "sw-body" }, main, this.panel.node);
+    this.root.append(this.toolbar.node, body);
+    this.setTool("sun");
+  }
+
+  /** @param {AbortSignal} signal */
+  listen(signal) {
+    const { model, stage, state } = this;
+    state.subscribe(() => this.show());
+    stage.onLayout = () => this.drawOverlay();
+    /** @type {Record<string, () => void>} */
+    const handlers = {
+      "change:_photo": () => void this.loadPhoto(),
+      "change:_scene": () => void this.loadScene(),
+      "change:_status": () => this.showStatus(),
+    };
+    for (const [event, handler] of Object.entries(handlers)) model.on(event, handler);
+    /** @type {(message: any) => void} */
+    const onMessage = (message) => {
+      if (message?.type === "error") this.showError(message.error);
+    };
+    model.on("msg:custom", onMessage);
+    this.listenToPointer(signal);
+    this.root.addEventListener("keydown", (event) => onShortcut(this, event), { signal });
+    signal.addEventListener("abort", () => {
+      for (const [event, handler] of Object.entries(handlers)) model.off(event, handler);
+      model.off("msg:custom", onMessage);
+      cancelAnimationFrame(this.request);
+      clearTimeout(this.settle);
+      this.frame.dispose();
+    });
+  }
+
+  /** @param {AbortSignal} signal */
+  listenToPointer(signal) {
+    const { overlay } = this.stage;
+    /** @type {number | null} */
+    let pointer = null;
+    let panning = false;
+    /** @param {PointerEvent} event */
+    const down = (event) => {
+      if (pointer !== null || !this.scene || event.button > 1) return;
+      pointer = event.pointerId;
+      panning = event.button === 1;
+      overlay.setPointerCapture(pointer);
+      event.preventDefault();
+      if (!panning) this.tools[this.tool].begin(this.stage.placeOf(event), event);
+    };
+    /** @param {PointerEvent} event */
+    const move = (event) => {
+      const place = this.stage.placeOf(event);
+      if (pointer === null) this.tools[this.tool].hover?.(place);
+      else if (event.pointerId !== pointer) return;
+      else if (panning) this.stage.pan(event.movementX, event.movementY);
+      else this.tools[this.tool].move(place, event);
+    };
+    // The end of capture is the one end of a drag, whatever ended it.
+    /** @param {PointerEvent} event */
+    const lost = (event) => {
+      if (event.pointerId !== pointer) return;
+      pointer = null;
+      if (!panning) this.tools[this.tool].end();
+    };
+    overlay.addEventListener("pointerdown", down, { signal });
+    overlay.addEventListener("pointermove", move, { signal });
+    overlay.addEventListener("lostpointercapture", lost, { signal });
+    overlay.addEventListener("pointercancel", () => this.tools[this.tool].cancel(), { signal });
+  }
+
+  /** @param {string} name */
+  parameter(name) {
+    const found = this.parameters.find((p) => p.name === name);
+    if (!found) throw new Error(`The kernel's table has no parameter "${name}".`);
+    return found;
+  }
+
+  /** The number in effect: the person's, or what the analysis found. @param {string} name */
+  value(name) {
+    return Number(this.state.values[name] ?? this.scene?.automatic[name] ?? 0);
+  }
+
+  async loadPhoto() {
+    const bytes = this.model.get("_photo");
+    if (!bytes?.byteLength) return;
+    try {
+      await this.stage.setPhoto(bytes);
+    } catch {
+      this.showError("The browser cannot decode the preview that the kernel sent.");
+    }
+  }
+
+  /** Take over what the analysis found: decode its maps, then swap all at once. */
+  async loadScene() {
+    /** @type {Scene | null} */
+    const scene = this.model.get("_scene");
+    const photo = this.model.get("_photo");
+    if (!scene?.uniforms || !photo?.byteLength) return;
+    this.loads += 1;
+    const load = this.loads;
+    try {
+      const names = ["photo", ...PICTURES];
+      const bitmaps = await Promise.all(
+        names.map((name) => decodePicture(this.model.get(`_${name}`))),
+      );
+      if (load !== this.loads) {
+        for (const bitmap of bitmaps) bitmap.close();
+        return;
+      }
+      const [preview, layers] = bitmaps;
+      this.size = [preview.width, preview.height];
+      paintSkyMask(this.stage.mask, layers);
+      names.forEach((name, i) => {
+        this.frame.setPicture(name, bitmaps[i]);
+      });
+    } catch (error) {
+      this.showError(`The maps of the analysis cannot be shown: ${message(error)}`);
+      return;
+    }
+    this.frame.setScene(scene);
+    this.scene = scene;
+    const { fov_vertical_deg, pitch, roll } = scene.camera;
+    this.camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
+    this.notes.replaceChildren(...scene.warnings.map((text) => element("p", {}, text)));
+    this.show();
+  }
+
+  showStatus() {
+    /** @type {Status | null} */
+    const status = this.model.get("_status");
+    if (!status) return;
+    const working = status.stage === "opening" || status.stage === "analysing";
+    this.stage.setProgress(working ? status.fraction : null, status.message);
+    this.root.dataset.stage = status.stage;
+    if (status.stage === "error") this.showError(status.message);
+    else if (status.stage === "ready") this.showError("");
+  }
+
+  /** Text is shown as text: a file name may hold HTML. @param {string} text */
+  showError(text) {
+    this.message.hidden = !text;
+    this.message.textContent = text;
+  }
+
+  /** @param {string} tool */
+  setTool(tool) {
+    this.tools[this.tool].cancel();
+    this.tool = tool;
+    this.root.dataset.tool = tool;
+    this.toolbar.show();
+    this.drawOverlay();
+  }
+
+  /** @param {boolean} on */
+  setBefore(on) {
+    this.root.classList.toggle("sw-before", on);
+  }
+
+  /** @param {number} radius fraction of the longer side */
+  setBrushRadius(radius) {
+    this.brushRadius = Math.min(0.06, Math.max(0.003, radius));
+    this.toolbar.show();
+    this.drawOverlay();
+  }
+
+  /** Everything that follows from the state: controls at once, the frame with the next refresh. */
+  show() {
+    this.panel.show();
+    this.toolbar.show();
+    this.requestFrame();
+  }
+
+  requestFrame() {
+    this.request ||= requestAnimationFrame((now) => {
+      this.request = 0;
+      this.drawFrame(now);
+    });
+  }
+
+  /** @param {number} now */
+  drawFrame(now) {
+    this.drawOverlay();
+    if (!this.scene) return;
+    const dragging = this.state.before !== null;
+    if (dragging) {
+      const spent = now - this.lastFrame;
+      // A pause of the hand is no slow frame.
+      if (spent < 500) this.adapt(spent);
+      clearTimeout(this.settle);
+      this.settle = setTimeout(() => this.drawInFull(), SETTLED_MS);
+    }
+    this.lastFrame = now;
+    const scale = dragging ? this.scale : 1;
+    try {
+      const drawn = this.frame.draw(this.state.values, [
+        Math.max(1, Math.round(this.size[0] * scale)),
+        Math.max(1, Math.round(this.size[1] * scale)),
+      ]);
+      if (drawn) this.root.classList.add("sw-live");
+    } catch (error) {
+      this.showError(message(error));
+    }
+  }
+
+  /** Draw smaller while the machine cannot keep up with the drag. @param {number} spent ms */
+  adapt(spent) {
+    if (spent > SLOW_FRAME_MS) {
+      const wanted = this.scale * Math.sqrt(SLOW_FRAME_MS / spent);
+      this.scale = Math.max(SMALLEST_SCALE, 0.5 * (this.scale + wanted));
+    } else if (spent < SLOW_FRAME_MS / 2) {
+      this.scale = Math.min(1, this.scale * 1.02);
+    }
+  }
+
+  drawInFull() {
+    if (!this.scene) return;
+    try {
+      this.frame.draw(this.state.values, this.size);
+    } catch (error) {
+      this.showError(message(error));
+    }
+  }
+
+  drawOverlay() {
+    for (const tool of Object.values(this.tools)) tool.draw();
+    if (!this.scene) return;
+    const azimuth = this.value("sun_azimuth");
+    const side = azimuth < 0 ? "left" : "right";
+    this.readout.textContent =
+      `Sun ${Math.abs(azimuth).toFixed(1)}° ${side} · ` +
+      `${this.value("sun_elevation").toFixed(1)}° elevation`;
+  }
+
+  /** Ask the kernel for the frame at full size and hand it to the person. */
+  async save() {
+    if (this.saving) return;
+    this.saving = true;
+    this.state.push();
+    this.toolbar.show();
+    try {
+      const { result, buffers } = await this.channel.request("save", {}, (fraction, text) =>
+        this.stage.setProgress(fraction, text),
+      );
+      const blob = new Blob([/** @type {BlobPart} */ (buffers[0])], { type: result.type });
+      const link = element("a", { href: URL.createObjectURL(blob), download: result.name });
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+    } catch (error) {
+      this.showError(`Saving failed: ${message(error)}`);
+    } finally {
+      this.saving = false;
+      this.stage.setProgress(null, "");
+      this.toolbar.show();
+    }
+  }
+}
+
+/** @param {unknown} error */
+const message = (error) => (error instanceof Error ? error.message : String(error));

@@ -1,0 +1,53 @@
+/** A texture that a pass draws to, and the values from which it was drawn last. */
+
+import { createFloatTexture } from "./texture.js";
+
+/**
+ * @typedef {{
+ *   texture: import("./texture.js").Texture,
+ *   framebuffer: WebGLFramebuffer,
+ *   key: (number | string)[] | null,
+ * }} Target
+ */
+
+/** Say why a picture cannot be drawn here, or return null when it can.
+ *
+ * @param {WebGL2RenderingContext} gl
+ * @returns {string | null}
+ */
+export function missingFeature(gl) {
+  if (gl.getExtension("EXT_color_buffer_float")) return null;
+  return (
+    "This device cannot draw to floating-point textures (EXT_color_buffer_float), which the " +
+    "sky needs. Another browser or a computer with a graphics driver will do; exports from " +
+    "Python work all the same."
+  );
+}
+
+/**
+ * @param {WebGL2RenderingContext} gl
+ * @param {string} pass for error messages
+ * @param {number} width
+ * @param {number} height
+ * @returns {Target}
+ */
+export function createTarget(gl, pass, width, height) {
+  const texture = createFloatTexture(gl, width, height);
+  const framebuffer = gl.createFramebuffer();
+  gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture.handle, 0);
+  const status = gl.checkFramebufferStatus(gl.FRAMEBUFFER);
+  if (status !== gl.FRAMEBUFFER_COMPLETE && !gl.isContextLost()) {
+    throw new Error(`The target of pass "${pass}" (${width}×${height}) is incomplete (${status}).`);
+  }
+  return { texture, framebuffer, key: null };
+}
+
+/**
+ * @param {WebGL2RenderingContext} gl
+ * @param {Target} target
+ */
+export function deleteTarget(gl, target) {
+  gl.deleteFramebuffer(target.framebuffer);
+  gl.deleteTexture(target.texture.handle);
+}

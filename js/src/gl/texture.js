@@ -1,0 +1,77 @@
+/** Textures with no filter state: every pass reads them with texelFetch. */
+
+/**
+ * @typedef {{ handle: WebGLTexture, width: number, height: number, version: number }} Texture
+ * @typedef {ImageBitmap | { width: number, height: number, data: ArrayBufferView }} Pixels
+ */
+
+/** @param {WebGL2RenderingContext} gl */
+function createHandle(gl) {
+  const handle = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, handle);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+  return handle;
+}
+
+/**
+ * Upload a picture, row 0 at the top.
+ *
+ * @param {WebGL2RenderingContext} gl
+ * @param {Pixels} pixels decoded picture, four 8-bit channels
+ * @param {boolean} encoded true when the channels are sRGB and the GPU shall decode them
+ * @returns {Texture}
+ */
+export function createPictureTexture(gl, pixels, encoded) {
+  const { width, height } = pixels;
+  const limit = gl.getParameter(gl.MAX_TEXTURE_SIZE) ?? 2048;
+  if (Math.max(width, height) > limit) {
+    throw new Error(
+      `A picture of ${width}×${height} exceeds this browser's limit of ${limit} pixels a side.`,
+    );
+  }
+  const handle = createHandle(gl);
+  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+  const format = encoded ? gl.SRGB8_ALPHA8 : gl.RGBA8;
+  if ("data" in pixels) {
+    gl.texImage2D(
+      gl.TEXTURE_2D,
+      0,
+      format,
+      width,
+      height,
+      0,
+      gl.RGBA,
+      gl.UNSIGNED_BYTE,
+      pixels.data,
+    );
+  } else {
+    gl.texImage2D(gl.TEXTURE_2D, 0, format, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  }
+  return { handle, width, height, version: 0 };
+}
+
+/**
+ * @param {WebGL2RenderingContext} gl
+ * @param {number} width
+ * @param {number} height
+ * @returns {Texture}
+ */
+export function createFloatTexture(gl, width, height) {
+  const handle = createHandle(gl);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, width, height);
+  return { handle, width, height, version: 0 };
+}
+
+/**
+ * Decode PNG or JPEG bytes exactly: no premultiplied alpha, no colour conversion.
+ *
+ * @param {ArrayBufferView | ArrayBuffer} bytes
+ * @returns {Promise<ImageBitmap>}
+ */
+export function decodePicture(bytes) {
+  const blob = new Blob([/** @type {BlobPart} */ (bytes)]);
+  return createImageBitmap(blob, { premultiplyAlpha: "none", colorSpaceConversion: "none" });
+}

@@ -1,0 +1,62 @@
+/** Shapes of what travels between kernel and browser. */
+
+/** One row of the kernel's parameter table (`sunwidget/edit.py`). */
+export interface Parameter {
+  name: string;
+  kind: "number" | "choice" | "data";
+  default: number | string | null | unknown[];
+  minimum: number;
+  maximum: number;
+  step: number;
+  unit: string;
+  label: string;
+  section: string;
+  help: string;
+  choices: string[];
+  advanced: boolean;
+}
+
+export type Point = [number, number];
+
+export interface Stroke {
+  label: "sky" | "not_sky";
+  points: Point[];
+  radius: number;
+}
+
+/** Values by parameter name; a missing one is at its default, null is automatic. */
+export type Edit = Record<string, unknown>;
+
+/** What the analysis found, as far as the browser needs it (trait `_scene`). */
+export interface Scene {
+  width: number;
+  height: number;
+  camera: { fov_vertical_deg: number; pitch: number; roll: number };
+  automatic: Record<string, number>;
+  uniforms: Record<string, number | number[]>;
+  sun: { x: number; y: number; visible: boolean } | null;
+  horizon: { points: [Point, Point]; confidence: number; source: string } | null;
+  warnings: string[];
+}
+
+/** Where the kernel's work stands (trait `_status`). */
+export interface Status {
+  stage: "opening" | "analysing" | "ready" | "error";
+  fraction: number;
+  message: string;
+}
+
+export interface History {
+  past: Edit[];
+  future: Edit[];
+}
+
+/** The part of anywidget's model that is used. */
+export interface Model {
+  get(name: string): any;
+  set(name: string, value: unknown): void;
+  save_changes(): void;
+  send(content: unknown, callbacks?: unknown, buffers?: ArrayBuffer[]): void;
+  on(event: string, callback: (...args: any[]) => void): void;
+  off(event: string, callback: (...args: any[]) => void): void;
+}
