@@ -287,7 +287,10 @@ def _moments(a: Atmosphere, extinction: Array, quality: Quality, window: Window)
 
     even = np.einsum("hmtw->hmw", seen * (rayleigh + mie)) + reflected
     transfer = np.einsum("kma,m,hmw->hkw", rays.basis, rays.weight, even, optimize=True)
-    series = second_moments[:, :, :1] / (1 - np.minimum(transfer[:, :1], 0.999))[:, None]
+    mean = transfer[:, None, :1]
+    ratio = second_moments[:, :, :1] / np.maximum(first[:, :, :1], 1e-30)
+    ratio = np.minimum(np.minimum(mean, 0.999), ratio)
+    series = second_moments[:, :, :1] * ratio / (1 - ratio) / mean
     total = first + second_moments
     total[:, :, : transfer.shape[1]] += transfer[:, None] * series
     return np.asarray(total)

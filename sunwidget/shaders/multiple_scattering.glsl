@@ -1,7 +1,8 @@
 // The field of all scattered light around a point, as moments (see lib/multiple.glsl): first and
-// second order as drawn, the rest as a geometric series 1 / (1 - f) of isotropic scattering
-// (Hillaire 2020, section 5.5.3) with f the share of an even light that comes back after one
-// more scattering, the ground's included.
+// second order as drawn, the rest as a geometric series of isotropic scattering (Hillaire 2020,
+// section 5.5.3). Its ratio is f, the share of an even light that comes back after one more
+// scattering, the ground's included; or what the second order had of the first where that is
+// less, for over bright ground f counts on a light that has long left through the top.
 
 #include "lib/multiple.glsl"
 #include "lib/moments.glsl"
@@ -59,6 +60,8 @@ void main() {
   }
   vec4 second_mean = GetMoment(second_order, SECOND_AZIMUTHS, 0, cell, size);
   vec4 second = GetMoment(second_order, SECOND_AZIMUTHS, moment, cell, size);
-  vec4 rest = transfer_moment * second_mean / (1.0 - min(transfer_mean, vec4(0.999)));
+  vec4 first_mean = texelFetch(first_field, cell, 0);
+  vec4 ratio = min(min(transfer_mean, vec4(0.999)), second_mean / max(first_mean, vec4(1e-30)));
+  vec4 rest = transfer_moment / transfer_mean * second_mean * ratio / (1.0 - ratio);
   result = texelFetch(first_field, texel, 0) + second + rest;
 }

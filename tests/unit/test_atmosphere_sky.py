@@ -1,0 +1,159 @@
+"""The reference sky against path tracing, twilight records and plain physics: rows 6 and 7."""
+
+import numpy as np
+import pytest
+
+from sunwidget.atmosphere.color import chromaticity, spectral_to_xyz
+from sunwidget.atmosphere.constants import solar_irradiance
+from sunwidget.atmosphere.optics import direct_irradiance
+from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.atmosphere.path_tracer import trace
+from sunwidget.atmosphere.sky import FAST, SHADER, SkyTable, sky_radiance
+
+AIR = Atmosphere()
+
+
+def directions(elevation, azimuth):
+    e, a = np.radians(np.broadcast_arrays(elevation, azimuth)).reshape(2, -1)
+    return np.stack([np.cos(e) * np.sin(a), np.sin(e), np.cos(e) * np.cos(a)], axis=1)
+
+
+def illuminance(table, suns, nodes=16):
+    """Of the sky on level ground, in lux, under each of ``suns``."""
+    x, w = np.polynomial.legendre.leggauss(nodes)
+    mu, w = (x + 1) / 2, w / 2
+    elevation = np.degrees(np.arcsin(mu))[:, None, None]
+    azimuth = 180 * (np.arange(nodes)[:, None] + 0.5) / nodes
+    radiance = table.radiance(elevation, azimuth, np.atleast_1d(suns))
+    spectrum = 2 * np.pi * np.einsum("m,masw->sw", w * mu, radiance) / nodes
+    return 1000 * spectral_to_xyz(spectrum)[:, 1]
+
+
+@pytest.mark.parametrize(
+    ("air", "sun", "allowed"),
+    [
+        # Error of the model plus noise of 200 paths (2 % by day, 5 % in twilight). The design
+        # asks for 8 % by day, 15 % at low sun and 35 % below the horizon.
+        (AIR, 60.0, 0.05),
+        (AIR, 30.0, 0.06),
+        (AIR, 5.0, 0.09),
+        (AIR, 0.0, 0.12),
+        (AIR, -3.0, 0.25),
+        (Atmosphere(aerosol_optical_depth=0.3, aerosol_albedo=0.9), 40.0, 0.10),
+    ],
+)
+def test_all_orders_agree_with_path_tracing(air, sun, allowed):
+    views = directions(*np.meshgrid([4.0, 15.0, 40.0, 80.0], [0.0, 60.0, 120.0, 180.0]))
+    traced, noise = trace(air, views, sun, paths=200, bounces=10)
+    ours = sky_radiance(air, views, sun)
+    assert np.median(noise / traced) < 0.08
+    assert np.sqrt(np.mean((ours / traced - 1) ** 2)) < allowed
+
+
+def test_conservative_air_in_an_even_light_stays_even():
+    # Furnace: air that absorbs nothing over white ground returns what falls in. Sunlight summed
+    # over all suns is an even light, so the mean radiance anywhere is the sun's over 4 pi.
+    air = Atmosphere(aerosol_albedo=1, ozone=0, ground_albedo=1, aerosol_optical_depth=0.1)
+    suns = np.degrees(np.arcsin((np.arange(60) + 0.5) / 30 - 1))
+    x, w = np.polynomial.legendre.leggauss(16)
+    elevation = np.degrees(np.arcsin(x))[:, None, None]
+    azimuth = 15 + 30 * np.arange(6.0)[:, None]
+    sky = SkyTable(air, quality=SHADER).radiance(elevation, azimuth, suns)
+    scattered = np.einsum("m,masw->w", w / 2, sky) / 6 / len(suns)
+    direct = direct_irradiance(air, suns).mean(axis=0) / (4 * np.pi)
+    share = 4 * np.pi * (scattered + direct) / solar_irradiance()
+    # The series that stands for the third order and above loses up to 3.5 % of the blue here,
+    # where half of all light is in it; over real ground it is a tenth of that.
+    assert share == pytest.approx(np.ones(4), abs=0.04)
+
+
+@pytest.mark.parametrize(
+    ("sun", "low", "high"),
+    # American Meteorological Society, Glossary, "twilight". Within a factor 3: below -9° the
+    # light comes from heights where a model of two exponentials is a guess.
+    [(-0.83, 410, 585), (-6.0, 2.0, 3.5), (-12.0, 0.008, 0.008)],
+)
+def test_twilight_is_as_bright_as_recorded(sun, low, high):
+    assert low / 3 < illuminance(SkyTable(AIR, quality=SHADER), sun) < high * 3
+
+
+def test_light_falls_smoothly_and_without_end_through_twilight():
+    suns = np.arange(4.0, -12.05, -0.1)
+    light = illuminance(SkyTable(AIR, quality=SHADER), suns, nodes=6)
+    step = light[1:] / light[:-1]
+    assert np.all(step < 1)
+    assert np.all(step > 1 - 0.15)
+
+
+def test_blue_hour_is_the_work_of_ozone():
+    def zenith_x(air, sun):
+        return chromaticity(spectral_to_xyz(SkyTable(air, quality=SHADER).radiance(90, 0, sun)))
+
+    with_ozone = zenith_x(AIR, -6.0)
+    without = zenith_x(AIR.replace(ozone=0), -6.0)
+    assert with_ozone == pytest.approx([0.231, 0.232], abs=0.01)
+    assert with_ozone[0] < zenith_x(AIR, 2.0)[0]
+    assert without[0] > 0.29
+
+
+@pytest.mark.parametrize("quality", [FAST, SHADER], ids=["fast", "shader"])
+@pytest.mark.parametrize(
+    "air",
+    [
+        AIR,
+        Atmosphere(aerosol_optical_depth=0, ozone=0),
+        Atmosphere(aerosol_optical_depth=0.6, aerosol_asymmetry=0.95, aerosol_albedo=1),
+        Atmosphere(altitude=30_000, ground_albedo=1),
+        Atmosphere(aerosol_asymmetry=0, angstrom_exponent=2, aerosol_optical_depth=0.6),
+    ],
+)
+def test_sky_is_finite_and_positive_everywhere(air, quality):
+    elevation = np.array([-90, -30, -5, -0.1, 0, 1e-3, 1, 30, 89.99, 90])[:, None, None]
+    sky = SkyTable(air, quality=quality).radiance(
+        elevation,
+        np.array([0, 0.1, 90, 180.0])[:, None],
+        np.array([-12, -6, -0.27, 0, 0.27, 5, 60, 90]),
+    )
+    assert np.all(np.isfinite(sky))
+    assert np.all(sky >= 0)
+    above = sky[4:]
+    assert np.all(above > 0)
+
+
+def test_fast_table_is_close_to_the_full_one_by_day():
+    elevation, azimuth = np.array([2, 8, 25, 60, 85.0])[:, None], np.arange(0, 181, 30.0)
+    for sun in (60.0, 25.0, 5.0):
+        fast = SkyTable(AIR).radiance(elevation, azimuth, sun)
+        full = SkyTable(AIR, quality=SHADER).radiance(elevation, azimuth, sun)
+        assert np.abs(fast / full - 1).max() < 0.02
+
+
+def test_sky_mirrors_about_the_sun_and_turns_with_it():
+    right = sky_radiance(AIR, directions([5, 40.0], 50.0), 20.0)
+    left = sky_radiance(AIR, directions([5, 40.0], -50.0), 20.0)
+    turned = sky_radiance(AIR, directions([5, 40.0], 80.0), 20.0, sun_azimuth=30.0)
+    assert left == pytest.approx(right, rel=1e-12)
+    assert turned == pytest.approx(right, rel=1e-12)
+
+
+def test_single_scattering_alone_is_darker_everywhere():
+    views = directions([1, 20, 60, 90.0], [0, 60, 120, 180.0])
+    for sun in (60.0, 10.0, -3.0):
+        alone = sky_radiance(AIR, views, sun, multiple_scattering=False)
+        assert np.all(alone < sky_radiance(AIR, views, sun))
+
+
+def test_haze_whitens_and_widens_the_glow():
+    views = directions([30.0, 30.0], [5.0, 90.0])
+    clear = sky_radiance(AIR.replace(aerosol_optical_depth=0.02), views, 30.0)
+    hazy = sky_radiance(AIR.replace(aerosol_optical_depth=0.4), views, 30.0)
+    assert np.all(hazy[0] / hazy[1] > clear[0] / clear[1])
+    assert (hazy[:, 3] / hazy[:, 0] < clear[:, 3] / clear[:, 0]).all()
+
+
+def test_sky_darkens_with_height():
+    zenith = directions([90.0], [0.0])
+    heights = [0.0, 3000.0, 10_000.0, 30_000.0]
+    blue = [sky_radiance(AIR.replace(altitude=h), zenith, 40.0)[0, 3] for h in heights]
+    assert np.all(np.diff(blue) < 0)
+    assert blue[-1] < 0.05 * blue[0]
