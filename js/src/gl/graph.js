@@ -27,8 +27,8 @@ import { uniformValue } from "./values.js";
  * }} Frame
  */
 
-// Scene textures whose channels are encoded sRGB, decoded by the GPU.
-const ENCODED = new Set(["photo", "backdrop"]);
+// Scene textures whose channels are encoded sRGB, decoded by the GPU; the others hold levels.
+const ENCODED = new Set(["photo"]);
 
 export class Graph {
   /**

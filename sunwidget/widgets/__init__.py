@@ -1,0 +1,5 @@
+"""Widgets for Jupyter: traits and messages only; the picture is drawn in ``js/``."""
+
+from sunwidget.widgets.sun_editor import SunEditor
+
+__all__ = ["SunEditor"]

@@ -1,0 +1,114 @@
+"""Analyse a photo behind a widget's back, and again whenever the person corrects something.
+
+One daemon thread at a time; while it works, newer corrections replace those not yet begun.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from sunwidget.analysis.scene import Scene, analyze
+from sunwidget.edit import Edit
+
+Report = Callable[[str, float, str], None]
+
+
+class Analyst:
+    """Brings a scene up to date with the corrections of an edit.
+
+    Parameters
+    ----------
+    source : Photo or Scene
+        A photo is analysed first; a scene is only corrected.
+    options : dict
+        Keyword arguments of ``analyze``.
+    deliver : callable
+        ``deliver(scene)``, called on the thread with every new scene.
+    report : callable
+        ``report(stage, fraction, message)`` with stage "analysing", "ready" or "error".
+    """
+
+    def __init__(
+        self,
+        source: Any,
+        options: dict[str, Any],
+        deliver: Callable[[Scene], None],
+        report: Report,
+    ) -> None:
+        self._base: Scene | None = source if isinstance(source, Scene) else None
+        self._photo = source
+        self._options = options
+        self._deliver = deliver
+        self._report = report
+        self._changed = threading.Condition()
+        self._wanted: Edit | None = None
+        self._busy = False
+        self._scene: Scene | None = None
+        self._error: Exception | None = None
+
+    @property
+    def base(self) -> Scene | None:
+        """The scene without corrections, once there is one."""
+        return self._base
+
+    def ask(self, edit: Edit) -> None:
+        """Bring the scene up to date with the corrections of ``edit``; returns at once."""
+        with self._changed:
+            self._wanted = edit
+            if self._busy:
+                return
+            self._busy = True
+        threading.Thread(target=self._work, name="sunwidget-analysis", daemon=True).start()
+
+    def wait(self, timeout: float | None = None) -> Scene:
+        """Block until the scene is up to date and return it.
+
+        Raises
+        ------
+        TimeoutError
+            After ``timeout`` seconds.
+        AnalysisError, PhotoError
+            What the analysis raised.
+        """
+        with self._changed:
+            if not self._changed.wait_for(lambda: not self._busy, timeout):
+                raise TimeoutError(f"The analysis is not finished after {timeout:g} s.")
+            if self._error is not None:
+                raise self._error
+            assert self._scene is not None
+            return self._scene
+
+    def _work(self) -> None:
+        while True:
+            with self._changed:
+                edit, self._wanted = self._wanted, None
+                if edit is None:
+                    self._busy = False
+                    self._changed.notify_all()
+                    return
+            try:
+                self._update(edit)
+            except Exception as error:  # noqa: BLE001 - shown to the person, raised by wait()
+                with self._changed:
+                    self._error = error
+                self._report("error", 1.0, str(error) or type(error).__name__)
+
+    def _update(self, edit: Edit) -> None:
+        def progress(fraction: float, message: str) -> None:
+            self._report("analysing", fraction, f"{message} …")
+
+        if self._base is None:
+            progress(0.0, "Analysing the photo")
+            self._base = analyze(self._photo, progress=progress, **self._options)
+        else:
+            progress(0.5, "Applying the correction")
+        scene = self._base.corrected(edit)
+        with self._changed:
+            self._error = None
+            newest = self._wanted is None
+            self._scene = scene
+        if newest:
+            self._deliver(scene)
+            self._report("ready", 1.0, "")

@@ -1,0 +1,126 @@
+"""What travels to the browser: the preview and the maps as encoded pictures, the rest as JSON.
+
+The kernel keeps the full resolution; a preview's long edge has at most ``PREVIEW_EDGE`` pixels.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sunwidget.analysis.scene import Scene
+from sunwidget.edit import PARAMETERS
+from sunwidget.photo import Photo
+from sunwidget.renderer.render import quantise_map
+from sunwidget.renderer.shader_source import frame_graph
+
+PREVIEW_EDGE = 2048
+_THUMBNAIL_EDGE = 480
+# Above this many bytes a lossless preview costs more than it shows.
+_LOSSLESS_BYTES = 4_000_000
+_JPEG_QUALITY = 95
+
+
+def encode_png(image: NDArray[np.uint8]) -> bytes:
+    """Return an (H, W, 3) uint8 picture as PNG, fast rather than small."""
+    import cv2
+
+    ok, data = cv2.imencode(".png", image[..., ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 2])
+    if not ok:
+        raise RuntimeError(f"OpenCV could not encode a picture of shape {image.shape} as PNG.")
+    return bytes(data)
+
+
+def encode_preview(photo: Photo) -> bytes:
+    """Return the photo's preview: PNG, or JPEG (quality 95, 4:4:4) where PNG would be large."""
+    import cv2
+
+    image = photo.preview(PREVIEW_EDGE)
+    data = encode_png(image)
+    if len(data) <= _LOSSLESS_BYTES:
+        return data
+    full_colour = int(cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444)
+    options = [
+        cv2.IMWRITE_JPEG_QUALITY,
+        _JPEG_QUALITY,
+        cv2.IMWRITE_JPEG_SAMPLING_FACTOR,
+        full_colour,
+    ]
+    return bytes(cv2.imencode(".jpg", image[..., ::-1], options)[1])
+
+
+def thumbnail(photo: Photo) -> bytes:
+    """Return a small PNG for viewers that run no widgets."""
+    return encode_png(photo.preview(_THUMBNAIL_EDGE))
+
+
+def encode_maps(scene: Scene) -> dict[str, bytes]:
+    """Return the scene textures but the photo, by trait name, as PNG at the preview's size."""
+    import cv2
+
+    shape = scene.photo.preview(PREVIEW_EDGE).shape
+    size = (shape[1], shape[0])
+    maps = {"_layers": scene.layers(), "_surface": scene.surface()}
+    encoded = {}
+    for name, image in maps.items():
+        if (image.shape[1], image.shape[0]) != size:
+            image = cv2.resize(image, size, interpolation=cv2.INTER_AREA)
+        encoded[name] = encode_png(quantise_map(image))
+    encoded["_backdrop"] = encode_png(quantise_map(scene.backdrop))
+    return encoded
+
+
+def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
+    """Return what the browser's view of a scene needs beside the maps.
+
+    ``revision`` differs from one scene to the next, so that the trait's change is seen.
+    """
+    uniforms = scene.uniforms()
+    sun = scene.sun
+    return _plain(
+        {
+            "revision": revision,
+            "width": scene.width,
+            "height": scene.height,
+            "camera": {
+                "fov_vertical_deg": scene.camera.fov_vertical_deg,
+                "pitch": scene.camera.pitch,
+                "roll": scene.camera.roll,
+            },
+            "automatic": scene.automatic,
+            "uniforms": {name: uniforms[name] for name in frame_graph()["scene_uniforms"]},
+            "sun": None
+            if sun is None
+            else {"x": sun.x / scene.width, "y": sun.y / scene.height, "visible": sun.visible},
+            "horizon": {
+                "row": scene.horizon.row / scene.height,
+                "roll": scene.horizon.roll,
+                "confidence": scene.horizon.confidence,
+                "source": scene.horizon.source,
+            },
+            "warnings": list(scene.warnings),
+        }
+    )
+
+
+def parameter_json() -> list[dict[str, Any]]:
+    """Return the parameter table as plain JSON types."""
+    return [_plain(p._asdict()) for p in PARAMETERS]
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _plain(item) for name, item in value.items()}
+    if isinstance(value, (tuple, list, np.ndarray)):
+        return [_plain(item) for item in value]
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    if isinstance(value, (float, np.floating)):
+        # JSON has no NaN; a view must not die of one.
+        return float(value) if math.isfinite(value) else 0.0
+    if isinstance(value, np.integer):
+        return int(value)
+    return value

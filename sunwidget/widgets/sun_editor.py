@@ -1,0 +1,296 @@
+"""SunEditor: drag the sun in a photo, in a notebook.
+
+The browser draws every frame itself from the traits below; the kernel analyses the photo,
+answers corrections and renders what is kept. Handlers may run on any thread: JupyterLab
+sends messages to kernel subshells.
+"""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import tempfile
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import anywidget
+import traitlets
+
+from sunwidget.analysis.scene import Scene
+from sunwidget.edit import PARAMETERS, Edit, unknown_name_message
+from sunwidget.photo import Photo, open_photo
+from sunwidget.widgets.analyst import Analyst
+from sunwidget.widgets.edit_traits import edit_traits
+from sunwidget.widgets.payload import (
+    encode_maps,
+    encode_preview,
+    parameter_json,
+    scene_json,
+    thumbnail,
+)
+from sunwidget.widgets.requests import Answer, Progress, Requests
+
+_STATIC = Path(__file__).parents[1] / "static"
+_NAMES = tuple(p.name for p in PARAMETERS)
+_CORRECTIONS = frozenset(p.name for p in PARAMETERS if p.kind == "data")
+_HISTORY_LENGTH = 100
+_SUFFIXES = {"JPEG": ".jpg", "PNG": ".png", "TIFF": ".tif", "WEBP": ".webp"}
+_TYPES = {
+    ".jpg": "image/jpeg",
+    ".png": "image/png",
+    ".tif": "image/tiff",
+    ".webp": "image/webp",
+}
+
+if not (_STATIC / "sun_editor.js").is_file():
+    raise ImportError(
+        "sunwidget's front end is not built, so there is no SunEditor. In a checkout run "
+        "`make build` (Node 20 or newer); an installed package brings it along."
+    )
+
+
+class SunEditor(anywidget.AnyWidget):
+    """Drag the sun in a photo.
+
+    Every parameter of ``Edit`` is a trait of the same name, both ways: setting one moves the
+    picture, and moving the picture sets them. ``None`` means "as found in the photo".
+
+    Parameters
+    ----------
+    source : path, bytes, file object, PIL image, array, Photo or Scene
+        The picture; see ``sunwidget.open``. The photo is shown at once, and analysed behind
+        the scenes unless a Scene is given.
+    recipe : Edit or dict, optional
+        What to start from.
+    sky : array, path or str, optional
+        A sky mask, an ONNX network, or a method's name; see ``sunwidget.analyze``.
+    **parameters
+        Any parameter of ``Edit``; wins over ``recipe``.
+
+    Raises
+    ------
+    TypeError
+        For a keyword that is no parameter; the nearest spelling is suggested.
+    PhotoError, EditError
+        For a picture that cannot be opened, or a value out of range.
+
+    Examples
+    --------
+    >>> editor = sw.SunEditor("beach.jpg", sun_elevation=3)
+    >>> editor.sun_azimuth = -4
+    >>> editor.save("evening.jpg")
+    """
+
+    _esm = _STATIC / "sun_editor.js"
+    _css = _STATIC / "sun_editor.css"
+
+    _parameters: traitlets.List = traitlets.List(read_only=True).tag(sync=True)
+    _photo = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
+    _layers = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
+    _surface = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
+    _backdrop = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
+    _scene = traitlets.Dict().tag(sync=True, echo_update=False)
+    _status = traitlets.Dict().tag(sync=True, echo_update=False)
+    # Recipes before and after the present one, written by whoever makes a step.
+    _history = traitlets.Dict().tag(sync=True)
+
+    # One trait a row of the table; a class body's locals() is the class's own dictionary.
+    locals().update(edit_traits())
+
+    def __init__(
+        self,
+        source: Any,
+        *,
+        recipe: Edit | dict[str, Any] | None = None,
+        sky: Any = None,
+        **parameters: Any,
+    ) -> None:
+        for name in parameters:
+            if name not in _NAMES:
+                raise TypeError(f"SunEditor: {unknown_name_message(name)}")
+        start = _edit_of(recipe).replace(**parameters)
+        scene = source if isinstance(source, Scene) else None
+        if scene is not None and sky is not None:
+            raise TypeError("SunEditor takes sky= with a photo; this scene has its sky already.")
+        self.photo: Photo = scene.photo if scene is not None else open_photo(source)
+        self._lock = threading.RLock()
+        self._browser_thread: int | None = None
+        self._applying = False
+        self._committed = start
+        self._revision = 0
+        self._thumbnail: bytes | None = None
+        super().__init__(
+            _photo=encode_preview(self.photo),
+            _status={"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"},
+            _history={"past": [], "future": []},
+            **{name: getattr(start, name) for name in _NAMES},
+        )
+        self.set_trait("_parameters", parameter_json())
+        self.on_msg(Requests(self.send, {"save": self._save_for_browser}))
+        self.observe(self._on_edit, list(_NAMES))
+        options = {} if sky is None else {"sky": sky}
+        self._analyst = Analyst(
+            self.photo if scene is None else scene, options, self._deliver, self._report
+        )
+        self._analyst.ask(start)
+
+    @property
+    def scene(self) -> Scene:
+        """The analysed photo, with strokes and hints applied; waits for the analysis."""
+        return self._analyst.wait()
+
+    def wait(self, timeout: float | None = None) -> SunEditor:
+        """Block until the photo is analysed; raises what the analysis raised.
+
+        Parameters
+        ----------
+        timeout : float, optional
+            Seconds after which to raise ``TimeoutError``. Default: none.
+        """
+        self._analyst.wait(timeout)
+        return self
+
+    @property
+    def edit(self) -> Edit:
+        """The traits as an ``Edit``. Assign an ``Edit`` or a recipe to set them all in one step."""
+        return Edit(**{name: getattr(self, name) for name in _NAMES})
+
+    @edit.setter
+    def edit(self, value: Edit | dict[str, Any]) -> None:
+        self._step(_edit_of(value))
+
+    def render(self, **options: Any) -> Any:
+        """Return the picture as it is now; ``options`` as in ``sunwidget.render``."""
+        from sunwidget.renderer.render import render
+
+        return render(self._base_scene(), self.edit, **options)
+
+    def save(self, path: Any, **options: Any) -> Path:
+        """Write the picture at full size; ``options`` as in ``sunwidget.save``."""
+        from sunwidget.export.stills import save
+
+        return save((self._base_scene(), self.edit), path, **options)
+
+    def undo(self) -> None:
+        """Take back the last step, whether made here or in the browser."""
+        past, future = self._steps()
+        if past:
+            self._travel(past[-1], past[:-1], [self.edit.to_dict(), *future])
+
+    def redo(self) -> None:
+        """Make the last undone step again."""
+        past, future = self._steps()
+        if future:
+            self._travel(future[0], [*past, self.edit.to_dict()], future[1:])
+
+    def reset(self) -> None:
+        """Set every parameter to its default, as one step: the photo as it was."""
+        self._step(Edit())
+
+    def set_state(self, sync_data: dict[str, Any]) -> None:
+        """Take over what the browser sent; a value that is refused is answered, not raised."""
+        with self._lock:
+            self._browser_thread = threading.get_ident()
+            try:
+                super().set_state(sync_data)
+            except traitlets.TraitError as error:
+                self.send({"type": "error", "error": str(error)})
+                self.send_state([name for name in sync_data if name in self.keys])
+            finally:
+                self._browser_thread = None
+                self._committed = self.edit
+
+    def _base_scene(self) -> Scene:
+        # The edit's corrections are applied by the renderer, from the scene without them.
+        self._analyst.wait()
+        base = self._analyst.base
+        assert base is not None
+        return base
+
+    def _steps(self) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+        return list(self._history.get("past", [])), list(self._history.get("future", []))
+
+    def _remember(self, before: Edit) -> None:
+        past, _ = self._steps()
+        past = [*past, before.to_dict()][-_HISTORY_LENGTH:]
+        self._history = {"past": past, "future": []}
+
+    def _step(self, edit: Edit) -> None:
+        with self._lock:
+            before = self.edit
+            if edit != before:
+                self._remember(before)
+                self._apply(edit)
+
+    def _travel(
+        self, recipe: dict[str, Any], past: list[dict[str, Any]], future: list[dict[str, Any]]
+    ) -> None:
+        with self._lock:
+            self._history = {"past": past, "future": future}
+            self._apply(Edit.from_dict(recipe))
+
+    def _apply(self, edit: Edit) -> None:
+        with self._quietly(), self.hold_sync():
+            for name in _NAMES:
+                setattr(self, name, getattr(edit, name))
+        self._committed = edit
+
+    @contextlib.contextmanager
+    def _quietly(self) -> Iterator[None]:
+        self._applying = True
+        try:
+            yield
+        finally:
+            self._applying = False
+
+    def _on_edit(self, change: Any) -> None:
+        if change.name in _CORRECTIONS:
+            self._analyst.ask(self.edit)
+        if self._applying or self._browser_thread == threading.get_ident():
+            return
+        with self._lock:
+            self._remember(self._committed)
+            self._committed = self.edit
+
+    def _deliver(self, scene: Scene) -> None:
+        maps = encode_maps(scene)
+        with self._lock:
+            self._revision += 1
+            described = scene_json(scene, self._revision)
+            # One message, so that a view never sees maps of two scenes.
+            with self.hold_sync():
+                for name, data in maps.items():
+                    setattr(self, name, data)
+                self._scene = described
+
+    def _report(self, stage: str, fraction: float, message: str) -> None:
+        with self._lock:
+            self._status = {"stage": stage, "fraction": fraction, "message": message}
+
+    def _save_for_browser(self, _content: dict[str, Any], progress: Progress) -> Answer:
+        progress(0.02, "Rendering at full size …")
+        suffix = _SUFFIXES.get(self.photo.format or "", ".png")
+        name = f"{Path(self.photo.name).stem}-sun{suffix}"
+        with tempfile.TemporaryDirectory() as folder:
+            path = self.save(Path(folder) / f"picture{suffix}", progress=progress)
+            data = path.read_bytes()
+        return {"name": name, "type": _TYPES[suffix]}, [data]
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        bundle = super()._repr_mimebundle_(**kwargs)
+        if bundle is None:
+            return None
+        if self._thumbnail is None:
+            self._thumbnail = thumbnail(self.photo)
+        data, metadata = bundle
+        # GitHub, nbconvert and other viewers without widgets show this one.
+        data["image/png"] = base64.b64encode(self._thumbnail).decode("ascii")
+        return data, metadata
+
+
+def _edit_of(recipe: Edit | dict[str, Any] | None) -> Edit:
+    if recipe is None:
+        return Edit()
+    return recipe if isinstance(recipe, Edit) else Edit.from_dict(recipe)
