@@ -37,7 +37,7 @@ lab: $(LAB) $(STATIC) gl
 test: $(TEST) $(STATIC) gl chromium
 	@scripts/check.sh -- $(PYTEST)
 
-bench: $(TEST) $(STATIC) gl
+bench: $(TEST) $(STATIC) gl chromium
 	@$(PY) bench/bench.py $(BENCH)
 
 build: $(STATIC)
