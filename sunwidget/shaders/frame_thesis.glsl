@@ -98,7 +98,8 @@ void main() {
     soft = soft * blur_now * near + soft * (1.0 - near);                       // 3.13 as printed
   } else {
     near = pow(near, blend_power);
-    soft = mix(color, sky_now * (1.0 - opacity), mask);                        // 3.11
+    // 3.11 through the cloud: an opaque one hides the new sun instead of turning black.
+    soft = mix(color, sky_now, mask * (1.0 - opacity));
     vec3 blur_first = max(ReadBilinear(thesis_blur_source, place).rgb, vec3(1e-3));
     soft *= blur_now / blur_first * near + (1.0 - near);                       // 3.13
   }

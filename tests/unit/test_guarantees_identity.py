@@ -1,0 +1,149 @@
+"""An unmoved sun changes nothing; what is switched off changes nothing."""
+
+import cv2
+import numpy as np
+import pytest
+from relight_scenes import SAMPLES, known_photo, known_scene, sample_scene
+
+import sunwidget as sw
+from sunwidget.edit import NUMBERS, Edit
+from sunwidget.renderer import render, render_pass
+
+OFF = {"sky_strength": 0, "land_strength": 0, "auto_exposure": 0}
+SUNS = [(0, 60), (-30, 8), (100, 0.3), (180, -6), (5, -12)]
+
+
+def difference(picture, other):
+    return int(np.abs(picture.astype(np.int64) - other).max())
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_an_unmoved_sun_changes_no_pixel_of_a_sample(name):
+    scene = sample_scene(name)
+    assert difference(render(scene), scene.photo.encoded) <= 1
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_naming_the_found_sun_is_the_same_as_not_moving_it(name):
+    scene = sample_scene(name)
+    found = {key: scene.automatic[key] for key in ("sun_azimuth", "sun_elevation")}
+    assert np.array_equal(render(scene, Edit(**found)), render(scene))
+
+
+def test_every_automatic_value_named_is_the_unmoved_picture():
+    scene = known_scene()
+    assert difference(render(scene, Edit(**scene.automatic)), scene.photo.encoded) == 0
+
+
+@pytest.mark.shared
+def test_an_unmoved_sun_changes_no_pixel_of_real_photos(shared):
+    paths = sorted((shared / "data" / "photos").glob("*.jpg"))[::9]
+    if len(paths) < 5:
+        pytest.skip("no photos in the shared folder")
+    for path in paths:
+        photo = sw.open(path)
+        small = cv2.resize(photo.encoded, (160, 108), interpolation=cv2.INTER_AREA)
+        assert difference(render(sw.analyze(small)), small) <= 1, path.name
+
+
+def test_sixteen_bits_stay_within_four_levels():
+    known = known_photo()
+    random = np.random.default_rng(2)
+    # Below the 8-bit steps, so that all sixteen bits are used.
+    fine = known.code * 65535 + random.uniform(-128, 128, known.code.shape)
+    picture = np.clip(fine, 0, 65535).astype(np.uint16)
+    same = render(known.analyze(picture), dtype="uint16")
+    assert difference(same, picture) <= 4
+
+
+def test_float_light_comes_back_to_the_bit_beyond_white_and_below_black_too():
+    known = known_photo()
+    light = known.linear.copy()
+    light[:4, :9] = 7.5
+    light[-4:, :9] = -0.02
+    scene = known.analyze(light)
+    assert np.array_equal(render(scene, dtype="float32"), light)
+
+
+@pytest.mark.parametrize("color", [0, 1, 128, 254, 255])
+def test_flat_pictures_stay_flat(color):
+    picture = np.full((24, 36, 3), color, np.uint8)
+    assert np.array_equal(render(sw.analyze(picture)), picture)
+
+
+@pytest.mark.parametrize("sun", SUNS)
+@pytest.mark.parametrize("name", ["coast", "meadow"])
+def test_with_sky_and_land_off_no_sun_changes_anything(name, sun):
+    scene = sample_scene(name)
+    edit = Edit(sun_azimuth=sun[0], sun_elevation=sun[1], **OFF)
+    assert np.array_equal(render(scene, edit), scene.photo.encoded)
+
+
+def test_land_strength_zero_leaves_the_land_and_sky_strength_zero_the_sky():
+    scene = known_scene()
+    land, sky = scene.sky == 0, scene.sky == 1
+    moved = {"sun_azimuth": -15, "sun_elevation": 3}
+    without_land = render(scene, Edit(land_strength=0, **moved))
+    without_sky = render(scene, Edit(sky_strength=0, **moved))
+    assert np.array_equal(without_land[land], scene.photo.encoded[land])
+    assert np.array_equal(without_sky[sky], scene.photo.encoded[sky])
+    assert difference(without_land[sky], scene.photo.encoded[sky]) > 10
+    assert difference(without_sky[land], scene.photo.encoded[land]) > 10
+
+
+def test_cloud_strength_zero_relights_clouds_as_the_sky_behind_them():
+    # Exactly off: the opacity has no part in the ratio any more, whatever the silver lining.
+    scene = known_scene()
+    moved = Edit(sun_azimuth=-15, sun_elevation=3, cloud_strength=0, auto_exposure=0, sun_size=0)
+    bright = moved.replace(silver_lining=3)
+    assert np.array_equal(render(scene, moved), render(scene, bright))
+    light = render_pass(scene, moved, "scene_light")[..., :3]
+    ratio = (
+        render_pass(scene, moved, "sky_edit")[..., :3]
+        / render_pass(scene, moved, "sky_source")[..., :3]
+    )
+    # Plain ratio in the sky, where the photo is trusted and the ratio not extreme.
+    plain = (scene.sky == 1) & (scene.surface()[..., 0] < 1e-4) & (scene.clouds > 0.2)
+    plain &= np.abs(np.log2(ratio.mean(-1))) < 2
+    assert plain.sum() > 30
+    expected = scene_to_display(scene, light * ratio)
+    actual = render(scene, moved, dtype="float32")
+    assert np.abs(actual - expected)[plain].max() < 1e-4
+
+
+def scene_to_display(scene, light):
+    w = scene.uniforms()["response_shoulder"]
+    return (1 - np.exp(-w * light ** scene.uniforms()["response_contrast"])) / w
+
+
+def test_silver_lining_shows_in_thin_cloud_only():
+    scene = known_scene()
+    moved = Edit(sun_azimuth=-12, sun_elevation=20, auto_exposure=0)
+    without = render(scene, moved.replace(silver_lining=0), dtype="float32")
+    lined = render(scene, moved.replace(silver_lining=3), dtype="float32")
+    changed = np.abs(lined - without).max(-1) > 1e-6
+    assert changed.any()
+    assert not changed[(scene.layers()[..., 1] < 1 / 512)].any()
+
+
+# What a change of each parameter is shown with: a moved sun, and what the parameter needs.
+SHOWN = {
+    "sun_sky_ratio": {"method": "thesis"},
+    "thesis_saturation": {"method": "thesis", "sun_elevation": -0.3},
+    "cloud_ratio_min": {"method": "thesis"},
+    "cloud_ratio_max": {"method": "thesis"},
+    "blend_distance": {"method": "thesis"},
+    "blend_power": {"method": "thesis"},
+    "colourfulness": {"sun_elevation": -2},
+    "auto_exposure": {"sun_elevation": 2},
+}
+
+
+@pytest.mark.parametrize("parameter", NUMBERS, ids=lambda p: p.name)
+def test_every_slider_changes_some_picture(parameter):
+    scene = known_scene()
+    base = {"sun_azimuth": -12.0, "sun_elevation": 8.0, **SHOWN.get(parameter.name, {})}
+    low, high = parameter.minimum, parameter.maximum
+    values = [low + share * (high - low) for share in (0.3, 0.7)]
+    pictures = [render(scene, Edit(**{**base, parameter.name: value})) for value in values]
+    assert difference(*pictures) >= 2
