@@ -106,9 +106,7 @@ def _log_residual(scene_light: np.ndarray, model: np.ndarray) -> np.ndarray:
     return np.clip(np.log(ratio), -RANGE, RANGE).astype(np.float32)
 
 
-def _angle_to_sun(
-    camera: Camera, size: tuple[int, int], sun: tuple[float, float]
-) -> np.ndarray:
+def _angle_to_sun(camera: Camera, size: tuple[int, int], sun: tuple[float, float]) -> np.ndarray:
     azimuth, elevation = view_angles(camera, *size)
     az, el = np.radians(azimuth - sun[0]), np.radians(elevation)
     sun_el = np.radians(sun[1])

@@ -53,8 +53,8 @@ def veil(working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit) -> np.n
     clear = matched_sky(fit, camera, (working.width, working.height))
     light = fit.response.scene_light(working.linear)
     opacity = unmix(light, clear, cloud_white(fit), sky)[0]
-    radius = max(2, round(0.008 * max(sky.shape)))
-    smooth = cv2.ximgproc.guidedFilter(working.encoded, opacity, radius, 2e-3)
+    radius = max(2, round(0.004 * max(sky.shape)))
+    smooth = cv2.ximgproc.guidedFilter(working.encoded, opacity, radius, 2e-4)
     return np.asarray(np.clip(smooth, 0, 1) * sky, np.float32)
 
 
