@@ -11,12 +11,28 @@ costs milliseconds although OpenCV, onnxruntime and the GL stack stand behind it
 from __future__ import annotations
 
 import importlib
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+# What type checkers and editors see; a test holds it equal to the table below.
+if TYPE_CHECKING:
+    from sunwidget.analysis.errors import AnalysisError
+    from sunwidget.analysis.scene import Scene, analyze
+    from sunwidget.camera import Camera
+    from sunwidget.edit import PARAMETERS, Edit, EditError, Stroke
+    from sunwidget.export.stills import save
+    from sunwidget.export.sweep import sweep
+    from sunwidget.photo import Photo, PhotoError, PhotoWarning
+    from sunwidget.photo import open_photo as open  # noqa: A004 - sw.open, as Image.open
+    from sunwidget.renderer.gl_thread import RendererError
+    from sunwidget.renderer.render import render
+    from sunwidget.samples import sample
+    from sunwidget.widgets import SunEditor
 
 __version__ = "0.1.0"
 
 # Public name -> (module, name in it).
 _HOMES: dict[str, tuple[str, str]] = {
+    "AnalysisError": ("sunwidget.analysis.errors", "AnalysisError"),
     "PARAMETERS": ("sunwidget.edit", "PARAMETERS"),
     "Camera": ("sunwidget.camera", "Camera"),
     "Edit": ("sunwidget.edit", "Edit"),
@@ -24,6 +40,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Photo": ("sunwidget.photo", "Photo"),
     "PhotoError": ("sunwidget.photo", "PhotoError"),
     "PhotoWarning": ("sunwidget.photo", "PhotoWarning"),
+    "RendererError": ("sunwidget.renderer.gl_thread", "RendererError"),
     "Scene": ("sunwidget.analysis.scene", "Scene"),
     "Stroke": ("sunwidget.edit", "Stroke"),
     "SunEditor": ("sunwidget.widgets", "SunEditor"),
@@ -35,9 +52,26 @@ _HOMES: dict[str, tuple[str, str]] = {
     "sweep": ("sunwidget.export.sweep", "sweep"),
 }
 
-__all__ = [  # noqa: PLE0604 - the table above is the one list of names
-    *_HOMES,
+__all__ = [
+    "PARAMETERS",
+    "AnalysisError",
+    "Camera",
+    "Edit",
+    "EditError",
+    "Photo",
+    "PhotoError",
+    "PhotoWarning",
+    "RendererError",
+    "Scene",
+    "Stroke",
+    "SunEditor",
     "__version__",
+    "analyze",
+    "open",
+    "render",
+    "sample",
+    "save",
+    "sweep",
 ]
 
 

@@ -23,6 +23,18 @@ def test_every_public_name_has_a_home(name):
     assert name in sunwidget.__all__
 
 
+def test_type_checkers_see_the_same_names(root):
+    tree = ast.parse((root / "sunwidget" / "__init__.py").read_text("utf-8"))
+    [block] = [node for node in tree.body if isinstance(node, ast.If)]
+    seen = {
+        alias.asname or alias.name: (node.module, alias.name)
+        for node in block.body
+        for alias in node.names
+    }
+    assert seen == sunwidget._HOMES
+    assert set(sunwidget.__all__) == {*seen, "__version__"}
+
+
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match="no attribute 'sunset'"):
         _ = sunwidget.sunset
