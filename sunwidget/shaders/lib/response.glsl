@@ -36,7 +36,8 @@ vec3 EncodeSrgb(vec3 light) {
   return mix(12.92 * x, 1.055 * pow(max(x, vec3(1e-8)), vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), x));
 }
 
-// new / old that is exactly one when the two agree to the bit, on every driver.
+// new / old that is exactly one when the two agree to the bit, on every driver, and keeps its
+// digits in deep twilight, where it is a millionth.
 vec3 GetRatio(vec3 now, vec3 before) {
-  return 1.0 + (now - before) / before;
+  return mix(now / before, vec3(1.0), equal(now, before));
 }
