@@ -103,9 +103,9 @@ def skyline(sky: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     import cv2
 
     height, width = sky.shape
-    mask = (sky > 0.5).astype(np.uint8)
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask, connectivity=4)
-    large = np.flatnonzero(stats[:, cv2.CC_STAT_AREA] >= 0.005 * mask.size)
+    pieces = (sky > 0.5).astype(np.uint8)
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(pieces, connectivity=4)
+    large = np.flatnonzero(stats[:, cv2.CC_STAT_AREA] >= 0.005 * pieces.size)
     mask = np.isin(labels, large[large > 0])
     seen = mask.any(axis=0)
     border = height - np.argmax(mask[::-1], axis=0).astype(np.float64)

@@ -286,7 +286,7 @@ def analyze(
     coarse = sky_stage.coarse(working, sky, photo.size)
     step("refine", 0.4, "Following the skyline")
     decision = _REGISTRIES["refine"][refine](working, coarse)
-    camera = Camera(*photo.size, hints.fov or photo.field_of_view.vertical)
+    camera = Camera(photo.width, photo.height, hints.fov or photo.field_of_view.vertical)
     empty = np.zeros((1, 1), np.float32)
     start = Scene(
         photo=photo,

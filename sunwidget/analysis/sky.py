@@ -94,7 +94,7 @@ def _session(path: str) -> tuple[Any, str, list[Any]]:
             "Pass sky=mask, or the path of another network."
         ) from error
     entry = session.get_inputs()[0]
-    if len(entry.shape) != 4 or entry.shape[1] not in (3, None) and entry.shape[1] != "3":
+    if len(entry.shape) != 4 or (entry.shape[1] not in (3, None) and entry.shape[1] != "3"):
         raise AnalysisError(
             f"The network {path} takes {entry.shape}; expected one picture (1, 3, height, width)."
         )

@@ -255,9 +255,12 @@ def observe(
     A hinted sun stays where the person put it; the blot then only gives size and pixels.
     """
     zoom_x, zoom_y = working.zoom
-    if seed is None and blot is None:
+    if seed is not None:
+        x, y = seed
+    elif blot is not None:
+        x, y = blot.x, blot.y
+    else:
         return None
-    x, y = seed if seed is not None else (blot.x, blot.y)
     mask = np.zeros((camera.height, camera.width), np.float32)
     radius, visible = 0.0, False
     if blot is not None:
