@@ -78,6 +78,13 @@ def behind_sun(
     glare = _glare(log_residual @ LUMINANCE, clipped, matte, angle) if visible else 0 * matte
     weight = (matte > 0.98) * (1 - clipped) * np.square(1 - glare)
     filled = fill_by_pyramid(log_residual, weight.astype(np.float32))
+    # What borders on the glare is bleached by it; the sky behind has the tint of the rest.
+    trusted = weight > 0.5
+    if visible and trusted.any():
+        tint = np.median(log_residual[trusted], axis=0)
+        level = (filled @ LUMINANCE)[..., None]
+        plain = level + tint - float(tint @ LUMINANCE)
+        filled = filled + np.sqrt(glare)[..., None] * (plain - filled)
     encoded = (filled + RANGE) / (2 * RANGE)
     return fit, Backdrop(_dithered(encoded), glare.astype(np.float32))
 
