@@ -141,13 +141,13 @@ def columns_to_top(h: ArrayLike, mu: ArrayLike) -> Array:
     rho = np.sqrt(h * (2 * GROUND_RADIUS + h))
     d_min = ATMOSPHERE_HEIGHT - h
     x = (distance_to_top(h, mu) - d_min) / (rho + LONGEST_HORIZON - d_min)
-    return bilinear(_columns_table(), rho / LONGEST_HORIZON, x)
+    return bilinear(_columns_table(), np.sqrt(rho / LONGEST_HORIZON), x)
 
 
 @cache
 def _columns_table() -> Array:
-    """Columns over distance to the horizon (rows) and to the top (columns), Bruneton's mapping."""
-    rho = np.linspace(0, LONGEST_HORIZON, 192)[:, None]
+    """Columns over distance to the horizon (rows) and to the top (columns), as the shaders map."""
+    rho = np.linspace(0, 1, 192)[:, None] ** 2 * LONGEST_HORIZON
     h = rho**2 / (np.sqrt(GROUND_RADIUS**2 + rho**2) + GROUND_RADIUS)
     d_min = ATMOSPHERE_HEIGHT - h
     d = d_min + np.linspace(0, 1, 256) * (rho + LONGEST_HORIZON - d_min)

@@ -12,7 +12,7 @@ const int COLUMN_STEPS = 40;
 
 void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin - 0.5) / (pass_size - 1.0);
-  float rho = place.y * LONGEST_HORIZON;
+  float rho = place.y * place.y * LONGEST_HORIZON;
   float h = rho * rho / (sqrt(GROUND_RADIUS * GROUND_RADIUS + rho * rho) + GROUND_RADIUS);
   float d_min = ATMOSPHERE_HEIGHT - h;
   float d = d_min + place.x * (rho + LONGEST_HORIZON - d_min);

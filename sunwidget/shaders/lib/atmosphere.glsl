@@ -94,7 +94,8 @@ Number MiePhase(Number g, Number nu) {
 // ---- Columns and transmittance --------------------------------------------------------------
 // The table holds path lengths to the top, not transmittances: aerosol, ozone and wavelength
 // never touch it, and exp() after the interpolation errs 0.6 % at the horizon instead of 13 %.
-// Coordinates of Bruneton 2017: x from the distance to the top, y from the distance to the horizon.
+// Coordinates after Bruneton 2017: x from the distance to the top, y from the distance to the
+// horizon, here on a square-root scale (h is about y^4), for haze lies low.
 
 const float LONGEST_HORIZON = 1132254.3;  // sqrt(TOP_RADIUS^2 - GROUND_RADIUS^2), m
 
@@ -102,7 +103,8 @@ vec2 GetColumnsCoordinate(Length h, Number mu) {
   float rho = sqrt(GetSquaredHorizonDistance(h));
   float d_min = ATMOSPHERE_HEIGHT - h;
   float d_max = rho + LONGEST_HORIZON;
-  return vec2((GetDistanceToTop(h, mu) - d_min) / (d_max - d_min), rho / LONGEST_HORIZON);
+  return vec2((GetDistanceToTop(h, mu) - d_min) / (d_max - d_min),
+              sqrt(rho / LONGEST_HORIZON));
 }
 
 // Texel centres sit on the ends of [0, 1], so that the horizon is a sample and not a guess.
