@@ -4,7 +4,7 @@
 //      visible share of its disc                           6  mean radiance of the sky ahead
 //   2  sky's irradiance on an upright surface that faces   7  sun's irradiance at normal
 //      the camera                                             incidence, as if fully risen
-//   3  ... on one that faces right                        8  as 1, at the height of clouds
+//   3  ... on one that faces right                        8  as 1, at the heights of clouds
 // in W m^-2 nm^-1 (6: W m^-2 sr^-1 nm^-1). Upright surfaces see the sky above the horizon only,
 // not the ground. "Ahead" weighs each direction by its cosine to the heading.
 
@@ -18,9 +18,12 @@ out vec4 result;
 
 // Every second row and every fourth column: trapezoids over the sky view's own samples.
 const int COLUMN_STRIDE = 4;
-// Clouds stand in the sun after the land has lost it: 2.3 degrees longer at this height,
-// between cumulus (2 km) and cirrus (8 km and more).
-const Length CLOUD_HEIGHT = 5000.0;
+// Clouds stand in the sun after the land has lost it, the later the higher they are: 1.2 degrees
+// for cumulus (1.5 km), 3 for cirrus (9 km). Ever fewer of them ever higher let their light fade
+// without a jump.
+const Length LOWEST_CLOUD = 1500.0;
+const Length HIGHEST_CLOUD = 15000.0;
+const int CLOUD_LEVELS = 16;
 
 // Share of the light from `direction` that counts in texel `index`.
 Number GetWeight(int index, vec3 direction) {
@@ -75,7 +78,16 @@ void main() {
   float above = asin(clamp(sun.y, -1.0, 1.0)) - asin(GetCosineOfHorizon(h));
   vec4 risen = SOLAR_IRRADIANCE * GetTransmittanceToTop(columns, h, sun.y);
   if (index == 8) {
-    result = SOLAR_IRRADIANCE * GetTransmittanceToSun(columns, min(h + CLOUD_HEIGHT, 0.99 * ATMOSPHERE_HEIGHT), sun.y);
+    vec4 sum = vec4(0.0);
+    float norm = 0.0;
+    for (int i = 0; i < CLOUD_LEVELS; ++i) {
+      float part = (float(i) + 0.5) / float(CLOUD_LEVELS);
+      float level = min(h + mix(LOWEST_CLOUD, HIGHEST_CLOUD, part), 0.99 * ATMOSPHERE_HEIGHT);
+      float weight = (1.0 - part) * (1.0 - part) * (1.0 - part);
+      sum += weight * GetTransmittanceToSun(columns, level, sun.y);
+      norm += weight;
+    }
+    result = SOLAR_IRRADIANCE * sum / norm;
     return;
   }
   vec4 sky = IntegrateSky(index);
