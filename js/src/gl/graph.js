@@ -4,6 +4,7 @@
  * hands them uniforms and textures, and runs again only what changed.
  */
 
+import { createLightTexture } from "./decode.js";
 import { resolveIncludes } from "./include.js";
 import { createProgram, setUniform } from "./program.js";
 import { createTarget, deleteTarget, missingFeature } from "./target.js";
@@ -27,7 +28,7 @@ import { uniformValue } from "./values.js";
  * }} Frame
  */
 
-// Scene textures whose channels are encoded sRGB, decoded by the GPU; the others hold levels.
+// Scene textures whose channels are encoded sRGB; the others hold levels.
 const ENCODED = new Set(["photo"]);
 
 export class Graph {
@@ -60,7 +61,8 @@ export class Graph {
    * @param {import("./texture.js").Pixels} pixels
    */
   setTexture(name, pixels) {
-    const texture = createPictureTexture(this.gl, pixels, ENCODED.has(name));
+    const create = ENCODED.has(name) ? createLightTexture : createPictureTexture;
+    const texture = create(this.gl, pixels);
     const previous = this.textures.get(name);
     if (previous) this.gl.deleteTexture(previous.handle);
     this.uploads += 1;

@@ -21,10 +21,9 @@ function createHandle(gl) {
  *
  * @param {WebGL2RenderingContext} gl
  * @param {Pixels} pixels decoded picture, four 8-bit channels
- * @param {boolean} encoded true when the channels are sRGB and the GPU shall decode them
  * @returns {Texture}
  */
-export function createPictureTexture(gl, pixels, encoded) {
+export function createPictureTexture(gl, pixels) {
   const { width, height } = pixels;
   const limit = gl.getParameter(gl.MAX_TEXTURE_SIZE) ?? 2048;
   if (Math.max(width, height) > limit) {
@@ -34,21 +33,11 @@ export function createPictureTexture(gl, pixels, encoded) {
   }
   const handle = createHandle(gl);
   gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-  const format = encoded ? gl.SRGB8_ALPHA8 : gl.RGBA8;
+  const [target, type] = [gl.TEXTURE_2D, gl.UNSIGNED_BYTE];
   if ("data" in pixels) {
-    gl.texImage2D(
-      gl.TEXTURE_2D,
-      0,
-      format,
-      width,
-      height,
-      0,
-      gl.RGBA,
-      gl.UNSIGNED_BYTE,
-      pixels.data,
-    );
+    gl.texImage2D(target, 0, gl.RGBA8, width, height, 0, gl.RGBA, type, pixels.data);
   } else {
-    gl.texImage2D(gl.TEXTURE_2D, 0, format, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    gl.texImage2D(target, 0, gl.RGBA8, gl.RGBA, type, pixels);
   }
   return { handle, width, height, version: 0 };
 }

@@ -1,0 +1,83 @@
+"""Chromium on Mesa's software rasteriser, and the page that holds the built front end."""
+
+import base64
+import io
+import json
+import shutil
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+HERE = Path(__file__).parent
+STATIC = HERE.parents[1] / "sunwidget" / "static"
+ORIGIN = "http://sunwidget.test"
+ARGUMENTS = [
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=gl-egl",
+    "--ignore-gpu-blocklist",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+PATIENCE = 120_000  # ms: two shared cores may take their time
+_TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html"}
+
+
+@contextmanager
+def chromium():
+    """A browser that ends with the block."""
+    from playwright.sync_api import sync_playwright
+
+    path = shutil.which("chromium") or shutil.which("chromium-browser")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=path, headless=True, args=ARGUMENTS
+        )
+        try:
+            yield browser
+        finally:
+            browser.close()
+
+
+def open_page(context):
+    """The test page, served from memory: no server, no port."""
+    page = context.new_page()
+    page.set_default_timeout(PATIENCE)
+    page.errors = []
+    page.on("pageerror", lambda error: page.errors.append(str(error)))
+
+    def serve(route):
+        name = route.request.url.removeprefix(ORIGIN).lstrip("/") or "page.html"
+        for folder in (HERE, STATIC):
+            file = folder / name
+            if file.is_file():
+                route.fulfill(body=file.read_bytes(), content_type=_TYPES[file.suffix])
+                return
+        route.fulfill(status=404, body="")
+
+    page.route(f"{ORIGIN}/**", serve)
+    page.goto(ORIGIN + "/")
+    page.wait_for_function("window.ready")
+    return page
+
+
+def widget_state(widget):
+    """The widget's traits as the browser gets them, bytes as base64."""
+    state = {}
+    for name, value in widget.get_state().items():
+        if name in ("_esm", "_css", "layout"):
+            continue
+        if isinstance(value, (bytes, memoryview)):
+            value = base64.b64encode(value).decode("ascii")
+        state[name] = value
+    return json.loads(json.dumps(state))
+
+
+def picture_of(base64_png):
+    """(H, W, 3) uint8 of a PNG that the page returned."""
+    return np.asarray(Image.open(io.BytesIO(base64.b64decode(base64_png))).convert("RGB"))
