@@ -98,7 +98,7 @@ void main() {
   vec4 mirror_before = ReadBilinear(mirror_source, place);
   vec4 mirror_now = ReadBilinear(mirror_edit, place);
   // Only what is burnt white is taken for the sun itself, the rest for sky.
-  float burnt = smoothstep(0.7, 0.95, min(display.r, min(display.g, display.b)));
+  float burnt = smoothstep(0.5, 0.9, min(display.r, min(display.g, display.b)));
   vec3 mirrored = GetRatio(mirror_now.rgb + burnt * mirror_now.a * GetTerm(14),
                            mirror_before.rgb + burnt * mirror_before.a * GetTerm(13));
   land_ratio += mirror * (min(mirrored, vec3(2.0)) - land_ratio);
