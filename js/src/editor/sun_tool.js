@@ -12,7 +12,7 @@ import { setAttributes, shape } from "../controls/element.js";
  */
 
 const GRAB = 26; // CSS pixels round the handle that take hold of it without a jump
-const EDGE = 18; // CSS pixels from the stage's edge at which an outside sun's handle waits
+const EDGE = 26; // CSS pixels from the stage's edge at which an outside sun's handle waits
 const KEY_STEP = 0.5; // degrees
 
 export class SunTool {
@@ -23,7 +23,7 @@ export class SunTool {
     this.offset = [0, 0];
     const ring = (/** @type {string} */ name, /** @type {number} */ r) =>
       shape("circle", { class: name, r });
-    this.arrow = shape("path", { class: "sw-sun-arrow", d: "M20 -6 L30 0 L20 6 Z" });
+    this.arrow = shape("path", { class: "sw-sun-arrow", d: "M15 -6 L24 0 L15 6 Z" });
     this.handle = shape(
       "g",
       { class: "sw-sun", tabindex: 0, role: "slider", "aria-label": "Sun" },

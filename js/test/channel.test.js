@@ -1,0 +1,44 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Channel } from "../src/channel.js";
+import { FakeModel } from "./fake_model.js";
+
+const open = () => {
+  const model = new FakeModel({});
+  const controller = new AbortController();
+  return { model, controller, channel: new Channel(model, controller.signal) };
+};
+
+test("answers find their requests, also out of order", async () => {
+  const { model, channel } = open();
+  const [first, second] = [channel.request("save"), channel.request("save")];
+  const [a, b] = model.sent.map(({ id }) => id);
+  model.fire("msg:custom", { type: "response", id: b, result: 2 }, []);
+  model.fire("msg:custom", { type: "response", id: a, result: 1 }, []);
+  assert.deepEqual([(await first).result, (await second).result], [1, 2]);
+});
+
+test("the kernel's error is the request's error", async () => {
+  const { model, channel } = open();
+  const request = channel.request("save");
+  model.fire("msg:custom", { type: "response", id: model.sent[0].id, error: "Disk full." });
+  await assert.rejects(request, /Disk full\./);
+});
+
+test("progress arrives before the answer", async () => {
+  const { model, channel } = open();
+  const seen = [];
+  const request = channel.request("save", {}, (fraction) => seen.push(fraction));
+  const { id } = model.sent[0];
+  model.fire("msg:custom", { type: "progress", id, fraction: 0.5, message: "" });
+  model.fire("msg:custom", { type: "response", id, result: {} }, []);
+  await request;
+  assert.deepEqual(seen, [0.5]);
+});
+
+test("closing the view ends what is open", async () => {
+  const { controller, channel } = open();
+  const request = channel.request("save");
+  controller.abort();
+  await assert.rejects(request, /closed/);
+});

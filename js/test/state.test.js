@@ -1,0 +1,109 @@
+import assert from "node:assert/strict";
+import { beforeEach, test } from "node:test";
+import { EditState, HISTORY_LENGTH } from "../src/editor/state.js";
+import { FakeModel } from "./fake_model.js";
+
+const parameters = [
+  { name: "sun_elevation", kind: "number", default: null },
+  { name: "exposure", kind: "number", default: 0 },
+  { name: "strokes", kind: "data", default: [] },
+];
+
+let model;
+let state;
+beforeEach(() => {
+  model = new FakeModel({
+    sun_elevation: null,
+    exposure: 0,
+    strokes: [],
+    _history: { past: [], future: [] },
+  });
+  state = new EditState(model, parameters, new AbortController().signal);
+});
+
+test("a drag is one step, whatever lies between", () => {
+  state.begin();
+  for (const value of [1, 2, 3]) state.set({ sun_elevation: value });
+  state.commit();
+  assert.equal(model.get("sun_elevation"), 3);
+  assert.deepEqual(model.get("_history").past, [{}]);
+});
+
+test("while a drag lasts the traits are throttled, the view's values are not", () => {
+  state.begin();
+  state.set({ sun_elevation: 1 });
+  state.set({ sun_elevation: 2 });
+  assert.equal(model.get("sun_elevation"), null);
+  assert.equal(state.values.sun_elevation, 2);
+  state.commit();
+  assert.equal(model.get("sun_elevation"), 2);
+  assert.equal(model.saves, 1);
+});
+
+test("a drag that ends where it began is no step", () => {
+  state.begin();
+  state.set({ exposure: 1 });
+  state.set({ exposure: 0 });
+  state.commit();
+  assert.deepEqual(model.get("_history").past, []);
+});
+
+test("undo and redo return the very values", () => {
+  state.set({ sun_elevation: 3.1234 });
+  state.set({ exposure: -0.35 });
+  const last = structuredClone(state.values);
+  state.undo();
+  assert.deepEqual(state.values, { sun_elevation: 3.1234, exposure: 0, strokes: [] });
+  state.undo();
+  assert.deepEqual(state.values, { sun_elevation: null, exposure: 0, strokes: [] });
+  state.undo();
+  state.redo();
+  state.redo();
+  assert.deepEqual(state.values, last);
+  assert.deepEqual(model.get("_history").future, []);
+});
+
+test("a new step ends the branch that was undone", () => {
+  state.set({ exposure: 1 });
+  state.undo();
+  state.set({ exposure: 2 });
+  assert.deepEqual(model.get("_history").future, []);
+});
+
+test("reset is one step and takes strokes along", () => {
+  state.set({ strokes: [{ label: "sky", points: [[0, 0]], radius: 0.01 }], exposure: 1 });
+  state.reset();
+  assert.deepEqual(state.recipe(), {});
+  state.undo();
+  assert.equal(state.values.strokes.length, 1);
+});
+
+test("what Python sets is taken over, but not over an unfinished drag", () => {
+  model.set("exposure", 0.5);
+  assert.equal(state.values.exposure, 0.5);
+  state.begin();
+  state.set({ exposure: 1 });
+  model.set("exposure", 0.7);
+  assert.equal(state.values.exposure, 1);
+});
+
+test("cancel returns to where the gesture began and leaves no step", () => {
+  state.begin();
+  state.set({ exposure: 1 });
+  state.cancel();
+  assert.equal(state.values.exposure, 0);
+  assert.deepEqual(model.get("_history").past, []);
+});
+
+test("the history has an end", () => {
+  for (let i = 1; i <= HISTORY_LENGTH + 20; i++) state.set({ exposure: i });
+  assert.equal(model.get("_history").past.length, HISTORY_LENGTH);
+});
+
+test("a closed view hears no more", () => {
+  const controller = new AbortController();
+  const closed = new EditState(model, parameters, controller.signal);
+  controller.abort();
+  model.set("exposure", 2);
+  assert.equal(closed.values.exposure, 0);
+});

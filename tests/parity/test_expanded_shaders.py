@@ -1,0 +1,29 @@
+"""Both hosts read the same text: the include resolvers of Python and JavaScript agree."""
+
+import json
+import shutil
+import subprocess
+
+import pytest
+
+from sunwidget.renderer.shader_source import frame_graph, resolve_includes
+
+
+@pytest.fixture(scope="module")
+def in_javascript(root):
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("no Node.js to run the browser's resolver with")
+    if not (root / "js" / "node_modules" / "esbuild").is_dir():
+        pytest.skip("js/node_modules is missing: run `make build`")
+    done = subprocess.run(
+        [node, "test/expand.js"], cwd=root / "js", capture_output=True, check=True, timeout=120
+    )
+    return json.loads(done.stdout)
+
+
+def test_every_pass_expands_to_the_same_text_on_both_hosts(in_javascript):
+    shaders = {f"{row['shader']}.glsl" for row in frame_graph()["passes"]}
+    assert shaders <= in_javascript.keys()
+    for name in sorted(shaders):
+        assert in_javascript[name] == resolve_includes(name), name
