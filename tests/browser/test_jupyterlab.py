@@ -1,0 +1,126 @@
+"""The whole way in a real JupyterLab: open, drag the sun, and the kernel exports the same frame."""
+
+import json
+
+import numpy as np
+import pytest
+from chromium import PATIENCE, picture_of
+from lab import jupyterlab, write_notebook
+from PIL import Image
+
+pytestmark = [pytest.mark.browser, pytest.mark.timeout(600)]
+
+CELLS = [
+    "import sunwidget as sw\neditor = sw.SunEditor(sw.sample('coast'))\neditor",
+    """import json
+from pathlib import Path
+from PIL import Image
+Image.fromarray(editor.render()).save("kernel.png")
+Path("kernel.json").write_text(json.dumps(editor.edit.to_dict()))""",
+    """editor.undo()
+Path("undone.json").write_text(json.dumps(editor.edit.to_dict()))""",
+    """editor.sun_elevation = 21.5
+try:
+    editor.sun_elevation = 300
+except Exception as error:
+    refused = str(error)
+Path("refused.txt").write_text(f"{editor.sun_elevation} {refused}")""",
+]
+
+
+def run_cell(page, number):
+    """Run a cell; again if the kernel was not yet listening and the cell stays unnumbered."""
+    cell = page.locator(".jp-Notebook .jp-CodeCell").nth(number)
+    for _ in range(10):
+        cell.locator(".cm-content").click()
+        page.keyboard.press("Shift+Enter")
+        for _ in range(20):
+            if cell.locator(".jp-InputPrompt").first.text_content().strip() != "[ ]:":
+                return
+            page.wait_for_timeout(250)
+    raise AssertionError(f"cell {number} did not start")
+
+
+def run_cell_that_writes(page, number, file):
+    """Run a cell and wait until it has written ``file``; returns its text."""
+    run_cell(page, number)
+    for _ in range(PATIENCE // 250):
+        if file.is_file() and file.stat().st_size:
+            return file.read_text()
+        page.wait_for_timeout(250)
+    raise AssertionError(f"the cell wrote no {file}")
+
+
+def canvas_of(page):
+    return picture_of(
+        page.evaluate(
+            "document.querySelector('.sunwidget .sw-canvas').toDataURL('image/png').split(',')[1]"
+        )
+    )
+
+
+def test_dragging_the_sun_in_jupyterlab_shows_what_the_kernel_exports(
+    browser, tmp_path, root, screenshots
+):
+    write_notebook(tmp_path / "journey.ipynb", CELLS)
+    with jupyterlab(tmp_path, root) as url:
+        context = browser.new_context(viewport={"width": 1400, "height": 1000})
+        page = context.new_page()
+        page.set_default_timeout(PATIENCE)
+        try:
+            page.goto(url("journey.ipynb"))
+            page.locator(".jp-Notebook .jp-CodeCell").first.wait_for()
+            run_cell(page, 0)
+
+            editor = page.locator(".sunwidget")
+            editor.locator(".sw-has-photo").wait_for()
+            page.screenshot(path=screenshots / "lab-1-photo.png")
+            page.locator(".sunwidget.sw-live[data-stage='ready']").wait_for()
+            editor.scroll_into_view_if_needed()
+            page.wait_for_timeout(1000)
+            page.screenshot(path=screenshots / "lab-2-analysed.png")
+
+            photo = canvas_of(page)
+            assert photo.std() > 10, "the canvas is uniform"
+
+            box = editor.locator(".sw-sun-ring").bounding_box()
+            x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+            page.mouse.move(x, y)
+            page.mouse.down()
+            page.mouse.move(x - 120, y + 60, steps=12)
+            page.screenshot(path=screenshots / "lab-3-dragging.png")
+            page.mouse.up()
+            # The frame settles at full size.
+            page.wait_for_function(
+                "w => document.querySelector('.sunwidget .sw-canvas').width === w", arg=1536
+            )
+            page.wait_for_timeout(1500)
+            page.screenshot(path=screenshots / "lab-4-dragged.png")
+            canvas = canvas_of(page)
+            assert np.abs(canvas.astype(int) - photo).mean() > 2, "the drag moved nothing"
+
+            edit = json.loads(run_cell_that_writes(page, 1, tmp_path / "kernel.json"))
+            assert {"sun_azimuth", "sun_elevation"} <= edit.keys()
+            kernel = np.asarray(Image.open(tmp_path / "kernel.png"))
+            assert kernel.shape == canvas.shape
+            away = np.abs(canvas.astype(int) - kernel)
+            print(f"canvas against export: mean {away.mean():.4f}/255, max {away.max()}/255")
+            assert away.mean() <= 1
+            assert away.max() <= 3
+
+            # One drag is one step, also for Python.
+            undone = json.loads(run_cell_that_writes(page, 2, tmp_path / "undone.json"))
+            assert undone == {"version": 1}
+
+            # What Python sets is shown, what it must not set is refused.
+            answer = run_cell_that_writes(page, 3, tmp_path / "refused.txt")
+            assert answer.startswith("21.5 sun_elevation = 300 is outside -12 to 90")
+            page.wait_for_function(
+                "document.querySelector('.sw-readout').textContent.includes('21.5°')"
+            )
+            page.screenshot(path=screenshots / "lab-5-from-python.png")
+        except BaseException:
+            page.screenshot(path=screenshots / "lab-failed.png")
+            raise
+        finally:
+            context.close()
