@@ -82,7 +82,7 @@ def robust_line(sky: np.ndarray) -> Horizon:
     row, slope, share = _best_line(columns - width / 2, border, height, width)
     if share >= 0.3:
         roll = math.degrees(math.atan(slope))
-        confidence = min(1.0, (share - 0.2) / 0.6)
+        confidence = min(1.0, (share - 0.2) / 0.5)
         return Horizon(row, roll, float(confidence), "robust_line")
     lowest = float(np.quantile(border, 0.98))
     return Horizon(max(lowest, LEVEL_ROW * height), 0.0, min(0.2, share), "assumed")

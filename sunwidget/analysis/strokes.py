@@ -10,6 +10,9 @@ from sunwidget.analysis.refine import SIDE, Decision, cut, paint
 from sunwidget.analysis.working import Working, resize, shrink
 from sunwidget.edit import Stroke
 
+TOLERANCE = 14.0  # of 8-bit Lab, beside the brush
+REACH = 0.4  # of the longer side
+
 
 def apply_strokes(working: Working, decision: Decision, strokes: Sequence[Stroke]) -> Decision:
     """Replay strokes in order on a decision; deterministic.
@@ -23,8 +26,8 @@ def apply_strokes(working: Working, decision: Decision, strokes: Sequence[Stroke
 
     image = shrink(working.bytes, SIDE)
     height, width = image.shape[:2]
-    sky = resize(decision.sky, width, height) > 0.5
-    sureness = resize(decision.sureness, width, height)
+    before = resize(decision.sky, width, height) > 0.5
+    sky = before.copy()
     lab = cv2.cvtColor(image, cv2.COLOR_RGB2LAB).astype(np.float32)
     fixed = np.full(sky.shape, -1, np.int8)
     for stroke in strokes:
@@ -37,17 +40,35 @@ def apply_strokes(working: Working, decision: Decision, strokes: Sequence[Stroke
         labels = np.where(sky, cv2.GC_FGD, cv2.GC_BGD).astype(np.uint8)
         labels[region] = cv2.GC_PR_FGD if wanted else cv2.GC_PR_BGD
         labels[fixed == 1], labels[fixed == 0] = cv2.GC_FGD, cv2.GC_BGD
+        # The colour models would give a wrongly labelled wall back to the sky it was learned
+        # as; what is like the brush and touches it follows the brush.
+        sky = np.where(region, wanted, sky)
         after = cut(image, labels, iterations=1)
-        sky = np.where(region | under, after, sky)
-        sureness = np.where(region, 1, sureness)
+        rim = cv2.dilate(region.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+        sky = np.where(rim & ~region & (after == wanted), wanted, sky)
         sky[fixed == 1], sky[fixed == 0] = True, False
-    edge = cv2.morphologyEx(sky.astype(np.uint8), cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8))
-    sureness = np.where(edge == 1, np.minimum(sureness, 0.05), sureness)
-    return Decision(sky.astype(np.float32), sureness.astype(np.float32))
+    changed = (sky != before).astype(np.uint8)
+    if not changed.any():
+        return decision
+    # The decision may be finer than this copy: put in only what changed.
+    rows, columns = decision.sky.shape
+    new = resize(sky.astype(np.float32), columns, rows)
+    inside = resize(changed.astype(np.float32), columns, rows) > 0.5
+    edge = cv2.morphologyEx(changed, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8))
+    unsure = resize(edge.astype(np.float32), columns, rows) > 0.25
+    sureness = np.where(inside, 1, decision.sureness)
+    sureness = np.where(unsure, np.minimum(sureness, 0.05), sureness)
+    return Decision(
+        np.where(inside, new, decision.sky).astype(np.float32), sureness.astype(np.float32)
+    )
 
 
 def _alike(lab: np.ndarray, under: np.ndarray, candidates: np.ndarray) -> np.ndarray:
-    """Return what is connected to the brush through candidates of like colour."""
+    """Return what is connected to the brush through candidates of like colour.
+
+    How like it must be grows with the distance from the brush, to nothing at ``REACH``: a
+    stroke on a grey wall cannot leak into all of a grey sky.
+    """
     import cv2
 
     # Distance to the nearest of a few colours under the brush, so that a stroke over a brick
@@ -57,7 +78,9 @@ def _alike(lab: np.ndarray, under: np.ndarray, candidates: np.ndarray) -> np.nda
     distance = np.full(lab.shape[:2], np.inf, np.float32)
     for sample in samples:
         distance = np.minimum(distance, np.linalg.norm(lab - sample, axis=2))
-    like = ((distance < 12) & candidates) | under
+    away = cv2.distanceTransform((~under).astype(np.uint8), cv2.DIST_L2, 3)
+    tolerance = TOLERANCE * np.clip(1 - away / (REACH * max(under.shape)), 0, 1)
+    like = ((distance < tolerance) & candidates) | under
     _, labels = cv2.connectedComponents(like.astype(np.uint8), connectivity=8)
     keep = np.unique(labels[under])
     return np.isin(labels, keep[keep > 0])
