@@ -11,7 +11,7 @@ uniform sampler2D layers;
 
 out vec4 result;
 
-const ivec2 kGrid = ivec2(32, 24);
+const ivec2 kGrid = ivec2(96, 72);  // once a photo; the gradient at the horizon needs it
 
 void main() {
   vec3 sum = vec3(0.0);

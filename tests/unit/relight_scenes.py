@@ -11,7 +11,13 @@ from sunwidget.analysis.fit import Response, model_sky, view_angles
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.camera import Camera
 
-SAMPLES = ("coast", "mountains", "meadow", "harbour")
+# Where each sample's sun and horizon are, in fractions of its size: small copies need telling.
+SAMPLES = {
+    "coast": ((0.620, 0.302), 0.602),
+    "mountains": ((0.590, 0.315), 0.577),
+    "meadow": ((0.395, 0.338), 0.607),
+    "harbour": ((0.303, 0.309), 0.520),
+}
 HAZE = {"angstrom_exponent": 1.3, "aerosol_asymmetry": 0.76, "aerosol_albedo": 0.9}
 
 
@@ -106,4 +112,10 @@ def sample_scene(name, width=192):
     photo = sw.sample(name)
     size = (width, round(width * photo.height / photo.width))
     small = cv2.resize(photo.encoded, size, interpolation=cv2.INTER_AREA)
-    return sw.analyze(small, fov=photo.field_of_view.vertical)
+    (x, y), row = SAMPLES[name]
+    return sw.analyze(
+        small,
+        fov=photo.field_of_view.vertical,
+        sun=(x * size[0], y * size[1]),
+        horizon=row * size[1],
+    )
