@@ -108,13 +108,11 @@ def frames(runs: int) -> Iterator[Row]:
 
 def against_numpy(scene: Any, runs: int) -> Iterator[Row]:
     """Compare with a straight NumPy and OpenCV version of the thesis equations, in one run."""
-    sys.path.insert(0, str(ROOT / "tests"))
-    try:
-        from thesis_twin import thesis_frame
-    except ImportError:
-        return
+    sys.path.insert(0, str(ROOT / "tests" / "unit"))
+    from thesis_reference import thesis_frame
+
     edit = sw.Edit(sun_elevation=5, method="thesis")
-    slow = median_ms(lambda _i: thesis_frame(scene, edit), max(2, runs // 4))
+    slow = median_ms(lambda _i: thesis_frame(scene, edit, sky="passes"), max(2, runs // 4))
     fast = median_ms(lambda i: sw.render(scene, edit.replace(sun_elevation=1 + i % 17)), runs)
     yield Row("thesis frame, NumPy time / kernel time", slow / fast, "×", 30, more=True)
 
