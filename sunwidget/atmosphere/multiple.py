@@ -44,12 +44,12 @@ class Quality:
     steps: int = 20
     second_azimuths: int = 4
     second_steps: int = 12
-    groups: int = 8
-    group_steps: int = 4
+    groups: int = 16
+    group_steps: int = 2
 
 
 SHADER = Quality()
-FAST = Quality(altitudes=12, steps=12, second_azimuths=3, second_steps=6, groups=6)
+FAST = Quality(altitudes=12, steps=12, second_azimuths=3, second_steps=6, groups=9, group_steps=3)
 
 
 class Window(NamedTuple):

@@ -16,8 +16,8 @@ uniform sampler2D multiple_scattering;
 out vec4 result;
 
 // The light field is smooth: one look-up serves a group of steps.
-const int GROUPS = 8;
-const int GROUP_STEPS = 4;
+const int GROUPS = 16;
+const int GROUP_STEPS = 2;
 
 Length GetCameraHeight() {
   // One metre keeps the horizon below the eye; grazing rays would else start in the ground.

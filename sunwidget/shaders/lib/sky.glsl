@@ -9,7 +9,7 @@
 
 #include "lib/atmosphere.glsl"
 
-const float SKY_SHARE = 0.75;  // of the rows, above the horizon
+const float SKY_SHARE = 0.85;  // of the rows, above the horizon
 
 struct SkyView {
   vec3 sun;             // direction of the sun's centre
