@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from training.buildings import street
 from training.synthetic import draw_thin_things, gradient_sky, room
 
 Random = np.random.Generator
@@ -199,12 +200,13 @@ def photometric(image: np.ndarray, target: np.ndarray, random: Random) -> np.nda
 
 def augment(photo: np.ndarray, size: int, random: Random, sky: Source, other: Source) -> Sample:
     """One ``(H, W, 4)`` uint8 photo -> one square training sample."""
-    if random.random() < 0.07:
-        image = room(size, random, other)
-        sample = Sample(
-            image, np.zeros((size, size), np.uint8), np.full((size, size), 255, np.uint8)
-        )
-        return Sample(photometric(image, sample.target, random), sample.target, sample.valid)
+    draw = random.random()
+    if draw < 0.14:
+        if draw < 0.08:
+            image, target = room(size, random, other), np.zeros((size, size), np.uint8)
+        else:
+            image, target = street(other_sky(size, random, sky, other), random, other)
+        return Sample(photometric(image, target, random), target, np.full_like(target, 255))
     sample = crop(photo, random_box(photo, random), size)
     if random.random() < 0.5:
         sample = Sample(

@@ -22,7 +22,7 @@ from training.augment import Sample, augment, crop
 FOLDERS = {
     "landscape-pseudo": 1.0,
     "weather-pseudo": 0.6,
-    "camvid": 0.4,
+    "camvid": 1.5,
     "sea-sky": 0.4,
     "skyreplace-example": 0.4,
 }
@@ -169,5 +169,17 @@ def validation(
 ) -> list[tuple[torch.Tensor, ...]]:
     """The held-out photos, whole, squeezed to ``size`` squares, not augmented."""
     pack = Pack(root, cache)
-    samples = [crop(pack[i], (0, 0, *pack.shape[i]), size) for i in pack.select(training=False)]
+    return plain(pack, pack.select(training=False), size, batch)
+
+
+def typical(root: Path, cache: Path, size: int, count: int) -> list[tuple[torch.Tensor, ...]]:
+    """``count`` photos spread over the training split, treated as in :func:`validation`."""
+    pack = Pack(root, cache)
+    chosen = pack.select(training=True)
+    return plain(pack, chosen[:: max(1, len(chosen) // count)], size, 12)
+
+
+def plain(pack: Pack, chosen: np.ndarray, size: int, batch: int) -> list[tuple[torch.Tensor, ...]]:
+    """Batches of whole photos; a last incomplete one is kept."""
+    samples = [crop(pack[i], (0, 0, *pack.shape[i]), size) for i in chosen]
     return [stack(samples[i : i + batch]) for i in range(0, len(samples), batch)]

@@ -147,7 +147,7 @@ def _mast(canvas: np.ndarray, random: Random) -> None:
         cv2.polylines(canvas, [(line * 16).astype(np.int32)], False, 255.0, width, cv2.LINE_AA, 4)
 
 
-def _surface(
+def surface(
     canvas: np.ndarray, corners: np.ndarray, random: Random, photo: Callable[[], np.ndarray]
 ) -> None:
     """Fills a polygon with a softly lit plain colour, or with foreground texture."""
@@ -187,8 +187,8 @@ def room(size: int, random: Random, photo: Callable[[], np.ndarray]) -> np.ndarr
     canvas = np.zeros((size, size, 3), np.float32)
     for i in range(4):
         j = (i + 1) % 4
-        _surface(canvas, np.array([back[i], back[j], near[j], near[i]]), random, photo)
-    _surface(canvas, back, random, photo)
+        surface(canvas, np.array([back[i], back[j], near[j], near[i]]), random, photo)
+    surface(canvas, back, random, photo)
     for _ in range(
         int(random.integers(0, 4))
     ):  # lamps and bright windows high up, none of them sky
@@ -202,7 +202,7 @@ def room(size: int, random: Random, photo: Callable[[], np.ndarray]) -> np.ndarr
         x, y = random.uniform(-0.1, 1.0) * size, random.uniform(0.2, 0.95) * size
         w, h = random.uniform(0.05, 0.5, 2) * size
         lean = random.normal(0, 0.1) * size
-        _surface(
+        surface(
             canvas,
             np.array([[x, y], [x + w, y + lean], [x + w, y + lean + h], [x, y + h]]),
             random,

@@ -3,8 +3,8 @@
 ``python -m training.train --data ../shared/data/train --minutes 100 --out build/sky``
 
 Most of the time goes to small squares, the last part to 384 px, the size the network is used at.
-The learning rate is a cosine of elapsed time, so that a slower machine gets fewer steps rather than
-an unfinished schedule. Two processes of one thread average their gradients: on busy cores that is
+The learning rate follows elapsed time, so that a slower machine gets fewer steps rather than an
+unfinished schedule. Two processes of one thread average their gradients: on busy cores that is
 three times faster than one process of two threads, which spin while they wait for each other.
 Running it again with the same ``--out`` resumes. What is validated and exported is an exponential
 moving average of the weights.
@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import argparse
 import csv
-import math
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -27,7 +26,7 @@ import torch.nn.functional as F
 from torch import Tensor, distributed, multiprocessing, nn
 from torch.utils.data import DataLoader
 
-from training.data import Batches, Pack, validation
+from training.data import Batches, Pack, typical, validation
 from training.model import SkyNet
 
 
@@ -40,16 +39,18 @@ class Stage:
     batch: int
 
 
-STAGES = (Stage(0.5, 128, 32), Stage(0.74, 192, 20), Stage(0.88, 256, 12), Stage(1.01, 384, 6))
+STAGES = (Stage(0.5, 128, 32), Stage(0.86, 192, 20), Stage(1.01, 384, 6))
 PEAK_RATE = 2e-3
 WARM_UP = 0.02
 CHECK_SECONDS = 540
+FULL_SIZE = 384
+"""The size the network is used at (pixels)."""
 
 
 class Average:
     """Exponential moving average of weights and batch statistics."""
 
-    def __init__(self, network: SkyNet, decay: float = 0.998) -> None:
+    def __init__(self, network: SkyNet, decay: float = 0.995) -> None:
         self.decay, self.steps = decay, 0
         self.state = {k: v.detach().clone() for k, v in network.state_dict().items()}
 
@@ -65,11 +66,10 @@ class Average:
 
 
 def rate(share: float) -> float:
-    """Learning rate at a share of the time in [0, 1]: linear warm-up, then a cosine down to 1 %."""
+    """Learning rate at a share of the time in [0, 1]: linear warm-up, then linearly down to 1 %."""
     if share < WARM_UP:
         return PEAK_RATE * max(share / WARM_UP, 0.02)
-    fall = min(1.0, (share - WARM_UP) / (1 - WARM_UP))
-    return PEAK_RATE * (0.01 + 0.99 * 0.5 * (1 + math.cos(math.pi * fall)))
+    return PEAK_RATE * max(0.01, (1 - share) / (1 - WARM_UP))
 
 
 def loss_function(logits: Tensor, coarse: Tensor, target: Tensor, weight: Tensor) -> Tensor:
@@ -108,6 +108,23 @@ def validate(network: SkyNet, batches: list[tuple[Tensor, ...]]) -> tuple[float,
         wrong += ((sky != truth) & known).sum().item()
         total += known.sum().item()
     return shared / max(union, 1), wrong / max(total, 1)
+
+
+@torch.no_grad()
+def recalibrate(network: SkyNet, batches: list[tuple[Tensor, ...]]) -> None:
+    """Measures the batch statistics afresh, at full size and for exactly these weights.
+
+    Those gathered in training belong to other sizes, other weights and augmented photos (Wu and
+    Johnson 2021, "Rethinking Batch in BatchNorm").
+    """
+    layers = [m for m in network.modules() if isinstance(m, nn.BatchNorm2d)]
+    for layer in layers:
+        layer.reset_running_stats()
+        layer.momentum = None  # plain mean over the batches
+    network.train()
+    for image, *_ in batches:
+        with torch.autocast("cpu", torch.bfloat16):
+            network(prepare(image))
 
 
 def prepare(image: Tensor) -> Tensor:
@@ -196,9 +213,11 @@ class Training:
             if self.step % 100 == 0:
                 recent = np.mean(self.losses[-100:])
                 print(f"step {self.step} {self.spent / 60:.1f} min loss {recent:.4f}", flush=True)
-            if self.spent >= limit or time.monotonic() - checked > CHECK_SECONDS:
+            if time.monotonic() - checked > CHECK_SECONDS:
                 self.check(stage.size, rate(share))
                 checked = time.monotonic()
+        if self.rank == 0:
+            self.finish()
 
     def learn(self, image: Tensor, target: Tensor, weight: Tensor, learning_rate: float) -> None:
         """One step on one batch (uint8) per process."""
@@ -219,12 +238,28 @@ class Training:
         self.step += 1
         self.losses.append(loss.item())
 
+    def finish(self) -> None:
+        """Gives the averaged weights their own batch statistics and saves them."""
+        judge = SkyNet().to(memory_format=torch.channels_last)
+        judge.load_state_dict(self.average.state)
+        recalibrate(judge, typical(self.options.data, self.options.cache, FULL_SIZE, 300))
+        self.average.state = judge.state_dict()
+        self.check(FULL_SIZE, rate(1))
+
     def check(self, size: int, learning_rate: float) -> None:
         """Measures the averaged weights on the held-out photos, logs, saves."""
         judge = SkyNet().to(memory_format=torch.channels_last)
         judge.load_state_dict(self.average.state)
-        iou, mcr = validate(judge, validation(self.options.data, self.options.cache, 384))
-        row = (self.spent / 60, self.step, size, learning_rate, np.mean(self.losses), iou, mcr)
+        iou, mcr = validate(judge, validation(self.options.data, self.options.cache, FULL_SIZE))
+        row = (
+            self.spent / 60,
+            self.step,
+            size,
+            learning_rate,
+            np.mean(self.losses or [np.nan]),
+            iou,
+            mcr,
+        )
         log = self.options.out / "log.csv"
         if not log.exists():
             log.write_text("minutes,step,size,rate,loss,iou,mcr\n", encoding="utf-8")
