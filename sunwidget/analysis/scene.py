@@ -26,6 +26,7 @@ from sunwidget.analysis.backdrop import behind_sun, fill_by_pyramid
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import fit_sky
 from sunwidget.analysis.horizon import Horizon
+from sunwidget.analysis.islands import fill_islands
 from sunwidget.analysis.strokes import apply_strokes
 from sunwidget.analysis.sun import SunObservation
 from sunwidget.analysis.working import Working, resize
@@ -172,13 +173,16 @@ class Scene:
         return np.stack([self.sky, self.clouds, self.cloud_softness], axis=-1)
 
     def surface(self) -> np.ndarray:
-        """(H, W, 3) float32 in [0, 1]: glare, water, 0.
+        """(H, W, 3) float32 in [0, 1]: glare, water, glitter.
 
         Glare is where the photo says nothing about the sky behind: the old sun's clipped core
         and its halo, fading outwards.
         """
         glare = resize(self.glare, self.width, self.height)
-        return np.stack([glare, self.water, np.zeros_like(glare)], axis=-1)
+        small = self.working
+        sky = resize(self.sky, small.width, small.height)
+        glints = resize(water_stage.glitter(small, sky), self.width, self.height)
+        return np.stack([glare, self.water, glints], axis=-1)
 
     def corrected(self, edit: Edit) -> Scene:
         """Return the scene with the edit's strokes and hints applied.
@@ -353,6 +357,11 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
         decision = apply_strokes(working, base.decision, hints.strokes)
         matte = refine.matte(photo, working, decision, hints.strokes)
     sky = resize(matte, working.width, working.height)
+    coarse = resize(base.sky_coarse, working.width, working.height)
+    bound = fill_islands(sky, coarse, hints.strokes)
+    if bound.any():
+        sky = np.maximum(sky, bound)
+        matte = np.maximum(matte, resize(bound, *photo.size))
     camera = Camera(*photo.size, hints.fov or photo.field_of_view.vertical)
 
     step("sun", 0.7, "Looking for the sun")

@@ -18,3 +18,23 @@ def none(working: Working, sky: np.ndarray, horizon_row: float) -> np.ndarray:
 
 
 METHODS: dict[str, Callable[[Working, np.ndarray, float], np.ndarray]] = {"none": none}
+
+
+def glitter(working: Working, sky: np.ndarray) -> np.ndarray:
+    """Zone of the old sun's glints: land or water around pixels burnt white.
+
+    A zone, not the pixels themselves: what is burnt and what nearly is must be relit alike, or
+    the brightest would come out darker than their rim.
+
+    Returns
+    -------
+    (h, w) float32 in [0, 1]
+    """
+    import cv2
+
+    white = working.linear.min(-1)
+    burnt = np.clip((white - 0.5) / 0.4, 0, 1).astype(np.float32) * (1 - sky)
+    reach = 2 * max(2, round(0.012 * max(sky.shape))) + 1
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
+    zone = cv2.GaussianBlur(cv2.dilate(burnt, kernel), (0, 0), reach / 3)
+    return np.clip(zone * (1 - sky), 0, 1).astype(np.float32)

@@ -93,14 +93,14 @@ void main() {
   // What exceeds white paint in this light is a mirror image of the sky and the sun (water, wet
   // road, glass): that part follows what it mirrors, the rest is lit as land. A clipped glint
   // does not say how bright it was: let it fade freely, but hardly grow.
-  float white = GetLuminance(lit_before) / 3.14159265;
+  float glitter = marks.b;
+  float white = (1.0 - 0.6 * glitter) * GetLuminance(lit_before) / 3.14159265;
   float mirror = max(1.0 - min(white / max(GetLuminance(scene), 1e-6), 1.0), marks.g);
   vec4 mirror_before = ReadBilinear(mirror_source, place);
   vec4 mirror_now = ReadBilinear(mirror_edit, place);
-  // Only what is burnt white is taken for the sun itself, the rest for sky.
-  float burnt = smoothstep(0.5, 0.9, min(display.r, min(display.g, display.b)));
-  vec3 mirrored = GetRatio(mirror_now.rgb + burnt * mirror_now.a * GetTerm(14),
-                           mirror_before.rgb + burnt * mirror_before.a * GetTerm(13));
+  // The sun itself is mirrored where the photo glitters, the sky elsewhere.
+  vec3 mirrored = GetRatio(mirror_now.rgb + glitter * mirror_now.a * GetTerm(14),
+                           mirror_before.rgb + glitter * mirror_before.a * GetTerm(13));
   land_ratio += mirror * (min(mirrored, vec3(2.0)) - land_ratio);
   vec3 land = scene * land_ratio;
   land += general.z * (vec3(GetLuminance(land)) - land);
