@@ -192,7 +192,7 @@ def scatter_field(
     dipole = dip_x * x + dip_z * z
     chi = mie_moments(asymmetry)
     by_haze = mean + 3 * chi[0] * dipole + 7.5 * chi[1] * quadrupole
-    by_haze = by_haze + third * lobe(nu, asymmetry)[..., None]
+    by_haze = by_haze + np.maximum(third, 0) * lobe(nu, asymmetry)[..., None]
     return mean + 0.75 * quadrupole, np.maximum(by_haze, 0.1 * mean)
 
 

@@ -140,11 +140,12 @@ vec4 GetFieldThroughAir(LightField field, vec2 direction) {
   return field.mean + 0.75 * GetQuadrupole(field, direction);
 }
 
-// `lobe` is GetLobe of the view. A truncated series can dip below zero; a tenth of the mean is kept.
+// `lobe` is GetLobe of the view; after sunset there is none, and a negative moment is no hole around
+// the sun. A truncated series can dip below zero; a tenth of the mean is kept.
 vec4 GetFieldThroughHaze(LightField field, vec2 direction, vec3 moments, Number lobe) {
   vec4 dipole = field.x * direction.x + field.z * direction.y;
   vec4 sum = field.mean + 3.0 * moments.x * dipole
-      + 7.5 * moments.y * GetQuadrupole(field, direction) + lobe * field.lobe;
+      + 7.5 * moments.y * GetQuadrupole(field, direction) + lobe * max(field.lobe, 0.0);
   return max(sum, 0.1 * field.mean);
 }
 
