@@ -6,6 +6,7 @@ import itertools
 import cv2
 import numpy as np
 import pytest
+from PIL import Image
 
 import sunwidget as sw
 from sunwidget.edit import METHODS
@@ -53,6 +54,31 @@ def test_every_map_has_the_photos_shape_and_lies_in_0_to_1(any_scene):
         assert found.min() >= 0
         assert found.max() <= 1
     assert any_scene.depth.shape == shape
+
+
+# Where the path tracer put the sun of these two, in pixels.
+SUNS = {"coast.jpg": (952.6, 309.7), "mountains.jpg": (905.9, 322.9)}
+
+
+def test_the_samples_own_sun_is_found(any_scene):
+    if any_scene.photo.name not in SUNS:
+        pytest.skip("no true position is on record for this sample")
+    assert any_scene.sun is not None
+    assert any_scene.sun.visible
+    # Half of the disc's radius, 0.27° of 42° in 1024 rows.
+    assert (any_scene.sun.x, any_scene.sun.y) == pytest.approx(SUNS[any_scene.photo.name], abs=3)
+
+
+def test_sun_and_clouds_belong_to_the_sky(any_scene, shared):
+    """Holes in the sky show as patches that do not follow the sun."""
+    name = any_scene.photo.name.removesuffix(".jpg")
+    path = shared / "samples" / name / f"{name}_sky.png"
+    if not path.exists():
+        pytest.skip("no true mask is on record for this sample")
+    found = any_scene.sky > 0.5
+    true = np.asarray(Image.open(path).convert("L").resize(found.shape[::-1])) > 127
+    # Below this, whole clouds are missing.
+    assert (found & true).sum() / (found | true).sum() > 0.95
 
 
 def test_the_sky_is_above_and_the_land_below(any_scene):
@@ -240,8 +266,6 @@ def test_a_still_is_never_replaced_unasked(coast, tmp_path):
 
 
 def test_a_sweep_of_a_real_scene_moves(coast, tmp_path):
-    from PIL import Image
-
     ends = [sw.Edit(sun_elevation=15), sw.Edit(sun_elevation=-3)]
     path = sw.sweep(coast, ends, tmp_path / "film.webp", frames=3, size=SMALL)
     with Image.open(path) as film:
