@@ -1,0 +1,105 @@
+"""Clouds by un-mixing: known veils come back, a clear sky has none, more veil gives more."""
+
+import numpy as np
+import pytest
+from relight_scenes import known_photo, known_scene
+
+from sunwidget.analysis.unmix import cloud_white, unmix
+
+CLEAR = np.array([0.25, 0.42, 0.8], np.float32)
+WHITE = np.array([1.6, 1.65, 1.7], np.float32)
+
+
+def veiled(alpha, shade=1.0, clear=CLEAR):
+    return (1 - alpha) * clear + alpha * shade * WHITE
+
+
+def opacity_of(light, clear=CLEAR, sky=1.0):
+    light = np.asarray(light, np.float32).reshape(1, -1, 3)
+    maps = unmix(light, np.broadcast_to(clear, light.shape), WHITE, np.full(light.shape[:2], sky))
+    return maps[0][0], maps[1][0]
+
+
+@pytest.mark.parametrize("shade", [0.4, 0.7, 1.0, 1.3])
+@pytest.mark.parametrize("alpha", [0.4, 0.6, 0.8, 1.0])
+def test_opacity_and_shade_of_a_blue_sky_come_back(alpha, shade):
+    opacity, k = opacity_of(veiled(alpha, shade))
+    # The ridge towards "no cloud" costs up to a seventh of the opacity; 0.15 and 0.18 measured.
+    assert alpha - 0.17 < opacity[0] < alpha + 0.03
+    assert abs(k[0] - shade) < 0.2
+
+
+def test_a_clear_sky_has_no_cloud_at_any_brightness():
+    # A fit that errs by a tenth either way is no cloud either.
+    opacity, _ = opacity_of(CLEAR * np.array([[0.9], [1.0], [1.1]]))
+    assert opacity.max() < 0.05
+    assert opacity[1] == 0
+
+
+def test_more_veil_is_never_less_opacity():
+    opacity, _ = opacity_of([veiled(a) for a in np.linspace(0, 1, 201)])
+    assert np.all(np.diff(opacity) >= -1e-6)
+    assert opacity[0] == 0
+    assert opacity[-1] > 0.8
+
+
+def test_opacity_and_shade_stay_in_their_ranges_for_any_colour():
+    light = np.random.default_rng(1).random((4000, 3)) ** 3 * 30
+    opacity, shade = opacity_of(light)
+    assert opacity.min() >= 0
+    assert opacity.max() <= 1
+    assert shade.min() >= 0
+    assert shade.max() <= 1.5
+
+
+def test_dusk_counts_like_noon():
+    light = np.array([veiled(a) for a in (0.2, 0.5, 0.9)])
+    bright, _ = opacity_of(light)
+    scale = np.float32(1e-3)
+    dim = unmix(
+        (light * scale).reshape(1, -1, 3).astype(np.float32),
+        np.broadcast_to(CLEAR * scale, (1, 3, 3)),
+        WHITE * scale,
+        np.ones((1, 3)),
+    )[0][0]
+    assert np.allclose(bright, dim, atol=1e-3)
+
+
+def test_outside_the_sky_there_is_no_cloud():
+    opacity, _ = opacity_of(veiled(0.8), sky=0.0)
+    assert opacity[0] == 0
+
+
+def test_a_dark_base_and_a_bright_top_are_both_opaque_where_red_over_blue_differs():
+    base, top = opacity_of([veiled(0.95, 0.35), veiled(0.95, 1.2)])[0]
+    assert min(base, top) > 0.8
+
+
+def test_the_clouds_white_is_nearly_white_by_day_and_follows_the_sky_at_dusk():
+    by_day = cloud_white_of(known_photo(sun=(8.0, 40.0), clouds=False))
+    assert by_day.max() / by_day.min() < 1.5
+
+
+def cloud_white_of(photo):
+    from sunwidget.analysis.fit import SkyFit
+
+    fit = SkyFit(photo.atmosphere, photo.response, tuple(photo.gain), (0.0, 3.0, 2.0), photo.sun)
+    return cloud_white(fit)
+
+
+def test_the_drawn_clouds_are_found_and_little_else():
+    known, scene = known_photo(), known_scene()
+    away = scene.surface()[..., 0] < 0.01
+    thick = (known.opacity > 0.8) & away
+    clear = (known.opacity == 0) & (known.sky > 0) & away
+    assert thick.sum() > 20
+    # Drawn opacity is 0.85; so hazy a sky is nearly as white as its clouds, and the un-mixing then
+    # prefers to see no cloud (0.33 measured).
+    assert np.median(scene.clouds[thick]) > 0.25
+    assert np.percentile(scene.clouds[clear], 90) < 0.2
+    assert (
+        np.corrcoef(scene.clouds[away & (known.sky > 0)], known.opacity[away & (known.sky > 0)])[
+            0, 1
+        ]
+        > 0.8
+    )
