@@ -64,14 +64,17 @@ def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
     sky = cut(image, trimap(coarse), iterations=2)
     if not sky.any() or sky.all() or min(working.width, working.height) < 16:
         return _decision(sky, coarse)
-    size = working.width, working.height
-    certain = np.clip(resize(probability, *size), 0.01, 0.99)
-    prior = np.log(certain / (1 - certain))
-    cutout = resize(sky.astype(np.float32), *size)
-    evidence = np.zeros_like(prior)
-    for doubt in (0.4, 0.1):  # the second round learns from what the first one found
-        colours = local_evidence(working.guide, cutout > 0.5, certain, doubt)
-        evidence = prior + 0.8 * np.clip(colours, -6, 6) + 0.4 * (2 * cutout - 1)
+    cutout = sky.astype(np.float32)
+    evidence = coarse
+    # The second round learns from what the first one found, and is the one at working size.
+    rounds = (shrink(working.guide, SIDE), 0.4), (working.guide, 0.1)
+    for guide, doubt in rounds:
+        height, width = guide.shape[:2]
+        certain = np.clip(resize(probability, width, height), 0.01, 0.99)
+        cutout = resize(cutout, width, height)
+        colours = local_evidence(guide, cutout > 0.5, certain, doubt)
+        evidence = np.log(certain / (1 - certain)) + 0.4 * (2 * cutout - 1)
+        evidence += 0.8 * np.clip(colours, -6, 6)
         cutout = (evidence > 0).astype(np.float32)
     sureness = np.clip(np.abs(evidence) / 4, 0.02, 1)
     return Decision(cutout, sureness.astype(np.float32))
@@ -150,32 +153,32 @@ def local_evidence(
     """
     import cv2
 
-    kernel = np.ones((5, 5), np.uint8)
     # Brightness, red against blue, green against magenta.
     opponent = np.array([[1 / 3, 1 / 3, 1 / 3], [0.5, 0, -0.5], [-0.25, 0.5, -0.25]], np.float32)
     colour = guide @ opponent.T
+    few = shrink(colour, SIDE)
 
     def learn(mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return _local_moments(colour, cv2.erode(mask.astype(np.uint8), kernel))
+        inner = cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8))
+        return _local_moments(few, shrink(inner.astype(np.float32), SIDE), colour.shape)
 
-    mean_sky, variance_sky = learn(sky & (probability > doubt))
-    mean_land, variance_land = learn(~sky & (probability < 0.4))
-    ratio = (
-        (colour - mean_land) ** 2 / variance_land
-        - (colour - mean_sky) ** 2 / variance_sky
-        + np.log(variance_land / variance_sky)
-    )
-    return np.asarray(ratio.sum(axis=-1) / 2, np.float32)
+    mean, variance = learn(sky & (probability > doubt))
+    ratio = np.square(colour - mean)
+    ratio /= -variance
+    mean, other = learn(~sky & (probability < 0.4))
+    ratio += np.square(colour - mean) / other
+    other /= variance
+    return np.asarray((ratio.sum(axis=-1) + np.log(other.prod(axis=-1))) / 2, np.float32)
 
 
-def _local_moments(colour: np.ndarray, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Mean and variance of the masked colours around each pixel, from afar where none is near."""
+def _local_moments(
+    colour: np.ndarray, weight: np.ndarray, shape: tuple[int, ...]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Mean and variance of weighted colours near each pixel, from afar where none is near."""
     import cv2
 
-    height, width = mask.shape
-    scale = min(1.0, 160 / max(height, width))
-    size = max(4, round(width * scale)), max(4, round(height * scale))
-    weight = mask.astype(np.float32)
+    scale = min(1.0, 160 / max(weight.shape))
+    size = max(4, round(weight.shape[1] * scale)), max(4, round(weight.shape[0] * scale))
     share = resize(weight, *size)
     sums = [resize(colour**power * weight[..., None], *size) for power in (1, 2)]
     total = max(float(share.sum()), 1e-6)
@@ -186,8 +189,13 @@ def _local_moments(colour: np.ndarray, mask: np.ndarray) -> tuple[np.ndarray, np
             (cv2.GaussianBlur(x, (0, 0), sigma) + 0.02 * m) / near
             for x, m in zip(sums, moments, strict=True)
         ]
-    mean, square = (resize(m.astype(np.float32), width, height) for m in moments)
-    return mean, np.maximum(square - mean**2, 0) + 0.02**2
+    mean, square = moments
+    variance = np.maximum(square - mean**2, 0) + 0.02**2
+    height, width = shape[:2]
+    return (
+        resize(mean.astype(np.float32), width, height),
+        resize(variance.astype(np.float32), width, height),
+    )
 
 
 def _decision(sky: np.ndarray, coarse: np.ndarray) -> Decision:

@@ -43,7 +43,7 @@ def apply_strokes(working: Working, decision: Decision, strokes: Sequence[Stroke
         # The colour models would give a wrongly labelled wall back to the sky it was learned
         # as; what is like the brush and touches it follows the brush.
         sky = np.where(region, wanted, sky)
-        after = cut(image, labels, iterations=1)
+        after = _cut_near(image, labels, region | under)
         rim = cv2.dilate(region.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
         sky = np.where(rim & ~region & (after == wanted), wanted, sky)
         sky[fixed == 1], sky[fixed == 0] = True, False
@@ -63,6 +63,19 @@ def apply_strokes(working: Working, decision: Decision, strokes: Sequence[Stroke
     )
 
 
+def _cut_near(image: np.ndarray, labels: np.ndarray, region: np.ndarray) -> np.ndarray:
+    """GrabCut in the region's box and a margin; elsewhere the labels stand."""
+    rows, columns = np.nonzero(region)
+    margin = 24  # px of the small copy: enough of both sides for the colour models
+    box = (
+        slice(max(int(rows.min()) - margin, 0), int(rows.max()) + margin + 1),
+        slice(max(int(columns.min()) - margin, 0), int(columns.max()) + margin + 1),
+    )
+    sky = (labels == 1) | (labels == 3)  # GC_FGD, GC_PR_FGD
+    sky[box] = cut(np.ascontiguousarray(image[box]), labels[box], iterations=1)
+    return sky
+
+
 def _alike(lab: np.ndarray, under: np.ndarray, candidates: np.ndarray) -> np.ndarray:
     """Return what is connected to the brush through candidates of like colour.
 
@@ -74,10 +87,10 @@ def _alike(lab: np.ndarray, under: np.ndarray, candidates: np.ndarray) -> np.nda
     # Distance to the nearest of a few colours under the brush, so that a stroke over a brick
     # wall takes bricks and mortar.
     samples = lab[under]
-    samples = samples[:: max(1, len(samples) // 64)]
-    distance = np.full(lab.shape[:2], np.inf, np.float32)
-    for sample in samples:
-        distance = np.minimum(distance, np.linalg.norm(lab - sample, axis=2))
+    samples = samples[:: -(-len(samples) // 24)]
+    flat = lab.reshape(-1, 3)
+    squares = (flat**2).sum(axis=1)[:, None] - 2 * flat @ samples.T + (samples**2).sum(axis=1)
+    distance = np.sqrt(np.maximum(squares.min(axis=1), 0)).reshape(under.shape)
     away = cv2.distanceTransform((~under).astype(np.uint8), cv2.DIST_L2, 3)
     tolerance = TOLERANCE * np.clip(1 - away / (REACH * max(under.shape)), 0, 1)
     like = ((distance < tolerance) & candidates) | under
