@@ -14,6 +14,9 @@
  * @typedef {(fraction: number, message: string) => void} OnProgress
  */
 
+// A kernel that says nothing for so long was restarted or is gone.
+const SILENCE_MS = 180_000;
+
 export class Channel {
   /**
    * @param {Model} model
@@ -21,14 +24,17 @@ export class Channel {
    */
   constructor(model, signal) {
     this.model = model;
-    /** @type {Map<string, { resolve: (answer: Answer) => void, reject: (error: Error) => void, onProgress?: OnProgress }>} */
+    /** @type {Map<string, { resolve: (answer: Answer) => void, reject: (error: Error) => void, onProgress?: OnProgress, timer?: ReturnType<typeof setTimeout> }>} */
     this.open = new Map();
     /** @type {(message: any, buffers: DataView[]) => void} */
     const receive = (message, buffers) => this.receive(message, buffers);
     model.on("msg:custom", receive);
     signal.addEventListener("abort", () => {
       model.off("msg:custom", receive);
-      for (const { reject } of this.open.values()) reject(new Error("The editor was closed."));
+      for (const { reject, timer } of this.open.values()) {
+        clearTimeout(timer);
+        reject(new Error("The editor was closed."));
+      }
       this.open.clear();
     });
   }
@@ -43,8 +49,22 @@ export class Channel {
     const id = crypto.randomUUID?.() ?? String(Math.random());
     return new Promise((resolve, reject) => {
       this.open.set(id, { resolve, reject, onProgress });
+      this.watch(id);
       this.model.send({ ...content, type: "request", id, action });
     });
+  }
+
+  /** Give up a request about which nothing is heard any more. @param {string} id */
+  watch(id) {
+    const pending = this.open.get(id);
+    if (!pending) return;
+    clearTimeout(pending.timer);
+    pending.timer = setTimeout(() => {
+      this.open.delete(id);
+      pending.reject(
+        new Error("The kernel does not answer. If it was restarted, run the cell again."),
+      );
+    }, SILENCE_MS);
   }
 
   /**
@@ -55,11 +75,13 @@ export class Channel {
     const pending = this.open.get(message?.id);
     if (!pending) return;
     if (message.type === "progress") {
+      this.watch(message.id);
       pending.onProgress?.(message.fraction, message.message);
       return;
     }
     if (message.type !== "response") return;
     this.open.delete(message.id);
+    clearTimeout(pending.timer);
     if (message.error) pending.reject(new Error(message.error));
     else pending.resolve({ result: message.result, buffers: buffers ?? [] });
   }

@@ -1,5 +1,5 @@
 import assert from "node:assert/strict";
-import { test } from "node:test";
+import { mock, test } from "node:test";
 import { Channel } from "../src/channel.js";
 import { FakeModel } from "./fake_model.js";
 
@@ -41,4 +41,18 @@ test("closing the view ends what is open", async () => {
   const request = channel.request("save");
   controller.abort();
   await assert.rejects(request, /closed/);
+});
+
+test("a kernel that falls silent is said, one that reports progress is waited for", async () => {
+  mock.timers.enable({ apis: ["setTimeout"] });
+  const { model, channel } = open();
+  const request = channel.request("save");
+  const { id } = model.sent[0];
+  mock.timers.tick(170_000);
+  model.fire("msg:custom", { type: "progress", id, fraction: 0.5, message: "" });
+  mock.timers.tick(170_000);
+  assert.equal(channel.open.size, 1);
+  mock.timers.tick(20_000);
+  mock.timers.reset();
+  await assert.rejects(request, /does not answer/);
 });

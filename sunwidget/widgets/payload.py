@@ -52,6 +52,13 @@ def encode_preview(photo: Photo) -> bytes:
     return bytes(cv2.imencode(".jpg", image[..., ::-1], options)[1])
 
 
+def preview_size(photo: Photo) -> tuple[int, int]:
+    """Return width and height of the preview, as ``Photo.preview`` makes it."""
+    scale = min(1.0, PREVIEW_EDGE / max(photo.size))
+    width, height = (max(1, round(n * scale)) for n in photo.size)
+    return width, height
+
+
 def thumbnail(photo: Photo) -> bytes:
     """Return a small PNG for viewers that run no widgets."""
     return encode_png(photo.preview(_THUMBNAIL_EDGE))
@@ -61,8 +68,7 @@ def encode_maps(scene: Scene) -> dict[str, bytes]:
     """Return the scene textures but the photo, by trait name, as PNG at the preview's size."""
     import cv2
 
-    shape = scene.photo.preview(PREVIEW_EDGE).shape
-    size = (shape[1], shape[0])
+    size = preview_size(scene.photo)
     maps = {"_layers": scene.layers(), "_surface": scene.surface()}
     encoded = {}
     for name, image in maps.items():

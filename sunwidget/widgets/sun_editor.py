@@ -127,7 +127,6 @@ class SunEditor(anywidget.AnyWidget):
             _history={"past": [], "future": []},
             **{name: getattr(start, name) for name in _NAMES},
         )
-        self.set_trait("_parameters", parameter_json())
         self.on_msg(Requests(self.send, {"save": self._save_for_browser}))
         self.observe(self._on_edit, list(_NAMES))
         options = {} if sky is None else {"sky": sky}
@@ -135,6 +134,10 @@ class SunEditor(anywidget.AnyWidget):
             self.photo if scene is None else scene, options, self._deliver, self._report
         )
         self._analyst.ask(start)
+
+    @traitlets.default("_parameters")
+    def _default_parameters(self) -> list[dict[str, Any]]:
+        return parameter_json()
 
     @property
     def scene(self) -> Scene:

@@ -35,9 +35,7 @@ def chromium():
 
     path = shutil.which("chromium") or shutil.which("chromium-browser")
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=path, headless=True, args=ARGUMENTS
-        )
+        browser = playwright.chromium.launch(executable_path=path, headless=True, args=ARGUMENTS)
         try:
             yield browser
         finally:

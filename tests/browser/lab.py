@@ -18,7 +18,7 @@ _PATIENCE = 120  # s
 
 @contextmanager
 def jupyterlab(folder, root):
-    """Start JupyterLab with ``folder`` as its files; yields ``url(path)``; ends it with its kernels."""
+    """Start JupyterLab over the files of ``folder``; yields ``url(path)``; ends its kernels too."""
     home = folder / ".home"
     overrides = home / "config" / "labconfig" / "default_setting_overrides.json"
     overrides.parent.mkdir(parents=True)

@@ -18,6 +18,17 @@ def state(coast):
 
 @pytest.fixture
 def editor(page, state):
+    page.evaluate(
+        """() => {
+          window.contexts = [];
+          const original = HTMLCanvasElement.prototype.getContext;
+          HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+            const context = original.call(this, kind, ...rest);
+            if (kind === "webgl2") window.contexts.push(context);
+            return context;
+          };
+        }"""
+    )
     page.evaluate("(state) => showEditor(state)", state)
     page.locator(".sunwidget.sw-live").wait_for()
     page.wait_for_timeout(500)
@@ -113,6 +124,16 @@ def test_the_sun_can_leave_the_picture_and_waits_at_the_edge(editor):
     assert editor.locator(".sw-sun-arrow").get_attribute("visibility") == "visible"
 
 
+def test_escape_gives_a_drag_up(editor):
+    x, y = grab_sun(editor)
+    editor.mouse.move(x - 150, y + 60, steps=4)
+    editor.keyboard.press("Escape")
+    editor.mouse.move(x - 200, y + 90, steps=4)
+    editor.mouse.up()
+    assert trait(editor, "sun_azimuth") is None
+    assert trait(editor, "_history")["past"] == []
+
+
 def test_arrow_keys_move_the_sun(editor):
     editor.get_by_role("slider", name="Sun", exact=True).focus()
     found = trait(editor, "_scene")["automatic"]
@@ -159,9 +180,7 @@ def test_a_brush_stroke_travels_as_fractions_of_the_picture(editor):
     box = editor.locator(".sw-picture").bounding_box()
     editor.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + 0.5 * box["height"])
     editor.mouse.down()
-    editor.mouse.move(
-        box["x"] + 0.75 * box["width"], box["y"] + 0.5 * box["height"], steps=10
-    )
+    editor.mouse.move(box["x"] + 0.75 * box["width"], box["y"] + 0.5 * box["height"], steps=10)
     editor.mouse.up()
     (stroke,) = trait(editor, "strokes")
     assert stroke["label"] == "not_sky"
@@ -313,6 +332,39 @@ def test_missing_float_targets_are_said(page, state):
         }"""
     )
     assert "EXT_color_buffer_float" in message
+
+
+def test_without_webgl2_the_photo_stays_and_the_reason_is_said(page, state):
+    page.evaluate(
+        """(state) => {
+          const original = HTMLCanvasElement.prototype.getContext;
+          HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+            return kind === "webgl2" ? null : original.call(this, kind, ...rest);
+          };
+          showEditor(state);
+        }""",
+        state,
+    )
+    page.get_by_role("alert").wait_for()
+    assert "WebGL2" in page.get_by_role("alert").text_content()
+    assert page.locator(".sw-has-photo .sw-photo").is_visible()
+    assert page.errors == []
+
+
+def test_a_context_lost_in_a_drag_is_drawn_anew(editor):
+    x, y = grab_sun(editor)
+    editor.mouse.move(x - 40, y, steps=2)
+    editor.evaluate(
+        """() => {
+          for (const gl of contexts) gl.getExtension("WEBGL_lose_context").loseContext();
+        }"""
+    )
+    assert editor.evaluate("contexts.length") == 1
+    before = canvas_of(editor)
+    editor.mouse.move(x - 150, y + 60, steps=4)
+    editor.mouse.up()
+    assert settled(editor, before).std() > 10
+    assert editor.get_by_role("alert").count() == 0
 
 
 def test_a_drag_frame_at_1024_by_698(page, state):

@@ -20,7 +20,7 @@ export function onShortcut(view, event) {
   else if (key === "]") view.setBrushRadius(view.brushRadius * 1.25);
   else if (key === "b") view.toolbar.before.show(!view.toolbar.before.isOn());
   else if (key === "escape") {
-    view.tools[view.tool].cancel();
+    view.cancelGesture();
     view.setTool("sun");
   } else return;
   event.preventDefault();

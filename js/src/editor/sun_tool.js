@@ -56,7 +56,6 @@ export class SunTool {
       const near = Math.hypot(dx * box.width, dy * box.height) < GRAB;
       if (near) this.offset = [dx, dy];
     }
-    this.view.state.begin();
     this.handle.focus({ preventScroll: true });
     this.move(place, event);
   }
@@ -65,6 +64,8 @@ export class SunTool {
   move(place, _event) {
     const { camera } = this.view;
     if (!camera) return;
+    // Losing the focus ends a gesture; a drag that goes on is the next one.
+    this.view.state.begin();
     const [azimuth, elevation] = camera.angles(
       (place[0] - this.offset[0]) * camera.width,
       (place[1] - this.offset[1]) * camera.height,

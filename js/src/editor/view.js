@@ -67,6 +67,8 @@ export class View {
     this.scale = 1;
     this.loads = 0;
     this.request = 0;
+    /** @type {number | null} the pointer that drags */
+    this.pointer = null;
     this.lastFrame = 0;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.settle = undefined;
@@ -135,34 +137,38 @@ export class View {
     });
   }
 
+  /** Drop what the pointer has begun, and let it go. */
+  cancelGesture() {
+    this.tools[this.tool].cancel();
+    if (this.pointer !== null) this.stage.overlay.releasePointerCapture(this.pointer);
+  }
+
   /** @param {AbortSignal} signal */
   listenToPointer(signal) {
     const { overlay } = this.stage;
-    /** @type {number | null} */
-    let pointer = null;
     let panning = false;
     /** @param {PointerEvent} event */
     const down = (event) => {
-      if (pointer !== null || !this.scene || event.button > 1) return;
-      pointer = event.pointerId;
+      if (this.pointer !== null || !this.scene || event.button > 1) return;
+      this.pointer = event.pointerId;
       panning = event.button === 1;
-      overlay.setPointerCapture(pointer);
+      overlay.setPointerCapture(this.pointer);
       event.preventDefault();
       if (!panning) this.tools[this.tool].begin(this.stage.placeOf(event), event);
     };
     /** @param {PointerEvent} event */
     const move = (event) => {
       const place = this.stage.placeOf(event);
-      if (pointer === null) this.tools[this.tool].hover?.(place);
-      else if (event.pointerId !== pointer) return;
+      if (this.pointer === null) this.tools[this.tool].hover?.(place);
+      else if (event.pointerId !== this.pointer) return;
       else if (panning) this.stage.pan(event.movementX, event.movementY);
       else this.tools[this.tool].move(place, event);
     };
     // The end of capture is the one end of a drag, whatever ended it.
     /** @param {PointerEvent} event */
     const lost = (event) => {
-      if (event.pointerId !== pointer) return;
-      pointer = null;
+      if (event.pointerId !== this.pointer) return;
+      this.pointer = null;
       if (!panning) this.tools[this.tool].end();
     };
     overlay.addEventListener("pointerdown", down, { signal });

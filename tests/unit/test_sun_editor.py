@@ -1,0 +1,222 @@
+"""SunEditor without a browser: traits, history, analysis, requests."""
+
+import base64
+import io
+import json
+import threading
+
+import numpy as np
+import pytest
+from PIL import Image
+from traitlets import TraitError
+
+import sunwidget as sw
+from sunwidget.edit import PARAMETERS
+from sunwidget.widgets import SunEditor
+from sunwidget.widgets import sun_editor as module
+from sunwidget.widgets.payload import PREVIEW_EDGE, preview_size
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return sw.analyze(sw.sample("coast").preview(384))
+
+
+@pytest.fixture
+def editor(scene):
+    return SunEditor(scene).wait(120)
+
+
+@pytest.fixture
+def sent(editor, monkeypatch):
+    """What the editor sends by itself, beside its state."""
+    messages = []
+    monkeypatch.setattr(
+        editor, "send", lambda content, buffers=None: messages.append((content, buffers))
+    )
+    return messages
+
+
+def test_every_row_of_the_table_is_a_synced_trait(editor):
+    for p in PARAMETERS:
+        assert getattr(editor, p.name) == p.default
+        assert editor.trait_metadata(p.name, "sync")
+
+
+def test_traits_are_the_edit_both_ways(editor):
+    editor.sun_elevation = 3
+    editor.strokes = [{"label": "sky", "points": [[0.1, 0.2]], "radius": 0.02}]
+    assert editor.edit == sw.Edit(
+        sun_elevation=3.0, strokes=(sw.Stroke("sky", ((0.1, 0.2),), 0.02),)
+    )
+    editor.edit = sw.Edit(exposure=1)
+    assert (editor.sun_elevation, editor.exposure, editor.strokes) == (None, 1.0, ())
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("sun_elevation", 300),
+        ("sun_elevation", float("nan")),
+        ("sun_elevation", "high"),
+        ("exposure", None),
+        ("method", "magic"),
+        ("strokes", [{"label": "sea", "points": [[0, 0]]}]),
+        ("horizon_hint", [[0.5, 0.1], [0.5, 0.2]]),
+    ],
+)
+def test_a_refused_value_says_why_and_changes_nothing(editor, name, value):
+    before = editor.edit
+    with pytest.raises(TraitError, match=name.removesuffix("s")):
+        setattr(editor, name, value)
+    assert editor.edit == before
+    assert editor._history["past"] == []
+
+
+def test_an_unknown_keyword_gets_the_nearest_spelling(scene):
+    with pytest.raises(TypeError, match="Did you mean 'sun_elevation'"):
+        SunEditor(scene, sun_elevaton=3)
+
+
+def test_a_recipe_is_the_start_and_keywords_win(scene):
+    editor = SunEditor(scene, recipe={"version": 1, "exposure": 1, "ozone": 100}, exposure=2)
+    assert editor.edit == sw.Edit(exposure=2, ozone=100)
+    assert editor._history["past"] == []
+
+
+def test_a_scene_has_its_own_sky(scene):
+    with pytest.raises(TypeError, match="sky already"):
+        SunEditor(scene, sky=np.ones((4, 4)))
+
+
+def test_undo_redo_and_reset_are_exact(editor):
+    editor.sun_elevation = 3.1234567
+    editor.edit = editor.edit.replace(exposure=-0.35, sun_azimuth=2)
+    last = editor.edit
+    editor.undo()
+    assert editor.edit == sw.Edit(sun_elevation=3.1234567)
+    editor.undo()
+    editor.undo()
+    assert editor.edit == sw.Edit()
+    editor.redo()
+    editor.redo()
+    assert editor.edit == last
+    editor.reset()
+    assert editor.edit == sw.Edit()
+    editor.undo()
+    assert editor.edit == last
+
+
+def test_a_step_of_the_browser_is_undone_from_python(editor):
+    editor.exposure = 1
+    history = {"past": [*editor._history["past"], {"exposure": 1}], "future": []}
+    editor.set_state({"sun_elevation": 4, "sun_azimuth": -3, "_history": history})
+    assert editor.edit == sw.Edit(exposure=1, sun_elevation=4, sun_azimuth=-3)
+    assert len(editor._history["past"]) == 2, "the browser's own step is not counted twice"
+    editor.undo()
+    assert editor.edit == sw.Edit(exposure=1)
+
+
+def test_what_the_browser_must_not_set_is_answered_not_raised(editor, sent):
+    editor.set_state({"sun_elevation": 1000})
+    assert editor.sun_elevation is None
+    ((message, _),) = sent
+    assert message["type"] == "error"
+    assert "sun_elevation = 1000 is outside" in message["error"]
+
+
+def test_scene_arrives_as_json_and_pictures_of_one_size(editor, scene):
+    described = json.loads(json.dumps(editor._scene, allow_nan=False))
+    assert described["automatic"] == scene.automatic
+    sizes = {
+        Image.open(io.BytesIO(data)).size
+        for data in (editor._photo, editor._layers, editor._surface)
+    }
+    assert sizes == {scene.photo.size}
+
+
+def test_preview_of_a_small_photo_is_the_photo(editor, scene):
+    preview = np.asarray(Image.open(io.BytesIO(editor._photo)))
+    assert np.array_equal(preview, scene.photo.encoded)
+
+
+@pytest.mark.parametrize("size", [(3000, 2001), (1, 5000), (4096, 7), (640, 480)])
+def test_maps_are_sized_as_the_preview_is(size):
+    photo = sw.open(np.zeros((size[1], size[0], 3), np.uint8))
+    height, width, _ = photo.preview(PREVIEW_EDGE).shape
+    assert preview_size(photo) == (width, height)
+
+
+def test_a_stroke_changes_the_maps_and_undo_brings_them_back(editor):
+    layers = editor._layers
+    points = [[0.1, 0.95], [0.9, 0.95]]
+    editor.set_state({"strokes": [{"label": "sky", "points": points, "radius": 0.1}]})
+    editor.wait(120)
+    assert editor._layers != layers
+    sky = np.asarray(Image.open(io.BytesIO(editor._layers)))[..., 0]
+    assert sky[int(0.95 * sky.shape[0]), sky.shape[1] // 2] > 200
+    editor.edit = sw.Edit()
+    editor.wait(120)
+    assert editor._layers == layers
+
+
+def test_analysis_runs_behind_and_a_broken_one_is_said(monkeypatch):
+    started, go_on = threading.Event(), threading.Event()
+
+    def slow(photo, **options):
+        started.set()
+        go_on.wait(60)
+        raise ValueError("No sky found in beach.jpg.")
+
+    monkeypatch.setattr("sunwidget.widgets.analyst.analyze", slow)
+    editor = SunEditor(np.zeros((8, 12, 3), np.uint8))
+    assert started.wait(60)
+    assert editor._photo
+    assert editor._status["stage"] == "analysing"
+    with pytest.raises(TimeoutError):
+        editor.wait(0.01)
+    go_on.set()
+    with pytest.raises(ValueError, match="No sky found"):
+        editor.wait(60)
+    assert editor._status == {
+        "stage": "error",
+        "fraction": 1.0,
+        "message": "No sky found in beach.jpg.",
+    }
+
+
+def test_save_answers_with_the_full_size_file(editor, sent):
+    editor.sun_elevation = 4
+    request = {"type": "request", "id": "a", "action": "save"}
+    module.Requests(editor.send, {"save": editor._save_for_browser})._answer(request)
+    response, buffers = sent[-1]
+    assert response["error"] is None
+    assert response["result"]["name"].endswith("-sun.png")
+    picture = np.asarray(Image.open(io.BytesIO(buffers[0])).convert("RGB"))
+    assert picture.shape == editor.render().shape
+    assert np.abs(picture.astype(int) - editor.render()).max() <= 2  # dithered differently
+
+
+def test_every_request_is_answered_errors_included(editor, sent):
+    requests = module.Requests(editor.send, {})
+    requests._answer({"type": "request", "id": "b", "action": "explode"})
+    ((response, _),) = sent
+    assert response["id"] == "b"
+    assert "no action 'explode'" in response["error"]
+
+
+def test_static_viewers_get_a_picture(editor):
+    data, _ = editor._repr_mimebundle_()
+    picture = Image.open(io.BytesIO(base64.b64decode(data["image/png"])))
+    assert max(picture.size) <= 480
+
+
+def test_render_is_the_editors_own_frame(editor, scene):
+    editor.sun_elevation = 5
+    assert np.array_equal(editor.render(), sw.render(scene, sw.Edit(sun_elevation=5)))
+
+
+def test_the_bundle_is_small_and_names_no_machine(root):
+    bundle = (root / "sunwidget" / "static" / "sun_editor.js").read_bytes()
+    assert len(bundle) <= 120_000
+    assert str(root).encode() not in bundle
