@@ -1,0 +1,128 @@
+"""The photo's own sun: found on a drawn disc, not taken for a cloud, grown from a click."""
+
+import math
+
+import cv2
+import numpy as np
+import pytest
+
+from sunwidget.analysis import sun
+from sunwidget.analysis.working import Working
+from sunwidget.camera import Camera
+from sunwidget.photo import open_photo
+
+SIZE = (320, 214)
+CAMERA = Camera.from_horizon(*SIZE, 40.0, 150.0)
+SKY = (np.arange(SIZE[1])[:, None] < 150).astype(np.float32) * np.ones(SIZE[0], np.float32)
+
+
+def evening(disc=None, cloud=None) -> Working:
+    """A sky with an aureole and a burnt-out disc at ``disc``, and a white cloud at ``cloud``."""
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    code = np.stack([120 - 0.2 * rows, 150 - 0.1 * rows, 205 - 0.1 * rows], -1) / 255
+    if cloud is not None:
+        distance = np.hypot(columns - cloud[0], (rows - cloud[1]) * 1.6)
+        code += np.clip((40 - distance) / 8, 0, 1)[..., None] * (1.0 - code)
+    if disc is not None:
+        distance = np.hypot(columns - disc[0], rows - disc[1])
+        code += (0.55 * np.exp(-distance / 45))[..., None] * (1 - code)
+        code = np.where((distance < 4.0)[..., None], 1.0, code)
+    code = np.where(SKY[..., None] > 0, code, 0.2)
+    return Working.of(open_photo(np.round(np.clip(code, 0, 1) * 255).astype(np.uint8)))
+
+
+@pytest.mark.parametrize("place", [(90.5, 60.5), (250.5, 110.5), (160.5, 30.5)])
+def test_a_drawn_sun_is_found_where_it_was_drawn(place):
+    found = sun.find(evening(disc=place), SKY, CAMERA.focal)
+    assert found is not None
+    assert math.dist(found, place) < 2.5
+
+
+def test_a_bright_white_cloud_is_no_sun():
+    assert sun.find(evening(cloud=(160.0, 70.0)), SKY, CAMERA.focal) is None
+
+
+def test_a_sun_beside_a_white_cloud_is_preferred_to_it():
+    found = sun.find(evening(disc=(70.5, 60.5), cloud=(250.0, 60.0)), SKY, CAMERA.focal)
+    assert found is not None
+    assert math.dist(found, (70.5, 60.5)) < 2.5
+
+
+def test_a_lamp_on_the_land_is_no_sun():
+    picture = evening().bytes.copy()
+    cv2.circle(picture, (160, 190), 4, (255, 255, 255), -1)
+    assert sun.find(Working.of(open_photo(picture)), SKY, CAMERA.focal) is None
+
+
+def test_without_sky_there_is_no_sun():
+    assert sun.find(evening(disc=(90.5, 60.5)), np.zeros_like(SKY), CAMERA.focal) is None
+
+
+def test_disc_fit_centres_on_the_blot_even_when_clicked_off_centre():
+    blot = sun.disc_fit(evening(disc=(90.5, 60.5)), SKY, 92.5, 58.5, CAMERA.focal)
+    assert math.dist((blot.x, blot.y), (90.5, 60.5)) < 1.5
+    assert 3 <= blot.radius <= 9  # a burnt core is larger than the 4 px disc, never far larger
+
+
+def test_disc_fit_is_never_smaller_than_the_true_disc():
+    blot = sun.disc_fit(evening(), SKY, 100.0, 60.0, CAMERA.focal)
+    assert blot.radius >= CAMERA.focal * math.tan(math.radians(sun.RADIUS_DEG)) - 1e-9
+
+
+def test_flood_fill_takes_what_is_as_bright_as_the_seed_and_connected_to_it():
+    picture = np.full((60, 80, 3), 60, np.uint8)
+    cv2.circle(picture, (30, 30), 8, (250, 250, 250), -1)
+    cv2.circle(picture, (60, 30), 5, (250, 250, 250), -1)  # as bright, but apart
+    blot = sun.flood_fill(
+        Working.of(open_photo(picture)), np.ones((60, 80), np.float32), 31, 29, 100
+    )
+    white = picture[..., 0] == 250
+    white[:, 48:] = False
+    assert np.array_equal(blot.mask > 0, white)
+    assert (blot.x, blot.y) == (30.5, 30.5)
+    assert blot.radius == pytest.approx(math.sqrt(white.sum() / math.pi))
+
+
+def test_a_burnt_disc_that_the_sky_surrounds_belongs_to_the_sky():
+    blot = sun.disc_fit(evening(disc=(90.5, 60.5)), SKY, 90.5, 60.5, CAMERA.focal)
+    hole = SKY * (1 - blot.mask)
+    disc = sun.in_sky(blot, hole)
+    assert (disc[blot.mask > 0] > 0.5).all()
+    assert disc[:, 200:].max() == 0
+
+
+def test_a_lamp_between_houses_does_not_become_sky():
+    blot = sun.disc_fit(evening(disc=(90.5, 60.5)), SKY, 90.5, 60.5, CAMERA.focal)
+    assert sun.in_sky(blot, np.zeros_like(SKY)).max() == 0
+
+
+def test_the_observed_angles_are_those_of_the_camera_at_the_suns_pixel():
+    working = evening(disc=(90.5, 60.5))
+    blot = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
+    seen = sun.observe(None, blot, SKY, CAMERA, working)
+    assert seen is not None
+    assert seen.visible
+    assert CAMERA.pixel(seen.azimuth, seen.elevation) == pytest.approx((seen.x, seen.y), abs=1e-6)
+    # 70 px left of the centre at the camera's focal length: about 13° to the left.
+    expected = math.degrees(math.atan((blot.x - SIZE[0] / 2) / CAMERA.focal))
+    assert seen.azimuth == pytest.approx(expected, abs=0.6)
+    assert seen.mask.shape == SIZE[::-1]
+
+
+def test_a_hinted_sun_outside_the_picture_keeps_its_place_and_is_not_visible():
+    seen = sun.observe((-500.0, 40.0), None, SKY, CAMERA, evening())
+    assert seen is not None
+    assert (seen.x, seen.y) == (-500.0, 40.0)
+    assert not seen.visible
+    assert seen.source == "hint"
+    assert seen.mask.max() == 0
+    assert seen.azimuth < -30
+
+
+def test_the_assumed_sun_lies_to_the_brighter_side():
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
+    glow = np.clip(0.3 + 0.5 * columns / SIZE[0], 0, 1)[..., None] * np.ones(3)
+    working = Working.of(open_photo(np.round(255 * glow).astype(np.uint8)))
+    azimuth, elevation = sun.assume(working, SKY, CAMERA)
+    assert azimuth > 5
+    assert 10 <= elevation <= 80
