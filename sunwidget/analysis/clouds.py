@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sunwidget.analysis.backdrop import matched_sky
+from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.unmix import cloud_white, unmix
 from sunwidget.analysis.working import Working
@@ -47,8 +48,20 @@ def veil(working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit) -> np.n
 
     A guided filter (He et al. 2010) ties it to the picture: compression blocks and noise in
     the colour differences would else show as soon as cloud and sky are lit apart.
+
+    Raises
+    ------
+    AnalysisError
+        When OpenCV was installed without its contrib modules.
     """
     import cv2
+
+    if not hasattr(cv2, "ximgproc"):
+        raise AnalysisError(
+            "This OpenCV has no cv2.ximgproc, which follows the clouds' edges. Another package "
+            "replaced it: pip uninstall opencv-python opencv-python-headless, then pip install "
+            "--force-reinstall opencv-contrib-python-headless; or pass clouds='rb_ratio'."
+        )
 
     clear = matched_sky(fit, camera, (working.width, working.height))
     light = fit.response.scene_light(working.linear)

@@ -142,9 +142,9 @@ def coarse(working: Working, sky: Any = None, size: tuple[int, int] | None = Non
     working : Working
         The small photo.
     sky : None, str, Path or array_like
-        Name in ``METHODS`` (default "network"), path of an ONNX network, or a mask (any numeric
-        or boolean type; anything above 1 is taken for 8 bits). A mask need not have the photo's
-        size.
+        Name in ``METHODS`` (default "network"), path of an ONNX network or of a picture (white =
+        sky), or a mask (any numeric or boolean type; anything above 1 is taken for 8 bits). A
+        mask need not have the photo's size.
     size : (width, height), optional
         The photo's size, for the error when a mask has another shape.
 
@@ -160,10 +160,29 @@ def coarse(working: Working, sky: Any = None, size: tuple[int, int] | None = Non
             return METHODS[str(sky)](working)
         if str(sky).lower().endswith(".onnx"):
             return network(working, sky)
+        if Path(sky).suffix.lower() in {".png", ".tif", ".tiff", ".bmp", ".jpg", ".jpeg"}:
+            return mask_from(_read_mask(Path(sky)), size)
         raise AnalysisError(
-            f"sky={str(sky)!r:.80} is neither a method ({', '.join(METHODS)}) nor an .onnx file."
+            f"sky={str(sky)!r:.80} is neither a method ({', '.join(METHODS)}), an .onnx file "
+            "nor a picture of the mask (.png)."
         )
     return mask_from(sky, size)
+
+
+def _read_mask(path: Path) -> np.ndarray:
+    """Read a picture as grey code values, 8 or 16 bits."""
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        with Image.open(path) as picture:
+            wide = picture.mode.startswith("I")
+            return np.asarray(picture if wide else picture.convert("L"))
+    except FileNotFoundError as error:
+        raise AnalysisError(f"No sky mask at {path}. Pass the path of a picture.") from error
+    except (OSError, UnidentifiedImageError, ValueError, Image.DecompressionBombError) as error:
+        raise AnalysisError(
+            f"{path} is no picture that can be read as a sky mask: {error}."
+        ) from error
 
 
 def mask_from(mask: Any, size: tuple[int, int] | None = None) -> np.ndarray:
