@@ -254,9 +254,14 @@ def matte(
             alpha[rows] = np.einsum("hwc,hwc->hw", a, guide) + _rows(offset, rows, height, width)
         # Stretch the ends: a guided filter leaves sure pixels a few percent short of 0 and 1.
         alpha = np.clip((alpha - 0.06) / 0.88, 0, 1)
-    for stroke in strokes:
-        alpha[paint(stroke, width, height)] = stroke.label == "sky"
+    set_strokes(alpha, strokes)
     return alpha
+
+
+def set_strokes(matte: np.ndarray, strokes: Sequence[Stroke]) -> None:
+    """Set the matte under each brush, in place: what a person says wins over everything."""
+    for stroke in strokes:
+        matte[paint(stroke, matte.shape[1], matte.shape[0])] = stroke.label == "sky"
 
 
 def paint(stroke: Stroke, width: int, height: int) -> np.ndarray:

@@ -24,9 +24,9 @@ from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis import water as water_stage
 from sunwidget.analysis.backdrop import behind_sun, fill_by_pyramid
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.fit import fit_sky
+from sunwidget.analysis.fit import SkyFit, fit_sky
 from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.islands import fill_islands
+from sunwidget.analysis.islands import fill_islands, grow_over_glow
 from sunwidget.analysis.strokes import apply_strokes
 from sunwidget.analysis.sun import SunObservation
 from sunwidget.analysis.working import Working, resize
@@ -115,6 +115,7 @@ class Scene:
     timings: dict[str, float] = field(repr=False)
     working: Working = field(repr=False)
     decision: refine.Decision = field(repr=False)
+    fitted: SkyFit | None = field(default=None, repr=False)
     _corrected: dict[Any, Scene] = field(default_factory=dict, repr=False)
 
     @property
@@ -201,7 +202,9 @@ class Scene:
         if corrections not in self._corrected:
             while len(self._corrected) >= 3:  # each holds full-size maps
                 self._corrected.pop(next(iter(self._corrected)), None)
-            self._corrected[corrections] = _complete(self, self._with_hints(edit), None)
+            # Strokes come last, on the scene with the hints: they leave its camera and fit alone.
+            base = self.corrected(edit.replace(strokes=())) if edit.strokes else self
+            self._corrected[corrections] = _complete(base, self._with_hints(edit), None)
         return self._corrected[corrections]
 
     def _with_hints(self, edit: Edit) -> Hints:
@@ -351,23 +354,27 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
     photo, working = base.photo, base.working
     zoom_x, zoom_y = working.zoom
     step("matte", 0.5, "Cutting out the sky")
-    if hints.strokes == base.hints.strokes and base.sky.shape == (photo.height, photo.width):
-        matte = base.sky
-    else:
-        decision = apply_strokes(working, base.decision, hints.strokes)
-        matte = refine.matte(photo, working, decision, hints.strokes)
+    # Not from ``base.sky``: that one holds the sun that ``base`` saw, which a hint may move.
+    decision = apply_strokes(working, base.decision, hints.strokes)
+    matte = refine.matte(photo, working, decision, hints.strokes)
     sky = resize(matte, working.width, working.height)
     coarse = resize(base.sky_coarse, working.width, working.height)
     bound = fill_islands(sky, coarse, hints.strokes)
+    glow = grow_over_glow(np.maximum(sky, bound), coarse, working.encoded, hints.strokes)
+    bound = np.maximum(bound, glow)
     if bound.any():
         sky = np.maximum(sky, bound)
         matte = np.maximum(matte, resize(bound, *photo.size))
+    kept = _kept(base, hints, matte)
     camera = Camera(*photo.size, hints.fov or photo.field_of_view.vertical)
 
     step("sun", 0.7, "Looking for the sun")
     focal = camera.focal / zoom_y
     seed = hints.sun and (hints.sun[0] / zoom_x, hints.sun[1] / zoom_y)
-    found = seed or sun_stage.find(working, sky, focal)
+    if kept is None:
+        found = seed or sun_stage.find(working, sky, focal)
+    else:
+        found = kept.sun and (kept.sun.x / zoom_x, kept.sun.y / zoom_y)
     blot = None
     if found and 0 <= found[0] < working.width and 0 <= found[1] < working.height:
         grow = sun_stage.METHODS[hints.method("sun")]
@@ -383,7 +390,9 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
         cover = cloud_stage.without(cover, blot.mask)
 
     step("horizon", 0.8, "Fitting the horizon")
-    if hints.horizon is not None:
+    if kept is not None:
+        horizon = kept.horizon
+    elif hints.horizon is not None:
         horizon = horizon_stage.from_hint(hints.horizon, photo.width)
     else:
         horizon = horizon_stage.METHODS[hints.method("horizon")](sky).scaled(zoom_x, zoom_y)
@@ -394,14 +403,18 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
         # Water that mirrors the sky is not sky.
         sky = sky * horizon_stage.above(camera, *sky.shape[::-1])
         matte = matte * horizon_stage.above(camera, *photo.size)
-    sun = sun_stage.observe(seed, blot, sky, camera, working)
+        refine.set_strokes(matte, hints.strokes)
+    sun = sun_stage.observe(seed, blot, sky, camera, working) if kept is None else kept.sun
 
     step("fit", 0.82, "Fitting the atmosphere")
     sun_angles = None if sun is None else (sun.azimuth, sun.elevation)
     visible = sun is not None and sun.visible
     assumed = sun_stage.assume(working, sky, camera)
-    fitted = fit_sky(working, sky, cover.opacity, camera, sun_angles, assumed)
-    if hints.method("clouds") == "unmix":
+    if kept is not None and kept.fitted is not None:
+        fitted = kept.fitted
+    else:
+        fitted = fit_sky(working, sky, cover.opacity, camera, sun_angles, assumed)
+    if hints.method("clouds") == "unmix" and kept is None:
         # The colour of the clear sky tells the clouds, and without them it is known better.
         opacity = cloud_stage.veil(working, sky, camera, fitted)
         fitted = fit_sky(working, sky, opacity, camera, fitted.sun, assumed)
@@ -423,6 +436,7 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
         camera=camera,
         atmosphere=fitted.atmosphere,
         assumed_sun=fitted.sun,
+        fitted=fitted,
         response={
             "response_shoulder": fitted.response.shoulder,
             "response_contrast": fitted.response.contrast,
@@ -439,13 +453,31 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
 
     step("depth", 0.9, "Estimating depth")
     depth = depth_stage.METHODS[hints.method("depth")](sky, camera.resized(*sky.shape[::-1]))
+    # Interpolated as 1 / depth, which is finite in the sky and linear on the ground.
+    nearness = resize(1 / depth, *photo.size)
+    with np.errstate(divide="ignore"):
+        depth = np.where(nearness < 0.5 / depth_stage.FAR, np.inf, 1 / nearness)
     step("water", 0.95, "Looking for water")
     water = water_stage.METHODS[hints.method("water")](working, sky, horizon.row / zoom_y)
     scene = dataclasses.replace(
-        scene, depth=resize(depth, *photo.size), water=resize(water, *photo.size)
+        scene, depth=depth.astype(np.float32), water=resize(water, *photo.size)
     )
     step(None, 1.0, "Analysed")
     return scene
+
+
+def _kept(base: Scene, hints: Hints, matte: np.ndarray) -> Scene | None:
+    """Return the scene whose sun, horizon, camera and fit a few strokes need not change.
+
+    None when anything but strokes is new, or when they change so much of the sky (5 % of the
+    picture, or there was none) that it has to be looked at again.
+    """
+    if base.fitted is None or base.sky.shape != matte.shape:
+        return None
+    if dataclasses.replace(hints, strokes=base.hints.strokes) != base.hints:
+        return None
+    much = float(np.mean(np.abs(matte - base.sky))) > 0.05
+    return None if much or float(np.mean(base.sky > 0.5)) < NO_SKY else base
 
 
 def _warnings(
@@ -498,7 +530,7 @@ def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float
 
 def _check_method(stage: str, name: Any) -> None:
     methods = _REGISTRIES[stage]
-    if name not in methods:
+    if not isinstance(name, str) or name not in methods:
         raise AnalysisError(
             f"{stage} knows no method {name!r:.80}; choose one of {', '.join(methods)}."
         )

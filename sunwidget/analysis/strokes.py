@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,7 +12,7 @@ from sunwidget.analysis.working import Working, resize, shrink
 from sunwidget.edit import Stroke
 
 TOLERANCE = 14.0  # of 8-bit Lab, beside the brush
-REACH = 0.4  # of the longer side
+REACH = 0.4  # of the longer side: no stroke acts farther than that
 
 
 def apply_strokes(working: Working, decision: Decision, strokes: Sequence[Stroke]) -> Decision:
@@ -79,8 +80,9 @@ def _cut_near(image: np.ndarray, labels: np.ndarray, region: np.ndarray) -> np.n
 def _alike(lab: np.ndarray, under: np.ndarray, candidates: np.ndarray) -> np.ndarray:
     """Return what is connected to the brush through candidates of like colour.
 
-    How like it must be grows with the distance from the brush, to nothing at ``REACH``: a
-    stroke on a grey wall cannot leak into all of a grey sky.
+    How like it must be grows with the distance from the brush, to identical at one and a half
+    times the stroke's own extent: a dab fixes a patch, a long stroke a house, and none on a
+    grey wall leaks into all of a grey sky.
     """
     import cv2
 
@@ -92,7 +94,9 @@ def _alike(lab: np.ndarray, under: np.ndarray, candidates: np.ndarray) -> np.nda
     squares = (flat**2).sum(axis=1)[:, None] - 2 * flat @ samples.T + (samples**2).sum(axis=1)
     distance = np.sqrt(np.maximum(squares.min(axis=1), 0)).reshape(under.shape)
     away = cv2.distanceTransform((~under).astype(np.uint8), cv2.DIST_L2, 3)
-    tolerance = TOLERANCE * np.clip(1 - away / (REACH * max(under.shape)), 0, 1)
+    rows, columns = np.nonzero(under)
+    extent = math.hypot(np.ptp(rows) + 1, np.ptp(columns) + 1)
+    tolerance = TOLERANCE * np.clip(1 - away / min(1.5 * extent, REACH * max(under.shape)), 0, 1)
     like = ((distance < tolerance) & candidates) | under
     _, labels = cv2.connectedComponents(like.astype(np.uint8), connectivity=8)
     keep = np.unique(labels[under])
