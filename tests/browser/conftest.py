@@ -1,4 +1,4 @@
-"""A browser for the session, an analysed sample, and a folder for screenshots."""
+"""A browser, an analysed sample, and a folder for screenshots."""
 
 import sys
 from pathlib import Path
@@ -12,7 +12,9 @@ from chromium import chromium, open_page
 import sunwidget as sw
 
 
-@pytest.fixture(scope="session")
+# Not for the session: while Playwright's loop runs, no other test of this process can start
+# one, nor use asyncio as the notebook tests do.
+@pytest.fixture(scope="module")
 def browser():
     with chromium() as instance:
         yield instance
