@@ -38,13 +38,68 @@ def fill_islands(
     trust = np.bincount(labels.ravel(), coarse.ravel(), minlength=count) / np.maximum(area, 1)
     island = (trust > 0.5) & (area < 0.02 * sky.size)
     island[0] = False
-    for stroke in strokes:
-        if stroke.label == "not_sky":
-            for x, y in stroke.points:
-                column = min(max(int(x * width), 0), width - 1)
-                row = min(max(int(y * height), 0), height - 1)
-                island[labels[row, column]] = False
+    island[_painted(labels, strokes)] = False
     mask = island[labels].astype(np.uint8)
     grown = cv2.dilate(mask, np.ones((5, 5), np.uint8)).astype(np.float32)
     # The rim is soft where sky meets it, and does not creep over real land.
     return np.asarray(cv2.GaussianBlur(grown, (0, 0), 1.0) * (mask | (sky >= 0.7)), np.float32)
+
+
+def grow_over_glow(
+    sky: np.ndarray,
+    coarse: np.ndarray,
+    encoded: np.ndarray,
+    strokes: tuple[Stroke, ...] = (),
+) -> np.ndarray:
+    """Return how much to add where the matte ends in the middle of nothing.
+
+    A skyline has an edge under it. Where sky runs on into "land" without one, over bright pixels
+    that the network is not sure of (the glow round a low sun), it goes on to the next edge.
+
+    Parameters
+    ----------
+    sky, coarse : (h, w) float32
+        The refined matte and the network's map at one size.
+    encoded : (h, w, 3) float32
+        The photo, sRGB-encoded.
+    strokes : tuple of Stroke
+        What lies under a not-sky stroke stays.
+
+    Returns
+    -------
+    (h, w) float32
+        New lower bound of the matte, 0 where nothing changes.
+    """
+    import cv2
+
+    smooth = cv2.GaussianBlur(encoded, (0, 0), 1.0)
+    across = cv2.Sobel(smooth, cv2.CV_32F, 1, 0, ksize=3) / 8
+    down = cv2.Sobel(smooth, cv2.CV_32F, 0, 1, ksize=3) / 8
+    slope = np.sqrt((across**2 + down**2).sum(-1))
+    gentle = slope < 4.0 / max(sky.shape)
+    doubtful = (sky < 0.5) & (coarse > 0.04) & gentle & (encoded.mean(-1) > 0.4)
+    count, labels = cv2.connectedComponents(doubtful.astype(np.uint8), connectivity=4)
+    if count < 2:
+        return np.zeros_like(sky)
+    # Open to the sky: much of the component's rim lies on the matte's own end.
+    rim = cv2.dilate((sky >= 0.5).astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+    area = np.bincount(labels.ravel(), minlength=count)
+    contact = np.bincount(labels[rim & doubtful], minlength=count)
+    chosen = (contact > 1.2 * np.sqrt(area)) & (area > 1e-4 * sky.size)
+    chosen[0] = False
+    chosen[_painted(labels, strokes)] = False
+    mask = chosen[labels].astype(np.uint8)
+    closed = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((5, 5), np.uint8))
+    return cv2.GaussianBlur(closed.astype(np.float32), (0, 0), 1.0) * (closed > 0)
+
+
+def _painted(labels: np.ndarray, strokes: tuple[Stroke, ...]) -> list[int]:
+    """Labels under the points of not-sky strokes."""
+    height, width = labels.shape
+    points = [
+        (min(max(int(y * height), 0), height - 1), min(max(int(x * width), 0), width - 1))
+        for stroke in strokes
+        if stroke.label == "not_sky"
+        for x, y in stroke.points
+    ]
+    return [int(labels[point]) for point in points]
