@@ -374,7 +374,7 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
     if kept is None:
         found = seed or sun_stage.find(working, sky, focal)
     else:
-        found = kept.sun and (kept.sun.x / zoom_x, kept.sun.y / zoom_y)
+        found = None if kept.sun is None else (kept.sun.x / zoom_x, kept.sun.y / zoom_y)
     blot = None
     if found and 0 <= found[0] < working.width and 0 <= found[1] < working.height:
         grow = sun_stage.METHODS[hints.method("sun")]
@@ -476,6 +476,8 @@ def _kept(base: Scene, hints: Hints, matte: np.ndarray) -> Scene | None:
         return None
     if dataclasses.replace(hints, strokes=base.hints.strokes) != base.hints:
         return None
+    if base.horizon.confidence >= SURE_HORIZON:  # as a hint's is, too
+        matte = matte * horizon_stage.above(base.camera, *base.photo.size)
     much = float(np.mean(np.abs(matte - base.sky))) > 0.05
     return None if much or float(np.mean(base.sky > 0.5)) < NO_SKY else base
 
