@@ -11,6 +11,8 @@ compare the equations alone) or marched here from the scene (``sky="model"``).
 
 from __future__ import annotations
 
+import re
+
 import cv2
 import numpy as np
 
@@ -23,10 +25,12 @@ from sunwidget.atmosphere.sky import SkyTable
 from sunwidget.atmosphere.sun import disc_radiance
 from sunwidget.edit import Edit
 from sunwidget.renderer import render_pass
+from sunwidget.renderer.shader_source import read_shader
 from sunwidget.renderer.values import parameter_values
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 DISC_RADIUS = 0.2665
+SKY_SHARE = float(re.search(r"SKY_SHARE = ([\d.]+)", read_shader("lib/sky.glsl")).group(1))
 _AIR = (
     "aerosol_optical_depth",
     "angstrom_exponent",
@@ -192,7 +196,7 @@ def look_up(view, azimuth, elevation):
     sun, g = described[0, :3], described[0, 3]
     horizon = described[3, 0]
     rows, columns = table.shape[:2]
-    above = int(rows * 0.75)
+    above = int(rows * SKY_SHARE)
     el, az = np.radians(elevation), np.radians(azimuth)
     direction = np.stack([np.cos(el) * np.sin(az), np.sin(el), np.cos(el) * np.cos(az)], -1)
     turn = np.abs(az - np.arctan2(sun[0], sun[2]))
