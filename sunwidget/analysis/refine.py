@@ -66,6 +66,10 @@ def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
         return _decision(sky, coarse)
     cutout = sky.astype(np.float32)
     evidence = coarse
+    # A network that is not sure of its own sky (a white wall indoors: 0.6 to 0.7 on average,
+    # skies 0.8 and more) must not be spread by colour.
+    trust = float(coarse[coarse > 0.5].mean()) if (coarse > 0.5).any() else 0.0
+    weight = 0.8 * min(max((trust - 0.65) / 0.1, 0.0), 1.0)
     # The second round learns from what the first one found, and is the one at working size.
     rounds = (shrink(working.guide, SIDE), 0.4), (working.guide, 0.1)
     for guide, doubt in rounds:
@@ -74,7 +78,7 @@ def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
         cutout = resize(cutout, width, height)
         colours = local_evidence(guide, cutout > 0.5, certain, doubt)
         evidence = np.log(certain / (1 - certain)) + 0.4 * (2 * cutout - 1)
-        evidence += 0.8 * np.clip(colours, -6, 6)
+        evidence += weight * np.clip(colours, -6, 6)
         cutout = (evidence > 0).astype(np.float32)
     sureness = np.clip(np.abs(evidence) / 4, 0.02, 1)
     return Decision(cutout, sureness.astype(np.float32))
