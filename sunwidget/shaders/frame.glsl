@@ -13,8 +13,7 @@ uniform sampler2D surface;
 uniform sampler2D sky_source;
 uniform sampler2D sky_edit;
 uniform sampler2D sky_behind;
-uniform sampler2D mirror_source;
-uniform sampler2D mirror_edit;
+uniform sampler2D mirror_ratio;
 uniform sampler2D disc;
 uniform sampler2D terms;
 
@@ -91,17 +90,11 @@ void main() {
   vec3 lit_now = mix(GetTerm(3), GetTerm(4), upright);
   vec3 land_ratio = GetRatio(lit_now, lit_before);
   // What exceeds white paint in this light is a mirror image of the sky and the sun (water, wet
-  // road, glass): that part follows what it mirrors, the rest is lit as land. A clipped glint
-  // does not say how bright it was: let it fade freely, but hardly grow.
+  // road, glass): that part follows what it mirrors (mirror_ratio.glsl), the rest is lit as land.
   float glitter = marks.b;
   float white = (1.0 - 0.6 * glitter) * GetLuminance(lit_before) / 3.14159265;
   float mirror = max(1.0 - min(white / max(GetLuminance(scene), 1e-6), 1.0), marks.g);
-  vec4 mirror_before = ReadBilinear(mirror_source, place);
-  vec4 mirror_now = ReadBilinear(mirror_edit, place);
-  // The sun itself is mirrored where the photo glitters, the sky elsewhere.
-  vec3 mirrored = GetRatio(mirror_now.rgb + glitter * mirror_now.a * GetTerm(14),
-                           mirror_before.rgb + glitter * mirror_before.a * GetTerm(13));
-  land_ratio += mirror * (min(mirrored, vec3(2.0)) - land_ratio);
+  land_ratio += mirror * (ReadBilinear(mirror_ratio, place).rgb - land_ratio);
   vec3 land = scene * land_ratio;
   land += general.z * (vec3(GetLuminance(land)) - land);
   vec3 land_out = scene + land_strength * (gain * land - scene);
