@@ -68,7 +68,11 @@ def test_more_haze_runs_the_edits_air_and_no_source(passes_run_by):
 @pytest.mark.parametrize("name", ["exposure", "auto_exposure", "colourfulness"])
 def test_exposure_runs_the_terms_and_the_frame_only(passes_run_by, name):
     passes_run_by(Edit(sun_elevation=5, **{name: 0.25}))
-    assert passes_run_by(Edit(sun_elevation=5, **{name: 0.75})) == {"terms", "mirror_ratio", "frame"}
+    assert passes_run_by(Edit(sun_elevation=5, **{name: 0.75})) == {
+        "terms",
+        "mirror_ratio",
+        "frame",
+    }
 
 
 @pytest.mark.parametrize(
