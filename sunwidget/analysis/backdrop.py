@@ -70,10 +70,12 @@ def behind_sun(
     angle = _angle_to_sun(camera, size, fit.sun)
     scene_light = fit.response.scene_light(display)
     clipped = _smoothstep(0.90, 0.97, display.max(-1))
+    clear = _clear_sky(fit, camera, size)
     if visible:
-        residual = _log_residual(scene_light, matched_sky(fit, camera, size)) @ LUMINANCE
+        # Against the sky without glare, also when ``fit`` has been here before and has some.
+        residual = _log_residual(scene_light, clear) @ LUMINANCE
         fit = with_glare(fit, residual, angle, (matte > 0.95) & (clipped < 0.3))
-    model = matched_sky(fit, camera, size)
+    model = _through_glare(clear, fit, camera)
     log_residual = _log_residual(scene_light, model)
     glare = _glare(log_residual @ LUMINANCE, clipped, matte, angle) if visible else 0 * matte
     weight = (matte > 0.98) * (1 - clipped) * np.square(1 - glare)
@@ -90,10 +92,12 @@ def behind_sun(
 
 
 def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
-    """Return the fitted sky with the camera's glare at ``size`` (w, h): (h, w, 3) scene-linear.
+    """Return the fitted sky with the camera's glare at ``size`` (w, h): (h, w, 3) scene-linear."""
+    return _through_glare(_clear_sky(fit, camera, size), fit, camera)
 
-    Marched on a coarser grid: without its disc the sky's logarithm is smooth.
-    """
+
+def _clear_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+    """March the fitted sky on a coarser grid: without its disc the sky's logarithm is smooth."""
     import cv2
 
     scale = min(1.0, _MODEL_SIDE / max(size))
@@ -101,11 +105,16 @@ def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarra
     azimuth, elevation = view_angles(camera, *coarse)
     logs = np.log(fit.model(azimuth, np.maximum(elevation, 0.2))).astype(np.float32)
     model = np.exp(cv2.resize(logs, size, interpolation=cv2.INTER_LINEAR))
-    height, width, power = fit.glare
-    if height > 0:
-        angle = _angle_to_sun(camera, size, fit.sun)
-        model = model * (1 + height * (1 + (angle / width) ** 2) ** -power)[..., None]
     return model.reshape(size[1], size[0], 3).astype(np.float32)
+
+
+def _through_glare(clear: np.ndarray, fit: SkyFit, camera: Camera) -> np.ndarray:
+    height, width, power = fit.glare
+    if height <= 0:
+        return clear
+    angle = _angle_to_sun(camera, (clear.shape[1], clear.shape[0]), fit.sun)
+    veil = 1 + height * (1 + (angle / width) ** 2) ** -power
+    return (clear * veil[..., None]).astype(np.float32)
 
 
 def _log_residual(scene_light: np.ndarray, model: np.ndarray) -> np.ndarray:

@@ -29,7 +29,6 @@ def fill_islands(
     """
     import cv2
 
-    height, width = sky.shape
     land = (sky < 0.7).astype(np.uint8)
     count, labels = cv2.connectedComponents(land, connectivity=8)
     if count < 2:

@@ -409,15 +409,15 @@ def _complete(base: Scene, hints: Hints, step: _Steps | None) -> Scene:
     step("fit", 0.82, "Fitting the atmosphere")
     sun_angles = None if sun is None else (sun.azimuth, sun.elevation)
     visible = sun is not None and sun.visible
-    assumed = sun_stage.assume(working, sky, camera)
     if kept is not None and kept.fitted is not None:
         fitted = kept.fitted
     else:
+        assumed = sun_angles or sun_stage.assume(working, sky, camera)
         fitted = fit_sky(working, sky, cover.opacity, camera, sun_angles, assumed)
-    if hints.method("clouds") == "unmix" and kept is None:
-        # The colour of the clear sky tells the clouds, and without them it is known better.
-        opacity = cloud_stage.veil(working, sky, camera, fitted)
-        fitted = fit_sky(working, sky, opacity, camera, fitted.sun, assumed)
+        if hints.method("clouds") == "unmix":
+            # The colour of the clear sky tells the clouds, and without them it is known better.
+            opacity = cloud_stage.veil(working, sky, camera, fitted)
+            fitted = fit_sky(working, sky, opacity, camera, fitted.sun, assumed)
     fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
     if hints.method("clouds") == "unmix":
         opacity = cloud_stage.veil(working, sky, camera, fitted)

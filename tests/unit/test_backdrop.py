@@ -14,8 +14,10 @@ from sunwidget.analysis.backdrop import (
     matched_sky,
 )
 from sunwidget.analysis.fit import SkyFit
-from sunwidget.analysis.working import Working
+from sunwidget.analysis.scene import analyze
+from sunwidget.analysis.working import Working, resize
 from sunwidget.photo import open_photo
+from sunwidget.samples import sample
 
 ROWS, COLUMNS = np.mgrid[:60, :90]
 
@@ -131,3 +133,13 @@ def test_the_matched_sky_has_the_size_asked_for_and_the_glare_of_the_fit():
     x, y = (v / 2 for v in photo.camera.pixel(*photo.sun))
     assert 2 < (veiled / plain)[int(y), int(x), 1] <= 3
     assert (veiled / plain)[0, 0, 1] < 1.1
+
+
+def test_measuring_the_glare_again_finds_the_same_glare():
+    # A stroke that keeps the fit comes here with a fit that already has its glare.
+    scene = analyze(sample("coast"))
+    sky = resize(scene.sky, scene.working.width, scene.working.height)
+    assert scene.fitted.glare[0] > 0.5
+    again, _ = behind_sun(scene.working, sky, scene.camera, scene.fitted, visible=True)
+    # The matte of ``sky`` went through the full size and back.
+    assert again.glare == pytest.approx(scene.fitted.glare, rel=0.02)
