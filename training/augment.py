@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 
 from training.buildings import street
+from training.rooms import Rooms
 from training.synthetic import draw_thin_things, gradient_sky, room
 
 Random = np.random.Generator
@@ -198,12 +199,16 @@ def photometric(image: np.ndarray, target: np.ndarray, random: Random) -> np.nda
     return out
 
 
-def augment(photo: np.ndarray, size: int, random: Random, sky: Source, other: Source) -> Sample:
+def augment(
+    photo: np.ndarray, size: int, random: Random, sky: Source, other: Source, rooms: Rooms
+) -> Sample:
     """One ``(H, W, 4)`` uint8 photo -> one square training sample."""
     draw = random.random()
-    if draw < 0.14:
-        if draw < 0.08:
-            image, target = room(size, random, other), np.zeros((size, size), np.uint8)
+    if draw < 0.15:
+        if draw < 0.09:
+            real = rooms and random.random() < 0.75
+            image = rooms.view(size, random) if real else room(size, random, other)
+            target = np.zeros((size, size), np.uint8)
         else:
             image, target = street(other_sky(size, random, sky, other), random, other)
         return Sample(photometric(image, target, random), target, np.full_like(target, 255))

@@ -18,6 +18,7 @@ import torch
 from torch.utils.data import IterableDataset, get_worker_info
 
 from training.augment import Sample, augment, crop
+from training.rooms import Rooms
 
 FOLDERS = {
     "landscape-pseudo": 1.0,
@@ -122,15 +123,18 @@ class Batches(IterableDataset):
     Image ``(N, 3, S, S)``, target and loss weight ``(N, 1, S, S)``.
     """
 
-    def __init__(self, root: Path, cache: Path, size: int, batch: int, seed: int) -> None:
-        self.root, self.cache, self.size, self.batch, self.seed = root, cache, size, batch, seed
+    def __init__(
+        self, root: Path, cache: Path, rooms: Path | None, size: int, batch: int, seed: int
+    ) -> None:
+        self.root, self.cache, self.rooms = root, cache, rooms
+        self.size, self.batch, self.seed = size, batch, seed
 
     def __iter__(self) -> Iterator[tuple[torch.Tensor, torch.Tensor, torch.Tensor]]:
         cv2.setNumThreads(0)
         torch.set_num_threads(1)
         worker = get_worker_info()
         random = np.random.default_rng((self.seed, self.size, worker.id if worker else 0))
-        pack = Pack(self.root, self.cache)
+        pack, rooms = Pack(self.root, self.cache), Rooms(self.rooms)
         pairs, textures = pack.select(training=True), pack.textures()
         weight = np.array([FOLDERS[str(f)] for f in pack.folder[pairs]])
         weight /= weight.sum()
@@ -143,7 +147,7 @@ class Batches(IterableDataset):
 
         while True:
             yield stack(
-                [augment(photo(), self.size, random, sky, photo) for _ in range(self.batch)]
+                [augment(photo(), self.size, random, sky, photo, rooms) for _ in range(self.batch)]
             )
 
 

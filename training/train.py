@@ -7,7 +7,8 @@ The learning rate follows elapsed time, so that a slower machine gets fewer step
 unfinished schedule. Two processes of one thread average their gradients: on busy cores that is
 three times faster than one process of two threads, which spin while they wait for each other.
 Running it again with the same ``--out`` resumes. What is validated and exported is an exponential
-moving average of the weights.
+moving average of the weights. ``--start sunwidget/analysis/models/sky.onnx`` goes on from a shipped
+file, at half the learning rate and without the smallest squares.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from torch.utils.data import DataLoader
 
 from training.data import Batches, Pack, typical, validation
 from training.model import SkyNet
+from training.restore import restore
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,10 @@ class Stage:
 
 
 STAGES = (Stage(0.5, 128, 32), Stage(0.86, 192, 20), Stage(1.01, 384, 6))
+STAGES_ON = (Stage(0.55, 192, 24), Stage(0.85, 256, 14), Stage(1.01, 384, 7))
+"""The schedule of a training that goes on from a shipped file."""
 PEAK_RATE = 2e-3
+PEAK_RATE_ON = 1e-3
 WARM_UP = 0.02
 CHECK_SECONDS = 540
 FULL_SIZE = 384
@@ -65,11 +70,11 @@ class Average:
                 self.state[key].copy_(value)
 
 
-def rate(share: float) -> float:
+def rate(share: float, peak: float) -> float:
     """Learning rate at a share of the time in [0, 1]: linear warm-up, then linearly down to 1 %."""
     if share < WARM_UP:
-        return PEAK_RATE * max(share / WARM_UP, 0.02)
-    return PEAK_RATE * max(0.01, (1 - share) / (1 - WARM_UP))
+        return peak * max(share / WARM_UP, 0.02)
+    return peak * max(0.01, (1 - share) / (1 - WARM_UP))
 
 
 def loss_function(logits: Tensor, coarse: Tensor, target: Tensor, weight: Tensor) -> Tensor:
@@ -100,8 +105,7 @@ def validate(network: SkyNet, batches: list[tuple[Tensor, ...]]) -> tuple[float,
     network.eval()
     shared = union = wrong = total = 0.0
     for image, target, weight in batches:
-        with torch.autocast("cpu", torch.bfloat16):
-            logits = network(prepare(image))
+        logits = network(prepare(image))
         sky, truth, known = logits > 0, target > 127, weight > 0
         shared += (sky & truth & known).sum().item()
         union += ((sky | truth) & known).sum().item()
@@ -123,8 +127,7 @@ def recalibrate(network: SkyNet, batches: list[tuple[Tensor, ...]]) -> None:
         layer.momentum = None  # plain mean over the batches
     network.train()
     for image, *_ in batches:
-        with torch.autocast("cpu", torch.bfloat16):
-            network(prepare(image))
+        network(prepare(image))
 
 
 def prepare(image: Tensor) -> Tensor:
@@ -135,7 +138,7 @@ def prepare(image: Tensor) -> Tensor:
 def loader(
     options: argparse.Namespace, stage: Stage, seed: int
 ) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
-    batches = Batches(options.data, options.cache, stage.size, stage.batch, seed)
+    batches = Batches(options.data, options.cache, options.rooms, stage.size, stage.batch, seed)
     return iter(
         DataLoader(
             batches,
@@ -186,8 +189,13 @@ class Training:
         self.average, self.optimise = Average(self.network), optimiser(self.network)
         self.spent, self.step, self.losses = 0.0, 0, []
         self.checkpoint = options.out / "last.pt"
+        on = options.start is not None
+        self.stages, self.peak = (STAGES_ON, PEAK_RATE_ON) if on else (STAGES, PEAK_RATE)
         if self.checkpoint.exists():
             self.resume()
+        elif on:
+            restore(self.network, options.start, typical(options.data, options.cache, 192, 96))
+            self.average = Average(self.network)
 
     def resume(self) -> None:
         state = torch.load(self.checkpoint, weights_only=True)
@@ -202,11 +210,11 @@ class Training:
         before, limit = self.spent, self.options.minutes * 60
         stage = None
         while (share := self.spent / limit) < 1:
-            now = next(s for s in STAGES if share < s.until)
+            now = next(s for s in self.stages if share < s.until)
             if now is not stage:
                 seed = self.options.seed + 1000 * self.rank + self.step
                 stage, batches = now, loader(self.options, now, seed)
-            self.learn(*next(batches), rate(share))
+            self.learn(*next(batches), rate(share, self.peak))
             self.spent = agree(before + time.monotonic() - start)
             if self.rank:
                 continue
@@ -214,7 +222,7 @@ class Training:
                 recent = np.mean(self.losses[-100:])
                 print(f"step {self.step} {self.spent / 60:.1f} min loss {recent:.4f}", flush=True)
             if time.monotonic() - checked > CHECK_SECONDS:
-                self.check(stage.size, rate(share))
+                self.check(stage.size, rate(share, self.peak))
                 checked = time.monotonic()
         if self.rank == 0:
             self.finish()
@@ -224,7 +232,7 @@ class Training:
         for group in self.optimise.param_groups:
             group["lr"] = learning_rate
         self.network.train()
-        with torch.autocast("cpu", torch.bfloat16):
+        with torch.autocast("cpu", torch.bfloat16, enabled=self.options.bfloat16):
             logits, coarse = self.network.features(prepare(image))
         truth, importance = target.float() / 255, weight.float() / 85
         loss = loss_function(logits.float(), coarse.float(), truth, importance)
@@ -244,7 +252,7 @@ class Training:
         judge.load_state_dict(self.average.state)
         recalibrate(judge, typical(self.options.data, self.options.cache, FULL_SIZE, 300))
         self.average.state = judge.state_dict()
-        self.check(FULL_SIZE, rate(1))
+        self.check(FULL_SIZE, rate(1, self.peak))
 
     def check(self, size: int, learning_rate: float) -> None:
         """Measures the averaged weights on the held-out photos, logs, saves."""
@@ -302,6 +310,9 @@ def main() -> None:
     add("--cache", type=Path, help="packed photos (default: OUT/cache)")
     add("--minutes", type=float, default=100)
     add("--seed", type=int, default=1)
+    add("--start", type=Path, help="a shipped sky.onnx whose weights to go on from")
+    add("--rooms", type=Path, help="folder of interior panoramas (*.hdr, see rooms.py)")
+    add("--bfloat16", action="store_true", help="for CPUs with matrix units; slow elsewhere")
     add("--processes", type=int, default=2, help="that train together, one core each")
     options = parser.parse_args()
     options.cache = options.cache or options.out / "cache"
