@@ -11,28 +11,28 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from PIL import Image
+from sunwidget.analysis.maps import MAPS, levels, shares_of
 
+if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
 
-MAPS = ("sky", "sky_coarse", "clouds", "cloud_softness")
-FACTS = ("camera", "horizon", "sun", "atmosphere", "automatic", "warnings")
+FACTS = ("camera", "horizon", "sun", "atmosphere", "automatic", "warnings", "timings")
 
 
 def save_maps(
     scene: Scene, folder: str | os.PathLike[str], *, overwrite: bool = False
 ) -> list[Path]:
-    """Write every map of ``scene`` as an 8-bit PNG, an overview, and ``scene.json``.
+    """Write every map of ``scene`` as a grey PNG, an overview, and ``scene.json``.
 
     Parameters
     ----------
     scene : Scene
         What ``analyze`` returned.
     folder : path
-        Made when missing. Gets ``sky.png``, ``sky_coarse.png``, ``clouds.png``,
-        ``cloud_softness.png``, ``sun.png`` when a sun was found, ``overview.png`` (the
-        photo with horizon, sun and matte drawn in) and ``scene.json``.
+        Made when missing. Gets a PNG at the photo's size for every entry of
+        ``analysis.maps.MAPS`` that this scene has (8 bits; depth has 16), ``overview.png`` (all
+        of them small, in colours, with legends) and ``scene.json`` (what was found in numbers,
+        the seconds of every stage, and how each file's levels become values).
     overwrite : bool
         Replace existing files.
 
@@ -48,11 +48,15 @@ def save_maps(
     """
     from PIL import Image
 
+    from sunwidget.export.overview import overview
+
     folder = Path(folder)
-    pictures = {name: getattr(scene, name) for name in MAPS}
-    if scene.sun is not None and scene.sun.mask is not None:
-        pictures["sun"] = scene.sun.mask
-    images = {name: Image.fromarray(_levels(m)) for name, m in pictures.items()}
+    images = {}
+    for entry in MAPS:
+        shares = shares_of(scene, entry, scene.photo.size)
+        if shares is not None:
+            images[entry.name] = Image.fromarray(levels(shares, entry.bits))
+    made = list(images)
     images["overview"] = overview(scene)
     paths = [folder / f"{name}.png" for name in images] + [folder / "scene.json"]
     for path in paths:
@@ -61,45 +65,30 @@ def save_maps(
     folder.mkdir(parents=True, exist_ok=True)
     for path, image in zip(paths, images.values(), strict=False):
         image.save(path)
-    paths[-1].write_text(json.dumps(facts(scene), indent=2, allow_nan=False) + "\n", "utf-8")
+    text = json.dumps(facts(scene, made), indent=2, allow_nan=False, ensure_ascii=False)
+    paths[-1].write_text(text + "\n", "utf-8")
     return paths
 
 
-def facts(scene: Scene) -> dict[str, Any]:
-    """Return what the analysis found besides maps, as plain JSON types."""
-    return {name: _plain(getattr(scene, name)) for name in FACTS}
+def facts(scene: Scene, made: list[str] | None = None) -> dict[str, Any]:
+    """Return what the analysis found besides maps, as plain JSON types.
 
-
-def overview(scene: Scene) -> Image.Image:
-    """Return the photo, at most 1536 pixels a side, with the findings drawn in.
-
-    The sky's matte is tinted blue, the horizon is a red line, the sun a yellow ring.
+    ``made`` names the maps to describe: file, title, unit, and the value of a level.
     """
-    from PIL import Image, ImageDraw
-
-    photo = scene.photo.preview(long_edge=1536)
-    height, width = photo.shape[:2]
-    scale = width / scene.camera.width
-    sky = Image.fromarray(_levels(scene.sky)).resize((width, height))
-    weight = np.asarray(sky, np.float32)[..., None] / 255 * 0.35
-    tinted = photo * (1 - weight) + np.array([40, 110, 255], np.float32) * weight
-    image = Image.fromarray(tinted.astype(np.uint8))
-    draw = ImageDraw.Draw(image)
-    stroke = max(2, round(width / 500))
-    if scene.horizon is not None:
-        rise = math.tan(math.radians(scene.horizon.roll)) * width / 2
-        row = scene.horizon.row * scale
-        draw.line([(0, row - rise), (width, row + rise)], fill=(255, 60, 40), width=stroke)
-    if scene.sun is not None:
-        x, y = scene.sun.x * scale, scene.sun.y * scale
-        ring = max(scene.sun.radius_px * scale * 1.5, width / 60)
-        draw.ellipse((x - ring, y - ring, x + ring, y + ring), outline=(255, 220, 0), width=stroke)
-    return image
-
-
-def _levels(mask: np.ndarray) -> np.ndarray:
-    """Return a map in [0, 1], or a mask of booleans, as 8-bit grey."""
-    return (np.clip(np.asarray(mask, np.float32), 0, 1) * 255 + 0.5).astype(np.uint8)
+    found = {"photo": {"name": scene.photo.name, "width": scene.width, "height": scene.height}}
+    found |= {name: _plain(getattr(scene, name)) for name in FACTS}
+    found["maps"] = {
+        entry.name: {
+            "file": f"{entry.name}.png",
+            "title": entry.title,
+            "unit": entry.unit,
+            "value": entry.formula(),
+            "help": entry.help,
+        }
+        for entry in MAPS
+        if made is not None and entry.name in made
+    }
+    return found
 
 
 def _plain(value: Any) -> Any:

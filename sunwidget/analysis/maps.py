@@ -1,0 +1,278 @@
+"""The maps of a scene that a person can look at: one table for files and for the editor.
+
+A new map is one entry of ``MAPS``. ``sunwidget analyze -o`` writes it, the overview shows it
+and the editor's inspector offers it, with the colours and the legend given here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+
+Ramp = tuple[tuple[float, str], ...]
+
+# Stops (position 0–1, #rrggbbaa) with straight lines between. Where a map says "nothing here"
+# its ramp is transparent, so that the photo shows through.
+MATTE: Ramp = (
+    (0.0, "#ffb02000"),
+    (0.08, "#ffb020c8"),
+    (0.5, "#ff4fa3d8"),
+    (0.92, "#4a78ffc8"),
+    (1.0, "#2f8cffb8"),
+)
+HEAT: Ramp = (
+    (0.0, "#1b0c4100"),
+    (0.12, "#3b0f70b0"),
+    (0.4, "#a52c7ad8"),
+    (0.7, "#fb7d5ee8"),
+    (1.0, "#fcfdbff0"),
+)
+DOUBT: Ramp = ((0.0, "#ff2f6df0"), (0.4, "#ffa52ce0"), (0.75, "#ffe66aa0"), (1.0, "#3fd0a040"))
+PATCH: Ramp = ((0.0, "#ffe14a00"), (0.5, "#ffc21ad0"), (1.0, "#ff3b30f0"))
+WATER: Ramp = ((0.0, "#00c2d100"), (0.5, "#00c2d1b0"), (1.0, "#006dffd8"))
+ELEVATION: Ramp = (
+    (0.0, "#5a2d0cd8"),
+    (0.35, "#c9813ab0"),
+    (0.496, "#f6e3c380"),
+    (0.5, "#ffffffff"),
+    (0.504, "#d5ecff80"),
+    (0.65, "#4c9be8b0"),
+    (1.0, "#0a2f7ad8"),
+)
+DISTANCE: Ramp = (
+    (0.0, "#fde725d8"),
+    (0.25, "#5ec962d8"),
+    (0.5, "#21918cd8"),
+    (0.75, "#3b528bd8"),
+    (0.98, "#440154d8"),
+    (1.0, "#44015400"),
+)
+
+
+class SceneMap(NamedTuple):
+    """One inspectable map.
+
+    Parameters
+    ----------
+    name : str
+        Stem of its file, and what the browser asks for.
+    title : str
+    read : callable
+        ``read(scene)`` gives an (H, W) array, or None when this scene has none; smaller
+        arrays stand for the whole picture.
+    help : str
+        What high and low values mean.
+    ramp : tuple of (position, "#rrggbbaa")
+        Its colours.
+    low, high : float
+        Values of the first and the last level; what lies outside takes the nearest.
+    unit : str
+    scale : {"linear", "log"}
+        How levels between them are spread, see ``value``.
+    bits : {8, 16}
+        Depth of its file.
+    """
+
+    name: str
+    title: str
+    read: Callable[[Scene], np.ndarray | None]
+    help: str
+    ramp: Ramp
+    low: float = 0.0
+    high: float = 1.0
+    unit: str = ""
+    scale: str = "linear"
+    bits: int = 8
+
+    def share(self, values: np.ndarray) -> np.ndarray:
+        """Return where values lie between low (0) and high (1), (H, W) float32."""
+        values = np.asarray(values, np.float32)
+        if self.scale == "log":
+            values = np.log(np.maximum(values, self.low) / self.low)
+            span = float(np.log(self.high / self.low))
+        else:
+            values = values - np.float32(self.low)
+            span = self.high - self.low
+        return np.asarray(np.clip(values / np.float32(span), 0, 1), np.float32)
+
+    def value(self, share: Any) -> np.ndarray:
+        """Return the values of shares, level / (2**bits - 1): the inverse of ``share``."""
+        share = np.asarray(share, np.float64)
+        if self.scale == "log":
+            return np.asarray(self.low * (self.high / self.low) ** share)
+        return self.low + (self.high - self.low) * share
+
+    def formula(self) -> str:
+        """Say how a file's level becomes a value."""
+        top = 2**self.bits - 1
+        if self.scale == "log":
+            return f"{self.low:g} * {self.high / self.low:g} ** (level / {top}) {self.unit}".strip()
+        span = self.high - self.low
+        start = f"{self.low:g} + " if self.low else ""
+        factor = f"{span:g} * " if span != 1 else ""
+        return f"{start}{factor}level / {top} {self.unit}".strip()
+
+
+def levels(shares: np.ndarray, bits: int = 8) -> np.ndarray:
+    """Return shares as whole levels: uint8, or uint16 for 16 bits."""
+    top = 2**bits - 1
+    return np.round(shares * top).astype(np.uint8 if bits == 8 else np.uint16)
+
+
+def shares_of(scene: Scene, entry: SceneMap, size: tuple[int, int]) -> np.ndarray | None:
+    """Return a map's shares (see ``SceneMap.share``) at a size, (height, width) float32.
+
+    Parameters
+    ----------
+    size : (width, height)
+
+    Returns
+    -------
+    ndarray or None
+        None when this scene has no such map.
+    """
+    import cv2
+
+    values = entry.read(scene)
+    if values is None or not values.size:
+        return None
+    shares = entry.share(values)
+    if shares.shape[::-1] == size:
+        return shares
+    smaller = size[0] < shares.shape[1]
+    way = cv2.INTER_AREA if smaller else cv2.INTER_LINEAR
+    return np.asarray(cv2.resize(shares, size, interpolation=way))
+
+
+def ramp_colours(ramp: Ramp, count: int = 256) -> np.ndarray:
+    """Return a ramp as a table of colours, (count, 4) float32 in [0, 1], alpha last."""
+    at = np.linspace(0, 1, count)
+    positions = [position for position, _ in ramp]
+    stops = np.array([list(bytes.fromhex(colour[1:])) for _, colour in ramp], np.float64) / 255
+    channels = [np.interp(at, positions, stops[:, i]) for i in range(4)]
+    return np.stack(channels, axis=-1).astype(np.float32)
+
+
+def _elevation(scene: Scene) -> np.ndarray:
+    # As fine as the browser shows it; a smooth map loses nothing by it.
+    camera = scene.camera
+    scale = min(1.0, 1024 / max(camera.width, camera.height))
+    width, height = (max(1, round(n * scale)) for n in (camera.width, camera.height))
+    x = (np.arange(width) + 0.5) * camera.width / width
+    y = (np.arange(height) + 0.5) * camera.height / height
+    return np.asarray(camera.angles(x[None], y[:, None])[1], np.float32)
+
+
+def _sun(scene: Scene) -> np.ndarray | None:
+    if scene.sun is None or not scene.sun.visible:
+        return None
+    return scene.sun.mask
+
+
+MAPS: tuple[SceneMap, ...] = (
+    SceneMap(
+        "sky_coarse",
+        "Sky, network",
+        lambda scene: scene.sky_coarse,
+        "How likely the network calls a pixel sky, before refinement.",
+        MATTE,
+    ),
+    SceneMap(
+        "sky",
+        "Sky matte",
+        lambda scene: scene.sky,
+        "Share of sky in a pixel, clouds and sun included: 1 is sky, 0 is land.",
+        MATTE,
+    ),
+    SceneMap(
+        "sureness",
+        "Sureness",
+        lambda scene: getattr(scene, "sureness", None),
+        "How sure sky or land is. Where it is low, a brush stroke helps most.",
+        DOUBT,
+    ),
+    SceneMap(
+        "clouds",
+        "Cloud opacity",
+        lambda scene: scene.clouds,
+        "How much of the clear sky a cloud hides: 1 lets nothing through.",
+        HEAT,
+    ),
+    SceneMap(
+        "cloud_softness",
+        "Cloud softness C^s",
+        lambda scene: scene.cloud_softness,
+        "The thesis' C^s: whiteness between m_min (0) and m_max (1).",
+        HEAT,
+    ),
+    SceneMap(
+        "cloud_shade",
+        "Cloud self-shade",
+        lambda scene: getattr(scene, "cloud_shade", None),
+        "Brightness of the cloud against white: low in its own shade.",
+        HEAT,
+    ),
+    SceneMap(
+        "sun",
+        "Sun mask",
+        _sun,
+        "Pixels that belong to the photo's own sun.",
+        PATCH,
+    ),
+    SceneMap(
+        "glare",
+        "Old sun's glare",
+        lambda scene: scene.glare,
+        "Where the photo says nothing about the sky behind: filled once the sun has moved.",
+        PATCH,
+    ),
+    SceneMap(
+        "elevation",
+        "Horizon",
+        _elevation,
+        "Elevation above the horizon by the camera; the white line is the horizon.",
+        ELEVATION,
+        low=-45,
+        high=45,
+        unit="°",
+    ),
+    SceneMap(
+        "water",
+        "Water",
+        lambda scene: scene.water,
+        "Share of water in a pixel.",
+        WATER,
+    ),
+    SceneMap(
+        "depth",
+        "Depth",
+        lambda scene: scene.depth,
+        "Distance along the optical axis; the last level is the sky, infinitely far.",
+        DISTANCE,
+        low=1,
+        high=100_000,
+        unit="m",
+        scale="log",
+        bits=16,
+    ),
+)
+
+
+def scene_map(name: str) -> SceneMap:
+    """Return the entry of ``MAPS`` with this name.
+
+    Raises
+    ------
+    ValueError
+        When there is none; the names are listed.
+    """
+    for entry in MAPS:
+        if entry.name == name:
+            return entry
+    names = ", ".join(entry.name for entry in MAPS)
+    raise ValueError(f"There is no map {name!r:.40}; choose one of {names}.")

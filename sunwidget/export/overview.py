@@ -1,0 +1,198 @@
+"""One picture of everything the analysis found: all maps small, titled, with their legends."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sunwidget.analysis.maps import MAPS, SceneMap, ramp_colours, shares_of
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+    from sunwidget.analysis.scene import Scene
+
+_COLUMNS = 4
+_LONG_EDGE = 420  # of a small picture, in pixels
+_MARGIN, _GAP = 28, 24
+_LINE = 19  # height of a line of small text
+_BACK, _TEXT, _QUIET, _WARN = (24, 25, 27), (236, 237, 239), (160, 164, 170), (240, 184, 110)
+# The bundled font has no such signs.
+_SIGNS = str.maketrans({"×": "x", "–": "-", "—": "-", "≤": "<", "≥": ">", "−": "-", "→": ">"})
+
+
+def overview(scene: Scene) -> Image.Image:
+    """Return a sheet: the photo with its findings drawn in, every map over the photo, warnings.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Returns
+    -------
+    PIL.Image.Image
+        RGB; its width does not depend on the photo's.
+    """
+    from PIL import Image, ImageDraw
+
+    photo = scene.photo.preview(long_edge=_LONG_EDGE)
+    height, width = photo.shape[:2]
+    tiles: list[tuple[str, str, Image.Image, SceneMap | None]] = [
+        (scene.photo.name, _facts(scene), marked(scene), None)
+    ]
+    absent = []
+    for entry in MAPS:
+        shares = shares_of(scene, entry, (width, height))
+        if shares is None:
+            absent.append(entry.title)
+        else:
+            empty = entry.low == 0 and float(shares.max()) < 1 / 255
+            text = "None found: 0 everywhere." if empty else entry.help
+            tiles.append((entry.title, text, tinted(photo, shares, entry), entry))
+    cell_width = max(width, 300)
+    columns = min(_COLUMNS, max(2, round(1760 / cell_width)))
+    cell_height = 30 + height + 26 + 2 * _LINE + 18
+    rows = math.ceil(len(tiles) / columns)
+    sheet_width = 2 * _MARGIN + columns * cell_width + (columns - 1) * _GAP
+    notes = [f"! {text}" for text in scene.warnings]
+    if absent:
+        notes.append(f"Not in this photo: {', '.join(absent)}.")
+    lines = [line for note in notes for line in _wrapped(note, sheet_width - 2 * _MARGIN, 15)]
+    sheet_height = 2 * _MARGIN + rows * cell_height + len(lines) * 22
+    sheet = Image.new("RGB", (sheet_width, sheet_height), _BACK)
+    draw = ImageDraw.Draw(sheet)
+    for i, (title, text, image, described) in enumerate(tiles):
+        x = _MARGIN + i % columns * (cell_width + _GAP)
+        y = _MARGIN + i // columns * cell_height
+        _write(draw, (x, y), _cut(title, cell_width, 18), 18, _TEXT)
+        sheet.paste(image, (x, y + 28))
+        below = y + 28 + height + 6
+        if described is not None:
+            _legend(sheet, (x, below), width, described)
+            below += 22
+        for line in _wrapped(text, cell_width, 14)[: 2 if described else 3]:
+            _write(draw, (x, below), line, 14, _QUIET)
+            below += _LINE
+    y = _MARGIN + rows * cell_height
+    for line in lines:
+        _write(draw, (_MARGIN, y), line, 15, _WARN)
+        y += 22
+    return sheet
+
+
+def marked(scene: Scene, long_edge: int = _LONG_EDGE) -> Image.Image:
+    """Return the photo with the sky's edge (blue), the horizon (red) and the sun (yellow)."""
+    import cv2
+    from PIL import Image, ImageDraw
+
+    photo = scene.photo.preview(long_edge=long_edge).copy()
+    height, width = photo.shape[:2]
+    scale = width / scene.camera.width
+    sky = cv2.resize(scene.sky, (width, height), interpolation=cv2.INTER_AREA)
+    outlines, _ = cv2.findContours(
+        (sky > 0.5).astype(np.uint8), cv2.RETR_LIST, cv2.CHAIN_APPROX_NONE
+    )
+    cv2.drawContours(photo, outlines, -1, (60, 150, 255), max(1, round(width / 400)))
+    image = Image.fromarray(photo)
+    draw = ImageDraw.Draw(image)
+    stroke = max(2, round(width / 250))
+    rise = math.tan(math.radians(scene.horizon.roll)) * width / 2
+    row = scene.horizon.row * scale
+    draw.line([(0, row - rise), (width, row + rise)], fill=(255, 60, 40), width=stroke)
+    if scene.sun is not None:
+        x, y = scene.sun.x * scale, scene.sun.y * scale
+        ring = max(scene.sun.radius_px * scale * 1.5, width / 40)
+        draw.ellipse((x - ring, y - ring, x + ring, y + ring), outline=(255, 220, 0), width=stroke)
+    return image
+
+
+def tinted(photo: np.ndarray, shares: np.ndarray, entry: SceneMap) -> Image.Image:
+    """Return a map in its colours over the photo in quiet grey.
+
+    Parameters
+    ----------
+    photo : (h, w, 3) uint8
+    shares : (h, w) float32
+        As ``shares_of`` gives them.
+    entry : SceneMap
+    """
+    from PIL import Image
+
+    grey = photo.astype(np.float32).mean(-1, keepdims=True) * np.float32(0.75) + 10
+    colour = ramp_colours(entry.ramp)[np.round(shares * 255).astype(np.uint8)]
+    alpha = colour[..., 3:]
+    mixed = grey * (1 - alpha) + 255 * colour[..., :3] * alpha
+    return Image.fromarray(np.round(mixed).astype(np.uint8))
+
+
+def _facts(scene: Scene) -> str:
+    sky = 100 * float(np.mean(scene.sky))
+    parts = [f"{scene.width} x {scene.height}, sky {sky:.0f} %"]
+    if scene.sun is None:
+        parts.append("no sun found")
+    else:
+        side = "left" if scene.sun.azimuth < 0 else "right"
+        where = "" if scene.sun.visible else " (not seen)"
+        parts.append(
+            f"sun {abs(scene.sun.azimuth):.1f}° {side}, {scene.sun.elevation:.1f}° up{where}"
+        )
+    horizon = scene.horizon
+    sure = "guessed" if horizon.confidence < 0.3 else f"{100 * horizon.confidence:.0f} % sure"
+    parts.append(
+        f"horizon at {100 * horizon.row / scene.height:.0f} % of the height, "
+        f"roll {horizon.roll:.1f}° ({horizon.source}, {sure})"
+    )
+    parts.append(f"field of view {scene.camera.fov_vertical_deg:.0f}°")
+    return " · ".join(parts)
+
+
+def _legend(sheet: Image.Image, at: tuple[int, int], width: int, entry: SceneMap) -> None:
+    """Draw the ramp with its first and last value at its ends."""
+    from PIL import Image, ImageDraw
+
+    colours = ramp_colours(entry.ramp, 160)
+    mixed = 60 * (1 - colours[:, 3:]) + 255 * colours[:, :3] * colours[:, 3:]
+    bar = np.repeat(np.round(mixed).astype(np.uint8)[None], 10, axis=0)
+    draw = ImageDraw.Draw(sheet)
+    x, y = at
+    low, high = (f"{v:g} {entry.unit}".strip() for v in (entry.low, entry.high))
+    _write(draw, (x, y), low, 13, _QUIET)
+    x += _width(low, 13) + 6
+    sheet.paste(Image.fromarray(bar), (x, y + 4))
+    _write(draw, (x + 166, y), high, 13, _QUIET)
+
+
+def _font(size: int) -> Any:
+    from PIL import ImageFont
+
+    return ImageFont.load_default(size)
+
+
+def _width(text: str, size: int) -> int:
+    return math.ceil(_font(size).getlength(text.translate(_SIGNS)))
+
+
+def _write(draw: Any, at: tuple[int, int], text: str, size: int, colour: Any) -> None:
+    draw.text(at, text.translate(_SIGNS), font=_font(size), fill=colour)
+
+
+def _cut(text: str, width: int, size: int) -> str:
+    if _width(text, size) <= width:
+        return text
+    while text and _width(text + "…", size) > width:
+        text = text[:-1]
+    return text + "…"
+
+
+def _wrapped(text: str, width: int, size: int) -> list[str]:
+    """Break a text into lines at its blanks."""
+    lines, line = [], ""
+    for word in text.split():
+        longer = f"{line} {word}".strip()
+        if line and _width(longer, size) > width:
+            lines.append(line)
+            longer = word
+        line = longer
+    return [*lines, _cut(line, width, size)] if line else lines
