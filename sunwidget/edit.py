@@ -306,9 +306,9 @@ def parameter(name: str) -> Parameter:
     return _BY_NAME[name]
 
 
-def unknown_name_message(name: str) -> str:
-    """Say that ``name`` is no parameter and suggest the nearest spelling."""
-    near = difflib.get_close_matches(str(name), _BY_NAME, n=1)
+def unknown_name_message(name: str, others: tuple[str, ...] = ()) -> str:
+    """Say that ``name`` is no parameter and suggest the nearest spelling, also of ``others``."""
+    near = difflib.get_close_matches(str(name), [*_BY_NAME, *others], n=1)
     hint = f" Did you mean {near[0]!r}?" if near else " See sunwidget.PARAMETERS for the list."
     return f"Unknown parameter {str(name)[:80]!r}.{hint}"
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.analysis.maps import MAPS, levels, scene_map, shares_of
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit import PARAMETERS
 from sunwidget.photo import Photo
@@ -18,6 +19,7 @@ from sunwidget.renderer.render import quantise_map
 from sunwidget.renderer.shader_source import frame_graph
 
 PREVIEW_EDGE = 2048
+MAP_EDGE = 1024  # of an inspected map
 _THUMBNAIL_EDGE = 480
 # Above this many bytes a lossless preview costs more than it shows.
 _LOSSLESS_BYTES = 4_000_000
@@ -25,10 +27,11 @@ _JPEG_QUALITY = 95
 
 
 def encode_png(image: NDArray[np.uint8]) -> bytes:
-    """Return an (H, W, 3) uint8 picture as PNG, fast rather than small."""
+    """Return an (H, W, 3) or (H, W) uint8 picture as PNG, fast rather than small."""
     import cv2
 
-    ok, data = cv2.imencode(".png", image[..., ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 2])
+    bgr = image[..., ::-1] if image.ndim == 3 else image
+    ok, data = cv2.imencode(".png", bgr, [cv2.IMWRITE_PNG_COMPRESSION, 2])
     if not ok:
         raise RuntimeError(f"OpenCV could not encode a picture of shape {image.shape} as PNG.")
     return bytes(data)
@@ -77,6 +80,31 @@ def encode_maps(scene: Scene) -> dict[str, bytes]:
         encoded[name] = encode_png(quantise_map(image))
     encoded["_backdrop"] = encode_png(quantise_map(scene.backdrop))
     return encoded
+
+
+def encode_map(scene: Scene, name: str) -> bytes:
+    """Return one map as an 8-bit grey PNG, long edge at most ``MAP_EDGE``.
+
+    A level's value is ``SceneMap.value(level / 255)`` of the map's entry.
+
+    Raises
+    ------
+    ValueError
+        When there is no such map, or this photo has none.
+    """
+    entry = scene_map(name)
+    scale = min(1.0, MAP_EDGE / max(scene.photo.size))
+    width, height = (max(1, round(n * scale)) for n in scene.photo.size)
+    shares = shares_of(scene, entry, (width, height))
+    if shares is None:
+        raise ValueError(f"{entry.title}: this photo has none.")
+    return encode_png(levels(shares))
+
+
+def map_json() -> list[dict[str, Any]]:
+    """Return the table of inspectable maps as plain JSON types."""
+    table = [entry._asdict() for entry in MAPS]
+    return [_plain({k: v for k, v in row.items() if k not in ("read", "bits")}) for row in table]
 
 
 def scene_json(scene: Scene, revision: int) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import base64
 import contextlib
+import inspect
 import tempfile
 import threading
 from collections.abc import Iterator
@@ -18,14 +19,16 @@ from typing import Any
 import anywidget
 import traitlets
 
-from sunwidget.analysis.scene import Scene
+from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.edit import PARAMETERS, Edit, unknown_name_message
 from sunwidget.photo import Photo, open_photo
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.edit_traits import edit_traits
 from sunwidget.widgets.payload import (
+    encode_map,
     encode_maps,
     encode_preview,
+    map_json,
     parameter_json,
     scene_json,
     thumbnail,
@@ -35,6 +38,12 @@ from sunwidget.widgets.requests import Answer, Progress, Requests
 _STATIC = Path(__file__).parents[1] / "static"
 _NAMES = tuple(p.name for p in PARAMETERS)
 _CORRECTIONS = frozenset(p.name for p in PARAMETERS if p.kind == "data")
+# Strokes are a parameter of the edit, and progress has its own line on the stage.
+_ANALYSIS = tuple(
+    name
+    for name, p in inspect.signature(analyze).parameters.items()
+    if p.kind is p.KEYWORD_ONLY and name not in (*_NAMES, "progress")
+)
 _HISTORY_LENGTH = 100
 _SUFFIXES = {"JPEG": ".jpg", "PNG": ".png", "TIFF": ".tif", "WEBP": ".webp"}
 _TYPES = {
@@ -64,21 +73,21 @@ class SunEditor(anywidget.AnyWidget):
         the scenes unless a Scene is given.
     recipe : Edit or dict, optional
         What to start from.
-    sky : array, path or str, optional
-        A sky mask, an ONNX network, or a method's name; see ``sunwidget.analyze``.
-    **parameters
-        Any parameter of ``Edit``; wins over ``recipe``.
+    **options
+        Any parameter of ``Edit``, which wins over ``recipe``, and any option of
+        ``sunwidget.analyze``: ``sky=mask``, ``refine="dense_crf"``, ``fov=38``.
 
     Raises
     ------
     TypeError
-        For a keyword that is no parameter; the nearest spelling is suggested.
+        For a keyword that is neither; the nearest spelling is suggested. For an option of
+        ``analyze`` beside a Scene, which is analysed already.
     PhotoError, EditError
         For a picture that cannot be opened, or a value out of range.
 
     Examples
     --------
-    >>> editor = sw.SunEditor("beach.jpg", sun_elevation=3)
+    >>> editor = sw.SunEditor("beach.jpg", sun_elevation=3, clouds="rb_ratio")
     >>> editor.sun_azimuth = -4
     >>> editor.save("evening.jpg")
     """
@@ -87,6 +96,7 @@ class SunEditor(anywidget.AnyWidget):
     _css = _STATIC / "sun_editor.css"
 
     _parameters: traitlets.List = traitlets.List(read_only=True).tag(sync=True)
+    _maps: traitlets.List = traitlets.List(read_only=True).tag(sync=True)
     _photo = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _layers = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _surface = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
@@ -104,22 +114,26 @@ class SunEditor(anywidget.AnyWidget):
         source: Any,
         *,
         recipe: Edit | dict[str, Any] | None = None,
-        sky: Any = None,
-        **parameters: Any,
+        **options: Any,
     ) -> None:
-        for name in parameters:
-            if name not in _NAMES:
-                raise TypeError(f"SunEditor: {unknown_name_message(name)}")
-        start = _edit_of(recipe).replace(**parameters)
+        for name in options:
+            if name not in _NAMES and name not in _ANALYSIS:
+                raise TypeError(f"SunEditor: {unknown_name_message(name, _ANALYSIS)}")
+        analysis = {name: options.pop(name) for name in _ANALYSIS if name in options}
+        start = _edit_of(recipe).replace(**options)
         scene = source if isinstance(source, Scene) else None
-        if scene is not None and sky is not None:
-            raise TypeError("SunEditor takes sky= with a photo; this scene has its sky already.")
+        if scene is not None and analysis:
+            raise TypeError(
+                f"SunEditor takes {next(iter(analysis))}= with a photo; this scene is analysed "
+                "already. Pass the photo, or analyze(photo, ...) with the option."
+            )
         self.photo: Photo = scene.photo if scene is not None else open_photo(source)
         self._lock = threading.RLock()
         self._browser_thread: int | None = None
         self._applying = False
         self._committed = start
         self._revision = 0
+        self._shown: Scene | None = None  # the scene that the browser has
         self._thumbnail: bytes | None = None
         super().__init__(
             _photo=encode_preview(self.photo),
@@ -127,17 +141,21 @@ class SunEditor(anywidget.AnyWidget):
             _history={"past": [], "future": []},
             **{name: getattr(start, name) for name in _NAMES},
         )
-        self.on_msg(Requests(self.send, {"save": self._save_for_browser}))
+        actions = {"save": self._save_for_browser, "map": self._map_for_browser}
+        self.on_msg(Requests(self.send, actions))
         self.observe(self._on_edit, list(_NAMES))
-        options = {} if sky is None else {"sky": sky}
         self._analyst = Analyst(
-            self.photo if scene is None else scene, options, self._deliver, self._report
+            self.photo if scene is None else scene, analysis, self._deliver, self._report
         )
         self._analyst.ask(start)
 
     @traitlets.default("_parameters")
     def _default_parameters(self) -> list[dict[str, Any]]:
         return parameter_json()
+
+    @traitlets.default("_maps")
+    def _default_maps(self) -> list[dict[str, Any]]:
+        return map_json()
 
     @property
     def scene(self) -> Scene:
@@ -261,6 +279,7 @@ class SunEditor(anywidget.AnyWidget):
         maps = encode_maps(scene)
         with self._lock:
             self._revision += 1
+            self._shown = scene
             described = scene_json(scene, self._revision)
             # One message, so that a view never sees maps of two scenes.
             with self.hold_sync():
@@ -280,6 +299,13 @@ class SunEditor(anywidget.AnyWidget):
             path = self.save(Path(folder) / f"picture{suffix}", progress=progress)
             data = path.read_bytes()
         return {"name": name, "type": _TYPES[suffix]}, [data]
+
+    def _map_for_browser(self, content: dict[str, Any], _progress: Progress) -> Answer:
+        with self._lock:
+            scene, revision = self._shown, self._revision
+        if scene is None:
+            raise ValueError("The photo is not analysed yet.")
+        return {"revision": revision}, [encode_map(scene, str(content.get("name")))]
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         bundle = super()._repr_mimebundle_(**kwargs)

@@ -11,10 +11,12 @@ from PIL import Image
 from traitlets import TraitError
 
 import sunwidget as sw
+from sunwidget.analysis.maps import MAPS, scene_map
 from sunwidget.edit import PARAMETERS
 from sunwidget.widgets import SunEditor
 from sunwidget.widgets import sun_editor as module
 from sunwidget.widgets.payload import PREVIEW_EDGE, preview_size
+from sunwidget.widgets.requests import Requests
 
 
 @pytest.fixture(scope="module")
@@ -84,9 +86,42 @@ def test_a_recipe_is_the_start_and_keywords_win(scene):
     assert editor._history["past"] == []
 
 
-def test_a_scene_has_its_own_sky(scene):
-    with pytest.raises(TypeError, match="sky already"):
+def test_a_scene_is_analysed_already(scene):
+    with pytest.raises(TypeError, match="takes sky= with a photo; this scene is analysed already"):
         SunEditor(scene, sky=np.ones((4, 4)))
+
+
+def test_options_of_the_analysis_reach_it_and_misspelt_ones_are_refused(scene):
+    editor = SunEditor(scene.photo, refine="none", fov=38, exposure=1)
+    assert editor.scene.hints.method("refine") == "none"
+    assert editor.scene.camera.fov_vertical_deg == 38
+    assert editor.edit == sw.Edit(exposure=1)
+    with pytest.raises(TypeError, match="Did you mean 'refine'"):
+        SunEditor(scene.photo, refin="none")
+
+
+@pytest.mark.parametrize("name", [entry.name for entry in MAPS])
+def test_the_browser_gets_a_map_when_it_asks(editor, scene, sent, name):
+    content = {"type": "request", "id": "m", "action": "map", "name": name}
+    Requests(editor.send, {"map": editor._map_for_browser})._answer(content)
+    ((response, buffers),) = sent
+    entry = next(row for row in editor._maps if row["name"] == name)
+    values = scene_map(name).read(scene)
+    if values is None:
+        assert entry["title"] in response["error"]
+        return
+    assert response["error"] is None
+    assert response["result"]["revision"] == editor._scene["revision"]
+    levels = np.asarray(Image.open(io.BytesIO(buffers[0])))
+    assert levels.dtype == np.uint8
+    if values.shape == levels.shape:
+        assert np.abs(levels / 255 - scene_map(name).share(values)).max() <= 0.51 / 255
+
+
+def test_an_unknown_map_is_answered_with_the_names(editor, sent):
+    content = {"type": "request", "id": "m", "action": "map", "name": "skyline"}
+    Requests(editor.send, {"map": editor._map_for_browser})._answer(content)
+    assert "choose one of sky_coarse" in sent[0][0]["error"]
 
 
 def test_undo_redo_and_reset_are_exact(editor):
