@@ -17,6 +17,8 @@ from typing import Any, Literal, NamedTuple, Self
 
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
+# "analysed": as ``analyze`` chose. The others are the names in ``analysis.clouds.METHODS``.
+CLOUD_METHODS = ("analysed", "rb_ratio", "rb_difference", "saturation", "learned", "unmix")
 
 Point = tuple[float, float]
 
@@ -33,7 +35,8 @@ class Parameter(NamedTuple):
     """One row of the table, as seen by sliders, uniforms, flags and the docs.
 
     ``kind`` is ``"number"``, ``"choice"`` or ``"data"`` (strokes and hints: kept in
-    the recipe, never a slider or a uniform).
+    the recipe, never a slider or a uniform). ``analysis`` says that the photo's maps follow the
+    parameter, so that a host has to ask ``Scene.corrected`` for them when it changes.
     """
 
     name: str
@@ -48,6 +51,7 @@ class Parameter(NamedTuple):
     help: str
     choices: tuple[str, ...]
     advanced: bool
+    analysis: bool
 
 
 def _number(
@@ -60,6 +64,7 @@ def _number(
     text: str,
     *,
     advanced: bool = False,
+    analysis: bool = False,
 ) -> Any:
     return field(
         default=default,
@@ -72,11 +77,20 @@ def _number(
             "section": section,
             "help": text,
             "advanced": advanced,
+            "analysis": analysis,
         },
     )
 
 
-def _choice(default: str, choices: tuple[str, ...], label: str, section: str, text: str) -> Any:
+def _choice(
+    default: str,
+    choices: tuple[str, ...],
+    label: str,
+    section: str,
+    text: str,
+    *,
+    analysis: bool = False,
+) -> Any:
     return field(
         default=default,
         metadata={
@@ -85,6 +99,7 @@ def _choice(default: str, choices: tuple[str, ...], label: str, section: str, te
             "label": label,
             "section": section,
             "help": text,
+            "analysis": analysis,
         },
     )
 
@@ -92,7 +107,13 @@ def _choice(default: str, choices: tuple[str, ...], label: str, section: str, te
 def _data(default: Any, label: str, text: str) -> Any:
     return field(
         default=default,
-        metadata={"kind": "data", "label": label, "section": "corrections", "help": text},
+        metadata={
+            "kind": "data",
+            "label": label,
+            "section": "corrections",
+            "help": text,
+            "analysis": True,
+        },
     )
 
 
@@ -148,6 +169,9 @@ class Edit:
         "How far the clouds follow the moved sun; 0 is exactly off.")
     silver_lining: float = _number(1.0, (0, 3), 0.05, "", "Silver lining", "clouds",
         "Forward scattering in thin cloud edges near the sun.")
+    cloud_method: str = _choice("analysed", CLOUD_METHODS, "Found by", "clouds",
+        "How clouds are told from clear sky; analysed keeps what analyze() was asked for.",
+        analysis=True)
     land_strength: float = _number(1.0, (0, 1), 0.01, "", "Land", "land",
         "How far the land follows the moved sun; 0 is exactly off.")
     land_facing: float = _number(0.15, (0, 1), 0.01, "", "Upright surfaces", "land",
@@ -165,9 +189,11 @@ class Edit:
     thesis_saturation: float = _number(1.0, (0, 1), 0.01, "", "Contrast s", "thesis",
         "s of eq. 3.8 when the sun is fully hidden (methods thesis*).", advanced=True)
     cloud_ratio_min: float = _number(0.62, (0, 2), 0.01, "", "Cloud r/b minimum", "thesis",
-        "m_min of eq. 3.5: encoded red/blue above it is cloud.", advanced=True)
+        "m_min of eq. 3.5: red/blue, or its like for the method, above which sky is cloud.",
+        advanced=True, analysis=True)
     cloud_ratio_max: float = _number(1.0, (0, 3), 0.01, "", "Cloud r/b maximum", "thesis",
-        "m_max of eq. 3.6: encoded red/blue at which softness reaches 1.", advanced=True)
+        "m_max of eq. 3.6: red/blue, or its like, at which softness reaches 1.",
+        advanced=True, analysis=True)
     blend_distance: float = _number(0.35, (0.01, 2), 0.01, "", "Blend distance d_m", "thesis",
         "d_m of eq. 3.12, in picture widths.", advanced=True)
     blend_power: float = _number(1.0, (0.1, 8), 0.1, "", "Blend power B_fp", "thesis",
@@ -290,6 +316,7 @@ def _table() -> tuple[Parameter, ...]:
                 help=m["help"],
                 choices=m.get("choices", ()),
                 advanced=m.get("advanced", False),
+                analysis=m["analysis"],
             )
         )
     return tuple(rows)

@@ -46,6 +46,7 @@ class Analyst:
         self._wanted: Edit | None = None
         self._busy = False
         self._scene: Scene | None = None
+        self._delivered: Scene | None = None
         self._error: Exception | None = None
 
     @property
@@ -110,5 +111,8 @@ class Analyst:
             newest = self._wanted is None
             self._scene = scene
         if newest:
-            self._deliver(scene)
+            # The same maps again, as when thresholds move that the method does not use.
+            if scene is not self._delivered:
+                self._deliver(scene)
+                self._delivered = scene
             self._report("ready", 1.0, "")

@@ -37,7 +37,7 @@ from sunwidget.widgets.requests import Answer, Progress, Requests
 
 _STATIC = Path(__file__).parents[1] / "static"
 _NAMES = tuple(p.name for p in PARAMETERS)
-_CORRECTIONS = frozenset(p.name for p in PARAMETERS if p.kind == "data")
+_CORRECTIONS = frozenset(p.name for p in PARAMETERS if p.analysis)
 # Strokes are a parameter of the edit, and progress has its own line on the stage.
 _ANALYSIS = tuple(
     name
