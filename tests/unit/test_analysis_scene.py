@@ -166,3 +166,14 @@ def test_progress_counts_up_to_one_and_may_cancel():
 def test_hints_that_cannot_be_used_are_refused_in_words(arguments, word):
     with pytest.raises(AnalysisError, match=word):
         sw.analyze(landscape(), **{"sky": mask(), **arguments})
+
+
+def test_sureness_has_the_photos_size_and_follows_the_networks_doubt():
+    doubt = np.clip((ROW + 30 - np.arange(HEIGHT, dtype=np.float32)) / 60, 0, 1)
+    sureness = sw.analyze(landscape(), sky=doubt[:, None].repeat(WIDTH, 1), refine="grabcut_rect")
+    sureness = sureness.sureness
+    assert sureness.shape == (HEIGHT, WIDTH)
+    assert sureness.dtype == np.float32
+    assert 0 < sureness.min() <= sureness.max() <= 1
+    assert sureness[ROW - 2 : ROW + 2].mean() < 0.7
+    assert sureness[: ROW // 2].mean() > 0.95

@@ -1,0 +1,57 @@
+"""What a person should know about an analysis; each notice says what to do."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sunwidget.analysis import sun as sun_stage
+from sunwidget.analysis.hints import Hints
+from sunwidget.analysis.horizon import Horizon
+from sunwidget.analysis.sun import SunObservation
+from sunwidget.camera import Camera
+from sunwidget.photo import Photo
+
+NO_SKY = 0.005  # share of the picture below which the photo counts as without sky
+
+
+def notices(
+    photo: Photo,
+    sky: np.ndarray,
+    sun: SunObservation | None,
+    blot: sun_stage.Blot | None,
+    horizon: Horizon,
+    camera: Camera,
+    hints: Hints,
+) -> tuple[str, ...]:
+    """Return one sentence for each doubt; ``sky`` is the matte at working size."""
+    notes = []
+    share = float(np.mean(sky > 0.5))
+    if share < NO_SKY:
+        notes.append(
+            f"No sky found in {photo.name} ({100 * share:.1f} % of pixels). "
+            "Draw a sky stroke or pass sky=mask."
+        )
+    if sun is None:
+        notes.append(
+            f"No sun found in {photo.name}. Its place is assumed; click where it is, "
+            "or pass sun=(x, y) in pixels (outside the picture is fine)."
+        )
+    elif blot is not None and sun.visible:
+        true = camera.focal * np.tan(np.radians(sun_stage.RADIUS_DEG))
+        area = float(sun.mask.sum())
+        if area > 0.02 * sun.mask.size and area > 60 * np.pi * true**2:
+            notes.append(
+                f"The sun's mask covers {100 * area / sun.mask.size:.0f} % of {photo.name}, "
+                "far more than a sun. Click on its centre, or pass sun_method='disc_fit'."
+            )
+    if horizon.confidence < 0.3:
+        notes.append(
+            f"The horizon of {photo.name} is a guess (row {horizon.row:.0f}). "
+            "Drag it, or pass horizon=row."
+        )
+    if hints.fov is None and photo.field_of_view.source == "assumed":
+        notes.append(
+            f"{photo.name} names no focal length: {camera.fov_vertical_deg:.0f}° vertical field "
+            "of view is assumed. Pass fov= in degrees."
+        )
+    return tuple(notes)
