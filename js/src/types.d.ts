@@ -35,8 +35,27 @@ export interface Scene {
   automatic: Record<string, number>;
   uniforms: Record<string, number | number[]>;
   sun: { x: number; y: number; visible: boolean } | null;
-  horizon: { points: [Point, Point]; confidence: number; source: string } | null;
+  horizon: {
+    row: number;
+    roll: number;
+    confidence: number;
+    source: string;
+    /** Rows at the left and the right edge, by method, as fractions of the height. */
+    others: Record<string, [number, number]>;
+  };
   warnings: string[];
+}
+
+/** One row of the kernel's table of inspectable maps (`sunwidget/analysis/maps.py`). */
+export interface SceneMap {
+  name: string;
+  title: string;
+  help: string;
+  ramp: [number, string][];
+  low: number;
+  high: number;
+  unit: string;
+  scale: "linear" | "log";
 }
 
 /** Where the kernel's work stands (trait `_status`). */

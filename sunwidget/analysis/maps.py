@@ -192,7 +192,7 @@ MAPS: tuple[SceneMap, ...] = (
     SceneMap(
         "sureness",
         "Sureness",
-        lambda scene: getattr(scene, "sureness", None),
+        lambda scene: scene.sureness,
         "How sure sky or land is. Where it is low, a brush stroke helps most.",
         DOUBT,
     ),

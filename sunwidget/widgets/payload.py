@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.analysis.horizon import row_argmax
 from sunwidget.analysis.maps import MAPS, levels, scene_map, shares_of
 from sunwidget.analysis.scene import Scene
+from sunwidget.analysis.working import resize
 from sunwidget.edit import PARAMETERS
 from sunwidget.photo import Photo
 from sunwidget.renderer.render import quantise_map
@@ -134,10 +136,25 @@ def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
                 "roll": scene.horizon.roll,
                 "confidence": scene.horizon.confidence,
                 "source": scene.horizon.source,
+                "others": _other_horizons(scene),
             },
             "warnings": list(scene.warnings),
         }
     )
+
+
+def _other_horizons(scene: Scene) -> dict[str, tuple[float, float]]:
+    """Return what other methods say, as rows at the left and right edge, fractions of the height.
+
+    ``row_argmax`` is the thesis' horizon, for comparison.
+    """
+    working = scene.working
+    found = row_argmax(resize(scene.sky, working.width, working.height)).scaled(*working.zoom)
+    if found.confidence == 0 or scene.horizon.source == found.source:
+        return {}
+    rise = math.tan(math.radians(found.roll)) * scene.width / 2
+    rows = found.row - rise, found.row + rise
+    return {found.source: (rows[0] / scene.height, rows[1] / scene.height)}
 
 
 def parameter_json() -> list[dict[str, Any]]:

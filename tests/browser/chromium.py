@@ -76,6 +76,29 @@ def widget_state(widget):
     return json.loads(json.dumps(state))
 
 
+def connect(page, widget):
+    """Let a real widget answer what the page's editor sends; see ``showConnected``."""
+    from sunwidget.widgets.requests import Requests
+
+    def answer(sent):
+        if "changes" in sent:
+            widget.set_state(sent["changes"])
+            state = widget_state(widget.wait(120))
+            return {n: state[n] for n in ("_scene", "_layers", "_surface", "_backdrop", "_status")}
+        messages = []
+
+        def send(content, buffers=()):
+            messages.append([content, [base64.b64encode(b).decode("ascii") for b in buffers]])
+
+        actions = {"save": widget._save_for_browser, "map": widget._map_for_browser}
+        Requests(send, actions)._answer(sent["content"])
+        return messages
+
+    page.expose_function("toKernel", answer)
+    page.evaluate("(state) => showConnected(state)", widget_state(widget))
+    page.locator(".sunwidget.sw-live").wait_for()
+
+
 def picture_of(base64_png):
     """(H, W, 3) uint8 of a PNG that the page returned."""
     return np.asarray(Image.open(io.BytesIO(base64.b64decode(base64_png))).convert("RGB"))

@@ -1,6 +1,7 @@
 /** Sky / not-sky strokes: drawn here, sent as polylines, answered by the kernel's new maps. */
 
 import { setAttributes, shape } from "../controls/element.js";
+import { line, meets, setLine } from "./strokes.js";
 
 /**
  * @typedef {import("../types.js").Point} Point
@@ -10,25 +11,56 @@ import { setAttributes, shape } from "../controls/element.js";
 
 const MOST_POINTS = 2000;
 
-export class BrushTool {
+/** The ring round the pointer, as large as the brush. */
+class Brush {
   /**
    * @param {View} view
-   * @param {"sky" | "not_sky"} label
+   * @param {string} label the tool's name
    */
   constructor(view, label) {
     this.view = view;
     this.label = label;
-    /** @type {Point[]} */
-    this.points = [];
-    this.path = shape("polyline", { class: `sw-stroke sw-stroke-${label}` });
-    this.cursor = shape("circle", { class: `sw-brush sw-stroke-${label}` });
-    this.node = shape("g", {}, this.path, this.cursor);
+    /** A fast hand is followed point by point. */
+    this.fine = true;
+    /** @type {Point | null} */
+    this.at = null;
+    this.ring = shape("circle", { class: `sw-brush sw-stroke-${label}` });
   }
 
   /** Radius in CSS pixels. */
   radius() {
     const { width, height } = this.view.stage.rectangle();
     return this.view.brushRadius * Math.max(width, height);
+  }
+
+  /** @param {Point | null} place null when the pointer has left */
+  hover(place) {
+    this.at = place;
+    this.drawRing();
+  }
+
+  drawRing() {
+    const shown = this.view.tool === this.label && this.at;
+    setAttributes(this.ring, { visibility: shown ? "visible" : "hidden" });
+    if (!this.at || !shown) return;
+    const [cx, cy] = this.view.stage.onOverlay(this.at);
+    setAttributes(this.ring, { cx, cy, r: this.radius() });
+  }
+}
+
+export class BrushTool extends Brush {
+  /**
+   * @param {View} view
+   * @param {"sky" | "not_sky"} label
+   */
+  constructor(view, label) {
+    super(view, label);
+    this.stroke = label;
+    /** @type {Point[]} */
+    this.points = [];
+    this.path = line(label);
+    this.scaled = shape("g", {}, this.path);
+    this.node = shape("g", {}, this.scaled, this.ring);
   }
 
   /** @param {Point} place */
@@ -54,13 +86,12 @@ export class BrushTool {
     if (!this.points.length) return;
     /** @type {Stroke} */
     const stroke = {
-      label: this.label,
+      label: this.stroke,
       points: this.points,
       radius: Math.round(this.view.brushRadius * 1e5) / 1e5,
     };
     this.points = [];
-    const strokes = /** @type {Stroke[]} */ (this.view.state.values.strokes ?? []);
-    this.view.state.set({ strokes: [...strokes, stroke] });
+    this.view.state.set({ strokes: [...this.view.strokes.strokes(), stroke] });
     this.draw();
   }
 
@@ -69,21 +100,69 @@ export class BrushTool {
     this.draw();
   }
 
-  /** @param {Point} place */
-  hover(place) {
-    const [cx, cy] = this.view.stage.onOverlay(place);
-    setAttributes(this.cursor, { cx, cy, r: this.radius() });
-  }
-
   draw() {
     const active = this.view.tool === this.label;
     setAttributes(this.node, { visibility: active ? "visible" : "hidden" });
+    this.drawRing();
     if (!active) return;
-    const places = this.points.length === 1 ? [this.points[0], this.points[0]] : this.points;
-    setAttributes(this.path, {
-      points: places.map((place) => this.view.stage.onOverlay(place).join(",")).join(" "),
-      "stroke-width": 2 * this.radius(),
-    });
+    setAttributes(this.scaled, { transform: this.view.strokes.transform() });
+    setLine(this.path, this.points, this.view.brushRadius, this.view.stage.rectangle());
+  }
+}
+
+/** Takes whole strokes away: those that its ring has met, all of one drag in one step. */
+export class EraseTool extends Brush {
+  /** @param {View} view */
+  constructor(view) {
+    super(view, "erase");
+    /** @type {Set<number>} */
+    this.met = new Set();
+    this.node = shape("g", {}, this.ring);
+  }
+
+  /** @param {Point} place */
+  begin(place) {
+    this.met.clear();
+    this.move(place);
+  }
+
+  /** @param {Point} place */
+  move(place) {
+    this.hover(place);
+    for (const i of this.meeting(place)) this.met.add(i);
+    this.view.strokes.doom(this.met);
+  }
+
+  /** Before a drag the strokes under the ring are marked. @param {Point | null} place */
+  hover(place) {
+    super.hover(place);
+    if (this.view.pointer === null) this.view.strokes.doom(new Set(place && this.meeting(place)));
+  }
+
+  /** @param {Point} place */
+  meeting(place) {
+    const box = this.view.stage.rectangle();
+    const strokes = this.view.strokes.strokes();
+    return strokes.flatMap((stroke, i) =>
+      meets(stroke, place, this.view.brushRadius, box) ? [i] : [],
+    );
+  }
+
+  end() {
+    const { met } = this;
+    this.met = new Set();
+    if (!met.size) return;
+    const strokes = this.view.strokes.strokes();
+    this.view.state.set({ strokes: strokes.filter((_, i) => !met.has(i)) });
+  }
+
+  cancel() {
+    this.met.clear();
+    this.view.strokes.doom(this.met);
+  }
+
+  draw() {
+    this.drawRing();
   }
 }
 

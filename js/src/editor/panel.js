@@ -4,13 +4,14 @@ import { choice } from "../controls/choice.js";
 import { element } from "../controls/element.js";
 import { section } from "../controls/section.js";
 import { slider } from "../controls/slider.js";
+import { Softness } from "./softness.js";
 
 /** @param {string} name */
 const title = (name) => name[0].toUpperCase() + name.slice(1);
 
 /**
  * @param {import("./view.js").View} view
- * @returns {{ node: HTMLElement, show: () => void }}
+ * @returns {{ node: HTMLElement, show: () => void, count: Softness["count"] }}
  */
 export function panel(view) {
   const { state } = view;
@@ -41,12 +42,15 @@ export function panel(view) {
     return control.node;
   };
 
+  const softness = new Softness(view);
+  updates.push(() => softness.show());
   const shown = view.parameters.filter((p) => p.kind !== "data");
   for (const name of new Set(shown.map((p) => p.section))) {
     const rows = shown.filter((p) => p.section === name);
     const main = rows.filter((p) => !p.advanced);
     const more = rows.filter((p) => p.advanced);
-    const body = main.map(row);
+    const body = /** @type {Node[]} */ (main.map(row));
+    if (name === "clouds") body.push(softness.node);
     if (main.length && more.length) {
       body.push(section({ title: "More", open: false, className: "sw-more" }, ...more.map(row)));
     }
@@ -61,5 +65,6 @@ export function panel(view) {
     show: () => {
       for (const update of updates) update();
     },
+    count: (photo, layers, surface) => softness.count(photo, layers, surface),
   };
 }

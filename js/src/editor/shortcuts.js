@@ -1,6 +1,6 @@
 /** Keys of the whole editor; the sun's arrow keys belong to its handle. */
 
-const TOOLS = ["sun", "horizon", "pick", "sky", "not_sky"];
+const TOOLS = ["sun", "horizon", "pick", "sky", "not_sky", "erase"];
 
 /**
  * @param {import("./view.js").View} view
@@ -19,9 +19,13 @@ export function onShortcut(view, event) {
   else if (key === "[") view.setBrushRadius(view.brushRadius / 1.25);
   else if (key === "]") view.setBrushRadius(view.brushRadius * 1.25);
   else if (key === "b") view.toolbar.before.show(!view.toolbar.before.isOn());
+  else if (key === "m") view.inspector.step(event.shiftKey ? -1 : 1);
   else if (key === "escape") {
+    const busy = view.pointer !== null;
     view.cancelGesture();
-    view.setTool("sun");
+    // One thing at a time: the gesture, the map, the tool.
+    if (!busy && view.inspector.map) view.inspector.show("");
+    else view.setTool("sun");
   } else return;
   event.preventDefault();
   event.stopPropagation();

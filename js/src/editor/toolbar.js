@@ -2,6 +2,7 @@
 
 import { button, holdButton, radioButtons } from "../controls/button.js";
 import { element } from "../controls/element.js";
+import { BRUSHES } from "./strokes.js";
 
 /** @typedef {import("./view.js").View} View */
 
@@ -36,6 +37,12 @@ const TOOLS = [
     icon: "not_sky",
     label: "Brush: not sky",
     title: "Brush: this is not sky (5). [ and ] change its size",
+  },
+  {
+    value: "erase",
+    icon: "erase",
+    label: "Erase strokes",
+    title: "Take whole strokes away (6)",
   },
 ];
 
@@ -89,7 +96,13 @@ export function toolbar(view) {
   });
   size.addEventListener("input", () => view.setBrushRadius(Number(size.value)));
   const node = element("div", { class: "sw-toolbar", role: "toolbar", "aria-label": "Sun editor" });
-  const end = element("div", { class: "sw-group sw-end" }, before.node, save);
+  const end = element(
+    "div",
+    { class: "sw-group sw-end" },
+    view.inspector.choice,
+    before.node,
+    save,
+  );
   node.append(tools.node, size, element("div", { class: "sw-group" }, undo, redo, reset), end);
   return {
     node,
@@ -101,8 +114,7 @@ export function toolbar(view) {
       redo.disabled = future.length === 0;
       reset.disabled = Object.keys(state.recipe()).length === 0;
       save.disabled = !view.scene || view.saving;
-      const painting = view.tool === "sky" || view.tool === "not_sky";
-      size.hidden = !painting;
+      size.hidden = !BRUSHES.includes(view.tool);
       size.value = String(view.brushRadius);
       size.style.setProperty("--sw-share", String((view.brushRadius - 0.003) / 0.057));
     },

@@ -10,14 +10,18 @@ import { Channel } from "../channel.js";
 import { element } from "../controls/element.js";
 import { Frame } from "../frame.js";
 import { decodePicture } from "../gl/texture.js";
-import { BrushTool } from "./brush_tool.js";
+import { BrushTool, EraseTool } from "./brush_tool.js";
 import { HorizonTool } from "./horizon_tool.js";
+import { Inspector } from "./inspector.js";
+import { Notes } from "./notes.js";
 import { panel } from "./panel.js";
 import { PickTool } from "./pick_tool.js";
+import { listenToPointer } from "./pointer.js";
 import { onShortcut } from "./shortcuts.js";
 import { paintSkyMask } from "./sky_mask.js";
 import { Stage } from "./stage.js";
 import { EditState } from "./state.js";
+import { BRUSHES, StrokesLayer } from "./strokes.js";
 import { SunTool } from "./sun_tool.js";
 import { toolbar } from "./toolbar.js";
 
@@ -31,7 +35,9 @@ import { toolbar } from "./toolbar.js";
  *   node: SVGElement, draw: () => void, end: () => void, cancel: () => void,
  *   begin: (place: Point, event: PointerEvent) => void,
  *   move: (place: Point, event: PointerEvent) => void,
- *   hover?: (place: Point) => void,
+ *   hover?: (place: Point | null) => void,
+ *   reset?: () => void,
+ *   fine?: boolean,
  * }} Tool
  */
 
@@ -80,11 +86,14 @@ export class View {
       pick: new PickTool(this),
       sky: new BrushTool(this, "sky"),
       not_sky: new BrushTool(this, "not_sky"),
+      erase: new EraseTool(this),
     };
+    this.strokes = new StrokesLayer(this);
+    this.inspector = new Inspector(this);
     this.panel = panel(this);
     this.toolbar = toolbar(this);
     this.readout = element("div", { class: "sw-readout" });
-    this.notes = element("div", { class: "sw-notes" });
+    this.notes = new Notes();
     this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
     this.build();
     this.listen(signal);
@@ -95,14 +104,19 @@ export class View {
   }
 
   build() {
-    const { sun, horizon, pick, sky, not_sky } = this.tools;
-    for (const tool of [horizon, pick, sky, not_sky, sun]) this.stage.overlay.append(tool.node);
+    const { sun, horizon, pick, sky, not_sky, erase } = this.tools;
+    this.stage.picture.append(this.inspector.canvas);
+    this.stage.overlay.append(this.strokes.node);
+    for (const tool of [horizon, pick, sky, not_sky, erase, sun]) {
+      this.stage.overlay.append(tool.node);
+    }
     const main = element(
       "div",
       { class: "sw-main" },
       this.stage.node,
       this.message,
-      element("div", { class: "sw-foot" }, this.readout, this.notes),
+      this.inspector.node,
+      element("div", { class: "sw-foot" }, this.readout, this.notes.node),
     );
     const body = element("div", { class: "sw-body" }, main, this.panel.node);
     this.root.append(this.toolbar.node, body);
@@ -126,7 +140,7 @@ export class View {
       if (message?.type === "error") this.showError(message.error);
     };
     model.on("msg:custom", onMessage);
-    this.listenToPointer(signal);
+    listenToPointer(this, signal);
     this.root.addEventListener("keydown", (event) => onShortcut(this, event), { signal });
     signal.addEventListener("abort", () => {
       for (const [event, handler] of Object.entries(handlers)) model.off(event, handler);
@@ -141,40 +155,6 @@ export class View {
   cancelGesture() {
     this.tools[this.tool].cancel();
     if (this.pointer !== null) this.stage.overlay.releasePointerCapture(this.pointer);
-  }
-
-  /** @param {AbortSignal} signal */
-  listenToPointer(signal) {
-    const { overlay } = this.stage;
-    let panning = false;
-    /** @param {PointerEvent} event */
-    const down = (event) => {
-      if (this.pointer !== null || !this.scene || event.button > 1) return;
-      this.pointer = event.pointerId;
-      panning = event.button === 1;
-      overlay.setPointerCapture(this.pointer);
-      event.preventDefault();
-      if (!panning) this.tools[this.tool].begin(this.stage.placeOf(event), event);
-    };
-    /** @param {PointerEvent} event */
-    const move = (event) => {
-      const place = this.stage.placeOf(event);
-      if (this.pointer === null) this.tools[this.tool].hover?.(place);
-      else if (event.pointerId !== this.pointer) return;
-      else if (panning) this.stage.pan(event.movementX, event.movementY);
-      else this.tools[this.tool].move(place, event);
-    };
-    // The end of capture is the one end of a drag, whatever ended it.
-    /** @param {PointerEvent} event */
-    const lost = (event) => {
-      if (event.pointerId !== this.pointer) return;
-      this.pointer = null;
-      if (!panning) this.tools[this.tool].end();
-    };
-    overlay.addEventListener("pointerdown", down, { signal });
-    overlay.addEventListener("pointermove", move, { signal });
-    overlay.addEventListener("lostpointercapture", lost, { signal });
-    overlay.addEventListener("pointercancel", () => this.tools[this.tool].cancel(), { signal });
   }
 
   /** @param {string} name */
@@ -216,9 +196,10 @@ export class View {
         for (const bitmap of bitmaps) bitmap.close();
         return;
       }
-      const [preview, layers] = bitmaps;
+      const [preview, layers, surface] = bitmaps;
       this.size = [preview.width, preview.height];
       paintSkyMask(this.stage.mask, layers);
+      this.panel.count(preview, layers, surface);
       names.forEach((name, i) => {
         this.frame.setPicture(name, bitmaps[i]);
       });
@@ -230,7 +211,8 @@ export class View {
     this.scene = scene;
     const { fov_vertical_deg, pitch, roll } = scene.camera;
     this.camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
-    this.notes.replaceChildren(...scene.warnings.map((text) => element("p", {}, text)));
+    this.notes.show(scene.warnings);
+    void this.inspector.refresh();
     this.show();
   }
 
@@ -256,6 +238,7 @@ export class View {
     this.tools[this.tool].cancel();
     this.tool = tool;
     this.root.dataset.tool = tool;
+    this.root.classList.toggle("sw-brushing", BRUSHES.includes(tool));
     this.toolbar.show();
     this.drawOverlay();
   }
@@ -331,6 +314,7 @@ export class View {
   }
 
   drawOverlay() {
+    this.strokes.draw();
     for (const tool of Object.values(this.tools)) tool.draw();
     if (!this.scene) return;
     const azimuth = this.value("sun_azimuth");

@@ -1,0 +1,183 @@
+/**
+ * Shows one map of the analysis over the picture, with its legend and the value under the
+ * pointer. A map travels when it is asked for, and again when the scene changes meanwhile.
+ */
+
+import { button } from "../controls/button.js";
+import { element } from "../controls/element.js";
+import { decodePicture } from "../gl/texture.js";
+import { colours, gradient, textAt } from "./ramp.js";
+
+/**
+ * @typedef {import("../types.js").Point} Point
+ * @typedef {import("../types.js").SceneMap} SceneMap
+ * @typedef {import("./view.js").View} View
+ */
+
+export class Inspector {
+  /** @param {View} view */
+  constructor(view) {
+    this.view = view;
+    /** @type {SceneMap[]} */
+    this.maps = view.model.get("_maps") ?? [];
+    /** @type {SceneMap | null} the map that is shown */
+    this.map = null;
+    /** @type {{ levels: Uint8Array, width: number, height: number } | null} */
+    this.data = null;
+    /** @type {unknown} the scene that `data` belongs to */
+    this.scene = null;
+    this.asked = 0;
+    /** @type {Point | null} */
+    this.place = null;
+
+    this.choice = element(
+      "select",
+      { class: "sw-select sw-show", "aria-label": "Show", title: "Show a map of the analysis (M)" },
+      element("option", { value: "" }, "Picture"),
+      element(
+        "optgroup",
+        { label: "What the analysis found" },
+        ...this.maps.map(({ name, title }) => element("option", { value: name }, title)),
+      ),
+    );
+    this.choice.addEventListener("change", () => this.show(this.choice.value));
+    this.canvas = element("canvas", { class: "sw-map", "aria-hidden": "true" });
+    this.title = element("b");
+    this.help = element("span", { class: "sw-legend-help" });
+    this.marker = element("span", { class: "sw-legend-marker" });
+    this.bar = element("span", { class: "sw-legend-bar" }, this.marker);
+    this.low = element("span");
+    this.high = element("span");
+    this.value = element("output", { class: "sw-legend-value", "aria-label": "Value at pointer" });
+    this.opacity = element("input", {
+      type: "range",
+      class: "sw-range",
+      min: 0.1,
+      max: 1,
+      step: 0.05,
+      value: 1,
+      "aria-label": "Opacity of the map",
+      title: "Opacity of the map",
+    });
+    this.opacity.addEventListener("input", () => this.setOpacity());
+    this.scale = element("span", { class: "sw-legend-scale" }, this.low, this.bar, this.high);
+    const close = button({
+      icon: "close",
+      label: "Close the map",
+      title: "Close the map (Esc)",
+      onClick: () => this.show(""),
+    });
+    this.node = element(
+      "div",
+      { class: "sw-legend", role: "group", "aria-label": "Map of the analysis", hidden: true },
+      element("span", { class: "sw-legend-name" }, this.title, this.value),
+      this.scale,
+      this.opacity,
+      close,
+      this.help,
+    );
+    this.setOpacity();
+  }
+
+  setOpacity() {
+    const share = Number(this.opacity.value);
+    this.canvas.style.opacity = String(share);
+    this.opacity.style.setProperty("--sw-share", String((share - 0.1) / 0.9));
+  }
+
+  /** Show a map by name; an empty name shows the picture again. @param {string} name */
+  show(name) {
+    this.map = this.maps.find((map) => map.name === name) ?? null;
+    this.choice.value = this.map?.name ?? "";
+    this.node.hidden = !this.map;
+    this.data = null;
+    this.scene = null;
+    this.canvas.width = 0;
+    this.view.root.classList.toggle("sw-inspecting", this.map !== null);
+    if (!this.map) return;
+    const { title, help, ramp } = this.map;
+    this.title.textContent = title;
+    this.help.textContent = help;
+    this.low.textContent = textAt(this.map, 0);
+    this.high.textContent = textAt(this.map, 1);
+    this.bar.style.backgroundImage = gradient(ramp);
+    this.readValue();
+    void this.refresh();
+  }
+
+  /** The next map of the table, the picture after the last. @param {1 | -1} way */
+  step(way) {
+    const names = ["", ...this.maps.map(({ name }) => name)];
+    const at = names.indexOf(this.map?.name ?? "");
+    this.show(names[(at + way + names.length) % names.length]);
+  }
+
+  /** Ask for the map unless the one at hand is of the present scene. */
+  async refresh() {
+    const { map, view } = this;
+    if (!map || !view.scene || this.scene === view.scene) return;
+    const { scene } = view;
+    this.scene = scene;
+    this.asked += 1;
+    const { asked } = this;
+    this.node.classList.add("sw-waiting");
+    try {
+      const { buffers } = await view.channel.request("map", { name: map.name });
+      const bitmap = await decodePicture(buffers[0]);
+      if (asked === this.asked && map === this.map) this.paint(map, bitmap);
+      bitmap.close();
+    } catch (error) {
+      if (asked !== this.asked) return;
+      this.data = null;
+      this.canvas.width = 0;
+      // Most often the photo has no such thing, such as a sun.
+      this.help.textContent = error instanceof Error ? error.message : String(error);
+      this.readValue();
+    } finally {
+      if (asked === this.asked) this.node.classList.remove("sw-waiting");
+    }
+  }
+
+  /**
+   * @param {SceneMap} map
+   * @param {ImageBitmap} bitmap grey levels
+   */
+  paint(map, bitmap) {
+    const { canvas } = this;
+    const { width, height } = bitmap;
+    [canvas.width, canvas.height] = [width, height];
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    if (!context) return;
+    context.drawImage(bitmap, 0, 0);
+    const image = context.getImageData(0, 0, width, height);
+    const pixels = new Uint32Array(image.data.buffer);
+    const table = new Uint32Array(colours(map.ramp).buffer);
+    const levels = new Uint8Array(pixels.length);
+    for (let i = 0; i < pixels.length; i++) {
+      levels[i] = image.data[4 * i];
+      pixels[i] = table[levels[i]];
+    }
+    context.putImageData(image, 0, 0);
+    this.data = { levels, width, height };
+    this.help.textContent = map.help;
+    this.readValue();
+  }
+
+  /** The pointer is at a place of the picture, or gone. @param {Point | null} place */
+  point(place) {
+    this.place = place;
+    if (this.map) this.readValue();
+  }
+
+  readValue() {
+    const { data, map, place } = this;
+    let share = null;
+    if (data && place?.every((n) => n >= 0 && n < 1)) {
+      const [x, y] = [Math.floor(place[0] * data.width), Math.floor(place[1] * data.height)];
+      share = data.levels[y * data.width + x] / 255;
+    }
+    this.marker.hidden = share === null;
+    this.value.textContent = map && share !== null ? textAt(map, share) : "";
+    if (share !== null) this.marker.style.left = `${100 * share}%`;
+  }
+}
