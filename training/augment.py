@@ -142,7 +142,15 @@ def relight(image: np.ndarray, target: np.ndarray, random: Random) -> np.ndarray
             np.float32
         )
         image = image * (1 - thick) + veil * thick
-    elif draw < 0.30:  # glow around a low sun
+    elif draw < 0.27:  # snow under a deep sky
+        white = random.uniform(0.7, 1.0) * np.array([0.97, 0.99, 1.0], np.float32)
+        alpha = target.astype(np.float32)[..., None] / 255.0
+        grey = image.mean(2, keepdims=True)
+        plain = white * (1 - random.uniform(0.1, 0.5) * (1 - np.minimum(2 * grey, 1)))
+        deep = image * np.array([0.35, 0.5, 0.8], np.float32) * random.uniform(0.5, 1.2)
+        share = random.uniform(0.6, 1.0)
+        image = alpha * deep + (1 - alpha) * (image + share * (plain - image))
+    elif draw < 0.33:  # glow around a low sun
         ramp = np.linspace(0, 1, image.shape[0], dtype=np.float32)
         distance = ((ramp - random.uniform(0.1, 0.7)) ** 2)[:, None] + (ramp - random.random()) ** 2
         glow = np.exp(-distance / random.uniform(0.005, 0.12))[..., None] * random.uniform(0.3, 1.0)
@@ -204,7 +212,7 @@ def augment(
 ) -> Sample:
     """One ``(H, W, 4)`` uint8 photo -> one square training sample."""
     draw = random.random()
-    if draw < 0.15:
+    if draw < 0.19:
         if draw < 0.09:
             real = rooms and random.random() < 0.75
             image = rooms.view(size, random) if real else room(size, random, other)

@@ -1,12 +1,13 @@
 """The shipped ONNX file back into a network that can be trained further.
 
 Export merges most batch normalisations into the convolutions before them. Here they come back: each
-is given the statistics that its convolution really has on some photos, and the scale and offset that
-undo them, so that the restored network computes the same as the file.
+is given the statistics that its convolution really has on some photos, and the scale and offset
+that undo them, so that the restored network computes the same as the file.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import onnx
@@ -18,7 +19,9 @@ from training.model import SkyNet
 
 
 def restore(network: SkyNet, path: Path, photos: list[tuple[Tensor, ...]]) -> None:
-    """Fills ``network`` in place; ``photos`` are batches whose first item is uint8 ``(N, 3, S, S)``.
+    """Fills ``network`` in place.
+
+    ``photos`` are batches whose first item is uint8 ``(N, 3, S, S)``.
 
     The head of the deep supervision is not in the file and keeps its random start.
     """
@@ -63,7 +66,7 @@ def restore(network: SkyNet, path: Path, photos: list[tuple[Tensor, ...]]) -> No
             norm.bias.copy_(bias + mean)
 
 
-def _gather(total: Tensor):
+def _gather(total: Tensor) -> Callable[[nn.Module, tuple[Tensor]], None]:
     def hook(_: nn.Module, inputs: tuple[Tensor]) -> None:
         x = inputs[0].double()
         total[0] += x.numel() / x.shape[1]

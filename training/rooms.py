@@ -1,8 +1,8 @@
 """Views into real rooms, cut from panoramas: photos that hold no sky.
 
-Any folder of equirectangular Radiance pictures (``*.hdr``) of interiors will do; the shipped network
-saw 23 of Poly Haven's (CC0), named in the model card. High dynamic range lets every view be exposed
-anew, so that windows and lamps burn out as they do in photos.
+Any folder of equirectangular Radiance pictures (``*.hdr``) of interiors will do; the shipped
+network saw 22 of Poly Haven's (CC0), named in the model card. High dynamic range lets every view
+be exposed anew, so that windows and lamps burn out as they do in photos.
 """
 
 from __future__ import annotations
