@@ -16,6 +16,7 @@ import numpy as np
 from sunwidget.analysis.backdrop import matched_sky
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
+from sunwidget.analysis.overcast import believable, overcast
 from sunwidget.analysis.unmix import cloud_white, unmix
 from sunwidget.analysis.working import Working
 from sunwidget.camera import Camera
@@ -36,10 +37,15 @@ LEARNED = (-4.81, 6.3, -4.15, -4.98, 0.69)
 
 
 class Clouds(NamedTuple):
-    """Opacity and the thesis' softness C^s, each (h, w) float32 in [0, 1]."""
+    """What is known of the clouds, each (h, w) float32.
+
+    ``opacity`` and the thesis' ``softness`` C^s in [0, 1]; ``shade``, the clouds' own light in
+    units of a white cloud's (self-shade k of unmix.py), 0 to 1.5, and 1 where nothing tells.
+    """
 
     opacity: np.ndarray
     softness: np.ndarray
+    shade: np.ndarray
 
 
 def ratio_index(encoded: np.ndarray) -> np.ndarray:
@@ -126,7 +132,11 @@ def by_threshold(
     index = INDICES[name](working.encoded)
     softness = np.clip((index - minimum) / max(maximum - minimum, 1e-3), 0, 1)
     opacity = np.clip((index - minimum) / 0.1 + 0.5, 0, 1)
-    return Clouds((opacity * sky).astype(np.float32), (softness * sky).astype(np.float32))
+    return Clouds(
+        (opacity * sky).astype(np.float32),
+        (softness * sky).astype(np.float32),
+        np.ones_like(sky, np.float32),
+    )
 
 
 # "unmix" needs the fitted sky, which needs a first idea of the clouds: that is r/b, whose
@@ -137,11 +147,14 @@ METHODS: dict[str, Callable[..., Clouds]] = {
 }
 
 
-def veil(working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit) -> np.ndarray:
-    """Opacity (h, w) float32 by un-mixing the photo from the fitted clear sky (unmix.py).
+def veil(
+    working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit, *, sun_seen: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """Opacity and shade, (h, w) float32, by un-mixing the photo from the fitted sky (unmix.py).
 
     A guided filter (He et al. 2010) ties it to the picture: compression blocks and noise in
-    the colour differences would else show as soon as cloud and sky are lit apart.
+    the colour differences would else show as soon as cloud and sky are lit apart. Unless the sun
+    is seen, a sky that is white all over is cloud (overcast.py).
 
     Raises
     ------
@@ -157,18 +170,24 @@ def veil(working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit) -> np.n
             "--force-reinstall opencv-contrib-python-headless; or pass clouds='rb_ratio'."
         )
 
-    clear = matched_sky(fit, camera, (working.width, working.height))
+    blue = fit if sun_seen else believable(fit, working, sky)
+    clear = matched_sky(blue, camera, (working.width, working.height))
     light = fit.response.scene_light(working.linear)
-    opacity = unmix(light, clear, cloud_white(fit), sky)[0]
+    opacity, shade = unmix(light, clear, cloud_white(blue), sky)
+    if not sun_seen:
+        opacity = np.maximum(opacity, overcast(working, sky))
     radius = max(2, round(0.004 * max(sky.shape)))
     smooth = cv2.ximgproc.guidedFilter(working.encoded, opacity, radius, 2e-4)
-    return np.asarray(np.clip(smooth, 0, 1) * sky, np.float32)
+    # Shade weighs by opacity: where there is hardly any cloud it is noise.
+    weight = cv2.blur(opacity, (2 * radius + 1, 2 * radius + 1)) + 1e-3
+    level = cv2.blur(opacity * shade, (2 * radius + 1, 2 * radius + 1)) + 1e-3
+    return np.asarray(np.clip(smooth, 0, 1) * sky, np.float32), level / weight
 
 
 def without(clouds: Clouds, mask: np.ndarray) -> Clouds:
     """Take the sun's pixels out: r/b calls them cloud (thesis 3.1.3)."""
     keep = 1 - mask
-    return Clouds(clouds.opacity * keep, clouds.softness * keep)
+    return Clouds(clouds.opacity * keep, clouds.softness * keep, clouds.shade)
 
 
 def softness_histogram(scene: Scene, bins: int = 32) -> np.ndarray:

@@ -9,14 +9,15 @@ import numpy as np
 
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.camera import Point
-from sunwidget.edit import Stroke
+from sunwidget.edit import Stroke, parameter
 
 
 @dataclass(frozen=True)
 class Hints:
     """What a person says about the photo; a hint wins over detection.
 
-    Points are pixels of the photo. ``methods`` names the method of each stage.
+    Points are pixels of the photo. ``methods`` names the method of each stage; ``cloud_ratios``
+    are m_min and m_max of the clouds.
     """
 
     sun: Point | None = None
@@ -24,6 +25,10 @@ class Hints:
     fov: float | None = None
     strokes: tuple[Stroke, ...] = ()
     methods: tuple[tuple[str, str], ...] = ()
+    cloud_ratios: tuple[float, float] = (
+        parameter("cloud_ratio_min").default,
+        parameter("cloud_ratio_max").default,
+    )
 
     def method(self, stage: str) -> str:
         """Name of the stage's method."""

@@ -22,11 +22,27 @@ def notices(
     horizon: Horizon,
     camera: Camera,
     hints: Hints,
+    doubted: float = 0.0,
 ) -> tuple[str, ...]:
-    """Return one sentence for each doubt; ``sky`` is the matte at working size."""
+    """Return one sentence for each doubt.
+
+    ``sky`` is the matte at working size, ``doubted`` the share of the picture that was dropped
+    from the sky as unlikely (plausible.py).
+    """
     notes = []
     share = float(np.mean(sky > 0.5))
-    if share < NO_SKY:
+    if share < NO_SKY and doubted > NO_SKY:
+        notes.append(
+            f"No sky found in {photo.name}: what looked a little like it ({100 * doubted:.0f} % of "
+            "pixels) is rather a wall or ceiling. If it is sky, draw a sky stroke or pass "
+            "sky='network', which is not doubted."
+        )
+    elif doubted > NO_SKY:
+        notes.append(
+            f"A patch of {photo.name} that looks like sky ({100 * doubted:.1f} % of pixels) was "
+            "left out as unlikely. Draw a sky stroke over it if it is sky."
+        )
+    elif share < NO_SKY:
         notes.append(
             f"No sky found in {photo.name} ({100 * share:.1f} % of pixels). "
             "Draw a sky stroke or pass sky=mask."

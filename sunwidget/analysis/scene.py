@@ -19,13 +19,26 @@ from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.hints import Hints, check_fov, check_horizon, check_point
 from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.stages import METHODS, Progress, Steps, check_method, complete
+from sunwidget.analysis.plausible import plausible
+from sunwidget.analysis.stages import (
+    METHODS,
+    Progress,
+    Steps,
+    check_method,
+    complete,
+    find_clouds_again,
+)
 from sunwidget.analysis.sun import SunObservation
 from sunwidget.analysis.working import Working, resize
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.camera import Camera, Point
-from sunwidget.edit import PARAMETERS, Edit, Stroke
+from sunwidget.edit import PARAMETERS, Edit, Stroke, parameter
 from sunwidget.photo import Photo, open_photo
+
+# What an edit says that leaves the clouds to ``analyze``.
+_ANALYSED_CLOUDS = {
+    name: parameter(name).default for name in ("cloud_method", "cloud_ratio_min", "cloud_ratio_max")
+}
 
 __all__ = ["AnalysisError", "Hints", "Progress", "Scene", "analyze"]
 
@@ -65,6 +78,8 @@ class Scene:
         What it was analysed with.
     timings : dict
         Seconds of each stage.
+    doubted : float
+        Share of the picture that was dropped from the sky as unlikely.
     """
 
     photo: Photo = field(repr=False)
@@ -87,6 +102,8 @@ class Scene:
     timings: dict[str, float] = field(repr=False)
     working: Working = field(repr=False)
     decision: refine.Decision = field(repr=False)
+    doubted: float = 0.0
+    shade: np.ndarray | None = field(default=None, repr=False)
     fitted: SkyFit | None = field(default=None, repr=False)
     _corrected: dict[Any, Scene] = field(default_factory=dict, repr=False)
 
@@ -104,6 +121,16 @@ class Scene:
     def sureness(self) -> np.ndarray:
         """How sure it is that each pixel is sky or is land: (H, W) float32 in (0, 1]."""
         return resize(self.decision.sureness, self.width, self.height)
+
+    @property
+    def cloud_shade(self) -> np.ndarray:
+        """Light of the clouds in units of a white cloud's: (H, W) float32, 0 to 1.5.
+
+        Only method "unmix" tells it; by another it is 1.
+        """
+        if self.shade is None:
+            return np.ones((self.height, self.width), np.float32)
+        return resize(self.shade, self.width, self.height)
 
     @property
     def automatic(self) -> dict[str, float]:
@@ -163,26 +190,40 @@ class Scene:
         return np.stack([glare, self.water, glints], axis=-1)
 
     def corrected(self, edit: Edit) -> Scene:
-        """Return the scene with the edit's strokes and hints applied.
+        """Return the scene with the edit's strokes, hints and choice of clouds applied.
 
         The same edit always gives the same maps, to the bit; an edit that corrects nothing
-        gives this very object.
+        gives this very object. Thresholds correct nothing when clouds are un-mixed.
 
         Raises
         ------
         AnalysisError
             When a hint cannot be used.
         """
-        corrections = (edit.strokes, edit.sun_hint, edit.horizon_hint, edit.fov_hint)
-        if corrections == ((), None, None, None):
+        clouds = self._cloud_choice(edit)
+        corrections = (edit.strokes, edit.sun_hint, edit.horizon_hint, edit.fov_hint, clouds)
+        if corrections == ((), None, None, None, None):
             return self
         if corrections not in self._corrected:
             while len(self._corrected) >= 3:  # each holds full-size maps
                 self._corrected.pop(next(iter(self._corrected)), None)
-            # Strokes come last, on the scene with the hints: they leave its camera and fit alone.
+            if clouds is not None:
+                base = self.corrected(edit.replace(**_ANALYSED_CLOUDS))
+                self._corrected[corrections] = find_clouds_again(base, *clouds)
+                return self._corrected[corrections]
+            # Strokes come after the hints: they leave camera and fit of that scene alone.
             base = self.corrected(edit.replace(strokes=())) if edit.strokes else self
             self._corrected[corrections] = complete(base, self._with_hints(edit))
         return self._corrected[corrections]
+
+    def _cloud_choice(self, edit: Edit) -> tuple[str, tuple[float, float]] | None:
+        """Return method and thresholds of the clouds where they differ from the analysis'."""
+        analysed = self.hints.method("clouds")
+        method = analysed if edit.cloud_method == "analysed" else edit.cloud_method
+        ratios = (edit.cloud_ratio_min, edit.cloud_ratio_max)
+        if method == analysed and (method == "unmix" or ratios == self.hints.cloud_ratios):
+            return None
+        return method, ratios
 
     def _with_hints(self, edit: Edit) -> Hints:
         def pixels(point: Point) -> Point:
@@ -226,7 +267,8 @@ def analyze(
     fov : float, optional
         Vertical field of view in degrees.
     sky : array, path or str, optional
-        A mask, the path of an ONNX network, or a name of ``sky.METHODS``.
+        A mask, the path of an ONNX network, or a name of ``sky.METHODS``. Default: the bundled
+        network, doubted where it hardly believes itself (plausible.py); a named one is not.
     refine, clouds, horizon_method, sun_method, depth, water : str
         Name in the stage's ``METHODS``.
     strokes : tuple of Stroke
@@ -270,6 +312,11 @@ def analyze(
     coarse = sky_stage.coarse(working, sky, photo.size)
     step("refine", 0.4, "Following the skyline")
     decision = METHODS["refine"][refine](working, coarse)
+    doubted = 0.0
+    if sky is None:  # what a person names is taken at its word
+        kept = plausible(decision.sky, coarse, working)
+        doubted = float(np.mean((decision.sky > 0.5) & ~kept))
+        decision = decision._replace(sky=decision.sky * kept)
     camera = Camera(photo.width, photo.height, hints.fov or photo.field_of_view.vertical)
     empty = np.zeros((1, 1), np.float32)
     start = Scene(
@@ -293,6 +340,7 @@ def analyze(
         timings=step.timings,
         working=working,
         decision=decision,
+        doubted=doubted,
     )
     return complete(start, hints, step)
 

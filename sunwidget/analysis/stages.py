@@ -96,7 +96,7 @@ def complete(base: Scene, hints: Hints, step: Steps | None = None) -> Scene:
         matte = np.maximum(matte, resize(disc, *photo.size))
 
     step("clouds", 0.75, "Finding clouds")
-    cover = METHODS["clouds"][hints.method("clouds")](working, sky)
+    cover = METHODS["clouds"][hints.method("clouds")](working, sky, *hints.cloud_ratios)
     if blot is not None:
         cover = cloud_stage.without(cover, blot.mask)
 
@@ -124,6 +124,7 @@ def complete(base: Scene, hints: Hints, step: Steps | None = None) -> Scene:
         sky=matte,
         clouds=resize(cover.opacity, *photo.size),
         cloud_softness=resize(cover.softness, *photo.size),
+        shade=cover.shade,
         sun=sun,
         horizon=horizon,
         camera=camera,
@@ -138,7 +139,7 @@ def complete(base: Scene, hints: Hints, step: Steps | None = None) -> Scene:
             "sky_gain": fitted.gain,
             "glare_profile": fitted.glare,
         },
-        warnings=notices(photo, sky, sun, blot, horizon, camera, hints),
+        warnings=notices(photo, sky, sun, blot, horizon, camera, hints, base.doubted),
         hints=hints,
         timings=step.timings,
         backdrop=behind.field,
@@ -228,16 +229,55 @@ def _atmosphere(
         fitted = fit_sky(working, sky, cover.opacity, camera, sun_angles, assumed)
         if unmixed:
             # The colour of the clear sky tells the clouds, and without them it is known better.
-            opacity = cloud_stage.veil(working, sky, camera, fitted)
+            opacity, _ = cloud_stage.veil(working, sky, camera, fitted, sun_seen=visible)
             fitted = fit_sky(working, sky, opacity, camera, fitted.sun, assumed)
     fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
     if unmixed:
-        opacity = cloud_stage.veil(working, sky, camera, fitted)
-        # Round the sun whiteness tells nothing: continue the clouds from around it.
-        glare = resize(behind.glare, working.width, working.height)
-        filled = fill_by_pyramid(opacity[..., None], 1 - glare)[..., 0]
-        cover = Clouds(filled, cover.softness)
+        cover = _unmixed(working, sky, camera, fitted, behind.glare, cover, sun_seen=visible)
     return fitted, behind, cover
+
+
+def _unmixed(
+    working: Working,
+    sky: np.ndarray,
+    camera: Camera,
+    fitted: SkyFit,
+    glare: np.ndarray,
+    cover: Clouds,
+    *,
+    sun_seen: bool,
+) -> Clouds:
+    """Return ``cover`` with opacity and shade un-mixed from the fitted sky."""
+    opacity, shade = cloud_stage.veil(working, sky, camera, fitted, sun_seen=sun_seen)
+    # Round the sun whiteness tells nothing: continue the clouds from around it.
+    trust = 1 - resize(glare, working.width, working.height)
+    filled = fill_by_pyramid(np.dstack([opacity, shade]), trust)
+    return Clouds(filled[..., 0], cover.softness, filled[..., 1])
+
+
+def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> Scene:
+    """Return the scene with its clouds found by another method or other thresholds.
+
+    All else stays as it is, the fit too.
+    """
+    working, sun = base.working, base.sun
+    sky = resize(base.sky, working.width, working.height)
+    cover = METHODS["clouds"][method](working, sky, *ratios)
+    if sun is not None:
+        mask = resize(sun.mask, working.width, working.height)
+        cover = cloud_stage.without(cover, mask)
+    if method == "unmix" and base.fitted is not None:
+        seen = sun is not None and sun.visible
+        cover = _unmixed(working, sky, base.camera, base.fitted, base.glare, cover, sun_seen=seen)
+    methods = dict(base.hints.methods) | {"clouds": method}
+    return dataclasses.replace(
+        base,
+        clouds=resize(cover.opacity, *base.photo.size),
+        cloud_softness=resize(cover.softness, *base.photo.size),
+        shade=cover.shade,
+        hints=dataclasses.replace(base.hints, methods=tuple(methods.items()), cloud_ratios=ratios),
+        _corrected={},
+    )
 
 
 def _depth(sky: np.ndarray, camera: Camera, hints: Hints) -> np.ndarray:
