@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from sunwidget.analysis.errors import AnalysisError
     from sunwidget.analysis.scene import Scene, analyze
+    from sunwidget.analysis.sky_network import SkyNetwork
     from sunwidget.camera import Camera
     from sunwidget.edit import PARAMETERS, Edit, EditError, Stroke
     from sunwidget.export.stills import save
@@ -42,6 +43,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "PhotoWarning": ("sunwidget.photo", "PhotoWarning"),
     "RendererError": ("sunwidget.renderer.gl_thread", "RendererError"),
     "Scene": ("sunwidget.analysis.scene", "Scene"),
+    "SkyNetwork": ("sunwidget.analysis.sky_network", "SkyNetwork"),
     "Stroke": ("sunwidget.edit", "Stroke"),
     "SunEditor": ("sunwidget.widgets", "SunEditor"),
     "analyze": ("sunwidget.analysis.scene", "analyze"),
@@ -63,6 +65,7 @@ __all__ = [
     "PhotoWarning",
     "RendererError",
     "Scene",
+    "SkyNetwork",
     "Stroke",
     "SunEditor",
     "__version__",

@@ -246,6 +246,7 @@ def analyze(
     horizon: float | tuple[Point, Point] | None = None,
     fov: float | None = None,
     sky: Any = None,
+    sky_label: int | str | None = None,
     refine: str = "grabcut_mask",
     clouds: str = "unmix",
     horizon_method: str = "robust_line",
@@ -266,9 +267,11 @@ def analyze(
         Row of the horizon at the picture's centre, or two of its points, in pixels.
     fov : float, optional
         Vertical field of view in degrees.
-    sky : array, path or str, optional
-        A mask, the path of an ONNX network, or a name of ``sky.METHODS``. Default: the bundled
+    sky : array, path, SkyNetwork or str, optional
+        A mask, an ONNX network or its path, or a name of ``sky.METHODS``. Default: the bundled
         network, doubted where it hardly believes itself (plausible.py); a named one is not.
+    sky_label : int or str, optional
+        The class "sky" of an ONNX network, index from 0 or name (``SkyNetwork.label``).
     refine, clouds, horizon_method, sun_method, depth, water : str
         Name in the stage's ``METHODS``.
     strokes : tuple of Stroke
@@ -309,7 +312,7 @@ def analyze(
     step("prepare", 0.0, "Preparing the photo")
     working = Working.of(photo)
     step("sky", 0.1, "Finding the sky")
-    coarse = sky_stage.coarse(working, sky, photo.size)
+    coarse = sky_stage.coarse(working, sky, photo.size, sky_label)
     step("refine", 0.4, "Following the skyline")
     decision = METHODS["refine"][refine](working, coarse)
     doubted = 0.0
