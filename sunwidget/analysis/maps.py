@@ -33,6 +33,7 @@ HEAT: Ramp = (
     (1.0, "#fcfdbff0"),
 )
 DOUBT: Ramp = ((0.0, "#ff2f6df0"), (0.4, "#ffa52ce0"), (0.75, "#ffe66aa0"), (1.0, "#3fd0a040"))
+SHADE: Ramp = ((0.0, "#10083ae8"), (0.4, "#5a4a9cc0"), (0.667, "#ffffff18"), (1.0, "#ffd23af0"))
 PATCH: Ramp = ((0.0, "#ffe14a00"), (0.5, "#ffc21ad0"), (1.0, "#ff3b30f0"))
 WATER: Ramp = ((0.0, "#00c2d100"), (0.5, "#00c2d1b0"), (1.0, "#006dffd8"))
 ELEVATION: Ramp = (
@@ -213,9 +214,10 @@ MAPS: tuple[SceneMap, ...] = (
     SceneMap(
         "cloud_shade",
         "Cloud self-shade",
-        lambda scene: getattr(scene, "cloud_shade", None),
-        "Brightness of the cloud against white: low in its own shade.",
-        HEAT,
+        lambda scene: None if scene.shade is None else scene.cloud_shade,
+        "Light of the cloud against a white one's: low in its own shade. Only un-mixing tells it.",
+        SHADE,
+        high=1.5,
     ),
     SceneMap(
         "sun",

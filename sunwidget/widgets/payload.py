@@ -6,11 +6,14 @@ The kernel keeps the full resolution; a preview's long edge has at most ``PREVIE
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.analysis.clouds import INDICES
 from sunwidget.analysis.horizon import row_argmax
 from sunwidget.analysis.maps import MAPS, levels, scene_map, shares_of
 from sunwidget.analysis.scene import Scene
@@ -33,7 +36,9 @@ def encode_png(image: NDArray[np.uint8]) -> bytes:
     import cv2
 
     bgr = image[..., ::-1] if image.ndim == 3 else image
-    ok, data = cv2.imencode(".png", bgr, [cv2.IMWRITE_PNG_COMPRESSION, 2])
+    # Run lengths alone: never larger here than a search for repetitions, and faster.
+    runs = [cv2.IMWRITE_PNG_COMPRESSION, 2, cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
+    ok, data = cv2.imencode(".png", bgr, runs)
     if not ok:
         raise RuntimeError(f"OpenCV could not encode a picture of shape {image.shape} as PNG.")
     return bytes(data)
@@ -74,14 +79,18 @@ def encode_maps(scene: Scene) -> dict[str, bytes]:
     import cv2
 
     size = preview_size(scene.photo)
-    maps = {"_layers": scene.layers(), "_surface": scene.surface()}
-    encoded = {}
-    for name, image in maps.items():
+
+    def encoded(read: Callable[[], NDArray[np.float32]]) -> bytes:
+        image = read()
         if (image.shape[1], image.shape[0]) != size:
-            image = cv2.resize(image, size, interpolation=cv2.INTER_AREA)
-        encoded[name] = encode_png(quantise_map(image))
-    encoded["_backdrop"] = encode_png(quantise_map(scene.backdrop))
-    return encoded
+            image = np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA))
+        return encode_png(quantise_map(image))
+
+    # Side by side: a person waits for this after every stroke.
+    with ThreadPoolExecutor(2) as pool:
+        layers, surface = pool.map(encoded, (scene.layers, scene.surface))
+    backdrop = encode_png(quantise_map(scene.backdrop))
+    return {"_layers": layers, "_surface": surface, "_backdrop": backdrop}
 
 
 def encode_map(scene: Scene, name: str) -> bytes:
@@ -138,9 +147,33 @@ def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
                 "source": scene.horizon.source,
                 "others": _other_horizons(scene),
             },
+            "whiteness": whiteness(scene),
             "warnings": list(scene.warnings),
         }
     )
+
+
+def whiteness(scene: Scene, bins: int = 64, reach: float = 1.6) -> dict[str, Any]:
+    """Return how white the sky is, measured as the method that found the clouds does.
+
+    The histogram of the editor's cloud section: m_min and m_max cut it. What is whiter than
+    ``reach`` counts in the last bin; the sun's glare is left out. Un-mixing uses no thresholds,
+    so there it is red over blue.
+
+    Returns
+    -------
+    dict
+        ``method``, ``reach``, and ``shares`` of the sky by bin: they sum to 1, or to 0 without
+        sky.
+    """
+    method, small = scene.hints.method("clouds"), scene.working
+    index = INDICES.get(method, INDICES["rb_ratio"])(small.encoded)
+    sky = resize(scene.sky, small.width, small.height)
+    sky = sky * (resize(scene.glare, small.width, small.height) < 0.5)
+    inside = np.clip(index, 0, reach * (1 - 1e-6))
+    counts, _ = np.histogram(inside, bins, (0, reach), weights=sky)
+    shares = counts / max(float(counts.sum()), 1e-9)
+    return {"method": method, "reach": reach, "shares": shares.round(5)}
 
 
 def _other_horizons(scene: Scene) -> dict[str, tuple[float, float]]:

@@ -228,7 +228,13 @@ def test_a_guessed_horizon_is_dashed_and_a_given_one_is_not(editor, state):
     assert editor.locator(".sw-horizon-label").text_content() == "Set by hand · level"
 
 
-def test_the_histogram_counts_the_sky_and_its_lines_set_the_thresholds(editor):
+def test_the_histogram_counts_the_sky_and_its_lines_set_the_thresholds(editor, state):
+    # Un-mixed clouds need no thresholds, and the panel says so.
+    assert "un-mixed" in editor.locator(".sw-histogram-text").text_content()
+    whiteness = {**state["_scene"]["whiteness"], "method": "rb_ratio"}
+    scene = {**state["_scene"], "whiteness": whiteness, "revision": 7}
+    editor.evaluate("(scene) => model.receive({ _scene: scene })", scene)
+    editor.locator(".sw-softness:not(.sw-idle)").wait_for()
     text = editor.locator(".sw-histogram-text").text_content()
     shares = [float(part) for part in text.replace("·", " ").split() if part.isdigit()]
     assert sum(shares) == pytest.approx(100, abs=2)
@@ -265,8 +271,8 @@ def test_notes_can_be_put_away_and_brought_back(editor, state):
     first = "The horizon is a <b>guess</b>. Drag it."
     scene = {**state["_scene"], "warnings": [first, "No sun found."], "revision": 5}
     editor.evaluate("(scene) => model.receive({ _scene: scene })", scene)
-    editor.wait_for_function("document.querySelectorAll('.sw-note').length === 2")
-    assert notes.first.text_content() == first
+    editor.get_by_text(first, exact=True).wait_for()
+    assert notes.all_text_contents() == [first, "No sun found."]
     editor.get_by_role("button", name="Dismiss this note").first.click()
     assert notes.all_text_contents() == ["No sun found."]
     # Put away means away, also when the scene comes again.

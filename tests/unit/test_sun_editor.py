@@ -11,11 +11,12 @@ from PIL import Image
 from traitlets import TraitError
 
 import sunwidget as sw
+from sunwidget.analysis.clouds import softness_histogram
 from sunwidget.analysis.maps import MAPS, scene_map
 from sunwidget.edit import PARAMETERS
 from sunwidget.widgets import SunEditor
 from sunwidget.widgets import sun_editor as module
-from sunwidget.widgets.payload import PREVIEW_EDGE, preview_size
+from sunwidget.widgets.payload import PREVIEW_EDGE, preview_size, whiteness
 from sunwidget.widgets.requests import Requests
 
 
@@ -255,3 +256,20 @@ def test_the_bundle_is_small_and_names_no_machine(root):
     bundle = (root / "sunwidget" / "static" / "sun_editor.js").read_bytes()
     assert len(bundle) <= 120_000
     assert str(root).encode() not in bundle
+
+
+def test_whiteness_is_counted_as_the_clouds_method_measures_it(scene):
+    measured = whiteness(scene)
+    assert measured["method"] == "unmix"
+    shares = np.array(measured["shares"])
+    assert shares.sum() == pytest.approx(1, abs=1e-3)
+    # The editor's three shares are those of the softness that the analysis found.
+    by_ratio = scene.corrected(sw.Edit(cloud_method="rb_ratio"))
+    measured = whiteness(by_ratio)
+    edges = np.linspace(0, measured["reach"], len(measured["shares"]) + 1)
+    clear = np.array(measured["shares"])[edges[1:] <= 0.62].sum()
+    softness = softness_histogram(by_ratio, 1000)
+    assert clear == pytest.approx(softness[0], abs=0.06)
+    by_difference = whiteness(scene.corrected(sw.Edit(cloud_method="rb_difference")))
+    assert by_difference["method"] == "rb_difference"
+    assert not np.allclose(by_difference["shares"], measured["shares"])

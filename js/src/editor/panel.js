@@ -11,7 +11,7 @@ const title = (name) => name[0].toUpperCase() + name.slice(1);
 
 /**
  * @param {import("./view.js").View} view
- * @returns {{ node: HTMLElement, show: () => void, count: Softness["count"] }}
+ * @returns {{ node: HTMLElement, show: () => void }}
  */
 export function panel(view) {
   const { state } = view;
@@ -65,6 +65,5 @@ export function panel(view) {
     show: () => {
       for (const update of updates) update();
     },
-    count: (photo, layers, surface) => softness.count(photo, layers, surface),
   };
 }

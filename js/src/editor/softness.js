@@ -1,13 +1,13 @@
 /**
- * The histogram of red over blue in the sky with m_min and m_max as lines to drag.
+ * The histogram of the sky's whiteness with m_min and m_max as lines to drag.
  *
  * Between them the softness C^s rises from 0 to 1; they are well chosen when it is spread
- * (thesis 4.2).
+ * (thesis 4.2). The kernel counts, by the measure of the method that found the clouds.
  */
 
 import { element, setAttributes, shape } from "../controls/element.js";
 import { gradient } from "./ramp.js";
-import { BINS, histogram, REACH, sample, spread } from "./whiteness.js";
+import { outline, spread } from "./whiteness.js";
 
 /** @typedef {import("./view.js").View} View */
 
@@ -21,8 +21,8 @@ export class Softness {
   /** @param {View} view */
   constructor(view) {
     this.view = view;
-    /** @type {Float64Array} */
-    this.counts = new Float64Array(BINS);
+    /** @type {unknown} what the bars show */
+    this.drawn = null;
     this.bars = shape("path", { class: "sw-histogram-bars" });
     this.between = shape("rect", { class: "sw-histogram-between", y: 0, height: HEIGHT });
     this.lines = NAMES.map((name, i) => this.handle(name, i));
@@ -49,7 +49,7 @@ export class Softness {
         "div",
         {
           class: "sw-histogram-title",
-          title: "Red over blue of the sky. Drag m_min and m_max so that the softness is spread",
+          title: "Red over blue or its like. Drag m_min and m_max so that the softness is spread",
         },
         element("span", {}, "Whiteness of the sky"),
         this.numbers,
@@ -95,6 +95,10 @@ export class Softness {
     return node;
   }
 
+  measured() {
+    return this.view.scene?.whiteness ?? { method: "", reach: 1, shares: [] };
+  }
+
   /** m_min and m_max. */
   limits() {
     return NAMES.map((name) => this.view.value(name));
@@ -103,7 +107,7 @@ export class Softness {
   /** @param {PointerEvent} event */
   ratioAt(event) {
     const box = this.svg.getBoundingClientRect();
-    return ((event.clientX - box.left) / box.width) * REACH;
+    return ((event.clientX - box.left) / box.width) * this.measured().reach;
   }
 
   /** The nearer line is taken. @param {PointerEvent} event */
@@ -111,7 +115,8 @@ export class Softness {
     if (event.button > 0) return;
     event.preventDefault();
     const at = this.ratioAt(event);
-    const [low, high] = this.limits().map((n) => Math.min(n, REACH));
+    const { reach } = this.measured();
+    const [low, high] = this.limits().map((n) => Math.min(n, reach));
     this.dragged = Math.abs(at - low) < Math.abs(at - high) ? 0 : 1;
     this.lines[this.dragged].focus({ preventScroll: true });
     this.svg.setPointerCapture(event.pointerId);
@@ -128,31 +133,14 @@ export class Softness {
     this.view.state.set({ [p.name]: value });
   }
 
-  /**
-   * Count anew.
-   *
-   * @param {ImageBitmap} photo
-   * @param {ImageBitmap} layers
-   * @param {ImageBitmap} surface
-   */
-  count(photo, layers, surface) {
-    const [rgb, sky, glare] = sample([photo, layers, surface]);
-    this.counts = histogram(rgb, sky, glare);
-    // Few bins often hold most of the sky: the root keeps the others in sight.
-    const most = Math.max(...this.counts) || 1;
-    const step = WIDTH / BINS;
-    let path = `M0 ${HEIGHT}`;
-    this.counts.forEach((share, i) => {
-      const y = HEIGHT * (1 - Math.sqrt(share / most));
-      path += `V${y.toFixed(1)}H${((i + 1) * step).toFixed(2)}`;
-    });
-    setAttributes(this.bars, { d: `${path}V${HEIGHT}Z` });
-    this.show();
-  }
-
   show() {
+    const { method, reach, shares } = this.measured();
+    if (shares !== this.drawn) {
+      setAttributes(this.bars, { d: outline(shares, WIDTH, HEIGHT) });
+      this.drawn = shares;
+    }
     const limits = this.limits();
-    const [x0, x1] = limits.map((n) => (Math.min(n, REACH) / REACH) * WIDTH);
+    const [x0, x1] = limits.map((n) => Math.min(1, n / reach) * WIDTH);
     setAttributes(this.between, { x: x0, width: Math.max(0, x1 - x0) });
     this.lines.forEach((node, i) => {
       setAttributes(node, {
@@ -165,7 +153,15 @@ export class Softness {
     this.numbers.textContent = `m ${limits.map((n) => n.toFixed(2)).join(" – ")}`;
     this.ramp.style.marginLeft = `${(100 * x0) / WIDTH}%`;
     this.ramp.style.width = `${(100 * (x1 - x0)) / WIDTH}%`;
-    const [clear, soft, white] = spread(this.counts, limits[0], limits[1]);
+    const [clear, soft, white] = spread(shares, reach, limits[0], limits[1]);
+    // Un-mixing needs no thresholds; only the thesis' own methods take them all the same.
+    const idle = method === "unmix" && this.view.state.values.method === "ratio";
+    this.node.classList.toggle("sw-idle", idle);
+    this.text.classList.remove("sw-warn");
+    if (idle) {
+      this.text.textContent = "Clouds are un-mixed here: m counts when they are found otherwise.";
+      return;
+    }
     if (clear + soft + white === 0) {
       this.text.textContent = this.view.scene ? "No sky to measure." : "";
       return;

@@ -196,10 +196,9 @@ export class View {
         for (const bitmap of bitmaps) bitmap.close();
         return;
       }
-      const [preview, layers, surface] = bitmaps;
+      const [preview, layers] = bitmaps;
       this.size = [preview.width, preview.height];
       paintSkyMask(this.stage.mask, layers);
-      this.panel.count(preview, layers, surface);
       names.forEach((name, i) => {
         this.frame.setPicture(name, bitmaps[i]);
       });
