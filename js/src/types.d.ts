@@ -14,6 +14,8 @@ export interface Parameter {
   help: string;
   choices: string[];
   advanced: boolean;
+  /** The photo's maps follow it: the kernel answers a change with a new scene. */
+  analysis: boolean;
 }
 
 export type Point = [number, number];

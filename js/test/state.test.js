@@ -100,6 +100,21 @@ test("the history has an end", () => {
   assert.equal(model.get("_history").past.length, HISTORY_LENGTH);
 });
 
+test("what the photo's maps follow is said when it is sent, and nothing else", () => {
+  const marked = parameters.map((p) => ({ ...p, analysis: p.name === "strokes" }));
+  const other = new EditState(model, marked, new AbortController().signal);
+  let said = 0;
+  other.onCorrection = () => {
+    said += 1;
+  };
+  other.set({ exposure: 1 });
+  assert.equal(said, 0);
+  other.set({ strokes: [{ label: "sky", points: [[0, 0]], radius: 0.01 }] });
+  assert.equal(said, 1);
+  other.undo();
+  assert.equal(said, 2);
+});
+
 test("a closed view hears no more", () => {
   const controller = new AbortController();
   const closed = new EditState(model, parameters, controller.signal);

@@ -25,6 +25,7 @@ try:
 except Exception as error:
     refused = str(error)
 Path("refused.txt").write_text(f"{editor.sun_elevation} {refused}")""",
+    'Path("stroked.json").write_text(json.dumps(editor.edit.to_dict()))',
 ]
 
 
@@ -119,6 +120,31 @@ def test_dragging_the_sun_in_jupyterlab_shows_what_the_kernel_exports(
                 "document.querySelector('.sw-readout').textContent.includes('21.5°')"
             )
             page.screenshot(path=screenshots / "lab-5-from-python.png")
+
+            # A map comes when it is asked for, and a stroke changes it.
+            editor.get_by_label("Show").select_option("sky")
+            editor.locator(".sw-legend:not(.sw-waiting)").wait_for()
+            clear = "a => document.querySelector('.sw-map').getContext('2d').getImageData(...a)"
+            place = page.evaluate(
+                """() => {
+                  const { width, height } = document.querySelector(".sw-map");
+                  return [Math.round(0.5 * width), Math.round(0.93 * height), 1, 1];
+                }"""
+            )
+            assert page.evaluate(f"({clear})({place}).data[3]") < 60
+            editor.get_by_role("radio", name="Brush: sky").click()
+            box = editor.locator(".sw-picture").bounding_box()
+            row = box["y"] + 0.93 * box["height"]
+            page.mouse.move(box["x"] + 0.4 * box["width"], row)
+            page.mouse.down()
+            page.mouse.move(box["x"] + 0.6 * box["width"], row, steps=8)
+            page.mouse.up()
+            assert editor.get_attribute("data-stage") == "analysing"
+            page.screenshot(path=screenshots / "lab-6-stroke.png")
+            page.wait_for_function(f"({clear})({place}).data[3] > 100")
+            stroked = json.loads(run_cell_that_writes(page, 4, tmp_path / "stroked.json"))
+            assert [stroke["label"] for stroke in stroked["strokes"]] == ["sky"]
+            page.screenshot(path=screenshots / "lab-7-answered.png")
         except BaseException:
             page.screenshot(path=screenshots / "lab-failed.png")
             raise

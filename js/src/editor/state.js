@@ -37,6 +37,8 @@ export class EditState {
     this.unsent = new Set();
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
+    /** @type {() => void} called when something was sent that the photo's maps follow */
+    this.onCorrection = () => {};
 
     const onTrait = () => this.pull();
     for (const { name } of parameters) model.on(`change:${name}`, onTrait);
@@ -123,6 +125,7 @@ export class EditState {
     for (const name of names) this.model.set(name, this.values[name]);
     this.unsent.clear();
     this.model.save_changes();
+    if (this.parameters.some((p) => p.analysis && names.includes(p.name))) this.onCorrection();
   }
 
   /** Values that differ from their defaults, by name. */

@@ -128,6 +128,11 @@ export class View {
     const { model, stage, state } = this;
     state.subscribe(() => this.show());
     stage.onLayout = () => this.drawOverlay();
+    // Said at once: a busy kernel may take its time until it reports itself.
+    state.onCorrection = () => {
+      this.root.dataset.stage = "analysing";
+      stage.setProgress(0.04, "Waiting for the kernel …");
+    };
     /** @type {Record<string, () => void>} */
     const handlers = {
       "change:_photo": () => void this.loadPhoto(),
