@@ -13,6 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sunwidget.analysis.dense_crf import mean_field
+from sunwidget.analysis.edges import snap
 from sunwidget.analysis.working import Working, code_values, resize, shrink
 from sunwidget.edit import Stroke
 from sunwidget.photo import Photo
@@ -84,8 +86,23 @@ def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
     return Decision(cutout, sureness.astype(np.float32))
 
 
+def edge(working: Working, probability: np.ndarray) -> Decision:
+    """Draw the coarse border to the strongest edges within 2 px of 384 (``edges.snap``)."""
+    image, coarse = _small(working, probability)
+    return _decision(snap(image, coarse), coarse)
+
+
+def dense_crf(working: Working, probability: np.ndarray) -> Decision:
+    """Mean field of a fully connected conditional random field (``dense_crf.mean_field``)."""
+    image, coarse = _small(working, probability)
+    marginal = mean_field(image, coarse)
+    return _decision(marginal > 0.5, marginal)
+
+
 METHODS: dict[str, Callable[[Working, np.ndarray], Decision]] = {
     "none": none,
+    "edge": edge,
+    "dense_crf": dense_crf,
     "grabcut_rect": grabcut_rect,
     "grabcut_mask": grabcut_mask,
 }
