@@ -175,6 +175,13 @@ def _sun(scene: Scene) -> np.ndarray | None:
     return scene.sun.mask
 
 
+def _shade(scene: Scene) -> np.ndarray | None:
+    if scene.shade is None:  # only un-mixing tells it
+        return None
+    # Where there is hardly any cloud its light is noise.
+    return np.where(scene.clouds > 0.05, scene.cloud_shade, np.float32(1))
+
+
 MAPS: tuple[SceneMap, ...] = (
     SceneMap(
         "sky_coarse",
@@ -214,8 +221,8 @@ MAPS: tuple[SceneMap, ...] = (
     SceneMap(
         "cloud_shade",
         "Cloud self-shade",
-        lambda scene: None if scene.shade is None else scene.cloud_shade,
-        "Light of the cloud against a white one's: low in its own shade. Only un-mixing tells it.",
+        _shade,
+        "Light of the cloud against a white one's: low in its own shade, 1 where there is none.",
         SHADE,
         high=1.5,
     ),

@@ -159,7 +159,8 @@ export class Softness {
     this.node.classList.toggle("sw-idle", idle);
     this.text.classList.remove("sw-warn");
     if (idle) {
-      this.text.textContent = "Clouds are un-mixed here: m counts when they are found otherwise.";
+      this.text.textContent =
+        "Clouds are un-mixed from the sky; m_min and m_max act with the other methods.";
       return;
     }
     if (clear + soft + white === 0) {
