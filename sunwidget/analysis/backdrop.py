@@ -8,7 +8,9 @@ the model by it.
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -42,7 +44,13 @@ _LARGEST_GLARE = 15.0  # degrees; a halo wider than this is sky or cloud
 
 
 def behind_sun(
-    working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit, *, visible: bool
+    working: Working,
+    sky: np.ndarray,
+    camera: Camera,
+    fit: SkyFit,
+    *,
+    visible: bool,
+    measure: bool = True,
 ) -> tuple[SkyFit, Backdrop]:
     """Measure the camera's glare and fill the log residual across the old sun.
 
@@ -57,6 +65,8 @@ def behind_sun(
         Model and response, fitted at the photo's own sun.
     visible : bool
         Whether the photo shows the sun: otherwise there is no glare to take away.
+    measure : bool
+        False keeps the glare profile that ``fit`` has.
 
     Returns
     -------
@@ -71,7 +81,7 @@ def behind_sun(
     scene_light = fit.response.scene_light(display)
     clipped = _smoothstep(0.90, 0.97, display.max(-1))
     clear = _clear_sky(fit, camera, size)
-    if visible:
+    if visible and measure:
         # Against the sky without glare, also when ``fit`` has been here before and has some.
         residual = _log_residual(scene_light, clear) @ LUMINANCE
         fit = with_glare(fit, residual, angle, (matte > 0.95) & (clipped < 0.3))
@@ -102,10 +112,18 @@ def _clear_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray
 
     scale = min(1.0, _MODEL_SIDE / max(size))
     coarse = max(1, round(size[0] * scale)), max(1, round(size[1] * scale))
-    azimuth, elevation = view_angles(camera, *coarse)
-    logs = np.log(fit.model(azimuth, np.maximum(elevation, 0.2))).astype(np.float32)
+    logs = _coarse_logs(dataclasses.replace(fit, glare=(0.0, 3.0, 2.0)), camera, coarse)
     model = np.exp(cv2.resize(logs, size, interpolation=cv2.INTER_LINEAR))
     return model.reshape(size[1], size[0], 3).astype(np.float32)
+
+
+@lru_cache(maxsize=8)
+def _coarse_logs(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+    """March once for all that look at the same fit: its glare and the matte do not matter."""
+    azimuth, elevation = view_angles(camera, *size)
+    logs = np.log(fit.model(azimuth, np.maximum(elevation, 0.2))).astype(np.float32)
+    logs.flags.writeable = False
+    return logs
 
 
 def _through_glare(clear: np.ndarray, fit: SkyFit, camera: Camera) -> np.ndarray:

@@ -149,8 +149,11 @@ METHODS: dict[str, Callable[..., Clouds]] = {
 
 def veil(
     working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit, *, sun_seen: bool
-) -> tuple[np.ndarray, np.ndarray]:
-    """Opacity and shade, (h, w) float32, by un-mixing the photo from the fitted sky (unmix.py).
+) -> tuple[Clouds, Clouds]:
+    """Clouds of the sky, and of the whole picture, by un-mixing the fitted sky (unmix.py).
+
+    The second is what the land would be if it were sky, for strokes that say so; it is not
+    smoothed. Neither knows the softness C^s: it is 0.
 
     A guided filter (He et al. 2010) ties it to the picture: compression blocks and noise in
     the colour differences would else show as soon as cloud and sky are lit apart. Unless the sun
@@ -173,15 +176,41 @@ def veil(
     blue = fit if sun_seen else believable(fit, working, sky)
     clear = matched_sky(blue, camera, (working.width, working.height))
     light = fit.response.scene_light(working.linear)
-    opacity, shade = unmix(light, clear, cloud_white(blue), sky)
+    everywhere, shade = unmix(light, clear, cloud_white(blue), np.ones_like(sky))
     if not sun_seen:
-        opacity = np.maximum(opacity, overcast(working, sky))
-    radius = max(2, round(0.004 * max(sky.shape)))
-    smooth = cv2.ximgproc.guidedFilter(working.encoded, opacity, radius, 2e-4)
+        everywhere = np.maximum(everywhere, overcast(working, sky))
+    opacity = everywhere * sky
+    reach = smoothing_radius(working)
+    smooth = np.clip(smoothed(working.encoded, opacity, reach), 0, 1)
     # Shade weighs by opacity: where there is hardly any cloud it is noise.
-    weight = cv2.blur(opacity, (2 * radius + 1, 2 * radius + 1)) + 1e-3
-    level = cv2.blur(opacity * shade, (2 * radius + 1, 2 * radius + 1)) + 1e-3
-    return np.asarray(np.clip(smooth, 0, 1) * sky, np.float32), level / weight
+    weight = cv2.blur(opacity, (2 * reach + 1, 2 * reach + 1)) + 1e-3
+    level = cv2.blur(opacity * shade, (2 * reach + 1, 2 * reach + 1)) + 1e-3
+    none = np.zeros_like(sky)
+    return (
+        Clouds((smooth * sky).astype(np.float32), none, level / weight),
+        Clouds(everywhere, none, shade),
+    )
+
+
+def smoothing_radius(working: Working) -> int:
+    """Half side in working pixels of the filter that ties opacity to the picture."""
+    return max(2, round(0.004 * max(working.width, working.height)))
+
+
+def smoothed(encoded: np.ndarray, opacity: np.ndarray, radius: int) -> np.ndarray:
+    """Tie an opacity (h, w) to the picture's edges (guided filter)."""
+    import cv2
+
+    return np.asarray(cv2.ximgproc.guidedFilter(encoded, opacity, radius, 2e-4))
+
+
+def within(clouds: Clouds, sky: np.ndarray) -> Clouds:
+    """Keep the clouds of the sky (h, w)."""
+    return Clouds(
+        (clouds.opacity * sky).astype(np.float32),
+        (clouds.softness * sky).astype(np.float32),
+        clouds.shade,
+    )
 
 
 def without(clouds: Clouds, mask: np.ndarray) -> Clouds:

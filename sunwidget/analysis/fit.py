@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -86,18 +87,22 @@ class SkyFit:
 
 
 def model_sky(
-    atmosphere: Atmosphere | SkyTable,
+    atmosphere: Atmosphere,
     azimuth: np.ndarray,
     elevation: np.ndarray,
     sun: tuple[float, float],
 ) -> np.ndarray:
     """Return the model's sky (..., 3) in linear Rec. 709, kcd m⁻²; angles in degrees."""
-    table = SkyTable(atmosphere) if isinstance(atmosphere, Atmosphere) else atmosphere
+    # One fit asks for the same airs again and again, and the next one does, too.
+    table = _table(atmosphere.replace(residual=None))
     spectral = table.radiance(elevation, azimuth - sun[0], sun[1])
     color = spectral @ np.asarray(SPECTRAL_TO_REC709).reshape(3, 4).T
     # As matched_sky.glsl: saturated spectra keep a share of the luminance in each channel.
     luminance = np.maximum(color @ LUMINANCE, 1e-12)[..., None]
     return np.asarray(np.maximum(color, 0.02 * luminance))
+
+
+_table = lru_cache(maxsize=64)(SkyTable)
 
 
 def fit_sky(
@@ -243,16 +248,14 @@ def _search_sun(
     candidates = [assumed, *grid]
     best_error, best = np.inf, assumed
     for depth in (0.03, 0.12):
-        table = SkyTable(
-            Atmosphere(
-                aerosol_optical_depth=depth,
-                aerosol_asymmetry=0.76,
-                angstrom_exponent=_ANGSTROM,
-                aerosol_albedo=_ALBEDO,
-            )
+        air = Atmosphere(
+            aerosol_optical_depth=depth,
+            aerosol_asymmetry=0.76,
+            angstrom_exponent=_ANGSTROM,
+            aerosol_albedo=_ALBEDO,
         )
         for candidate in candidates:
-            error, _ = _compare(display, model_sky(table, *where, candidate), response)
+            error, _ = _compare(display, model_sky(air, *where, candidate), response)
             # The sky must speak clearly to overrule the assumption.
             if candidate == assumed:
                 error *= 0.9

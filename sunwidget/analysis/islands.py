@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sunwidget.edit import Stroke
 
-
-def fill_islands(
-    sky: np.ndarray, coarse: np.ndarray, strokes: tuple[Stroke, ...] = ()
-) -> np.ndarray:
+def fill_islands(sky: np.ndarray, coarse: np.ndarray) -> np.ndarray:
     """Return how much to add to the matte so that islands the network calls sky are sky.
 
     Twigs, masts and wires hang together with the land and stay; a bird or a balloon is lost
@@ -19,8 +15,6 @@ def fill_islands(
     ----------
     sky, coarse : (h, w) float32
         The refined matte and the network's map at one size.
-    strokes : tuple of Stroke
-        An island under a not-sky stroke stays.
 
     Returns
     -------
@@ -37,19 +31,13 @@ def fill_islands(
     trust = np.bincount(labels.ravel(), coarse.ravel(), minlength=count) / np.maximum(area, 1)
     island = (trust > 0.5) & (area < 0.02 * sky.size)
     island[0] = False
-    island[_painted(labels, strokes)] = False
     mask = island[labels].astype(np.uint8)
     grown = cv2.dilate(mask, np.ones((5, 5), np.uint8)).astype(np.float32)
     # The rim is soft where sky meets it, and does not creep over real land.
     return np.asarray(cv2.GaussianBlur(grown, (0, 0), 1.0) * (mask | (sky >= 0.7)), np.float32)
 
 
-def grow_over_glow(
-    sky: np.ndarray,
-    coarse: np.ndarray,
-    encoded: np.ndarray,
-    strokes: tuple[Stroke, ...] = (),
-) -> np.ndarray:
+def grow_over_glow(sky: np.ndarray, coarse: np.ndarray, encoded: np.ndarray) -> np.ndarray:
     """Return how much to add where the matte ends in the middle of nothing.
 
     A skyline has an edge under it. Where sky runs on into "land" without one, over bright pixels
@@ -61,8 +49,6 @@ def grow_over_glow(
         The refined matte and the network's map at one size.
     encoded : (h, w, 3) float32
         The photo, sRGB-encoded.
-    strokes : tuple of Stroke
-        What lies under a not-sky stroke stays.
 
     Returns
     -------
@@ -86,19 +72,6 @@ def grow_over_glow(
     contact = np.bincount(labels[rim & doubtful], minlength=count)
     chosen = (contact > 1.2 * np.sqrt(area)) & (area > 1e-4 * sky.size)
     chosen[0] = False
-    chosen[_painted(labels, strokes)] = False
     mask = chosen[labels].astype(np.uint8)
     closed = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((5, 5), np.uint8))
     return cv2.GaussianBlur(closed.astype(np.float32), (0, 0), 1.0) * (closed > 0)
-
-
-def _painted(labels: np.ndarray, strokes: tuple[Stroke, ...]) -> list[int]:
-    """Labels under the points of not-sky strokes."""
-    height, width = labels.shape
-    points = [
-        (min(max(int(y * height), 0), height - 1), min(max(int(x * width), 0), width - 1))
-        for stroke in strokes
-        if stroke.label == "not_sky"
-        for x, y in stroke.points
-    ]
-    return [int(labels[point]) for point in points]

@@ -18,7 +18,6 @@ def notices(
     photo: Photo,
     sky: np.ndarray,
     sun: SunObservation | None,
-    blot: sun_stage.Blot | None,
     horizon: Horizon,
     camera: Camera,
     hints: Hints,
@@ -52,7 +51,7 @@ def notices(
             f"No sun found in {photo.name}. Its place is assumed; click where it is, "
             "or pass sun=(x, y) in pixels (outside the picture is fine)."
         )
-    elif blot is not None and sun.visible:
+    elif sun.visible:
         true = camera.focal * np.tan(np.radians(sun_stage.RADIUS_DEG))
         area = float(sun.mask.sum())
         if area > 0.02 * sun.mask.size and area > 60 * np.pi * true**2:

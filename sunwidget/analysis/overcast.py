@@ -49,9 +49,10 @@ def believable(fit: SkyFit, working: Working, sky: np.ndarray) -> SkyFit:
 
 
 def overcast(working: Working, sky: np.ndarray) -> np.ndarray:
-    """Opacity (h, w) float32 of a sky that is grey from end to end; 0 where any other is.
+    """Opacity (h, w) float32 where a sky that is grey from end to end is grey; else 0.
 
-    A photo without any colour says nothing, nor does a burnt or a night sky.
+    Of the land it says how opaque it would be if it were sky. A photo without any colour says
+    nothing, nor does a burnt or a night sky.
     """
     encoded = working.encoded
     spread = np.ptp(encoded, axis=-1)
@@ -65,4 +66,4 @@ def overcast(working: Working, sky: np.ndarray) -> np.ndarray:
     share = float(np.mean(saturation[seen] < sum(_GREY) / 2))
     everywhere = np.clip((share - 0.75) / 0.15, 0, 1)
     grey = np.clip((_GREY[1] - saturation) / (_GREY[1] - _GREY[0]), 0, 1)
-    return np.asarray(everywhere * grey * sky, np.float32)
+    return np.asarray(everywhere * grey, np.float32)

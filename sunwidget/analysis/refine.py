@@ -21,6 +21,7 @@ from sunwidget.photo import Photo
 
 SIDE = 384
 MINIMUM_SIDE = 4  # below this there is no neighbourhood to refine in
+RADIUS, EPSILON = 6, 1e-4  # of the matte's guided filter, in working pixels and code values
 
 
 class Decision(NamedTuple):
@@ -235,8 +236,8 @@ def matte(
     working: Working,
     decision: Decision,
     strokes: Sequence[Stroke] = (),
-    radius: int = 6,
-    epsilon: float = 1e-4,
+    radius: int = RADIUS,
+    epsilon: float = EPSILON,
 ) -> np.ndarray:
     """Carry a decision to the photo's own resolution along its edges.
 
@@ -273,10 +274,14 @@ def matte(
             a = _rows(slope, rows, height, width)
             guide = code_values(photo, rows)
             alpha[rows] = np.einsum("hwc,hwc->hw", a, guide) + _rows(offset, rows, height, width)
-        # Stretch the ends: a guided filter leaves sure pixels a few percent short of 0 and 1.
-        alpha = np.clip((alpha - 0.06) / 0.88, 0, 1)
+        alpha = stretched(alpha)
     set_strokes(alpha, strokes)
     return alpha
+
+
+def stretched(alpha: np.ndarray) -> np.ndarray:
+    """Stretch the ends: a guided filter leaves sure pixels a few percent short of 0 and 1."""
+    return np.asarray(np.clip((alpha - 0.06) / 0.88, 0, 1))
 
 
 def set_strokes(matte: np.ndarray, strokes: Sequence[Stroke]) -> None:
@@ -285,11 +290,17 @@ def set_strokes(matte: np.ndarray, strokes: Sequence[Stroke]) -> None:
         matte[paint(stroke, matte.shape[1], matte.shape[0])] = stroke.label == "sky"
 
 
-def paint(stroke: Stroke, width: int, height: int) -> np.ndarray:
-    """Return the pixels under the brush, (height, width) bool; at least one pixel wide."""
+def paint(
+    stroke: Stroke, width: int, height: int, box: tuple[slice, slice] | None = None
+) -> np.ndarray:
+    """Return the pixels under the brush, (height, width) bool; at least one pixel wide.
+
+    ``box`` (rows, columns) limits the answer to a part of the picture.
+    """
     import cv2
 
-    canvas = np.zeros((height, width), np.uint8)
+    rows, columns = box or (slice(0, height), slice(0, width))
+    canvas = np.zeros((rows.stop - rows.start, columns.stop - columns.start), np.uint8)
     fraction = 4  # bits of sub-pixel position
     points = np.array(
         [
@@ -298,6 +309,7 @@ def paint(stroke: Stroke, width: int, height: int) -> np.ndarray:
         ]
     )
     points = np.clip(np.round(points), -(2**24), 2**24).astype(np.int32)
+    points -= np.array([columns.start, rows.start], np.int32) * 2**fraction
     radius = max(stroke.radius * max(width, height), 0.5)
     cv2.polylines(
         canvas,

@@ -15,11 +15,14 @@ import numpy as np
 from sunwidget.analysis import match, refine
 from sunwidget.analysis import sky as sky_stage
 from sunwidget.analysis import water as water_stage
+from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.hints import Hints, check_fov, check_horizon, check_point
 from sunwidget.analysis.horizon import Horizon
+from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.plausible import plausible
+from sunwidget.analysis.retouch import stroked
 from sunwidget.analysis.stages import (
     METHODS,
     Progress,
@@ -80,6 +83,10 @@ class Scene:
         Seconds of each stage.
     doubted : float
         Share of the picture that was dropped from the sky as unlikely.
+    everywhere : Clouds
+        The clouds at working size as if all of the picture were sky: for strokes that say so.
+    unstroked : Scene or None
+        The scene that the strokes of ``hints`` were drawn on; None without strokes.
     """
 
     photo: Photo = field(repr=False)
@@ -105,7 +112,9 @@ class Scene:
     doubted: float = 0.0
     shade: np.ndarray | None = field(default=None, repr=False)
     fitted: SkyFit | None = field(default=None, repr=False)
-    _corrected: dict[Any, Scene] = field(default_factory=dict, repr=False)
+    everywhere: Clouds | None = field(default=None, repr=False)
+    unstroked: Scene | None = field(default=None, repr=False)
+    memory: Memory = field(default_factory=Memory, repr=False)
 
     @property
     def width(self) -> int:
@@ -121,6 +130,16 @@ class Scene:
     def sureness(self) -> np.ndarray:
         """How sure it is that each pixel is sky or is land: (H, W) float32 in (0, 1]."""
         return resize(self.decision.sureness, self.width, self.height)
+
+    @cached_property
+    def shown(self) -> refine.Decision:
+        """Sky or land at working size as the matte shows it: what strokes begin with."""
+        width, height = self.working.width, self.working.height
+        sky = resize(self.sky, width, height) > 0.5
+        decided = resize(self.decision.sky, width, height) > 0.5
+        # Where a later stage overruled the decision nothing tells how sure it is.
+        sureness = np.where(sky == decided, resize(self.decision.sureness, width, height), 0.5)
+        return refine.Decision(sky.astype(np.float32), sureness.astype(np.float32))
 
     @property
     def cloud_shade(self) -> np.ndarray:
@@ -201,20 +220,18 @@ class Scene:
             When a hint cannot be used.
         """
         clouds = self._cloud_choice(edit)
-        corrections = (edit.strokes, edit.sun_hint, edit.horizon_hint, edit.fov_hint, clouds)
-        if corrections == ((), None, None, None, None):
+        hints = (edit.sun_hint, edit.horizon_hint, edit.fov_hint)
+        if hints == (None, None, None) and clouds is None and not edit.strokes:
             return self
-        if corrections not in self._corrected:
-            while len(self._corrected) >= 3:  # each holds full-size maps
-                self._corrected.pop(next(iter(self._corrected)), None)
-            if clouds is not None:
-                base = self.corrected(edit.replace(**_ANALYSED_CLOUDS))
-                self._corrected[corrections] = find_clouds_again(base, *clouds)
-                return self._corrected[corrections]
-            # Strokes come after the hints: they leave camera and fit of that scene alone.
-            base = self.corrected(edit.replace(strokes=())) if edit.strokes else self
-            self._corrected[corrections] = complete(base, self._with_hints(edit))
-        return self._corrected[corrections]
+        # Strokes come last, on the scene with the hints: they leave its camera and fit alone.
+        base = self.unstroked or self
+        if hints != (None, None, None):
+            bare = base
+            base = bare.memory.scene(hints, lambda: complete(bare, self._with_hints(edit)))
+        if clouds is not None:
+            plain = base
+            base = plain.memory.scene(clouds, lambda: find_clouds_again(plain, *clouds))
+        return stroked(base, self.hints.strokes + edit.strokes)
 
     def _cloud_choice(self, edit: Edit) -> tuple[str, tuple[float, float]] | None:
         """Return method and thresholds of the clouds where they differ from the analysis'."""
@@ -229,7 +246,7 @@ class Scene:
         def pixels(point: Point) -> Point:
             return point[0] * self.width, point[1] * self.height
 
-        changes: dict[str, Any] = {"strokes": self.hints.strokes + edit.strokes}
+        changes: dict[str, Any] = {"strokes": ()}
         if edit.sun_hint is not None:
             changes["sun"] = pixels(edit.sun_hint)
         if edit.horizon_hint is not None:
@@ -305,8 +322,7 @@ def analyze(
         check_point("sun", sun),
         check_horizon(horizon),
         check_fov(fov),
-        tuple(strokes),
-        tuple(methods.items()),
+        methods=tuple(methods.items()),
     )
     step = Steps(progress)
     step("prepare", 0.0, "Preparing the photo")
@@ -345,7 +361,7 @@ def analyze(
         decision=decision,
         doubted=doubted,
     )
-    return complete(start, hints, step)
+    return stroked(complete(start, hints, step), tuple(strokes))
 
 
 def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -20,12 +21,14 @@ def encode(linear: np.ndarray) -> np.ndarray:
     ).astype(np.float32)
 
 
-def code_values(photo: Photo, rows: slice = slice(None)) -> np.ndarray:
-    """Return rows of the photo as encoded float32 in [0, 1], whatever its depth and profile.
+def code_values(
+    photo: Photo, rows: slice = slice(None), columns: slice = slice(None)
+) -> np.ndarray:
+    """Return a part of the photo as encoded float32 in [0, 1], whatever its depth and profile.
 
     Close enough to sRGB for finding edges, without decoding a large photo first.
     """
-    part = photo.encoded[rows]
+    part = photo.encoded[rows, columns]
     if part.dtype.kind == "f":
         return encode(part)
     return np.multiply(part, 1 / np.iinfo(part.dtype).max, dtype=np.float32)
@@ -86,6 +89,19 @@ class Working:
         zoom = (photo.width / linear.shape[1], photo.height / linear.shape[0])
         return cls(linear, encode(linear), guide, zoom)
 
+    def shrunk(self, long_side: int) -> Working:
+        """Return a smaller copy of the same photo; never a larger one."""
+        if max(self.linear.shape[:2]) <= long_side:
+            return self
+        linear = shrink(self.linear, long_side)
+        ratio = self.width / linear.shape[1], self.height / linear.shape[0]
+        return Working(
+            linear,
+            encode(linear),
+            shrink(self.guide, long_side),
+            (self.zoom[0] * ratio[0], self.zoom[1] * ratio[1]),
+        )
+
     @property
     def height(self) -> int:
         """Rows."""
@@ -96,7 +112,7 @@ class Working:
         """Columns."""
         return int(self.linear.shape[1])
 
-    @property
+    @cached_property
     def bytes(self) -> np.ndarray:
         """sRGB-encoded 8-bit copy, RGB."""
         return np.round(self.encoded * 255).astype(np.uint8)

@@ -1,12 +1,16 @@
 """Corrections of an Edit: strokes and hints applied to a Scene, replayed to the bit."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
+from sunwidget.analysis import refine, strokes
+from sunwidget.analysis.memory import Memory
 
-MAPS = ("sky", "clouds", "cloud_softness", "depth", "water", "backdrop", "glare")
+MAPS = ("sky", "clouds", "cloud_softness", "cloud_shade", "depth", "water", "backdrop", "glare")
 ROCK = sw.Stroke("not_sky", ((0.12, 0.12), (0.2, 0.14)), 0.02)
 
 
@@ -89,3 +93,151 @@ def test_hints_of_an_edit_equal_the_same_hints_to_analyze(scene):
 def test_strokes_outside_the_picture_change_nothing(scene):
     outside = sw.Edit(strokes=(sw.Stroke("not_sky", ((3.0, 3.0), (4.0, 3.0)), 0.01),))
     assert np.array_equal(scene.corrected(outside).sky, scene.sky)
+
+
+def assert_same(one, other):
+    for name in (*MAPS, "sureness"):
+        assert np.array_equal(getattr(one, name), getattr(other, name)), name
+    assert one.uniforms() == other.uniforms()
+    assert one.camera == other.camera
+    assert one.warnings == other.warnings
+
+
+def forgetful(scene):
+    """Return the same scene without anything that it remembers."""
+    return dataclasses.replace(scene, memory=Memory())
+
+
+STROKES = (
+    ROCK,
+    sw.Stroke("sky", ((0.6, 0.8), (0.7, 0.8)), 0.02),
+    sw.Stroke("not_sky", ((0.05, 0.3), (0.5, 0.32)), 0.03),
+    sw.Stroke("sky", ((0.1, 0.13), (0.3, 0.3)), 0.02),
+    sw.Stroke("not_sky", ((0.62, 0.8), (0.62, 0.9)), 0.004),
+)
+
+
+@pytest.mark.parametrize("size", [None, (1500, 1000)])
+def test_strokes_one_by_one_and_all_at_once_give_the_same_maps_to_the_bit(scene, size):
+    if size is not None:
+        import cv2
+
+        scene = sw.analyze(cv2.resize(seascape(), size), fov=45.0)
+    one_by_one = forgetful(scene)
+    for count in range(1, len(STROKES) + 1):
+        last = one_by_one.corrected(sw.Edit(strokes=STROKES[:count]))
+    assert_same(last, forgetful(scene).corrected(sw.Edit(strokes=STROKES)))
+    if size is not None:
+        return
+    undone = one_by_one.corrected(sw.Edit(strokes=STROKES[:3]))
+    other_way = one_by_one.corrected(sw.Edit(strokes=(*STROKES[:2], STROKES[4])))
+    assert_same(undone, forgetful(scene).corrected(sw.Edit(strokes=STROKES[:3])))
+    assert_same(other_way, forgetful(scene).corrected(sw.Edit(strokes=(*STROKES[:2], STROKES[4]))))
+
+
+def test_strokes_of_analyze_and_of_an_edit_are_the_same_thing(scene):
+    told = sw.analyze(seascape(), fov=45.0, strokes=STROKES[:2])
+    assert_same(told, scene.corrected(sw.Edit(strokes=STROKES[:2])))
+    assert told.hints == scene.corrected(sw.Edit(strokes=STROKES[:2])).hints
+    more = told.corrected(sw.Edit(strokes=STROKES[2:3]))
+    assert_same(more, scene.corrected(sw.Edit(strokes=STROKES[:3])))
+
+
+def said(scene):
+    """Return what STROKES say at the scene's size: 1 sky, 0 not sky, NaN nothing."""
+    height, width = scene.sky.shape
+    wanted = np.full((height, width), np.nan)
+    for stroke in STROKES:
+        wanted[refine.paint(stroke, width, height)] = stroke.label == "sky"
+    return wanted
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"refine": "grabcut_rect"},
+        {"refine": "none"},
+        {"sky": "skyline"},
+        {"clouds": "rb_ratio"},
+        {"horizon": 250.0},
+        {"sun": (60.0, 60.0), "sun_method": "flood_fill"},
+    ],
+)
+def test_a_persons_mask_survives_another_analysis(options):
+    scene = sw.analyze(seascape(), **options).corrected(sw.Edit(strokes=STROKES))
+    wanted = said(scene)
+    assert np.array_equal(scene.sky[wanted == 1], np.ones(np.sum(wanted == 1)))
+    assert scene.sky[wanted == 0].max() == 0
+
+
+@pytest.mark.parametrize(
+    "hint",
+    [
+        {"horizon_hint": ((0.0, 0.2), (1.0, 0.25))},
+        {"sun_hint": (0.16, 0.13)},
+        {"fov_hint": 30.0},
+        {"cloud_method": "rb_ratio"},
+    ],
+)
+def test_a_persons_mask_survives_later_hints(scene, hint):
+    # The horizon cuts the painted sky, and the sun is put where the person said rock.
+    hinted = scene.corrected(sw.Edit(strokes=STROKES, **hint))
+    wanted = said(hinted)
+    assert hinted.sky[wanted == 1].min() == 1
+    assert hinted.sky[wanted == 0].max() == 0
+
+
+def test_a_few_strokes_keep_camera_sun_and_fit_and_many_do_not(scene):
+    few = scene.corrected(sw.Edit(strokes=(sw.Stroke("not_sky", ((0.1, 0.1),), 0.02),)))
+    assert 0 < np.mean(few.sky != scene.sky) < 0.05
+    assert few.fitted is scene.fitted
+    assert few.sun is scene.sun
+    wide = sw.Stroke("not_sky", ((0.0, 0.05), (1.0, 0.05)), 0.1)
+    assert scene.corrected(sw.Edit(strokes=(wide,))).fitted is not scene.fitted
+
+
+def test_clouds_shrink_and_grow_with_the_sky(scene):
+    dab = sw.Stroke("not_sky", ((0.1, 0.54),), 0.02)  # where the sky is pale
+    less = scene.corrected(sw.Edit(strokes=(dab,)))
+    gone, unchanged = (less.sky == 0) & (scene.sky > 0), less.sky == scene.sky
+    assert gone.any()
+    assert scene.cloud_softness[gone].max() > 0
+    assert less.clouds[gone].max() == less.cloud_softness[gone].max() == 0
+    assert np.array_equal(less.clouds[unchanged], scene.clouds[unchanged])
+
+
+def test_land_that_is_told_to_be_sky_brings_its_clouds():
+    picture = seascape()
+    picture[125:150, 20:80] = 220
+    foam = sw.Stroke("sky", ((0.1, 0.86), (0.32, 0.86)), 0.02)
+    scene = sw.analyze(picture, fov=45.0)
+    told = scene.corrected(sw.Edit(strokes=(foam,)))
+    patch = np.s_[130:145, 25:75]
+    assert scene.cloud_softness[patch].max() == 0
+    assert told.sky[patch].min() > 0.9
+    assert told.cloud_softness[patch].min() > 0.9
+
+
+def test_sureness_is_full_where_a_stroke_decided(scene, brushed):
+    height, width = scene.sky.shape
+    under = refine.paint(sw.Stroke("sky", ROCK.points, 0.005), width, height)
+    assert brushed.sureness[under].min() == 1
+
+
+@pytest.mark.parametrize(
+    "stroke",
+    [
+        *STROKES,
+        sw.Stroke("sky", ((0.99, 0.99),), 0.05),
+        sw.Stroke("sky", ((-0.5, 0.5), (1.5, 0.51), (0.2, 2.0)), 0.013),
+        sw.Stroke("sky", ((0.5, 0.5),), 0.0001),
+        sw.Stroke("sky", ((3.0, 3.0), (4.0, 3.0)), 0.01),
+    ],
+)
+def test_setting_a_stroke_touches_the_pixels_under_it_and_no_others(stroke):
+    matte = np.full((261, 384), 0.5, np.float32)
+    strokes.set_strokes(matte, (stroke,))
+    under = refine.paint(stroke, 384, 261)
+    assert np.array_equal(matte != 0.5, under)
+    assert (matte[under] == (stroke.label == "sky")).all()

@@ -3,7 +3,6 @@
 import numpy as np
 
 from sunwidget.analysis.islands import fill_islands, grow_over_glow
-from sunwidget.edit import Stroke
 
 HEIGHT, WIDTH = 120, 180
 
@@ -33,13 +32,6 @@ def test_a_mast_that_stands_on_the_land_stays() -> None:
     sky, coarse = skyline()
     sky[20:80, 90:92] = 0
     assert fill_islands(sky, coarse).max() == 0
-
-
-def test_a_painted_island_stays() -> None:
-    sky, coarse = skyline()
-    sky[30:36, 50:58] = 0
-    stroke = Stroke("not_sky", ((54 / WIDTH, 33 / HEIGHT),))
-    assert fill_islands(sky, coarse, (stroke,)).max() == 0
 
 
 def test_sky_runs_on_through_a_smooth_glow_to_the_next_edge() -> None:

@@ -1,0 +1,278 @@
+"""Strokes on an analysed scene: only what they touch is worked out again.
+
+The scene without strokes (the *base*) is kept. Matte and clouds are redone in square tiles of the
+working copy that the strokes' decision changed. A tile depends on nothing but the base and the
+decision in and just around it, so tiles of an earlier stroke may be copied: the maps are the same
+to the bit whichever way a set of strokes was reached.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from sunwidget.analysis import clouds as cloud_stage
+from sunwidget.analysis.backdrop import behind_sun
+from sunwidget.analysis.memory import Memory
+from sunwidget.analysis.notices import notices
+from sunwidget.analysis.refine import (
+    EPSILON,
+    MINIMUM_SIDE,
+    RADIUS,
+    Decision,
+    guided_coefficients,
+    stretched,
+)
+from sunwidget.analysis.stages import Steps, complete, depth_of
+from sunwidget.analysis.strokes import Painting, set_strokes
+from sunwidget.analysis.working import code_values, resize
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+    from sunwidget.edit import Stroke
+
+SIDE = 128  # working pixels of a tile
+MARGIN = 2 * RADIUS + 4  # around it: the guided filter sees two radii, interpolation a pixel
+
+Box = tuple[slice, slice]
+
+
+class _Tile(NamedTuple):
+    """A tile in working pixels, the same with its margin, and in pixels of the photo."""
+
+    inner: Box
+    outer: Box
+    full: Box
+
+
+def stroked(base: Scene, strokes: tuple[Stroke, ...]) -> Scene:
+    """Return a scene that has no strokes after ``strokes``; without any the very same."""
+    if not strokes:
+        return base
+    return base.memory.scene(strokes, lambda: _draw(base, strokes))
+
+
+def _draw(base: Scene, strokes: tuple[Stroke, ...]) -> Scene:
+    painting = _painting(base, strokes)
+    if painting.fits < len(strokes):
+        source = stroked(base, strokes[: painting.fits])
+        return _retouch(base, source, painting, strokes, base.memory.scenes.get(strokes[:-1]))
+    decision = painting.on(base.shown)
+    hints = dataclasses.replace(base.hints, strokes=strokes)
+    scene = complete(base, hints, matte=_matte_after(base, decision, strokes))
+    return dataclasses.replace(scene, decision=decision, unstroked=base)
+
+
+def _painting(base: Scene, strokes: tuple[Stroke, ...]) -> Painting:
+    """Replay strokes on the small copy, from as many as have been replayed before."""
+    memory = base.memory
+    count = len(strokes)
+    while count and strokes[:count] not in memory.paintings:
+        count -= 1
+    painting = memory.paintings.get(strokes[:count]) or Painting.begin(base.sky, base.working)
+    for stroke in strokes[count:]:
+        count += 1
+        painting = painting.stroke(stroke, base.working)
+        memory.painting(strokes[:count], painting)
+    return painting
+
+
+def _retouch(
+    base: Scene,
+    source: Scene,
+    painting: Painting,
+    strokes: tuple[Stroke, ...],
+    previous: Scene | None = None,
+) -> Scene:
+    """Return the scene after strokes.
+
+    Parameters
+    ----------
+    base : Scene
+        Without strokes.
+    source : Scene
+        Whose camera, sun and fit are kept: ``base``, or the scene after the stroke that made
+        them be looked at again.
+    painting : Painting
+        The base's sky after ``strokes``.
+    strokes : tuple of Stroke
+        All of them, from the base on.
+    previous : Scene, optional
+        The scene after all strokes but the last, when it is at hand: saves time only.
+    """
+    step = Steps(None)
+    photo, working = base.photo, base.working
+    step("matte", 0.5, "Cutting out the sky")
+    decision = painting.on(base.shown)
+    matte = _matte_after(base, decision, strokes, previous)
+    sky = resize(matte, working.width, working.height)
+
+    step("clouds", 0.7, "Finding clouds")
+    same = previous is not None and previous.fitted is source.fitted
+    maps = _clouds_after(source, matte, previous if same else None)
+
+    step("fit", 0.8, "Looking behind the sun")
+    sun, fitted = source.sun, source.fitted
+    assert fitted is not None
+    visible = sun is not None and sun.visible
+    # The glare is the camera's, and stays as it was measured.
+    _, behind = behind_sun(working, sky, source.camera, fitted, visible=visible, measure=False)
+
+    step("depth", 0.9, "Estimating depth")
+    depth = depth_of(sky, source.camera, source.hints)
+    hints = dataclasses.replace(source.hints, strokes=strokes)
+    scene = dataclasses.replace(
+        source,
+        sky=matte,
+        clouds=maps[0],
+        cloud_softness=maps[1],
+        shade=maps[2],
+        depth=depth,
+        water=np.where(matte > source.sky, np.minimum(source.water, 1 - matte), source.water),
+        backdrop=behind.field,
+        glare=behind.glare,
+        decision=decision,
+        hints=hints,
+        warnings=notices(photo, sky, sun, source.horizon, source.camera, hints, base.doubted),
+        unstroked=base,
+        memory=Memory(),
+    )
+    step(None, 1.0, "Analysed")
+    return dataclasses.replace(scene, timings=step.timings)
+
+
+def _matte_after(
+    base: Scene, decision: Decision, strokes: tuple[Stroke, ...], previous: Scene | None = None
+) -> np.ndarray:
+    """Return the matte (H, W) float32: the base's, but for what is near a changed decision."""
+    import cv2
+
+    working, before = base.working, base.shown
+    matte: np.ndarray = np.array(base.sky if previous is None else previous.sky)
+    if min(working.width, working.height) >= MINIMUM_SIDE:
+        reach = 2 * RADIUS + 1
+        changed = _differ(decision, before).astype(np.uint8)
+        near = cv2.dilate(changed, np.ones((2 * reach + 1, 2 * reach + 1), np.uint8)) > 0
+        fresh = _differ(decision, before if previous is None else previous.decision)
+        for tile in _tiles(base, fresh):
+            matte[tile.full] = _matte_of(base, decision, near, tile)
+    elif not np.array_equal(decision.sky, before.sky):
+        matte = resize(decision.sky, *base.photo.size).astype(np.float32)
+    set_strokes(matte, strokes)
+    return matte
+
+
+def _differ(a: Decision, b: Decision) -> np.ndarray:
+    return np.asarray((a.sky != b.sky) | (a.sureness != b.sureness))
+
+
+def _tiles(scene: Scene, fresh: np.ndarray) -> Iterator[_Tile]:
+    """Yield the tiles in or near which ``fresh``, a map (h, w) at working size, is true."""
+    height, width = fresh.shape
+    zoom_x, zoom_y = scene.working.zoom
+    for top in range(0, height, SIDE):
+        for left in range(0, width, SIDE):
+            bottom, right = min(top + SIDE, height), min(left + SIDE, width)
+            outer = (
+                slice(max(top - MARGIN, 0), min(bottom + MARGIN, height)),
+                slice(max(left - MARGIN, 0), min(right + MARGIN, width)),
+            )
+            if fresh[outer].any():
+                yield _Tile(
+                    (slice(top, bottom), slice(left, right)),
+                    outer,
+                    (_pixels(top, bottom, zoom_y), _pixels(left, right, zoom_x)),
+                )
+
+
+def _pixels(first: int, last: int, zoom: float) -> slice:
+    """Pixels of the photo whose centres lie in working pixels ``first`` to ``last``."""
+    return slice(math.ceil(first * zoom - 0.5), math.ceil(last * zoom - 0.5))
+
+
+def _matte_of(base: Scene, decision: Decision, near: np.ndarray, tile: _Tile) -> np.ndarray:
+    """Matte of a tile, in pixels of the photo."""
+    guide = np.ascontiguousarray(base.working.guide[tile.outer])
+    slope, offset = guided_coefficients(
+        guide,
+        np.ascontiguousarray(decision.sky[tile.outer]),
+        np.ascontiguousarray(decision.sureness[tile.outer]),
+        RADIUS,
+        EPSILON,
+    )
+    values = code_values(base.photo, *tile.full)
+    alpha = np.einsum("hwc,hwc->hw", _enlarged(base, slope, tile), values)
+    alpha = stretched(alpha + _enlarged(base, offset, tile)).astype(np.float32)
+    here = _enlarged(base, near[tile.outer].astype(np.float32), tile) > 0
+    return np.where(here, alpha, base.sky[tile.full])
+
+
+def _enlarged(scene: Scene, small: np.ndarray, tile: _Tile) -> np.ndarray:
+    """Interpolate a tile with its margin, in working pixels, at the photo's pixels inside it."""
+    import cv2
+
+    rows, columns = tile.full
+    zoom_x, zoom_y = scene.working.zoom
+    left, top = tile.outer[1].start, tile.outer[0].start
+    if (zoom_x, zoom_y) == (1, 1):
+        return small[rows.start - top : rows.stop - top, columns.start - left : columns.stop - left]
+    matrix = np.array(
+        [
+            [1 / zoom_x, 0, (columns.start + 0.5) / zoom_x - 0.5 - left],
+            [0, 1 / zoom_y, (rows.start + 0.5) / zoom_y - 0.5 - top],
+        ]
+    )
+    return cv2.warpAffine(
+        small,
+        matrix,
+        (columns.stop - columns.start, rows.stop - rows.start),
+        flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+        borderMode=cv2.BORDER_REPLICATE,
+    )
+
+
+def _clouds_after(
+    source: Scene, matte: np.ndarray, previous: Scene | None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
+    """Opacity and softness at the photo's size, and shade at working size.
+
+    Where the sky shrinks, its clouds do; where it grows, the source knows what clouds would be
+    there if it were sky.
+    """
+    start = source if previous is None else previous
+    fresh = resize(np.abs(matte - start.sky), source.working.width, source.working.height) > 0
+    everywhere = source.everywhere
+    clouds, softness = start.clouds.copy(), start.cloud_softness.copy()
+    shade = None if start.shade is None else start.shade.copy()
+    for tile in _tiles(source, fresh):
+        before, after = source.sky[tile.full], matte[tile.full]
+        kept = np.where(before > 0, np.minimum(after / np.maximum(before, 1e-6), 1), 1)
+        clouds[tile.full] = source.clouds[tile.full] * kept
+        softness[tile.full] = source.cloud_softness[tile.full] * kept
+        grown = np.maximum(after - before, 0)
+        if everywhere is None or not grown.any():
+            if shade is not None and source.shade is not None:
+                shade[tile.inner] = source.shade[tile.inner]
+            continue
+        opacity = np.ascontiguousarray(everywhere.opacity[tile.outer])
+        if source.fitted is not None and source.hints.method("clouds") == "unmix":
+            encoded = np.ascontiguousarray(source.working.encoded[tile.outer])
+            reach = cloud_stage.smoothing_radius(source.working)
+            opacity = np.clip(cloud_stage.smoothed(encoded, opacity, reach), 0, 1)
+        clouds[tile.full] += _enlarged(source, opacity, tile) * grown
+        soft = np.ascontiguousarray(everywhere.softness[tile.outer])
+        softness[tile.full] += _enlarged(source, soft, tile) * grown
+        if shade is not None and source.shade is not None:
+            land = resize(source.sky[tile.full], *_size(tile.inner)) < 0.5
+            shade[tile.inner] = np.where(
+                land, everywhere.shade[tile.inner], source.shade[tile.inner]
+            )
+    return clouds, softness, shade
+
+
+def _size(box: Box) -> tuple[int, int]:
+    return box[1].stop - box[1].start, box[0].stop - box[0].start
