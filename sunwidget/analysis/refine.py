@@ -27,16 +27,18 @@ RADIUS, EPSILON = 6, 1e-4  # of the matte's guided filter, in working pixels and
 class Decision(NamedTuple):
     """Sky or land at low resolution.
 
-    ``sky`` (h, w) float32 in [0, 1], and ``sureness`` (h, w) float32 in (0, 1].
+    ``sky`` (h, w) float32 in [0, 1], and ``sureness`` (h, w) float32 in (0, 1]. What is ``final``
+    is a matte already: it is resized to the photo and follows no edges.
     """
 
     sky: np.ndarray
     sureness: np.ndarray
+    final: bool = False
 
 
 def none(working: Working, probability: np.ndarray) -> Decision:
-    """Keep the coarse map as it is."""
-    return Decision(probability, np.ones_like(probability))
+    """Keep the coarse map as it is: a mask that the caller gave, say."""
+    return Decision(probability, np.ones_like(probability), final=True)
 
 
 def grabcut_rect(working: Working, probability: np.ndarray) -> Decision:
@@ -167,7 +169,8 @@ def local_evidence(
     sky : (h, w) bool
         Present decision.
     probability : (h, w) float32
-        Of the network; sky below ``doubt`` and land above 0.4 are not learned from.
+        Of the network; sky below ``doubt`` and land above 0.4 are not learned from, nor is
+        doubted land of the sky's own colour.
 
     Returns
     -------
@@ -185,9 +188,12 @@ def local_evidence(
         return _local_moments(few, shrink(inner.astype(np.float32), SIDE), colour.shape)
 
     mean, variance = learn(sky & (probability > doubt))
-    ratio = np.square(colour - mean)
-    ratio /= -variance
-    mean, other = learn(~sky & (probability < 0.4))
+    difference = np.square(colour - mean)
+    # Sky seen through a crown or a wheel: the network doubts it is land, and it has very nearly
+    # the colour of the sky beside. Land learned from it would look like sky.
+    like_sky = (difference / np.minimum(variance, 0.02**2)).sum(axis=-1) < 9
+    ratio = difference / -variance
+    mean, other = learn(~sky & (probability < 0.4) & ~(like_sky & (probability > 0.03)))
     ratio += np.square(colour - mean) / other
     other /= variance
     return np.asarray((ratio.sum(axis=-1) + np.log(other.prod(axis=-1))) / 2, np.float32)
@@ -261,7 +267,7 @@ def matte(
         Alpha matte, 1 = sky.
     """
     width, height = photo.size
-    if min(working.width, working.height) < MINIMUM_SIDE:
+    if decision.final or min(working.width, working.height) < MINIMUM_SIDE:
         alpha = np.clip(resize(decision.sky, width, height), 0, 1)
     else:
         sky = resize(decision.sky, working.width, working.height)

@@ -48,6 +48,17 @@ vec3 GetCloud(vec3 lit, vec3 forward, vec3 sky_beyond, vec3 sun, vec3 view, floa
   return mix(lit + lobe * forward, sky_beyond, 0.7 * (1.0 - opacity) + 0.15);
 }
 
+// Share of a pixel's light that is sky. Where the matte is soft a pixel shows both, and twigs
+// before a bright sky are mostly sky: the light behind is known (sky_behind.glsl), and the rest is
+// the land's own, without the old sky's tint. Inside the sky it is the matte itself, and so it is
+// where the matte promises more sky than the pixel holds (it is wrong there) and in the glare.
+vec3 GetSkyShare(float matte, vec3 scene, vec3 behind, float glare) {
+  vec3 light = matte * behind;
+  float excess = GetLuminance(light) / max(GetLuminance(scene), 1e-6);
+  float plain = max(smoothstep(0.85, 1.0, matte), smoothstep(0.9, 1.6, excess));
+  return mix(min(light / max(scene, vec3(1e-6)), vec3(1.0)), vec3(matte), max(plain, glare));
+}
+
 void main() {
   vec2 pixel = GetPixel();
   vec2 place = pixel / frame_size;
@@ -65,10 +76,16 @@ void main() {
   float gain = general.x;
   float moved = general.y;
 
-  // Sky and clouds.
+  // What of the pixel is sky and what is land, each as if it filled the pixel.
   vec3 clean = texelFetch(sky_behind, texel, 0).rgb;
+  float matte = layer.r;
+  vec3 share = GetSkyShare(matte, scene, clean, marks.r);
+  vec3 behind = scene * share / max(matte, 1e-4);
+  vec3 front = scene * (1.0 - share) / max(1.0 - matte, 1e-4);
+
+  // Sky and clouds.
   float glare = marks.r * moved * step(1e-6, sky_strength);
-  vec3 sky = scene + glare * (clean - scene);
+  vec3 sky = behind + glare * (clean - behind);
   float opacity = layer.g;
   vec3 cloud_before = GetCloud(GetTerm(5), GetTerm(6), sky_before, sun_before, view, opacity);
   vec3 cloud_now = GetCloud(GetTerm(7), GetTerm(8), sky_now, sun_now, view, opacity);
@@ -82,7 +99,7 @@ void main() {
   // The new disc, behind clouds; the matte hides it behind land.
   float clear = (1.0 - opacity) * (1.0 - opacity);
   relit += moved * clear * ReadDisc(view, sun_now);
-  vec3 sky_out = scene + sky_strength * (gain * relit - scene);
+  vec3 sky_change = sky_strength * (gain * relit - behind);
 
   // Land: ratio of irradiances. What rises above the horizon stands upright.
   float upright = 0.8 * smoothstep(-0.005, 0.02, view.y);
@@ -93,14 +110,14 @@ void main() {
   // road, glass): that part follows what it mirrors (mirror_ratio.glsl), the rest is lit as land.
   float glitter = marks.b;
   float white = (1.0 - 0.6 * glitter) * GetLuminance(lit_before) / 3.14159265;
-  float mirror = max(1.0 - min(white / max(GetLuminance(scene), 1e-6), 1.0), marks.g);
+  float mirror = max(1.0 - min(white / max(GetLuminance(front), 1e-6), 1.0), marks.g);
   land_ratio += mirror * (ReadBilinear(mirror_ratio, place).rgb - land_ratio);
-  vec3 land = scene * land_ratio;
+  vec3 land = front * land_ratio;
   land += general.z * (vec3(GetLuminance(land)) - land);
-  vec3 land_out = scene + land_strength * (gain * land - scene);
+  vec3 land_change = land_strength * (gain * land - front);
 
   // Written as a difference, so that what did not change adds exactly nothing.
-  vec3 change = layer.r * (sky_out - scene) + (1.0 - layer.r) * (land_out - scene);
+  vec3 change = matte * sky_change + (1.0 - matte) * land_change;
   float touched = step(1e-30, dot(abs(change), vec3(1.0)));
   vec3 representable = clamp(display, vec3(0.0), vec3(GetWhiteLevel()));
   WriteFrame(display, touched * (GetDisplayLight(scene + change) - representable), pixel);

@@ -122,3 +122,29 @@ def test_a_dab_is_at_least_a_pixel_and_a_stroke_outside_paints_nothing():
     assert 1 <= dab.sum() <= 5
     assert dab[14:16, 19:21].any()
     assert refine.paint(Stroke("sky", ((9.0, 9.0), (9.5, 9.0)), 0.01), 40, 30).sum() == 0
+
+
+def test_sky_seen_through_a_wheel_is_found_although_the_network_doubts_it():
+    """A network takes the whole wheel for a thing; between its spokes lies the sky's own colour."""
+    sky = np.ones((HEIGHT, WIDTH), np.uint8)
+    sky[200:] = 0
+    centre = (160, 110)
+    cv2.circle(sky, centre, 70, 0, 3)
+    for angle in np.linspace(0, np.pi, 9)[:-1]:
+        step = 70 * np.array([np.cos(angle), np.sin(angle)])
+        ends = [tuple(int(v) for v in np.array(centre) + sign * step) for sign in (-1, 1)]
+        cv2.line(sky, *ends, 0, 2)
+    generator = np.random.default_rng(1)
+    picture = np.where(sky[..., None] == 1, (200, 205, 210), (90, 95, 110))
+    picture = np.clip(picture + generator.normal(0, 3, picture.shape), 0, 255).astype(np.uint8)
+    probability = np.where(sky == 1, 0.97, 0.02).astype(np.float32)
+    cv2.circle(probability, centre, 72, 0.2, -1)
+    matte = refined(open_photo(picture), probability)
+    assert overlap(probability, sky > 0) < 0.75
+    assert overlap(matte, sky > 0) > 0.97
+
+
+def test_a_given_mask_is_kept_as_it_is_without_refinement():
+    picture, truth = tree()
+    mask = cv2.GaussianBlur(truth.astype(np.float32), (0, 0), 2.0)
+    assert np.array_equal(refined(open_photo(picture), mask, "none"), mask)
