@@ -17,7 +17,7 @@ from typing import Any, NoReturn, Self
 
 from sunwidget.edit import NUMBERS, PARAMETERS, Edit, Parameter
 
-_HINTS = ("sun", "horizon", "fov", "sky")
+_HINTS = ("sun", "horizon", "fov", "sky", "sky_label")
 
 
 class _Parser(argparse.ArgumentParser):
@@ -88,6 +88,7 @@ def _parser() -> argparse.ArgumentParser:
     analyze = commands.add_parser("analyze", help="write every map of a photo and scene.json")
     _add_photo(analyze)
     analyze.add_argument("-o", "--output", type=Path, required=True, help="folder for the maps")
+    _add_methods(analyze)
     analyze.set_defaults(run=_analyze)
 
     doctor = commands.add_parser("doctor", help="what was found on this machine, what is missing")
@@ -100,6 +101,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_photo(parser: argparse.ArgumentParser) -> None:
+    from sunwidget.analysis import sky
+
     parser.add_argument("photo", help="picture file, or sample:NAME for a bundled one")
     parser.add_argument("--overwrite", action="store_true", help="replace existing files")
     hints = parser.add_argument_group("hints (win over detection)")
@@ -111,7 +114,44 @@ def _add_photo(parser: argparse.ArgumentParser) -> None:
         help="row at the centre, or X1,Y1,X2,Y2",
     )
     hints.add_argument("--fov", type=float, metavar="DEG", help="vertical field of view")
-    hints.add_argument("--sky", help="mask picture (white = sky), .onnx network or method name")
+    hints.add_argument(
+        "--sky",
+        help=f"mask picture (white = sky), .onnx network, or a method: {', '.join(sky.METHODS)}",
+    )
+    hints.add_argument(
+        "--sky-label",
+        type=_label,
+        metavar="CLASS",
+        help="which class of that network is sky: index from 0, or name (ADE20K: 2)",
+    )
+
+
+def _methods() -> dict[str, tuple[Sequence[str], str]]:
+    """Names and default of every stage with a choice, by the parameter of ``analyze``."""
+    import inspect
+
+    from sunwidget.analysis import stages
+    from sunwidget.analysis.scene import analyze
+
+    parameters = inspect.signature(analyze).parameters
+    found: dict[str, tuple[Sequence[str], str]] = {}
+    for stage, methods in stages.METHODS.items():
+        # "sun" and "horizon" are hints: their methods have names of their own.
+        name = stage if f"{stage}_method" not in parameters else f"{stage}_method"
+        if len(methods) > 1:
+            found[name] = (tuple(methods), parameters[name].default)
+    return found
+
+
+def _add_methods(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("methods of the stages")
+    for name, (choices, default) in _methods().items():
+        group.add_argument(
+            _flag(name),
+            choices=choices,
+            metavar="NAME",
+            help=f"{', '.join(choices)} (default {default})",
+        )
 
 
 def _add_edit(parser: argparse.ArgumentParser) -> None:
@@ -142,6 +182,10 @@ def _flag(name: str) -> str:
 
 def _percent_safe(text: str) -> str:
     return text.replace("%", "%%")
+
+
+def _label(text: str) -> int | str:
+    return int(text) if text.isdecimal() else text
 
 
 def _size(text: str) -> tuple[int, int]:
@@ -180,8 +224,9 @@ def _scene(options: argparse.Namespace) -> Any:
 
     prefix, _, name = options.photo.partition("sample:")
     photo = sw.sample(name) if name and not prefix else sw.open(options.photo)
-    hints = {name: getattr(options, name) for name in _HINTS}
-    hints = {name: value for name, value in hints.items() if value is not None}
+    named = (*_HINTS, *_methods())
+    given = {name: getattr(options, name, None) for name in named}
+    hints: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if "horizon" in hints:
         hints["horizon"] = _horizon(hints["horizon"])
     if "sky" in hints:

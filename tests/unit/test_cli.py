@@ -2,8 +2,10 @@ import json
 import re
 import subprocess
 import sys
+import types
 
 import numpy as np
+import onnx_files as onnx
 import pytest
 from PIL import Image
 
@@ -96,6 +98,8 @@ def test_flags_win_over_the_recipe(tmp_path):
         (["render", "x.jpg", "-o", "y.png", "--recipe", "no-such.json"], "no-such.json"),
         (["sweep", "x.jpg", "-o", "y.gif"], "Nothing moves"),
         (["batch", "x.jpg"], "invalid choice"),
+        (["analyze", "x.jpg", "-o", "maps", "--refine", "magic"], "'dense_crf'"),
+        (["analyze", "sample:coast", "-o", "maps", "--sky-label", "2"], "ONNX network"),
     ],
 )
 def test_a_mistake_is_one_line_and_status_2(capsys, arguments, message):
@@ -157,6 +161,54 @@ def test_analyze_writes_maps_and_facts_and_obeys_hints(photo, tmp_path, capsys):
     assert sky.shape == (160, 240)
     assert sky[:20].mean() > 200
     assert sky[-20:].mean() < 50
+
+
+def test_every_method_of_every_stage_is_a_choice_of_analyze():
+    named = {name for name, (choices, _) in cli._methods().items() for _ in choices}
+    assert named >= {"refine", "clouds", "horizon_method", "sun_method"}
+    for name, (choices, default) in cli._methods().items():
+        assert default in choices
+        for choice in choices:
+            options = parse("analyze", "x.jpg", "-o", "maps", cli._flag(name), choice)
+            assert getattr(options, name) == choice
+    assert parse("analyze", "x.jpg", "-o", "maps").refine is None
+
+
+def test_the_methods_reach_the_analysis(monkeypatch):
+    asked = {}
+
+    def analyze(photo, **options):
+        asked.update(options)
+        return types.SimpleNamespace(warnings=())
+
+    monkeypatch.setattr(sw, "analyze", analyze)
+    flags = ["--refine", "dense_crf", "--horizon-method", "row_argmax", "--sky-label", "10"]
+    cli._scene(parse("analyze", "sample:coast", "-o", "maps", "--sky", "city.onnx", *flags))
+    del asked["progress"]
+    expected = {"refine": "dense_crf", "horizon_method": "row_argmax"}
+    assert asked == expected | {"sky": "city.onnx", "sky_label": 10}
+    cli._scene(parse("render", "sample:coast", "-o", "x.png", "--sky-label", "sky"))
+    assert asked["sky_label"] == "sky"
+
+
+def test_a_foreign_network_and_its_class_are_flags(photo, tmp_path, capsys):
+    weight = np.zeros((9, 3, 1, 1), np.float32)
+    weight[5, :, 0, 0] = (-8, 0, 8)
+    scores = [onnx.node("Conv", ["image", "w"], ["scores"])]
+    entry = ("image", np.float32, (1, 3, 64, 96))
+    result = ("scores", np.float32, (1, 9, 64, 96))
+    path, scale = tmp_path / "blue.onnx", {"mean": "0", "std": "1"}
+    network = str(onnx.write(path, scores, {"w": weight}, [entry], [result], scale))
+    common = ["analyze", photo, "-o", str(tmp_path / "maps"), "--sky", network]
+    assert "sky_label" in fails(capsys, *common)
+    assert "no class 9" in fails(capsys, *common, "--sky-label", "9")
+    assert "names none" in fails(capsys, *common, "--sky-label", "sky")
+    assert main([*common, "--sky-label", "5", "--refine", "none"]) == 0
+    sky = np.asarray(Image.open(tmp_path / "maps" / "sky_coarse.png"))
+    picture = np.asarray(Image.open(photo).convert("RGB"), float)
+    bluer = picture[..., 2] - picture[..., 0]
+    assert (sky > 127)[bluer > 25].mean() > 0.98
+    assert (sky > 127)[bluer < -25].mean() < 0.02
 
 
 def test_analyze_takes_a_mask_for_the_sky(photo, tmp_path):
