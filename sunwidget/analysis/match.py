@@ -42,7 +42,12 @@ def from_lab(lab: np.ndarray) -> np.ndarray:
 
 def statistics(linear: np.ndarray, weight: np.ndarray | None = None) -> Statistics:
     """Mean and deviation of (…, 3) linear pixels in lαβ, weighted; zeros when nothing weighs."""
-    lab = to_lab(linear).reshape(-1, 3)
+    return statistics_of_lab(to_lab(linear), weight)
+
+
+def statistics_of_lab(lab: np.ndarray, weight: np.ndarray | None = None) -> Statistics:
+    """Return the same for pixels that are in lαβ already."""
+    lab = lab.reshape(-1, 3)
     share = np.ones(len(lab)) if weight is None else np.asarray(weight, np.float64).ravel()
     total = share.sum()
     if total < 1e-6:

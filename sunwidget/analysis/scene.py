@@ -174,7 +174,7 @@ class Scene:
         small = self.working
         sky = resize(self.sky, small.width, small.height)
         blot = 0.0 if self.sun is None else float(self.sun.mask.sum())
-        own = match.statistics(small.linear, sky)
+        own = match.statistics_of_lab(small.lab, sky)
         return {
             "camera_right": self.camera.right,
             "camera_up": self.camera.up,

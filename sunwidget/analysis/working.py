@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from sunwidget.analysis.match import to_lab
 from sunwidget.photo import Photo
 
 LONG_SIDE = 1024
@@ -116,6 +117,11 @@ class Working:
     def bytes(self) -> np.ndarray:
         """sRGB-encoded 8-bit copy, RGB."""
         return np.round(self.encoded * 255).astype(np.uint8)
+
+    @cached_property
+    def lab(self) -> np.ndarray:
+        """lαβ (h, w, 3) float64 of match.py: every correction asks for its statistics."""
+        return to_lab(self.linear)
 
     @property
     def luminance(self) -> np.ndarray:
