@@ -22,6 +22,14 @@ export function stripComments(/** @type {string} */ text) {
     .replace(/^[ \t]+|[ \t]+$/gm, "");
 }
 
+/**
+ * Drop the blanks round GLSL's signs. Not round + and -, where `a - -b` would become another
+ * word, and not in a directive, where they tell a macro from its arguments.
+ */
+export function tighten(/** @type {string} */ text) {
+  return text.replace(/^[^#\n].*$/gm, (line) => line.replace(/ *([=*/<>,;{}()?:&|!]) */g, "$1"));
+}
+
 /** Text of every shader by its path relative to `shaders/`. */
 export function readShaders() {
   /** @type {Record<string, string>} */
@@ -43,7 +51,7 @@ const shaderPlugin = {
     build.onLoad({ filter: /.*/, namespace: "glsl" }, () => {
       const stripped = Object.entries(readShaders()).map(([name, text]) => [
         name,
-        stripComments(text),
+        tighten(stripComments(text)),
       ]);
       const graph = readFileSync(join(shaders, "graph.json"), "utf-8");
       return {

@@ -221,6 +221,34 @@ def test_analysis_runs_behind_and_a_broken_one_is_said(monkeypatch):
     }
 
 
+def test_strokes_made_while_one_is_worked_in_are_all_kept(editor, monkeypatch):
+    corrected = type(editor.scene).corrected
+    started, go_on = threading.Event(), threading.Event()
+    seen = []
+
+    def slow(scene, edit):
+        seen.append(len(edit.strokes))
+        started.set()
+        assert go_on.wait(60)
+        return corrected(scene, edit)
+
+    monkeypatch.setattr(type(editor.scene), "corrected", slow)
+    strokes = [
+        {"label": "sky", "points": [[0.1, y], [0.9, y]], "radius": 0.02} for y in (0.9, 0.95, 0.99)
+    ]
+    editor.set_state({"strokes": strokes[:1]})
+    assert started.wait(60)
+    editor.set_state({"strokes": strokes[:2]})
+    editor.set_state({"strokes": strokes})
+    go_on.set()
+    editor.wait(120)
+    assert len(editor.edit.strokes) == 3
+    assert seen == [1, 3]  # what was overtaken is not worked in by itself
+    sky = np.asarray(Image.open(io.BytesIO(editor._layers)))[..., 0]
+    rows = [int(y * sky.shape[0]) for y in (0.9, 0.95, 0.99)]
+    assert sky[rows, sky.shape[1] // 2].min() > 200
+
+
 def test_save_answers_with_the_full_size_file(editor, sent):
     editor.sun_elevation = 4
     request = {"type": "request", "id": "a", "action": "save"}
