@@ -64,9 +64,28 @@ def notices(
             f"The horizon of {photo.name} is a guess (row {horizon.row:.0f}). "
             "Drag it, or pass horizon=row."
         )
+    elif horizon.confidence < 0.5 or _sky_below(sky, horizon, camera):
+        # Thesis 5.1 and its figure: the sky is then drawn too far down, as in a sunset.
+        notes.append(
+            f"The horizon of {photo.name} (row {horizon.row:.0f}) may be the edge of a roof or "
+            "hill, which lies too high and makes the light that of a lower sun. Drag it down if "
+            "so, or pass horizon=row."
+        )
     if hints.fov is None and photo.field_of_view.source == "assumed":
         notes.append(
             f"{photo.name} names no focal length: {camera.fov_vertical_deg:.0f}° vertical field "
             "of view is assumed. Pass fov= in degrees."
         )
     return tuple(notes)
+
+
+def _sky_below(sky: np.ndarray, horizon: Horizon, camera: Camera) -> bool:
+    """Whether the sky reaches below the horizon by 3 % of the height in a tenth of the columns."""
+    if horizon.source == "hint" or not 0 < horizon.row < camera.height:
+        return False
+    height, width = sky.shape
+    slope = np.tan(np.radians(horizon.roll))
+    columns = (np.arange(width) + 0.5) * camera.width / width - camera.width / 2
+    line = (horizon.row + slope * columns) * height / camera.height
+    below = (np.arange(height)[:, None] > line + 0.03 * height) & (sky > 0.5)
+    return float(below.any(axis=0).mean()) > 0.1

@@ -266,7 +266,7 @@ def analyze(
     sky_label: int | str | None = None,
     refine: str = "grabcut_mask",
     clouds: str = "unmix",
-    horizon_method: str = "robust_line",
+    horizon_method: str = "water_line",
     sun_method: str = "disc_fit",
     depth: str = "ground_plane",
     water: str = "none",

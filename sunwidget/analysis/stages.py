@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 Progress = Callable[[float, str], Any]
 FIT_SIDE = 384
-SURE_HORIZON = 0.6  # confidence from which nothing below the horizon can be sky
+SURE_HORIZON = 0.68  # confidence from which nothing below the horizon can be sky
 
 METHODS: dict[str, dict[str, Callable[..., Any]]] = {
     "refine": refine.METHODS,
@@ -109,7 +109,9 @@ def complete(
     camera = Camera.from_horizon(
         *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll
     )
-    if ours and (hints.horizon is not None or horizon.confidence >= SURE_HORIZON):
+    # The thesis' row may be a roof's, and sky below it is what tells.
+    seen = horizon.confidence >= SURE_HORIZON and horizon.source != "row_argmax"
+    if ours and (hints.horizon is not None or seen):
         # Water that mirrors the sky is not sky.
         sky = sky * horizon_stage.above(camera, *sky.shape[::-1])
         matte = matte * horizon_stage.above(camera, *photo.size)
@@ -192,7 +194,8 @@ def _horizon(working: Working, sky: np.ndarray, hints: Hints, width: int) -> Hor
     """Return the hinted or found horizon, in pixels of the photo."""
     if hints.horizon is not None:
         return horizon_stage.from_hint(hints.horizon, width)
-    return horizon_stage.METHODS[hints.method("horizon")](sky).scaled(*working.zoom)
+    find = horizon_stage.METHODS[hints.method("horizon")]
+    return find(sky, working.encoded).scaled(*working.zoom)
 
 
 def _atmosphere(

@@ -7,7 +7,9 @@ import cv2
 import numpy as np
 import pytest
 
+import sunwidget as sw
 from sunwidget.analysis import horizon
+from sunwidget.analysis.straight_edge import straight_edges
 from sunwidget.camera import Camera
 
 HEIGHT, WIDTH = 360, 640
@@ -35,6 +37,86 @@ def test_ships_and_islands_do_not_lift_the_horizon():
     assert found.row == pytest.approx(200, abs=1)
     assert found.roll == pytest.approx(2, abs=0.1)
     assert 0.6 < found.confidence <= 1
+
+
+def shore(mirrored: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """Trees on the far shore of a lake, row 212, roll 1: sky mask and picture.
+
+    Mirrored: mask of a network that takes the calm lake for sky, down to the bank at row 300.
+    """
+    y, x = np.mgrid[:HEIGHT, :WIDTH] + 0.5
+    tops = 190 + 14 * np.random.default_rng(2).random(WIDTH)
+    line = 212 + math.tan(math.radians(1)) * (x - WIDTH / 2)
+    picture = np.empty((HEIGHT, WIDTH, 3), np.float32)
+    picture[:] = (0.5, 0.6, 0.8)
+    picture[y >= line] = (0.35, 0.45, 0.6)
+    trees = (y > tops) & (y < line)
+    picture[trees] = (0.1, 0.14, 0.1)
+    picture[300:] = (0.3, 0.25, 0.2)
+    sky = y < tops
+    if mirrored:
+        sky |= (y >= line) & (y < 300)
+    return sky.astype(np.float32), picture
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_the_far_end_of_a_lake_is_the_horizon_not_its_trees_or_its_near_bank(mirrored):
+    sky, picture = shore(mirrored)
+    assert abs(horizon.robust_line(sky).row - 212) > 4
+    found = horizon.water_line(sky, picture)
+    assert found.source == "water_line"
+    assert found.row == pytest.approx(212, abs=0.01 * HEIGHT)
+    assert found.roll == pytest.approx(1, abs=0.5)
+
+
+def test_sky_seen_under_a_sign_is_no_mirror():
+    sky = sky_above(250)
+    sky[120:170, 100:300] = 0
+    picture = np.where(sky[..., None] > 0, (0.5, 0.6, 0.8), (0.3, 0.2, 0.1)).astype(np.float32)
+    assert horizon.water_line(sky, picture).row == pytest.approx(250, abs=1)
+
+
+def test_a_plain_sea_is_as_the_skyline_tells_and_a_flat_picture_has_no_edges():
+    sky = sky_above(200, 2)
+    picture = np.where(sky[..., None] > 0, (0.5, 0.6, 0.8), (0.1, 0.2, 0.3)).astype(np.float32)
+    assert horizon.water_line(sky, picture) == horizon.robust_line(sky)
+    assert straight_edges(np.full((HEIGHT, WIDTH, 3), 0.5, np.float32)) == []
+    assert straight_edges(np.zeros((1, 1, 3), np.float32)) == []
+
+
+def test_texture_is_no_straight_edge_and_a_faint_one_across_all_of_it_is():
+    picture = np.random.default_rng(4).random((HEIGHT, WIDTH, 3)).astype(np.float32)
+    assert all(edge.strength < 0.5 for edge in straight_edges(picture))
+    faint = np.full((HEIGHT, WIDTH, 3), 0.5, np.float32)
+    faint[140:] += 0.06
+    (edge,) = straight_edges(faint)
+    assert edge.row == pytest.approx(140 / HEIGHT, abs=0.005)
+    assert edge.roll == 0
+
+
+def test_less_of_a_line_and_more_roll_are_less_sure():
+    def confidence(width, roll):
+        sky = sky_above(200, roll)
+        sky[:, width:] = np.arange(HEIGHT)[:, None] < 60  # a wall
+        return horizon.robust_line(sky).confidence
+
+    assert confidence(640, 0) == 1
+    assert confidence(640, 0) > confidence(450, 0) > confidence(300, 0) > 0.5
+    assert confidence(450, 0) > confidence(450, 2) > confidence(450, 5)
+    assert confidence(450, 5) < 0.3  # a roof
+
+
+def test_a_horizon_on_top_of_what_hides_it_is_told():
+    # Thesis 5.1: a big thing near occludes the sky, and its top has the most edges.
+    mask = np.zeros((HEIGHT, WIDTH), np.float32)
+    mask[:100] = 1
+    mask[:260, :200] = 1
+    picture = np.where(mask[..., None] > 0, (150, 180, 230), (60, 50, 40)).astype(np.uint8)
+    told = sw.analyze(picture, sky=mask, horizon_method="row_argmax")
+    assert told.horizon.row == pytest.approx(100, abs=2)
+    assert any("lies too high" in note for note in told.warnings)
+    hinted = sw.analyze(picture, sky=mask, horizon=250)
+    assert not any("lies too high" in note for note in hinted.warnings)
 
 
 def test_a_jagged_skyline_gives_a_guess_at_its_lowest_part_or_lower():
