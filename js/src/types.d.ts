@@ -42,8 +42,6 @@ export interface Scene {
     roll: number;
     confidence: number;
     source: string;
-    /** Rows at the left and the right edge, by method, as fractions of the height. */
-    others: Record<string, [number, number]>;
   };
   /** Shares of the sky by bins of whiteness from 0 to reach, as the method measures it. */
   whiteness: { method: string; reach: number; shares: number[] };

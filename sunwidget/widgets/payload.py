@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.analysis import horizon
 from sunwidget.analysis.clouds import INDICES
-from sunwidget.analysis.horizon import row_argmax
 from sunwidget.analysis.maps import MAPS, levels, scene_map, shares_of
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.working import resize
@@ -144,7 +144,6 @@ def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
                 "roll": scene.horizon.roll,
                 "confidence": scene.horizon.confidence,
                 "source": scene.horizon.source,
-                "others": _other_horizons(scene),
             },
             "whiteness": whiteness(scene),
             "warnings": list(scene.warnings),
@@ -175,18 +174,27 @@ def whiteness(scene: Scene, bins: int = 64, reach: float = 1.6) -> dict[str, Any
     return {"method": method, "reach": reach, "shares": shares.round(5)}
 
 
-def _other_horizons(scene: Scene) -> dict[str, tuple[float, float]]:
-    """Return what other methods say, as rows at the left and right edge, fractions of the height.
+def other_horizons(scene: Scene) -> dict[str, tuple[float, float]]:
+    """Return where the methods that were not taken see the horizon.
 
-    ``row_argmax`` is the thesis' horizon, for comparison.
+    Not part of ``scene_json``: some look at the whole picture, and few people ask.
+
+    Returns
+    -------
+    dict
+        Rows at the left and the right edge in fractions of the height, by method's name;
+        methods that see none, or fall back on another, are left out.
     """
     working = scene.working
-    found = row_argmax(resize(scene.sky, working.width, working.height)).scaled(*working.zoom)
-    if found.confidence == 0 or scene.horizon.source == found.source:
-        return {}
-    rise = math.tan(math.radians(found.roll)) * scene.width / 2
-    rows = found.row - rise, found.row + rise
-    return {found.source: (rows[0] / scene.height, rows[1] / scene.height)}
+    sky = resize(scene.sky, working.width, working.height)
+    rows = {}
+    for name, method in horizon.METHODS.items():
+        found = method(sky, working.encoded).scaled(*working.zoom)
+        if found.source != name or name == scene.horizon.source or found.confidence == 0:
+            continue
+        rise = math.tan(math.radians(found.roll)) * scene.width / 2
+        rows[name] = ((found.row - rise) / scene.height, (found.row + rise) / scene.height)
+    return rows
 
 
 def parameter_json() -> list[dict[str, Any]]:

@@ -29,11 +29,12 @@ from sunwidget.widgets.payload import (
     encode_maps,
     encode_preview,
     map_json,
+    other_horizons,
     parameter_json,
     scene_json,
     thumbnail,
 )
-from sunwidget.widgets.requests import Answer, Progress, Requests
+from sunwidget.widgets.requests import Action, Answer, Progress, Requests
 
 _STATIC = Path(__file__).parents[1] / "static"
 _NAMES = tuple(p.name for p in PARAMETERS)
@@ -141,8 +142,7 @@ class SunEditor(anywidget.AnyWidget):
             _history={"past": [], "future": []},
             **{name: getattr(start, name) for name in _NAMES},
         )
-        actions = {"save": self._save_for_browser, "map": self._map_for_browser}
-        self.on_msg(Requests(self.send, actions))
+        self.on_msg(Requests(self.send, self._actions()))
         self.observe(self._on_edit, list(_NAMES))
         self._analyst = Analyst(
             self.photo if scene is None else scene, analysis, self._deliver, self._report
@@ -300,12 +300,22 @@ class SunEditor(anywidget.AnyWidget):
             data = path.read_bytes()
         return {"name": name, "type": _TYPES[suffix]}, [data]
 
-    def _map_for_browser(self, content: dict[str, Any], _progress: Progress) -> Answer:
+    def _actions(self) -> dict[str, Action]:
+        """Return what the browser can ask for, by name."""
+        return {
+            "save": self._save_for_browser,
+            "map": lambda content, _: (
+                {},
+                [encode_map(self._shown_scene(), str(content.get("name")))],
+            ),
+            "horizons": lambda _content, _: (other_horizons(self._shown_scene()), []),
+        }
+
+    def _shown_scene(self) -> Scene:
         with self._lock:
-            scene, revision = self._shown, self._revision
-        if scene is None:
-            raise ValueError("The photo is not analysed yet.")
-        return {"revision": revision}, [encode_map(scene, str(content.get("name")))]
+            if self._shown is None:
+                raise ValueError("The photo is not analysed yet.")
+            return self._shown
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         bundle = super()._repr_mimebundle_(**kwargs)

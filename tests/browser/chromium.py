@@ -90,8 +90,7 @@ def connect(page, widget):
         def send(content, buffers=()):
             messages.append([content, [base64.b64encode(b).decode("ascii") for b in buffers]])
 
-        actions = {"save": widget._save_for_browser, "map": widget._map_for_browser}
-        Requests(send, actions)._answer(sent["content"])
+        Requests(send, widget._actions())._answer(sent["content"])
         return messages
 
     page.expose_function("toKernel", answer)

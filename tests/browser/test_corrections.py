@@ -212,6 +212,14 @@ def test_the_whole_line_goes_where_it_is_dragged_also_out_of_the_picture(editor)
     assert trait(editor, "horizon_hint")[0] == pytest.approx([0.12, 0.7], abs=0.01)
 
 
+def test_what_other_methods_see_is_shown_beside_the_horizon(page, coast):
+    connect(page, SunEditor(coast).wait(120))
+    choose(page, "Set the horizon")
+    page.locator(".sw-horizon-other").first.wait_for(state="attached")
+    said = page.locator(".sw-horizon-other text").all_text_contents()
+    assert "thesis row" in said
+
+
 def test_a_guessed_horizon_is_dashed_and_a_given_one_is_not(editor, state):
     tool = editor.locator(".sw-horizon-tool")
     choose(editor, "Set the horizon")

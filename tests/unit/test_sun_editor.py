@@ -104,7 +104,7 @@ def test_options_of_the_analysis_reach_it_and_misspelt_ones_are_refused(scene):
 @pytest.mark.parametrize("name", [entry.name for entry in MAPS])
 def test_the_browser_gets_a_map_when_it_asks(editor, scene, sent, name):
     content = {"type": "request", "id": "m", "action": "map", "name": name}
-    Requests(editor.send, {"map": editor._map_for_browser})._answer(content)
+    Requests(editor.send, editor._actions())._answer(content)
     ((response, buffers),) = sent
     entry = next(row for row in editor._maps if row["name"] == name)
     values = scene_map(name).read(scene)
@@ -112,16 +112,27 @@ def test_the_browser_gets_a_map_when_it_asks(editor, scene, sent, name):
         assert entry["title"] in response["error"]
         return
     assert response["error"] is None
-    assert response["result"]["revision"] == editor._scene["revision"]
     levels = np.asarray(Image.open(io.BytesIO(buffers[0])))
     assert levels.dtype == np.uint8
     if values.shape == levels.shape:
         assert np.abs(levels / 255 - scene_map(name).share(values)).max() <= 0.51 / 255
 
 
+def test_the_browser_gets_the_other_methods_horizons(editor, scene, sent):
+    content = {"type": "request", "id": "h", "action": "horizons"}
+    Requests(editor.send, editor._actions())._answer(content)
+    rows = sent[0][0]["result"]
+    assert scene.horizon.source not in rows
+    left, right = rows["row_argmax"]  # the thesis' row is level
+    assert left == right
+    sky = scene.sky > 0.5
+    edges = np.count_nonzero(sky[1:] != sky[:-1], axis=1)
+    assert left == pytest.approx((edges.argmax() + 1) / scene.height, abs=0.02)
+
+
 def test_an_unknown_map_is_answered_with_the_names(editor, sent):
     content = {"type": "request", "id": "m", "action": "map", "name": "skyline"}
-    Requests(editor.send, {"map": editor._map_for_browser})._answer(content)
+    Requests(editor.send, editor._actions())._answer(content)
     assert "choose one of sky_coarse" in sent[0][0]["error"]
 
 
@@ -252,7 +263,7 @@ def test_strokes_made_while_one_is_worked_in_are_all_kept(editor, monkeypatch):
 def test_save_answers_with_the_full_size_file(editor, sent):
     editor.sun_elevation = 4
     request = {"type": "request", "id": "a", "action": "save"}
-    module.Requests(editor.send, {"save": editor._save_for_browser})._answer(request)
+    Requests(editor.send, editor._actions())._answer(request)
     response, buffers = sent[-1]
     assert response["error"] is None
     assert response["result"]["name"].endswith("-sun.png")

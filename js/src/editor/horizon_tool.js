@@ -17,8 +17,8 @@ const GRAB = 40; // CSS pixels round a handle that take hold of it
 const EDGE = 16; // CSS pixels from the stage's edge at which an outside handle waits
 const GUESSED = 0.3; // confidence below which the line was not really seen
 
-/** What other methods say, as far as the kernel names it. @type {Record<string, string>} */
-const OTHERS = { row_argmax: "thesis row", water_line: "water line" };
+/** What the kernel's methods are called here. @type {Record<string, string>} */
+const OTHERS = { row_argmax: "thesis row", robust_line: "skyline", water_line: "water line" };
 
 export class HorizonTool {
   /** @param {View} view */
@@ -35,6 +35,10 @@ export class HorizonTool {
     this.path = shape("line", { class: "sw-horizon-line" });
     this.label = shape("text", { class: "sw-horizon-label" });
     this.others = shape("g");
+    /** @type {Record<string, [number, number]>} rows at either edge, by the other methods */
+    this.rows = {};
+    /** @type {unknown} the scene that `rows` belongs to */
+    this.scene = null;
     this.handles = ["Horizon, left end", "Horizon, right end"].map((label, i) => {
       const handle = shape(
         "g",
@@ -55,6 +59,21 @@ export class HorizonTool {
       this.label,
       ...this.handles,
     );
+  }
+
+  /** Ask what the other methods see, once a scene. */
+  async refresh() {
+    const { scene, channel, tool } = this.view;
+    if (tool !== "horizon" || !scene || scene === this.scene) return;
+    this.scene = scene;
+    this.rows = {};
+    try {
+      const { result } = await channel.request("horizons");
+      if (scene === this.scene) this.rows = result;
+    } catch {
+      // They are for comparison only: without a kernel there are none.
+    }
+    this.view.drawOverlay();
   }
 
   /** The line now: dragged, given by the person, or found. @returns {[Point, Point] | null} */
@@ -225,8 +244,7 @@ export class HorizonTool {
 
   /** @param {ReturnType<import("./stage.js").Stage["rectangle"]>} box */
   drawOthers(box) {
-    const others = Object.entries(this.view.scene?.horizon?.others ?? {});
-    const lines = others.map(([name, [left, right]]) => {
+    const lines = Object.entries(this.rows).map(([name, [left, right]]) => {
       const [y1, y2] = [box.y + left * box.height, box.y + right * box.height];
       return shape(
         "g",

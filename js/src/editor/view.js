@@ -37,6 +37,7 @@ import { toolbar } from "./toolbar.js";
  *   move: (place: Point, event: PointerEvent) => void,
  *   hover?: (place: Point | null) => void,
  *   reset?: () => void,
+ *   refresh?: () => void,
  *   fine?: boolean,
  * }} Tool
  */
@@ -217,6 +218,7 @@ export class View {
     this.camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
     this.notes.show(scene.warnings);
     void this.inspector.refresh();
+    this.tools[this.tool].refresh?.();
     this.show();
   }
 
@@ -244,6 +246,7 @@ export class View {
     this.root.dataset.tool = tool;
     this.root.classList.toggle("sw-brushing", BRUSHES.includes(tool));
     this.toolbar.show();
+    this.tools[tool].refresh?.();
     this.drawOverlay();
   }
 
