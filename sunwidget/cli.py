@@ -11,13 +11,12 @@ import re
 import sys
 import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NoReturn, Self
+from typing import Any, NoReturn
 
+from sunwidget.cli_photo import Progress, add_methods, add_photo, flag, scene_of
 from sunwidget.edit import NUMBERS, PARAMETERS, Edit, Parameter
-
-_HINTS = ("sun", "horizon", "fov", "sky", "sky_label")
 
 
 class _Parser(argparse.ArgumentParser):
@@ -63,7 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
 
     render = commands.add_parser("render", help="write the photo with its sun moved")
-    _add_photo(render)
+    add_photo(render)
     render.add_argument("-o", "--output", type=Path, required=True, help=".png, .jpg, .tif …")
     render.add_argument("--size", type=_size, metavar="WxH", help="pixels (default: the photo's)")
     _add_edit(render)
@@ -74,7 +73,7 @@ def _parser() -> argparse.ArgumentParser:
         help="write a film of the sun moving",
         description="The parameter flags set the first frame, the --to-… flags the last.",
     )
-    _add_photo(sweep)
+    add_photo(sweep)
     sweep.add_argument("-o", "--output", type=Path, required=True, help=".mp4, .gif or .webp")
     sweep.add_argument("--size", type=_size, metavar="WxH", help="pixels (default: ≤ 1920 a side)")
     sweep.add_argument("--fps", type=float, default=24, help="frames a second (default 24)")
@@ -86,9 +85,9 @@ def _parser() -> argparse.ArgumentParser:
     sweep.set_defaults(run=_sweep)
 
     analyze = commands.add_parser("analyze", help="write every map of a photo and scene.json")
-    _add_photo(analyze)
+    add_photo(analyze)
     analyze.add_argument("-o", "--output", type=Path, required=True, help="folder for the maps")
-    _add_methods(analyze)
+    add_methods(analyze)
     analyze.set_defaults(run=_analyze)
 
     doctor = commands.add_parser("doctor", help="what was found on this machine, what is missing")
@@ -100,60 +99,6 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_photo(parser: argparse.ArgumentParser) -> None:
-    from sunwidget.analysis import sky
-
-    parser.add_argument("photo", help="picture file, or sample:NAME for a bundled one")
-    parser.add_argument("--overwrite", action="store_true", help="replace existing files")
-    hints = parser.add_argument_group("hints (win over detection)")
-    hints.add_argument("--sun", type=_numbers(2), metavar="X,Y", help="the photo's sun, in pixels")
-    hints.add_argument(
-        "--horizon",
-        type=_numbers(1, 4),
-        metavar="ROW",
-        help="row at the centre, or X1,Y1,X2,Y2",
-    )
-    hints.add_argument("--fov", type=float, metavar="DEG", help="vertical field of view")
-    hints.add_argument(
-        "--sky",
-        help=f"mask picture (white = sky), .onnx network, or a method: {', '.join(sky.METHODS)}",
-    )
-    hints.add_argument(
-        "--sky-label",
-        type=_label,
-        metavar="CLASS",
-        help="which class of that network is sky: index from 0, or name (ADE20K: 2)",
-    )
-
-
-def _methods() -> dict[str, tuple[Sequence[str], str]]:
-    """Names and default of every stage with a choice, by the parameter of ``analyze``."""
-    import inspect
-
-    from sunwidget.analysis import stages
-    from sunwidget.analysis.scene import analyze
-
-    parameters = inspect.signature(analyze).parameters
-    found: dict[str, tuple[Sequence[str], str]] = {}
-    for stage, methods in stages.METHODS.items():
-        # "sun" and "horizon" are hints: their methods have names of their own.
-        name = stage if f"{stage}_method" not in parameters else f"{stage}_method"
-        if len(methods) > 1:
-            found[name] = (tuple(methods), parameters[name].default)
-    return found
-
-
-def _add_methods(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("methods of the stages")
-    for name, (choices, default) in _methods().items():
-        group.add_argument(
-            _flag(name),
-            choices=choices,
-            metavar="NAME",
-            help=f"{', '.join(choices)} (default {default})",
-        )
-
-
 def _add_edit(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--recipe", type=Path, help="JSON recipe; flags win over it")
     group = parser.add_argument_group("parameters")
@@ -161,7 +106,7 @@ def _add_edit(parser: argparse.ArgumentParser) -> None:
         if p.kind == "number":
             _add_number(group, p, "")
         elif p.kind == "choice":
-            group.add_argument(_flag(p.name), choices=p.choices, help=_percent_safe(p.help))
+            group.add_argument(flag(p.name), choices=p.choices, help=_percent_safe(p.help))
 
 
 def _add_number(group: Any, p: Parameter, prefix: str) -> None:
@@ -169,23 +114,15 @@ def _add_number(group: Any, p: Parameter, prefix: str) -> None:
     default = "from the photo" if p.default is None else f"{p.default:g}"
     text = f"{p.help} {p.minimum:g} to {p.maximum:g}{unit}, default {default}."
     group.add_argument(
-        _flag(prefix + p.name),
+        flag(prefix + p.name),
         type=float,
         metavar="N",
         help=argparse.SUPPRESS if prefix else _percent_safe(text),
     )
 
 
-def _flag(name: str) -> str:
-    return "--" + name.replace("_", "-")
-
-
 def _percent_safe(text: str) -> str:
     return text.replace("%", "%%")
-
-
-def _label(text: str) -> int | str:
-    return int(text) if text.isdecimal() else text
 
 
 def _size(text: str) -> tuple[int, int]:
@@ -193,20 +130,6 @@ def _size(text: str) -> tuple[int, int]:
     if not (separator and width.isdecimal() and height.isdecimal()):
         raise argparse.ArgumentTypeError(f"{text!r} is not of the form 1920x1080")
     return int(width), int(height)
-
-
-def _numbers(*counts: int) -> Callable[[str], tuple[float, ...]]:
-    def parse(text: str) -> tuple[float, ...]:
-        try:
-            values = tuple(float(part) for part in text.split(","))
-        except ValueError:
-            values = ()
-        if len(values) not in counts:
-            wanted = " or ".join(str(n) for n in counts)
-            raise argparse.ArgumentTypeError(f"{text!r} is not {wanted} numbers joined by commas")
-        return values
-
-    return parse
 
 
 def _edit(options: argparse.Namespace, prefix: str = "", start: Edit | None = None) -> Edit:
@@ -219,47 +142,12 @@ def _edit(options: argparse.Namespace, prefix: str = "", start: Edit | None = No
     return start.replace(**{name: value for name, value in given.items() if value is not None})
 
 
-def _scene(options: argparse.Namespace) -> Any:
-    import sunwidget as sw
-
-    prefix, _, name = options.photo.partition("sample:")
-    photo = sw.sample(name) if name and not prefix else sw.open(options.photo)
-    named = (*_HINTS, *_methods())
-    given = {name: getattr(options, name, None) for name in named}
-    hints: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-    if "horizon" in hints:
-        hints["horizon"] = _horizon(hints["horizon"])
-    if "sky" in hints:
-        hints["sky"] = _sky(hints["sky"])
-    with _Progress("analysis") as progress:
-        scene = sw.analyze(photo, progress=progress, **hints)
-    for warning in scene.warnings:
-        print(f"sunwidget: {warning}", file=sys.stderr)
-    return scene
-
-
-def _horizon(values: tuple[float, ...]) -> Any:
-    return values[0] if len(values) == 1 else (values[:2], values[2:])
-
-
-def _sky(text: str) -> Any:
-    """Return a mask as an array; a method's name or a network's path stays text."""
-    path = Path(text)
-    if path.suffix.lower() == ".onnx" or not path.suffix:
-        return text
-    import numpy as np
-
-    import sunwidget as sw
-
-    return sw.open(path).preview(long_edge=2**31).astype(np.float32)[..., 1] / 255
-
-
 def _render(options: argparse.Namespace) -> int:
     import sunwidget as sw
 
     edit = _edit(options)
     _refuse_existing(options.output, options.overwrite)
-    scene = _scene(options)
+    scene = scene_of(options)
     begin = time.perf_counter()
     if options.size is None:
         sw.save((scene, edit), options.output, overwrite=options.overwrite)
@@ -278,8 +166,8 @@ def _sweep(options: argparse.Namespace) -> int:
     if start == end:
         raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
     _refuse_existing(options.output, options.overwrite)
-    scene = _scene(options)
-    with _Progress("film") as progress:
+    scene = scene_of(options)
+    with Progress("film") as progress:
         sw.sweep(
             scene,
             [start, end],
@@ -297,7 +185,7 @@ def _sweep(options: argparse.Namespace) -> int:
 def _analyze(options: argparse.Namespace) -> int:
     from sunwidget.export.maps import save_maps
 
-    scene = _scene(options)
+    scene = scene_of(options)
     for path in save_maps(scene, options.output, overwrite=options.overwrite):
         print(path)
     return 0
@@ -312,7 +200,7 @@ def _doctor(_options: argparse.Namespace) -> int:
 def _demo(options: argparse.Namespace) -> int:
     from sunwidget.demo import demo
 
-    with _Progress("demo") as progress:
+    with Progress("demo") as progress:
         paths = demo(options.output, progress)
     for path, what in paths:
         print(f"{path}  {what}")
@@ -330,22 +218,3 @@ def _refuse_existing(path: Path, overwrite: bool) -> None:
 
 def _one_line_warning(message: Warning | str, *_rest: Any, **_more: Any) -> None:
     print(f"sunwidget: {message}", file=sys.stderr)
-
-
-class _Progress:
-    """A progress callback that keeps one line on a terminal, and is silent elsewhere."""
-
-    def __init__(self, what: str) -> None:
-        self.what = what
-        self.shown = sys.stderr.isatty()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __call__(self, fraction: float, message: str) -> None:
-        if self.shown:
-            print(f"\r\x1b[K{self.what} {fraction:4.0%} {message}", end="", file=sys.stderr)
-
-    def __exit__(self, *_error: object) -> None:
-        if self.shown:
-            print("\r\x1b[K", end="", file=sys.stderr)

@@ -12,6 +12,7 @@ from PIL import Image
 import sunwidget as sw
 from sunwidget import cli
 from sunwidget.cli import main
+from sunwidget.cli_photo import flag, methods_of_stages, scene_of
 from sunwidget.edit import NUMBERS, PARAMETERS, Edit
 
 
@@ -43,17 +44,17 @@ def parse(*arguments):
 def test_every_parameter_has_a_flag():
     for p in PARAMETERS:
         if p.kind == "number":
-            options = parse("render", "x.jpg", "-o", "y.png", cli._flag(p.name), str(p.maximum))
+            options = parse("render", "x.jpg", "-o", "y.png", flag(p.name), str(p.maximum))
             assert getattr(cli._edit(options), p.name) == p.maximum
         elif p.kind == "choice":
             for choice in p.choices:
-                options = parse("render", "x.jpg", "-o", "y.png", cli._flag(p.name), choice)
+                options = parse("render", "x.jpg", "-o", "y.png", flag(p.name), choice)
                 assert getattr(cli._edit(options), p.name) == choice
 
 
 def test_every_number_has_an_end_in_a_sweep():
     for p in NUMBERS:
-        options = parse("sweep", "x", "-o", "y.gif", cli._flag("to_" + p.name), str(p.minimum))
+        options = parse("sweep", "x", "-o", "y.gif", flag("to_" + p.name), str(p.minimum))
         assert getattr(cli._edit(options, "to_", Edit()), p.name) == p.minimum
 
 
@@ -62,7 +63,7 @@ def test_help_names_every_parameter(capsys):
         main(["render", "--help"])
     assert stop.value.code == 0
     said = capsys.readouterr().out
-    assert all(cli._flag(p.name) in said for p in PARAMETERS if p.kind != "data")
+    assert all(flag(p.name) in said for p in PARAMETERS if p.kind != "data")
 
 
 def test_no_flag_is_an_unmoved_edit():
@@ -164,12 +165,12 @@ def test_analyze_writes_maps_and_facts_and_obeys_hints(photo, tmp_path, capsys):
 
 
 def test_every_method_of_every_stage_is_a_choice_of_analyze():
-    named = {name for name, (choices, _) in cli._methods().items() for _ in choices}
+    named = {name for name, (choices, _) in methods_of_stages().items() for _ in choices}
     assert named >= {"refine", "clouds", "horizon_method", "sun_method"}
-    for name, (choices, default) in cli._methods().items():
+    for name, (choices, default) in methods_of_stages().items():
         assert default in choices
         for choice in choices:
-            options = parse("analyze", "x.jpg", "-o", "maps", cli._flag(name), choice)
+            options = parse("analyze", "x.jpg", "-o", "maps", flag(name), choice)
             assert getattr(options, name) == choice
     assert parse("analyze", "x.jpg", "-o", "maps").refine is None
 
@@ -183,11 +184,11 @@ def test_the_methods_reach_the_analysis(monkeypatch):
 
     monkeypatch.setattr(sw, "analyze", analyze)
     flags = ["--refine", "dense_crf", "--horizon-method", "row_argmax", "--sky-label", "10"]
-    cli._scene(parse("analyze", "sample:coast", "-o", "maps", "--sky", "city.onnx", *flags))
+    scene_of(parse("analyze", "sample:coast", "-o", "maps", "--sky", "city.onnx", *flags))
     del asked["progress"]
     expected = {"refine": "dense_crf", "horizon_method": "row_argmax"}
     assert asked == expected | {"sky": "city.onnx", "sky_label": 10}
-    cli._scene(parse("render", "sample:coast", "-o", "x.png", "--sky-label", "sky"))
+    scene_of(parse("render", "sample:coast", "-o", "x.png", "--sky-label", "sky"))
     assert asked["sky_label"] == "sky"
 
 
