@@ -145,26 +145,21 @@ def test_channels_last_and_probabilities(tmp_path):
 def test_the_scale_of_a_real_network_is_found(tmp_path, scale, layout):
     """Our own network behind nodes that undo a normalisation: it must be found, to the digit."""
     mean, deviation = (np.broadcast_to(np.asarray(v, F4), 3) for v in NORMALISATIONS[scale])
+    entry = SkyNetwork(BUNDLED).open().name
+    nodes = [onnx.node("Mul", ["pixels", "std_"], ["wide_"])]
     if layout == "nchw":
-        constants = {"mean_": mean.reshape(1, 3, 1, 1), "std_": deviation.reshape(1, 3, 1, 1)}
-        nodes, shape = [], (1, 3, 384, 384)
+        mean, deviation, shape = mean.reshape(3, 1, 1), deviation.reshape(3, 1, 1), (3, 384, 384)
+        nodes.append(onnx.node("Add", ["wide_", "mean_"], [entry]))
     else:
-        constants = {"mean_": mean, "std_": deviation}
-        nodes, shape = [], (1, 384, 384, 3)
-    nodes.append(onnx.node("Mul", ["pixels", "std_"], ["a_"]))
-    end = "image" if layout == "nchw" else "b_"
-    nodes.append(onnx.node("Add", ["a_", "mean_"], [end]))
-    if layout == "nhwc":
-        nodes.append(onnx.node("Transpose", ["b_"], ["image"], perm=(0, 3, 1, 2)))
-    path = onnx.wrap(BUNDLED, tmp_path / "ours.onnx", nodes, constants, ("pixels", F4, shape))
+        shape = (384, 384, 3)
+        nodes.append(onnx.node("Add", ["wide_", "mean_"], ["last_"]))
+        nodes.append(onnx.node("Transpose", ["last_"], [entry], perm=(0, 3, 1, 2)))
+    constants = {"mean_": mean, "std_": deviation}
+    entries = ("pixels", F4, (1, *shape))
+    path = onnx.wrap(BUNDLED, tmp_path / "ours.onnx", nodes, constants, entries)
     label, detected = calibrate(SkyNetwork(path))
     assert label == 0
-    assert np.array_equal(
-        np.broadcast_to(detected[0], 3), np.broadcast_to(NORMALISATIONS[scale][0], 3)
-    )
-    assert np.array_equal(
-        np.broadcast_to(detected[1], 3), np.broadcast_to(NORMALISATIONS[scale][1], 3)
-    )
+    assert detected == NORMALISATIONS[scale]
     working = Working.of(sw.sample("harbour"))
     assert np.allclose(SkyNetwork(path)(working), sky.network(working), atol=2e-3)
 
