@@ -65,7 +65,7 @@ def _along(patch: np.ndarray, label: Any) -> sw.Stroke:
     centre = points.mean(0)
     axis = np.linalg.svd(np.cov((points - centre).T) + 1e-9 * np.eye(2))[0][:, 0]
     along = (points - centre) @ axis
-    bins = max(1, min(16, int(np.ptp(along) / max(2 * deepest, 6))))
+    bins = max(1, min(16, int(np.ptp(along) / max(0.8 * deepest, 4))))
     which = np.clip(
         ((along - along.min()) / max(np.ptp(along), 1e-9) * bins).astype(int), 0, bins - 1
     )

@@ -73,7 +73,9 @@ def _painting(base: Scene, strokes: tuple[Stroke, ...]) -> Painting:
     count = len(strokes)
     while count and strokes[:count] not in memory.paintings:
         count -= 1
-    painting = memory.paintings.get(strokes[:count]) or Painting.begin(base.sky, base.working)
+    painting = memory.paintings.get(strokes[:count]) or Painting.begin(
+        base.sky, base.working, base.sky_coarse
+    )
     for stroke in strokes[count:]:
         count += 1
         painting = painting.stroke(stroke, base.working)

@@ -16,7 +16,7 @@ from sunwidget.analysis.refine import SIDE, Decision, cut, paint
 from sunwidget.analysis.working import Working, resize, shrink
 from sunwidget.edit import Stroke
 
-TOLERANCE = 14.0  # of 8-bit Lab, beside the brush
+TOLERANCE = 14.0  # of 8-bit Lab, beside the brush where the network is in doubt
 REACH = 0.4  # of the longer side: no stroke acts farther than that
 MUCH = 0.05  # of the picture: a sky that changed so much has to be looked at again
 
@@ -31,6 +31,8 @@ class Painting:
         The sky before the first stroke, and now.
     said : (h, w) int8
         What a person said: 1 sky, 0 not sky, -1 nothing.
+    network : (h, w) float32
+        The network's probability of sky.
     looked_at : (h, w) bool
         The sky when camera, sun and air were last fitted to it, after ``fits`` strokes.
     fits : int
@@ -42,16 +44,21 @@ class Painting:
     start: np.ndarray
     sky: np.ndarray
     said: np.ndarray
+    network: np.ndarray
     looked_at: np.ndarray
     fits: int = 0
     count: int = 0
 
     @classmethod
-    def begin(cls, sky: np.ndarray, working: Working) -> Painting:
-        """Start from a map (h, w) of any size."""
+    def begin(
+        cls, sky: np.ndarray, working: Working, network: np.ndarray | None = None
+    ) -> Painting:
+        """Start from a map, with what the network says, both (h, w) of any size."""
         height, width = shrink(working.bytes, SIDE).shape[:2]
         start = resize(sky, width, height) > 0.5
-        return cls(start, start, np.full(start.shape, -1, np.int8), start)
+        probability = resize(sky if network is None else network, width, height)
+        nothing = np.full(start.shape, -1, np.int8)
+        return cls(start, start, nothing, np.asarray(probability, np.float32), start)
 
     def stroke(self, stroke: Stroke, working: Working) -> Painting:
         """Return the painting after one more stroke; deterministic.
@@ -59,7 +66,8 @@ class Painting:
         A stroke acts on what is like the pixels under it, connected to them, and wrongly
         labelled: everything else keeps its label.
         """
-        sky, said = _stroked(shrink(working.bytes, SIDE), self.sky, self.said, stroke)
+        image = shrink(working.bytes, SIDE)
+        sky, said = _stroked(image, self.sky, self.said, self.network, stroke)
         count = self.count + 1
         none = not self.looked_at.any() and sky.any()
         if none or np.mean(sky != self.looked_at) > MUCH:
@@ -93,7 +101,7 @@ def apply_strokes(working: Working, decision: Decision, strokes: Sequence[Stroke
 
 
 def _stroked(
-    image: np.ndarray, sky: np.ndarray, said: np.ndarray, stroke: Stroke
+    image: np.ndarray, sky: np.ndarray, said: np.ndarray, network: np.ndarray, stroke: Stroke
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the sky, and what was said, after a stroke on a picture (h, w, 3) uint8."""
     import cv2
@@ -105,7 +113,10 @@ def _stroked(
     wanted = stroke.label == "sky"
     said = np.where(under, np.int8(wanted), said)
     lab = cv2.cvtColor(image, cv2.COLOR_RGB2LAB).astype(np.float32)
-    region = _alike(lab, under, (sky != wanted) | under)
+    # How sure the network is of what the stroke contradicts.
+    belief = 1 - network if wanted else network
+    against = said == 1 - wanted
+    region = _alike(lab, under, ((sky != wanted) & ~against) | under, belief, against)
     labels = np.where(sky, cv2.GC_FGD, cv2.GC_BGD).astype(np.uint8)
     labels[region] = cv2.GC_PR_FGD if wanted else cv2.GC_PR_BGD
     labels[said == 1], labels[said == 0] = cv2.GC_FGD, cv2.GC_BGD
@@ -132,30 +143,63 @@ def _cut_near(image: np.ndarray, labels: np.ndarray, region: np.ndarray) -> np.n
     return sky
 
 
-def _alike(lab: np.ndarray, under: np.ndarray, candidates: np.ndarray) -> np.ndarray:
+def _alike(
+    lab: np.ndarray,
+    under: np.ndarray,
+    candidates: np.ndarray,
+    belief: np.ndarray,
+    against: np.ndarray,
+) -> np.ndarray:
     """Return what is connected to the brush through candidates of like colour.
 
-    How like it must be grows with the distance from the brush, to identical at one and a half
-    times the stroke's own extent: a dab fixes a patch, a long stroke a house, and none on a
-    grey wall leaks into all of a grey sky.
+    Like is what is nearer in colour to the brush than to what stays: the candidates round about
+    of which the network is surer than of what the brush covers, and what strokes said
+    ``against`` this one. The surer it is, the nearer to the brush a pixel has to be. Where brush and surroundings have one colour, a tolerance decides that falls to nothing with
+    the distance from the brush: a dab fixes a patch, a long stroke a house, and none on a grey
+    wall leaks into all of a grey sky.
     """
     import cv2
 
-    # Distance to the nearest of a few colours under the brush, so that a stroke over a brick
-    # wall takes bricks and mortar.
-    samples = lab[under]
-    samples = samples[:: -(-len(samples) // 24)]
-    flat = lab.reshape(-1, 3)
-    squares = (flat**2).sum(axis=1)[:, None] - 2 * flat @ samples.T + (samples**2).sum(axis=1)
-    distance = np.sqrt(np.maximum(squares.min(axis=1), 0)).reshape(under.shape)
+    lab = cv2.GaussianBlur(lab, (0, 0), 0.6)
+    # In a dark or hazy photo the same difference means more.
+    tolerance = float(np.clip(0.25 * lab[..., 0].std(), 4, TOLERANCE))
     away = cv2.distanceTransform((~under).astype(np.uint8), cv2.DIST_L2, 3)
     rows, columns = np.nonzero(under)
     extent = math.hypot(np.ptp(rows) + 1, np.ptp(columns) + 1)
-    tolerance = TOLERANCE * np.clip(1 - away / min(1.5 * extent, REACH * max(under.shape)), 0, 1)
-    like = ((distance < tolerance) & candidates) | under
+    breadth = rows.size / extent
+    # A fine brush is for fine work, however long its stroke.
+    reach = min(4 * extent, 8 * breadth + 4, REACH * max(under.shape))
+    near = candidates & (away < reach)
+    to_brush = _nearest(lab, near, lab[under], 24)
+    # Distance to the nearest of a few colours, so that a stroke over a brick wall takes bricks
+    # and mortar.
+    to_rest = _nearest(lab, near, lab[against & (away < reach)], 24)
+    covered = max(float(np.median(belief[under])), 0.6)
+    sure = np.zeros_like(belief)
+    if covered < 0.97:  # else it is sure of what is wrong, and tells nothing
+        stays = near & (belief > max(0.5 + 0.5 * covered, 0.9)) & (away > 3)
+        to_rest = np.minimum(to_rest, _nearest(lab, near, lab[stays], 48))
+        sure = np.clip(1.2 * (belief - covered) / (1 - covered), 0, 1)
+    distinct = (to_brush * (0.9 + 2 * sure) < to_rest) & (to_brush < 2 * tolerance)
+    distinct &= np.isfinite(to_rest)
+    fade = np.clip(1 - away / min(1.5 * extent, reach), 0, 1)
+    like = distinct | (to_brush < tolerance * fade * (1 - sure))
+    like = (like & near) | under
     _, labels = cv2.connectedComponents(like.astype(np.uint8), connectivity=8)
-    keep = np.unique(labels[under])
-    return np.isin(labels, keep[keep > 0])
+    found = np.zeros(int(labels.max()) + 1, bool)
+    found[labels[under]] = True
+    return np.asarray(found[labels])
+
+
+def _nearest(lab: np.ndarray, where: np.ndarray, colours: np.ndarray, most: int) -> np.ndarray:
+    """Distance (h, w) of each pixel of ``where`` to the nearest of at most ``most`` colours."""
+    distance = np.full(where.shape, np.inf, np.float32)
+    if len(colours):
+        samples = colours[:: -(-len(colours) // most)]
+        flat = lab[where]
+        squares = (flat**2).sum(axis=1)[:, None] - 2 * flat @ samples.T + (samples**2).sum(axis=1)
+        distance[where] = np.sqrt(np.maximum(squares.min(axis=1), 0))
+    return distance
 
 
 def set_strokes(matte: np.ndarray, strokes: Sequence[Stroke]) -> None:
