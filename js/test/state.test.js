@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { EditState, HISTORY_LENGTH } from "../src/editor/state.js";
+import { EditState, HISTORY_BYTES, HISTORY_LENGTH } from "../src/editor/state.js";
 import { FakeModel } from "./fake_model.js";
 
 const parameters = [
@@ -93,6 +93,19 @@ test("cancel returns to where the gesture began and leaves no step", () => {
   state.cancel();
   assert.equal(state.values.exposure, 0);
   assert.deepEqual(model.get("_history").past, []);
+});
+
+test("long strokes do not make the history too large to send", () => {
+  const points = Array.from({ length: 2000 }, (_, i) => [i / 2000, 0.1234]);
+  let strokes = [];
+  for (let i = 0; i < 40; i++) {
+    strokes = [...strokes, { label: "sky", points, radius: 0.01 }];
+    state.set({ strokes });
+  }
+  const { past } = model.get("_history");
+  assert.ok(past.length > 0);
+  assert.ok(JSON.stringify(past).length < 1.1 * HISTORY_BYTES);
+  assert.equal(past.at(-1).strokes.length, 39);
 });
 
 test("the history has an end", () => {

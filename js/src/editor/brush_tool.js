@@ -1,7 +1,7 @@
 /** Sky / not-sky strokes: drawn here, sent as polylines, answered by the kernel's new maps. */
 
 import { setAttributes, shape } from "../controls/element.js";
-import { line, meets, setLine } from "./strokes.js";
+import { line, meets, setLine, simplify } from "./strokes.js";
 
 /**
  * @typedef {import("../types.js").Point} Point
@@ -87,7 +87,7 @@ export class BrushTool extends Brush {
     /** @type {Stroke} */
     const stroke = {
       label: this.stroke,
-      points: this.points,
+      points: simplify(this.points, this.view.brushRadius / 10, this.view.stage.rectangle()),
       radius: Math.round(this.view.brushRadius * 1e5) / 1e5,
     };
     this.points = [];

@@ -159,8 +159,7 @@ export class Softness {
     this.node.classList.toggle("sw-idle", idle);
     this.text.classList.remove("sw-warn");
     if (idle) {
-      this.text.textContent =
-        "Clouds are un-mixed from the sky; m_min and m_max act with the other methods.";
+      this.text.textContent = "Clouds are un-mixed: no thresholds needed.";
       return;
     }
     if (clear + soft + white === 0) {

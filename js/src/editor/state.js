@@ -16,6 +16,8 @@
 
 const THROTTLE_MS = 100;
 export const HISTORY_LENGTH = 100;
+// Every step repeats all strokes, and a message of 10 MiB would break the connection.
+export const HISTORY_BYTES = 2_000_000;
 
 export class EditState {
   /**
@@ -103,7 +105,7 @@ export class EditState {
     this.before = null;
     if (before && !equal(before, this.recipe())) {
       const { past } = this.history();
-      this.writeHistory({ past: [...past, before].slice(-HISTORY_LENGTH), future: [] });
+      this.writeHistory({ past: newest([...past, before]), future: [] });
     }
     this.push();
   }
@@ -187,6 +189,17 @@ export class EditState {
     this.set(Object.fromEntries(this.parameters.map((p) => [p.name, p.default])));
     this.commit();
   }
+}
+
+/** The last steps, as many as may be kept. @param {Edit[]} steps */
+function newest(steps) {
+  let bytes = 0;
+  const kept = steps.slice(-HISTORY_LENGTH).reverse();
+  const end = kept.findIndex((recipe, i) => {
+    bytes += JSON.stringify(recipe).length;
+    return i > 0 && bytes > HISTORY_BYTES;
+  });
+  return kept.slice(0, end < 0 ? kept.length : end).reverse();
 }
 
 /** @type {(a: unknown, b: unknown) => boolean} */

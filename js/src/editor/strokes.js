@@ -27,15 +27,44 @@ export const inLongSides = ([x, y], { width, height }) => {
  * @param {Size} size
  */
 export function meets(stroke, place, radius, size) {
-  const [x, y] = inLongSides(place, size);
+  const at = inLongSides(place, size);
   const points = stroke.points.map((point) => inLongSides(point, size));
-  return points.some((b, i) => {
-    const a = points[Math.max(0, i - 1)];
-    const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
-    const along = ((x - a[0]) * dx + (y - a[1]) * dy) / (dx * dx + dy * dy || 1);
-    const way = Math.min(1, Math.max(0, along));
-    return Math.hypot(a[0] + way * dx - x, a[1] + way * dy - y) <= radius + stroke.radius;
+  return points.some((point, i) => {
+    return distance(at, [points[Math.max(0, i - 1)], point]) <= radius + stroke.radius;
   });
+}
+
+/**
+ * Leave out points that lie closer than a tolerance to the line through their neighbours
+ * (Douglas and Peucker 1973): the mark is the same, and recipe and history stay small.
+ *
+ * @param {Point[]} points
+ * @param {number} tolerance in longer sides
+ * @param {Size} size
+ * @returns {Point[]}
+ */
+export function simplify(points, tolerance, size) {
+  if (points.length < 3) return points;
+  const ends = [points[0], points[points.length - 1]];
+  let [far, most] = [0, 0];
+  for (let i = 1; i < points.length - 1; i++) {
+    const away = distance(
+      inLongSides(points[i], size),
+      ends.map((end) => inLongSides(end, size)),
+    );
+    if (away > most) [far, most] = [i, away];
+  }
+  if (most <= tolerance) return ends;
+  const head = simplify(points.slice(0, far + 1), tolerance, size);
+  return [...head.slice(0, -1), ...simplify(points.slice(far), tolerance, size)];
+}
+
+/** From a point to a line between two. @param {Point} point @param {Point[]} line */
+function distance([x, y], [a, b]) {
+  const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+  const along = ((x - a[0]) * dx + (y - a[1]) * dy) / (dx * dx + dy * dy || 1);
+  const way = Math.min(1, Math.max(0, along));
+  return Math.hypot(a[0] + way * dx - x, a[1] + way * dy - y);
 }
 
 /** The line that a stroke is drawn with; its parent scales it to the picture. */
