@@ -172,7 +172,9 @@ def test_shift_levels_the_horizon_and_a_double_click_returns_it(editor):
     editor.mouse.move(x, y)
     editor.mouse.down()
     editor.mouse.move(x, y + 40, steps=3)
-    assert "left" in editor.locator(".sw-horizon-label").text_content()
+    editor.wait_for_function(
+        "document.querySelector('.sw-horizon-label').textContent.endsWith('to the left')"
+    )
     editor.keyboard.down("Shift")
     editor.mouse.move(x, y + 42)
     editor.mouse.up()
@@ -233,7 +235,8 @@ def test_a_guessed_horizon_is_dashed_and_a_given_one_is_not(editor, state):
         )
         assert ("sw-guessed" in tool.get_attribute("class")) == guessed
     editor.evaluate("model.receive({ horizon_hint: [[0, 0.5], [1, 0.5]] })")
-    assert editor.locator(".sw-horizon-label").text_content() == "Set by hand · level"
+    editor.get_by_text("Set by hand · level", exact=True).wait_for(state="attached")
+    assert "sw-guessed" not in tool.get_attribute("class")
 
 
 def test_the_histogram_counts_the_sky_and_its_lines_set_the_thresholds(editor, state):

@@ -48,7 +48,12 @@ export class Inspector {
     this.bar = element("span", { class: "sw-legend-bar" }, this.marker);
     this.low = element("span");
     this.high = element("span");
-    this.value = element("output", { class: "sw-legend-value", "aria-label": "Value at pointer" });
+    // Not read out by itself: it changes with every move of the pointer.
+    this.value = element("output", {
+      class: "sw-legend-value",
+      "aria-label": "Value at pointer",
+      "aria-live": "off",
+    });
     this.opacity = element("input", {
       type: "range",
       class: "sw-range",
