@@ -366,5 +366,5 @@ def analyze(
 
 def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:
     total = max(float(weight.sum()), 1e-6)
-    mean = np.einsum("hwc,hw->c", linear, weight) / total
+    mean = weight.ravel() @ linear.reshape(-1, 3) / total
     return (float(mean[0]), float(mean[1]), float(mean[2]))

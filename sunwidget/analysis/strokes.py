@@ -18,6 +18,7 @@ from sunwidget.edit import Stroke
 
 TOLERANCE = 14.0  # of 8-bit Lab, beside the brush where the network is in doubt
 REACH = 0.4  # of the longer side: no stroke acts farther than that
+ISLAND = 0.03  # of the picture: larger patches are not flipped as a whole
 MUCH = 0.05  # of the picture: a sky that changed so much has to be looked at again
 
 
@@ -116,7 +117,8 @@ def _stroked(
     # How sure the network is of what the stroke contradicts.
     belief = 1 - network if wanted else network
     against = said == 1 - wanted
-    region = _alike(lab, under, ((sky != wanted) & ~against) | under, belief, against)
+    candidates = ((sky != wanted) & ~against) | under
+    region = _alike(lab, under, candidates, belief, against) | _island(candidates, under)
     labels = np.where(sky, cv2.GC_FGD, cv2.GC_BGD).astype(np.uint8)
     labels[region] = cv2.GC_PR_FGD if wanted else cv2.GC_PR_BGD
     labels[said == 1], labels[said == 0] = cv2.GC_FGD, cv2.GC_BGD
@@ -154,9 +156,10 @@ def _alike(
 
     Like is what is nearer in colour to the brush than to what stays: the candidates round about
     of which the network is surer than of what the brush covers, and what strokes said
-    ``against`` this one. The surer it is, the nearer to the brush a pixel has to be. Where brush and surroundings have one colour, a tolerance decides that falls to nothing with
-    the distance from the brush: a dab fixes a patch, a long stroke a house, and none on a grey
-    wall leaks into all of a grey sky.
+    ``against`` this one. The surer it is, the nearer to the brush a pixel has to be. Where brush
+    and surroundings have one colour, a tolerance decides that falls to nothing with the distance
+    from the brush: a dab fixes a patch, a long stroke a house, and none on a grey wall leaks into
+    all of a grey sky.
     """
     import cv2
 
@@ -189,6 +192,24 @@ def _alike(
     found = np.zeros(int(labels.max()) + 1, bool)
     found[labels[under]] = True
     return np.asarray(found[labels])
+
+
+def _island(candidates: np.ndarray, under: np.ndarray) -> np.ndarray:
+    """Return the patch of candidates under the brush when it is an island, whatever its colours.
+
+    Small against the picture and not much larger than the brush; a neck of 2 px ties no island
+    to the mainland.
+    """
+    import cv2
+
+    kernel = np.ones((3, 3), np.uint8)
+    firm = cv2.erode(candidates.astype(np.uint8), kernel, borderValue=1)
+    count, labels = cv2.connectedComponents(firm, connectivity=4)
+    covered = np.bincount(labels[under], minlength=count)
+    area = np.bincount(labels.ravel(), minlength=count)
+    small = area < np.minimum(ISLAND * under.size, 12 * covered)
+    small[0] = False
+    return (cv2.dilate(small[labels].astype(np.uint8), kernel) > 0) & candidates
 
 
 def _nearest(lab: np.ndarray, where: np.ndarray, colours: np.ndarray, most: int) -> np.ndarray:
