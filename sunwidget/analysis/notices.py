@@ -8,7 +8,7 @@ from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.sun import SunObservation
-from sunwidget.camera import Camera
+from sunwidget.camera import Camera, Point
 from sunwidget.photo import Photo
 
 NO_SKY = 0.005  # share of the picture below which the photo counts as without sky
@@ -22,11 +22,13 @@ def notices(
     camera: Camera,
     hints: Hints,
     doubted: float = 0.0,
+    moon: Point | None = None,
 ) -> tuple[str, ...]:
     """Return one sentence for each doubt.
 
     ``sky`` is the matte at working size, ``doubted`` the share of the picture that was dropped
-    from the sky as unlikely (plausible.py).
+    from the sky as unlikely (plausible.py), ``moon`` where one was found, in fractions of the
+    picture.
     """
     notes = []
     share = float(np.mean(sky > 0.5))
@@ -46,10 +48,21 @@ def notices(
             f"No sky found in {photo.name} ({100 * share:.1f} % of pixels). "
             "Draw a sky stroke or pass sky=mask."
         )
-    if sun is None:
+    if sun is None and moon is not None:
+        notes.append(
+            f"The disc at ({moon[0] * photo.width:.0f}, {moon[1] * photo.height:.0f}) of "
+            f"{photo.name} is taken for the moon, as the sky round it is dark; the sun's place is "
+            "assumed. If it is the sun, click it or pass sun=(x, y)."
+        )
+    elif sun is None:
         notes.append(
             f"No sun found in {photo.name}. Its place is assumed; click where it is, "
             "or pass sun=(x, y) in pixels (outside the picture is fine)."
+        )
+    elif sun.kind == "moon":
+        notes.append(
+            f"What was pointed at as the sun of {photo.name} stands in a night sky and may be the "
+            "moon. It is treated as a sun; if it is none, take the hint back."
         )
     elif sun.visible:
         true = camera.focal * np.tan(np.radians(sun_stage.RADIUS_DEG))

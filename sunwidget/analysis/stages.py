@@ -116,6 +116,7 @@ def complete(
         sky = sky * horizon_stage.above(camera, *sky.shape[::-1])
         matte = matte * horizon_stage.above(camera, *photo.size)
     sun = sun_stage.observe(seed, blot, sky, camera, working)
+    moon = None if sun is not None else sun_stage.find_moon(working, sky)
 
     step("clouds", 0.81, "Finding clouds")
     everywhere = METHODS["clouds"][hints.method("clouds")](
@@ -155,7 +156,7 @@ def complete(
             "sky_gain": fitted.gain,
             "glare_profile": fitted.glare,
         },
-        warnings=notices(photo, sky, sun, horizon, camera, hints, base.doubted),
+        warnings=notices(photo, sky, sun, horizon, camera, hints, base.doubted, moon),
         hints=hints,
         timings=step.timings,
         backdrop=behind.field,

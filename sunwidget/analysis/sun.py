@@ -1,7 +1,7 @@
 """The photo's own sun: where it is, how large it came out, and its pixels (thesis 3.1.3).
 
-``METHODS`` maps a name to a function that grows a mask from a seed pixel; ``find`` looks for the
-seed when no person gave one.
+``METHODS`` maps a name to a function that grows a mask from a seed pixel; ``find``
+(sun_search.py) looks for the seed when no person gave one.
 """
 
 from __future__ import annotations
@@ -13,10 +13,24 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sunwidget.analysis.sun_search import RADIUS_DEG, find, find_moon, night
 from sunwidget.analysis.working import LUMINANCE, Working, resize
 from sunwidget.camera import Camera, Point
 
-RADIUS_DEG = 0.2665  # apparent radius of the sun's disc
+__all__ = [
+    "METHODS",
+    "RADIUS_DEG",
+    "Blot",
+    "SunObservation",
+    "assume",
+    "disc_fit",
+    "find",
+    "find_moon",
+    "flood_fill",
+    "in_sky",
+    "observe",
+]
+
 TOLERANCE = 0.03  # M of Algorithm 1: encoded luminance around the seed's
 
 
@@ -39,6 +53,9 @@ class SunObservation:
         Whether the photo shows it.
     source : str
         Name of the method, "hint", or "assumed".
+    kind : str
+        "sun"; or "moon", when a person pointed at a disc in a night sky. A moon that is found
+        is only told (``Scene.warnings``): it neither lights the sky nor takes the sun's place.
     """
 
     x: float
@@ -49,6 +66,7 @@ class SunObservation:
     mask: np.ndarray
     visible: bool
     source: str
+    kind: str = "sun"
 
 
 class Blot(NamedTuple):
@@ -122,113 +140,6 @@ METHODS: dict[str, Callable[[Working, np.ndarray, float, float, float], Blot]] =
 }
 
 
-def find(working: Working, sky: np.ndarray, focal: float) -> tuple[float, float] | None:
-    """Return the seed of a visible sun in working pixels, or None.
-
-    The brightest part of the sky (or just at the skyline) must be nearly clipped, and the sky
-    around it must grow darker outwards in almost every direction, as an aureole does and a
-    white cloud does not.
-    """
-    import cv2
-
-    height, width = sky.shape
-    side = max(height, width)
-    if min(height, width) < 16 or not (sky > 0.5).any():
-        return None
-    near_sky = cv2.dilate((sky > 0.5).astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
-    luminance = working.encoded @ LUMINANCE
-    smooth = cv2.GaussianBlur(luminance, (0, 0), max(0.8, 0.0012 * side))
-    smooth = np.where(near_sky, smooth, 0)
-    peak = float(smooth.max())
-    if peak < 0.9:
-        return None
-    true_radius = max(focal * math.tan(math.radians(RADIUS_DEG)), 1.0)
-    best, best_score = None, 0.0
-    for threshold in (max(0.9, peak - 0.01), max(0.9, peak - 0.04)):
-        blots = (smooth >= threshold).astype(np.uint8)
-        count, labels, stats, _ = cv2.connectedComponentsWithStats(blots, connectivity=8)
-        largest = np.argsort(-stats[1:, cv2.CC_STAT_AREA])[:12] + 1
-        for label in largest[: count - 1]:
-            blot = (labels == label).astype(np.uint8)
-            score, seed = _likelihood(blot, working.encoded, luminance, near_sky, true_radius)
-            if score > best_score:
-                best, best_score = seed, score
-    return best
-
-
-def _likelihood(
-    blot: np.ndarray,
-    encoded: np.ndarray,
-    luminance: np.ndarray,
-    sky: np.ndarray,
-    true_radius: float,
-) -> tuple[float, tuple[float, float]]:
-    """How much a bright blot is like a sun (0 = not at all), and its centre.
-
-    Three kinds are known, best first: a burnt-out disc of about the true size; a large burnt
-    core round which the sky fades ring by ring, far out and on all sides (a white cloud ends at
-    its edge, and what lies beyond knows nothing of it); and the same in the colours of sunset,
-    where blue does not burn. The numbers part the suns from the clouds, lamps and bright
-    horizons of 51 varied photos.
-    """
-    import cv2
-
-    area = int(blot.sum())
-    if area < 3 or area > 0.05 * blot.size:
-        return 0.0, (0.0, 0.0)
-    depth = cv2.distanceTransform(np.pad(blot, 1), cv2.DIST_L2, 5)[1:-1, 1:-1]
-    row, column = np.unravel_index(int(depth.argmax()), depth.shape)
-    radius = float(depth.max())
-    seed = (float(column) + 0.5, float(row) + 0.5)
-    roundness = min(math.pi * radius**2 / area, 1.0)
-    rings, share = _rings(luminance, sky, seed, radius)
-    if roundness < 0.2 or rings.size < 4:
-        return 0.0, seed
-    burnt = float(encoded[row, column].min())
-    step = float(luminance[row, column]) - float(rings[0])
-    if burnt > 0.985 and roundness > 0.78 and radius < 3.2 * true_radius and step > 0.1:
-        return 3 + roundness, seed
-    falls = -np.diff(rings)
-    drop = float(rings[0] - rings[-1])
-    sudden = float(falls.max()) / max(drop, 1e-3)  # the edge of a cloud is one large step
-    if float(falls.min()) < -0.01 or drop < 0.12 or share < 0.75:
-        return 0.0, seed
-    large = radius > 0.012 * max(blot.shape)
-    if large and (
-        (burnt > 0.985 and sudden < 0.4) or (burnt > 0.94 and sudden < 0.33 and roundness > 0.7)
-    ):
-        return 2 + drop + 0.3 * roundness, seed
-    if burnt < 0.85 and roundness > 0.75 and radius > 1.5 and share > 0.95 and sudden < 0.38:
-        return 1 + drop, seed
-    return 0.0, seed
-
-
-def _rings(
-    luminance: np.ndarray, sky: np.ndarray, seed: tuple[float, float], radius: float
-) -> tuple[np.ndarray, float]:
-    """Mean luminance of the sky in widening rings, and the share of sectors that darken."""
-    height, width = luminance.shape
-    side = max(height, width)
-    columns, rows = np.arange(width) + 0.5 - seed[0], np.arange(height)[:, None] + 0.5 - seed[1]
-    distance = np.hypot(columns, rows)
-    sector = ((np.arctan2(rows, columns) / (2 * np.pi) + 0.5) * 12).astype(int) % 12
-    edges = radius + side * np.array([0.012, 0.03, 0.055, 0.09, 0.14, 0.2])
-    means, table = [], np.full((12, 5), np.nan)
-    for k in range(5):
-        ring = sky & (distance >= edges[k]) & (distance < edges[k + 1])
-        if ring.sum() < 20:
-            break
-        means.append(float(luminance[ring].mean()))
-        weight = np.bincount(sector[ring], minlength=12)
-        total = np.bincount(sector[ring], luminance[ring], minlength=12)
-        table[:, k] = np.where(weight >= 5, total / np.maximum(weight, 1), np.nan)
-    usable = np.isfinite(table[:, 0]) & np.isfinite(table[:, 2])
-    if usable.sum() < 4:
-        return np.array([]), 0.0
-    inner, outer = table[usable, 0], np.nanmin(table[usable], axis=1)
-    return np.array(means), float(np.mean(inner - outer > 0.03))
-
-
 def in_sky(blot: Blot, sky: np.ndarray) -> np.ndarray:
     """Return the blot with a soft rim, (h, w) float32; zeros unless sky surrounds it."""
     import cv2
@@ -272,7 +183,18 @@ def observe(
             mask, radius = resize(blot.mask, camera.width, camera.height), blot.radius * zoom_y
     azimuth, elevation = camera.angles(x * zoom_x, y * zoom_y)
     source = "detected" if seed is None else "hint"
-    return SunObservation(x * zoom_x, y * zoom_y, radius, azimuth, elevation, mask, visible, source)
+    dark = visible and night(working.encoded @ LUMINANCE, sky)
+    return SunObservation(
+        x * zoom_x,
+        y * zoom_y,
+        radius,
+        azimuth,
+        elevation,
+        mask,
+        visible,
+        source,
+        "moon" if dark else "sun",
+    )
 
 
 def assume(working: Working, sky: np.ndarray, camera: Camera) -> tuple[float, float]:

@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
+import sunwidget as sw
 from sunwidget.analysis import sun
 from sunwidget.analysis.working import Working
 from sunwidget.camera import Camera
@@ -126,3 +127,65 @@ def test_the_assumed_sun_lies_to_the_brighter_side():
     azimuth, elevation = sun.assume(working, SKY, CAMERA)
     assert azimuth > 5
     assert 10 <= elevation <= 80
+
+
+def night_sky(disc=True, post=False) -> Working:
+    """A dark blue sky with a bright disc that lights hardly anything; on a post, a lamp."""
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    code = np.ones((*SIZE[::-1], 3)) * np.array([25, 32, 60]) / 255
+    distance = np.hypot(columns - 200.5, rows - 70.5)
+    if disc:
+        code += (0.3 * np.exp(-distance / 6))[..., None] * (1 - code)
+        code = np.where((distance < 5)[..., None], 1.0, code)
+    code = np.where(SKY[..., None] > 0, code, 0.05)
+    if post:
+        code[75:, 190:212] = 0.05
+    return Working.of(open_photo(np.round(np.clip(code, 0, 1) * 255).astype(np.uint8)))
+
+
+def test_a_disc_in_a_night_sky_is_the_moon_and_no_sun():
+    assert sun.find(night_sky(), SKY, CAMERA.focal) is None
+    found = sun.find_moon(night_sky(), SKY)
+    assert found is not None
+    assert math.dist((found[0] * SIZE[0], found[1] * SIZE[1]), (200.5, 70.5)) < 1.5
+
+
+def test_neither_a_lamp_nor_an_empty_night_nor_a_day_has_a_moon():
+    post = SKY.copy()
+    post[75:, 190:212] = 0
+    assert sun.find_moon(night_sky(post=True), post) is None
+    assert sun.find_moon(night_sky(disc=False), SKY) is None
+    assert sun.find_moon(evening(disc=(90.5, 60.5)), SKY) is None
+
+
+def test_a_found_moon_is_told_and_a_pointed_one_is_marked():
+    picture = night_sky().bytes
+    scene = sw.analyze(picture, sky=SKY)
+    assert scene.sun is None
+    assert any("(200, 70)" in note and "moon" in note for note in scene.warnings)
+    pointed = sw.analyze(picture, sky=SKY, sun=(200.5, 70.5))
+    assert pointed.sun is not None
+    assert pointed.sun.kind == "moon"
+    assert any("may be the moon" in note for note in pointed.warnings)
+
+
+def test_a_ragged_bright_spot_of_a_cloud_is_no_sun():
+    picture = evening().bytes.copy()
+    # Blossom: many small burnt specks, one of them round.
+    for x, y in np.random.default_rng(5).integers((-14, -10), (15, 11), (60, 2)):
+        cv2.circle(picture, (160 + int(x), 60 + int(y)), 1, (250, 250, 250), -1)
+    cv2.circle(picture, (160, 60), 3, (255, 255, 255), -1)
+    assert sun.find(Working.of(open_photo(picture)), SKY, CAMERA.focal) is None
+
+
+def test_a_setting_sun_on_the_skyline_is_found_in_its_orange_sky():
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    distance = np.hypot(columns - 180.5, rows - 146.5)
+    glow = np.exp(-distance / 110)[..., None]
+    code = (1 - glow) * np.array([50, 60, 90]) / 255 + glow * np.array([255, 165, 25]) / 255
+    code = np.where((distance < 3.1)[..., None], np.array([255, 250, 243]) / 255, code)
+    code = np.where(SKY[..., None] > 0, code, 0.04)
+    working = Working.of(open_photo(np.round(code * 255).astype(np.uint8)))
+    found = sun.find(working, SKY, CAMERA.focal)
+    assert found is not None
+    assert math.dist(found, (180.5, 146.5)) < 3
