@@ -1,6 +1,7 @@
 """The stages of the analysis after the decision sky or land, one function each.
 
-Order: matte → sun → clouds (minus sun) → horizon → camera → atmosphere fit → depth → water. All
+Order: matte → sun → horizon → camera → clouds (minus sun) → atmosphere fit → water; depth is found when
+it is asked for. All
 but the final matte work on a copy of at most 1024 px (``Working``).
 """
 
@@ -131,8 +132,6 @@ def complete(
         working, sky, (cover, everywhere), camera, sun, hints
     )
 
-    step("depth", 0.9, "Estimating depth")
-    depth = depth_of(sky, camera, hints)
     step("water", 0.95, "Looking for water")
     water = METHODS["water"][hints.method("water")](working, sky, horizon.row / zoom_y)
     scene = dataclasses.replace(
@@ -146,7 +145,6 @@ def complete(
         horizon=horizon,
         camera=camera,
         atmosphere=fitted.atmosphere,
-        depth=depth,
         water=resize(water, *photo.size),
         assumed_sun=fitted.sun,
         fitted=fitted,
@@ -245,13 +243,21 @@ def _unmixed(
 ) -> tuple[Clouds, Clouds]:
     """Return ``covers`` with opacity and shade un-mixed from the fitted sky."""
     of_sky, of_all = cloud_stage.veil(working, sky, camera, fitted, sun_seen=sun_seen)
-    # Round the sun whiteness tells nothing: continue the clouds from around it.
+    # Round the sun whiteness tells nothing, and where the matte is soft, twigs darken the sky as a
+    # cloud would: continue the clouds from around them.
     trust = 1 - resize(glare, working.width, working.height)
-    filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), trust)
+    filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), trust * inner(sky > 0.98))
     return (
-        Clouds(filled[..., 0], covers[0].softness, filled[..., 1]),
+        Clouds(filled[..., 0] * sky, covers[0].softness, filled[..., 1]),
         Clouds(of_all.opacity * trust, covers[1].softness, of_all.shade),
     )
+
+
+def inner(mask: np.ndarray) -> np.ndarray:
+    """Return where a mask (h, w) bool holds 2 px around, too; beyond the frame it goes on."""
+    import cv2
+
+    return cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
 
 
 def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> Scene:

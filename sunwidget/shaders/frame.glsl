@@ -86,7 +86,7 @@ void main() {
   // Sky and clouds.
   float glare = marks.r * moved * step(1e-6, sky_strength);
   vec3 sky = behind + glare * (clean - behind);
-  float opacity = layer.g;
+  float opacity = min(layer.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   vec3 cloud_before = GetCloud(GetTerm(5), GetTerm(6), sky_before, sun_before, view, opacity);
   vec3 cloud_now = GetCloud(GetTerm(7), GetTerm(8), sky_now, sun_now, view, opacity);
   vec3 plain = GetRatio(sky_now, sky_before);

@@ -27,7 +27,7 @@ def mast():
 @pytest.mark.parametrize("elevation", [40.0, 1.0, -4.0])
 def test_a_soft_edge_stays_the_mix_of_its_two_sides(mast, elevation):
     scene = mast.analyze()
-    edit = sw.Edit(sun_elevation=elevation, cloud_strength=0)
+    edit = sw.Edit(sun_elevation=elevation)
     linear = np.asarray(sw.render(scene, edit, dtype="float32"), np.float64)
     rows = slice(8, 24)
     band = linear[rows].mean((0, 2))
