@@ -135,9 +135,8 @@ def _facts(scene: Scene) -> str:
     else:
         side = "left" if scene.sun.azimuth < 0 else "right"
         where = "" if scene.sun.visible else " (not seen)"
-        parts.append(
-            f"{scene.sun.kind} {abs(scene.sun.azimuth):.1f}° {side}, {scene.sun.elevation:.1f}° up{where}"
-        )
+        what = f"{scene.sun.kind} {abs(scene.sun.azimuth):.1f}° {side}"
+        parts.append(f"{what}, {scene.sun.elevation:.1f}° up{where}")
     horizon = scene.horizon
     sure = "guessed" if horizon.confidence < 0.3 else f"{100 * horizon.confidence:.0f} % sure"
     parts.append(
