@@ -27,7 +27,7 @@ from sunwidget.analysis.refine import (
     guided_coefficients,
     stretched,
 )
-from sunwidget.analysis.stages import Steps, complete, depth_of
+from sunwidget.analysis.stages import Steps, complete
 from sunwidget.analysis.strokes import Painting, set_strokes
 from sunwidget.analysis.working import code_values, resize
 
@@ -124,8 +124,6 @@ def _retouch(
     # The glare is the camera's, and stays as it was measured.
     _, behind = behind_sun(working, sky, source.camera, fitted, visible=visible, measure=False)
 
-    step("depth", 0.9, "Estimating depth")
-    depth = depth_of(sky, source.camera, source.hints)
     hints = dataclasses.replace(source.hints, strokes=strokes)
     scene = dataclasses.replace(
         source,
@@ -133,8 +131,7 @@ def _retouch(
         clouds=maps[0],
         cloud_softness=maps[1],
         shade=maps[2],
-        depth=depth,
-        water=np.where(matte > source.sky, np.minimum(source.water, 1 - matte), source.water),
+        water=_water_after(source, matte),
         backdrop=behind.field,
         glare=behind.glare,
         decision=decision,
@@ -274,6 +271,13 @@ def _clouds_after(
                 land, everywhere.shade[tile.inner], source.shade[tile.inner]
             )
     return clouds, softness, shade
+
+
+def _water_after(source: Scene, matte: np.ndarray) -> np.ndarray:
+    """Water where no stroke says sky; none is looked for in new land."""
+    if not source.water.any():
+        return source.water
+    return np.where(matte > source.sky, np.minimum(source.water, 1 - matte), source.water)
 
 
 def _size(box: Box) -> tuple[int, int]:

@@ -29,6 +29,7 @@ from sunwidget.analysis.stages import (
     Steps,
     check_method,
     complete,
+    depth_of,
     find_clouds_again,
 )
 from sunwidget.analysis.sun import SunObservation
@@ -64,8 +65,6 @@ class Scene:
     horizon : Horizon
     camera : Camera
     atmosphere : Atmosphere
-    depth : (H, W) float32
-        Metres along the optical axis, inf for the sky.
     water : (H, W) float32
     backdrop : (h, w, 3) float32
         The slow log residual of photo over model, encoded (analysis/backdrop.py).
@@ -98,7 +97,6 @@ class Scene:
     horizon: Horizon
     camera: Camera
     atmosphere: Atmosphere
-    depth: np.ndarray = field(repr=False)
     water: np.ndarray = field(repr=False)
     backdrop: np.ndarray = field(repr=False)
     glare: np.ndarray = field(repr=False)
@@ -130,6 +128,12 @@ class Scene:
     def sureness(self) -> np.ndarray:
         """How sure it is that each pixel is sky or is land: (H, W) float32 in (0, 1]."""
         return resize(self.decision.sureness, self.width, self.height)
+
+    @cached_property
+    def depth(self) -> np.ndarray:
+        """Metres along the optical axis, inf for the sky: (H, W) float32; found when asked for."""
+        small = resize(self.sky, self.working.width, self.working.height)
+        return depth_of(small, self.camera, self.hints)
 
     @cached_property
     def shown(self) -> refine.Decision:
@@ -192,21 +196,26 @@ class Scene:
             "sky_gain": (1.0, 1.0, 1.0),
         } | self.response
 
-    def layers(self) -> np.ndarray:
-        """(H, W, 3) float32 in [0, 1]: sky matte, cloud opacity, cloud softness."""
-        return np.stack([self.sky, self.clouds, self.cloud_softness], axis=-1)
+    def layers(self, size: tuple[int, int] | None = None) -> np.ndarray:
+        """(H, W, 3) float32 in [0, 1]: sky matte, cloud opacity, cloud softness.
 
-    def surface(self) -> np.ndarray:
+        ``size`` (width, height) asks for another size than the photo's.
+        """
+        width, height = size or (self.width, self.height)
+        maps = (self.sky, self.clouds, self.cloud_softness)
+        return np.stack([resize(image, width, height) for image in maps], axis=-1)
+
+    def surface(self, size: tuple[int, int] | None = None) -> np.ndarray:
         """(H, W, 3) float32 in [0, 1]: glare, water, glitter.
 
         Glare is where the photo says nothing about the sky behind: the old sun's clipped core
-        and its halo, fading outwards.
+        and its halo, fading outwards. ``size`` as for ``layers``.
         """
-        glare = resize(self.glare, self.width, self.height)
+        width, height = size or (self.width, self.height)
         small = self.working
         sky = resize(self.sky, small.width, small.height)
-        glints = resize(water_stage.glitter(small, sky), self.width, self.height)
-        return np.stack([glare, self.water, glints], axis=-1)
+        maps = (self.glare, self.water, water_stage.glitter(small, sky))
+        return np.stack([resize(image, width, height) for image in maps], axis=-1)
 
     def corrected(self, edit: Edit) -> Scene:
         """Return the scene with the edit's strokes, hints and choice of clouds applied.
@@ -348,7 +357,6 @@ def analyze(
         horizon=Horizon(0.0),
         camera=camera,
         atmosphere=Atmosphere(),
-        depth=empty,
         water=empty,
         backdrop=empty,
         glare=empty,

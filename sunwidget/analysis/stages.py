@@ -1,8 +1,7 @@
 """The stages of the analysis after the decision sky or land, one function each.
 
-Order: matte → sun → horizon → camera → clouds (minus sun) → atmosphere fit → water; depth is found when
-it is asked for. All
-but the final matte work on a copy of at most 1024 px (``Working``).
+Order: matte → sun → horizon → camera → clouds (minus sun) → atmosphere fit → water; depth is
+found when it is asked for. All but the final matte work on a copy of at most 1024 px (``Working``).
 """
 
 from __future__ import annotations

@@ -75,15 +75,10 @@ def thumbnail(photo: Photo) -> bytes:
 
 def encode_maps(scene: Scene) -> dict[str, bytes]:
     """Return the scene textures but the photo, by trait name, as PNG at the preview's size."""
-    import cv2
-
     size = preview_size(scene.photo)
 
-    def encoded(read: Callable[[], NDArray[np.float32]]) -> bytes:
-        image = read()
-        if (image.shape[1], image.shape[0]) != size:
-            image = np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA))
-        return encode_png(quantise_map(image))
+    def encoded(read: Callable[[tuple[int, int]], NDArray[np.float32]]) -> bytes:
+        return encode_png(quantise_map(read(size)))
 
     # Side by side: a person waits for this after every stroke.
     with ThreadPoolExecutor(2) as pool:
