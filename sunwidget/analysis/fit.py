@@ -244,8 +244,10 @@ def _search_sun(
     step = max(1, display.shape[0] // 120)
     display, where = display[::step], (where[0][::step], where[1][::step])
     response = Response()
-    grid = itertools.product(range(-150, 181, 30), (-2.0, 2.0, 8.0, 18.0, 35.0, 60.0))
-    candidates = [assumed, *grid]
+    around = np.arange(-150.0, 181, 30)
+    # Suns of one height are marched together: they share the air's table.
+    rings = [(np.array([assumed[0]]), assumed[1])]
+    rings += [(around, height) for height in (-2.0, 2.0, 8.0, 18.0, 35.0, 60.0)]
     best_error, best = np.inf, assumed
     for depth in (0.03, 0.12):
         air = Atmosphere(
@@ -254,13 +256,16 @@ def _search_sun(
             angstrom_exponent=_ANGSTROM,
             aerosol_albedo=_ALBEDO,
         )
-        for candidate in candidates:
-            error, _ = _compare(display, model_sky(air, *where, candidate), response)
-            # The sky must speak clearly to overrule the assumption.
-            if candidate == assumed:
-                error *= 0.9
-            if error < best_error:
-                best_error, best = error, (float(candidate[0]), float(candidate[1]))
+        for azimuths, height in rings:
+            skies = model_sky(air, where[0] - azimuths[:, None], where[1], (0.0, height))
+            for azimuth, sky in zip(azimuths, skies, strict=True):
+                candidate = float(azimuth), float(height)
+                error, _ = _compare(display, sky, response)
+                # The sky must speak clearly to overrule the assumption.
+                if candidate == assumed:
+                    error *= 0.9
+                if error < best_error:
+                    best_error, best = error, candidate
     return best
 
 
