@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sunwidget.analysis.straight_edge import StraightEdge, straight_edges
+from sunwidget.analysis.working import LUMINANCE
 from sunwidget.camera import Camera, Point
 
 TOLERANCE = 0.004  # of the height: how far a sea horizon strays from a line
@@ -94,7 +95,8 @@ def water_line(sky: np.ndarray, encoded: np.ndarray) -> Horizon:
 
     A far shore lifts the skyline off the water: a straight edge a little under the skyline wins,
     and so does a strong one when there is no line at all. Calm water that mirrors the sky is
-    taken for sky: where land has "sky" under it, the straight edge at the land's foot wins.
+    taken for sky: where land has "sky" under it, the straight edge at the land's foot wins, and
+    so does one below which the sky goes on darker and upside down.
     """
     line = robust_line(sky)
     height = sky.shape[0]
@@ -103,11 +105,13 @@ def water_line(sky: np.ndarray, encoded: np.ndarray) -> Horizon:
         return line
     row = line.row / height
     guessed = line.source == "assumed"
-    foot = None if guessed else _mirrored_foot(sky)
-    if foot is not None and row > foot + 0.02:
-        inside = [e for e in edges if foot - 0.02 < e.row < row - 0.02 and e.strength > 0.45]
-        if inside:
-            return _from_edge(inside[0], sky, 0.7)
+    if not guessed:
+        inside = [e for e in edges if 0.05 < e.row < row - 0.02 and e.strength > 0.45]
+        foot = _mirrored_foot(sky)
+        for edge in inside:
+            at_foot = foot is not None and edge.row > foot - 0.02
+            if at_foot or _mirrors(sky, encoded @ LUMINANCE, edge, line):
+                return _from_edge(edge, sky, 0.7)
     own = max((e.strength for e in edges if abs(e.row - row) < 0.01), default=0.0)
     under = [e for e in edges if e.strength > 0.72 and e.row > row - 0.01]
     if guessed and under:
@@ -141,6 +145,24 @@ def _confidence(share: float, roll: float) -> float:
 
 def _from_edge(edge: StraightEdge, sky: np.ndarray, confidence: float) -> Horizon:
     return Horizon(edge.row * sky.shape[0], edge.roll, float(confidence), "water_line")
+
+
+def _mirrors(sky: np.ndarray, luminance: np.ndarray, edge: StraightEdge, line: Horizon) -> bool:
+    """Whether "sky" below a level edge is the darker mirror image of the sky above it."""
+    height = sky.shape[0]
+    row, reach = round(edge.row * height), round(0.05 * height)
+    depth = min(reach, int(line.row) - row - 2)
+    if abs(edge.roll) > 1 or depth < 7 or row < reach:
+        return False
+    columns = sky[row - reach : row].mean(axis=0) > 0.9
+    if columns.mean() < 0.3:
+        return False
+    steps = np.arange(3, depth)
+    above = np.median(luminance[row - steps][:, columns], axis=1)
+    below = np.median(luminance[row + steps][:, columns], axis=1)
+    if min(np.ptp(above), np.ptp(below)) < 0.01 or above[0] - below[0] < 0.03:
+        return False
+    return float(np.corrcoef(above, below)[0, 1]) > 0.8
 
 
 def _mirrored_foot(sky: np.ndarray) -> float | None:

@@ -69,6 +69,19 @@ def test_the_far_end_of_a_lake_is_the_horizon_not_its_trees_or_its_near_bank(mir
     assert found.roll == pytest.approx(1, abs=0.5)
 
 
+def test_a_calm_sea_that_mirrors_the_sky_ends_at_its_own_faint_edge():
+    y = np.mgrid[:HEIGHT, :WIDTH][0] + 0.5
+    light = np.where(y < 200, 0.5 + 0.002 * (y - 100), 0.62 - 0.002 * (y - 200))
+    light[300:] = 0.2
+    picture = (light[..., None] * np.array([0.9, 1.0, 1.15])).astype(np.float32)
+    sky = (y < 300).astype(np.float32)
+    assert horizon.robust_line(sky).row == pytest.approx(300, abs=1)
+    assert horizon.water_line(sky, picture).row == pytest.approx(200, abs=3)
+    # A bank of haze goes on as it was: no mirror, and the land's edge stays the horizon.
+    picture[200:300] = picture[199:200] + 0.002 * np.arange(100)[:, None, None] - 0.07
+    assert horizon.water_line(sky, picture.clip(0, 1)).row == pytest.approx(300, abs=1)
+
+
 def test_sky_seen_under_a_sign_is_no_mirror():
     sky = sky_above(250)
     sky[120:170, 100:300] = 0
