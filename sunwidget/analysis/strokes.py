@@ -171,7 +171,7 @@ def _alike(
     extent = math.hypot(np.ptp(rows) + 1, np.ptp(columns) + 1)
     breadth = rows.size / extent
     # A fine brush is for fine work, however long its stroke.
-    reach = min(4 * extent, 8 * breadth + 4, REACH * max(under.shape))
+    reach = min(4 * extent, 8 * breadth, breadth**2 + 4, REACH * max(under.shape))
     near = candidates & (away < reach)
     to_brush = _nearest(lab, near, lab[under], 24)
     # Distance to the nearest of a few colours, so that a stroke over a brick wall takes bricks
