@@ -43,6 +43,8 @@ def straight_edges(encoded: np.ndarray) -> list[StraightEdge]:
     list of StraightEdge
         Local maxima of strength 0.4 and more.
     """
+    import cv2
+
     scale = min(1.0, _SIDE / max(encoded.shape[:2]))
     image = np.asarray(resize(encoded, encoded.shape[1] * scale, encoded.shape[0] * scale))
     height, width = image.shape[:2]
@@ -50,15 +52,18 @@ def straight_edges(encoded: np.ndarray) -> list[StraightEdge]:
     if height < 8 * reach or width < 32:
         return []
     change = _change(image, reach)
-    columns = np.arange(width)
     strength = np.zeros(height)
     roll = np.zeros(height)
     for degrees in np.arange(-LARGEST_ROLL, LARGEST_ROLL + _STEP / 2, _STEP):
-        offset = np.round(np.tan(np.radians(degrees)) * (columns + 0.5 - width / 2)).astype(int)
-        rows = np.arange(height)[:, None] + offset
-        inside = (rows >= 0) & (rows < height)
-        sheared = change[np.clip(rows, 0, height - 1), columns] * inside[..., None]
-        length = np.linalg.norm(sheared.mean(axis=1), axis=-1)
+        slope = float(np.tan(np.radians(degrees)))
+        # Sheared so that lines of this roll lie along rows; nothing lies beyond the frame.
+        sheared = cv2.warpAffine(
+            change,
+            np.array([[1, 0, 0], [slope, 1, slope * (0.5 - width / 2)]]),
+            (width, height),
+            flags=cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP,
+        )
+        length = np.linalg.norm(cv2.reduce(sheared, 1, cv2.REDUCE_AVG)[:, 0], axis=-1)
         # Photos are held level more often than not.
         better = length - 0.01 * abs(degrees) > strength - 0.01 * np.abs(roll)
         strength = np.where(better, length, strength)
@@ -75,10 +80,12 @@ def _change(image: np.ndarray, reach: int) -> np.ndarray:
     import cv2
 
     width = image.shape[1]
-    soft = cv2.blur(image, (max(1, width // 100), 1)).astype(np.float64)
-    total = np.concatenate([np.zeros((1, *soft.shape[1:])), np.cumsum(soft, axis=0)])
+    soft = cv2.blur(image, (max(1, width // 100), 1))
+    sums = np.cumsum(soft, axis=0, dtype=np.float64)
+    total = np.concatenate([np.zeros((1, *soft.shape[1:])), sums])
     middle = total[reach:-reach]
     change = np.zeros(image.shape)
     difference = (total[2 * reach :] - middle) - (middle - total[: -2 * reach])
     change[reach : reach + len(difference)] = (difference / reach)[: image.shape[0] - reach]
-    return change / (np.linalg.norm(change, axis=-1, keepdims=True) + _CONTRAST)
+    bounded = change / (np.linalg.norm(change, axis=-1, keepdims=True) + _CONTRAST)
+    return np.asarray(bounded, np.float32)

@@ -59,7 +59,9 @@ def test_a_skyline_of_roofs_says_that_the_horizon_is_a_guess():
     roofs = np.ones((160, 240), np.float32)
     for house, top in enumerate((60, 95, 40, 110, 75, 52, 102, 68, 85, 45)):
         roofs[top:, 24 * house : 24 * house + 24] = 0
-    scene = sw.analyze(seascape(horizon=0.8), sky=roofs, refine="none", fov=45.0)
+    walls = np.random.default_rng(3).uniform(40, 120, (160, 240, 1)) * np.ones(3)
+    picture = np.where(roofs[..., None] > 0, (150, 180, 220), walls).astype(np.uint8)
+    scene = sw.analyze(picture, sky=roofs, refine="none", fov=45.0)
     assert scene.horizon.confidence < 0.3
     assert any("is a guess" in warning for warning in scene.warnings)
 
