@@ -247,11 +247,21 @@ class Training:
         self.losses.append(loss.item())
 
     def finish(self) -> None:
-        """Gives the averaged weights their own batch statistics and saves them."""
-        judge = SkyNet().to(memory_format=torch.channels_last)
-        judge.load_state_dict(self.average.state)
-        recalibrate(judge, typical(self.options.data, self.options.cache, FULL_SIZE, 300))
-        self.average.state = judge.state_dict()
+        """Keeps the best of three sets of weights on the held-out photos, and saves it.
+
+        The average, the average with batch statistics measured afresh, and the last weights: after
+        long training at full size the last are best, after a short one the second.
+        """
+        afresh = SkyNet().to(memory_format=torch.channels_last)
+        afresh.load_state_dict(self.average.state)
+        recalibrate(afresh, typical(self.options.data, self.options.cache, FULL_SIZE, 300))
+        photos = validation(self.options.data, self.options.cache, FULL_SIZE)
+        scores = []
+        for state in (self.average.state, afresh.state_dict(), self.network.state_dict()):
+            judge = SkyNet().to(memory_format=torch.channels_last)
+            judge.load_state_dict(state)
+            scores.append((validate(judge, photos)[0], judge.state_dict()))
+        self.average.state = max(scores, key=lambda s: s[0])[1]
         self.check(FULL_SIZE, rate(1, self.peak))
 
     def check(self, size: int, learning_rate: float) -> None:
