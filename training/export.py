@@ -42,10 +42,21 @@ def fold(module: nn.Module) -> None:
                 )
 
 
-def load(checkpoint: Path) -> SkyNet:
-    """The averaged network of a checkpoint, ready for inference."""
+def load(checkpoints: list[Path], shares: list[float]) -> SkyNet:
+    """The averaged network of a checkpoint, or the mean of several of one run, for inference.
+
+    Weights of one run lie close enough together to be averaged (Wortsman et al. 2022, "Model
+    soups"): an early checkpoint knows unusual photos better, a late one fine structures.
+    """
+    states = [torch.load(c, weights_only=True)["average"] for c in checkpoints]
+    mean = {
+        key: sum(share * s[key] for share, s in zip(shares, states, strict=True)) / sum(shares)
+        if value.dtype.is_floating_point
+        else value
+        for key, value in states[0].items()
+    }
     network = SkyNet()
-    network.load_state_dict(torch.load(checkpoint, weights_only=True)["average"])
+    network.load_state_dict(mean)
     return network.eval()
 
 
@@ -63,11 +74,11 @@ def halve(model: onnx.ModelProto) -> None:
         graph.node.insert(0, cast)
 
 
-def export(checkpoint: Path, out: Path) -> None:
+def export(checkpoints: list[Path], shares: list[float], out: Path) -> None:
     """Exports, compares with PyTorch, and refuses a file that is too large or too different."""
     import onnxruntime
 
-    network = SkyProbability(load(checkpoint)).eval()
+    network = SkyProbability(load(checkpoints, shares)).eval()
     image = torch.rand(1, 3, SIZE, SIZE)
     with torch.no_grad():
         expected = network(image).numpy()
@@ -110,10 +121,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--checkpoint", type=Path, default=Path("build/sky/last.pt"))
+    parser.add_argument("--checkpoint", type=Path, nargs="+", default=[Path("build/sky/last.pt")])
+    parser.add_argument("--shares", type=float, nargs="+", help="of each checkpoint in the mean")
     parser.add_argument("--out", type=Path, default=Path("sunwidget/analysis/models/sky.onnx"))
     options = parser.parse_args()
-    export(options.checkpoint, options.out)
+    export(options.checkpoint, options.shares or [1.0] * len(options.checkpoint), options.out)
 
 
 if __name__ == "__main__":

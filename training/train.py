@@ -284,14 +284,15 @@ class Training:
         with log.open("a", encoding="utf-8", newline="") as file:
             csv.writer(file).writerow(f"{v:.5g}" for v in row)
         print(" ".join(f"{v:.5g}" for v in row), flush=True)
-        save(
-            self.checkpoint,
-            network=self.network.state_dict(),
-            optimiser=self.optimise.state_dict(),
-            average=self.average.state,
-            spent=self.spent,
-            step=self.step,
-        )
+        state = {
+            "network": self.network.state_dict(),
+            "optimiser": self.optimise.state_dict(),
+            "average": self.average.state,
+            "spent": self.spent,
+            "step": self.step,
+        }
+        save(self.checkpoint, **state)
+        save(self.options.out / f"at-{self.spent / 60:.0f}.pt", **state)  # for means, see export.py
         self.losses = []
 
 
