@@ -136,7 +136,9 @@ def _retouch(
         glare=behind.glare,
         decision=decision,
         hints=hints,
-        warnings=notices(photo, sky, sun, source.horizon, source.camera, hints, base.doubted),
+        warnings=notices(
+            photo, sky, sun, source.horizon, source.camera, hints, base.doubted, source.moon
+        ),
         unstroked=base,
         memory=Memory(),
     )

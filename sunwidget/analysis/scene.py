@@ -82,6 +82,8 @@ class Scene:
         Seconds of each stage.
     doubted : float
         Share of the picture that was dropped from the sky as unlikely.
+    moon : (x, y) or None
+        Where a disc in a night sky was taken for the moon, in fractions of the picture.
     everywhere : Clouds
         The clouds at working size as if all of the picture were sky: for strokes that say so.
     unstroked : Scene or None
@@ -108,6 +110,7 @@ class Scene:
     working: Working = field(repr=False)
     decision: refine.Decision = field(repr=False)
     doubted: float = 0.0
+    moon: Point | None = None
     shade: np.ndarray | None = field(default=None, repr=False)
     fitted: SkyFit | None = field(default=None, repr=False)
     everywhere: Clouds | None = field(default=None, repr=False)

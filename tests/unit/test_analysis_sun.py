@@ -163,6 +163,9 @@ def test_a_found_moon_is_told_and_a_pointed_one_is_marked():
     scene = sw.analyze(picture, sky=SKY)
     assert scene.sun is None
     assert any("(200, 70)" in note and "moon" in note for note in scene.warnings)
+    dab = sw.Stroke("not_sky", ((0.1, 0.9),), 0.01)
+    brushed = scene.corrected(sw.Edit(strokes=(dab,)))
+    assert any("(200, 70)" in note and "moon" in note for note in brushed.warnings)
     pointed = sw.analyze(picture, sky=SKY, sun=(200.5, 70.5))
     assert pointed.sun is not None
     assert pointed.sun.kind == "moon"
