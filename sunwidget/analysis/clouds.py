@@ -18,7 +18,7 @@ from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.overcast import believable, overcast
 from sunwidget.analysis.unmix import cloud_white, unmix
-from sunwidget.analysis.working import Working
+from sunwidget.analysis.working import Working, saturation
 from sunwidget.camera import Camera
 from sunwidget.edit import parameter
 
@@ -77,8 +77,8 @@ def saturation_index(encoded: np.ndarray) -> np.ndarray:
     A sky whose green lies midway between red and blue has S = (1 - r/b) / (1 + r/b); solved for
     r/b. Unlike the ratio it does not call the red of a sunset the whitest of all.
     """
-    saturation = 1 - 3 * encoded.min(-1) / np.maximum(encoded.sum(-1), 1 / 255)
-    return np.asarray((1 - saturation) / (1 + saturation))
+    pure = saturation(encoded)
+    return np.asarray((1 - pure) / (1 + pure))
 
 
 def learned_index(encoded: np.ndarray) -> np.ndarray:
@@ -95,10 +95,9 @@ def learned_index(encoded: np.ndarray) -> np.ndarray:
 def features(encoded: np.ndarray) -> np.ndarray:
     """Return what the regression sees, (…, 4): r/b, (b - r)/(b + r), saturation and blue."""
     red, blue = encoded[..., 0], encoded[..., 2]
-    ratio = np.minimum(red / np.maximum(blue, 1 / 255), 2)
+    ratio = np.minimum(ratio_index(encoded), 2)
     difference = (blue - red) / np.maximum(blue + red, 1 / 255)
-    saturation = 1 - 3 * encoded.min(-1) / np.maximum(encoded.sum(-1), 1 / 255)
-    return np.asarray(np.stack([ratio, difference, saturation, blue], -1), np.float32)
+    return np.asarray(np.stack([ratio, difference, saturation(encoded), blue], -1), np.float32)
 
 
 INDICES: dict[str, Callable[[np.ndarray], np.ndarray]] = {

@@ -13,7 +13,7 @@ import dataclasses
 import numpy as np
 
 from sunwidget.analysis.fit import SkyFit
-from sunwidget.analysis.working import LUMINANCE, Working
+from sunwidget.analysis.working import LUMINANCE, Working, saturation
 
 _BLUE_BALANCE = -0.6  # log(red gain / blue gain) of the fits to clear blue skies of 40 photos
 _LOW_SUN = (3.0, 10.0)  # degrees; below, sky and sun are of any colour
@@ -62,8 +62,8 @@ def overcast(working: Working, sky: np.ndarray) -> np.ndarray:
         return none
     if float(np.median((encoded @ LUMINANCE)[seen])) < _NIGHT:
         return none
-    saturation = 1 - 3 * encoded.min(-1) / np.maximum(encoded.sum(-1), 1 / 255)
-    share = float(np.mean(saturation[seen] < sum(_GREY) / 2))
+    pure = saturation(encoded)
+    share = float(np.mean(pure[seen] < sum(_GREY) / 2))
     everywhere = np.clip((share - 0.75) / 0.15, 0, 1)
-    grey = np.clip((_GREY[1] - saturation) / (_GREY[1] - _GREY[0]), 0, 1)
+    grey = np.clip((_GREY[1] - pure) / (_GREY[1] - _GREY[0]), 0, 1)
     return np.asarray(everywhere * grey, np.float32)

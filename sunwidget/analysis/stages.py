@@ -119,17 +119,10 @@ def complete(
     moon = None if sun is not None else sun_stage.find_moon(working, sky)
 
     step("clouds", 0.81, "Finding clouds")
-    everywhere = METHODS["clouds"][hints.method("clouds")](
-        working, np.ones_like(sky), *hints.cloud_ratios
-    )
-    if blot is not None:
-        everywhere = cloud_stage.without(everywhere, blot.mask)
-    cover = cloud_stage.within(everywhere, sky)
+    covers = _by_colour(working, sky, hints, None if blot is None else blot.mask)
 
     step("fit", 0.82, "Fitting the atmosphere")
-    fitted, behind, cover, everywhere = _atmosphere(
-        working, sky, (cover, everywhere), camera, sun, hints
-    )
+    fitted, behind, (cover, everywhere) = _atmosphere(working, sky, covers, camera, sun, hints)
 
     step("water", 0.95, "Looking for water")
     water = METHODS["water"][hints.method("water")](working, sky, horizon.row / zoom_y)
@@ -141,6 +134,7 @@ def complete(
         shade=cover.shade,
         everywhere=everywhere,
         sun=sun,
+        moon=moon,
         horizon=horizon,
         camera=camera,
         atmosphere=fitted.atmosphere,
@@ -196,6 +190,17 @@ def _horizon(working: Working, sky: np.ndarray, hints: Hints, width: int) -> Hor
     return find(sky, working.encoded).scaled(*working.zoom)
 
 
+def _by_colour(
+    working: Working, sky: np.ndarray, hints: Hints, sun_mask: np.ndarray | None
+) -> tuple[Clouds, Clouds]:
+    """Return the clouds of the sky, and of the whole picture as if it were sky; minus the sun."""
+    find = METHODS["clouds"][hints.method("clouds")]
+    everywhere = find(working, np.ones_like(sky), *hints.cloud_ratios)
+    if sun_mask is not None:
+        everywhere = cloud_stage.without(everywhere, sun_mask)
+    return cloud_stage.within(everywhere, sky), everywhere
+
+
 def _atmosphere(
     working: Working,
     sky: np.ndarray,
@@ -203,19 +208,18 @@ def _atmosphere(
     camera: Camera,
     sun: SunObservation | None,
     hints: Hints,
-) -> tuple[SkyFit, Backdrop, Clouds, Clouds]:
+) -> tuple[SkyFit, Backdrop, tuple[Clouds, Clouds]]:
     """Fit the sky, look behind the sun, and un-mix the clouds from the fitted sky.
 
     The clouds come twice: of the sky, and of the whole picture as if it were sky.
     """
-    cover, everywhere = covers
     sun_angles = None if sun is None else (sun.azimuth, sun.elevation)
     visible = sun is not None and sun.visible
     unmixed = hints.method("clouds") == "unmix"
     # A fit looks at a few hundred pixels; on a small copy they are less noisy, too.
     small = working.shrunk(FIT_SIDE)
     small_sky = resize(sky, small.width, small.height)
-    opacity = resize(cover.opacity, small.width, small.height)
+    opacity = resize(covers[0].opacity, small.width, small.height)
     assumed = sun_angles or sun_stage.assume(small, small_sky, camera)
     fitted = fit_sky(small, small_sky, opacity, camera, sun_angles, assumed)
     if unmixed:
@@ -224,10 +228,8 @@ def _atmosphere(
         fitted = fit_sky(small, small_sky, veil.opacity, camera, fitted.sun, assumed)
     fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
     if unmixed:
-        cover, everywhere = _unmixed(
-            working, sky, camera, fitted, behind.glare, covers, sun_seen=visible
-        )
-    return fitted, behind, cover, everywhere
+        covers = _unmixed(working, sky, camera, fitted, behind.glare, covers, sun_seen=visible)
+    return fitted, behind, covers
 
 
 def _unmixed(
@@ -266,25 +268,21 @@ def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> 
     """
     working, sun = base.working, base.sun
     sky = resize(base.sky, working.width, working.height)
-    everywhere = METHODS["clouds"][method](working, np.ones_like(sky), *ratios)
-    if sun is not None:
-        mask = resize(sun.mask, working.width, working.height)
-        everywhere = cloud_stage.without(everywhere, mask)
-    cover = cloud_stage.within(everywhere, sky)
-    if method == "unmix" and base.fitted is not None:
-        covers = cover, everywhere
-        seen = sun is not None and sun.visible
-        cover, everywhere = _unmixed(
-            working, sky, base.camera, base.fitted, base.glare, covers, sun_seen=seen
-        )
     methods = dict(base.hints.methods) | {"clouds": method}
+    hints = dataclasses.replace(base.hints, methods=tuple(methods.items()), cloud_ratios=ratios)
+    mask = None if sun is None else resize(sun.mask, working.width, working.height)
+    covers = _by_colour(working, sky, hints, mask)
+    if method == "unmix" and base.fitted is not None:
+        seen = sun is not None and sun.visible
+        covers = _unmixed(working, sky, base.camera, base.fitted, base.glare, covers, sun_seen=seen)
+    cover, everywhere = covers
     return dataclasses.replace(
         base,
         clouds=resize(cover.opacity, *base.photo.size),
         cloud_softness=resize(cover.softness, *base.photo.size),
         shade=cover.shade,
         everywhere=everywhere,
-        hints=dataclasses.replace(base.hints, methods=tuple(methods.items()), cloud_ratios=ratios),
+        hints=hints,
         memory=Memory(),
     )
 

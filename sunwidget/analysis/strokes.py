@@ -93,14 +93,6 @@ class Painting:
         return decision._replace(sky=sky.astype(np.float32), sureness=sureness.astype(np.float32))
 
 
-def apply_strokes(working: Working, decision: Decision, strokes: Sequence[Stroke]) -> Decision:
-    """Replay strokes in order on a decision; without strokes it is the very same."""
-    painting = Painting.begin(decision.sky, working)
-    for stroke in strokes:
-        painting = painting.stroke(stroke, working)
-    return painting.on(decision)
-
-
 def _stroked(
     image: np.ndarray, sky: np.ndarray, said: np.ndarray, network: np.ndarray, stroke: Stroke
 ) -> tuple[np.ndarray, np.ndarray]:

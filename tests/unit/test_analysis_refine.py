@@ -5,12 +5,20 @@ import numpy as np
 import pytest
 
 from sunwidget.analysis import refine
-from sunwidget.analysis.strokes import apply_strokes
+from sunwidget.analysis.strokes import Painting
 from sunwidget.analysis.working import Working
 from sunwidget.edit import Stroke
 from sunwidget.photo import Photo, open_photo
 
 HEIGHT, WIDTH = 240, 320
+
+
+def apply_strokes(working: Working, decision: refine.Decision, strokes: list) -> refine.Decision:
+    """Replay strokes in order on a decision."""
+    painting = Painting.begin(decision.sky, working)
+    for stroke in strokes:
+        painting = painting.stroke(stroke, working)
+    return painting.on(decision)
 
 
 def tree() -> tuple[np.ndarray, np.ndarray]:
