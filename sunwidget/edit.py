@@ -215,8 +215,8 @@ class Edit:
 
     def __post_init__(self) -> None:
         for parameter in PARAMETERS:
-            checked = _check(parameter, getattr(self, parameter.name))
-            object.__setattr__(self, parameter.name, checked)
+            value = checked(parameter, getattr(self, parameter.name))
+            object.__setattr__(self, parameter.name, value)
 
     def replace(self, **changes: Any) -> Edit:
         """Return a copy with the named parameters changed.
@@ -354,7 +354,8 @@ def _refuse_unknown(names: Any) -> None:
             raise UnknownParameterError(unknown_name_message(name))
 
 
-def _check(p: Parameter, value: Any) -> Any:
+def checked(p: Parameter, value: Any) -> Any:
+    """Return ``value`` as an Edit holds it; raises EditError where the row does not take it."""
     if p.kind == "choice":
         if not isinstance(value, str) or value not in p.choices:
             raise EditError(f"{p.name} must be one of {', '.join(p.choices)}, not {_shown(value)}.")
