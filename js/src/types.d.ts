@@ -1,10 +1,10 @@
 /** Shapes of what travels between kernel and browser. */
 
-/** One row of the kernel's parameter table (`sunwidget/edit.py`). */
+/** One row of the kernel's parameter tables (`sunwidget/edit.py`, `sunwidget/explorer/table.py`). */
 export interface Parameter {
   name: string;
-  kind: "number" | "choice" | "data";
-  default: number | string | null | unknown[];
+  kind: "number" | "choice" | "switch" | "data";
+  default: number | string | boolean | null | unknown[];
   minimum: number;
   maximum: number;
   step: number;
