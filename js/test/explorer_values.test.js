@@ -44,4 +44,10 @@ test("the single state and the single model scatter once", () => {
   assert.deepEqual([edit.scattering_orders, single.scattering_orders], [4, 1]);
   const { edit: once } = effectiveValues(parameters, { scattering_orders: 4, model: "single" });
   assert.equal(once.scattering_orders, 1);
+  const beside = effectiveValues(parameters, {
+    scattering_orders: 4,
+    model: "single",
+    compare: "multiple",
+  });
+  assert.equal(beside.edit.scattering_orders, 4);
 });

@@ -37,7 +37,9 @@ export function effectiveValues(parameters, values) {
   for (const [name, silenced] of Object.entries(SWITCHED_OFF)) {
     if (edit[name] === 0) edit[silenced] = 0;
   }
-  const model = parameters.find((p) => p.name === "model");
-  if (model && (values.model ?? model.default) === "single") edit.scattering_orders = 1;
+  // Beside another model, the state "edit" is that model's.
+  if (values.model === "single" && ["none", "single"].includes(String(values.compare ?? "none"))) {
+    edit.scattering_orders = 1;
+  }
   return { edit, single: { ...edit, scattering_orders: 1 } };
 }
