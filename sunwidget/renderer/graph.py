@@ -21,7 +21,7 @@ from sunwidget.renderer.shader_source import (
 from sunwidget.renderer.values import uniform_value
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
 
     import moderngl
     import numpy.typing as npt
@@ -37,6 +37,9 @@ class Target:
     framebuffer: moderngl.Framebuffer
     key: Any = None
     version: int = 0
+    # A pass with history: what it drew before, and how many samples it holds by now.
+    previous: moderngl.Texture | None = None
+    samples: int = 0
 
 
 @dataclass
@@ -78,16 +81,25 @@ class FrameGraph:
     programs : Programs
         Compiled passes of the context.
     textures : mapping of str to array
-        The scene textures by name, (h, w, 3) float32, uint8 or uint16, row 0 at the top.
+        The scene textures by name, (h, w, 3 or 4) float32, uint8 or uint16, row 0 at the top.
+    description : mapping, optional
+        The passes, as ``frame_graph`` returns them; default the editor's.
     """
 
-    def __init__(self, programs: Programs, textures: Mapping[str, Array]) -> None:
+    def __init__(
+        self,
+        programs: Programs,
+        textures: Mapping[str, Array],
+        description: Mapping[str, Any] | None = None,
+    ) -> None:
         self.programs = programs
+        self.passes = (frame_graph() if description is None else description)["passes"]
         self.context = programs.context
         self.targets: dict[str, Target] = {}
         self.scene: dict[str, moderngl.Texture] = {}
         self.versions: dict[str, int] = {}
         self.runs: dict[str, int] = {}
+        self.drawn: set[str] = set()
         for name, image in textures.items():
             self.set_texture(name, image)
 
@@ -113,29 +125,54 @@ class FrameGraph:
         scene_values: Mapping[str, Any],
         host_values: Mapping[str, Any],
         tile: tuple[int, int, int, int],
-        method: str,
-        until: str = "frame",
+        methods: Collection[str],
+        until: str | None = None,
+        sizes: Mapping[str, tuple[int, int]] | None = None,
     ) -> Target:
-        """Run what changed, up to the pass ``until``, and return its target.
+        """Run what changed of the pass ``until`` and all that it reads; return its target.
 
-        ``tile`` is (x, y, width, height) of the piece of the picture that frame-sized
-        passes draw, in pixels.
+        ``until`` is the pass that makes the picture unless it is named. ``tile`` is (x, y, width,
+        height) of the piece of the picture that frame-sized passes draw, in pixels. Passes whose
+        size is a name take it from ``sizes``.
         """
         x, y, width, height = tile
         host = {**host_values, "tile_origin": (float(x), float(y))}
-        for row in frame_graph()["passes"]:
-            if method not in row.get("when", [method]):
-                continue
-            size = self._size(row["size"], (width, height), host_values["frame_size"])
+        rows = [row for row in self.passes if any(m in methods for m in row.get("when", methods))]
+        if until is None:
+            until = next(row["name"] for row in rows if row["format"] == "output")
+        if all(row["name"] != until for row in rows):
+            raise KeyError(f"The frame graph has no pass {until!r} for {' and '.join(methods)}.")
+        for row in self._ancestors(rows, until):
+            size = self._size(row["size"], (width, height), host_values["frame_size"], sizes or {})
             self._run_pass(row, size, state_values[row["state"]], scene_values, host)
-            if row["name"] == until:
-                return self.targets[until]
-        raise KeyError(f"The frame graph has no pass {until!r} for method {method!r}.")
+        return self.targets[until]
+
+    def _ancestors(self, rows: list[dict[str, Any]], until: str) -> list[dict[str, Any]]:
+        """Return the rows that ``until`` reads, each pass by way of others, and its own."""
+        self.drawn = {row["name"] for row in rows}
+        wanted = {until}
+        for row in reversed(rows):
+            if row["name"] in wanted:
+                wanted |= {self._source(source) for source in row["inputs"].values()}
+        return [row for row in rows if row["name"] in wanted]
+
+    def _source(self, names: str | list[str]) -> str:
+        """Return the first of an input's ``names`` that is drawn in this run or loaded."""
+        if isinstance(names, str):
+            return names
+        return next((n for n in names if n in self.drawn or n in self.scene), names[-1])
 
     @staticmethod
-    def _size(size: Any, tile: tuple[int, int], frame: tuple[float, float]) -> tuple[int, int]:
+    def _size(
+        size: Any,
+        tile: tuple[int, int],
+        frame: tuple[float, float],
+        sizes: Mapping[str, tuple[int, int]],
+    ) -> tuple[int, int]:
         if size == "frame":
             return tile
+        if isinstance(size, str):
+            return sizes[size]
         if size[0] == "frame":
             return math.ceil(frame[0] / size[1]), math.ceil(frame[1] / size[1])
         return size[0], size[1]
@@ -148,7 +185,8 @@ class FrameGraph:
         scene: Mapping[str, Any],
         host: Mapping[str, Any],
     ) -> None:
-        name, shader, inputs = row["name"], row["shader"], row["inputs"]
+        name, shader = row["name"], row["shader"]
+        inputs = {uniform: self._source(names) for uniform, names in row["inputs"].items()}
         program = self.programs.get(shader)
         host = {**host, "pass_size": (float(size[0]), float(size[1]))}
         if row["size"] != "frame":
@@ -159,31 +197,49 @@ class FrameGraph:
         for uniform in self.programs.uniforms[shader]:
             if uniform in inputs:
                 key.append(self._version(inputs[uniform]))
-            else:
+            elif uniform not in ("history", "sample_index"):
                 values[uniform] = uniform_value(shader, uniform, state, scene, host)
                 key.append(values[uniform])
         target = self.targets.get(name)
         if target is None or target.texture.size != size:
-            texture = self.context.texture(size, 4, dtype="f4")
-            version = target.version if target else 0
-            target = Target(texture, self.context.framebuffer([texture]), version=version)
+            target = self._new_target(size, target.version if target else 0)
             self.targets[name] = target
-        if target.key == key:
+        if row.get("history"):
+            self._turn(target, key)
+            values["sample_index"] = float(target.samples)
+        elif target.key == key:
             return
         unit = 0
         for uniform, member in self.programs.uniforms[shader].items():
-            if uniform in inputs:
-                self._texture(inputs[uniform]).use(unit)
-                member.value = unit
-                unit += 1
-            else:
+            if uniform in values:
                 member.value = values[uniform]
+                continue
+            texture = self._texture(inputs[uniform]) if uniform in inputs else target.previous
+            if texture is None:
+                raise KeyError(f"Pass {name!r} reads its history and has none in the frame graph.")
+            texture.use(unit)
+            member.value = unit
+            unit += 1
         del program
         target.framebuffer.use()
         self.programs.arrays[shader].render(vertices=3)
         target.key = key
         target.version += 1
+        target.samples += 1
         self.runs[name] = self.runs.get(name, 0) + 1
+
+    def _new_target(self, size: tuple[int, int], version: int) -> Target:
+        texture = self.context.texture(size, 4, dtype="f4")
+        return Target(texture, self.context.framebuffer([texture]), version=version)
+
+    def _turn(self, target: Target, key: list[Any]) -> None:
+        """Swap the two textures of a pass with history; it begins anew when ``key`` is new."""
+        if target.key != key:
+            target.samples = 0
+        if target.previous is None:
+            target.previous = self.context.texture(target.texture.size, 4, dtype="f4")
+        target.texture, target.previous = target.previous, target.texture
+        target.framebuffer = self.context.framebuffer([target.texture])
 
     def _version(self, name: str) -> tuple[str, int]:
         if name in self.targets:

@@ -151,7 +151,7 @@ def render_pass(
             _scene_values(scene),
             _host_values(size, "float32"),
             (0, 0, *size),
-            edit.method,
+            (edit.method,),
             until=name,
         )
         width, height = target.texture.size
@@ -201,7 +201,7 @@ def _draw(
     scene_values, host_values = _scene_values(scene), _host_values(size, dtype)
     for top in range(0, height, rows):
         band = min(rows, height - top)
-        target = graph.run(values, scene_values, host_values, (0, top, width, band), edit.method)
+        target = graph.run(values, scene_values, host_values, (0, top, width, band), (edit.method,))
         # Read as float and quantise here: the driver's own rounding differs between hosts.
         data = np.frombuffer(target.framebuffer.read(components=3, dtype="f4"), np.float32)
         pixels = data.reshape(band, width, 3)

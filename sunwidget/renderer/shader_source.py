@@ -50,7 +50,7 @@ def resolve_includes(path: str, _seen: set[str] | None = None) -> str:
 
 
 @functools.cache
-def frame_graph() -> dict[str, Any]:
-    """Return ``shaders/graph.json`` as plain data."""
-    graph: dict[str, Any] = json.loads(read_shader("graph.json"))
+def frame_graph(name: str = "graph") -> dict[str, Any]:
+    """Return ``shaders/<name>.json`` as plain data: ``graph`` is the editor's."""
+    graph: dict[str, Any] = json.loads(read_shader(f"{name}.json"))
     return graph
