@@ -5,7 +5,7 @@
  * that exports hold the same passes.
  */
 
-import { readdirSync, readFileSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { context } from "esbuild";
@@ -43,21 +43,49 @@ export function readShaders() {
   return files;
 }
 
+/** Modules of shaders by name, and the graph of each in `shaders/`. */
+const GRAPHS = { editor: "graph.json", explorer: "explorer.json" };
+
+/**
+ * The files that a graph's passes expand to.
+ *
+ * @param {{ passes: { shader: string }[] }} graph
+ * @param {Record<string, string>} files text by path
+ * @returns {string[]} paths, sorted
+ */
+export function reachable(graph, files) {
+  const pending = graph.passes.map(({ shader }) => `${shader}.glsl`);
+  const found = new Set(pending);
+  for (const path of pending) {
+    if (files[path] === undefined) throw new Error(`There is no shader file "${path}".`);
+    for (const [, name] of files[path].matchAll(/^[ \t]*#include "([^"]+)"[ \t]*$/gm)) {
+      if (!found.has(name)) pending.push(name);
+      found.add(name);
+    }
+  }
+  return [...found].sort();
+}
+
 /** @type {import("esbuild").Plugin} */
 const shaderPlugin = {
   name: "sunwidget-shaders",
   setup(build) {
-    build.onResolve({ filter: /^sunwidget:shaders$/ }, ({ path }) => ({ path, namespace: "glsl" }));
-    build.onLoad({ filter: /.*/, namespace: "glsl" }, () => {
-      const stripped = Object.entries(readShaders()).map(([name, text]) => [
-        name,
-        tighten(stripComments(text)),
+    build.onResolve({ filter: /^sunwidget:shaders\// }, ({ path }) => ({
+      path,
+      namespace: "glsl",
+    }));
+    build.onLoad({ filter: /.*/, namespace: "glsl" }, ({ path }) => {
+      const name = /** @type {keyof typeof GRAPHS} */ (path.split("/")[1]);
+      const graph = JSON.parse(readFileSync(join(shaders, GRAPHS[name]), "utf-8"));
+      const files = readShaders();
+      const stripped = reachable(graph, files).map((file) => [
+        file,
+        tighten(stripComments(files[file])),
       ]);
-      const graph = readFileSync(join(shaders, "graph.json"), "utf-8");
       return {
         contents:
           `export const files = ${JSON.stringify(Object.fromEntries(stripped))};\n` +
-          `export const graph = ${JSON.stringify(JSON.parse(graph))};\n`,
+          `export const graph = ${JSON.stringify(graph)};\n`,
         loader: "js",
         watchDirs: [shaders, join(shaders, "lib")],
       };
@@ -70,7 +98,9 @@ async function main() {
     entryPoints: [
       { in: join(here, "src", "editor", "index.js"), out: "sun_editor" },
       { in: join(here, "src", "editor", "style.css"), out: "sun_editor" },
-    ],
+      { in: join(here, "src", "explorer", "index.js"), out: "sky_explorer" },
+      { in: join(here, "src", "explorer", "style.css"), out: "sky_explorer" },
+    ].filter((entry) => existsSync(entry.in)),
     outdir: out,
     bundle: true,
     minify: true,

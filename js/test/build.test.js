@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { stripComments, tighten } from "../build.mjs";
+import { reachable, stripComments, tighten } from "../build.mjs";
 
 test("comments go, lines stay, so that compilers' line numbers are true", () => {
   const text = "a; // one\n/* two\n three */ b;\n  c;\n";
@@ -14,4 +14,16 @@ test("blanks go where they mean nothing, and only there", () => {
   );
   assert.equal(tighten("a = b - -c + +d;"), "a=b - -c + +d;");
   assert.equal(tighten("#define HALF (0.5)\n#if A == 1\n"), "#define HALF (0.5)\n#if A == 1\n");
+});
+
+test("a bundle holds what its graph reaches, libraries of libraries too, and no more", () => {
+  const files = {
+    "a.glsl": '#include "lib/b.glsl"\nA',
+    "lib/b.glsl": '  #include "lib/c.glsl"\n// #include "lib/no.glsl"\nB',
+    "lib/c.glsl": '#include "lib/b.glsl"\nC',
+    "other.glsl": "O",
+  };
+  const graph = { passes: [{ shader: "a" }, { shader: "a" }] };
+  assert.deepEqual(reachable(graph, files), ["a.glsl", "lib/b.glsl", "lib/c.glsl"]);
+  assert.throws(() => reachable({ passes: [{ shader: "gone" }] }, files), /gone\.glsl/);
 });

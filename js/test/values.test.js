@@ -40,3 +40,7 @@ test("sizes are fixed, the frame's, or a share of it rounded up", () => {
   assert.deepEqual(passSize("frame", [101, 50]), [101, 50]);
   assert.deepEqual(passSize(["frame", 4], [101, 50]), [26, 13]);
 });
+
+test("a size may be a name that the host gives a meaning", () => {
+  assert.deepEqual(passSize("grid", [101, 50], { grid: [128, 64] }), [128, 64]);
+});

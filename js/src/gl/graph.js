@@ -7,7 +7,7 @@
 import { createLightTexture } from "./decode.js";
 import { resolveIncludes } from "./include.js";
 import { createProgram, setUniform } from "./program.js";
-import { createTarget, deleteTarget, missingFeature } from "./target.js";
+import { createTarget, deleteTarget, missingFeature, turn } from "./target.js";
 import { createPictureTexture } from "./texture.js";
 import { uniformValue } from "./values.js";
 
@@ -16,25 +16,28 @@ import { uniformValue } from "./values.js";
  * @typedef {import("./target.js").Target} Target
  * @typedef {import("./texture.js").Texture} Texture
  * @typedef {import("./values.js").Values} Values
- * @typedef {number[] | "frame" | ["frame", number]} Size
+ * @typedef {number[] | "frame" | ["frame", number] | string} Size
  * @typedef {{
- *   name: string, shader: string, size: Size, format: "rgba32f" | "output",
- *   state: "source" | "edit", inputs: Record<string, string>, when?: string[],
+ *   name: string, shader: string, size: Size, format: "rgba32f" | "output", state: string,
+ *   inputs: Record<string, string | string[]>, when?: string[], history?: boolean,
  * }} Pass
  * @typedef {{ passes: Pass[], scene_uniforms: Record<string, string> }} Description
  * @typedef {{
- *   states: { source: Values, edit: Values }, scene: Values, host: Values,
- *   size: [number, number], method: string,
- * }} Frame
+ *   states: Record<string, Values>, scene: Values, host: Values, size: [number, number],
+ *   sizes?: Record<string, [number, number]>, methods: string[],
+ * }} Frame what a run needs: values by state, and who asks for it (`when`)
  */
 
 // Scene textures whose channels are encoded sRGB; the others hold levels.
 const ENCODED = new Set(["photo"]);
 
+// What a pass with a history reads of it; no part of what makes it dirty.
+const HISTORY = new Set(["history", "sample_index"]);
+
 export class Graph {
   /**
    * @param {WebGL2RenderingContext} gl
-   * @param {Description} description graph.json
+   * @param {Description} description the passes: graph.json or explorer.json
    * @param {Record<string, string>} files shader texts by path
    */
   constructor(gl, description, files) {
@@ -51,6 +54,8 @@ export class Graph {
     this.textures = new Map();
     /** @type {Record<string, number>} how often each pass was drawn */
     this.runs = {};
+    /** @type {Set<string>} passes that the present run may draw */
+    this.drawn = new Set();
     this.uploads = 0;
   }
 
@@ -71,21 +76,54 @@ export class Graph {
   }
 
   /**
-   * Run what changed. The pass whose format is `output` draws to the canvas.
+   * Run what changed of the pass `until` and all that it reads: unless it is named, the pass whose
+   * format is `output`, which draws to the canvas.
    *
    * @param {Frame} frame
+   * @param {string} [until]
    */
-  run(frame) {
+  run(frame, until) {
     const [width, height] = frame.size;
     const host = {
       ...frame.host,
       frame_size: [width, height],
       tile_origin: [0, 0],
     };
-    for (const pass of this.description.passes) {
-      if (pass.when && !pass.when.includes(frame.method)) continue;
-      this.runPass(pass, frame, host);
+    const rows = this.description.passes.filter(
+      ({ when }) => !when || when.some((method) => frame.methods.includes(method)),
+    );
+    const last = rows.find((row) => (until ? row.name === until : row.format === "output"));
+    if (!last) {
+      throw new Error(`The frame graph has no pass "${until}" for ${frame.methods.join(" and ")}.`);
     }
+    for (const pass of this.ancestors(rows, last)) this.runPass(pass, frame, host);
+  }
+
+  /**
+   * `last` and the rows that it reads, each pass by way of others.
+   *
+   * @param {Pass[]} rows
+   * @param {Pass} last
+   */
+  ancestors(rows, last) {
+    this.drawn = new Set(rows.map((row) => row.name));
+    const wanted = new Set([last.name]);
+    for (const row of [...rows].reverse()) {
+      if (!wanted.has(row.name)) continue;
+      for (const names of Object.values(row.inputs)) wanted.add(this.source(names));
+    }
+    return rows.filter((row) => wanted.has(row.name));
+  }
+
+  /**
+   * The first of an input's names that is drawn in this run or loaded.
+   *
+   * @param {string | string[]} names
+   */
+  source(names) {
+    if (typeof names === "string") return names;
+    const here = (/** @type {string} */ name) => this.drawn.has(name) || this.textures.has(name);
+    return names.find(here) ?? names[names.length - 1];
   }
 
   /**
@@ -96,51 +134,77 @@ export class Graph {
   runPass(pass, frame, host) {
     const { gl } = this;
     const output = pass.format === "output";
-    const [width, height] = passSize(pass.size, frame.size);
+    const [width, height] = passSize(pass.size, frame.size, frame.sizes);
     const program = this.program(pass.shader);
     const own = { ...host, pass_size: [width, height], canvas_flip: output ? 1 : 0 };
 
     /** @type {(number | string)[]} */
     const key = [width, height];
-    /** @type {(number | number[])[]} */
-    const values = [];
-    for (const uniform of program.uniforms) {
-      const input = pass.inputs[uniform.name];
+    /** @type {Record<string, number | number[]>} */
+    const values = {};
+    /** @type {Record<string, Texture>} */
+    const textures = {};
+    for (const { name } of program.uniforms) {
+      const input = pass.inputs[name];
       if (input !== undefined) {
-        key.push(input, this.input(pass, input).version);
-        values.push(0);
-      } else {
-        const state = frame.states[pass.state];
-        const value = uniformValue(pass.shader, uniform.name, state, frame.scene, own);
-        values.push(value);
+        const source = this.source(input);
+        textures[name] = this.input(pass, source);
+        key.push(source, textures[name].version);
+      } else if (!HISTORY.has(name)) {
+        const value = uniformValue(pass.shader, name, frame.states[pass.state], frame.scene, own);
+        values[name] = value;
         key.push(...(typeof value === "number" ? [value] : value));
       }
     }
 
     const target = output ? null : this.target(pass.name, width, height);
-    if (target?.key && same(target.key, key)) return;
+    const unchanged = target?.key && same(target.key, key);
+    if (target && pass.history) {
+      if (!unchanged) target.samples = 0;
+      textures.history = turn(gl, pass.name, target);
+      values.sample_index = target.samples;
+    } else if (unchanged) {
+      return;
+    }
 
     gl.useProgram(program.handle);
     let unit = 0;
-    program.uniforms.forEach((uniform, i) => {
-      const input = pass.inputs[uniform.name];
-      if (input === undefined) {
-        setUniform(gl, uniform, values[i]);
-        return;
+    for (const uniform of program.uniforms) {
+      const texture = textures[uniform.name];
+      if (!texture) {
+        setUniform(gl, uniform, values[uniform.name]);
+        continue;
       }
       gl.activeTexture(gl.TEXTURE0 + unit);
-      gl.bindTexture(gl.TEXTURE_2D, this.input(pass, input).handle);
+      gl.bindTexture(gl.TEXTURE_2D, texture.handle);
       gl.uniform1i(uniform.location, unit);
       unit += 1;
-    });
+    }
     gl.bindFramebuffer(gl.FRAMEBUFFER, target ? target.framebuffer : null);
     gl.viewport(0, 0, width, height);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     if (target) {
       target.key = key;
+      target.samples += 1;
       target.texture.version += 1;
     }
     this.runs[pass.name] = (this.runs[pass.name] ?? 0) + 1;
+  }
+
+  /**
+   * What a pass drew last, RGBA by rows, row 0 at the top.
+   *
+   * @param {string} name
+   */
+  read(name) {
+    const { gl } = this;
+    const target = this.targets.get(name);
+    if (!target) throw new Error(`Pass "${name}" was not drawn yet.`);
+    const { width, height } = target.texture;
+    const texels = new Float32Array(4 * width * height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, texels);
+    return texels;
   }
 
   /** @param {string} shader */
@@ -198,10 +262,12 @@ export class Graph {
 /**
  * @param {Size} size
  * @param {[number, number]} frame
+ * @param {Record<string, [number, number]>} sizes by name
  * @returns {[number, number]}
  */
-export function passSize(size, frame) {
+export function passSize(size, frame, sizes = {}) {
   if (size === "frame") return frame;
+  if (typeof size === "string") return sizes[size];
   if (size[0] === "frame") {
     const share = Number(size[1]);
     return [Math.ceil(frame[0] / share), Math.ceil(frame[1] / share)];

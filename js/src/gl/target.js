@@ -7,7 +7,9 @@ import { createFloatTexture } from "./texture.js";
  *   texture: import("./texture.js").Texture,
  *   framebuffer: WebGLFramebuffer,
  *   key: (number | string)[] | null,
- * }} Target
+ *   samples: number,
+ *   previous: Target | null,
+ * }} Target `samples`: how many draws a pass with a history has gathered, in turn with `previous`
  */
 
 /** Say why a picture cannot be drawn here, or return null when it can.
@@ -40,7 +42,26 @@ export function createTarget(gl, pass, width, height) {
   if (status !== gl.FRAMEBUFFER_COMPLETE && !gl.isContextLost()) {
     throw new Error(`The target of pass "${pass}" (${width}×${height}) is incomplete (${status}).`);
   }
-  return { texture, framebuffer, key: null };
+  return { texture, framebuffer, key: null, samples: 0, previous: null };
+}
+
+/**
+ * Swap what a target holds with what it held before, and return the texture to be read.
+ *
+ * @param {WebGL2RenderingContext} gl
+ * @param {string} pass for error messages
+ * @param {Target} target
+ */
+export function turn(gl, pass, target) {
+  const { width, height, version } = target.texture;
+  target.previous ??= createTarget(gl, pass, width, height);
+  const { texture, framebuffer, previous } = target;
+  target.texture = previous.texture;
+  target.framebuffer = previous.framebuffer;
+  target.texture.version = version;
+  previous.texture = texture;
+  previous.framebuffer = framebuffer;
+  return texture;
 }
 
 /**
@@ -50,4 +71,5 @@ export function createTarget(gl, pass, width, height) {
 export function deleteTarget(gl, target) {
   gl.deleteFramebuffer(target.framebuffer);
   gl.deleteTexture(target.texture.handle);
+  if (target.previous) deleteTarget(gl, target.previous);
 }

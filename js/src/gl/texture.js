@@ -20,7 +20,7 @@ function createHandle(gl) {
  * Upload a picture, row 0 at the top.
  *
  * @param {WebGL2RenderingContext} gl
- * @param {Pixels} pixels decoded picture, four 8-bit channels
+ * @param {Pixels} pixels decoded picture of four 8-bit channels, or a table of four floats a texel
  * @returns {Texture}
  */
 export function createPictureTexture(gl, pixels) {
@@ -34,7 +34,9 @@ export function createPictureTexture(gl, pixels) {
   const handle = createHandle(gl);
   gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
   const [target, type] = [gl.TEXTURE_2D, gl.UNSIGNED_BYTE];
-  if ("data" in pixels) {
+  if ("data" in pixels && pixels.data instanceof Float32Array) {
+    gl.texImage2D(target, 0, gl.RGBA32F, width, height, 0, gl.RGBA, gl.FLOAT, pixels.data);
+  } else if ("data" in pixels) {
     gl.texImage2D(target, 0, gl.RGBA8, width, height, 0, gl.RGBA, type, pixels.data);
   } else {
     gl.texImage2D(target, 0, gl.RGBA8, gl.RGBA, type, pixels);

@@ -1,0 +1,145 @@
+/**
+ * A frame graph's pixels on a canvas of the page.
+ *
+ * The graph draws to a WebGL canvas of its own, and each finished frame is copied to the
+ * visible 2-D canvas. So the last frame stays in sight when the WebGL context is lost
+ * (Chromium keeps 16 contexts and kills the oldest), and the next draw makes a new one.
+ */
+
+import { Graph } from "./graph.js";
+
+/**
+ * @typedef {import("./graph.js").Description} Description
+ * @typedef {import("./graph.js").Frame} Frame
+ * @typedef {import("./texture.js").Pixels} Pixels
+ */
+
+const NO_WEBGL =
+  "This browser offers no WebGL2, which the live preview needs. Turn on hardware acceleration " +
+  "or use another browser; exports from Python work all the same.";
+
+export class Surface {
+  /**
+   * @param {HTMLCanvasElement} canvas the visible canvas
+   * @param {Description} description
+   * @param {Record<string, string>} files shader texts by path
+   * @param {{ alpha: boolean }} options whether the picture may be see-through
+   */
+  constructor(canvas, description, files, { alpha }) {
+    const context = canvas.getContext("2d", { alpha });
+    if (!context) throw new Error("This browser offers no 2-D canvas.");
+    this.canvas = canvas;
+    this.context = context;
+    this.description = description;
+    this.files = files;
+    this.alpha = alpha;
+    /** @type {Map<string, Pixels>} kept, so that a lost context can be rebuilt */
+    this.pictures = new Map();
+    /** @type {Graph | null} */
+    this.graph = null;
+  }
+
+  /**
+   * @param {string} name
+   * @param {Pixels} pixels
+   */
+  setTexture(name, pixels) {
+    const previous = this.pictures.get(name);
+    if (previous && previous !== pixels && "close" in previous) previous.close();
+    this.pictures.set(name, pixels);
+    this.graph?.setTexture(name, pixels);
+  }
+
+  /**
+   * Draw at the frame's size. Returns false when the context was lost meanwhile: the canvas then
+   * keeps its last frame, and another call draws anew.
+   *
+   * @param {Frame} frame
+   */
+  show(frame) {
+    const [width, height] = frame.size;
+    const graph = this.liveGraph();
+    const { gl } = graph;
+    resize(gl.canvas, width, height);
+    graph.run(frame);
+    if (gl.isContextLost()) {
+      this.forget();
+      return false;
+    }
+    if (!resize(this.canvas, width, height) && this.alpha) {
+      this.context.clearRect(0, 0, width, height);
+    }
+    this.context.drawImage(gl.canvas, 0, 0);
+    return true;
+  }
+
+  /**
+   * Draw one pass and what it reads, and return its texels; null when the context was lost.
+   *
+   * @param {Frame} frame
+   * @param {string} name
+   */
+  read(frame, name) {
+    const graph = this.liveGraph();
+    graph.run(frame, name);
+    const texels = graph.read(name);
+    if (!graph.gl.isContextLost()) return texels;
+    this.forget();
+    return null;
+  }
+
+  /** The graph on a living context: the present one, or all of it made again. */
+  liveGraph() {
+    if (this.graph && !this.graph.gl.isContextLost()) return this.graph;
+    this.forget();
+    const surface = document.createElement("canvas");
+    const gl = surface.getContext("webgl2", {
+      alpha: this.alpha,
+      antialias: false,
+      depth: false,
+      stencil: false,
+      powerPreference: "high-performance",
+    });
+    if (!gl) throw new Error(NO_WEBGL);
+    const graph = new Graph(gl, this.description, this.files);
+    for (const [name, pixels] of this.pictures) graph.setTexture(name, pixels);
+    this.graph = graph;
+    return graph;
+  }
+
+  /** Drop a lost context's objects: the driver has freed them. */
+  forget() {
+    this.graph = null;
+  }
+
+  /** RGBA of the last frame, row 0 at the top. */
+  pixels() {
+    return this.context.getImageData(0, 0, this.canvas.width, this.canvas.height).data;
+  }
+
+  /** Free the context and the pictures. */
+  dispose() {
+    if (this.graph) {
+      const { gl } = this.graph;
+      this.graph.dispose();
+      gl.getExtension("WEBGL_lose_context")?.loseContext();
+    }
+    this.forget();
+    for (const picture of this.pictures.values()) if ("close" in picture) picture.close();
+    this.pictures.clear();
+  }
+}
+
+/**
+ * Give a canvas a size, which empties it; returns whether it had another.
+ *
+ * @param {HTMLCanvasElement | OffscreenCanvas} canvas
+ * @param {number} width
+ * @param {number} height
+ */
+function resize(canvas, width, height) {
+  if (canvas.width === width && canvas.height === height) return false;
+  canvas.width = width;
+  canvas.height = height;
+  return true;
+}
