@@ -1,42 +1,54 @@
-"""The Edit's parameters as traits of a widget, made from the one table in ``edit.py``."""
+"""Rows of a parameter table as traits of a widget; the Edit's table unless another is given."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import traitlets
 
-from sunwidget.edit import PARAMETERS, Edit, EditError, Parameter
+from sunwidget.edit import PARAMETERS, EditError, Parameter, checked
+
+Check = Callable[[Parameter, Any], Any]
 
 
 class EditTrait(traitlets.TraitType):
-    """One parameter: whatever ``Edit`` accepts for it, normalised as ``Edit`` does.
+    """One parameter: whatever its table accepts for it, normalised as the table does.
 
-    A value that ``Edit`` refuses raises ``TraitError`` with the sentence that ``Edit`` says,
-    and the trait keeps what it held.
+    A value that ``check`` refuses raises ``TraitError`` with the sentence that it says, and the
+    trait keeps what it held.
+
+    Parameters
+    ----------
+    parameter : Parameter
+        Row of the table.
+    check : callable, default ``edit.checked``
+        ``check(parameter, value)`` returns the value as it is kept, or raises ``EditError``.
     """
 
-    def __init__(self, parameter: Parameter) -> None:
+    def __init__(self, parameter: Parameter, check: Check = checked) -> None:
         super().__init__(
             default_value=parameter.default,
             allow_none=parameter.default is None,
             help=f"{parameter.help} {span_text(parameter)}".strip(),
         )
         self.parameter = parameter
+        self.check = check
         self.tag(sync=True, to_json=_to_json, group=parameter.section)
 
     def validate(self, _obj: Any, value: Any) -> Any:
-        """Return ``value`` as an Edit holds it."""
-        name = self.parameter.name
+        """Return ``value`` as the table holds it."""
         try:
-            return getattr(Edit(**{name: value}), name)
+            return self.check(self.parameter, value)
         except EditError as error:
             raise traitlets.TraitError(str(error)) from None
 
 
-def edit_traits() -> dict[str, EditTrait]:
+def edit_traits(
+    rows: Iterable[Parameter] = PARAMETERS, check: Check = checked
+) -> dict[str, EditTrait]:
     """Return a trait for every row of the table, by name."""
-    return {p.name: EditTrait(p) for p in PARAMETERS}
+    return {p.name: EditTrait(p, check) for p in rows}
 
 
 def span_text(parameter: Parameter) -> str:

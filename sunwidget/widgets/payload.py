@@ -6,7 +6,7 @@ The kernel keeps the full resolution; a preview's long edge has at most ``PREVIE
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -18,7 +18,7 @@ from sunwidget.analysis.clouds import INDICES
 from sunwidget.analysis.maps import MAPS, levels, scene_map, shares_of
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.working import resize
-from sunwidget.edit import PARAMETERS
+from sunwidget.edit import PARAMETERS, Parameter
 from sunwidget.photo import Photo
 from sunwidget.renderer.render import quantise_map
 from sunwidget.renderer.shader_source import frame_graph
@@ -193,9 +193,9 @@ def other_horizons(scene: Scene) -> dict[str, tuple[float, float]]:
     return rows
 
 
-def parameter_json() -> list[dict[str, Any]]:
-    """Return the parameter table as plain JSON types."""
-    return [_plain(p._asdict()) for p in PARAMETERS]
+def parameter_json(rows: Iterable[Parameter] = PARAMETERS) -> list[dict[str, Any]]:
+    """Return a table of parameters, the Edit's by default, as plain JSON types."""
+    return [_plain(p._asdict()) for p in rows]
 
 
 def _plain(value: Any) -> Any:
