@@ -360,7 +360,7 @@ def _measurements(
         day, *clock = match.groups()
         times.append(
             dt.datetime.combine(
-                dt.date.fromisoformat(day), dt.time(*map(int, clock)), zone
+                dt.date.fromisoformat(day), dt.time.fromisoformat(":".join(clock)), zone
             )
         )
     elevation, azimuth = directions[:, 2], -directions[:, 1] % 360
