@@ -165,6 +165,20 @@ class Edit:
         "Share of light that the land reflects back into the sky.", advanced=True)
     altitude: float | None = _number(None, (0, 30000), 10, "m", "Altitude", "sky",
         "Camera's height above sea level.", advanced=True)
+    air_density: float | None = _number(None, (0, 2), 0.01, "×", "Air density", "sky",
+        "Molecules of the air over those of the standard atmosphere; 0 takes the blue away.",
+        advanced=True)
+    rayleigh_exponent: float | None = _number(None, (0, 6), 0.01, "", "Rayleigh exponent", "sky",
+        "How much more molecules scatter blue than red: λ to minus this, 4.09 in air.",
+        advanced=True)
+    rayleigh_scale_height: float | None = _number(None, (3000, 15000), 10, "m",
+        "Air scale height", "sky", "Height over which the air thins by a factor e.", advanced=True)
+    aerosol_scale_height: float | None = _number(None, (200, 6000), 10, "m",
+        "Haze scale height", "sky", "Height over which the haze thins by a factor e.",
+        advanced=True)
+    scattering_orders: float = _number(0.0, (0, 16), 1, "", "Scattering orders", "sky",
+        "How often light may be scattered: 0 any number of times, 1 once, n up to n times.",
+        advanced=True)
     cloud_strength: float = _number(1.0, (0, 1), 0.01, "", "Clouds", "clouds",
         "How far the clouds follow the moved sun; 0 is exactly off.")
     silver_lining: float = _number(1.0, (0, 3), 0.05, "", "Silver lining", "clouds",

@@ -21,6 +21,7 @@ _TABLE = {name: np.array(values) for name, values in _DATA["table"].items()}
 
 GROUND_RADIUS: float = _DATA["ground_radius_m"]
 TOP_RADIUS: float = _DATA["top_radius_m"]
+RAYLEIGH_EXPONENT: float = _DATA["rayleigh_exponent"]
 RAYLEIGH_SCALE_HEIGHT: float = _DATA["rayleigh_scale_height_m"]
 MESOSPHERE_ALTITUDE: float = _DATA["mesosphere_altitude_m"]
 MESOSPHERE_SCALE_HEIGHT: float = _DATA["mesosphere_scale_height_m"]
@@ -36,10 +37,13 @@ SPECTRAL_TO_REC709: Array = np.array(_DATA["spectral_to_rec709"])
 XYZ_TO_REC709: Array = np.array(_DATA["xyz_to_rec709"])
 
 
-def rayleigh_optical_depth(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:
+def rayleigh_optical_depth(
+    wavelength_nm: ArrayLike = WAVELENGTHS, *, scale_height: float = RAYLEIGH_SCALE_HEIGHT
+) -> Array:
     """Return the vertical Rayleigh optical depth of the model from sea level up."""
-    above = np.exp(-MESOSPHERE_ALTITUDE / RAYLEIGH_SCALE_HEIGHT)
-    column = RAYLEIGH_SCALE_HEIGHT * (1 - above) + MESOSPHERE_SCALE_HEIGHT * above
+    above = np.exp(-MESOSPHERE_ALTITUDE / scale_height)
+    thin = MESOSPHERE_SCALE_HEIGHT / RAYLEIGH_SCALE_HEIGHT
+    column = scale_height * (1 - above + thin * above)
     return rayleigh_coefficient(wavelength_nm) * column
 
 

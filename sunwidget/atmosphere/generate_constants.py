@@ -29,6 +29,8 @@ TABLE = np.arange(360.0, 831.0, 5.0)
 GROUND_RADIUS = 6_360_000.0
 TOP_RADIUS = 6_460_000.0
 RAYLEIGH_SCALE_HEIGHT = 8_430.0
+# Slope of Bodhaine's coefficients between 440 and 680 nm, 4.086, to a slider's step.
+RAYLEIGH_EXPONENT = 4.09
 # One exponential of 8.43 km has the right column and is five times too dense at 80 km, where
 # deep twilight comes from. Above 40 km (0.9 % of the column) it falls as the mesosphere does.
 MESOSPHERE_ALTITUDE = 40_000.0
@@ -156,6 +158,7 @@ def constants() -> dict[str, Any]:
     return {
         "ground_radius_m": GROUND_RADIUS,
         "top_radius_m": TOP_RADIUS,
+        "rayleigh_exponent": RAYLEIGH_EXPONENT,
         "rayleigh_scale_height_m": RAYLEIGH_SCALE_HEIGHT,
         "mesosphere_altitude_m": MESOSPHERE_ALTITUDE,
         "mesosphere_scale_height_m": MESOSPHERE_SCALE_HEIGHT,
@@ -198,11 +201,12 @@ def glsl(c: dict[str, Any]) -> str:
         f"const Length GROUND_RADIUS = {_float(c['ground_radius_m'])};",
         f"const Length TOP_RADIUS = {_float(c['top_radius_m'])};",
         f"const Length ATMOSPHERE_HEIGHT = {_float(c['top_radius_m'] - c['ground_radius_m'])};",
+        "// Standard air; what is drawn with are the uniforms of lib/atmosphere.glsl.",
+        f"const Number RAYLEIGH_EXPONENT = {_float(c['rayleigh_exponent'])};",
         f"const Length RAYLEIGH_SCALE_HEIGHT = {_float(c['rayleigh_scale_height_m'])};",
         "// Above 40 km (0.9 % of the column) air thins faster; deep twilight comes from there.",
         f"const Length MESOSPHERE_ALTITUDE = {_float(c['mesosphere_altitude_m'])};",
         f"const Length MESOSPHERE_SCALE_HEIGHT = {_float(c['mesosphere_scale_height_m'])};",
-        f"const Length MIE_SCALE_HEIGHT = {_float(c['mie_scale_height_m'])};",
         f"const Length OZONE_BOTTOM = {_float(low)};",
         f"const Length OZONE_PEAK = {_float(peak)};",
         f"const Length OZONE_TOP = {_float(high)};",

@@ -16,14 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.atmosphere import optics
-from sunwidget.atmosphere.constants import GROUND_RADIUS
-from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.atmosphere.constants import GROUND_RADIUS, RAYLEIGH_SCALE_HEIGHT
+from sunwidget.atmosphere.parameters import STANDARD_HEIGHTS, Atmosphere, ScaleHeights
 
 Array = NDArray[np.float64]
 
 NIGHT_COSINE = -0.35
 NIGHT_SHARE = 0.65
-TWILIGHT_SCALE_HEIGHT = 24_000.0
+TWILIGHT_SCALE_HEIGHT = 24_000.0  # in standard air
 MOMENTS = 7
 _LOBE_SAMPLES = 5
 _WAVELENGTHS_AT_ONCE = 8
@@ -87,14 +87,13 @@ def suns_of(quality: Quality, window: Window) -> Array:
     return NIGHT_COSINE * night**1.5 + day**2
 
 
-def twilight(mu_s: Array) -> Array:
+def twilight(mu_s: Array, heights: ScaleHeights = STANDARD_HEIGHTS) -> Array:
     """Return a rough guess of how the light falls once the sun is down (a factor e each degree).
 
     What is interpolated is the light over this guess.
     """
-    return np.asarray(
-        np.exp(-0.5 * GROUND_RADIUS / TWILIGHT_SCALE_HEIGHT * np.minimum(mu_s, 0) ** 2)
-    )
+    scale = TWILIGHT_SCALE_HEIGHT * (heights.air / RAYLEIGH_SCALE_HEIGHT)
+    return np.asarray(np.exp(-0.5 * GROUND_RADIUS / scale * np.minimum(mu_s, 0) ** 2))
 
 
 def sun_cosine(h: Array | float, mu_s: Array, nu: Array, t: Array, h_t: Array | float) -> Array:
@@ -117,25 +116,32 @@ class Field:
     moments: Array
     quality: Quality
     window: Window
+    heights: ScaleHeights
 
     def look_up(self, h: Array, mu_s: Array) -> Array:
         """Return the moments at altitudes and sun cosines, shape (..., 7, w)."""
         rows, suns, _, wavelengths = self.moments.shape
         place = sun_coordinate(mu_s) * (self.quality.suns - 1) - self.window.first
-        guess = twilight(suns_of(self.quality, self.window))
+        guess = twilight(suns_of(self.quality, self.window), self.heights)
         table = (self.moments / guess[:, None, None]).reshape(rows, suns, -1)
         found = optics.bilinear(table, np.cbrt(h / optics.ATMOSPHERE_HEIGHT), place / (suns - 1))
-        found *= twilight(mu_s)[..., None]
+        found *= twilight(mu_s, self.heights)[..., None]
         return found.reshape(*found.shape[:-1], MOMENTS, wavelengths)
 
 
-def light_field(a: Atmosphere, extinction: Array, quality: Quality, window: Window) -> Field:
-    """Return the field of all scattered light for ``extinction`` (3, wavelengths)."""
+def light_field(
+    a: Atmosphere, extinction: Array, quality: Quality, window: Window, orders: int = 0
+) -> Field:
+    """Return the field of scattered light for ``extinction`` (3, wavelengths).
+
+    Of all orders, or of 1 to ``orders`` - 1, which a sky of ``orders`` is made from.
+    """
     chunks = range(0, extinction.shape[1], _WAVELENGTHS_AT_ONCE)
     parts = [
-        _moments(a, extinction[:, c : c + _WAVELENGTHS_AT_ONCE], quality, window) for c in chunks
+        _moments(a, extinction[:, c : c + _WAVELENGTHS_AT_ONCE], quality, window, orders)
+        for c in chunks
     ]
-    return Field(np.concatenate(parts, axis=-1), quality, window)
+    return Field(np.concatenate(parts, axis=-1), quality, window, a.heights)
 
 
 def scattering(a: Atmosphere, extinction: Array, density: Array) -> tuple[Array, Array, Array]:
@@ -150,7 +156,9 @@ def attenuate(total: Array, dt: Array) -> tuple[Array, Array]:
     """Integrate transmittance over each step of rays (..., t, w); and what passes all of them."""
     depth = total * dt[..., None]
     before = np.cumsum(depth, axis=-2) - depth
-    return np.exp(-before) * -np.expm1(-depth) / total, np.exp(-depth.sum(axis=-2))
+    return np.exp(-before) * -np.expm1(-depth) / np.maximum(total, 1e-30), np.exp(
+        -depth.sum(axis=-2)
+    )
 
 
 def mie_moments(asymmetry: float) -> tuple[float, float, float]:
@@ -209,9 +217,11 @@ def direction_in_field(mu: Array, mu_s: Array, nu: Array) -> tuple[Array, Array]
 
 
 class _Rays:
-    """Directions from every altitude under every sun: all that no atmosphere changes."""
+    """Directions from every altitude under every sun: all that only scale heights change."""
 
-    def __init__(self, quality: Quality, window: Window, azimuths: int, steps: int) -> None:
+    def __init__(
+        self, quality: Quality, window: Window, heights: ScaleHeights, azimuths: int, steps: int
+    ) -> None:
         mu_s = suns_of(quality, window)[None, :, None, None, None]
         height = np.linspace(0, 1, quality.altitudes) ** 3 * optics.ATMOSPHERE_HEIGHT
         h = np.maximum(height, 1.0)[:, None, None, None, None]
@@ -230,11 +240,12 @@ class _Rays:
         mu_s_t = sun_cosine(h, mu_s, nu, t, h_t)
         mu_t = np.clip(((GROUND_RADIUS + h) * mu + t) / (GROUND_RADIUS + h_t), -1, 1)
 
+        self.heights = heights
         self.mu_s = mu_s[0, :, 0, 0, 0]
         self.nu = nu[0, ..., 0]  # (s, m, a)
         self.h_t, self.mu_s_t = np.broadcast_arrays(h_t, mu_s_t)  # (h, s, m, a, t)
         self.view = direction_in_field(mu_t, mu_s_t, nu)
-        self.density = optics.density(h_t[:, 0, :, 0])  # (h, m, t, 3)
+        self.density = optics.density(h_t[:, 0, :, 0], heights)  # (h, m, t, 3)
         self.dt = 2 * d[:, 0, :, 0] * u / steps  # (h, m, t)
         self.ground = ground[:, 0, :, 0]  # (h, m, 1)
         self.mu_s_ground = sun_cosine(h, mu_s, nu, d, 0.0)[..., 0]  # (h, s, m, a)
@@ -247,14 +258,15 @@ class _Rays:
     @cached_property
     def sun(self) -> tuple[Array, Array]:
         """Columns to the sun (..., 3) and its visible share at every step."""
-        return optics.columns_to_top(self.h_t, self.mu_s_t), sun_share(self.h_t, self.mu_s_t)
+        columns = optics.columns_to_top(self.h_t, self.mu_s_t, self.heights)
+        return columns, sun_share(self.h_t, self.mu_s_t)
 
     @cached_property
     def sun_on_ground(self) -> tuple[Array, Array]:
         """The same where rays meet the ground; the share times the cosine of incidence."""
         low = np.zeros_like(self.mu_s_ground)
         share = sun_share(low, self.mu_s_ground) * np.maximum(self.mu_s_ground, 0)
-        return optics.columns_to_top(low, self.mu_s_ground), share
+        return optics.columns_to_top(low, self.mu_s_ground, self.heights), share
 
     def moments_of(self, radiance: Array) -> Array:
         """Moments (h, s, k, w) of a radiance (h, s, m, a, w)."""
@@ -267,15 +279,19 @@ class _Rays:
 _rays = lru_cache(maxsize=8)(_Rays)
 
 
-def _moments(a: Atmosphere, extinction: Array, quality: Quality, window: Window) -> Array:
-    rays = _rays(quality, window, quality.azimuths, quality.steps)
+def _moments(
+    a: Atmosphere, extinction: Array, quality: Quality, window: Window, orders: int
+) -> Array:
+    rays = _rays(quality, window, a.heights, quality.azimuths, quality.steps)
     first = rays.moments_of(_first_order(a, extinction, rays))
-    rays = _rays(quality, window, quality.second_azimuths, quality.second_steps)
+    if orders == 2:
+        return first
+    rays = _rays(quality, window, a.heights, quality.second_azimuths, quality.second_steps)
     rayleigh, mie, total = scattering(a, extinction, rays.density)
     seen, through = attenuate(total, rays.dt)
     reflected = a.ground_albedo * rays.ground * through
 
-    field = Field(first, quality, window)
+    field = Field(first, quality, window, a.heights)
     by_air, by_haze = scatter_field(
         field.look_up(rays.h_t, rays.mu_s_t), *rays.view, rays.nu[..., None], a.aerosol_asymmetry
     )
@@ -290,7 +306,10 @@ def _moments(a: Atmosphere, extinction: Array, quality: Quality, window: Window)
     mean = transfer[:, None, :1]
     ratio = second_moments[:, :, :1] / np.maximum(first[:, :, :1], 1e-30)
     ratio = np.minimum(np.minimum(mean, 0.999), ratio)
-    series = second_moments[:, :, :1] * ratio / (1 - ratio) / mean
+    # What the series leaves out after its first n - 3 terms: nothing when it goes on for ever.
+    omitted = 0.0 if orders == 0 else ratio ** (orders - 3)
+    series = second_moments[:, :, :1] * ratio * (1 - omitted) / (1 - ratio)
+    series /= np.maximum(mean, 1e-30)
     total = first + second_moments
     total[:, :, : transfer.shape[1]] += transfer[:, None] * series
     return np.asarray(total)

@@ -6,7 +6,7 @@ Lengths are metres, ``h`` an altitude above the ground, ``mu`` the cosine of a r
 
 from __future__ import annotations
 
-from functools import cache
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,16 +15,16 @@ from sunwidget.atmosphere.constants import (
     GROUND_RADIUS,
     MESOSPHERE_ALTITUDE,
     MESOSPHERE_SCALE_HEIGHT,
-    MIE_SCALE_HEIGHT,
     MOLECULES_PER_DOBSON,
     OZONE_LAYER,
+    RAYLEIGH_EXPONENT,
     RAYLEIGH_SCALE_HEIGHT,
     SUN_ANGULAR_RADIUS_DEG,
     TOP_RADIUS,
     WAVELENGTHS,
     ozone_cross_section,
 )
-from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.atmosphere.parameters import STANDARD_HEIGHTS, Atmosphere, ScaleHeights
 from sunwidget.atmosphere.rayleigh import rayleigh_coefficient
 
 Array = NDArray[np.float64]
@@ -89,14 +89,15 @@ def visible_fraction(above: ArrayLike) -> Array:
     return np.asarray(0.5 + (x * np.sqrt(1 - x * x) + np.arcsin(x)) / np.pi)
 
 
-def density(h: ArrayLike) -> Array:
+def density(h: ArrayLike, heights: ScaleHeights = STANDARD_HEIGHTS) -> Array:
     """Return relative densities of air, aerosol and ozone at ``h``, shape (..., 3)."""
     h = np.asarray(h, float)
     low, peak, high = OZONE_LAYER
     ozone = np.maximum(0, np.minimum((h - low) / (peak - low), (high - h) / (high - peak)))
-    thin = 1 / MESOSPHERE_SCALE_HEIGHT - 1 / RAYLEIGH_SCALE_HEIGHT
-    air = np.exp(-h / RAYLEIGH_SCALE_HEIGHT - np.maximum(h - MESOSPHERE_ALTITUDE, 0) * thin)
-    return np.stack([air, np.exp(-h / MIE_SCALE_HEIGHT), ozone], axis=-1)
+    # Where the air thins faster its scale height keeps its share of the one below.
+    thin = RAYLEIGH_SCALE_HEIGHT / MESOSPHERE_SCALE_HEIGHT - 1
+    air = np.exp(-(h + np.maximum(h - MESOSPHERE_ALTITUDE, 0) * thin) / heights.air)
+    return np.stack([air, np.exp(-h / heights.aerosol), ozone], axis=-1)
 
 
 def extinction_coefficients(
@@ -106,17 +107,20 @@ def extinction_coefficients(
     nm = np.asarray(wavelength_nm, float)
     low, _, high = OZONE_LAYER
     aerosol = atmosphere.aerosol_optical_depth * (nm / 550) ** -atmosphere.angstrom_exponent
+    tilt = (nm / 550) ** (RAYLEIGH_EXPONENT - atmosphere.rayleigh_exponent)
     molecules = atmosphere.ozone * MOLECULES_PER_DOBSON / (0.5 * (high - low))
     return np.stack(
         [
-            rayleigh_coefficient(nm),
-            aerosol / MIE_SCALE_HEIGHT,
+            atmosphere.air_density * rayleigh_coefficient(nm) * tilt,
+            aerosol / atmosphere.aerosol_scale_height,
             molecules * ozone_cross_section(nm),
         ]
     )
 
 
-def integrate_columns(h: ArrayLike, mu: ArrayLike, *, steps: int = 400) -> Array:
+def integrate_columns(
+    h: ArrayLike, mu: ArrayLike, heights: ScaleHeights = STANDARD_HEIGHTS, *, steps: int = 400
+) -> Array:
     """Return path lengths of air, aerosol and ozone to the top in metres, shape (..., 3).
 
     Midpoints of t = d u², which crowds the steps where the air is dense.
@@ -125,7 +129,7 @@ def integrate_columns(h: ArrayLike, mu: ArrayLike, *, steps: int = 400) -> Array
     d = distance_to_top(h, mu)[..., None]
     u = (np.arange(steps) + 0.5) / steps
     along = altitude_along_ray(h[..., None], mu[..., None], d * u**2)
-    return np.asarray(np.sum(density(along) * (2 * d * u / steps)[..., None], axis=-2))
+    return np.asarray(np.sum(density(along, heights) * (2 * d * u / steps)[..., None], axis=-2))
 
 
 def relative_air_mass(elevation_deg: ArrayLike, h: float = 0.0) -> Array:
@@ -134,18 +138,18 @@ def relative_air_mass(elevation_deg: ArrayLike, h: float = 0.0) -> Array:
     return integrate_columns(h, mu, steps=4000) / integrate_columns(h, 1.0, steps=4000)
 
 
-def columns_to_top(h: ArrayLike, mu: ArrayLike) -> Array:
+def columns_to_top(h: ArrayLike, mu: ArrayLike, heights: ScaleHeights = STANDARD_HEIGHTS) -> Array:
     """Return ``integrate_columns`` from a table (0.1 %); rays below the horizon graze it."""
     h = np.asarray(h, float)
     mu = np.maximum(mu, cosine_of_horizon(h))
     rho = np.sqrt(h * (2 * GROUND_RADIUS + h))
     d_min = ATMOSPHERE_HEIGHT - h
     x = (distance_to_top(h, mu) - d_min) / (rho + LONGEST_HORIZON - d_min)
-    return bilinear(_columns_table(), np.sqrt(rho / LONGEST_HORIZON), x)
+    return bilinear(_columns_table(heights), np.sqrt(rho / LONGEST_HORIZON), x)
 
 
-@cache
-def _columns_table() -> Array:
+@lru_cache(maxsize=8)
+def _columns_table(heights: ScaleHeights) -> Array:
     """Columns over distance to the horizon (rows) and to the top (columns), as the shaders map."""
     rho = np.linspace(0, 1, 192)[:, None] ** 2 * LONGEST_HORIZON
     h = rho**2 / (np.sqrt(GROUND_RADIUS**2 + rho**2) + GROUND_RADIUS)
@@ -154,7 +158,7 @@ def _columns_table() -> Array:
     shell = (ATMOSPHERE_HEIGHT - h) * (TOP_RADIUS + GROUND_RADIUS + h)
     with np.errstate(divide="ignore", invalid="ignore"):
         mu = (shell - d * d) / (2 * (GROUND_RADIUS + h) * d)
-    return integrate_columns(h, np.clip(np.where(d > 0, mu, 1), -1, 1), steps=48)
+    return integrate_columns(h, np.clip(np.where(d > 0, mu, 1), -1, 1), heights, steps=48)
 
 
 def bilinear(table: Array, row: ArrayLike, column: ArrayLike) -> Array:
@@ -180,7 +184,7 @@ def transmittance_to_top(
 ) -> Array:
     """Return the transmittance from ``h`` along ``mu`` out of the air, shape (..., wavelengths)."""
     extinction = extinction_coefficients(atmosphere, wavelength_nm)
-    return np.exp(-(columns_to_top(h, mu) @ extinction))
+    return np.exp(-(columns_to_top(h, mu, atmosphere.heights) @ extinction))
 
 
 def direct_irradiance(

@@ -12,12 +12,18 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from sunwidget.atmosphere.constants import (
     MIE_SCALE_HEIGHT,
+    RAYLEIGH_EXPONENT,
     RAYLEIGH_SCALE_HEIGHT,
     rayleigh_optical_depth,
 )
+from sunwidget.atmosphere.rayleigh import rayleigh_coefficient
+
+KOSCHMIEDER = 3.912
+"""Optical depth at which a black object's contrast has fallen to 2 % (Koschmieder 1924)."""
 
 RANGES: dict[str, tuple[float, float]] = {
     "aerosol_optical_depth": (0.0, 10.0),
@@ -27,8 +33,22 @@ RANGES: dict[str, tuple[float, float]] = {
     "ozone": (0.0, 1000.0),
     "ground_albedo": (0.0, 1.0),
     "altitude": (0.0, 90_000.0),
+    "air_density": (0.0, 10.0),
+    "rayleigh_exponent": (-1.0, 8.0),
+    "rayleigh_scale_height": (2_000.0, 20_000.0),
+    "aerosol_scale_height": (100.0, 10_000.0),
 }
 """Physical limits; sliders stay well inside them."""
+
+
+class ScaleHeights(NamedTuple):
+    """Heights over which air and aerosol thin by a factor e, in metres."""
+
+    air: float = RAYLEIGH_SCALE_HEIGHT
+    aerosol: float = MIE_SCALE_HEIGHT
+
+
+STANDARD_HEIGHTS = ScaleHeights()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +71,14 @@ class Atmosphere:
         Lambertian albedo of the ground, equal at all wavelengths, 0–1.
     altitude : float
         Camera's height above sea level in metres.
+    air_density : float
+        Density of the molecules at sea level over that of standard air; 0 is no air at all.
+    rayleigh_exponent : float
+        Molecules scatter as λ to minus this. At the default, 4.09, they have Bodhaine's
+        coefficients; others tilt these about 550 nm.
+    rayleigh_scale_height, aerosol_scale_height : float
+        Metres over which molecules and aerosol thin by a factor e. The density of the molecules
+        at sea level and the optical depth of the aerosol stay.
     residual : float or None
         Relative misfit (rms) of the photo's clear sky that this atmosphere leaves; ``None``
         when it was not fitted.
@@ -68,6 +96,10 @@ class Atmosphere:
     ozone: float = 300.0
     ground_albedo: float = 0.1
     altitude: float = 0.0
+    air_density: float = 1.0
+    rayleigh_exponent: float = RAYLEIGH_EXPONENT
+    rayleigh_scale_height: float = RAYLEIGH_SCALE_HEIGHT
+    aerosol_scale_height: float = MIE_SCALE_HEIGHT
     residual: float | None = None
 
     def __post_init__(self) -> None:
@@ -86,18 +118,63 @@ class Atmosphere:
         return {name: getattr(self, name) for name in RANGES}
 
     @property
+    def heights(self) -> ScaleHeights:
+        """Scale heights of air and aerosol: all of the air that path lengths depend on."""
+        return ScaleHeights(self.rayleigh_scale_height, self.aerosol_scale_height)
+
+    @property
     def extinction_550(self) -> float:
         """Extinction coefficient at sea level and 550 nm, in 1/m."""
-        rayleigh = float(rayleigh_optical_depth(550.0)) / RAYLEIGH_SCALE_HEIGHT
-        return rayleigh + self.aerosol_optical_depth / MIE_SCALE_HEIGHT
+        return self._rayleigh_550 + self.aerosol_optical_depth / self.aerosol_scale_height
 
     @property
     def visibility(self) -> float:
         """Meteorological visibility 3.912 / β_ext(550 nm) at sea level, in metres (Koschmieder)."""
-        return 3.912 / self.extinction_550
+        return KOSCHMIEDER / self.extinction_550 if self.extinction_550 > 0 else math.inf
+
+    def with_visibility(self, metres: float) -> Atmosphere:
+        """Return a copy with as much aerosol as lets one see ``metres`` far at sea level.
+
+        Raises
+        ------
+        ValueError
+            When the molecules alone let one see less far.
+        """
+        clean = self.replace(aerosol_optical_depth=0.0)
+        # A rounding error beyond the clean air's visibility is the clean air's.
+        if not 0 < metres <= clean.visibility * (1 + 1e-9):
+            raise ValueError(
+                f"visibility must be above 0 and at most {clean.visibility:.0f} m, that of this "
+                f"air without aerosol, not {metres!r}"
+            )
+        haze = max(KOSCHMIEDER / metres - clean.extinction_550, 0.0)
+        return self.replace(aerosol_optical_depth=haze * self.aerosol_scale_height)
 
     @property
     def turbidity(self) -> float:
-        """Linke-like turbidity at 550 nm: optical depth of air with aerosol over that of air."""
-        rayleigh = float(rayleigh_optical_depth(550.0))
-        return (rayleigh + self.aerosol_optical_depth) / rayleigh
+        """Turbidity at 550 nm: vertical optical depth of air with aerosol over that of air."""
+        air = self._rayleigh_depth_550
+        return 1 + self.aerosol_optical_depth / air if air > 0 else math.inf
+
+    def with_turbidity(self, turbidity: float) -> Atmosphere:
+        """Return a copy with the aerosol of this turbidity (1 is none).
+
+        Raises
+        ------
+        ValueError
+            For a turbidity below one.
+        """
+        if not 1 <= turbidity < math.inf:
+            raise ValueError(f"turbidity must be a number from 1, not {turbidity!r}")
+        depth = (turbidity - 1) * self._rayleigh_depth_550
+        return self.replace(aerosol_optical_depth=depth)
+
+    @property
+    def _rayleigh_550(self) -> float:
+        return self.air_density * float(rayleigh_coefficient(550.0))
+
+    @property
+    def _rayleigh_depth_550(self) -> float:
+        return self.air_density * float(
+            rayleigh_optical_depth(550.0, scale_height=self.rayleigh_scale_height)
+        )

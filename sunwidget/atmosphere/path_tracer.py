@@ -13,12 +13,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from sunwidget.atmosphere import optics
 from sunwidget.atmosphere.constants import GROUND_RADIUS, WAVELENGTHS, solar_irradiance
-from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.atmosphere.parameters import Atmosphere, ScaleHeights
 from sunwidget.atmosphere.sky import Quality, sky_radiance
 
 Array = NDArray[np.float64]
 
 _STEPS = 48
+_DARK = 1e-30  # 1/m: air so thin divides by no zero
 _EXACT = Quality(groups=100)
 
 
@@ -42,7 +43,7 @@ def trace(
     paths : int, default 1000
         Paths for each direction and wavelength.
     bounces : int, default 12
-        Orders of scattering and reflection that are followed.
+        Orders of scattering and reflection in all: 2 is single scattering and the second order.
     seed : int, default 0
         Of the random numbers.
 
@@ -94,7 +95,7 @@ def _higher_orders(
         h = np.maximum(r - GROUND_RADIUS, 0.01)
         up = place / r[:, None]
         mu = np.clip(np.einsum("ij,ij->i", up, view), -1, 1)
-        distance, on_ground, reach = _next_event(h, mu, extinction, rng)
+        distance, on_ground, reach = _next_event(h, mu, extinction, a.heights, rng)
         weight *= reach
         place = place + view * distance[:, None]
         r = np.linalg.norm(place, axis=1)
@@ -102,21 +103,21 @@ def _higher_orders(
         up = place / r[:, None]
         mu_s = up @ sun
 
-        density = optics.density(h)
+        density = optics.density(h, a.heights)
         rayleigh = density[:, 0] * extinction[:, 0]
         mie = density[:, 1] * extinction[:, 1]
         total = rayleigh + mie + density[:, 2] * extinction[:, 2]
         mie *= a.aerosol_albedo
-        albedo = np.where(on_ground, a.ground_albedo, (rayleigh + mie) / total)
+        albedo = np.where(on_ground, a.ground_albedo, (rayleigh + mie) / np.maximum(total, _DARK))
         weight *= albedo
         nu = view @ sun
         phase = (
             rayleigh * optics.rayleigh_phase(nu)
             + mie * optics.cornette_shanks_phase(nu, a.aerosol_asymmetry)
-        ) / (rayleigh + mie)
+        ) / np.maximum(rayleigh + mie, _DARK)
         reflected = np.maximum(mu_s, 0) / np.pi
         share = _smooth_share(mu_s - optics.cosine_of_horizon(h))
-        columns = optics.columns_to_top(h, mu_s)
+        columns = optics.columns_to_top(h, mu_s, a.heights)
         lit = share * np.exp(-np.einsum("ij,ij->i", columns, extinction))
         # The march of ``sky_radiance`` covers what the first event in the air sees of the sun.
         if order > 0:
@@ -133,7 +134,7 @@ def _smooth_share(above: Array) -> Array:
 
 
 def _next_event(
-    h: Array, mu: Array, extinction: Array, rng: np.random.Generator
+    h: Array, mu: Array, extinction: Array, heights: ScaleHeights, rng: np.random.Generator
 ) -> tuple[Array, NDArray[np.bool_], Array]:
     """Distance to the next event, whether it is the ground, and the weight of getting there."""
     d, ground = optics.distance_to_boundary(h, mu)
@@ -141,7 +142,7 @@ def _next_event(
     v = np.linspace(0, 1, _STEPS + 1)
     edges = np.where(ground[:, None], v * v * (3 - 2 * v), v * v) * d[:, None]
     middle = 0.5 * (edges[:, 1:] + edges[:, :-1])
-    density = optics.density(optics.altitude_along_ray(h[:, None], mu[:, None], middle))
+    density = optics.density(optics.altitude_along_ray(h[:, None], mu[:, None], middle), heights)
     depth = np.einsum("ijk,ik->ij", density, extinction) * np.diff(edges, axis=1)
     total = np.cumsum(depth, axis=1)
     opaque = -np.expm1(-total[:, -1])
@@ -152,7 +153,7 @@ def _next_event(
     target = -np.log1p(-np.minimum(within, opaque * (1 - 1e-12)))
     step = np.minimum((total < target[:, None]).sum(axis=1), _STEPS - 1)
     rows = np.arange(len(h))
-    part = 1 - (total[rows, step] - target) / depth[rows, step]
+    part = 1 - (total[rows, step] - target) / np.maximum(depth[rows, step], _DARK)
     distance = edges[rows, step] + part * (edges[rows, step + 1] - edges[rows, step])
     return np.where(on_ground, d, distance), on_ground, np.where(ground, 1.0, opaque)
 

@@ -34,7 +34,9 @@ class SkyTable:
     quality : Quality, default FAST
         ``FAST`` is for fitting (1 % by day); ``SHADER`` samples as the shaders do.
     multiple_scattering : bool, default True
-        False leaves single scattering alone (Nishita 1993's model).
+        False leaves single scattering alone (Nishita 1993's model); as ``orders`` 1.
+    orders : int, default 0
+        Orders of scattering: 0 all of them, n the first n (Nishita et al. 1996).
 
     See Also
     --------
@@ -48,11 +50,14 @@ class SkyTable:
         *,
         quality: Quality = FAST,
         multiple_scattering: bool = True,
+        orders: int = 0,
     ) -> None:
+        if orders < 0 or orders != int(orders):
+            raise ValueError(f"orders must be 0 (all) or a number of orders, not {orders!r}")
         self.atmosphere = atmosphere
         self.wavelengths = np.asarray(wavelengths, float)
         self.quality = quality
-        self.multiple_scattering = multiple_scattering
+        self.orders = int(orders) if multiple_scattering else 1
         self._extinction = optics.extinction_coefficients(atmosphere, self.wavelengths)
         self._fields: dict[multiple.Window, multiple.Field] = {}
 
@@ -84,7 +89,7 @@ class SkyTable:
         )
         mu, mu_s = np.sin(elevation), np.sin(sun)
         nu = mu * mu_s + np.cos(elevation) * np.cos(sun) * np.cos(azimuth)
-        field = self._field(sun) if self.multiple_scattering else None
+        field = None if self.orders == 1 else self._field(sun)
         radiance = self._march(mu.ravel(), mu_s.ravel(), nu.ravel(), field)
         return radiance.reshape(*mu.shape, -1) * solar_irradiance(self.wavelengths)
 
@@ -92,7 +97,7 @@ class SkyTable:
         window = multiple.window_for(sun, self.quality)
         if window not in self._fields:
             self._fields[window] = multiple.light_field(
-                self.atmosphere, self._extinction, self.quality, window
+                self.atmosphere, self._extinction, self.quality, window, self.orders
             )
         return self._fields[window]
 
@@ -104,7 +109,8 @@ class SkyTable:
         d, ground = optics.distance_to_boundary(h, mu)
         dt = 2 * d[:, None] * u / (groups * size)
         h_t, mu_s_t, _ = _along(h, mu, mu_s, nu, d[:, None] * u**2)
-        rayleigh, mie, total = multiple.scattering(a, self._extinction, optics.density(h_t))
+        density = optics.density(h_t, a.heights)
+        rayleigh, mie, total = multiple.scattering(a, self._extinction, density)
         sun = self._sunlight(h_t, mu_s_t)
         by_air = sun * optics.rayleigh_phase(nu)[:, None, None]
         by_haze = sun * optics.cornette_shanks_phase(nu, a.aerosol_asymmetry)[:, None, None]
@@ -127,7 +133,7 @@ class SkyTable:
         return np.asarray(radiance + np.where(ground[:, None], below, 0))
 
     def _sunlight(self, h: Array | float, mu_s: Array) -> Array:
-        columns = optics.columns_to_top(h, mu_s)
+        columns = optics.columns_to_top(h, mu_s, self.atmosphere.heights)
         return multiple.sun_share(h, mu_s)[..., None] * np.exp(-(columns @ self._extinction))
 
 
@@ -140,6 +146,7 @@ def sky_radiance(
     *,
     quality: Quality = SHADER,
     multiple_scattering: bool = True,
+    orders: int = 0,
 ) -> Array:
     """Return the sky's radiance towards unit vectors.
 
@@ -153,7 +160,7 @@ def sky_radiance(
         Degrees; azimuth relative to the heading, positive to the right.
     wavelengths : array_like, shape (n,)
         Nanometres, 360–830.
-    quality, multiple_scattering
+    quality, multiple_scattering, orders
         See ``SkyTable``.
 
     Returns
@@ -165,7 +172,11 @@ def sky_radiance(
     elevation = np.degrees(np.arcsin(np.clip(y, -1, 1)))
     azimuth = np.degrees(np.arctan2(x, z)) - sun_azimuth
     table = SkyTable(
-        atmosphere, wavelengths, quality=quality, multiple_scattering=multiple_scattering
+        atmosphere,
+        wavelengths,
+        quality=quality,
+        multiple_scattering=multiple_scattering,
+        orders=orders,
     )
     return table.radiance(elevation, azimuth, sun_elevation)
 

@@ -1,6 +1,6 @@
 // Path lengths of Rayleigh scatterers, aerosol and ozone (R, G, B; in metres at sea-level
-// density) from altitude h along mu to the top of the atmosphere. Depends on nothing that a
-// person can set. 40 steps with t = d u^2: 0.17 % error where uniform steps give 3.7 %.
+// density) from altitude h along mu to the top of the atmosphere. Depends on the scale heights
+// alone. 40 steps with t = d u^2: 0.17 % error where uniform steps give 3.7 %.
 
 #include "lib/atmosphere.glsl"
 

@@ -43,8 +43,7 @@ void main() {
   float mu = direction.y;
   float nu = mu * mu_s + direction.x * sqrt(1.0 - mu_s * mu_s);
 
-  vec4 mie_extinction = GetMieExtinction();
-  vec4 ozone_absorption = GetOzoneAbsorption();
+  mat3x4 coefficients = GetExtinctionCoefficients();
   float rayleigh_phase = RayleighPhase(nu);
   float mie_phase = GetMeanMiePhase(tile.y, tile.x, mu_s) * aerosol_albedo;
   float r = GROUND_RADIUS + h;
@@ -59,9 +58,9 @@ void main() {
     float h_t = GetAltitudeAlongRay(h, mu, t);
     float mu_s_t = clamp((r * mu_s + t * nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
     vec3 density = GetDensity(h_t);
-    vec4 rayleigh = RAYLEIGH_SCATTERING * density.x;
-    vec4 mie = mie_extinction * density.y;
-    vec4 extinction = rayleigh + mie + ozone_absorption * density.z;
+    vec4 rayleigh = coefficients[0] * density.x;
+    vec4 mie = coefficients[1] * density.y;
+    vec4 extinction = coefficients * density;
     radiance += transmittance * (rayleigh * rayleigh_phase + mie * mie_phase)
         * GetTransmittanceToSun(columns, h_t, mu_s_t) * IntegrateTransmittance(extinction, dt);
     transmittance *= exp(-extinction * dt);

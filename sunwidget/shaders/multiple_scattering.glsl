@@ -3,10 +3,13 @@
 // section 5.5.3). Its ratio is f, the share of an even light that comes back after one more
 // scattering, the ground's included; or what the second order had of the first where that is
 // less, for over bright ground f counts on a light that has long left through the top.
+// `scattering_orders` n ends the sum (Nishita et al. 1996): the field holds orders 1 to n - 1, of
+// which the sky view makes 2 to n.
 
 #include "lib/multiple.glsl"
 #include "lib/moments.glsl"
 
+uniform float scattering_orders;  // 0: all
 uniform vec2 pass_size;
 uniform vec2 tile_origin;
 uniform sampler2D first_field;
@@ -17,8 +20,7 @@ const int STEPS = 12;
 
 // Radiance along mu at altitude h of air that is lit evenly with radiance one.
 vec4 GetTransfer(Length h, Number mu) {
-  vec4 mie_extinction = GetMieExtinction();
-  vec4 ozone_absorption = GetOzoneAbsorption();
+  mat3x4 coefficients = GetExtinctionCoefficients();
   bool ground = RayIntersectsGround(h, mu);
   float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
   vec4 transmittance = vec4(1.0);
@@ -27,9 +29,9 @@ vec4 GetTransfer(Length h, Number mu) {
     float u = (float(i) + 0.5) / float(STEPS);
     float dt = 2.0 * d * u / float(STEPS);
     vec3 density = GetDensity(GetAltitudeAlongRay(h, mu, d * u * u));
-    vec4 rayleigh = RAYLEIGH_SCATTERING * density.x;
-    vec4 mie = mie_extinction * density.y;
-    vec4 extinction = rayleigh + mie + ozone_absorption * density.z;
+    vec4 rayleigh = coefficients[0] * density.x;
+    vec4 mie = coefficients[1] * density.y;
+    vec4 extinction = coefficients * density;
     radiance += transmittance * (rayleigh + mie * aerosol_albedo)
         * IntegrateTransmittance(extinction, dt);
     transmittance *= exp(-extinction * dt);
@@ -62,6 +64,11 @@ void main() {
   vec4 second = GetMoment(second_order, SECOND_AZIMUTHS, moment, cell, size);
   vec4 first_mean = texelFetch(first_field, cell, 0);
   vec4 ratio = min(min(transfer_mean, vec4(0.999)), second_mean / max(first_mean, vec4(1e-30)));
-  vec4 rest = transfer_moment / transfer_mean * second_mean * ratio / (1.0 - ratio);
-  result = texelFetch(first_field, texel, 0) + second + rest;
+  // What the series leaves out after its first n - 3 terms: nothing when it goes on for ever.
+  vec4 omitted = scattering_orders == 0.0 ? vec4(0.0)
+      : pow(max(ratio, 1e-9), vec4(max(scattering_orders - 3.0, 0.0)));
+  vec4 rest = transfer_moment / max(transfer_mean, vec4(1e-30)) * second_mean * ratio
+      * (1.0 - omitted) / (1.0 - ratio);
+  float drawn = scattering_orders == 2.0 ? 0.0 : 1.0;
+  result = texelFetch(first_field, texel, 0) + drawn * second + rest;
 }

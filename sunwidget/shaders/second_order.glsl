@@ -21,8 +21,7 @@ void main() {
   float mu = direction.y;
   float nu = mu * mu_s + direction.x * sqrt(1.0 - mu_s * mu_s);
 
-  vec4 mie_extinction = GetMieExtinction();
-  vec4 ozone_absorption = GetOzoneAbsorption();
+  mat3x4 coefficients = GetExtinctionCoefficients();
   vec3 mie_moments = GetMieMoments(aerosol_asymmetry);
   float lobe = GetLobe(mie_moments, nu);
   float r = GROUND_RADIUS + h;
@@ -39,9 +38,9 @@ void main() {
     float mu_s_t = clamp((r * mu_s + t * nu) / r_t, -1.0, 1.0);
     vec2 view = GetDirectionInField(clamp((r * mu + t) / r_t, -1.0, 1.0), mu_s_t, nu);
     vec3 density = GetDensity(h_t);
-    vec4 rayleigh = RAYLEIGH_SCATTERING * density.x;
-    vec4 mie = mie_extinction * density.y;
-    vec4 extinction = rayleigh + mie + ozone_absorption * density.z;
+    vec4 rayleigh = coefficients[0] * density.x;
+    vec4 mie = coefficients[1] * density.y;
+    vec4 extinction = coefficients * density;
     LightField field = GetLightField(first_field, h_t, mu_s_t);
     vec4 source = rayleigh * GetFieldThroughAir(field, view)
         + aerosol_albedo * mie * GetFieldThroughHaze(field, view, mie_moments, lobe);

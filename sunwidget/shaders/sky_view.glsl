@@ -9,6 +9,7 @@
 uniform float sun_azimuth;    // degrees from the camera's heading, + right
 uniform float sun_elevation;  // degrees, apparent
 uniform float altitude;       // m
+uniform float scattering_orders;  // 0 all, 1 single scattering
 uniform vec2 pass_size;
 uniform vec2 tile_origin;
 uniform sampler2D columns;
@@ -28,25 +29,29 @@ SkyView DescribeSky() {
   float h = GetCameraHeight();
   vec3 density = GetDensity(h);
   // Optical depths overhead, never zero, so that the division is safe without air or haze.
-  vec4 rayleigh = RAYLEIGH_SCATTERING * RAYLEIGH_SCALE_HEIGHT * density.x + 1e-4;
-  vec4 mie = GetMieExtinction() * aerosol_albedo * MIE_SCALE_HEIGHT * density.y;
+  vec4 rayleigh = GetRayleighScattering() * rayleigh_scale_height * density.x + 1e-4;
+  vec4 mie = GetMieExtinction() * aerosol_albedo * aerosol_scale_height * density.y;
   return SkyView(GetSunDirection(sun_azimuth, sun_elevation), aerosol_asymmetry, rayleigh, mie,
                  asin(GetCosineOfHorizon(h)));
+}
+
+// Single scattering alone leaves out what lib/multiple.glsl knows, whichever orders that holds.
+Number GetFieldShare() {
+  return scattering_orders == 1.0 ? 0.0 : 1.0;
 }
 
 // What a Lambertian ground sends up at the point where the sun has cosine mu_s.
 RadianceSpectrum GetGroundRadiance(Number mu_s) {
   vec4 sun = max(mu_s, 0.0) * GetTransmittanceToSun(columns, 0.0, mu_s);
   LightField field = GetLightField(multiple_scattering, 0.0, mu_s);
-  return ground_albedo / PI * (sun + GetFieldIrradiance(field));
+  return ground_albedo / PI * (sun + GetFieldShare() * GetFieldIrradiance(field));
 }
 
 RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu) {
   float r = GROUND_RADIUS + h;
   bool ground = RayIntersectsGround(h, mu);
   float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
-  vec4 mie_extinction = GetMieExtinction();
-  vec4 ozone_absorption = GetOzoneAbsorption();
+  mat3x4 coefficients = GetExtinctionCoefficients();
   float rayleigh_phase = RayleighPhase(nu);
   float mie_phase = MiePhase(aerosol_asymmetry, nu);
 
@@ -63,8 +68,8 @@ RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu)
     float mu_group = clamp((r * mu + t_group) / r_group, -1.0, 1.0);
     LightField field = GetLightField(multiple_scattering, h_group, mu_s_group);
     vec2 view = GetDirectionInField(mu_group, mu_s_group, nu);
-    vec4 through_air = GetFieldThroughAir(field, view);
-    vec4 through_haze = GetFieldThroughHaze(field, view, mie_moments, lobe);
+    vec4 through_air = GetFieldShare() * GetFieldThroughAir(field, view);
+    vec4 through_haze = GetFieldShare() * GetFieldThroughHaze(field, view, mie_moments, lobe);
     for (int i = 0; i < GROUP_STEPS; ++i) {
       float steps = float(GROUPS * GROUP_STEPS);
       float u = (float(group * GROUP_STEPS + i) + 0.5) / steps;
@@ -73,9 +78,9 @@ RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu)
       float h_t = GetAltitudeAlongRay(h, mu, t);
       float mu_s_t = clamp((r * mu_s + t * nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
       vec3 density = GetDensity(h_t);
-      vec4 rayleigh = RAYLEIGH_SCATTERING * density.x;
-      vec4 mie = mie_extinction * density.y;
-      vec4 extinction = rayleigh + mie + ozone_absorption * density.z;
+      vec4 rayleigh = coefficients[0] * density.x;
+      vec4 mie = coefficients[1] * density.y;
+      vec4 extinction = coefficients * density;
       mie *= aerosol_albedo;
       vec4 sun = GetTransmittanceToSun(columns, h_t, mu_s_t);
       vec4 source = rayleigh * (sun * rayleigh_phase + through_air)

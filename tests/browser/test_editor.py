@@ -305,7 +305,7 @@ def test_dragging_runs_no_pass_of_the_unmoved_picture_again(page, state):
     again = {name for name in after if after[name] > before.get(name, 0)}
     assert {"sky_view_edit", "frame"} <= again
     assert not {name for name in again if name.endswith("_source")}
-    assert not again & {"columns", "multiple_scattering_edit"}
+    assert not again & {"columns_source", "columns_edit", "multiple_scattering_edit"}
 
 
 def test_a_shader_that_does_not_compile_shows_its_line(page, state):

@@ -50,9 +50,10 @@ class Shaders:
         self.probe = context.program(vertex_shader=FULL_SCREEN_TRIANGLE, fragment_shader=text)
         self.triangle = context.vertex_array(self.probe, [])
 
-    def draw(self, air, sun_elevation, sun_azimuth=0.0):
+    def draw(self, air, sun_elevation, sun_azimuth=0.0, orders=0):
         values = {
             **air.parameters(),
+            "scattering_orders": float(orders),
             "sun_elevation": float(sun_elevation),
             "sun_azimuth": float(sun_azimuth),
         }
@@ -87,7 +88,7 @@ class Shaders:
             if name in self.probe:
                 self.probe[name].value = value
         self.graph.targets["sky_view_source"].texture.use(0)
-        self.graph.targets["columns"].texture.use(1)
+        self.graph.targets["columns_source"].texture.use(1)
         source.use(2)
         for unit, name in enumerate(("sky_view", "columns", "directions")):
             self.probe[name].value = unit
@@ -171,7 +172,7 @@ def test_sky_turns_with_the_sun():
 
 
 def test_columns_agree():
-    drawn = shaders(lambda s: s.draw(CLEAR, 30).read("columns"))
+    drawn = shaders(lambda s: s.draw(CLEAR, 30).read("columns_source"))
     # Row 0 is sea level; its first sample looks up, its last one to the horizon.
     assert drawn[0, 0, :3] == pytest.approx(optics.integrate_columns(0, 1), rel=6e-3)
     assert drawn[0, -1, :3] == pytest.approx(optics.integrate_columns(0, 0), rel=2e-3)

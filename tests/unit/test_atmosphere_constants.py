@@ -30,7 +30,7 @@ def glsl_constant(name):
         ("RAYLEIGH_SCALE_HEIGHT", constants.RAYLEIGH_SCALE_HEIGHT),
         ("MESOSPHERE_ALTITUDE", constants.MESOSPHERE_ALTITUDE),
         ("MESOSPHERE_SCALE_HEIGHT", constants.MESOSPHERE_SCALE_HEIGHT),
-        ("MIE_SCALE_HEIGHT", constants.MIE_SCALE_HEIGHT),
+        ("RAYLEIGH_EXPONENT", constants.RAYLEIGH_EXPONENT),
         ("OZONE_PEAK", constants.OZONE_LAYER[1]),
         ("SUN_ANGULAR_RADIUS", np.radians(constants.SUN_ANGULAR_RADIUS_DEG)),
         ("WAVELENGTHS", constants.WAVELENGTHS),

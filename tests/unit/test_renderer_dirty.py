@@ -62,7 +62,7 @@ def test_more_haze_runs_the_edits_air_and_no_source(passes_run_by):
     ran = passes_run_by(Edit(sun_elevation=5, aerosol_optical_depth=0.33))
     assert ran > AIR_PASSES
     assert not {name for name in ran if name.endswith("_source")}
-    assert not ran & {"columns", "scene_light", "sky_behind"}
+    assert not ran & {"columns_source", "columns_edit", "scene_light", "sky_behind"}
 
 
 @pytest.mark.parametrize("name", ["exposure", "auto_exposure", "colourfulness"])

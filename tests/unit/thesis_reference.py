@@ -39,6 +39,10 @@ _AIR = (
     "ozone",
     "ground_albedo",
     "altitude",
+    "air_density",
+    "rayleigh_exponent",
+    "rayleigh_scale_height",
+    "aerosol_scale_height",
 )
 
 

@@ -8,6 +8,10 @@
 
 #include "lib/constants.glsl"
 
+uniform float air_density;            // molecules at sea level over the standard's, 0..2
+uniform float rayleigh_exponent;      // 4.09 is air's
+uniform float rayleigh_scale_height;  // m
+uniform float aerosol_scale_height;   // m
 uniform float aerosol_optical_depth;  // at 550 nm, vertical, 0..0.6
 uniform float angstrom_exponent;      // 0..2
 uniform float aerosol_asymmetry;      // Cornette-Shanks g, 0..0.95
@@ -62,20 +66,32 @@ Number GetVisibleFractionOfDisc(Angle above) {
 vec3 GetDensity(Length h) {
   float below = (h - OZONE_BOTTOM) / (OZONE_PEAK - OZONE_BOTTOM);
   float above = (OZONE_TOP - h) / (OZONE_TOP - OZONE_PEAK);
-  float thin = 1.0 / MESOSPHERE_SCALE_HEIGHT - 1.0 / RAYLEIGH_SCALE_HEIGHT;
-  float air = h / RAYLEIGH_SCALE_HEIGHT + max(h - MESOSPHERE_ALTITUDE, 0.0) * thin;
-  return vec3(exp(-air), exp(-h / MIE_SCALE_HEIGHT),
-              max(0.0, min(below, above)));
+  // Where the air thins faster its scale height keeps its share of the one below.
+  float thin = RAYLEIGH_SCALE_HEIGHT / MESOSPHERE_SCALE_HEIGHT - 1.0;
+  float air = (h + max(h - MESOSPHERE_ALTITUDE, 0.0) * thin) / rayleigh_scale_height;
+  return vec3(exp(-air), exp(-h / aerosol_scale_height), max(0.0, min(below, above)));
+}
+
+// Bodhaine's coefficients, tilted where another exponent is asked for.
+ScatteringSpectrum GetRayleighScattering() {
+  return air_density * RAYLEIGH_SCATTERING
+      * pow(WAVELENGTHS / 550.0, vec4(RAYLEIGH_EXPONENT - rayleigh_exponent));
 }
 
 ScatteringSpectrum GetMieExtinction() {
-  return aerosol_optical_depth / MIE_SCALE_HEIGHT
+  return aerosol_optical_depth / aerosol_scale_height
       * pow(WAVELENGTHS / 550.0, vec4(-angstrom_exponent));
 }
 
 ScatteringSpectrum GetOzoneAbsorption() {
   // The tent's integral is half its width.
   return ozone / (0.5 * (OZONE_TOP - OZONE_BOTTOM)) * OZONE_DEPTH_PER_DOBSON;
+}
+
+// Extinction of the three at density one, 1/m: times densities the extinction coefficient, times
+// columns the optical depth.
+mat3x4 GetExtinctionCoefficients() {
+  return mat3x4(GetRayleighScattering(), GetMieExtinction(), GetOzoneAbsorption());
 }
 
 // ---- Phase functions (integrate to one over the sphere) -------------------------------------
@@ -92,8 +108,8 @@ Number MiePhase(Number g, Number nu) {
 }
 
 // ---- Columns and transmittance --------------------------------------------------------------
-// The table holds path lengths to the top, not transmittances: aerosol, ozone and wavelength
-// never touch it, and exp() after the interpolation errs 0.6 % at the horizon instead of 13 %.
+// The table holds path lengths to the top, not transmittances: of all that is in the air only the
+// scale heights touch it, and exp() after the interpolation errs 0.6 % at the horizon instead of 13 %.
 // Coordinates after Bruneton 2017: x from the distance to the top, y from the distance to the
 // horizon, here on a square-root scale (h is about y^4), for haze lies low.
 
@@ -120,8 +136,7 @@ vec4 FetchBilinear(sampler2D table, vec2 coordinate) {
 }
 
 DimensionlessSpectrum GetTransmittanceOfColumns(vec3 path) {
-  return exp(-(RAYLEIGH_SCATTERING * path.x + GetMieExtinction() * path.y
-      + GetOzoneAbsorption() * path.z));
+  return exp(-(GetExtinctionCoefficients() * path));
 }
 
 // Transmittance to the top of the atmosphere; rays below the horizon count as grazing it.

@@ -12,11 +12,12 @@ const float PI = 3.14159265358979;
 const Length GROUND_RADIUS = 6360000.0;
 const Length TOP_RADIUS = 6460000.0;
 const Length ATMOSPHERE_HEIGHT = 100000.0;
+// Standard air; what is drawn with are the uniforms of lib/atmosphere.glsl.
+const Number RAYLEIGH_EXPONENT = 4.09;
 const Length RAYLEIGH_SCALE_HEIGHT = 8430.0;
 // Above 40 km (0.9 % of the column) air thins faster; deep twilight comes from there.
 const Length MESOSPHERE_ALTITUDE = 40000.0;
 const Length MESOSPHERE_SCALE_HEIGHT = 6500.0;
-const Length MIE_SCALE_HEIGHT = 1200.0;
 const Length OZONE_BOTTOM = 10000.0;
 const Length OZONE_PEAK = 25000.0;
 const Length OZONE_TOP = 40000.0;

@@ -42,7 +42,7 @@ struct LightField {
 
 const float NIGHT_COSINE = -0.35;
 const float NIGHT_SHARE = 0.65;  // of the table
-const Length TWILIGHT_SCALE_HEIGHT = 24000.0;
+const Length TWILIGHT_SCALE_HEIGHT = 24000.0;  // in standard air
 
 vec2 GetFieldCoordinate(Length h, Number mu_s) {
   float night = NIGHT_SHARE * (1.0 - pow(clamp(mu_s / NIGHT_COSINE, 0.0, 1.0), 2.0 / 3.0));
@@ -58,7 +58,8 @@ Number GetSunCosineOfField(Number x) {
 
 Number GetTwilight(Number mu_s) {
   float down = min(mu_s, 0.0);
-  return exp(-0.5 * GROUND_RADIUS / TWILIGHT_SCALE_HEIGHT * down * down);
+  float scale = TWILIGHT_SCALE_HEIGHT * (rayleigh_scale_height / RAYLEIGH_SCALE_HEIGHT);
+  return exp(-0.5 * GROUND_RADIUS / scale * down * down);
 }
 
 Length GetAltitudeOfField(Number y) {
