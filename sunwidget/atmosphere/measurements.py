@@ -274,7 +274,7 @@ class _Skies:
     def _numpy(self, model: str, i: int, nm: Array) -> Array:
         orders = 1 if model == "single" else 0
         if (orders, len(nm)) not in self._tables:
-            self._tables[orders, len(nm)] = SkyTable(self.air, nm, multiple_scattering=orders == 0)
+            self._tables[orders, len(nm)] = SkyTable(self.air, nm, orders=orders)
         return self._tables[orders, len(nm)].radiance(*self._where(i))
 
     def _carried(self, model: str, i: int) -> Array:

@@ -90,6 +90,8 @@ def read_archive(data: bytes) -> dict[str, bytes]:
     """
     if data[:6] != _SIGNATURE or len(data) < 32:
         raise ArchiveError("This is no 7z archive.")
+    if struct.unpack("<I", data[8:12])[0] != zlib.crc32(data[12:32]):
+        raise ArchiveError("The archive's first bytes are damaged.")
     offset, size, crc = struct.unpack("<QQI", data[12:32])
     header = data[32 + offset : 32 + offset + size]
     if len(header) != size or zlib.crc32(header) != crc:
