@@ -10,6 +10,7 @@ import pytest
 from sunwidget.atmosphere import optics
 from sunwidget.atmosphere.color import spectral_to_rec709
 from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.atmosphere.presets import PRESETS
 from sunwidget.atmosphere.sky import SHADER, SkyTable
 from sunwidget.atmosphere.sun import disc_radiance
 from sunwidget.renderer.gl_thread import on_gl_thread
@@ -153,6 +154,69 @@ def test_sky_view_agrees_with_the_reference_sky(air, sun, typical, worst):
     assert np.quantile(error, 0.99) < worst
 
 
+THIN_HAZE = Atmosphere(aerosol_scale_height=400, aerosol_optical_depth=0.2)
+OTHER_AIR = Atmosphere(
+    air_density=1.6,
+    rayleigh_exponent=2.0,
+    rayleigh_scale_height=12_000,
+    aerosol_scale_height=4000,
+)
+NO_AIR = Atmosphere(air_density=0, aerosol_optical_depth=0.3)
+
+
+@pytest.mark.parametrize(
+    "air",
+    [THIN_HAZE, OTHER_AIR, NO_AIR, PRESETS["thesis"]],
+    ids=["thin haze", "other air", "no air", "thesis"],
+)
+@pytest.mark.parametrize(
+    ("sun", "typical", "worst"),
+    # As above; haze of 400 m lies between fewer rows of the table of columns, which have other
+    # sizes on the two hosts.
+    [(50, 1.5e-3, 0.01), (5, 2e-3, 0.02), (-4, 5e-3, 0.03)],
+)
+def test_other_air_agrees_too(air, sun, typical, worst):
+    elevation, azimuth = all_over_the_sky(sun)
+    drawn = shaders(lambda s: s.draw(air, sun).look(unit_vectors(elevation, azimuth)))
+    reference = SkyTable(air, quality=SHADER).radiance(elevation, azimuth, sun)
+    error = np.abs(drawn / reference - 1).max(axis=1)
+    assert np.median(error) < typical
+    assert np.quantile(error, 0.99) < worst
+
+
+@pytest.mark.parametrize("orders", [1, 2, 3, 4, 7])
+def test_the_first_orders_agree(orders):
+    for air, sun in ((CLEAR, 30), (HAZY, 3), (CLEAR, -4)):
+        elevation, azimuth = all_over_the_sky(sun, count=200)
+        views = unit_vectors(elevation, azimuth)
+        drawn = shaders(lambda s, a=air, e=sun: s.draw(a, e, orders=orders).look(views))  # noqa: B023
+        reference = SkyTable(air, quality=SHADER, orders=orders).radiance(elevation, azimuth, sun)
+        error = np.abs(drawn / reference - 1).max(axis=1)
+        # In twilight the first order is the tables of columns, which have other sizes.
+        assert np.median(error) < 8e-3
+        assert np.quantile(error, 0.99) < 0.04
+
+
+def test_orders_end_at_all_of_them():
+    def skies(s):
+        return [s.draw(HAZY, 20, orders=n).read("sky_view_source")[:-1] for n in (1, 2, 3, 16, 0)]
+
+    once, twice, thrice, sixteen, whole = shaders(skies)
+    assert np.all(once < twice)
+    assert np.all(twice < thrice)
+    assert np.all(thrice < sixteen)
+    assert sixteen == pytest.approx(whole, rel=1e-3)
+
+
+def test_nothing_in_the_air_is_black():
+    nothing = Atmosphere(air_density=0, aerosol_optical_depth=0, ozone=0)
+    for orders in (0, 1, 2, 5):
+        sky = shaders(
+            lambda s, n=orders: s.draw(nothing, 20, orders=n).read("sky_view_source")[:67]
+        )
+        assert np.all(sky == 0)
+
+
 def test_ground_below_the_horizon_agrees_too():
     elevation, azimuth = np.array([-80, -30, -8, -2.0])[:, None], np.arange(0, 181, 20.0)
     views = unit_vectors(elevation, azimuth)
@@ -176,6 +240,13 @@ def test_columns_agree():
     # Row 0 is sea level; its first sample looks up, its last one to the horizon.
     assert drawn[0, 0, :3] == pytest.approx(optics.integrate_columns(0, 1), rel=6e-3)
     assert drawn[0, -1, :3] == pytest.approx(optics.integrate_columns(0, 0), rel=2e-3)
+
+
+def test_columns_follow_the_scale_heights():
+    drawn = shaders(lambda s: s.draw(OTHER_AIR, 30).read("columns_source"))
+    heights = OTHER_AIR.heights
+    assert drawn[0, 0, :3] == pytest.approx(optics.integrate_columns(0, 1, heights), rel=6e-3)
+    assert drawn[0, -1, :3] == pytest.approx(optics.integrate_columns(0, 0, heights), rel=2e-3)
 
 
 @pytest.mark.parametrize(("sun", "allowed"), [(70, 0.01), (20, 0.01), (2, 0.01), (-5, 0.02)])
@@ -255,6 +326,14 @@ def test_colour_agrees():
         Atmosphere(aerosol_optical_depth=0.6, aerosol_asymmetry=0.95, aerosol_albedo=1),
         Atmosphere(aerosol_optical_depth=0.6, aerosol_asymmetry=0, angstrom_exponent=2, ozone=500),
         Atmosphere(altitude=30_000, ground_albedo=1),
+        Atmosphere(air_density=2, rayleigh_exponent=6, rayleigh_scale_height=15_000),
+        Atmosphere(
+            rayleigh_exponent=0,
+            rayleigh_scale_height=3000,
+            aerosol_scale_height=200,
+            aerosol_optical_depth=0.6,
+        ),
+        Atmosphere(air_density=0, aerosol_scale_height=6000, aerosol_optical_depth=0.6),
     ],
 )
 def test_every_corner_of_the_sliders_draws_finite_light(air):

@@ -65,6 +65,19 @@ def test_more_haze_runs_the_edits_air_and_no_source(passes_run_by):
     assert not ran & {"columns_source", "columns_edit", "scene_light", "sky_behind"}
 
 
+def test_another_scale_height_draws_the_edits_columns_anew_and_no_source(passes_run_by):
+    passes_run_by(Edit(sun_elevation=5))
+    ran = passes_run_by(Edit(sun_elevation=5, rayleigh_scale_height=9000))
+    assert ran > AIR_PASSES | {"columns_edit"}
+    assert not {name for name in ran if name.endswith("_source")}
+
+
+def test_fewer_orders_draw_no_order_anew(passes_run_by):
+    passes_run_by(Edit(sun_elevation=5))
+    ran = passes_run_by(Edit(sun_elevation=5, scattering_orders=3))
+    assert ran & (AIR_PASSES | {"columns_edit"}) == {"multiple_scattering_edit"}
+
+
 @pytest.mark.parametrize("name", ["exposure", "auto_exposure", "colourfulness"])
 def test_exposure_runs_the_terms_and_the_frame_only(passes_run_by, name):
     passes_run_by(Edit(sun_elevation=5, **{name: 0.25}))
