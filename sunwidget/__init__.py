@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from sunwidget.renderer.gl_thread import RendererError
     from sunwidget.renderer.render import render
     from sunwidget.samples import sample
-    from sunwidget.widgets import SunEditor
+    from sunwidget.widgets import SkyExplorer, SunEditor
 
 __version__ = "0.1.0"
 
@@ -43,6 +43,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "PhotoWarning": ("sunwidget.photo", "PhotoWarning"),
     "RendererError": ("sunwidget.renderer.gl_thread", "RendererError"),
     "Scene": ("sunwidget.analysis.scene", "Scene"),
+    "SkyExplorer": ("sunwidget.widgets", "SkyExplorer"),
     "SkyNetwork": ("sunwidget.analysis.sky_network", "SkyNetwork"),
     "Stroke": ("sunwidget.edit", "Stroke"),
     "SunEditor": ("sunwidget.widgets", "SunEditor"),
@@ -65,6 +66,7 @@ __all__ = [
     "PhotoWarning",
     "RendererError",
     "Scene",
+    "SkyExplorer",
     "SkyNetwork",
     "Stroke",
     "SunEditor",

@@ -13,7 +13,9 @@ import pytest
 
 import sunwidget
 
-CONTRACT = ("open", "analyze", "render", "save", "sweep", "sample", "Edit", "SunEditor")
+CONTRACT = (
+    "open", "analyze", "render", "save", "sweep", "sample", "Edit", "SunEditor", "SkyExplorer"
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("name", sorted({*sunwidget._HOMES, *CONTRACT}))
@@ -101,12 +103,23 @@ def module_graph(root):
 
 # Who may know whom. A room that is not named here may be known by all.
 FORBIDDEN = {
-    "analysis": ("widgets", "renderer", "export", "cli", "demo", "doctor"),
-    "renderer": ("widgets", "photo", "decode", "export", "cli", "demo", "doctor"),
-    "atmosphere": ("widgets", "renderer", "export", "cli", "analysis", "photo", "demo", "doctor"),
+    "analysis": ("widgets", "explorer", "renderer", "export", "cli", "demo", "doctor"),
+    "renderer": ("widgets", "explorer", "photo", "decode", "export", "cli", "demo", "doctor"),
+    "atmosphere": (
+        "widgets",
+        "explorer",
+        "renderer",
+        "export",
+        "cli",
+        "analysis",
+        "photo",
+        "demo",
+        "doctor",
+    ),
     "camera": ("widgets", "renderer", "export", "cli", "analysis", "demo", "doctor"),
     "edit": ("widgets", "renderer", "export", "cli", "analysis", "photo", "demo", "doctor"),
     "photo": ("widgets", "renderer", "export", "cli", "analysis", "demo", "doctor"),
+    "explorer": ("widgets", "export", "cli", "analysis", "photo", "demo", "doctor"),
     "export": ("widgets", "cli", "demo", "doctor"),
     "widgets": ("cli", "demo", "doctor"),
 }
@@ -174,6 +187,7 @@ def wheel(root, tmp_path_factory):
 def test_the_wheel_holds_the_built_front_end(wheel):
     names = wheel.namelist()
     assert "sunwidget/static/sun_editor.js" in names
+    assert "sunwidget/static/sky_explorer.js" in names
     assert not [name for name in names if name.startswith(("js/", "tests/"))]
 
 

@@ -1,0 +1,495 @@
+"""SkyExplorer: see how the clear sky comes about, in a notebook.
+
+The browser draws every frame itself from the traits below; the kernel adds what it alone can
+do: the sun's path over a place, Bruneton's table, measured skies, pictures and code. Handlers
+may run on any thread: JupyterLab sends messages to kernel subshells.
+"""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import datetime as dt
+import threading
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import anywidget
+import numpy as np
+import traitlets
+
+from sunwidget.atmosphere import measurements, solar
+from sunwidget.atmosphere.constants import (
+    MESOSPHERE_ALTITUDE,
+    MESOSPHERE_SCALE_HEIGHT,
+    RAYLEIGH_SCALE_HEIGHT,
+    rayleigh_optical_depth,
+)
+from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.atmosphere.presets import PRESETS
+from sunwidget.explorer import table
+from sunwidget.explorer.table import EXPLORER_PARAMETERS
+from sunwidget.explorer.values import effective_values
+from sunwidget.widgets.edit_traits import edit_traits
+from sunwidget.widgets.payload import encode_png, parameter_json
+from sunwidget.widgets.requests import Action, Answer, Progress, Requests
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_STATIC = Path(__file__).parents[1] / "static"
+_NAMES = tuple(p.name for p in EXPLORER_PARAMETERS)
+_ALIASES = ("turbidity", "visibility")
+_SUN = ("sun_azimuth", "sun_elevation")
+_PICTURE_SIZE = (480, 320)  # of the static picture, and of a snapshot unless asked otherwise
+_LARGEST_SNAPSHOT = 4096
+
+if not (_STATIC / "sky_explorer.js").is_file():
+    raise ImportError(
+        "sunwidget's front end is not built, so there is no SkyExplorer. In a checkout run "
+        "`make build` (Node 20 or newer); an installed package brings it along."
+    )
+
+
+class SkyExplorer(anywidget.AnyWidget):
+    """See how the clear sky comes about: sun, air, orders of scattering, models, measurements.
+
+    Every row of ``sunwidget.explorer.table.EXPLORER_PARAMETERS`` is a trait of the same name,
+    both ways: setting one changes the picture, and moving a slider sets it.
+
+    Parameters
+    ----------
+    atmosphere : Atmosphere, optional
+        What is in the air, for instance ``scene.atmosphere`` of a photo.
+    turbidity : float, optional
+        Optical depth of air with haze over that of air alone, at 550 nm; sets
+        ``aerosol_optical_depth``.
+    visibility : float, optional
+        Meteorological visibility in metres; sets ``aerosol_optical_depth``.
+    **parameters
+        Any row of the table, which wins over ``atmosphere``.
+
+    Raises
+    ------
+    TypeError
+        For a keyword that is no parameter; the nearest spelling is suggested.
+    TraitError
+        For a value that its parameter does not take; the message says what it takes.
+    ImportError
+        For a date and place without pvlib (``pip install 'sunwidget[solar]'``).
+
+    Examples
+    --------
+    >>> explorer = sw.SkyExplorer(sun_elevation=2, ozone=0)
+    >>> explorer.show_multiple = False
+    >>> explorer.set_place(41.0, 29.0, "2024-06-21")
+    >>> explorer.time = 17.5
+    >>> explorer.render(size=(640, 400))
+    """
+
+    _esm = _STATIC / "sky_explorer.js"
+    _css = _STATIC / "sky_explorer.css"
+
+    _parameters: traitlets.List = traitlets.List(read_only=True).tag(sync=True)
+    _aliases: traitlets.Dict = traitlets.Dict(read_only=True).tag(sync=True)
+    _presets: traitlets.Dict = traitlets.Dict(read_only=True).tag(sync=True)
+    _day: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
+    _measured: Any = traitlets.Any(None).tag(sync=True, echo_update=False)
+    _scans: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
+    _status = traitlets.Dict().tag(sync=True, echo_update=False)
+
+    # One trait a row of the table; a class body's locals() is the class's own dictionary. Those
+    # that are set below are named for the type checker.
+    sun_azimuth: float
+    sun_elevation: float
+    time: float | None
+    locals().update(edit_traits(EXPLORER_PARAMETERS, table.checked))
+
+    def __init__(self, *, atmosphere: Atmosphere | None = None, **parameters: Any) -> None:
+        for name in parameters:
+            if name not in _NAMES and name not in _ALIASES:
+                others = (*_ALIASES, "atmosphere")
+                raise TypeError(f"SkyExplorer: {table.unknown_name_message(name, others)}")
+        aliases = {name: parameters.pop(name) for name in _ALIASES if name in parameters}
+        if len(aliases) + ("aerosol_optical_depth" in parameters) > 1:
+            raise TypeError(
+                "SkyExplorer takes one of turbidity=, visibility= and aerosol_optical_depth=: "
+                "they are three names of one quantity."
+            )
+        if atmosphere is not None:
+            parameters = {**atmosphere.parameters(), **parameters}
+        self._lock = threading.RLock()
+        self._browser_thread: int | None = None
+        self._moving = False
+        self._picture: tuple[Any, str] | None = None
+        super().__init__(
+            _status={"stage": "ready", "fraction": 1.0, "message": ""},
+            _scans=_scans(),
+            **parameters,
+        )
+        for name, value in aliases.items():
+            setattr(self, name, value)
+        self._refresh_day()
+        if self.scan is not None:
+            self._show_scan()
+        if parameters.keys() & set(_SUN):
+            for name in _SUN:
+                if name in parameters:
+                    setattr(self, name, parameters[name])
+        elif self.time is not None:
+            self._follow_time()
+        self.on_msg(Requests(self.send, self._actions()))
+        self.observe(self._on_place, list(table.PLACE))
+        self.observe(self._on_time, "time")
+        self.observe(self._on_scan, "scan")
+        self.observe(self._on_sun, list(_SUN))
+
+    @traitlets.default("_parameters")
+    def _default_parameters(self) -> list[dict[str, Any]]:
+        return parameter_json(EXPLORER_PARAMETERS)
+
+    @traitlets.default("_aliases")
+    def _default_aliases(self) -> dict[str, float]:
+        # Enough to go from turbidity and visibility to the aerosol optical depth and back, as
+        # ``Atmosphere`` does, without the kernel.
+        standard = Atmosphere(aerosol_optical_depth=0)
+        return {
+            "air_optical_depth_550": float(rayleigh_optical_depth(550.0)),
+            "air_extinction_550": standard.extinction_550,
+            "koschmieder": standard.visibility * standard.extinction_550,
+            "mesosphere_altitude": MESOSPHERE_ALTITUDE,
+            "mesosphere_share": MESOSPHERE_SCALE_HEIGHT / RAYLEIGH_SCALE_HEIGHT,
+        }
+
+    @traitlets.default("_presets")
+    def _default_presets(self) -> dict[str, dict[str, float]]:
+        return {name: air.parameters() for name, air in PRESETS.items()}
+
+    @property
+    def atmosphere(self) -> Atmosphere:
+        """The air as it is drawn: what a switch hides is not in it. Assign one to set the air."""
+        values = self.values()["edit"]
+        return Atmosphere(**{name: values[name] for name in table.AIR})
+
+    @atmosphere.setter
+    def atmosphere(self, value: Atmosphere) -> None:
+        with self.hold_sync():
+            for name, number in value.parameters().items():
+                setattr(self, name, number)
+
+    @property
+    def turbidity(self) -> float:
+        """Optical depth of air with haze over that of air alone, at 550 nm. Assign to set it."""
+        return self._air().turbidity
+
+    @turbidity.setter
+    def turbidity(self, value: float) -> None:
+        self._set_haze("turbidity", value)
+
+    @property
+    def visibility(self) -> float:
+        """Meteorological visibility at sea level, in metres. Assign to set it."""
+        return self._air().visibility
+
+    @visibility.setter
+    def visibility(self, value: float) -> None:
+        self._set_haze("visibility", value)
+
+    def parameters(self) -> dict[str, Any]:
+        """Return the value of every parameter by name, data such as place and date included."""
+        return {name: getattr(self, name) for name in _NAMES}
+
+    def values(self) -> dict[str, dict[str, float]]:
+        """Return what the shaders get, by state and name; see ``explorer.values``."""
+        return effective_values(self.parameters())
+
+    def preset(self, name: str) -> None:
+        """Set the air to one of ``sunwidget.atmosphere.presets.PRESETS``, in one step.
+
+        Raises
+        ------
+        ValueError
+            For a name that is none of them.
+        """
+        if name not in PRESETS:
+            raise ValueError(f"There is no preset {name!r:.80}. Choose among {', '.join(PRESETS)}.")
+        self.atmosphere = PRESETS[name]
+
+    def set_place(
+        self, latitude: float, longitude: float, date: dt.date | str | None = None
+    ) -> None:
+        """Say where and on which day the sky is seen; ``time`` then moves the sun.
+
+        Parameters
+        ----------
+        latitude, longitude : float
+            Degrees, positive to the north and to the east.
+        date : datetime.date or "YYYY-MM-DD", optional
+            Default: the one that is set, else today.
+        """
+        day = date or self.date or dt.datetime.now(dt.UTC).date()
+        with self.hold_trait_notifications():
+            for name, value in zip(table.PLACE, (day, latitude, longitude), strict=True):
+                setattr(self, name, value)
+
+    def render(self, size: tuple[int, int] = (960, 640), samples: int = 64) -> NDArray[np.uint8]:
+        """Return the picture as it is now.
+
+        Parameters
+        ----------
+        size : (int, int), default (960, 640)
+            Width and height in pixels.
+        samples : int, default 64
+            Paths a pixel of the model ``reference``.
+
+        Returns
+        -------
+        ndarray, shape (height, width, 3), uint8
+            sRGB.
+
+        Raises
+        ------
+        RendererError
+            When no EGL context can be made on this machine.
+        """
+        from sunwidget.explorer.draw import draw
+
+        bruneton = self._bruneton_slice() if "bruneton" in (self.model, self.compare) else None
+        return draw(self.parameters(), size, bruneton=bruneton, samples=samples)
+
+    def curve(self, name: str) -> NDArray[np.float32]:
+        """Return one of the curves beside the picture, shape (n, 4).
+
+        What it holds is told in docs/frame-graph.md.
+
+        Parameters
+        ----------
+        name : str
+            "phase", "transmittance", "sun", "principal_plane" or "zenith".
+
+        Raises
+        ------
+        EditError
+            For another name.
+        RendererError
+            When no EGL context can be made on this machine.
+        """
+        from sunwidget.explorer.draw import curve
+
+        bruneton = self._bruneton_slice() if self.model == "bruneton" else None
+        return curve(self.parameters(), f"curve_{name}", bruneton=bruneton)
+
+    def compare_measured(
+        self, models: tuple[str, ...] = ("single", "multiple"), scan: int | None = None
+    ) -> list[dict[str, Any]]:
+        """Compare the sky of the present air with the measured one.
+
+        Parameters
+        ----------
+        models : tuple of str
+            As ``sunwidget.atmosphere.measurements.compare``.
+        scan : int, optional
+            Index of one scan; default all.
+
+        Returns
+        -------
+        list of dict
+            ``model``, ``rmse`` in mW m⁻² sr⁻¹ nm⁻¹, mean ``level`` and ``pattern``, for each model.
+
+        Raises
+        ------
+        MeasurementsError
+            When the measured skies are not on this machine; the message says how to get them.
+        """
+        rows = measurements.compare(models, scan=scan, atmosphere=self.atmosphere)
+        return [row._asdict() for row in rows]
+
+    def code(self) -> str:
+        """Return runnable Python for this state (``import sunwidget as sw`` first)."""
+        changed = {
+            p.name: getattr(self, p.name)
+            for p in EXPLORER_PARAMETERS
+            if getattr(self, p.name) != p.default
+        }
+        if (self._day and self.time is not None) or self.scan is not None:
+            # They bring the sun along.
+            changed = {name: value for name, value in changed.items() if name not in _SUN}
+        arguments = ", ".join(f"{name}={value!r}" for name, value in changed.items())
+        return f"sw.SkyExplorer({arguments})"
+
+    def set_state(self, sync_data: dict[str, Any]) -> None:
+        """Take over what the browser sent; a value that is refused is answered, not raised."""
+        with self._lock:
+            self._browser_thread = threading.get_ident()
+            try:
+                super().set_state(sync_data)
+            except (traitlets.TraitError, ImportError) as error:
+                self.send({"type": "error", "error": str(error)})
+                self.send_state([name for name in sync_data if name in self.keys])
+            finally:
+                self._browser_thread = None
+
+    def _air(self) -> Atmosphere:
+        """Return the air as the sliders have it, whatever is switched off."""
+        return Atmosphere(**{name: getattr(self, name) for name in table.AIR})
+
+    def _set_haze(self, name: str, value: float) -> None:
+        make = Atmosphere.with_turbidity if name == "turbidity" else Atmosphere.with_visibility
+        row = table.parameter("aerosol_optical_depth")
+        try:
+            depth = make(self._air(), value).aerosol_optical_depth
+            self.aerosol_optical_depth = table.checked(row, depth)
+        except ValueError as error:
+            raise traitlets.TraitError(f"{name} = {value!r:.80} cannot be set: {error}") from None
+
+    @contextlib.contextmanager
+    def _moving_the_sun(self) -> Iterator[None]:
+        """Mark that what moves the sun meanwhile is the time or the scan, not a hand."""
+        self._moving = True
+        try:
+            with self.hold_sync():
+                yield
+        finally:
+            self._moving = False
+
+    def _refresh_day(self) -> None:
+        place = [getattr(self, name) for name in table.PLACE]
+        if None in place:
+            self._day = []
+            return
+        self._day = np.round(solar.day_path(*place), 6).tolist()
+
+    def _follow_time(self) -> None:
+        if self._day and self.time is not None:
+            azimuth, elevation = solar.sun_on_path(self._day, self.time)
+            with self._moving_the_sun():
+                self._place_sun(azimuth, elevation)
+
+    def _on_place(self, _change: Any) -> None:
+        with self._lock:
+            self._refresh_day()
+            self._follow_time()
+
+    def _on_time(self, _change: Any) -> None:
+        if self._browser_thread != threading.get_ident():  # it has moved the sun itself
+            with self._lock:
+                self._follow_time()
+
+    def _on_sun(self, _change: Any) -> None:
+        # A hand moved the sun off its path; the browser does likewise.
+        if not self._moving and self._day and self._browser_thread != threading.get_ident():
+            self.time = None
+
+    def _on_scan(self, _change: Any) -> None:
+        with self._lock:
+            self._show_scan()
+
+    def _show_scan(self) -> None:
+        if self.scan is None:
+            self._measured = None
+            return
+        scan = measurements.load().scan_json(self.scan)
+        self._measured = scan
+        with self._moving_the_sun():
+            self.time = None
+            self._place_sun(scan["sun_azimuth"], scan["sun_elevation"])
+
+    def _place_sun(self, azimuth: float, elevation: float) -> None:
+        # The table ends at -12°: below it is night all the same.
+        lowest = table.parameter("sun_elevation").minimum
+        self.sun_azimuth, self.sun_elevation = azimuth, max(elevation, lowest)
+
+    @traitlets.validate("scan")
+    def _validate_scan(self, proposal: Any) -> int | None:
+        value: int | None = proposal["value"]
+        if value is not None:
+            try:
+                count = len(measurements.load())
+            except measurements.MeasurementsError as error:
+                raise traitlets.TraitError(str(error)) from None
+            if value >= count:
+                raise traitlets.TraitError(f"scan = {value}: there are scans 0 to {count - 1}.")
+        return value
+
+    def _bruneton_slice(
+        self, values: Mapping[str, float] | None = None, progress: Progress | None = None
+    ) -> NDArray[np.float32]:
+        from sunwidget.renderer.bruneton import bruneton_table
+
+        values = values or self.values()["edit"]
+        air = Atmosphere(**{name: values[name] for name in table.AIR})
+        orders = round(values["scattering_orders"])
+        return bruneton_table(air, orders=orders, progress=progress).slice(air.altitude)
+
+    def _actions(self) -> dict[str, Action]:
+        """Return what the browser can ask for, by name."""
+        return {
+            "bruneton": self._answer_bruneton,
+            "rmse": self._answer_rmse,
+            "code": lambda _content, _progress: ({"code": self.code()}, []),
+            "download_measurements": self._answer_download,
+            "snapshot": self._answer_snapshot,
+        }
+
+    def _answer_bruneton(self, content: dict[str, Any], progress: Progress) -> Answer:
+        given = content.get("parameters") or {}
+        chosen = {name: table.checked(table.parameter(name), v) for name, v in given.items()}
+        values = effective_values({**self.parameters(), **chosen})["edit"]
+        begin = perf_counter()
+        texture = np.ascontiguousarray(self._bruneton_slice(values, progress), np.float32)
+        rows, columns = texture.shape[:2]
+        seconds = perf_counter() - begin
+        return {"rows": rows, "cols": columns, "seconds": seconds}, [texture.tobytes()]
+
+    def _answer_rmse(self, content: dict[str, Any], progress: Progress) -> Answer:
+        progress(0.05, "Comparing with the measured skies …")
+        return {"rows": self.compare_measured(scan=content.get("scan"))}, []
+
+    def _answer_download(self, _content: dict[str, Any], progress: Progress) -> Answer:
+        measurements.download(progress=progress)
+        self._scans = _scans()
+        return {"scans": self._scans}, []
+
+    def _answer_snapshot(self, content: dict[str, Any], progress: Progress) -> Answer:
+        width, height = content.get("size") or _PICTURE_SIZE
+        progress(0.1, "Drawing the picture …")
+        size = _snapshot_edge(width), _snapshot_edge(height)
+        return {"name": "sky.png", "type": "image/png"}, [encode_png(self.render(size))]
+
+    def _static_picture(self) -> str:
+        """Return a small PNG in base64 for viewers that run no widgets."""
+        parameters = self.parameters()
+        # Tables and paths take seconds to minutes, which no cell should wait for.
+        for name in ("model", "compare"):
+            if parameters[name] in ("bruneton", "reference"):
+                parameters[name] = table.parameter(name).default
+        if self._picture is None or self._picture[0] != parameters:
+            from sunwidget.explorer.draw import draw
+
+            picture = encode_png(draw(parameters, _PICTURE_SIZE))
+            self._picture = parameters, base64.b64encode(picture).decode("ascii")
+        return self._picture[1]
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        bundle = super()._repr_mimebundle_(**kwargs)
+        if bundle is None:
+            return None
+        data, metadata = bundle
+        # GitHub, nbconvert and other viewers without widgets show this one. Without EGL there is
+        # none, and the widget works all the same.
+        from sunwidget.renderer.gl_thread import RendererError
+
+        with contextlib.suppress(RendererError):
+            data["image/png"] = self._static_picture()
+        return data, metadata
+
+
+def _scans() -> list[dict[str, Any]]:
+    """Return the measured scans on this machine as the browser lists them, or none."""
+    return measurements.load().scans_json() if measurements.is_available() else []
+
+
+def _snapshot_edge(pixels: Any) -> int:
+    return int(np.clip(pixels, 1, _LARGEST_SNAPSHOT))
