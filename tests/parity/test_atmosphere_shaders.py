@@ -191,11 +191,12 @@ def test_the_first_orders_agree(orders):
         views = unit_vectors(elevation, azimuth)
         drawn = shaders(lambda s, a=air, e=sun: s.draw(a, e, orders=orders).look(views))  # noqa: B023
         reference = SkyTable(air, quality=SHADER, orders=orders).radiance(elevation, azimuth, sun)
-        error = np.abs(drawn / reference - 1).max(axis=1)
-        # In twilight the tables of columns, which have other sizes, are all that the first order is
-        # made from; and the earth's shadow has an edge there that other orders fill.
-        assert np.median(error) < 8e-3
-        assert np.quantile(error, 0.99) < 0.08
+        # The first order leaves the far side of a twilight sky in the shadow of the earth: there
+        # a hundredth of the brightest counts instead of nothing.
+        floor = 0.01 * reference.max(axis=0)
+        error = (np.abs(drawn - reference) / (reference + floor)).max(axis=1)
+        assert np.median(error) < 6e-3
+        assert np.quantile(error, 0.99) < 0.04
 
 
 def test_orders_end_at_all_of_them():
