@@ -67,7 +67,7 @@ export function reachable(graph, files) {
 }
 
 /** @type {import("esbuild").Plugin} */
-const shaderPlugin = {
+export const shaderPlugin = {
   name: "sunwidget-shaders",
   setup(build) {
     build.onResolve({ filter: /^sunwidget:shaders\// }, ({ path }) => ({

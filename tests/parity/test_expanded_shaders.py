@@ -23,7 +23,8 @@ def in_javascript(root):
 
 
 def test_every_pass_expands_to_the_same_text_on_both_hosts(in_javascript):
-    shaders = {f"{row['shader']}.glsl" for row in frame_graph()["passes"]}
+    graphs = [frame_graph(), frame_graph("explorer")]
+    shaders = {f"{row['shader']}.glsl" for graph in graphs for row in graph["passes"]}
     assert shaders <= in_javascript.keys()
     for name in sorted(shaders):
         assert in_javascript[name] == resolve_includes(name), name

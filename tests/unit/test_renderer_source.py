@@ -7,6 +7,7 @@ from importlib.resources import files
 import pytest
 
 from sunwidget.edit import METHODS, NUMBERS
+from sunwidget.explorer.table import EXPLORER_PARAMETERS, MODELS
 from sunwidget.renderer import shader_source
 from sunwidget.renderer.shader_source import frame_graph, read_shader, resolve_includes
 
@@ -20,7 +21,19 @@ HOST_UNIFORMS = {
     "dither",
     "view",
 }
-SHADERS = sorted({row["shader"] for row in frame_graph()["passes"]})
+GRAPHS = ("graph", "explorer")
+ROWS = [row for name in GRAPHS for row in frame_graph(name)["passes"]]
+SHADERS = sorted({row["shader"] for row in ROWS})
+EXPLORERS = {row["shader"] for row in frame_graph("explorer")["passes"]}
+EDITORS = {row["shader"] for row in frame_graph()["passes"]}
+# Bruneton's table is made once for an atmosphere, outside the graphs (renderer/bruneton.py).
+PRECOMPUTED = {
+    f.name.removesuffix(".glsl")
+    for f in files("sunwidget").joinpath("shaders").iterdir()
+    if f.name.startswith("bruneton_")
+} - set(SHADERS)
+# What a run of the explorer is asked for, beside the models: single terms of the sky.
+ASKED = {*MODELS, "orders"}
 _DECLARATION = re.compile(r"^\s*uniform\s+(\w+)\s+(\w+)\s*;", re.MULTILINE)
 
 
@@ -103,12 +116,12 @@ def test_sampling_is_texel_fetch_only_so_that_no_filter_state_exists():
 def test_every_shader_file_is_drawn_by_some_pass():
     folder = files("sunwidget").joinpath("shaders")
     names = {f.name.removesuffix(".glsl") for f in folder.iterdir() if f.name.endswith(".glsl")}
-    assert names == set(SHADERS)
+    assert names == set(SHADERS) | PRECOMPUTED
 
 
 def test_every_library_file_is_included_by_some_pass():
     used = set()
-    for shader in SHADERS:
+    for shader in [*SHADERS, *PRECOMPUTED]:
         pending = [f"{shader}.glsl"]
         while pending:
             found = re.findall(r'#include "([^"]+)"', read_shader(pending.pop()))
@@ -129,29 +142,53 @@ def test_every_input_is_a_scene_texture_or_drawn_before(method):
     assert "frame" in ready
 
 
+@pytest.mark.parametrize("asked", sorted(ASKED))
+def test_every_input_of_the_explorer_is_loaded_or_drawn_before(asked):
+    ready = {"bruneton", "directions"}
+    for row in frame_graph("explorer")["passes"]:
+        if asked in row.get("when", ASKED):
+            for names in row["inputs"].values():
+                assert ready & {names} if isinstance(names, str) else ready & set(names), row[
+                    "name"
+                ]
+            assert row["name"] not in ready
+            ready.add(row["name"])
+    assert "explorer_frame" in ready
+
+
 def test_only_known_states_formats_methods_and_sizes_occur():
     for row in frame_graph()["passes"]:
         assert row["state"] in ("source", "edit"), row["name"]
         assert row["format"] == ("output" if row["name"] == "frame" else "rgba32f")
         assert set(row.get("when", METHODS)) <= set(METHODS)
         assert row["size"] == "frame" or len(row["size"]) == 2
+    for row in frame_graph("explorer")["passes"]:
+        assert row["state"] in ("edit", "single"), row["name"]
+        assert row["format"] == ("output" if row["name"] == "explorer_frame" else "rgba32f")
+        assert set(row.get("when", ASKED)) <= ASKED
+        named = ("frame", "grid", "shown", "directions")
+        assert row["size"] in named or len(row["size"]) == 2
 
 
 def test_each_pass_hands_every_sampler_its_input_and_no_other():
-    for row in frame_graph()["passes"]:
+    for row in ROWS:
         uniforms = declared(row["shader"])
         samplers = {name for name, kind in uniforms.items() if kind == "sampler2D"}
-        assert samplers == set(row["inputs"]), row["name"]
+        own = {"history"} if row.get("history") else set()
+        assert samplers == set(row["inputs"]) | own, row["name"]
 
 
 @pytest.mark.parametrize("shader", SHADERS)
 def test_every_uniform_has_a_source_for_its_value(shader):
     parameters = {p.name for p in NUMBERS} | {"method"}
-    known = parameters | {f"source_{name}" for name in parameters}
-    known |= set(frame_graph()["scene_uniforms"]) | HOST_UNIFORMS
+    edits = parameters | {f"source_{name}" for name in parameters}
+    edits |= set(frame_graph()["scene_uniforms"]) | HOST_UNIFORMS
+    explorers = {p.name for p in EXPLORER_PARAMETERS if p.kind != "data"} | HOST_UNIFORMS
     for name, kind in declared(shader).items():
         if kind != "sampler2D":
-            assert name in known, f"{shader}: {name}"
+            assert shader not in EDITORS or name in edits, f"{shader}: {name}"
+            known = explorers | {"sample_index"}
+            assert shader not in EXPLORERS or name in known, f"{shader}: {name}"
 
 
 def test_scene_uniforms_have_the_type_that_the_shaders_declare():
@@ -168,8 +205,9 @@ def test_every_scene_uniform_is_used_by_some_shader():
 
 
 @functools.cache
-def code_of_shaders():
-    return [re.sub("//.*", "", resolve_includes(f"{shader}.glsl")) for shader in SHADERS]
+def code_of_shaders(graph="graph"):
+    shaders = sorted({row["shader"] for row in frame_graph(graph)["passes"]})
+    return [re.sub("//.*", "", resolve_includes(f"{shader}.glsl")) for shader in shaders]
 
 
 @pytest.mark.parametrize("name", [p.name for p in NUMBERS])
@@ -177,3 +215,15 @@ def test_every_number_of_the_table_takes_part_in_some_shader(name):
     # Mentioned at least twice in one shader: where it is declared, and where it is used. No
     # number is for the analysis alone, so a slider that does nothing cannot exist.
     assert any(len(re.findall(rf"\b{name}\b", text)) >= 2 for text in code_of_shaders())
+
+
+# The size of the sky's table is the host's affair, and so is what an air without haze is.
+HOSTS = {"grid", "show_rayleigh", "show_aerosol", "show_ozone"}
+
+
+@pytest.mark.parametrize(
+    "name", [p.name for p in EXPLORER_PARAMETERS if p.kind != "data" and p.name not in HOSTS]
+)
+def test_every_parameter_of_the_explorer_takes_part_in_some_shader(name):
+    texts = code_of_shaders("explorer")
+    assert any(len(re.findall(rf"\b{name}\b", text)) >= 2 for text in texts)

@@ -1,28 +1,6 @@
 // The last step of every method: photo plus change, dithered, in the wanted transfer function.
 
-uniform vec2 tile_origin;
-uniform float canvas_flip;     // 1 when drawing to the browser's canvas, whose row 0 is the lowest
-uniform int output_transfer;   // 0 linear light, 1 sRGB
-uniform float dither;          // half-width of the triangular dither, in levels of 1/255
-
-out vec4 result;
-
-vec2 GetPixel() {
-  vec2 at = gl_FragCoord.xy;
-  if (canvas_flip > 0.5) at.y = frame_size.y - at.y;
-  return at + tile_origin;
-}
-
-// Integer hash (PCG, O'Neill 2014), the same to the bit on every host.
-uint Hash(uint x) {
-  uint state = x * 747796405u + 2891336453u;
-  uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-  return (word >> 22u) ^ word;
-}
-
-float GetNoise(uvec2 at, uint channel) {
-  return float(Hash(at.x + Hash(at.y + Hash(channel))) >> 8u) / 16777216.0;
-}
+#include "lib/pixel.glsl"
 
 void WriteFrame(vec3 photo_light, vec3 change, vec2 pixel) {
   vec3 light = photo_light + change;
@@ -31,9 +9,7 @@ void WriteFrame(vec3 photo_light, vec3 change, vec2 pixel) {
     return;
   }
   vec3 code = EncodeSrgb(light);
-  uvec2 at = uvec2(pixel);
-  float noise = GetNoise(at, 0u) - GetNoise(at, 1u);
   // Unchanged pixels keep their own code values.
   float touched = step(1e-6, max(abs(change.r), max(abs(change.g), abs(change.b))));
-  result = vec4(code + touched * dither / 255.0 * noise, 1.0);
+  result = vec4(code + touched * GetDither(pixel), 1.0);
 }

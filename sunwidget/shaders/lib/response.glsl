@@ -6,11 +6,7 @@
 uniform float response_shoulder;  // w in [0, 0.995]
 uniform float response_contrast;  // 0.7 .. 1.15
 
-const vec3 kRec709Luminance = vec3(0.2126, 0.7152, 0.0722);
-
-float GetLuminance(vec3 color) {
-  return dot(color, kRec709Luminance);
-}
+#include "lib/srgb.glsl"
 
 // How near to its asymptote the response is inverted; brighter values count as this bright.
 const float kDeepestShoulder = 0.003;
@@ -28,12 +24,6 @@ vec3 GetSceneLight(vec3 display) {
 vec3 GetDisplayLight(vec3 scene) {
   float w = max(response_shoulder, 1e-4);
   return (1.0 - exp(-w * pow(max(scene, vec3(1e-9)), vec3(response_contrast)))) / w;
-}
-
-// IEC 61966-2-1 transfer function.
-vec3 EncodeSrgb(vec3 light) {
-  vec3 x = clamp(light, 0.0, 1.0);
-  return mix(12.92 * x, 1.055 * pow(max(x, vec3(1e-8)), vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), x));
 }
 
 // new / old that is exactly one when the two agree to the bit, on every driver, and keeps its

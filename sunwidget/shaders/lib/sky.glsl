@@ -25,12 +25,17 @@ vec3 GetSunDirection(float azimuth_degrees, float elevation_degrees) {
   return vec3(cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth));
 }
 
+// `origin` and `size` are the part of a texture that one view takes.
+SkyView ReadSkyView(sampler2D sky_view, ivec2 origin, ivec2 size) {
+  ivec2 row = origin + ivec2(0, size.y - 1);
+  vec4 first = texelFetch(sky_view, row, 0);
+  return SkyView(first.xyz, first.w, texelFetch(sky_view, row + ivec2(1, 0), 0),
+                 texelFetch(sky_view, row + ivec2(2, 0), 0),
+                 texelFetch(sky_view, row + ivec2(3, 0), 0).x);
+}
+
 SkyView ReadSkyView(sampler2D sky_view) {
-  int row = textureSize(sky_view, 0).y - 1;
-  vec4 first = texelFetch(sky_view, ivec2(0, row), 0);
-  return SkyView(first.xyz, first.w, texelFetch(sky_view, ivec2(1, row), 0),
-                 texelFetch(sky_view, ivec2(2, row), 0),
-                 texelFetch(sky_view, ivec2(3, row), 0).x);
+  return ReadSkyView(sky_view, ivec2(0), textureSize(sky_view, 0));
 }
 
 // The guess: scattering once by thin air and thin haze, plus an even share for all other orders.
@@ -71,9 +76,8 @@ float GetColumnOfAzimuth(Angle azimuth) {
   return (sqrt(0.09 + 2.8 * azimuth / PI) - 0.3) / 1.4;
 }
 
-RadianceSpectrum GetSkyRadiance(sampler2D sky_view, vec3 direction) {
-  SkyView view = ReadSkyView(sky_view);
-  ivec2 size = textureSize(sky_view, 0);
+RadianceSpectrum GetSkyRadiance(sampler2D sky_view, ivec2 origin, ivec2 size, vec3 direction) {
+  SkyView view = ReadSkyView(sky_view, origin, size);
   ivec2 rows = GetSkyViewRows(size.y);
   float elevation = asin(clamp(direction.y, -1.0, 1.0));
   float azimuth = abs(atan(view.sun.z * direction.x - view.sun.x * direction.z,
@@ -85,12 +89,17 @@ RadianceSpectrum GetSkyRadiance(sampler2D sky_view, vec3 direction) {
                                       : clamp(int(row), rows.x, rows.y - 2);
   ivec2 corner = ivec2(min(int(column), size.x - 2), first_row);
   vec2 part = vec2(column, row) - vec2(corner);
-  vec4 top = mix(texelFetch(sky_view, corner, 0),
-                 texelFetch(sky_view, corner + ivec2(1, 0), 0), part.x);
-  vec4 bottom = mix(texelFetch(sky_view, corner + ivec2(0, 1), 0),
-                    texelFetch(sky_view, corner + ivec2(1, 1), 0), part.x);
+  ivec2 texel = origin + corner;
+  vec4 top = mix(texelFetch(sky_view, texel, 0),
+                 texelFetch(sky_view, texel + ivec2(1, 0), 0), part.x);
+  vec4 bottom = mix(texelFetch(sky_view, texel + ivec2(0, 1), 0),
+                    texelFetch(sky_view, texel + ivec2(1, 1), 0), part.x);
   float nu = dot(direction, view.sun);
   return mix(top, bottom, part.y) * GuessRadiance(view, nu);
+}
+
+RadianceSpectrum GetSkyRadiance(sampler2D sky_view, vec3 direction) {
+  return GetSkyRadiance(sky_view, ivec2(0), textureSize(sky_view, 0), direction);
 }
 
 // Radiance of the disc, zero outside it. `size` is its diameter in units of the true 0.533

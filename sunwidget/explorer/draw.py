@@ -1,0 +1,209 @@
+"""SkyExplorer's picture and curves, drawn by the kernel from the passes that the browser runs.
+
+``docs/frame-graph.md`` describes the passes; ``js/src/explorer/sky_frame.js`` is the twin.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from sunwidget.edit import EditError
+from sunwidget.explorer.projection import Projection
+from sunwidget.explorer.values import effective_values
+from sunwidget.renderer.gl_thread import on_gl_thread
+from sunwidget.renderer.graph import FrameGraph, Programs, Target
+from sunwidget.renderer.shader_source import frame_graph
+
+Floats = npt.NDArray[np.float32]
+
+CURVES = tuple(
+    row["name"] for row in frame_graph("explorer")["passes"] if row["name"].startswith("curve_")
+)
+"""Names of the curves that ``curve`` returns."""
+BACKGROUND = (20, 22, 27)
+"""Code values around the dome and the panorama."""
+
+_graphs: dict[int, FrameGraph] = {}
+_tables: dict[tuple[int, str], Any] = {}
+
+
+def draw(
+    values: Mapping[str, Any],
+    size: tuple[int, int],
+    *,
+    bruneton: Floats | None = None,
+    samples: int = 64,
+    progress: Callable[[float, str], Any] | None = None,
+) -> npt.NDArray[np.uint8]:
+    """Draw the sky.
+
+    Parameters
+    ----------
+    values : mapping
+        Every parameter of ``EXPLORER_PARAMETERS`` by name.
+    size : (width, height)
+        In pixels.
+    bruneton : array, shape (rows, columns, 4), float32, optional
+        Slice of Bruneton's table for the altitude; needed where ``model`` or ``compare`` is
+        ``"bruneton"``.
+    samples : int, default 64
+        Paths a pixel of the ``"reference"``.
+    progress : callable, optional
+        Called with (fraction, message) after each sample; raise in it to cancel.
+
+    Returns
+    -------
+    array, (height, width, 3), uint8
+        sRGB; around the dome and the panorama lies ``BACKGROUND``.
+
+    Raises
+    ------
+    EditError
+        For an impossible size, and for Bruneton's model without its table.
+    RendererError
+        When this machine has no EGL.
+    """
+    size = _checked_size(size)
+    host = {"output_transfer": 1, "dither": 0.5}
+    texels = _run(values, size, host, None, {"bruneton": bruneton}, samples, progress)
+    color = texels[..., :3] + (1 - texels[..., 3:]) * np.float32(BACKGROUND) / 255
+    return np.clip(color * 255 + 0.5, 0, 255).astype(np.uint8)
+
+
+def radiance_map(
+    values: Mapping[str, Any],
+    size: tuple[int, int],
+    *,
+    bruneton: Floats | None = None,
+    samples: int = 64,
+) -> Floats:
+    """Return the sky's spectral radiance as ``draw`` would show it, without the sun's disc.
+
+    Returns
+    -------
+    array, (height, width, 4), float32
+        W m⁻² sr⁻¹ nm⁻¹ at 640, 580, 510 and 440 nm; NaN where no sky is shown.
+    """
+    size = _checked_size(size)
+    host = {"output_transfer": 0, "dither": 0.0}
+    texels = _run(values, size, host, None, {"bruneton": bruneton}, samples, None)
+    x, y = np.meshgrid(np.arange(size[0]) + 0.5, np.arange(size[1]) + 0.5)
+    texels[np.isnan(projection(values, size).direction(x, y)[..., 0])] = np.nan
+    return texels
+
+
+def curve(values: Mapping[str, Any], name: str, *, bruneton: Floats | None = None) -> Floats:
+    """Return one of ``CURVES``, (N, 4) float32; ``docs/frame-graph.md`` says what it holds.
+
+    Raises
+    ------
+    EditError
+        For an unknown curve.
+    """
+    if name not in CURVES or name == "curve_directions":
+        raise EditError(f"There is no curve {name!r:.60}; choose among {', '.join(CURVES[:-1])}.")
+    return table(values, name, bruneton=bruneton)[0]
+
+
+def radiance_at(
+    values: Mapping[str, Any], directions: npt.ArrayLike, *, bruneton: Floats | None = None
+) -> Floats:
+    """Return the radiance by ``model`` in ``directions`` (N, 2): azimuth, elevation in degrees.
+
+    Returns
+    -------
+    array, (N, 4), float32
+        W m⁻² sr⁻¹ nm⁻¹ at 640, 580, 510 and 440 nm.
+    """
+    angles = np.asarray(directions, np.float32)
+    listed = np.zeros((1, len(angles), 4), np.float32)
+    listed[0, :, :2] = angles
+    textures = {"bruneton": bruneton, "directions": listed}
+    return _run(values, (1, 1), {}, "curve_directions", textures)[0]
+
+
+def table(values: Mapping[str, Any], name: str, *, bruneton: Floats | None = None) -> Floats:
+    """Return what any pass of the explorer's graph draws, (rows, columns, 4) float32."""
+    return _run(values, (1, 1), {}, name, {"bruneton": bruneton})
+
+
+def projection(values: Mapping[str, Any], size: tuple[int, int]) -> Projection:
+    """Return the projection that ``values`` ask for."""
+    name = values["projection"]
+    view = {key: float(values[key]) for key in ("view_azimuth", "view_elevation", "fov")}
+    return Projection(name=name, size=size, **view)
+
+
+def methods(values: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return what a run is for, as the rows' ``when`` name it: models, and single terms."""
+    orders = () if values["show_single"] and values["show_multiple"] else ("orders",)
+    return (values["model"], values["compare"], *orders)
+
+
+def _run(
+    values: Mapping[str, Any],
+    size: tuple[int, int],
+    host: Mapping[str, Any],
+    until: str | None,
+    textures: Mapping[str, Floats | None],
+    samples: int = 1,
+    progress: Callable[[float, str], Any] | None = None,
+) -> Floats:
+    asked = methods(values)
+    if "bruneton" in asked and textures.get("bruneton") is None:
+        raise EditError(
+            "Bruneton's model needs its table: pass bruneton=bruneton_table(atmosphere)"
+            ".slice(altitude) from sunwidget.renderer.bruneton."
+        )
+    states = effective_values(values)
+    host = {"frame_size": (float(size[0]), float(size[1])), "canvas_flip": 0.0, **host}
+    columns, rows = (int(n) for n in values["grid"].split("×"))
+    sizes = {"grid": (columns, rows), "shown": (2 * columns, rows)}
+    if textures.get("directions") is not None:
+        sizes["directions"] = (len(textures["directions"][0]), 1)
+
+    def task(context: Any) -> Floats:
+        graph = _graph(context, textures)
+
+        def run(name: str | None) -> Target:
+            return graph.run(states, {}, host, (0, 0, *size), asked, name, sizes)
+
+        if until is None and "reference" in asked:
+            graph.targets.pop("reference", None)  # a picture owes nothing to the one before
+            for i in range(samples - 1):
+                run("reference")
+                if progress is not None:
+                    progress((i + 1) / samples, "tracing paths")
+        target = run(until)
+        width, height = target.texture.size
+        return np.frombuffer(target.texture.read(), np.float32).reshape(height, width, 4).copy()
+
+    return on_gl_thread(task)
+
+
+def _graph(context: Any, textures: Mapping[str, Floats | None]) -> FrameGraph:
+    """Return the context's one graph with ``textures`` uploaded; runs on the GL thread."""
+    if id(context) not in _graphs:
+        _graphs[id(context)] = FrameGraph(Programs(context), {}, frame_graph("explorer"))
+    graph = _graphs[id(context)]
+    for name, image in textures.items():
+        key = (id(context), name)
+        if image is not None and _tables.get(key) is not image:
+            graph.set_texture(name, np.asarray(image, np.float32))
+            _tables[key] = image  # keeps it alive, so that its identity stays its own
+    return graph
+
+
+def _checked_size(size: Any) -> tuple[int, int]:
+    try:
+        width, height = (operator.index(n) for n in size)
+    except (TypeError, ValueError):
+        width = height = 0
+    if width < 1 or height < 1:
+        raise EditError(f"size must be (width, height) in whole pixels, not {size!r:.40}.")
+    return width, height

@@ -1,0 +1,31 @@
+// The pixel that is drawn, top-left origin on every host, and its noise.
+
+uniform vec2 tile_origin;
+uniform float canvas_flip;     // 1 when drawing to the browser's canvas, whose row 0 is the lowest
+uniform int output_transfer;   // 0 linear light, 1 sRGB
+uniform float dither;          // half-width of the triangular dither, in levels of 1/255
+
+out vec4 result;
+
+vec2 GetPixel() {
+  vec2 at = gl_FragCoord.xy;
+  if (canvas_flip > 0.5) at.y = frame_size.y - at.y;
+  return at + tile_origin;
+}
+
+// Integer hash (PCG, O'Neill 2014), the same to the bit on every host.
+uint Hash(uint x) {
+  uint state = x * 747796405u + 2891336453u;
+  uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+  return (word >> 22u) ^ word;
+}
+
+float GetNoise(uvec2 at, uint channel) {
+  return float(Hash(at.x + Hash(at.y + Hash(channel))) >> 8u) / 16777216.0;
+}
+
+// Triangular noise in [-1, 1] times `dither`, in code values.
+float GetDither(vec2 pixel) {
+  uvec2 at = uvec2(pixel);
+  return dither / 255.0 * (GetNoise(at, 0u) - GetNoise(at, 1u));
+}

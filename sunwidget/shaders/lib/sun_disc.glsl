@@ -1,0 +1,19 @@
+// Where the picture of the disc (sun_disc.glsl) lies on the sphere: a square about the sun, in the
+// plane that touches the sphere there, that holds the disc and the softness of its rim.
+
+uniform float sun_azimuth;
+uniform float sun_elevation;
+uniform float sun_size;  // diameter in units of the true one
+
+// Half the square's side, radians.
+float GetDiscReach() {
+  return SUN_ANGULAR_RADIUS * sun_size + 1.5 * GetPixelAngle();
+}
+
+vec3 GetDiscRight() {
+  return vec3(cos(radians(sun_azimuth)), 0.0, -sin(radians(sun_azimuth)));
+}
+
+vec3 GetDiscUp() {
+  return GetSunDirection(sun_azimuth, sun_elevation + 90.0);
+}
