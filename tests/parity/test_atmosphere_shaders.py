@@ -185,18 +185,24 @@ def test_other_air_agrees_too(air, sun, typical, worst):
 
 
 @pytest.mark.parametrize("orders", [1, 2, 3, 4, 7])
-def test_the_first_orders_agree(orders):
-    for air, sun in ((CLEAR, 30), (HAZY, 3), (CLEAR, -4)):
-        elevation, azimuth = all_over_the_sky(sun, count=200)
-        views = unit_vectors(elevation, azimuth)
-        drawn = shaders(lambda s, a=air, e=sun: s.draw(a, e, orders=orders).look(views))  # noqa: B023
-        reference = SkyTable(air, quality=SHADER, orders=orders).radiance(elevation, azimuth, sun)
-        # The first order leaves the far side of a twilight sky in the shadow of the earth: there
-        # a hundredth of the brightest counts instead of nothing.
-        floor = 0.01 * reference.max(axis=0)
-        error = (np.abs(drawn - reference) / (reference + floor)).max(axis=1)
-        assert np.median(error) < 6e-3
-        assert np.quantile(error, 0.99) < 0.04
+@pytest.mark.parametrize(
+    ("air", "sun", "typical", "worst"),
+    # The lower the sun the more the first order is what the tables of columns say, which have
+    # other sizes on the two hosts; other orders dilute that.
+    [(CLEAR, 30, 2e-3, 0.01), (HAZY, 3, 6e-3, 0.05), (CLEAR, -4, 0.03, 0.09)],
+    ids=["day", "low sun", "twilight"],
+)
+def test_the_first_orders_agree(orders, air, sun, typical, worst):
+    elevation, azimuth = all_over_the_sky(sun, count=200)
+    views = unit_vectors(elevation, azimuth)
+    drawn = shaders(lambda s: s.draw(air, sun, orders=orders).look(views))
+    reference = SkyTable(air, quality=SHADER, orders=orders).radiance(elevation, azimuth, sun)
+    # The first order leaves the far side of a twilight sky in the shadow of the earth: there a
+    # hundredth of the brightest counts instead of nothing.
+    floor = 0.01 * reference.max(axis=0)
+    error = (np.abs(drawn - reference) / (reference + floor)).max(axis=1)
+    assert np.median(error) < typical
+    assert np.quantile(error, 0.99) < worst
 
 
 def test_orders_end_at_all_of_them():
