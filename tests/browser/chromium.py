@@ -42,24 +42,24 @@ def chromium():
             browser.close()
 
 
-def open_page(context):
-    """The test page, served from memory: no server, no port."""
+def open_page(context, name="page.html"):
+    """A test page, served from memory: no server, no port."""
     page = context.new_page()
     page.set_default_timeout(PATIENCE)
     page.errors = []
     page.on("pageerror", lambda error: page.errors.append(str(error)))
 
     def serve(route):
-        name = route.request.url.removeprefix(ORIGIN).lstrip("/") or "page.html"
+        path = route.request.url.removeprefix(ORIGIN).lstrip("/")
         for folder in (HERE, STATIC):
-            file = folder / name
+            file = folder / path
             if file.is_file():
                 route.fulfill(body=file.read_bytes(), content_type=_TYPES[file.suffix])
                 return
         route.fulfill(status=404, body="")
 
     page.route(f"{ORIGIN}/**", serve)
-    page.goto(ORIGIN + "/")
+    page.goto(f"{ORIGIN}/{name}")
     page.wait_for_function("window.ready")
     return page
 

@@ -3,12 +3,13 @@
 import { element } from "./element.js";
 
 /**
- * @param {{ parameter: import("../types.js").Parameter, onChange: (value: string) => void }} options
+ * @param {{ parameter: import("../types.js").Parameter, onChange: (value: string) => void,
+ *   names?: Record<string, string> }} options `names` are what people read instead of the values
  */
-export function choice({ parameter: p, onChange }) {
+export function choice({ parameter: p, onChange, names = {} }) {
   const select = element("select", { class: "sw-select", "aria-label": p.label });
   for (const value of p.choices) {
-    select.append(element("option", { value }, value.replaceAll("_", " ")));
+    select.append(element("option", { value }, names[value] ?? value.replaceAll("_", " ")));
   }
   select.addEventListener("change", () => onChange(select.value));
   const node = element(

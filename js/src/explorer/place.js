@@ -1,0 +1,123 @@
+/** Where and when: date, place, and the clock that plays the day. */
+
+import { button } from "../controls/button.js";
+import { element } from "../controls/element.js";
+import { icon } from "../controls/icons.js";
+import { slider } from "../controls/slider.js";
+import { clock, sunAt } from "./day.js";
+import { degrees } from "./readout.js";
+
+const HOURS_A_SECOND = 1; // while the day plays
+
+/**
+ * @param {import("./view.js").View} view
+ * @param {AbortSignal} signal
+ */
+export function placeControls(view, signal) {
+  const { state } = view;
+  const date = element("input", { type: "date", class: "sw-input", "aria-label": "Date" });
+  date.addEventListener("change", () => state.set({ date: date.value || null }));
+  const numbers = ["latitude", "longitude"].map((name) => {
+    const p = view.parameter(name);
+    const input = element("input", {
+      type: "number",
+      class: "sw-input",
+      "aria-label": `${p.label} in degrees`,
+      min: p.minimum,
+      max: p.maximum,
+      step: "any",
+      title: p.help,
+    });
+    input.addEventListener("change", () => {
+      const value = input.value === "" ? null : view.clamp(name, Number(input.value));
+      state.set({ [name]: value });
+    });
+    return { name, label: p.label, input };
+  });
+  const field = (/** @type {string} */ label, /** @type {HTMLElement} */ input) =>
+    element(
+      "label",
+      { class: "sw-place-field" },
+      element("span", { class: "sw-label" }, label),
+      input,
+    );
+  const fields = element(
+    "div",
+    { class: "sw-place" },
+    field("Date", date),
+    ...numbers.map(({ label, input }) => field(label, input)),
+  );
+
+  const time = slider({
+    parameter: /** @type {any} */ ({
+      ...view.parameter("time"),
+      default: undefined,
+      step: 0.05,
+      unit: "h",
+      label: "Time, UTC",
+    }),
+    onBegin: () => state.begin(),
+    onInput: (value) => view.moveTime(Number(value)),
+    onCommit: () => state.commit(),
+  });
+  const play = button({
+    icon: "play",
+    label: "Play the day",
+    title: "Play the day, an hour a second",
+    onClick: () => (frame ? stop() : start()),
+  });
+  const said = element("p", { class: "sw-hint" });
+  const row = element("div", { class: "sw-time" }, play, time.node);
+
+  let frame = 0;
+  let last = 0;
+  const step = (/** @type {number} */ now) => {
+    const passed = Math.min(0.2, (now - last) / 1000);
+    last = now;
+    // Another gesture ends a step of the history; the playing goes on in the next.
+    state.begin();
+    view.moveTime((view.number("time") + passed * HOURS_A_SECOND) % 24);
+    frame = requestAnimationFrame(step);
+  };
+  const start = () => {
+    last = performance.now();
+    frame = requestAnimationFrame(step);
+    showPlay();
+  };
+  const stop = () => {
+    cancelAnimationFrame(frame);
+    frame = 0;
+    state.commit();
+    showPlay();
+  };
+  const showPlay = () => {
+    play.setAttribute("aria-pressed", String(frame !== 0));
+    play.replaceChildren(icon(frame ? "pause" : "play"));
+  };
+  signal.addEventListener("abort", () => cancelAnimationFrame(frame));
+
+  return {
+    nodes: [fields, row, said],
+    show() {
+      const { values } = state;
+      if (date !== document.activeElement) date.value = String(values.date ?? "");
+      for (const { name, input } of numbers) {
+        if (input !== document.activeElement) input.value = String(values[name] ?? "");
+      }
+      const day = view.day();
+      row.hidden = day.length === 0;
+      if (!day.length) {
+        if (frame) stop();
+        said.textContent = "With a date and a place, the clock moves the sun along its path.";
+        return;
+      }
+      const hours = /** @type {number | null} */ (values.time);
+      time.show(hours, 12);
+      const sun = hours === null ? null : sunAt(day, hours);
+      said.textContent = sun
+        ? `${clock(Number(hours))} UTC: sun at ${degrees(sun.azimuth)}, seen at ${degrees(sun.apparent)}, ` +
+          `truly at ${degrees(sun.true)}.`
+        : "The sun was moved by hand; the clock puts it back on its path.";
+    },
+  };
+}

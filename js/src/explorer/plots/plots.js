@@ -1,0 +1,203 @@
+/**
+ * The plots beside the sky, drawn from the curves that the graph computes for the present state.
+ *
+ * They follow the picture at a distance: after a frame, at most ten times a second while
+ * something is dragged, and always once more at the end.
+ */
+
+import { element } from "../../controls/element.js";
+import { icon } from "../../controls/icons.js";
+import { PhasePlot } from "./phase.js";
+import { PrincipalPlanePlot } from "./principal_plane.js";
+import { SunColorPlot } from "./sun_color.js";
+import { followTheme } from "./theme.js";
+import { TransmittancePlot } from "./transmittance.js";
+import { ZenithElevationPlot, ZenithTrackPlot } from "./zenith.js";
+
+const PAUSE_MS = 100;
+
+/**
+ * @typedef {{
+ *   curve: (pass: string) => Float32Array, sun: [number, number], scatteringAngle: number | null,
+ *   measured: import("../measured.js").Scan | null,
+ * }} Context what a plot is drawn from; the sun as azimuth and apparent elevation
+ * @typedef {{
+ *   moveSun: (chart: import("./chart.js").Chart) => void,
+ *   point: (direction: [number, number] | null) => void,
+ * }} Links what a plot does to the sky
+ * @typedef {{
+ *   title: string, help: string, passes: string[], node: HTMLElement,
+ *   chart: import("./chart.js").Chart, update: (context: Context) => void,
+ *   extra?: HTMLElement, hover?: (angle: number | null) => void, tell?: () => string,
+ * }} Plot
+ */
+
+export class Plots {
+  /**
+   * @param {import("../view.js").View} view
+   * @param {AbortSignal} signal
+   */
+  constructor(view, signal) {
+    this.view = view;
+    const theme = followTheme(view.root, () => this.redraw(), signal);
+    /** @type {Links} */
+    const links = {
+      moveSun: (chart) => this.dragSun(chart),
+      point: (direction) => view.point(direction),
+    };
+    /** @type {Plot[]} */
+    const plots = [
+      new PhasePlot(theme),
+      new TransmittancePlot(theme),
+      new SunColorPlot(theme, links),
+      new PrincipalPlanePlot(theme, links),
+      new ZenithTrackPlot(theme),
+      new ZenithElevationPlot(theme, links),
+    ];
+    this.cards = plots.map((plot) => this.card(plot));
+    const grid = element("div", { class: "sw-plot-grid" }, ...this.cards.map((card) => card.node));
+    const heading = element("summary", {}, icon("chevron"), element("span", {}, "Plots"));
+    this.node = element("details", { class: "sw-section sw-plots", open: true }, heading, grid);
+    this.node.addEventListener("toggle", () => this.request());
+    this.last = 0;
+    this.cost = 0;
+    /** @type {number | null} */
+    this.angle = null;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.timer = undefined;
+    const observer = new ResizeObserver(() => {
+      for (const { plot, body } of this.cards) plot.chart.resize(Math.floor(body.clientWidth));
+    });
+    for (const { body } of this.cards) observer.observe(body);
+    signal.addEventListener("abort", () => {
+      observer.disconnect();
+      clearTimeout(this.timer);
+      for (const { plot } of this.cards) plot.chart.dispose();
+    });
+  }
+
+  /** @param {Plot} plot */
+  card(plot) {
+    const told = element("span", { class: "sw-card-value" });
+    const help = element("p", { class: "sw-hint", hidden: true }, plot.help);
+    const ask = element(
+      "button",
+      {
+        type: "button",
+        class: "sw-button sw-ask",
+        "aria-label": `About: ${plot.title}`,
+        "aria-expanded": "false",
+        title: plot.help,
+      },
+      icon("help"),
+    );
+    ask.addEventListener("click", (event) => {
+      event.preventDefault();
+      help.hidden = !help.hidden;
+      ask.setAttribute("aria-expanded", String(!help.hidden));
+    });
+    const heading = element(
+      "summary",
+      {},
+      icon("chevron"),
+      element("span", {}, plot.title),
+      told,
+      ...(plot.extra ? [plot.extra] : []),
+      ask,
+    );
+    const body = element("div", { class: "sw-card-body" }, plot.node);
+    const node = element("details", { class: "sw-card", open: true }, heading, help, body);
+    node.addEventListener("toggle", () => this.request());
+    return { plot, node, body, told };
+  }
+
+  /** Draw soon: what is asked for while a drawing waits is drawn with it. */
+  request() {
+    if (this.timer !== undefined || !this.node.open) return;
+    const since = performance.now() - this.last;
+    // A slow machine draws them seldom, so that the drag itself stays fluent.
+    const pause = Math.max(PAUSE_MS, 3 * this.cost);
+    this.timer = setTimeout(
+      () => {
+        this.timer = undefined;
+        this.update();
+      },
+      Math.max(0, pause - since),
+    );
+  }
+
+  update() {
+    const begin = performance.now();
+    /** @type {Map<string, Float32Array>} */
+    const read = new Map();
+    const curve = (/** @type {string} */ pass) => {
+      const texels = read.get(pass) ?? this.view.frame.curve(pass);
+      if (!texels) throw new Error("The graphics context was lost.");
+      read.set(pass, texels);
+      return texels;
+    };
+    /** @type {Context} */
+    const context = {
+      curve,
+      sun: this.view.sun(),
+      measured: this.view.measured.scan(),
+      scatteringAngle: this.angle,
+    };
+    try {
+      for (const { plot, node, told } of this.cards) {
+        if (!node.open) continue;
+        plot.update(context);
+        told.textContent = plot.tell?.() ?? "";
+      }
+    } catch (error) {
+      this.view.showError(error instanceof Error ? error.message : String(error));
+    }
+    this.last = performance.now();
+    this.cost = this.last - begin;
+  }
+
+  /** The angle from the sun under the pointer. @param {number | null} angle degrees */
+  hover(angle) {
+    if (angle === this.angle) return;
+    this.angle = angle;
+    for (const { plot, node, told } of this.cards) {
+      if (!plot.hover || !node.open) continue;
+      plot.hover(angle);
+      told.textContent = plot.tell?.() ?? "";
+    }
+  }
+
+  redraw() {
+    for (const { plot } of this.cards) plot.chart.redraw();
+  }
+
+  /** Let a plot whose abscissa is the sun's elevation move the sun. @param {import("./chart.js").Chart} chart */
+  dragSun(chart) {
+    const { view } = this;
+    const { target } = chart;
+    target.classList.add("sw-chart-drag");
+    /** @type {number | null} */
+    let pointer = null;
+    const move = (/** @type {PointerEvent} */ event) => {
+      const over = chart.plot?.over.getBoundingClientRect();
+      if (!over || !chart.plot) return;
+      const elevation = chart.plot.posToVal(event.clientX - over.left, "x");
+      if (!Number.isFinite(elevation)) return;
+      view.state.begin();
+      view.moveSun(view.sun()[0], elevation);
+    };
+    target.addEventListener("pointerdown", (event) => {
+      if (event.button > 0) return;
+      pointer = event.pointerId;
+      target.setPointerCapture(pointer);
+      move(event);
+    });
+    target.addEventListener("pointermove", (event) => {
+      if (event.pointerId === pointer) move(event);
+    });
+    target.addEventListener("lostpointercapture", () => {
+      pointer = null;
+      view.state.commit();
+    });
+  }
+}

@@ -1,0 +1,52 @@
+/** The line under the sky: the sun's place, and what lies under the pointer. */
+
+import { element } from "../controls/element.js";
+import { cssColor } from "./color.js";
+import { trueElevation, turned } from "./day.js";
+import { luminanceText } from "./sky_probe.js";
+
+/** Degrees with a proper minus. @type {(value: number, digits?: number) => string} */
+export const degrees = (value, digits = 1) => `${value.toFixed(digits).replace("-", "−")}°`;
+
+export class Readout {
+  constructor() {
+    this.sun = element("span", { class: "sw-readout" });
+    this.swatch = element("span", { class: "sw-swatch" });
+    this.text = element("span", {});
+    this.note = element("span", { class: "sw-readout-note" });
+    this.hover = element("span", { class: "sw-readout", hidden: true }, this.swatch, this.text);
+    this.node = element("div", { class: "sw-foot" }, this.sun, this.note, this.hover);
+  }
+
+  /** @param {[number, number]} sun azimuth and apparent elevation */
+  showSun([azimuth, elevation]) {
+    this.sun.textContent =
+      `Sun: azimuth ${degrees(turned(azimuth))} · elevation ${degrees(elevation)} as seen, ` +
+      `${degrees(trueElevation(elevation))} without refraction`;
+  }
+
+  /** What is being computed, or what to know about it. @param {string} text */
+  showNote(text) {
+    if (this.note.textContent !== text) this.note.textContent = text;
+  }
+
+  /**
+   * @param {[number, number] | null} direction azimuth and elevation
+   * @param {import("./sky_probe.js").Reading | null} reading
+   * @param {number} angle degrees from the sun
+   */
+  showHover(direction, reading, angle) {
+    this.hover.hidden = !direction;
+    if (!direction) return;
+    const place =
+      `azimuth ${degrees(turned(direction[0]))}, elevation ${degrees(direction[1])}, ` +
+      `${degrees(angle, 0)} from the sun`;
+    this.swatch.style.background = reading ? cssColor(reading.rgb) : "transparent";
+    const color = reading?.xy
+      ? ` · x ${reading.xy[0].toFixed(3)} y ${reading.xy[1].toFixed(3)}`
+      : "";
+    this.text.textContent = reading
+      ? `${place} · ${luminanceText(reading.luminance)}${color}`
+      : place;
+  }
+}

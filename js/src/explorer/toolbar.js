@@ -1,0 +1,121 @@
+/** How the sky is shown, history, and the way out: code. */
+
+import { button, radioButtons } from "../controls/button.js";
+import { element } from "../controls/element.js";
+import { pythonCode } from "./code.js";
+
+/** @type {{ value: string, icon: import("../controls/icons.js").IconName, label: string, title: string }[]} */
+const PROJECTIONS = [
+  {
+    value: "dome",
+    icon: "dome",
+    label: "Dome",
+    title: "Dome: the whole sky as a fisheye sees it, zenith in the middle",
+  },
+  {
+    value: "panorama",
+    icon: "panorama",
+    label: "Panorama",
+    title: "Panorama: all round the horizon; drag to turn",
+  },
+  {
+    value: "camera",
+    icon: "camera",
+    label: "Camera",
+    title: "Camera: a picture; drag to look elsewhere, Ctrl+wheel to zoom",
+  },
+];
+const KERNEL_PATIENCE_MS = 1500; // without an answer the code is written here
+
+/** @param {import("./view.js").View} view */
+export function toolbar(view) {
+  const { state } = view;
+  const projections = radioButtons({
+    label: "Projection",
+    choices: PROJECTIONS,
+    value: String(state.values.projection),
+    onChange: (projection) => state.set({ projection }),
+  });
+  for (const [i, node] of [...projections.node.children].entries()) {
+    node.append(element("span", {}, PROJECTIONS[i].label));
+  }
+  const undo = button({
+    icon: "undo",
+    label: "Undo",
+    title: "Undo (Ctrl+Z)",
+    onClick: () => state.undo(),
+  });
+  const redo = button({
+    icon: "redo",
+    label: "Redo",
+    title: "Redo (Ctrl+Shift+Z)",
+    onClick: () => state.redo(),
+  });
+  const reset = button({
+    icon: "reset",
+    label: "Reset",
+    title: "Everything back to its default",
+    onClick: () => state.reset(),
+  });
+  const copy = button({
+    icon: "copy",
+    label: "Copy code",
+    title: "Copy Python that makes this sky again",
+    caption: true,
+  });
+  const said = element("span", { class: "sw-said", role: "status" });
+  copy.addEventListener("click", async () => {
+    const code = await codeOf(view);
+    said.textContent = (await copied(code)) ? "Copied" : "";
+    // Without a clipboard the person copies by hand.
+    view.showError(said.textContent ? "" : code);
+    view.root.dataset.code = code;
+    setTimeout(() => {
+      said.textContent = "";
+    }, 2500);
+  });
+  const node = element(
+    "div",
+    { class: "sw-toolbar", role: "toolbar", "aria-label": "Sky explorer" },
+    projections.node,
+    element("div", { class: "sw-group" }, undo, redo, reset),
+    element("div", { class: "sw-group sw-end" }, said, copy),
+  );
+  return {
+    node,
+    show() {
+      projections.show(String(state.values.projection));
+      const { past, future } = state.history();
+      undo.disabled = past.length === 0;
+      redo.disabled = future.length === 0;
+      reset.disabled = Object.keys(state.recipe()).length === 0;
+    },
+  };
+}
+
+/** The kernel's code, or the browser's when no kernel answers. @param {import("./view.js").View} view */
+async function codeOf(view) {
+  const { values } = view.state;
+  const follows = (view.day().length > 0 && values.time !== null) || values.scan !== null;
+  const own = pythonCode(view.state.recipe(), follows);
+  /** @type {Promise<string>} */
+  const late = new Promise((resolve) => {
+    setTimeout(() => resolve(own), KERNEL_PATIENCE_MS);
+  });
+  view.state.push();
+  const asked = view.channel.request("code").then(
+    ({ result }) => String(result.code),
+    () => own,
+  );
+  return `import sunwidget as sw\n\n${await Promise.race([asked, late])}`;
+}
+
+/** @param {string} text */
+async function copied(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
+}

@@ -1,0 +1,356 @@
+/**
+ * One view of a SkyExplorer: it draws the sky from its own state, and the traits follow.
+ *
+ * Everything but Bruneton's table, the measured skies and their errors is computed here, so the
+ * widget goes on without a kernel.
+ */
+
+import { Channel } from "../channel.js";
+import { element } from "../controls/element.js";
+import { EditState } from "../editor/state.js";
+import { angleBetween, sunAt, turned } from "./day.js";
+import { Guides } from "./guides.js";
+import { MOST_SAMPLES } from "./limits.js";
+import { Measured } from "./measured.js";
+import { panel } from "./panel.js";
+import { Plots } from "./plots/plots.js";
+import { listenToPointer } from "./pointer.js";
+import { Projection } from "./projection.js";
+import { Readout } from "./readout.js";
+import { SkyFrame } from "./sky_frame.js";
+import { reading } from "./sky_probe.js";
+import { SkyStage } from "./stage.js";
+import { SunHandle } from "./sun_handle.js";
+import { toolbar } from "./toolbar.js";
+
+/**
+ * @typedef {import("../types.js").Model} Model
+ * @typedef {import("../types.js").Parameter} Parameter
+ * @typedef {import("../types.js").Point} Point
+ */
+
+const SLOW_FRAME_MS = 33; // slower frames than this are drawn smaller while a drag lasts
+const SMALLEST_SCALE = 0.35;
+const SETTLED_MS = 160; // after this long without a change the frame is drawn in full
+const MOST_PIXELS = 900_000;
+
+let views = 0;
+
+export class View {
+  /**
+   * @param {Model} model
+   * @param {HTMLElement} root
+   * @param {AbortSignal} signal ends the view
+   */
+  constructor(model, root, signal) {
+    views += 1;
+    this.id = `sw-view-${views}`;
+    this.model = model;
+    this.root = root;
+    /** @type {Parameter[]} */
+    this.parameters = model.get("_parameters");
+    this.state = new EditState(model, this.parameters, signal);
+    this.channel = new Channel(model, signal);
+    this.stage = new SkyStage(signal);
+    this.frame = new SkyFrame(this.stage.canvas, this.parameters);
+    this.guides = new Guides(this);
+    this.handle = new SunHandle(this);
+    this.measured = new Measured(this);
+    this.readout = new Readout();
+    this.plots = new Plots(this, signal);
+    this.panel = panel(this, signal);
+    this.toolbar = toolbar(this);
+    this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
+    /** @type {Point | null} direction under the pointer */
+    this.pointed = null;
+    /** @type {Point | null} direction that a plot points at */
+    this.plotPoint = null;
+    this.paused = false;
+    /** @type {string} what the picture shows */
+    this.drawnKey = "";
+    this.tables = 0; // how many tables the kernel has sent
+    this.scale = 1;
+    this.request = 0;
+    this.lastFrame = 0;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.settle = undefined;
+    this.signal = signal;
+    this.build();
+    this.listen(signal);
+    this.show();
+  }
+
+  build() {
+    this.stage.picture.append(this.measured.legend);
+    this.stage.overlay.append(this.guides.node, this.measured.dots, this.handle.node);
+    const main = element(
+      "div",
+      { class: "sw-main" },
+      this.stage.node,
+      this.message,
+      this.readout.node,
+    );
+    this.root.append(
+      this.toolbar.node,
+      element("div", { class: "sw-body" }, main, this.panel.node),
+      this.plots.node,
+    );
+  }
+
+  /** @param {AbortSignal} signal */
+  listen(signal) {
+    const { model, state, stage } = this;
+    state.subscribe(() => this.show());
+    stage.onLayout = () => this.requestFrame();
+    const onData = () => {
+      this.show();
+      this.plots.request();
+    };
+    const names = ["_day", "_measured", "_scans", "_aliases", "_presets"];
+    for (const name of names) model.on(`change:${name}`, onData);
+    /** @type {(message: any) => void} */
+    const onMessage = (message) => {
+      if (message?.type === "error") this.showError(message.error);
+    };
+    model.on("msg:custom", onMessage);
+    listenToPointer(this, signal);
+    this.root.addEventListener("keydown", (event) => this.onKey(event), { signal });
+    signal.addEventListener("abort", () => {
+      for (const name of names) model.off(`change:${name}`, onData);
+      model.off("msg:custom", onMessage);
+      cancelAnimationFrame(this.request);
+      clearTimeout(this.settle);
+      this.frame.dispose();
+    });
+  }
+
+  /** @param {KeyboardEvent} event */
+  onKey(event) {
+    const target = /** @type {HTMLElement} */ (event.target);
+    if (target instanceof HTMLInputElement && target.type !== "range") return;
+    if (!event.ctrlKey && !event.metaKey) return;
+    const key = event.key.toLowerCase();
+    if (key === "z" && !event.shiftKey) this.state.undo();
+    else if (key === "y" || (key === "z" && event.shiftKey)) this.state.redo();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  /** @param {string} name */
+  parameter(name) {
+    const found = this.parameters.find((p) => p.name === name);
+    if (!found) throw new Error(`The kernel's table has no parameter "${name}".`);
+    return found;
+  }
+
+  /** @param {string} name @returns {number} */
+  number(name) {
+    return Number(this.state.values[name] ?? this.parameter(name).default ?? 0);
+  }
+
+  /** @type {(name: string, value: number) => number} */
+  clamp(name, value) {
+    const { minimum, maximum } = this.parameter(name);
+    return Math.min(maximum, Math.max(minimum, value));
+  }
+
+  /** Azimuth and apparent elevation of the sun in degrees. @returns {Point} */
+  sun() {
+    return [this.number("sun_azimuth"), this.number("sun_elevation")];
+  }
+
+  /**
+   * Move the sun by hand: the clock then stands still.
+   *
+   * @param {number} azimuth degrees
+   * @param {number} elevation degrees
+   */
+  moveSun(azimuth, elevation) {
+    const round = (/** @type {number} */ value) => Math.round(value * 1e4) / 1e4;
+    this.state.set({
+      sun_azimuth: round(turned(azimuth)),
+      sun_elevation: round(this.clamp("sun_elevation", elevation)),
+      ...(this.state.values.time === null || !this.day().length ? {} : { time: null }),
+    });
+  }
+
+  /** The kernel's table of the sun's path. @returns {import("./day.js").DayRow[]} */
+  day() {
+    return this.model.get("_day") ?? [];
+  }
+
+  /** Set the clock, and the sun with it. @param {number} hours UTC */
+  moveTime(hours) {
+    const place = sunAt(this.day(), hours);
+    const round = (/** @type {number} */ value) => Math.round(value * 1e4) / 1e4;
+    this.state.set({
+      time: round(hours),
+      ...(place && {
+        sun_azimuth: round(place.azimuth),
+        sun_elevation: round(this.clamp("sun_elevation", place.apparent)),
+      }),
+    });
+  }
+
+  projection() {
+    const { width, height } = this.stage.rectangle();
+    return new Projection(String(this.state.values.projection), [width, height], {
+      view_azimuth: this.number("view_azimuth"),
+      view_elevation: this.number("view_elevation"),
+      fov: this.number("fov"),
+    });
+  }
+
+  /** Where a direction stands on the picture, or null behind the camera. @type {(direction: Point) => Point | null} */
+  placeOf([azimuth, elevation]) {
+    return this.projection().pixel(azimuth, elevation);
+  }
+
+  /** @type {(place: Point) => Point | null} null where no sky can be */
+  directionOf([x, y]) {
+    return this.projection().direction(x, y);
+  }
+
+  /** The same, or the nearest direction towards the picture's middle. @param {Point} place */
+  nearestDirection([x, y]) {
+    const projection = this.projection();
+    const [cx, cy] = projection.size.map((side) => side / 2);
+    for (let share = 1; share > 0; share -= 0.01) {
+      const found = projection.direction(cx + share * (x - cx), cy + share * (y - cy));
+      if (found) return found;
+    }
+    return null;
+  }
+
+  /** How far a pixel turns the view. */
+  degreesPerPixel() {
+    const { width, height } = this.stage.rectangle();
+    return this.state.values.projection === "camera" ? this.number("fov") / height : 360 / width;
+  }
+
+  /** Text is shown as text. @param {string} text */
+  showError(text) {
+    this.message.hidden = !text;
+    this.message.textContent = text;
+  }
+
+  /** What lies under the pointer. @param {Point | null} direction */
+  hover(direction) {
+    this.pointed = direction && direction[1] >= -90 ? direction : null;
+    this.requestFrame();
+  }
+
+  /** A plot points at a direction. @param {Point | null} direction */
+  point(direction) {
+    this.plotPoint = direction;
+    this.requestFrame();
+  }
+
+  /** Everything that follows from the state: controls at once, the frame with the next refresh. */
+  show() {
+    this.stage.setProjection(String(this.state.values.projection));
+    this.root.dataset.projection = String(this.state.values.projection);
+    this.panel.show();
+    this.toolbar.show();
+    this.requestFrame();
+  }
+
+  requestFrame() {
+    this.request ||= requestAnimationFrame((now) => {
+      this.request = 0;
+      this.drawFrame(now);
+    });
+  }
+
+  /** @param {number} now */
+  drawFrame(now) {
+    const dragging = this.state.before !== null;
+    if (dragging) {
+      const spent = now - this.lastFrame;
+      // A pause of the hand is no slow frame.
+      if (spent < 500) this.adapt(spent);
+      clearTimeout(this.settle);
+      this.settle = setTimeout(() => this.requestFrame(), SETTLED_MS);
+    }
+    this.lastFrame = now;
+    this.drawSky(dragging ? this.scale : 1);
+    this.drawOverlay();
+  }
+
+  /** @param {number} scale of the full size */
+  drawSky(scale) {
+    const { width, height } = this.stage.rectangle();
+    if (width < 8 || height < 8) return;
+    const dense = Math.min(window.devicePixelRatio || 1, Math.sqrt(MOST_PIXELS / (width * height)));
+    const size = /** @type {[number, number]} */ (
+      [width, height].map((side) => Math.max(1, Math.round(side * dense * scale)))
+    );
+    const key = JSON.stringify([this.state.values, size, this.tables]);
+    const traces = this.usesReference() && !this.referenceRests();
+    // A pointer that only reads changes no pixel.
+    if (key === this.drawnKey && !traces) return;
+    try {
+      if (!this.frame.draw(this.state.values, size)) return;
+      this.drawnKey = key;
+      this.root.classList.add("sw-live");
+      this.plots.request();
+      if (this.usesReference() && !this.referenceRests()) this.requestFrame();
+    } catch (error) {
+      this.showError(error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  usesReference() {
+    const { model, compare } = this.state.values;
+    return model === "reference" || compare === "reference";
+  }
+
+  referenceRests() {
+    return this.paused || this.frame.samples >= MOST_SAMPLES;
+  }
+
+  /** Draw smaller while the machine cannot keep up with the drag. @param {number} spent ms */
+  adapt(spent) {
+    if (spent > SLOW_FRAME_MS) {
+      const wanted = this.scale * Math.sqrt(SLOW_FRAME_MS / spent);
+      this.scale = Math.max(SMALLEST_SCALE, 0.5 * (this.scale + wanted));
+    } else if (spent < SLOW_FRAME_MS / 2) {
+      this.scale = Math.min(1, this.scale * 1.02);
+    }
+  }
+
+  drawOverlay() {
+    this.guides.draw();
+    this.handle.draw();
+    this.measured.draw();
+    this.readout.showSun(this.sun());
+    this.readout.showNote(this.panel.note());
+    const { pointed } = this;
+    const angle = pointed ? angleBetween(pointed, this.sun()) : 0;
+    this.readout.showHover(pointed, pointed && this.read(pointed), angle);
+    this.guides.point(this.plotPoint);
+    this.plots.hover(pointed && angle);
+  }
+
+  /** The sky in one direction, as drawn. @param {Point} direction */
+  read(direction) {
+    const texels = this.radiances([direction]);
+    return texels && reading(texels.subarray(0, 4));
+  }
+
+  /**
+   * Radiances at the four wavelengths in some directions, by the model.
+   *
+   * @param {Point[]} directions
+   * @returns {Float32Array | null} four numbers each
+   */
+  radiances(directions) {
+    try {
+      return this.frame.radiances(directions);
+    } catch (error) {
+      this.showError(error instanceof Error ? error.message : String(error));
+      return null;
+    }
+  }
+}
