@@ -9,6 +9,7 @@ import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { context } from "esbuild";
+import { packPlugin } from "./pack.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const shaders = join(here, "..", "sunwidget", "shaders");
@@ -108,7 +109,7 @@ async function main() {
     target: "es2022",
     logLevel: "info",
     legalComments: "none",
-    plugins: [shaderPlugin],
+    plugins: [shaderPlugin, packPlugin(join(out, "sky_explorer.js"), ["SkyFrame"])],
   });
   if (process.argv.includes("--watch")) {
     await build.watch();

@@ -1,5 +1,6 @@
 /** The anywidget module of SkyExplorer. */
 
+import { SkyFrame } from "./sky_frame.js";
 import { View } from "./view.js";
 
 // Nothing slow belongs here: `initialize` must settle within two seconds.
@@ -24,3 +25,5 @@ function render({ model, el }) {
 }
 
 export default { render };
+// For tests and for pages without a kernel.
+export { SkyFrame };

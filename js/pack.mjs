@@ -1,0 +1,45 @@
+/**
+ * Pack a bundle: anywidget saves it in the notebook once a widget, so its bytes count, and text
+ * deflates to a third. What is left is a module that inflates itself and hands on what it exports,
+ * by way of a blob's address as anywidget itself does with every module it gets as text.
+ */
+
+import { readFileSync, writeFileSync } from "node:fs";
+import { deflateRawSync } from "node:zlib";
+
+/**
+ * @param {string} code an ES module without imports, with a default export
+ * @param {string[]} [names] other exports to hand on
+ * @returns {string} the same, packed
+ */
+export function pack(code, names = []) {
+  const packed = deflateRawSync(Buffer.from(code, "utf-8"), { level: 9 }).toString("base64");
+  return [
+    `const packed="${packed}";`,
+    "const bytes=Uint8Array.from(atob(packed),(c)=>c.charCodeAt(0));",
+    'const plain=new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));',
+    "const text=await new Response(plain).text();",
+    'const url=URL.createObjectURL(new Blob([text],{type:"text/javascript"}));',
+    "const module=await import(url);",
+    "URL.revokeObjectURL(url);",
+    "export default module.default;",
+    ...names.map((name) => `export const ${name}=module.${name};`),
+    "",
+  ].join("\n");
+}
+
+/**
+ * Pack a file of the build where it lies.
+ *
+ * @param {string} path
+ * @param {string[]} names exports beside the default
+ * @returns {import("esbuild").Plugin}
+ */
+export const packPlugin = (path, names) => ({
+  name: "sunwidget-pack",
+  setup(build) {
+    build.onEnd(({ errors }) => {
+      if (!errors.length) writeFileSync(path, pack(readFileSync(path, "utf-8"), names));
+    });
+  },
+});
