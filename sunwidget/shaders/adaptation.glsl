@@ -1,14 +1,17 @@
-// What the eye has adapted to, one pixel: r, g, b the sun's illuminance at normal incidence
-// (linear Rec. 709, klx), a the gain from luminance (kcd m^-2) to display light.
+// What is the same for every pixel of the picture, two texels:
+//   0  r, g, b the sun's illuminance at normal incidence (linear Rec. 709, klx), none
+//      where no disc is drawn; a the gain from luminance (kcd m^-2) to display light
+//   1  r one over the reach of the disc's picture, g one over the square of the glow's radius
 //
 // The eye adapts to the sky above and to a meadow below it, half of the view each. So a high
 // camera, in full sun under a black sky, is exposed for the sun.
 
+#include "lib/projection.glsl"
 #include "lib/sky.glsl"
+#include "lib/sun_disc.glsl"
 #include "lib/srgb.glsl"
 
 uniform sampler2D light;
-uniform float sun_elevation;
 uniform float exposure;       // stops
 uniform float auto_exposure;  // 0 keeps the exposure of noon, 1 adapts fully
 out vec4 result;
@@ -17,6 +20,7 @@ const float MEADOW_ALBEDO = 0.2;
 const float NOON = 5.4;    // kcd m^-2: the mean below, sun at 60 degrees in the default atmosphere
 const float KEY = 0.62;    // display light that the mean is drawn with
 const float NIGHT = 1e-9;  // no light at all
+const Angle GLOW_RADIUS = 0.011;
 
 vec3 GetIlluminance(int texel) {
   return SpectralToRec709(texelFetch(light, ivec2(texel, 0), 0));
@@ -27,10 +31,15 @@ float GetMeanLuminance(float sky, float sun) {
 }
 
 void main() {
+  if (gl_FragCoord.x > 1.0) {
+    float radius = GLOW_RADIUS * max(sun_size, 0.5);
+    result = vec4(1.0 / GetDiscReach(), 1.0 / (radius * radius), 0.0, 0.0);
+    return;
+  }
   vec3 sun = GetIlluminance(1);
   // Texel 0 is the sky's light on level ground; the sun's falls on it at its height.
   float height = max(sin(radians(sun_elevation)), 0.0);
   float mean = max(GetMeanLuminance(GetLuminance(GetIlluminance(0)), GetLuminance(sun) * height), NIGHT);
   float gain = KEY * exp2(exposure) * pow(mean, -auto_exposure) * pow(NOON, auto_exposure - 1.0);
-  result = vec4(max(sun, 0.0), gain);
+  result = vec4(min(sun_size, 1.0) * max(sun, 0.0), gain);
 }

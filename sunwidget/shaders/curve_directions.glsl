@@ -7,5 +7,5 @@ out vec4 result;
 
 void main() {
   vec2 angles = texelFetch(directions, ivec2(gl_FragCoord.xy), 0).rg;
-  result = GetShownRadiance(0, GetSunDirection(angles.r, angles.g));
+  result = GetShownRadiance(ReadSkyView(shown), 0, GetSunDirection(angles.r, angles.g));
 }

@@ -10,5 +10,5 @@ void main() {
   float angle = radians(floor(gl_FragCoord.x));
   vec3 towards = GetSunDirection(sun_azimuth, 0.0);
   vec3 direction = normalize(cos(angle) * towards + vec3(0.0, sin(angle), 0.0));
-  result = GetShownRadiance(0, direction);
+  result = GetShownRadiance(ReadSkyView(shown), 0, direction);
 }

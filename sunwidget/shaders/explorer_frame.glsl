@@ -2,9 +2,7 @@
 // where two are compared, the sun's disc with its glow, and the way to display light.
 // With `output_transfer` 0 it is the sky's spectral radiance itself, without sun or exposure.
 
-#include "lib/projection.glsl"
 #include "lib/shown.glsl"
-#include "lib/sun_disc.glsl"
 #include "lib/srgb.glsl"
 #include "lib/pixel.glsl"
 
@@ -19,7 +17,6 @@ uniform float show_multiple;
 // The eye's own glare round the sun, far weaker than an eye's: enough to see the sun where its disc
 // is a pixel. A Moffat profile per unit of illuminance, 1/sr.
 const float GLOW = 0.35;
-const Angle GLOW_RADIUS = 0.011;
 const float GLOW_FALL = 1.35;
 
 // The shoulder: light above WHITE_START of the display's loses its colour by and by, up to
@@ -29,17 +26,17 @@ const float WHITE_START = 1.6;
 const float WHITE_END = 200.0;
 const float WHITE_SHARE = 0.86;
 
-vec3 GetGlow(vec3 illuminance, Angle from_sun) {
-  float x = from_sun / (GLOW_RADIUS * max(sun_size, 0.5));
-  return min(sun_size, 1.0) * GLOW * pow(1.0 + x * x, -GLOW_FALL) * illuminance;
-}
-
-vec3 GetDisc(vec3 view, vec3 sun) {
+// The picture of the disc (sun_disc.glsl) where it lies, in the plane that touches the sphere of
+// directions at the sun. `scale` is one over half its side.
+vec3 GetDisc(vec3 view, vec3 sun, float scale) {
+  vec3 right = vec3(sun.z, 0.0, -sun.x) * inversesqrt(max(dot(sun.xz, sun.xz), 1e-20));
   float ahead = dot(view, sun);
-  vec2 offset = vec2(dot(view, GetDiscRight()), dot(view, GetDiscUp())) / max(ahead, 1e-3);
-  vec2 place = 0.5 + 0.5 * offset / GetDiscReach();
-  vec2 within = step(vec2(0.0), place) * step(place, vec2(1.0));
-  return step(0.0, ahead) * within.x * within.y * FetchBilinear(sun_disc, place).rgb;
+  vec2 offset = vec2(dot(view, right), dot(view, cross(sun, right))) * (scale / max(ahead, 1e-3));
+  float within = step(0.0, ahead) * step(max(abs(offset.x), abs(offset.y)), 1.0);
+  // The nearest texel: there are as many as a zoomed camera has pixels for a disc.
+  vec2 size = vec2(textureSize(sun_disc, 0));
+  ivec2 texel = ivec2(clamp((0.5 + 0.5 * offset) * size, vec2(0.0), size - 1.0));
+  return within * texelFetch(sun_disc, texel, 0).rgb;
 }
 
 // Colours outside Rec. 709 lose as much of their colour as takes them to its edge.
@@ -67,16 +64,17 @@ void main() {
   vec4 ray = texelFetch(rays, texel, 0);
   float from_middle = pixel.x - 0.5 * frame_size.x;
   bool right = compare > 0.5 && from_middle > 0.0;
-  vec4 radiance = GetShownRadiance(right ? 1 : 0, ray.xyz);
+  SkyView sky = ReadSkyView(shown);
+  vec4 radiance = GetShownRadiance(sky, right ? 1 : 0, ray.xyz);
   // Where no reference is drawn another table is bound, of another size.
   vec4 traced = texelFetch(reference, min(texel, textureSize(reference, 0) - 1), 0);
   bool is_traced = int((right ? compare - 1.0 : model) + 0.5) == MODEL_REFERENCE;
   radiance = max(radiance + (is_traced ? show_multiple * traced : vec4(0.0)), 0.0);
-  vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
-  // The chord keeps its digits where acos(dot) has none.
-  float from_sun = 2.0 * asin(min(0.5 * length(ray.xyz - sun), 1.0));
   vec4 adapted = texelFetch(adaptation, ivec2(0), 0);
-  vec3 light = SpectralToRec709(radiance) + GetDisc(ray.xyz, sun) + GetGlow(adapted.rgb, from_sun);
+  vec4 scales = texelFetch(adaptation, ivec2(1, 0), 0);
+  vec3 away = ray.xyz - sky.sun;
+  float glow = GLOW * pow(1.0 + dot(away, away) * scales.g, -GLOW_FALL);
+  vec3 light = SpectralToRec709(radiance) + GetDisc(ray.xyz, sky.sun, scales.r) + glow * adapted.rgb;
   vec3 display = GetDisplayLight(adapted.a * light);
   float divide = compare > 0.5 ? 0.6 * clamp(1.0 - abs(from_middle), 0.0, 1.0) : 0.0;
   vec3 code = EncodeSrgb(mix(display, vec3(1.0), divide)) + GetDither(pixel);

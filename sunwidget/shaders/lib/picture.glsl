@@ -2,7 +2,8 @@
 // Picture coordinates: fractions of width and height, (0,0) at the top left corner.
 // World coordinates: x to the right of the camera's heading, y up, z along the heading.
 
-uniform vec2 frame_size;      // the whole picture, pixels
+#include "lib/frame_size.glsl"
+
 uniform vec3 camera_right;    // world axes in camera coordinates (x right, y down, z forward)
 uniform vec3 camera_up;
 uniform vec3 camera_forward;

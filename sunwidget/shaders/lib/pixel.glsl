@@ -1,5 +1,7 @@
 // The pixel that is drawn, top-left origin on every host, and its noise.
 
+#include "lib/frame_size.glsl"
+
 uniform vec2 tile_origin;
 uniform float canvas_flip;     // 1 when drawing to the browser's canvas, whose row 0 is the lowest
 uniform int output_transfer;   // 0 linear light, 1 sRGB

@@ -11,7 +11,8 @@
 // Directions are unit vectors: x towards azimuth 90, y up, z towards azimuth 0; azimuths grow
 // clockwise. A pixel's centre is at half integers, the origin is the top left corner.
 
-uniform vec2 frame_size;       // pixels
+#include "lib/frame_size.glsl"
+
 uniform float projection;      // 0, 1, 2 as above
 uniform float view_azimuth;    // degrees
 uniform float view_elevation;  // degrees

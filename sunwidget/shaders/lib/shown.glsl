@@ -10,8 +10,8 @@ const int MODEL_SINGLE = 1;
 const int MODEL_BRUNETON = 2;
 const int MODEL_REFERENCE = 3;
 
-// `side` is 0 for the model, 1 for the one that it is compared with.
-RadianceSpectrum GetShownRadiance(int side, vec3 direction) {
+// `side` is 0 for the model, 1 for the one that it is compared with; `view` is the same for both.
+RadianceSpectrum GetShownRadiance(SkyView view, int side, vec3 direction) {
   ivec2 size = textureSize(shown, 0) / ivec2(2, 1);
-  return GetSkyRadiance(shown, ivec2(side * size.x, 0), size, direction);
+  return GetSkyRadiance(shown, view, ivec2(side * size.x, 0), size, direction);
 }

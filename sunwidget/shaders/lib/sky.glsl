@@ -76,8 +76,8 @@ float GetColumnOfAzimuth(Angle azimuth) {
   return (sqrt(0.09 + 2.8 * azimuth / PI) - 0.3) / 1.4;
 }
 
-RadianceSpectrum GetSkyRadiance(sampler2D sky_view, ivec2 origin, ivec2 size, vec3 direction) {
-  SkyView view = ReadSkyView(sky_view, origin, size);
+RadianceSpectrum GetSkyRadiance(sampler2D sky_view, SkyView view, ivec2 origin, ivec2 size,
+                                vec3 direction) {
   ivec2 rows = GetSkyViewRows(size.y);
   float elevation = asin(clamp(direction.y, -1.0, 1.0));
   float azimuth = abs(atan(view.sun.z * direction.x - view.sun.x * direction.z,
@@ -99,7 +99,7 @@ RadianceSpectrum GetSkyRadiance(sampler2D sky_view, ivec2 origin, ivec2 size, ve
 }
 
 RadianceSpectrum GetSkyRadiance(sampler2D sky_view, vec3 direction) {
-  return GetSkyRadiance(sky_view, ivec2(0), textureSize(sky_view, 0), direction);
+  return GetSkyRadiance(sky_view, ReadSkyView(sky_view), ivec2(0), textureSize(sky_view, 0), direction);
 }
 
 // Radiance of the disc, zero outside it. `size` is its diameter in units of the true 0.533

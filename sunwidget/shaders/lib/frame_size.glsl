@@ -1,0 +1,1 @@
+uniform vec2 frame_size;  // the whole picture, pixels
