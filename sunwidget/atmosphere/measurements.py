@@ -10,8 +10,10 @@ Evaluation of 8 Clear Sky Models" (2017), did.
 from __future__ import annotations
 
 import datetime as dt
+import math
 import os
 import re
+import statistics
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -40,6 +42,7 @@ __all__ = [
     "Measurements",
     "MeasurementsError",
     "compare",
+    "compare_scans",
     "download",
     "is_available",
     "load",
@@ -150,8 +153,9 @@ class Comparison(NamedTuple):
     """How far a model is from the measured skies.
 
     ``rmse`` in mW m⁻² sr⁻¹ nm⁻¹ over directions and 360-720 nm, quadratic mean over scans;
-    ``level`` the model's mean radiance over the measured one; ``pattern`` the rms deviation of
-    the brightness distribution once both are scaled to the same mean (largest of the scans).
+    ``level`` the model's mean radiance over the measured one, a mean over scans; ``pattern`` the
+    rms deviation of the brightness distribution once both have the same mean, the largest of all
+    scans.
     """
 
     model: str
@@ -198,7 +202,7 @@ def compare(
     others: Mapping[str, Radiance] | None = None,
     paths: int = 100,
 ) -> list[Comparison]:
-    """Compare models of the sky with the measured radiance.
+    """Compare models of the sky with the measured radiance, over one scan or all.
 
     Parameters
     ----------
@@ -230,6 +234,30 @@ def compare(
     ValueError
         For an unknown model or scan.
     """
+    found = compare_scans(
+        models, scan=scan, atmosphere=atmosphere, data=data, others=others, paths=paths
+    )
+    return [
+        Comparison(
+            model=model,
+            rmse=math.sqrt(statistics.fmean(row.rmse**2 for row in rows)),
+            level=statistics.fmean(row.level for row in rows),
+            pattern=max(row.pattern for row in rows),
+        )
+        for model, rows in found.items()
+    ]
+
+
+def compare_scans(
+    models: Sequence[str] = ("single", "multiple"),
+    scan: int | None = None,
+    atmosphere: Atmosphere | None = None,
+    *,
+    data: Measurements | None = None,
+    others: Mapping[str, Radiance] | None = None,
+    paths: int = 100,
+) -> dict[str, list[Comparison]]:
+    """Compare as ``compare`` does, each scan for itself; see there."""
     data = load() if data is None else data
     air = Atmosphere() if atmosphere is None else atmosphere
     if scan is not None and not 0 <= scan < len(data):
@@ -239,9 +267,12 @@ def compare(
     for model in models:
         if model not in known:
             raise ValueError(f"There is no model {model!r:.80}. Choose among {', '.join(known)}.")
-    measured = data.at(COMPARED_WAVELENGTHS)[list(chosen)]
     skies = _Skies(data, air, others or {}, paths)
-    return [_comparison(model, skies.of(model, chosen), measured) for model in models]
+    measured = data.at(COMPARED_WAVELENGTHS)
+    return {
+        model: [_comparison(model, skies.of(model, i), measured[i]) for i in chosen]
+        for model in models
+    }
 
 
 class _Skies:
@@ -254,11 +285,8 @@ class _Skies:
         self._kept: dict[tuple[str, int], Array] = {}
         self._tables: dict[tuple[int, int], SkyTable] = {}
 
-    def of(self, model: str, scans: Sequence[int]) -> Array:
-        """Return radiance, shape (scans, 81, 31)."""
-        return np.stack([self._scan(model, i) for i in scans])
-
-    def _scan(self, model: str, i: int) -> Array:
+    def of(self, model: str, i: int) -> Array:
+        """Return a scan's radiance, shape (81, 31)."""
         if (model, i) not in self._kept:
             if model in ("single", "multiple"):
                 sky = self._numpy(model, i, COMPARED_WAVELENGTHS)
@@ -291,18 +319,17 @@ class _Skies:
         spectrum = [
             np.interp(COMPARED_WAVELENGTHS, WAVELENGTHS[order], row[order]) for row in ratio
         ]
-        return self._scan("multiple", i) * np.array(spectrum)
+        return self.of("multiple", i) * np.array(spectrum)
 
 
 def _comparison(model: str, sky: Array, measured: Array) -> Comparison:
-    error = 1000 * (sky - measured)
-    ours, theirs = sky.mean(axis=2), measured.mean(axis=2)
-    shares = ours / ours.mean(axis=1, keepdims=True) * theirs.mean(axis=1, keepdims=True) / theirs
+    ours, theirs = sky.mean(axis=1), measured.mean(axis=1)
+    shares = (ours / ours.mean()) / (theirs / theirs.mean())
     return Comparison(
         model=model,
-        rmse=float(np.sqrt(np.mean(error**2))),
+        rmse=1000 * float(np.sqrt(np.mean((sky - measured) ** 2))),
         level=float(ours.mean() / theirs.mean()),
-        pattern=float(np.sqrt(np.mean((shares - 1) ** 2, axis=1)).max()),
+        pattern=float(np.sqrt(np.mean((shares - 1) ** 2))),
     )
 
 

@@ -1,35 +1,15 @@
-"""Closed forms and the direct beam: rows 1, 2 and 8 of the validation in docs/atmosphere.md."""
+"""Phase functions, columns, disc, refraction. Closed forms and the beam: test_validation.py."""
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from sunwidget.atmosphere import optics
-from sunwidget.atmosphere.color import chromaticity, spectrum_to_xyz
-from sunwidget.atmosphere.constants import ozone_cross_section, solar_irradiance
+from sunwidget.atmosphere.constants import ozone_cross_section
 from sunwidget.atmosphere.multiple import mie_moments
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.rayleigh import rayleigh_coefficient
 from sunwidget.atmosphere.sun import disc_radiance, limb_darkening, refraction, true_elevation
-
-
-def over_the_sphere(phase, weight=lambda mu: 1.0):
-    # The lobe's peak is pointed out, or a narrow one would be stepped over.
-    return 2 * np.pi * quad(lambda mu: float(phase(mu)) * weight(mu), -1, 1, points=[0.9, 0.99])[0]
-
-
-def test_rayleigh_phase_integrates_to_one():
-    assert over_the_sphere(optics.rayleigh_phase) == pytest.approx(1, abs=1e-12)
-
-
-@pytest.mark.parametrize("g", [-0.5, 0, 0.3, 0.7, 0.8, 0.95])
-def test_cornette_shanks_integrates_to_one_and_has_its_closed_mean_cosine(g):
-    def phase(mu):
-        return optics.cornette_shanks_phase(mu, g)
-
-    closed = 3 * g * (4 + g * g) / (5 * (2 + g * g))
-    assert over_the_sphere(phase) == pytest.approx(1, abs=1e-9)
-    assert over_the_sphere(phase, lambda mu: mu) == pytest.approx(closed, abs=1e-9)
+from sunwidget.atmosphere.validation import over_the_sphere
 
 
 @pytest.mark.parametrize("g", [0.2, 0.7, 0.9])
@@ -45,40 +25,10 @@ def test_moments_of_the_aerosol_are_those_of_its_phase_function(g):
     assert mie_moments(g) == pytest.approx(integrals, abs=1e-9)
 
 
-def test_cornette_shanks_has_the_published_values_forward_and_back():
-    assert optics.cornette_shanks_phase(1, 0.76) == pytest.approx(2.83000, rel=1e-5)
-    assert optics.cornette_shanks_phase(-1, 0.76) == pytest.approx(0.0071760, rel=1e-4)
-
-
 def test_rayleigh_coefficients_are_bodhaines():
     assert rayleigh_coefficient([440, 550, 680]) * 1e6 == pytest.approx(
         [28.71, 11.487, 4.848], rel=2e-4
     )
-
-
-def test_air_mass_of_air_aerosol_and_ozone():
-    # Elevations 30, 10, 5, 0. Air: pure exponential of 8.43 km; ours thins faster above 40 km,
-    # which moves it by up to 0.16 % at the horizon.
-    expected = [
-        [1.992, 1.999, 1.977],
-        [5.540, 5.724, 5.153],
-        [10.086, 11.21, 8.119],
-        [34.442, 91.25, 11.60],
-    ]
-    assert optics.relative_air_mass([30, 10, 5, 0]) == pytest.approx(np.array(expected), rel=2e-3)
-
-
-@pytest.mark.parametrize("elevation", [90, 30, 5, 1])
-def test_transmittance_multiplies_along_a_ray(elevation):
-    mu, far = np.sin(np.radians(elevation)), 12_000.0
-    h = float(optics.altitude_along_ray(0, mu, far))
-    # Cosine of the same ray's zenith angle where it has risen to h.
-    mu_far = (6_360_000 * mu + far) / (6_360_000 + h)
-    whole = optics.integrate_columns(0, mu, steps=4000)
-    rest = optics.integrate_columns(h, mu_far, steps=4000)
-    t = (np.arange(4000) + 0.5) / 4000 * far
-    near = optics.density(optics.altitude_along_ray(0, mu, t)).sum(axis=0) * far / 4000
-    assert near + rest == pytest.approx(whole, rel=1e-4)
 
 
 def test_column_table_agrees_with_integration():
@@ -92,37 +42,9 @@ def test_column_table_agrees_with_integration():
     assert np.abs(error / (1 + exact @ depth)).max() < 2e-3
 
 
-def test_direct_beam_agrees_with_astm_g173():
-    spectrum = pytest.importorskip("pvlib.spectrum").get_reference_spectra(standard="ASTM G173-03")
-    nm = np.array(spectrum.index, float)
-    windows = [(400, 575), (600, 625), (660, 680), (745, 745), (775, 775)]
-    clear = np.any([(nm >= low) & (nm <= high) for low, high in windows], axis=0)
-    nm, measured = nm[clear], np.array(spectrum["direct"])[clear]
-    top = np.array(spectrum["extraterrestrial"])[clear]
-    # AM1.5 of the standard: AOD 0.084 at 500 nm, alpha 1.14, 343.8 DU of ozone. The sun is
-    # compared above the air by its own spectrum, so that only the air is tested.
-    air = Atmosphere(
-        aerosol_optical_depth=0.084 * (550 / 500) ** -1.14, angstrom_exponent=1.14, ozone=343.8
-    )
-    elevation = 90 - 48.236
-    ours = top * optics.direct_irradiance(air, elevation, nm) / solar_irradiance(nm)
-    error = ours / measured - 1
-    assert np.sqrt(np.mean(error**2)) < 0.015
-
-
 def test_ozone_takes_out_orange():
     assert ozone_cross_section(600) == pytest.approx(4.9e-25, rel=0.12)
     assert ozone_cross_section(450) < ozone_cross_section(600) / 10
-
-
-@pytest.mark.parametrize(
-    ("elevation", "x", "y"),
-    [(60, 0.3368, 0.3478), (10, 0.3859, 0.3906), (2, 0.5138, 0.4285), (0, 0.6165, 0.3772)],
-)
-def test_sun_reddens_along_its_anchors(elevation, x, y):
-    nm = np.arange(380, 781, 5.0)
-    beam = optics.direct_irradiance(Atmosphere(), elevation, nm)
-    assert chromaticity(spectrum_to_xyz(nm, beam)) == pytest.approx([x, y], abs=1.5e-3)
 
 
 def test_disc_integrates_to_the_direct_irradiance():
