@@ -21,8 +21,12 @@ from sunwidget.renderer.shader_source import frame_graph
 
 Floats = npt.NDArray[np.float32]
 
-CURVES = tuple(
-    row["name"] for row in frame_graph("explorer")["passes"] if row["name"].startswith("curve_")
+CURVES = (
+    "curve_phase",
+    "curve_transmittance",
+    "curve_sun",
+    "curve_principal_plane",
+    "curve_zenith",
 )
 """Names of the curves that ``curve`` returns."""
 BACKGROUND = (20, 22, 27)
@@ -105,8 +109,8 @@ def curve(values: Mapping[str, Any], name: str, *, bruneton: Floats | None = Non
     EditError
         For an unknown curve.
     """
-    if name not in CURVES or name == "curve_directions":
-        raise EditError(f"There is no curve {name!r:.60}; choose among {', '.join(CURVES[:-1])}.")
+    if name not in CURVES:
+        raise EditError(f"There is no curve {name!r:.60}; choose among {', '.join(CURVES)}.")
     return table(values, name, bruneton=bruneton)[0]
 
 
