@@ -1,7 +1,7 @@
 # Every target does its own set-up, once: what is there already is left alone.
 SHELL := bash
 .DEFAULT_GOAL := help
-.PHONY: help demo lab test bench build wheel clean gl chromium
+.PHONY: help demo lab test bench validate build wheel clean gl chromium
 
 PYTHON ?=
 export PYTHON
@@ -20,6 +20,7 @@ help:
 	@echo 'make lab     open the quickstart notebook in JupyterLab'
 	@echo 'make test    every check: lint, types, JavaScript, Python, browser, notebooks'
 	@echo 'make bench   measure speed; table and build/bench.json'
+	@echo 'make validate  the sky against measurements and other models; table and build/validation.json'
 	@echo 'make build   build the front end into sunwidget/static'
 	@echo 'make wheel   a wheel in dist/, front end inside'
 	@echo 'make clean   remove everything that was built (not .venv, not node_modules)'
@@ -39,6 +40,9 @@ test: $(TEST) $(STATIC) gl chromium
 
 bench: $(TEST) $(STATIC) gl chromium
 	@$(PY) bench/bench.py $(BENCH)
+
+validate: $(TEST) $(STATIC) gl chromium
+	@$(PY) bench/validate.py $(VALIDATE)
 
 build: $(STATIC)
 

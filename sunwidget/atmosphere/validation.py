@@ -54,14 +54,14 @@ class _At:
 
     def most(self, name: str, value: float, bound: float, unit: str = "") -> Row:
         target = f"≤ {bound:g} {unit}".rstrip()
-        return Row(self.number, name, float(value), unit, target, value <= bound, self.source)
+        return Row(self.number, name, float(value), unit, target, bool(value <= bound), self.source)
 
     def least(self, name: str, value: float, bound: float, unit: str = "") -> Row:
         target = f"≥ {bound:g} {unit}".rstrip()
-        return Row(self.number, name, float(value), unit, target, value >= bound, self.source)
+        return Row(self.number, name, float(value), unit, target, bool(value >= bound), self.source)
 
     def between(self, name: str, value: float, low: float, high: float, unit: str = "") -> Row:
-        target, met = f"{low:g} to {high:g} {unit}".rstrip(), low <= value <= high
+        target, met = f"{low:g} to {high:g} {unit}".rstrip(), bool(low <= value <= high)
         return Row(self.number, name, float(value), unit, target, met, self.source)
 
     def needs(self, name: str, what: str) -> Row:
