@@ -28,6 +28,7 @@ from sunwidget.atmosphere.constants import WAVELENGTHS
 from sunwidget.atmosphere.measurements_source import (
     FILE_NAME,
     MeasurementsError,
+    Progress,
     default_path,
     download,
     read_raw_scans,
@@ -200,7 +201,8 @@ def compare(
     *,
     data: Measurements | None = None,
     others: Mapping[str, Radiance] | None = None,
-    paths: int = 100,
+    paths: int = 30,
+    progress: Progress | None = None,
 ) -> list[Comparison]:
     """Compare models of the sky with the measured radiance, over one scan or all.
 
@@ -208,7 +210,7 @@ def compare(
     ----------
     models : sequence of str
         ``"single"`` (Nishita 1993), ``"multiple"`` (all orders), ``"reference"`` (path tracing,
-        about 3 s a scan) and names in ``others``.
+        about a second a scan) and names in ``others``.
     scan : int, optional
         Index of one scan; default all.
     atmosphere : Atmosphere, optional
@@ -219,8 +221,11 @@ def compare(
         Further models by name: ``radiance(elevation, azimuth from the sun, sun elevation)`` of
         shape (81, 4) at the shaders' four wavelengths. They, and path tracing, are carried to
         the whole spectrum by their ratio to ``"multiple"``, which varies little.
-    paths : int, default 100
-        Paths for each direction and wavelength of ``"reference"``.
+    paths : int, default 30
+        Paths for each direction and wavelength of ``"reference"``. Their noise, some per cent of
+        what is scattered more than once, is small beside the error.
+    progress : callable, optional
+        ``progress(fraction, message)``; raise in it to cancel.
 
     Returns
     -------
@@ -235,7 +240,13 @@ def compare(
         For an unknown model or scan.
     """
     found = compare_scans(
-        models, scan=scan, atmosphere=atmosphere, data=data, others=others, paths=paths
+        models,
+        scan=scan,
+        atmosphere=atmosphere,
+        data=data,
+        others=others,
+        paths=paths,
+        progress=progress,
     )
     return [
         Comparison(
@@ -255,7 +266,8 @@ def compare_scans(
     *,
     data: Measurements | None = None,
     others: Mapping[str, Radiance] | None = None,
-    paths: int = 100,
+    paths: int = 30,
+    progress: Progress | None = None,
 ) -> dict[str, list[Comparison]]:
     """Compare as ``compare`` does, each scan for itself; see there."""
     data = load() if data is None else data
@@ -269,10 +281,12 @@ def compare_scans(
             raise ValueError(f"There is no model {model!r:.80}. Choose among {', '.join(known)}.")
     skies = _Skies(data, air, others or {}, paths)
     measured = data.at(COMPARED_WAVELENGTHS)
-    return {
-        model: [_comparison(model, skies.of(model, i), measured[i]) for i in chosen]
-        for model in models
-    }
+    found: dict[str, list[Comparison]] = {model: [] for model in models}
+    for k, (model, i) in enumerate((model, i) for model in models for i in chosen):
+        if progress:
+            progress(k / len(models) / len(chosen), f"Comparing with the measured skies: {model} …")
+        found[model].append(_comparison(model, skies.of(model, i), measured[i]))
+    return found
 
 
 class _Skies:

@@ -30,7 +30,7 @@ from sunwidget.atmosphere.constants import (
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.presets import PRESETS
 from sunwidget.explorer import table
-from sunwidget.explorer.table import EXPLORER_PARAMETERS
+from sunwidget.explorer.table import EXPLORER_PARAMETERS, MODELS
 from sunwidget.explorer.values import effective_values
 from sunwidget.widgets.edit_traits import edit_traits
 from sunwidget.widgets.payload import encode_png, parameter_json
@@ -38,7 +38,6 @@ from sunwidget.widgets.requests import Action, Answer, Progress, Requests
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
 _STATIC = Path(__file__).parents[1] / "static"
 _NAMES = tuple(p.name for p in EXPLORER_PARAMETERS)
 _ALIASES = ("turbidity", "visibility")
@@ -282,28 +281,45 @@ class SkyExplorer(anywidget.AnyWidget):
         return curve(self.parameters(), f"curve_{name}", bruneton=bruneton)
 
     def compare_measured(
-        self, models: tuple[str, ...] = ("single", "multiple"), scan: int | None = None
+        self,
+        models: tuple[str, ...] = ("single", "multiple"),
+        scan: int | None = None,
+        progress: Progress | None = None,
     ) -> list[dict[str, Any]]:
         """Compare the sky of the present air with the measured one.
 
         Parameters
         ----------
         models : tuple of str
-            As ``sunwidget.atmosphere.measurements.compare``.
+            Among ``"single"``, ``"multiple"``, ``"bruneton"`` (whose table is made first, if need
+            be) and ``"reference"`` (path tracing, about a second a scan).
         scan : int, optional
             Index of one scan; default all.
+        progress : callable, optional
+            ``progress(fraction, message)``; raise in it to cancel.
 
         Returns
         -------
         list of dict
-            ``model``, ``rmse`` in mW m⁻² sr⁻¹ nm⁻¹, mean ``level`` and ``pattern``, for each model.
+            ``model``, ``rmse`` in mW m⁻² sr⁻¹ nm⁻¹, mean ``level`` and ``pattern``, for each model;
+            see ``sunwidget.atmosphere.measurements.Comparison``.
 
         Raises
         ------
         MeasurementsError
             When the measured skies are not on this machine; the message says how to get them.
+        RendererError
+            For Bruneton's model when no EGL context can be made on this machine.
         """
-        rows = measurements.compare(models, scan=scan, atmosphere=self.atmosphere)
+        data, air = measurements.load(), self.atmosphere
+        others = {}
+        if "bruneton" in models:
+            from sunwidget.renderer.bruneton import bruneton_table
+
+            others["bruneton"] = bruneton_table(air, progress=progress).radiance
+        rows = measurements.compare(
+            models, scan=scan, atmosphere=air, data=data, others=others, progress=progress
+        )
         return [row._asdict() for row in rows]
 
     def code(self) -> str:
@@ -421,7 +437,7 @@ class SkyExplorer(anywidget.AnyWidget):
         values = values or self.values()["edit"]
         air = Atmosphere(**{name: values[name] for name in table.AIR})
         orders = round(values["scattering_orders"])
-        return bruneton_table(air, orders=orders, progress=progress).slice(air.altitude)
+        return bruneton_table(air, orders=orders, progress=progress).slice()
 
     def _actions(self) -> dict[str, Action]:
         """Return what the browser can ask for, by name."""
@@ -444,8 +460,10 @@ class SkyExplorer(anywidget.AnyWidget):
         return {"rows": rows, "cols": columns, "seconds": seconds}, [texture.tobytes()]
 
     def _answer_rmse(self, content: dict[str, Any], progress: Progress) -> Answer:
-        progress(0.05, "Comparing with the measured skies …")
-        return {"rows": self.compare_measured(scan=content.get("scan"))}, []
+        # Fails at once, before a table is made, where nothing was measured.
+        measurements.load()
+        models = tuple(content.get("models") or MODELS)
+        return {"rows": self.compare_measured(models, content.get("scan"), progress)}, []
 
     def _answer_download(self, _content: dict[str, Any], progress: Progress) -> Answer:
         measurements.download(progress=progress)

@@ -396,7 +396,7 @@ def test_the_browser_gets_the_errors_against_the_measured_skies(measured, monkey
     monkeypatch.setattr(
         explorer, "send", lambda content, buffers=None: messages.append((content, buffers))
     )
-    response, _ = answer(explorer, messages, "rmse", scan=0)
+    response, _ = answer(explorer, messages, "rmse", scan=0, models=["single", "multiple"])
     assert response["error"] is None
     single, multiple = response["result"]["rows"]
     assert (single["model"], multiple["model"]) == ("single", "multiple")
