@@ -16,9 +16,9 @@ uniform float exposure;       // stops
 uniform float auto_exposure;  // 0 keeps the exposure of noon, 1 adapts fully
 out vec4 result;
 
-const float MEADOW_ALBEDO = 0.2;
-const float NOON = 5.4;    // kcd m^-2: the mean below, sun at 60 degrees in the default atmosphere
-const float KEY = 0.62;    // display light that the mean is drawn with
+const float MEADOW_ALBEDO = 0.06;
+const float NOON = 2.85;    // kcd m^-2: the mean below, sun at 60 degrees in the default atmosphere
+const float KEY = 0.5;    // display light that the mean is drawn with
 const float NIGHT = 1e-9;  // no light at all
 const Angle GLOW_RADIUS = 0.011;
 

@@ -16,15 +16,18 @@ uniform float show_multiple;
 
 // The eye's own glare round the sun, far weaker than an eye's: enough to see the sun where its disc
 // is a pixel. A Moffat profile per unit of illuminance, 1/sr.
-const float GLOW = 0.35;
+const float GLOW = 0.5;
 const float GLOW_FALL = 1.35;
 
-// The shoulder: light above WHITE_START of the display's loses its colour by and by, up to
-// WHITE_SHARE of it at WHITE_END, so that the disc of a low sun is still warm.
-const float CONTRAST = 1.12;
-const float WHITE_START = 1.6;
-const float WHITE_END = 200.0;
-const float WHITE_SHARE = 0.86;
+// Skies lie close to grey; a picture of them without the dazzle of the real one needs more colour,
+// the more the less there is, and less in green, or blues would turn violet and oranges red.
+const vec3 SATURATION = vec3(0.7, 0.25, 0.7);
+// Colours keep their distance from white up to this; what lies beyond, also outside Rec. 709, is
+// drawn in.
+const float PURITY = 0.85;
+const float CONTRAST = 1.3;
+const float WHITE = 60.0;   // light that is drawn as white
+const vec3 BLEACH = vec3(0.9, 0.9, 0.75);  // share of its colour that far brighter light loses
 
 // The picture of the disc (sun_disc.glsl) where it lies, in the plane that touches the sphere of
 // directions at the sun. `scale` is one over half its side.
@@ -39,23 +42,17 @@ vec3 GetDisc(vec3 view, vec3 sun, float scale) {
   return within * texelFetch(sun_disc, texel, 0).rgb;
 }
 
-// Colours outside Rec. 709 lose as much of their colour as takes them to its edge.
-vec3 FitGamut(vec3 light) {
-  float luminance = max(GetLuminance(light), 0.0);
-  float lowest = min(light.r, min(light.g, light.b));
-  float kept = lowest < 0.0 ? luminance / max(luminance - lowest, 1e-12) : 1.0;
-  return max(mix(vec3(luminance), light, kept), 0.0);
-}
-
-// Display light in [0, 1]. The largest channel alone runs through the shoulder, and the others
-// keep their share of it: a low sun stays orange instead of turning yellow.
-vec3 GetDisplayLight(vec3 scene) {
-  vec3 light = FitGamut(scene);
-  float peak = max(light.r, max(light.g, light.b));
-  if (peak <= 0.0) return vec3(0.0);
-  float shown = 1.0 - exp(-pow(peak, CONTRAST));
-  float white = WHITE_SHARE * smoothstep(log(WHITE_START), log(WHITE_END), log(peak));
-  return shown * mix(light / peak, vec3(1.0), white);
+// Display light in [0, 1]. The largest channel alone runs through the shoulder (Reinhard et al. 2002,
+// eq. 4), and the others keep their share of it: a low sun stays orange instead of turning yellow.
+vec3 GetDisplayLight(vec3 light) {
+  float peak = max(light.r, max(light.g, max(light.b, 1e-9)));
+  vec3 away = 1.0 - light / peak;
+  away *= 1.0 + SATURATION * (1.0 - away);
+  vec3 beyond = max(away - PURITY, 0.0) / (1.0 - PURITY);
+  away = min(away, PURITY) + (1.0 - PURITY) * beyond / (1.0 + beyond);
+  float x = pow(peak, CONTRAST);
+  float shown = min(x * (1.0 + x / (WHITE * WHITE)) / (1.0 + x), 1.0);
+  return shown * (1.0 - away * (1.0 - BLEACH * x / (x + WHITE)));
 }
 
 void main() {
