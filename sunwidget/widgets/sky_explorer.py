@@ -10,6 +10,7 @@ from __future__ import annotations
 import base64
 import contextlib
 import datetime as dt
+import math
 import threading
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -42,6 +43,7 @@ _STATIC = Path(__file__).parents[1] / "static"
 _NAMES = tuple(p.name for p in EXPLORER_PARAMETERS)
 _ALIASES = ("turbidity", "visibility")
 _SUN = ("sun_azimuth", "sun_elevation")
+_SAME_PLACE = 0.01  # degrees; the browser's arithmetic is not to the bit the kernel's
 _PICTURE_SIZE = (480, 320)  # of the static picture, and of a snapshot unless asked otherwise
 _LARGEST_SNAPSHOT = 4096
 
@@ -131,14 +133,14 @@ class SkyExplorer(anywidget.AnyWidget):
         for name, value in aliases.items():
             setattr(self, name, value)
         self._refresh_day()
+        # The sun is where it is said to be, else where the time puts it, else where the scan does.
         if self.scan is not None:
-            self._show_scan()
-        if parameters.keys() & set(_SUN):
-            for name in _SUN:
-                if name in parameters:
-                    setattr(self, name, parameters[name])
-        elif self.time is not None:
-            self._follow_time()
+            self._measured = measurements.load().scan_json(self.scan)
+        self._place_sun(*self._followed_sun())
+        for name in _SUN:
+            if name in parameters:
+                setattr(self, name, parameters[name])
+        self._on_sun(None)
         self.on_msg(Requests(self.send, self._actions()))
         self.observe(self._on_place, list(table.PLACE))
         self.observe(self._on_time, "time")
@@ -329,9 +331,10 @@ class SkyExplorer(anywidget.AnyWidget):
             for p in EXPLORER_PARAMETERS
             if getattr(self, p.name) != p.default
         }
-        if (self._day and self.time is not None) or self.scan is not None:
-            # They bring the sun along.
-            changed = {name: value for name, value in changed.items() if name not in _SUN}
+        # Place and time, or a scan, bring the sun along.
+        changed = {name: value for name, value in changed.items() if name not in _SUN}
+        if not self._sun_follows():
+            changed |= {name: getattr(self, name) for name in _SUN}
         arguments = ", ".join(f"{name}={value!r}" for name, value in changed.items())
         return f"sw.SkyExplorer({arguments})"
 
@@ -377,11 +380,26 @@ class SkyExplorer(anywidget.AnyWidget):
             return
         self._day = np.round(solar.day_path(*place), 6).tolist()
 
-    def _follow_time(self) -> None:
+    def _followed_sun(self) -> tuple[float, float]:
+        """Azimuth and elevation that time, scan or else the table give."""
         if self._day and self.time is not None:
             azimuth, elevation = solar.sun_on_path(self._day, self.time)
+            # The table ends at -12°: below it is night all the same.
+            return azimuth, max(elevation, table.parameter("sun_elevation").minimum)
+        if self.scan is not None:
+            return self._measured["sun_azimuth"], self._measured["sun_elevation"]
+        return table.parameter("sun_azimuth").default, table.parameter("sun_elevation").default
+
+    def _sun_follows(self) -> bool:
+        """Tell whether the sun is where time, scan or else the table put it."""
+        azimuth, elevation = self._followed_sun()
+        turn = (self.sun_azimuth - azimuth + 180) % 360 - 180
+        return math.hypot(turn, self.sun_elevation - elevation) < _SAME_PLACE
+
+    def _follow_time(self) -> None:
+        if self._day and self.time is not None:
             with self._moving_the_sun():
-                self._place_sun(azimuth, elevation)
+                self._place_sun(*self._followed_sun())
 
     def _on_place(self, _change: Any) -> None:
         with self._lock:
@@ -395,7 +413,9 @@ class SkyExplorer(anywidget.AnyWidget):
 
     def _on_sun(self, _change: Any) -> None:
         # A hand moved the sun off its path; the browser does likewise.
-        if not self._moving and self._day and self._browser_thread != threading.get_ident():
+        if self._moving or self._browser_thread == threading.get_ident():
+            return
+        if self._day and not self._sun_follows():
             self.time = None
 
     def _on_scan(self, _change: Any) -> None:
@@ -406,16 +426,13 @@ class SkyExplorer(anywidget.AnyWidget):
         if self.scan is None:
             self._measured = None
             return
-        scan = measurements.load().scan_json(self.scan)
-        self._measured = scan
+        self._measured = measurements.load().scan_json(self.scan)
         with self._moving_the_sun():
             self.time = None
-            self._place_sun(scan["sun_azimuth"], scan["sun_elevation"])
+            self._place_sun(*self._followed_sun())
 
     def _place_sun(self, azimuth: float, elevation: float) -> None:
-        # The table ends at -12°: below it is night all the same.
-        lowest = table.parameter("sun_elevation").minimum
-        self.sun_azimuth, self.sun_elevation = azimuth, max(elevation, lowest)
+        self.sun_azimuth, self.sun_elevation = azimuth, elevation
 
     @traitlets.validate("scan")
     def _validate_scan(self, proposal: Any) -> int | None:

@@ -266,6 +266,7 @@ def test_handlers_run_on_any_thread(explorer):
         {"turbidity": 3, "projection": "camera", "fov": 80, "exposure": -1.5},
         {**ITHACA, "time": 10.123},
         {**ITHACA, "sun_elevation": 20.0, "view_azimuth": -90},
+        {**ITHACA, "time": 10.123, "sun_elevation": 20.0},
     ],
 )
 def test_code_runs_and_gives_the_same_explorer(parameters):
@@ -366,15 +367,22 @@ def test_the_browser_gets_a_snapshot(explorer, sent, egl):
     assert Image.open(io.BytesIO(buffers[0])).size == (120, 80)
 
 
-@pytest.fixture
-def measured(tmp_path, monkeypatch):
-    """Two made-up scans where the widget looks for them."""
+@pytest.fixture(scope="module")
+def two_scans(tmp_path_factory):
+    """A folder of two made-up scans, as Kider et al. publish theirs."""
     from measured_skies import archive, scan_files, sky
 
+    folder = tmp_path_factory.mktemp("scans")
     for name, azimuth in (("2013-05-27___09.30.00", 90.0), ("2013-05-27___13.30.00", 181.0)):
         data = archive(scan_files(name, sky(azimuth)))
-        (tmp_path / f"{name}.7z").write_bytes(data)
-    monkeypatch.setenv("SUNWIDGET_MEASUREMENTS", str(tmp_path))
+        (folder / f"{name}.7z").write_bytes(data)
+    return folder
+
+
+@pytest.fixture
+def measured(two_scans, monkeypatch):
+    """The made-up scans where the widget looks for them."""
+    monkeypatch.setenv("SUNWIDGET_MEASUREMENTS", str(two_scans))
 
 
 def test_a_scan_brings_its_sun_and_its_directions(measured):
@@ -385,6 +393,18 @@ def test_a_scan_brings_its_sun_and_its_directions(measured):
     assert len(explorer._measured["directions"]) == 81
     json.dumps(explorer._measured)
     assert eval(explorer.code(), {"sw": sw}).parameters() == explorer.parameters()
+    assert "sun_elevation" not in explorer.code()
+    # A hand moves the sun; the scan stays to be seen.
+    explorer.sun_elevation = 7
+    assert explorer.scan == 1
+    assert eval(explorer.code(), {"sw": sw}).parameters() == explorer.parameters()
+    # Time moves it too, and comes before the scan.
+    explorer.set_place(ITHACA["latitude"], ITHACA["longitude"], ITHACA["date"])
+    explorer.time = 15
+    assert eval(explorer.code(), {"sw": sw}).parameters() == explorer.parameters()
+    explorer.scan = 0
+    assert explorer.time is None
+    assert explorer.sun_azimuth == pytest.approx(90, abs=0.5)
     explorer.scan = None
     assert explorer._measured is None
     with pytest.raises(TraitError, match="scans 0 to 1"):
