@@ -451,15 +451,14 @@ class SkyExplorer(anywidget.AnyWidget):
     ) -> NDArray[np.float32]:
         from sunwidget.renderer.bruneton import bruneton_table
 
-        values = values or self.values()["edit"]
-        air = Atmosphere(**{name: values[name] for name in table.AIR})
-        orders = round(values["scattering_orders"])
+        air, orders = _air_and_orders(values or self.values()["edit"])
         return bruneton_table(air, orders=orders, progress=progress).slice()
 
     def _actions(self) -> dict[str, Action]:
         """Return what the browser can ask for, by name."""
         return {
             "bruneton": self._answer_bruneton,
+            "bruneton_cost": self._answer_bruneton_cost,
             "rmse": self._answer_rmse,
             "code": lambda _content, _progress: ({"code": self.code()}, []),
             "download_measurements": self._answer_download,
@@ -467,14 +466,24 @@ class SkyExplorer(anywidget.AnyWidget):
         }
 
     def _answer_bruneton(self, content: dict[str, Any], progress: Progress) -> Answer:
+        begin = perf_counter()
+        texture = self._bruneton_slice(self._asked_values(content), progress)
+        rows, columns = texture.shape[:2]
+        result = {"rows": rows, "cols": columns, "seconds": perf_counter() - begin}
+        return result, [np.ascontiguousarray(texture, np.float32).tobytes()]
+
+    def _answer_bruneton_cost(self, content: dict[str, Any], _progress: Progress) -> Answer:
+        from sunwidget.renderer.bruneton import bruneton_cost, is_cached
+
+        air, orders = _air_and_orders(self._asked_values(content))
+        cached = is_cached(air, orders)
+        return {"cached": cached, "seconds": 0.0 if cached else bruneton_cost(orders=orders)}, []
+
+    def _asked_values(self, content: dict[str, Any]) -> dict[str, float]:
+        """Return the uniforms of the traits, with the request's parameters laid over them."""
         given = content.get("parameters") or {}
         chosen = {name: table.checked(table.parameter(name), v) for name, v in given.items()}
-        values = effective_values({**self.parameters(), **chosen})["edit"]
-        begin = perf_counter()
-        texture = np.ascontiguousarray(self._bruneton_slice(values, progress), np.float32)
-        rows, columns = texture.shape[:2]
-        seconds = perf_counter() - begin
-        return {"rows": rows, "cols": columns, "seconds": seconds}, [texture.tobytes()]
+        return effective_values({**self.parameters(), **chosen})["edit"]
 
     def _answer_rmse(self, content: dict[str, Any], progress: Progress) -> Answer:
         # Fails at once, before a table is made, where nothing was measured.
@@ -524,6 +533,12 @@ class SkyExplorer(anywidget.AnyWidget):
 def _scans() -> list[dict[str, Any]]:
     """Return the measured scans on this machine as the browser lists them, or none."""
     return measurements.load().scans_json() if measurements.is_available() else []
+
+
+def _air_and_orders(values: Mapping[str, float]) -> tuple[Atmosphere, int]:
+    """Return what Bruneton's table depends on."""
+    air = Atmosphere(**{name: values[name] for name in table.AIR})
+    return air, round(values["scattering_orders"])
 
 
 def _snapshot_edge(pixels: Any) -> int:

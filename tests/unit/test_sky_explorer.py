@@ -435,3 +435,28 @@ def test_measured_skies_are_fetched_only_when_asked(explorer, sent, monkeypatch,
     response, _ = answer(explorer, sent, "download_measurements")
     assert len(asked) == 1
     assert [row["index"] for row in response["result"]["scans"]] == [0, 1]
+
+
+def test_the_browser_gets_brunetons_table_and_what_it_will_cost(explorer, sent, egl, monkeypatch):
+    from sunwidget.renderer import bruneton
+
+    whole = bruneton.bruneton_table
+
+    def tiny(air, orders=0, progress=None):
+        return whole(air, orders, "tiny", progress)
+
+    monkeypatch.setattr(bruneton, "bruneton_table", tiny)
+    response, _ = answer(explorer, sent, "bruneton_cost", parameters={"ozone": 100})
+    assert response["result"]["cached"] is False
+    assert response["result"]["seconds"] > 0.1
+    response, buffers = answer(
+        explorer, sent, "bruneton", parameters={"ozone": 100, "scattering_orders": 2}
+    )
+    result = response["result"]
+    texture = np.frombuffer(buffers[0], np.float32).reshape(result["rows"], result["cols"], 4)
+    expected = tiny(Atmosphere(ozone=100), 2).slice()
+    # The second comes from the disk, where a table is kept as 16-bit logarithms (0.034 %).
+    assert texture == pytest.approx(expected, rel=4e-4)
+    assert any(message["type"] == "progress" for message, _ in sent)
+    response, _ = answer(explorer, sent, "bruneton", parameters={"ozone": 9999})
+    assert "ozone = 9999 is outside" in response["error"]
