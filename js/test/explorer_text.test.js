@@ -44,22 +44,19 @@ test("haze shortens the view and raises turbidity", () => {
   assert.equal(depthOfTurbidity(clean, air, 0.5), 0);
 });
 
-test("code names what differs from the defaults, as Python writes it", () => {
+test("code names what differs from the defaults, as Python writes it, and the sun", () => {
   assert.equal(
-    pythonCode(
-      { sun_elevation: 4.5, show_ozone: false, model: "single", date: "2024-06-21" },
-      false,
-    ),
-    "sw.SkyExplorer(sun_elevation=4.5, show_ozone=False, model='single', date='2024-06-21')",
+    pythonCode({ sun_elevation: 4.5, show_ozone: false, model: "single", ozone: 300 }, [0, 4.5]),
+    "sw.SkyExplorer(show_ozone=False, model='single', ozone=300.0, sun_azimuth=0.0, sun_elevation=4.5)",
   );
   assert.equal(literal(null), "None");
   assert.equal(literal("it's"), "'it\\'s'");
 });
 
-test("what time or scan bring along is not named", () => {
+test("a sun that time or scan bring along is not named", () => {
   assert.equal(
-    pythonCode({ sun_elevation: 4.5, sun_azimuth: 3, time: 17 }, true),
-    "sw.SkyExplorer(time=17)",
+    pythonCode({ sun_elevation: 4.5, sun_azimuth: 3, time: 17.25, scan: 3 }, null),
+    "sw.SkyExplorer(time=17.25, scan=3)",
   );
 });
 

@@ -1,21 +1,24 @@
 /** Python that makes this explorer again; the kernel's twin is `SkyExplorer.code()`. */
 
-/** A plain value as Python writes it. @param {unknown} value */
+/** A plain value as Python writes it: every number of the table is a float there. @param {unknown} value */
 export function literal(value) {
   if (value === null || value === undefined) return "None";
   if (typeof value === "boolean") return value ? "True" : "False";
-  if (typeof value === "string") return `'${value.replace(/['\\]/g, "\\$&")}'`;
-  return JSON.stringify(value);
+  if (typeof value === "number") return Number.isInteger(value) ? `${value}.0` : String(value);
+  return `'${String(value).replace(/['\\]/g, "\\$&")}'`;
 }
+
+const SUN = ["sun_azimuth", "sun_elevation"];
 
 /**
  * @param {import("../types.js").Edit} recipe values that differ from their defaults
- * @param {boolean} sunFollows time or scan bring the sun along
+ * @param {[number, number] | null} sun azimuth and elevation; null when time or scan bring it along
  */
-export function pythonCode(recipe, sunFollows) {
-  const named = Object.entries(recipe).filter(
-    ([name]) => !(sunFollows && (name === "sun_azimuth" || name === "sun_elevation")),
+export function pythonCode(recipe, sun) {
+  const named = Object.entries(recipe).filter(([name]) => !SUN.includes(name));
+  if (sun) named.push(...SUN.map((name, i) => /** @type {[string, unknown]} */ ([name, sun[i]])));
+  const text = named.map(([name, value]) =>
+    name === "scan" ? `scan=${value}` : `${name}=${literal(value)}`,
   );
-  const text = named.map(([name, value]) => `${name}=${literal(value)}`).join(", ");
-  return `sw.SkyExplorer(${text})`;
+  return `sw.SkyExplorer(${text.join(", ")})`;
 }

@@ -69,7 +69,6 @@ export function toolbar(view) {
     said.textContent = (await copied(code)) ? "Copied" : "";
     // Without a clipboard the person copies by hand.
     view.showError(said.textContent ? "" : code);
-    view.root.dataset.code = code;
     setTimeout(() => {
       said.textContent = "";
     }, 2500);
@@ -97,7 +96,7 @@ export function toolbar(view) {
 async function codeOf(view) {
   const { values } = view.state;
   const follows = (view.day().length > 0 && values.time !== null) || values.scan !== null;
-  const own = pythonCode(view.state.recipe(), follows);
+  const own = pythonCode(view.state.recipe(), follows ? null : view.sun());
   /** @type {Promise<string>} */
   const late = new Promise((resolve) => {
     setTimeout(() => resolve(own), KERNEL_PATIENCE_MS);
@@ -110,12 +109,25 @@ async function codeOf(view) {
   return `import sunwidget as sw\n\n${await Promise.race([asked, late])}`;
 }
 
-/** @param {string} text */
+/**
+ * Put text on the clipboard; returns whether it got there. A page that came without encryption has
+ * no clipboard of its own, but may copy what is selected.
+ *
+ * @param {string} text
+ */
 async function copied(text) {
   try {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    return false;
+    const field = element("textarea", { "aria-hidden": "true", class: "sw-away" });
+    field.value = text;
+    const focused = /** @type {HTMLElement | null} */ (document.activeElement);
+    document.body.append(field);
+    field.select();
+    const done = document.execCommand("copy");
+    field.remove();
+    focused?.focus();
+    return done;
   }
 }

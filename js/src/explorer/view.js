@@ -216,11 +216,17 @@ export class View {
   nearestDirection([x, y]) {
     const projection = this.projection();
     const [cx, cy] = projection.size.map((side) => side / 2);
-    for (let share = 1; share > 0; share -= 0.01) {
-      const found = projection.direction(cx + share * (x - cx), cy + share * (y - cy));
-      if (found) return found;
+    const along = (/** @type {number} */ share) =>
+      projection.direction(cx + share * (x - cx), cy + share * (y - cy));
+    let found = along(1);
+    let [inside, outside] = [0, 1];
+    for (let i = 0; i < 12 && !(found && inside === 0); i++) {
+      const middle = (inside + outside) / 2;
+      const here = along(middle);
+      if (here) [found, inside] = [here, middle];
+      else outside = middle;
     }
-    return null;
+    return found;
   }
 
   /** How far a pixel turns the view. */

@@ -179,6 +179,7 @@ export class Chart {
     ctx.beginPath();
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
+    ctx.setLineDash([]);
     draw(ctx, bbox, uPlot.pxRatio);
     ctx.restore();
   }

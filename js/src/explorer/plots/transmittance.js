@@ -16,6 +16,7 @@ export class TransmittancePlot {
       "Share of the direct sunlight that is left at the camera, by wavelength, and what molecules, " +
       "aerosol and ozone alone would leave. A low sun shines through far more air, so blue goes first.";
     this.passes = ["curve_transmittance"];
+    this.elevation = 0;
     this.chart = new Chart({
       theme,
       height: 210,
@@ -41,7 +42,8 @@ export class TransmittancePlot {
   }
 
   /** @param {import("./plots.js").Context} context */
-  update({ curve }) {
+  update({ curve, sun }) {
+    this.elevation = sun[1];
     const texels = curve("curve_transmittance");
     this.chart.set([WAVELENGTHS, ...[0, 1, 2, 3].map((c) => channel(texels, c))]);
   }
@@ -66,5 +68,9 @@ export class TransmittancePlot {
       context.globalAlpha = 1;
       context.fillRect(left, bottom - STRIP * ratio, right - left, STRIP * ratio);
     });
+  }
+
+  tell() {
+    return this.elevation < -0.3 ? "the sun is down" : `sun at ${this.elevation.toFixed(1)}°`;
   }
 }

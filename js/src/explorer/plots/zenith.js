@@ -4,10 +4,16 @@ import { cssColor, daylight, rec709OfXyz, xyzOfChromaticity } from "../color.js"
 import { channel, sample, ZENITH_ELEVATIONS } from "../curves.js";
 import { Chart } from "./chart.js";
 
-const X = [0.17, 0.45];
-const Y = [0.16, 0.42];
+const X = [0.18, 0.37];
+const Y = [0.17, 0.38];
 const CELLS = 40;
-const DAYLIGHT = [4000, 5000, 6500, 10000, 25000];
+const DAYLIGHT = [5000, 6500, 10000];
+/** Elevations named on the track, and to which side. @type {[number, number][]} */
+const NAMED = [
+  [-12, -1],
+  [-6, 1],
+  [0, -1],
+];
 
 const digits = (/** @type {number} */ v) => v.toFixed(3);
 
@@ -18,7 +24,7 @@ export class ZenithTrackPlot {
     this.title = "Zenith in CIE x, y";
     this.help =
       "Chromaticity of the zenith while the sun goes from −12° to 28°; the dot is now. The dashed line is " +
-      "daylight from 4000 K to 25000 K. Without ozone the blue hour would stay near it.";
+      "daylight from 5000 K to 25000 K. Without ozone the blue hour would stay near it.";
     this.passes = ["curve_zenith"];
     this.elevation = 0;
     this.chart = new Chart({
@@ -30,8 +36,8 @@ export class ZenithTrackPlot {
         { label: "zenith, −12° to 28°", color: "text" },
         { label: "daylight", color: "quiet", dash: [4, 3] },
       ],
-      x: { label: "x", splits: [0.2, 0.25, 0.3, 0.35, 0.4], values: (v) => v.toFixed(2) },
-      y: { label: "y", splits: [0.2, 0.25, 0.3, 0.35, 0.4], values: (v) => v.toFixed(2) },
+      x: { label: "x", splits: [0.2, 0.25, 0.3, 0.35], values: (v) => v.toFixed(2) },
+      y: { label: "y", splits: [0.2, 0.25, 0.3, 0.35], values: (v) => v.toFixed(2) },
       xScale: { range: () => X },
       yScale: { range: () => Y },
       under: (chart) => this.drawColours(chart),
@@ -40,7 +46,7 @@ export class ZenithTrackPlot {
     this.node = this.chart.node;
     /** @type {HTMLCanvasElement | null | undefined} */
     this.picture = undefined;
-    const curve = Array.from({ length: 43 }, (_, i) => daylight(4000 + 500 * i));
+    const curve = Array.from({ length: 41 }, (_, i) => daylight(5000 + 500 * i));
     this.daylight = [curve.map((p) => p[0]), curve.map((p) => p[1])];
   }
 
@@ -81,13 +87,14 @@ export class ZenithTrackPlot {
         sample(ZENITH_ELEVATIONS, track[0], degrees),
         sample(ZENITH_ELEVATIONS, track[1], degrees),
       ];
-      for (const degrees of [-12, -6, 0, 10, 28]) {
+      for (const [degrees, side] of NAMED) {
         const [x, y] = chart.at(at(degrees)[0], at(degrees)[1]);
         context.beginPath();
         context.arc(x, y, 2 * ratio, 0, 2 * Math.PI);
         context.fill();
-        context.textAlign = "right";
-        context.fillText(`${degrees}°`.replace("-", "−"), x - 5 * ratio, y - 3 * ratio);
+        context.textAlign = side < 0 ? "right" : "left";
+        const name = `${degrees}°`.replace("-", "−");
+        context.fillText(name, x + side * 6 * ratio, y + (side < 0 ? -3 : 10) * ratio);
       }
       const [x, y] = at(this.elevation);
       chart.dot(context, x, y, ratio);

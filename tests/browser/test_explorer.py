@@ -1,0 +1,352 @@
+"""SkyExplorer's view in a real browser, without a notebook: a stand-in plays the model."""
+
+import re
+
+import numpy as np
+import pytest
+from chromium import open_page, picture_of, widget_state
+
+from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.atmosphere.presets import PRESETS
+from sunwidget.atmosphere.sky import sky_radiance
+from sunwidget.widgets.sky_explorer import SkyExplorer
+
+pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
+
+
+@pytest.fixture
+def explorer(browser):
+    """Open a page with an explorer on it: ``explorer(sun_elevation=4)``."""
+    contexts = []
+
+    def show(width=1180, changes=None, **parameters):
+        context = browser.new_context(viewport={"width": width, "height": 1200})
+        contexts.append(context)
+        page = open_page(context, "explorer.html")
+        state = {**widget_state(SkyExplorer(**parameters)), **(changes or {})}
+        page.set_default_timeout(30_000)
+        page.evaluate("(state) => showExplorer(state)", state)
+        page.locator(".sunwidget.sw-live").wait_for()
+        pages.append(page)
+        return page
+
+    pages = []
+    yield show
+    for page in pages:
+        assert page.errors == []
+        assert page.locator(".sw-message:visible").count() == 0
+    for context in contexts:
+        context.close()
+
+
+def canvas_of(page):
+    return picture_of(
+        page.evaluate(
+            "document.querySelector('.sw-sky-canvas').toDataURL('image/png').split(',')[1]"
+        )
+    )
+
+
+def trait(page, name):
+    return page.evaluate("(name) => model.get(name)", name)
+
+
+def centre(box):
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def drag(page, start, end, steps=6):
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(*end, steps=steps)
+    page.mouse.up()
+
+
+def settled(page):
+    """Wait until the picture and the plots after the last change are drawn."""
+    page.wait_for_timeout(700)
+
+
+def card(page, title):
+    return page.locator(".sw-card", has_text=title).first
+
+
+def plot_pixels(page):
+    """Each plot's canvas as PNG text, in the order of the page."""
+    return page.evaluate(
+        "[...document.querySelectorAll('.sw-chart canvas')].map(c => c.toDataURL())"
+    )
+
+
+def blue_over_red(page):
+    """Of the dome, halfway between zenith and horizon on the side away from the sun."""
+    picture = canvas_of(page).astype(float)
+    height, width = picture.shape[:2]
+    x, y = width // 2, round(0.72 * height)
+    red, _, blue = picture[y - 4 : y + 4, x - 4 : x + 4].mean((0, 1))
+    return blue / max(red, 1)
+
+
+def test_it_opens_with_a_sky_and_six_plots(explorer):
+    page = explorer()
+    settled(page)
+    picture = canvas_of(page)
+    assert picture.std() > 20, "the canvas is uniform"
+    assert blue_over_red(page) > 1.2
+    plots = plot_pixels(page)
+    assert len(plots) == 6
+    assert len(set(plots)) == 6
+    for name in ("Dome", "Panorama", "Camera"):
+        page.get_by_role("radio", name=name).click()
+        settled(page)
+        assert trait(page, "projection") == name.lower()
+        assert canvas_of(page).std() > 20
+
+
+def test_dragging_the_sun_over_the_dome_moves_traits_and_picture_in_one_step(explorer):
+    page = explorer()
+    before = canvas_of(page)
+    box = page.locator(".sw-sky-picture").bounding_box()
+    x, y = centre(box)
+    start = centre(page.locator(".sw-sun-ring").bounding_box())
+    # Halfway to the horizon in the east, which is to the left for one who looks up.
+    drag(page, start, (x - 0.5 * 0.94 * box["width"] / 2, y))
+    assert trait(page, "sun_azimuth") == pytest.approx(90, abs=1.5)
+    assert trait(page, "sun_elevation") == pytest.approx(45, abs=1.5)
+    assert len(trait(page, "_history")["past"]) == 1
+    settled(page)
+    after = canvas_of(page)
+    assert after.shape == before.shape
+    assert np.abs(after.astype(int) - before).mean() > 5
+    page.keyboard.press("Control+z")
+    assert trait(page, "sun_elevation") == 20
+
+
+def test_beyond_the_rim_the_sun_sinks_below_the_horizon_and_no_farther_than_it_may(explorer):
+    page = explorer(sun_elevation=2)
+    box = page.locator(".sw-sky-picture").bounding_box()
+    x, y = centre(box)
+    start = centre(page.locator(".sw-sun-ring").bounding_box())
+    radius = 0.94 * box["width"] / 2
+    drag(page, start, (x, y - radius * (1 + 6 / 90)))
+    assert trait(page, "sun_elevation") == pytest.approx(-6, abs=0.7)
+    drag(page, (x, y - radius * (1 + 6 / 90)), (x, y - 3 * radius))
+    assert -12 <= trait(page, "sun_elevation") <= -11.8
+
+
+def test_arrow_keys_move_the_sun(explorer):
+    page = explorer(projection="camera", sun_elevation=10)
+    page.get_by_role("slider", name="Sun", exact=True).focus()
+    page.keyboard.press("ArrowUp")
+    page.keyboard.press("Shift+ArrowRight")
+    assert trait(page, "sun_elevation") == pytest.approx(10.5)
+    assert trait(page, "sun_azimuth") == pytest.approx(5)
+
+
+def test_dragging_the_camera_elsewhere_turns_it_and_leaves_the_sun(explorer):
+    page = explorer(projection="camera", sun_elevation=10)
+    box = page.locator(".sw-sky-picture").bounding_box()
+    start = (box["x"] + 0.2 * box["width"], box["y"] + 0.2 * box["height"])
+    drag(page, start, (start[0] + 60, start[1] + 30))
+    assert trait(page, "sun_azimuth") == 0
+    assert trait(page, "view_azimuth") < -3
+    assert trait(page, "view_elevation") > 14
+
+
+def test_without_air_molecules_the_sky_is_not_blue(explorer):
+    page = explorer()
+    settled(page)
+    blue = blue_over_red(page)
+    page.get_by_role("switch", name="Air molecules").click()
+    settled(page)
+    assert trait(page, "show_rayleigh") is False
+    assert blue_over_red(page) < 0.8 * blue
+
+
+def test_turbidity_moves_the_aerosol_optical_depth(explorer):
+    page = explorer()
+    field = page.get_by_label("Turbidity, value")
+    field.fill("3")
+    field.press("Enter")
+    assert trait(page, "aerosol_optical_depth") == pytest.approx(
+        Atmosphere().with_turbidity(3).aerosol_optical_depth, rel=1e-6
+    )
+    assert float(page.get_by_label("Visibility, value").input_value()) == pytest.approx(
+        Atmosphere().with_turbidity(3).visibility / 1000, abs=0.51
+    )
+
+
+def test_a_preset_is_one_step_and_shows_as_chosen(explorer):
+    page = explorer()
+    button = page.get_by_role("group", name="Presets").get_by_role("button", name="Polluted")
+    button.click()
+    for name, value in PRESETS["polluted"].parameters().items():
+        assert trait(page, name) == pytest.approx(value)
+    assert button.get_attribute("aria-pressed") == "true"
+    assert len(trait(page, "_history")["past"]) == 1
+
+
+def test_plots_follow_the_sun(explorer):
+    page = explorer(sun_elevation=60)
+    settled(page)
+    before = plot_pixels(page)
+
+    def told(title, pattern):
+        text = card(page, title).locator(".sw-card-value").text_content()
+        return [float(number) for number in re.findall(pattern, text)]
+
+    (noon,) = told("The sun's colour", r"^[\d.]+")
+    page.get_by_role("button", name="Blue hour").click()
+    settled(page)
+    after = plot_pixels(page)
+    assert sum(a != b for a, b in zip(before, after, strict=True)) >= 5  # all but the phases
+    assert 90 < noon < 125  # klx of direct sun at 60° in clear air
+    assert "below the horizon" in card(page, "The sun's colour").text_content()
+    x, y = told("Zenith in CIE x, y", r"[\d.]+")
+    # As docs/atmosphere.md has the zenith at −6°.
+    assert (x, y) == (pytest.approx(0.235, abs=0.01), pytest.approx(0.235, abs=0.01))
+
+
+def test_a_pointer_on_the_sky_reads_it_and_marks_the_phase_functions(explorer):
+    page = explorer(sun_elevation=50)
+    settled(page)
+    page.mouse.move(*centre(page.locator(".sw-sky-picture").bounding_box()))
+    settled(page)
+    text = page.locator(".sw-foot").text_content()
+    assert "40° from the sun" in text
+    value = float(re.search(r"([\d.]+) kcd/m²", text)[1])
+    assert 1 < value < 20  # clear zenith, sun at 50°
+    assert "40°" in card(page, "Phase functions").locator(".sw-card-value").text_content()
+
+
+def test_dragging_in_a_plot_moves_the_sun(explorer):
+    page = explorer()
+    settled(page)
+    over = card(page, "The sun's colour").locator(".u-over").bounding_box()
+    x, y = centre(over)
+    drag(page, (x, y), (over["x"] + over["width"] * np.sqrt(6 / 91), y))
+    assert trait(page, "sun_elevation") == pytest.approx(5, abs=0.6)
+
+
+def test_the_clock_moves_the_sun_without_a_kernel(explorer):
+    widget = SkyExplorer()
+    widget.set_place(41.0, 29.0, "2024-06-21")
+    place = {n: getattr(widget, n) for n in ("latitude", "longitude", "date")}
+    page = explorer(**place)
+    page.locator("summary", has_text="Place and time").click()
+    field = page.get_by_label("Time, UTC, value")
+    for hours in (5.02, 17.5):
+        field.fill(str(hours))
+        field.press("Enter")
+        widget.time = hours
+        assert trait(page, "sun_elevation") == pytest.approx(widget.sun_elevation, abs=2e-4)
+        assert trait(page, "sun_azimuth") == pytest.approx(widget.sun_azimuth, abs=2e-4)
+    page.get_by_role("button", name="Play the day").click()
+    page.wait_for_timeout(700)
+    page.get_by_role("button", name="Play the day").click()
+    assert trait(page, "time") > 17.6
+    # A hand on the sun stops the clock.
+    page.get_by_role("button", name="Sunset").click()
+    assert trait(page, "time") is None
+
+
+def test_code_without_a_kernel_is_the_kernels(explorer):
+    page = explorer()
+    page.get_by_role("button", name="Golden hour").click()
+    page.get_by_role("switch", name="Ozone").click()
+    page.get_by_label("Model", exact=True).select_option("single")
+    page.get_by_role("button", name="Copy code").click()
+    page.locator(".sw-said", has_text="Copied").wait_for()
+    widget = SkyExplorer(sun_elevation=4.0, show_ozone=False, model="single")
+    wanted = f"import sunwidget as sw\n\n{widget.code()}"
+    # Pasted as a person would.
+    page.evaluate("document.body.append(document.createElement('textarea'))")
+    page.locator("body > textarea").focus()
+    page.keyboard.press("Control+v")
+    assert page.locator("body > textarea").input_value() == wanted
+
+
+def test_two_views_of_one_model_stay_in_step_and_say_each_thing_once(explorer):
+    page = explorer()
+    page.evaluate("showAgain()")
+    page.locator(".sunwidget.sw-live").nth(1).wait_for()
+    page.evaluate("model.saved.length = 0")
+    page.locator(".sunwidget").nth(0).get_by_role("button", name="Golden hour").click()
+    page.locator(".sunwidget").nth(1).get_by_role("switch", name="Aerosol").click()
+    settled(page)
+    for i in (0, 1):
+        view = page.locator(".sunwidget").nth(i)
+        assert view.get_by_label("Elevation, value", exact=True).input_value() == "4.0"
+        switch = view.get_by_role("switch", name="Aerosol")
+        assert switch.get_attribute("aria-checked") == "false"
+    told = [name for saved in page.evaluate("model.saved") for name in saved]
+    assert sorted(name for name in told if name != "_history") == ["show_aerosol", "sun_elevation"]
+
+
+def test_a_scan_that_the_model_made_has_no_error(explorer):
+    """The model's radiance, as NumPy computes it, in place of a measured one."""
+    azimuth, elevation = np.meshgrid(np.arange(-160.0, 180.0, 40.0), [15.0, 45.0, 75.0])
+    directions = np.stack([azimuth.ravel(), elevation.ravel()], axis=1)
+    a, e = np.radians(directions.T)
+    vectors = np.stack([np.cos(e) * np.sin(a), np.sin(e), np.cos(e) * np.cos(a)], axis=1)
+    radiance = sky_radiance(Atmosphere(), vectors, 35.0)
+    radiance[0] *= 2
+    scan = {
+        "time": "2013-05-27T12:00:00",
+        "sun_elevation": 35,
+        "sun_azimuth": 0,
+        "directions": directions.tolist(),
+        "radiance": radiance.tolist(),
+    }
+    listed = [{"index": 0, "label": "made up", "sun_elevation": 35}]
+    page = explorer(sun_elevation=35, changes={"scan": 0, "_measured": scan, "_scans": listed})
+    settled(page)
+    errors = [
+        float(re.search(r"([+−]\d+) %", text)[1].replace("−", "-"))
+        for text in page.locator(".sw-measured circle title").all_text_contents()
+    ]
+    assert len(errors) == len(directions)
+    # Measured twice as bright: half as much is too dark by a half. Texels against NumPy: 2 %.
+    assert errors[0] == pytest.approx(-50, abs=2)
+    assert np.abs(errors[1:]).max() <= 2
+    assert "rms 10 %" in page.locator(".sw-error-legend").text_content()  # 0.5 / √27
+
+
+def test_without_measured_skies_it_says_how_to_get_them_and_asks_first(explorer):
+    page = explorer(changes={"_scans": []})
+    page.locator("summary", has_text="Measured").click()
+    assert "public repository" in page.locator(".sw-panel").text_content()
+    page.get_by_role("button", name="Download …").click()
+    assert page.evaluate("model.sent.length") == 0
+    page.get_by_role("button", name="Yes, download").click()
+    assert page.evaluate("model.sent.map(m => m.action)") == ["download_measurements"]
+
+
+def test_while_the_sun_is_dragged_plots_are_drawn_ten_times_a_second_at_most(explorer):
+    page = explorer()
+    settled(page)
+    page.evaluate(
+        """() => {
+          window.draws = [];
+          const original = CanvasRenderingContext2D.prototype.clearRect;
+          const plot = document.querySelectorAll('.sw-chart canvas')[1];
+          CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+            if (this.canvas === plot) window.draws.push(performance.now());
+            return original.apply(this, box);
+          };
+        }"""
+    )
+    x, y = centre(page.locator(".sw-sun-ring").bounding_box())
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for i in range(40):
+        page.mouse.move(x + 2 * i, y + i)
+        page.wait_for_timeout(16)
+    page.mouse.up()
+    during = page.evaluate("window.draws.length")
+    settled(page)
+    draws = np.array(page.evaluate("window.draws"))
+    assert len(draws) > during > 0  # and once more at the end
+    gaps = np.diff(draws)
+    # One drawing clears more than once, within a few milliseconds; a timer may be early by one.
+    assert gaps[gaps > 20].min() > 95
