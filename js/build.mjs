@@ -5,7 +5,7 @@
  * that exports hold the same passes.
  */
 
-import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { context } from "esbuild";
@@ -101,7 +101,7 @@ async function main() {
       { in: join(here, "src", "editor", "style.css"), out: "sun_editor" },
       { in: join(here, "src", "explorer", "index.js"), out: "sky_explorer" },
       { in: join(here, "src", "explorer", "style.css"), out: "sky_explorer" },
-    ].filter((entry) => existsSync(entry.in)),
+    ],
     outdir: out,
     bundle: true,
     minify: true,
@@ -109,7 +109,7 @@ async function main() {
     target: "es2022",
     logLevel: "info",
     legalComments: "none",
-    plugins: [shaderPlugin, packPlugin(join(out, "sky_explorer.js"), ["SkyFrame"])],
+    plugins: [shaderPlugin, packPlugin(join(out, "sky_explorer.js"), ["Projection", "SkyFrame"])],
   });
   if (process.argv.includes("--watch")) {
     await build.watch();

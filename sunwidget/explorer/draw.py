@@ -75,7 +75,8 @@ def draw(
     size = _checked_size(size)
     host = {"output_transfer": 1, "dither": 0.5}
     texels = _run(values, size, host, None, {"bruneton": bruneton}, samples, progress)
-    color = texels[..., :3] + (1 - texels[..., 3:]) * np.float32(BACKGROUND) / 255
+    around = np.array(BACKGROUND, np.float32) / 255
+    color = texels[..., :3] + (1 - texels[..., 3:]) * around
     return np.clip(color * 255 + 0.5, 0, 255).astype(np.uint8)
 
 
@@ -168,8 +169,9 @@ def _run(
     host = {"frame_size": (float(size[0]), float(size[1])), "canvas_flip": 0.0, **host}
     columns, rows = (int(n) for n in values["grid"].split("×"))
     sizes = {"grid": (columns, rows), "shown": (2 * columns, rows)}
-    if textures.get("directions") is not None:
-        sizes["directions"] = (len(textures["directions"][0]), 1)
+    directions = textures.get("directions")
+    if directions is not None:
+        sizes["directions"] = (directions.shape[1], 1)
 
     def task(context: Any) -> Floats:
         graph = _graph(context, textures)

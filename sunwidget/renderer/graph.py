@@ -137,7 +137,7 @@ class FrameGraph:
         """
         x, y, width, height = tile
         host = {**host_values, "tile_origin": (float(x), float(y))}
-        rows = [row for row in self.passes if any(m in methods for m in row.get("when", methods))]
+        rows = [row for row in self.passes if "when" not in row or set(row["when"]) & set(methods)]
         if until is None:
             until = next(row["name"] for row in rows if row["format"] == "output")
         if all(row["name"] != until for row in rows):
