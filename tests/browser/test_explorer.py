@@ -14,29 +14,33 @@ from sunwidget.widgets.sky_explorer import SkyExplorer
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 
 
+@pytest.fixture(scope="module")
+def shared(browser):
+    """One page for all tests: its shaders take longer to compile than most tests to run."""
+    context = browser.new_context(viewport={"width": 1180, "height": 1200})
+    page = open_page(context, "explorer.html")
+    page.set_default_timeout(30_000)
+    page.evaluate("(state) => showExplorer(state)", widget_state(SkyExplorer()))
+    page.locator(".sunwidget.sw-live").wait_for()
+    yield page
+    context.close()
+
+
 @pytest.fixture
-def explorer(browser):
-    """Open a page with an explorer on it: ``explorer(sun_elevation=4)``."""
-    contexts = []
+def explorer(shared):
+    """Show a state as if Python had set it: ``explorer(sun_elevation=4)``."""
 
-    def show(width=1180, changes=None, **parameters):
-        context = browser.new_context(viewport={"width": width, "height": 1200})
-        contexts.append(context)
-        page = open_page(context, "explorer.html")
-        state = {**widget_state(SkyExplorer(**parameters)), **(changes or {})}
-        page.set_default_timeout(30_000)
-        page.evaluate("(state) => showExplorer(state)", state)
-        page.locator(".sunwidget.sw-live").wait_for()
-        pages.append(page)
-        return page
+    def show(changes=None, **parameters):
+        fresh = {"_history": {"past": [], "future": []}}
+        state = {**widget_state(SkyExplorer(**parameters)), **fresh, **(changes or {})}
+        shared.evaluate("(state) => { model.sent.length = 0; model.receive(state); }", state)
+        shared.mouse.move(2, 2)
+        settled(shared)
+        return shared
 
-    pages = []
     yield show
-    for page in pages:
-        assert page.errors == []
-        assert page.locator(".sw-message:visible").count() == 0
-    for context in contexts:
-        context.close()
+    assert shared.errors == []
+    assert shared.locator(".sw-message:visible").count() == 0
 
 
 def canvas_of(page):
@@ -64,7 +68,18 @@ def drag(page, start, end, steps=6):
 
 def settled(page):
     """Wait until the picture and the plots after the last change are drawn."""
-    page.wait_for_timeout(700)
+    page.wait_for_timeout(50)
+    page.wait_for_function("!document.querySelector('[aria-busy=true]')")
+
+
+def unfold(page, title):
+    page.evaluate(
+        """(title) => {
+          for (const section of document.querySelectorAll(".sw-panel details"))
+            if (section.querySelector("summary").textContent === title) section.open = true;
+        }""",
+        title,
+    )
 
 
 def card(page, title):
@@ -89,7 +104,6 @@ def blue_over_red(page):
 
 def test_it_opens_with_a_sky_and_six_plots(explorer):
     page = explorer()
-    settled(page)
     picture = canvas_of(page)
     assert picture.std() > 20, "the canvas is uniform"
     assert blue_over_red(page) > 1.2
@@ -155,7 +169,6 @@ def test_dragging_the_camera_elsewhere_turns_it_and_leaves_the_sun(explorer):
 
 def test_without_air_molecules_the_sky_is_not_blue(explorer):
     page = explorer()
-    settled(page)
     blue = blue_over_red(page)
     page.get_by_role("switch", name="Air molecules").click()
     settled(page)
@@ -188,7 +201,6 @@ def test_a_preset_is_one_step_and_shows_as_chosen(explorer):
 
 def test_plots_follow_the_sun(explorer):
     page = explorer(sun_elevation=60)
-    settled(page)
     before = plot_pixels(page)
 
     def told(title, pattern):
@@ -209,7 +221,6 @@ def test_plots_follow_the_sun(explorer):
 
 def test_a_pointer_on_the_sky_reads_it_and_marks_the_phase_functions(explorer):
     page = explorer(sun_elevation=50)
-    settled(page)
     page.mouse.move(*centre(page.locator(".sw-sky-picture").bounding_box()))
     settled(page)
     text = page.locator(".sw-foot").text_content()
@@ -221,7 +232,6 @@ def test_a_pointer_on_the_sky_reads_it_and_marks_the_phase_functions(explorer):
 
 def test_dragging_in_a_plot_moves_the_sun(explorer):
     page = explorer()
-    settled(page)
     over = card(page, "The sun's colour").locator(".u-over").bounding_box()
     x, y = centre(over)
     drag(page, (x, y), (over["x"] + over["width"] * np.sqrt(6 / 91), y))
@@ -233,7 +243,7 @@ def test_the_clock_moves_the_sun_without_a_kernel(explorer):
     widget.set_place(41.0, 29.0, "2024-06-21")
     place = {n: getattr(widget, n) for n in ("latitude", "longitude", "date")}
     page = explorer(**place)
-    page.locator("summary", has_text="Place and time").click()
+    unfold(page, "Place and time")
     field = page.get_by_label("Time, UTC, value")
     for hours in (5.02, 17.5):
         field.fill(str(hours))
@@ -270,6 +280,7 @@ def test_two_views_of_one_model_stay_in_step_and_say_each_thing_once(explorer):
     page = explorer()
     page.evaluate("showAgain()")
     page.locator(".sunwidget.sw-live").nth(1).wait_for()
+    settled(page)
     page.evaluate("model.saved.length = 0")
     page.locator(".sunwidget").nth(0).get_by_role("button", name="Golden hour").click()
     page.locator(".sunwidget").nth(1).get_by_role("switch", name="Aerosol").click()
@@ -279,6 +290,7 @@ def test_two_views_of_one_model_stay_in_step_and_say_each_thing_once(explorer):
         assert view.get_by_label("Elevation, value", exact=True).input_value() == "4.0"
         switch = view.get_by_role("switch", name="Aerosol")
         assert switch.get_attribute("aria-checked") == "false"
+    page.evaluate("closeAgain()")
     told = [name for saved in page.evaluate("model.saved") for name in saved]
     assert sorted(name for name in told if name != "_history") == ["show_aerosol", "sun_elevation"]
 
@@ -314,7 +326,7 @@ def test_a_scan_that_the_model_made_has_no_error(explorer):
 
 def test_without_measured_skies_it_says_how_to_get_them_and_asks_first(explorer):
     page = explorer(changes={"_scans": []})
-    page.locator("summary", has_text="Measured").click()
+    unfold(page, "Measured")
     assert "public repository" in page.locator(".sw-panel").text_content()
     page.get_by_role("button", name="Download …").click()
     assert page.evaluate("model.sent.length") == 0
@@ -324,7 +336,6 @@ def test_without_measured_skies_it_says_how_to_get_them_and_asks_first(explorer)
 
 def test_while_the_sun_is_dragged_plots_are_drawn_ten_times_a_second_at_most(explorer):
     page = explorer()
-    settled(page)
     page.evaluate(
         """() => {
           window.draws = [];

@@ -108,12 +108,12 @@ export class Guides {
 
   /** @type {(node: SVGElement, elevation: number, box: { width: number, height: number }) => void} */
   number(node, elevation, box) {
-    const { projection, view_azimuth } = this.view.state.values;
-    const azimuth = projection === "dome" ? 45 : Number(view_azimuth);
-    const place = this.view.placeOf([azimuth, elevation]);
+    const { projection, view_azimuth, fov } = this.view.state.values;
+    const side = { dome: 45, panorama: -172 }[String(projection)] ?? -0.5 * Number(fov);
+    const place = this.view.placeOf([Number(view_azimuth) + side, elevation]);
     if (!place || !inside(place, box)) return;
-    const [x, y] = projection === "dome" ? place : [18, place[1] - 4];
-    node.append(text(x, y, `${elevation}°`, "sw-guide-text"));
+    const [x, y] = place;
+    node.append(text(x, projection === "dome" ? y + 3 : y - 4, `${elevation}°`, "sw-guide-text"));
   }
 
   /** @type {(node: SVGElement, box: { width: number, height: number }, left: string, right: string) => void} */

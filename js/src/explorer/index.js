@@ -1,5 +1,6 @@
 /** The anywidget module of SkyExplorer. */
 
+import { Projection } from "./projection.js";
 import { SkyFrame } from "./sky_frame.js";
 import { View } from "./view.js";
 
@@ -26,4 +27,4 @@ function render({ model, el }) {
 
 export default { render };
 // For tests and for pages without a kernel.
-export { SkyFrame };
+export { Projection, SkyFrame };

@@ -42,11 +42,34 @@ export function modelControls(view, signal) {
   const key = () => JSON.stringify(OPTICAL.map((name) => state.values[name]));
   let computed = "";
   let busy = false;
+  /** What the kernel says the table takes, and for which air. @type {{ key: string, cached: boolean, seconds: number }} */
+  let cost = { key: "", cached: false, seconds: 40 };
+  let asking = "";
+  const parameters = () =>
+    Object.fromEntries(
+      OPTICAL.filter((name) => name in state.values).map((name) => [name, state.values[name]]),
+    );
+
+  /** Ask what the table of this air would take; one that lies ready is fetched at once. */
+  async function askCost() {
+    const asked = key();
+    if (asking === asked || busy || state.before !== null) return;
+    asking = asked;
+    try {
+      const { result } = await view.channel.request("bruneton_cost", { parameters: parameters() });
+      cost = { key: asked, cached: Boolean(result.cached), seconds: Number(result.seconds) };
+    } catch {
+      return; // without a kernel the usual cost stands there
+    }
+    if (signal.aborted || asked !== key()) return;
+    if (cost.cached && computed !== asked) await computeTable();
+    else show();
+  }
 
   const compute = element(
     "button",
     { type: "button", class: "sw-chip sw-primary" },
-    "Compute table (≈ 40 s)",
+    "Compute table",
   );
   const explain = element("p", { class: "sw-hint" });
   const bruneton = element("div", { class: "sw-model-box", hidden: true }, explain, compute);
@@ -55,15 +78,12 @@ export function modelControls(view, signal) {
   async function computeTable() {
     busy = true;
     const asked = key();
-    const parameters = Object.fromEntries(
-      OPTICAL.filter((name) => name in state.values).map((name) => [name, state.values[name]]),
-    );
     show();
     view.showError("");
     try {
       const { result, buffers } = await view.channel.request(
         "bruneton",
-        { parameters },
+        { parameters: parameters() },
         (fraction, text) => view.stage.setProgress(fraction, text),
       );
       const { buffer, byteOffset, byteLength } = buffers[0];
@@ -107,7 +127,9 @@ export function modelControls(view, signal) {
     const old = computed !== "" && computed !== key();
     compute.hidden = computed === key();
     compute.disabled = busy;
-    compute.textContent = busy ? "Computing …" : "Compute table (≈ 40 s)";
+    const seconds = Math.max(1, Number(cost.seconds.toPrecision(2)));
+    compute.textContent = busy ? "Computing …" : `Compute table (≈ ${seconds} s)`;
+    if (uses("bruneton") && computed !== key()) void askCost();
     explain.textContent = !computed
       ? "This model looks everything up in one table of four dimensions that the kernel computes once for " +
         "an atmosphere: slow to make, and no slider of the air can be dragged. Until then all orders are shown."

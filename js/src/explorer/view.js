@@ -263,9 +263,12 @@ export class View {
   }
 
   requestFrame() {
+    this.stage.node.setAttribute("aria-busy", "true");
     this.request ||= requestAnimationFrame((now) => {
       this.request = 0;
       this.drawFrame(now);
+      const waits = this.request !== 0 || this.settle !== undefined;
+      this.stage.node.setAttribute("aria-busy", String(waits));
     });
   }
 
@@ -277,7 +280,10 @@ export class View {
       // A pause of the hand is no slow frame.
       if (spent < 500) this.adapt(spent);
       clearTimeout(this.settle);
-      this.settle = setTimeout(() => this.requestFrame(), SETTLED_MS);
+      this.settle = setTimeout(() => {
+        this.settle = undefined;
+        this.requestFrame();
+      }, SETTLED_MS);
     }
     this.lastFrame = now;
     this.drawSky(dragging ? this.scale : 1);

@@ -114,6 +114,7 @@ export class Plots {
   /** Draw soon: what is asked for while a drawing waits is drawn with it. */
   request() {
     if (this.timer !== undefined || !this.node.open) return;
+    this.node.setAttribute("aria-busy", "true");
     const since = performance.now() - this.last;
     // A slow machine draws them seldom, so that the drag itself stays fluent.
     const pause = Math.max(PAUSE_MS, 3 * this.cost);
@@ -121,6 +122,7 @@ export class Plots {
       () => {
         this.timer = undefined;
         this.update();
+        this.node.setAttribute("aria-busy", "false");
       },
       Math.max(0, pause - since),
     );
