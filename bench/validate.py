@@ -55,7 +55,7 @@ SUNS = ((60.0, 46), (20.0, 46), (2.0, 40))
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--paths", type=int, default=1000, help="a direction in row 6 (1000)")
+    parser.add_argument("--paths", type=int, default=600, help="a direction in row 6 (600)")
     shared = Path(os.environ.get("SUNWIDGET_SHARED", ROOT.parent / "shared"))
     parser.add_argument("--data", type=Path, default=shared / "data" / "sky-reference")
     options = parser.parse_args()

@@ -80,7 +80,9 @@ def _shaders() -> Iterator[Finding]:
     from sunwidget.renderer.graph import Programs
     from sunwidget.renderer.shader_source import frame_graph
 
-    shaders = {row["shader"] for row in frame_graph()["passes"]}
+    shaders = {
+        row["shader"] for name in ("graph", "explorer") for row in frame_graph(name)["passes"]
+    }
 
     def compile_all(context: Any) -> None:
         programs = Programs(context)
@@ -158,6 +160,23 @@ def _notebook() -> Iterator[Finding]:
     yield Finding("notebook", True, False, ", ".join(found))
 
 
+def _sun_path() -> Iterator[Finding]:
+    try:
+        detail = f"pvlib {importlib.metadata.version('pvlib')}"
+    except importlib.metadata.PackageNotFoundError:
+        yield Finding("sun's path", False, False, "no pvlib", _REMEDIES["sun's path"])
+    else:
+        yield Finding("sun's path", True, False, detail)
+
+
+def _measured_skies() -> Iterator[Finding]:
+    from sunwidget.atmosphere import measurements
+
+    there = measurements.is_available()
+    detail = f"{len(measurements.load())} scans" if there else "never fetched"
+    yield Finding("measured skies", there, False, detail, _REMEDIES["measured skies"])
+
+
 _REMEDIES = {
     "EGL": f"Debian or Ubuntu: apt-get install {_EGL_PACKAGES}",
     "OpenCV": "pip uninstall -y opencv-python opencv-python-headless opencv-contrib-python"
@@ -168,6 +187,8 @@ _REMEDIES = {
     "MP4 films": "pip install 'sunwidget[video]' (GIF and WebP work without)",
     "front end": "in a checkout: make build (needs Node 20 or newer); stills work without",
     "notebook": "pip install 'sunwidget[lab]'",
+    "sun's path": "pip install 'sunwidget[solar]' (SkyExplorer at a date and place)",
+    "measured skies": "sunwidget.atmosphere.measurements.download() (21 MB; only to compare with)",
 }
 
 _CHECKS: tuple[tuple[str, bool, Callable[[], Iterator[Finding]]], ...] = (
@@ -180,4 +201,6 @@ _CHECKS: tuple[tuple[str, bool, Callable[[], Iterator[Finding]]], ...] = (
     ("MP4 films", False, _films),
     ("front end", False, _front_end),
     ("notebook", False, _notebook),
+    ("sun's path", False, _sun_path),
+    ("measured skies", False, _measured_skies),
 )
