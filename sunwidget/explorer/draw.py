@@ -159,7 +159,8 @@ def _run(
     samples: int = 1,
     progress: Callable[[float, str], Any] | None = None,
 ) -> Floats:
-    asked = methods(values)
+    # What is compared with stands in the picture alone, to its right.
+    asked = methods(values if until is None else {**values, "compare": "none"})
     if "bruneton" in asked and textures.get("bruneton") is None:
         raise EditError(
             "Bruneton's model needs its table: pass bruneton=bruneton_table(atmosphere)"

@@ -503,3 +503,26 @@ def test_a_pass_with_history_gathers_and_begins_anew(monkeypatch):
         return seen
 
     assert on_gl_thread(task) == [(0, 1), (1, 2), (2, 3), (0, 1), (2, 2)]
+
+
+def test_brunetons_sky_is_drawn_from_its_table():
+    from sunwidget.renderer.bruneton import bruneton_table
+
+    made = bruneton_table(Atmosphere(), size="tiny", cache=False)
+    cut = made.slice(0.0)
+    values = sky(model="bruneton", compare="multiple", sun_elevation=30.0)
+    both = radiance_map(values, SIZE, bruneton=cut)
+    middle = SIZE[0] // 2
+    left, right = both[:, :middle], both[:, : middle - 1 : -1]
+    # The sun stands in the north, so the halves mirror each other; the models are 1 to 3 % apart,
+    # and so small a table adds as much.
+    assert np.nanmedian(np.abs(left / right - 1)) < 0.05
+    assert not np.array_equal(left, right, equal_nan=True)
+    values = values | {"sun_elevation": 10.0, "compare": "none"}
+    plane = curve(values, "curve_principal_plane", bruneton=cut)
+    # Interpolation in the view of 96 × 80.
+    reference = made.radiance(np.arange(5, 90.0), 0.0, 10.0)
+    assert plane[5:90] == pytest.approx(reference, rel=0.05)
+    assert curve(values | {"model": "multiple", "compare": "bruneton"}, "curve_phase").all(axis=0)[
+        0
+    ]
