@@ -12,7 +12,6 @@ import contextlib
 import hashlib
 import json
 import os
-import sys
 import tempfile
 import warnings
 import zipfile
@@ -22,23 +21,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.cache import cache_folder
+
 VERSION = 1
 _LOWEST = -48.0  # log2 of the least value that is kept
 _STEPS = 1023.0  # per octave
 _MOST_BYTES = 400_000_000
-
-
-def folder() -> Path:
-    """Return where the tables lie; it need not exist yet."""
-    if os.environ.get("XDG_CACHE_HOME"):
-        base = Path(os.environ["XDG_CACHE_HOME"])
-    elif sys.platform == "win32" and "LOCALAPPDATA" in os.environ:
-        base = Path(os.environ["LOCALAPPDATA"])
-    elif sys.platform == "darwin":
-        base = Path.home() / "Library" / "Caches"
-    else:
-        base = Path.home() / ".cache"
-    return base / "sunwidget"
 
 
 def key(*what: Any) -> str:
@@ -49,7 +37,7 @@ def key(*what: Any) -> str:
 
 def path(name: str) -> Path:
     """Return where the table of this key lies or would lie."""
-    return folder() / f"sky-{name}.npz"
+    return cache_folder() / f"sky-{name}.npz"
 
 
 def read(name: str, shape: tuple[int, ...]) -> NDArray[np.float32] | None:
