@@ -26,6 +26,7 @@ NIGHT_SHARE = 0.65
 TWILIGHT_SCALE_HEIGHT = 24_000.0  # in standard air
 MOMENTS = 7
 _LOBE_SAMPLES = 5
+_EIGENVALUE_ROW = 6 / 19  # of the table: 3 km
 _WAVELENGTHS_AT_ONCE = 8
 
 
@@ -276,16 +277,56 @@ class _Rays:
         return np.concatenate([low, lobe[:, :, None]], axis=2)
 
 
-_rays = lru_cache(maxsize=8)(_Rays)
+# Two entries more than a window's and its neighbours': those of the eigenvalue's high suns.
+_rays = lru_cache(maxsize=10)(_Rays)
 
 
 def _moments(
     a: Atmosphere, extinction: Array, quality: Quality, window: Window, orders: int
 ) -> Array:
+    first, second, transfer = _drawn_orders(a, extinction, quality, window, orders)
+    if orders == 2:
+        return first
+    # From one order to the next light spreads, until all of it falls by the same factor: the
+    # largest eigenvalue of scattering, see shaders/multiple_scattering.glsl.
+    eigenvalue = np.minimum(_eigenvalue(a, extinction, quality), 0.95)
+    third = second[:, :, :1] * np.sqrt(_gain(first, second) * eigenvalue)
+    # What the series leaves out after its first n - 3 terms: nothing when it goes on for ever.
+    omitted = 0.0 if orders == 0 else eigenvalue ** (orders - 3)
+    shape = transfer / np.maximum(transfer[:, :1], 1e-30)
+    total = first + second
+    total[:, :, : transfer.shape[1]] += shape[:, None] * third * (1 - omitted) / (1 - eigenvalue)
+    return np.asarray(total)
+
+
+def _eigenvalue(a: Atmosphere, extinction: Array, quality: Quality) -> Array:
+    """Return the factor (w,) by which late orders fall.
+
+    It is the geometric mean of the share of an even light that comes back after one more
+    scattering and of what the second order has of the first, 3 km up under a high sun.
+    """
+    high_suns = Window(quality.suns - 2, quality.suns - 1)
+    first, second, transfer = _drawn_orders(a, extinction, quality, high_suns)
+    row = int(_EIGENVALUE_ROW * (quality.altitudes - 1) + 0.5)
+    return np.asarray(np.sqrt(transfer[row, 0] * _gain(first, second)[row, -1, 0]))
+
+
+def _gain(first: Array, second: Array) -> Array:
+    """Return what the second order has of the first, in the mean."""
+    return np.minimum(second[:, :, :1] / np.maximum(first[:, :, :1], 1e-30), 1.0)
+
+
+def _drawn_orders(
+    a: Atmosphere, extinction: Array, quality: Quality, window: Window, orders: int = 0
+) -> tuple[Array, Array, Array]:
+    """Moments of the first two orders (h, s, k, w), and (h, k, w) of an even light scattered once.
+
+    The second order and the transfer stay empty where ``orders`` is 2.
+    """
     rays = _rays(quality, window, a.heights, quality.azimuths, quality.steps)
     first = rays.moments_of(_first_order(a, extinction, rays))
     if orders == 2:
-        return first
+        return first, first[:0], first[:0, 0]
     rays = _rays(quality, window, a.heights, quality.second_azimuths, quality.second_steps)
     rayleigh, mie, total = scattering(a, extinction, rays.density)
     seen, through = attenuate(total, rays.dt)
@@ -299,20 +340,9 @@ def _moments(
     second += np.einsum("hmtw,hsmatw->hsmaw", seen * mie, by_haze)
     ground = field.look_up(np.zeros_like(rays.mu_s_ground), rays.mu_s_ground)
     second += np.einsum("hmw,hsmaw->hsmaw", reflected / np.pi, field_irradiance(ground))
-    second_moments = rays.moments_of(second)
-
     even = np.einsum("hmtw->hmw", seen * (rayleigh + mie)) + reflected
     transfer = np.einsum("kma,m,hmw->hkw", rays.basis, rays.weight, even, optimize=True)
-    mean = transfer[:, None, :1]
-    ratio = second_moments[:, :, :1] / np.maximum(first[:, :, :1], 1e-30)
-    ratio = np.minimum(np.minimum(mean, 0.999), ratio)
-    # What the series leaves out after its first n - 3 terms: nothing when it goes on for ever.
-    omitted = 0.0 if orders == 0 else ratio ** (orders - 3)
-    series = second_moments[:, :, :1] * ratio * (1 - omitted) / (1 - ratio)
-    series /= np.maximum(mean, 1e-30)
-    total = first + second_moments
-    total[:, :, : transfer.shape[1]] += transfer[:, None] * series
-    return np.asarray(total)
+    return first, rays.moments_of(second), transfer
 
 
 def _first_order(a: Atmosphere, extinction: Array, rays: _Rays) -> Array:
