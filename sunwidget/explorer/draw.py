@@ -32,6 +32,8 @@ CURVES = (
 BACKGROUND = (20, 22, 27)
 """Code values around the dome and the panorama."""
 
+# Pictures are drawn in bands of about this many pixels, so that memory stays bounded at any size.
+_BAND_PIXELS = 2_100_000
 _graphs: dict[int, FrameGraph] = {}
 _tables: dict[tuple[int, str], Any] = {}
 
@@ -58,7 +60,7 @@ def draw(
     samples : int, default 64
         Paths a pixel of the ``"reference"``.
     progress : callable, optional
-        Called with (fraction, message) after each sample; raise in it to cancel.
+        Called with (fraction, message) after each sample and band; raise in it to cancel.
 
     Returns
     -------
@@ -177,20 +179,33 @@ def _run(
     def task(context: Any) -> Floats:
         graph = _graph(context, textures)
 
-        def run(name: str | None) -> Target:
-            return graph.run(states, {}, host, (0, 0, *size), asked, name, sizes)
+        def run(name: str | None, tile: tuple[int, int, int, int]) -> Target:
+            return graph.run(states, {}, host, tile, asked, name, sizes)
 
-        if until is None and "reference" in asked:
-            graph.targets.pop("reference", None)  # a picture owes nothing to the one before
-            for i in range(samples - 1):
-                run("reference")
-                if progress is not None:
-                    progress((i + 1) / samples, "tracing paths")
-        target = run(until)
-        width, height = target.texture.size
-        return np.frombuffer(target.texture.read(), np.float32).reshape(height, width, 4).copy()
+        if until is not None:
+            return _texels(run(until, (0, 0, *size)))
+        width, height = size
+        bands = []
+        rows = max(1, _BAND_PIXELS // width)
+        for top in range(0, height, rows):
+            tile = (0, top, width, min(rows, height - top))
+            if "reference" in asked:
+                graph.targets.pop("reference", None)  # a picture owes nothing to the one before
+                for i in range(samples - 1):
+                    run("reference", tile)
+                    if progress is not None:
+                        progress((top + tile[3] * (i + 1) / samples) / height, "tracing paths")
+            bands.append(_texels(run(None, tile)))
+            if progress is not None:
+                progress((top + tile[3]) / height, "drawing")
+        return np.concatenate(bands)
 
     return on_gl_thread(task)
+
+
+def _texels(target: Target) -> Floats:
+    width, height = target.texture.size
+    return np.frombuffer(target.texture.read(), np.float32).reshape(height, width, 4).copy()
 
 
 def _graph(context: Any, textures: Mapping[str, Floats | None]) -> FrameGraph:

@@ -305,6 +305,17 @@ def test_the_same_values_draw_the_same_picture(projection):
     assert np.array_equal(draw(sky(projection=projection), SIZE), first)
 
 
+@pytest.mark.parametrize("projection", PROJECTIONS)
+def test_bands_join_without_a_seam(projection, monkeypatch):
+    values = sky(projection=projection, compare="single")
+    whole = draw(values, SIZE)
+    seen = []
+    monkeypatch.setattr(module, "_BAND_PIXELS", 11 * SIZE[0])
+    assert np.array_equal(draw(values, SIZE, progress=lambda *step: seen.append(step)), whole)
+    assert len(seen) == 7
+    assert seen[-1][0] == 1
+
+
 @pytest.mark.parametrize("size", [(0, 10), (10,), (1.5, 2), "ab", None])
 def test_an_impossible_size_is_refused(size):
     with pytest.raises(EditError, match="size must be"):
@@ -451,9 +462,9 @@ def test_turning_the_view_draws_no_sky(passes_run_by):
 
 
 def test_single_terms_are_drawn_only_when_asked_for(passes_run_by):
-    passes_run_by()
-    assert "sky_view_single" in passes_run_by(show_multiple=False)
-    assert "sky_view_single" not in passes_run_by(sun_elevation=22.0)
+    assert "sky_view_single" not in passes_run_by(ozone=215.0)  # a sky no other test draws
+    assert "sky_view_single" in passes_run_by(ozone=215.0, show_multiple=False)
+    assert "sky_view_single" not in passes_run_by(ozone=210.0)
 
 
 def test_a_curve_draws_no_picture():
