@@ -18,6 +18,17 @@ const NAMES = [
 /** @typedef {Record<string, string>} Theme */
 
 /**
+ * Read the colours anew; before the widget stands on the page there are none.
+ *
+ * @param {HTMLElement} root
+ * @param {Theme} theme
+ */
+export function readTheme(root, theme) {
+  const style = getComputedStyle(root);
+  for (const name of NAMES) theme[name] = style.getPropertyValue(`--sw-${name}`).trim();
+}
+
+/**
  * @param {HTMLElement} root
  * @param {() => void} onChange the page's theme changed; `theme` has the new colours
  * @param {AbortSignal} signal
@@ -26,15 +37,17 @@ const NAMES = [
 export function followTheme(root, onChange, signal) {
   /** @type {Theme} */
   const theme = {};
-  const read = () => {
-    const style = getComputedStyle(root);
-    for (const name of NAMES) theme[name] = style.getPropertyValue(`--sw-${name}`).trim();
-  };
   const changed = () => {
-    read();
+    readTheme(root, theme);
     onChange();
   };
-  read();
+  // JupyterLab renders a widget before it puts it into the page, and outside no style applies.
+  const attached = new ResizeObserver(() => {
+    if (!root.isConnected) return;
+    attached.disconnect();
+    changed();
+  });
+  if (!root.isConnected) attached.observe(root);
   const observer = new MutationObserver(changed);
   for (const node of [document.documentElement, document.body]) {
     observer.observe(node, {
@@ -44,6 +57,9 @@ export function followTheme(root, onChange, signal) {
   }
   const media = matchMedia("(prefers-color-scheme: dark)");
   media.addEventListener("change", changed, { signal });
-  signal.addEventListener("abort", () => observer.disconnect());
+  signal.addEventListener("abort", () => {
+    observer.disconnect();
+    attached.disconnect();
+  });
   return theme;
 }
