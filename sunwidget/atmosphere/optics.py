@@ -123,12 +123,13 @@ def integrate_columns(
 ) -> Array:
     """Return path lengths of air, aerosol and ozone to the top in metres, shape (..., 3).
 
-    Midpoints of t = d u², which crowds the steps where the air is dense.
+    Steps of t = d u², which crowd where the air is dense, at the mean of u² over each: that
+    takes away the midpoint rule's error of the dense end (first term of Euler and Maclaurin).
     """
     h, mu = np.broadcast_arrays(np.asarray(h, float), np.asarray(mu, float))
     d = distance_to_top(h, mu)[..., None]
     u = (np.arange(steps) + 0.5) / steps
-    along = altitude_along_ray(h[..., None], mu[..., None], d * u**2)
+    along = altitude_along_ray(h[..., None], mu[..., None], d * (u**2 + 1 / (12 * steps**2)))
     return np.asarray(np.sum(density(along, heights) * (2 * d * u / steps)[..., None], axis=-2))
 
 

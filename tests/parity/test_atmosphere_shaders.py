@@ -243,18 +243,18 @@ def test_sky_turns_with_the_sun():
     assert aside == pytest.approx(straight, rel=1e-3)
 
 
-def test_columns_agree():
-    drawn = shaders(lambda s: s.draw(CLEAR, 30).read("columns_source"))
+@pytest.mark.parametrize(
+    "air",
+    [CLEAR, OTHER_AIR, Atmosphere(aerosol_scale_height=200)],
+    ids=["standard", "other", "low haze"],
+)
+def test_columns_agree(air):
+    drawn = shaders(lambda s: s.draw(air, 30).read("columns_source"))
     # Row 0 is sea level; its first sample looks up, its last one to the horizon.
-    assert drawn[0, 0, :3] == pytest.approx(optics.integrate_columns(0, 1), rel=6e-3)
-    assert drawn[0, -1, :3] == pytest.approx(optics.integrate_columns(0, 0), rel=2e-3)
-
-
-def test_columns_follow_the_scale_heights():
-    drawn = shaders(lambda s: s.draw(OTHER_AIR, 30).read("columns_source"))
-    heights = OTHER_AIR.heights
-    assert drawn[0, 0, :3] == pytest.approx(optics.integrate_columns(0, 1, heights), rel=6e-3)
-    assert drawn[0, -1, :3] == pytest.approx(optics.integrate_columns(0, 0, heights), rel=2e-3)
+    for column, mu in ((0, 1), (-1, 0)):
+        exact = optics.integrate_columns(0, mu, air.heights, steps=4000)
+        # Forty steps; they round the corners of the ozone layer, 0.27 % of it.
+        assert drawn[0, column, :3] == pytest.approx(exact, rel=3e-3)
 
 
 @pytest.mark.parametrize(("sun", "allowed"), [(70, 0.01), (20, 0.01), (2, 0.01), (-5, 0.02)])

@@ -80,6 +80,33 @@ vec2 GetFieldDirection(int zenith, int azimuth, int azimuths) {
   return vec2(sqrt(1.0 - mu * mu) * cos(GetAzimuth(azimuth, azimuths)), mu);
 }
 
+// ---- Quadrature -----------------------------------------------------------------------------
+// An order's radiance is drawn for each direction: tiles of azimuth along x and of zenith angle
+// along y, in each of them mu_s along x and altitude along y.
+
+struct FieldRay {
+  ivec2 tile;  // azimuth, zenith angle
+  Length h;
+  Number mu;
+  Number mu_s;
+  Number nu;
+  bool ground;
+  Length d;  // to the ground or to the top
+};
+
+FieldRay GetFieldRay(ivec2 texel, ivec2 size, int azimuths) {
+  size /= ivec2(azimuths, ZENITHS);
+  ivec2 tile = texel / size;
+  vec2 place = vec2(texel - tile * size) / vec2(size - 1);
+  float mu_s = GetSunCosineOfField(place.x);
+  float h = GetAltitudeOfField(place.y);
+  vec2 direction = GetFieldDirection(tile.y, tile.x, azimuths);
+  float mu = direction.y;
+  bool ground = RayIntersectsGround(h, mu);
+  return FieldRay(tile, h, mu, mu_s, mu * mu_s + direction.x * sqrt(1.0 - mu_s * mu_s), ground,
+                  ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu));
+}
+
 // ---- Look-up --------------------------------------------------------------------------------
 
 vec4 FetchMoment(sampler2D field, ivec2 corner, vec2 part) {
