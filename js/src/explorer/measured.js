@@ -101,7 +101,7 @@ export function measuredControls(view) {
   });
   const choose = element(
     "div",
-    { class: "sw-choice" },
+    { class: "sw-choice sw-choice-wide" },
     element("span", { class: "sw-label" }, "Scan"),
     select,
   );

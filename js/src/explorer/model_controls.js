@@ -6,10 +6,10 @@ import { MOST_SAMPLES } from "./limits.js";
 /** What people read in the choice of models. @type {Record<string, string>} */
 export const MODEL_NAMES = {
   none: "nothing",
-  multiple: "All orders (Hillaire 2020)",
-  single: "Single scattering (Nishita 1993)",
-  bruneton: "Bruneton's table (2008)",
-  reference: "Path tracing (reference)",
+  multiple: "All orders (Hillaire)",
+  single: "Single (Nishita 1993)",
+  bruneton: "Bruneton's table",
+  reference: "Path tracing",
 };
 
 /** The rows that Bruneton's table depends on. */

@@ -117,7 +117,7 @@ export function placeControls(view, signal) {
       said.textContent = sun
         ? `${clock(Number(hours))} UTC: sun at ${degrees(sun.azimuth)}, seen at ${degrees(sun.apparent)}, ` +
           `truly at ${degrees(sun.true)}.`
-        : "The sun was moved by hand; the clock puts it back on its path.";
+        : "The clock stands still: the sun was moved otherwise. Moving the clock puts it back on its path.";
     },
   };
 }

@@ -6,7 +6,7 @@ import { turned } from "./day.js";
 /** @typedef {import("../types.js").Point} Point */
 
 export const GRAB = 26; // CSS pixels round the sun that take hold of it
-const EDGE = 18; // CSS pixels from the stage's edge at which a sun outside it waits
+const EDGE = 26; // CSS pixels from the stage's edge at which a sun outside it waits
 const KEY_STEP = 0.5; // degrees
 
 export class SunHandle {

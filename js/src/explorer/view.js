@@ -81,7 +81,7 @@ export class View {
   }
 
   build() {
-    this.stage.picture.append(this.measured.legend);
+    this.stage.node.append(this.measured.legend);
     this.stage.overlay.append(this.guides.node, this.measured.dots, this.handle.node);
     const main = element(
       "div",

@@ -46,7 +46,8 @@ export class Chart {
     const mark = element("span", { class: "sw-chart-mark" });
     mark.style.borderTop = `2px ${line.dash ? "dashed" : "solid"} var(--sw-${line.color})`;
     const value = element("span", { class: "sw-chart-value" });
-    this.legend.append(element("span", {}, mark, line.label, value));
+    const name = element("span", {}, mark, line.label);
+    this.legend.append(element("span", { class: "sw-chart-line" }, name, value));
     return value;
   }
 

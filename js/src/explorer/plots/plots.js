@@ -10,7 +10,7 @@ import { icon } from "../../controls/icons.js";
 import { PhasePlot } from "./phase.js";
 import { PrincipalPlanePlot } from "./principal_plane.js";
 import { SunColorPlot } from "./sun_color.js";
-import { followTheme } from "./theme.js";
+import { followTheme, readTheme } from "./theme.js";
 import { TransmittancePlot } from "./transmittance.js";
 import { ZenithElevationPlot, ZenithTrackPlot } from "./zenith.js";
 
@@ -39,7 +39,7 @@ export class Plots {
    */
   constructor(view, signal) {
     this.view = view;
-    const theme = followTheme(view.root, () => this.redraw(), signal);
+    this.theme = followTheme(view.root, () => this.redraw(), signal);
     /** @type {Links} */
     const links = {
       moveSun: (chart) => this.dragSun(chart),
@@ -47,12 +47,12 @@ export class Plots {
     };
     /** @type {Plot[]} */
     const plots = [
-      new PhasePlot(theme),
-      new TransmittancePlot(theme),
-      new SunColorPlot(theme, links),
-      new PrincipalPlanePlot(theme, links),
-      new ZenithTrackPlot(theme),
-      new ZenithElevationPlot(theme, links),
+      new PhasePlot(this.theme),
+      new TransmittancePlot(this.theme),
+      new SunColorPlot(this.theme, links),
+      new PrincipalPlanePlot(this.theme, links),
+      new ZenithTrackPlot(this.theme),
+      new ZenithElevationPlot(this.theme, links),
     ];
     this.cards = plots.map((plot) => this.card(plot));
     const grid = element("div", { class: "sw-plot-grid" }, ...this.cards.map((card) => card.node));
@@ -130,6 +130,7 @@ export class Plots {
 
   update() {
     const begin = performance.now();
+    readTheme(this.view.root, this.theme);
     /** @type {Map<string, Float32Array>} */
     const read = new Map();
     const curve = (/** @type {string} */ pass) => {

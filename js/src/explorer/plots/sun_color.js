@@ -6,6 +6,9 @@ import { Chart, short } from "./chart.js";
 
 const STRIP = 26; // CSS pixels
 
+/** @param {number} klx */
+const illuminance = (klx) => (klx < 1 ? `${short(1000 * klx)} lx` : `${short(klx)} klx`);
+
 export class SunColorPlot {
   /**
    * @param {import("./theme.js").Theme} theme
@@ -22,7 +25,7 @@ export class SunColorPlot {
       theme,
       height: 210,
       label: "Colour and illuminance of the direct sun by its elevation",
-      lines: [{ label: "illuminance", color: "text", text: (v) => `${short(v)} klx` }],
+      lines: [{ label: "illuminance", color: "text", text: illuminance }],
       x: {
         label: "Sun's elevation",
         unit: "°",
@@ -87,6 +90,6 @@ export class SunColorPlot {
 
   tell() {
     if (!this.texels || this.elevation < -1) return "below the horizon";
-    return `${short(sample(SUN_ELEVATIONS, channel(this.texels, 3), this.elevation))} klx`;
+    return illuminance(sample(SUN_ELEVATIONS, channel(this.texels, 3), this.elevation));
   }
 }

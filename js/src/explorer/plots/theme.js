@@ -18,37 +18,36 @@ const NAMES = [
 /** @typedef {Record<string, string>} Theme */
 
 /**
- * Read the colours anew; before the widget stands on the page there are none.
+ * Read the colours anew, and say whether any is another.
  *
  * @param {HTMLElement} root
  * @param {Theme} theme
  */
 export function readTheme(root, theme) {
   const style = getComputedStyle(root);
-  for (const name of NAMES) theme[name] = style.getPropertyValue(`--sw-${name}`).trim();
+  let changed = false;
+  for (const name of NAMES) {
+    const color = style.getPropertyValue(`--sw-${name}`).trim();
+    changed ||= color !== theme[name];
+    theme[name] = color;
+  }
+  return changed;
 }
 
 /**
  * @param {HTMLElement} root
  * @param {() => void} onChange the page's theme changed; `theme` has the new colours
  * @param {AbortSignal} signal
- * @returns {Theme}
+ * @returns {Theme} empty before the widget is put into the page, as no style applies outside:
+ *   whoever draws reads it first
  */
 export function followTheme(root, onChange, signal) {
   /** @type {Theme} */
   const theme = {};
-  const changed = () => {
-    readTheme(root, theme);
-    onChange();
+  const look = () => {
+    if (readTheme(root, theme)) onChange();
   };
-  // JupyterLab renders a widget before it puts it into the page, and outside no style applies.
-  const attached = new ResizeObserver(() => {
-    if (!root.isConnected) return;
-    attached.disconnect();
-    changed();
-  });
-  if (!root.isConnected) attached.observe(root);
-  const observer = new MutationObserver(changed);
+  const observer = new MutationObserver(look);
   for (const node of [document.documentElement, document.body]) {
     observer.observe(node, {
       attributes: true,
@@ -56,10 +55,7 @@ export function followTheme(root, onChange, signal) {
     });
   }
   const media = matchMedia("(prefers-color-scheme: dark)");
-  media.addEventListener("change", changed, { signal });
-  signal.addEventListener("abort", () => {
-    observer.disconnect();
-    attached.disconnect();
-  });
+  media.addEventListener("change", look, { signal });
+  signal.addEventListener("abort", () => observer.disconnect());
   return theme;
 }
