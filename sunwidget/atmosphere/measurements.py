@@ -38,6 +38,7 @@ from sunwidget.atmosphere.path_tracer import trace
 from sunwidget.atmosphere.sky import SkyTable
 
 __all__ = [
+    "AIR_OF_THE_DAY",
     "COMPARED_WAVELENGTHS",
     "Comparison",
     "Measurements",
@@ -51,6 +52,10 @@ __all__ = [
 
 Array = NDArray[np.float64]
 Radiance = Callable[[Array, Array, float], Array]
+
+AIR_OF_THE_DAY = Atmosphere(ground_albedo=0.05)
+"""``Atmosphere()``, whose aerosol was fitted to this very day, over grass: Bruneton 2017's spectrum
+of its albedo has a mean of 0.05 from 360 to 720 nm."""
 
 LATITUDE, LONGITUDE = 42.443449, -76.481962
 UTC_OFFSET_HOURS = -4  # of the names of the scans: daylight saving time of Ithaca
@@ -214,7 +219,7 @@ def compare(
     scan : int, optional
         Index of one scan; default all.
     atmosphere : Atmosphere, optional
-        What is in the air; default ``Atmosphere()``, whose aerosol was fitted to this very day.
+        What is in the air; default ``AIR_OF_THE_DAY``.
     data : Measurements, optional
         Default ``load()``.
     others : mapping, optional
@@ -271,7 +276,7 @@ def compare_scans(
 ) -> dict[str, list[Comparison]]:
     """Compare as ``compare`` does, each scan for itself; see there."""
     data = load() if data is None else data
-    air = Atmosphere() if atmosphere is None else atmosphere
+    air = AIR_OF_THE_DAY if atmosphere is None else atmosphere
     if scan is not None and not 0 <= scan < len(data):
         raise ValueError(f"scan = {scan}: there are scans 0 to {len(data) - 1}.")
     chosen = range(len(data)) if scan is None else [scan]

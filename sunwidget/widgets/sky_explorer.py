@@ -235,7 +235,12 @@ class SkyExplorer(anywidget.AnyWidget):
             for name, value in zip(table.PLACE, (day, latitude, longitude), strict=True):
                 setattr(self, name, value)
 
-    def render(self, size: tuple[int, int] = (960, 640), samples: int = 64) -> NDArray[np.uint8]:
+    def render(
+        self,
+        size: tuple[int, int] = (960, 640),
+        samples: int = 64,
+        progress: Progress | None = None,
+    ) -> NDArray[np.uint8]:
         """Return the picture as it is now.
 
         Parameters
@@ -243,7 +248,10 @@ class SkyExplorer(anywidget.AnyWidget):
         size : (int, int), default (960, 640)
             Width and height in pixels.
         samples : int, default 64
-            Paths a pixel of the model ``reference``.
+            Paths a pixel of the model ``reference``, whose noise falls with their root. Without a
+            graphics card a path for each of 960×640 pixels takes seconds.
+        progress : callable, optional
+            ``progress(fraction, message)``, where the model takes time; raise in it to cancel.
 
         Returns
         -------
@@ -257,8 +265,10 @@ class SkyExplorer(anywidget.AnyWidget):
         """
         from sunwidget.explorer.draw import draw
 
-        bruneton = self._bruneton_slice() if "bruneton" in (self.model, self.compare) else None
-        return draw(self.parameters(), size, bruneton=bruneton, samples=samples)
+        bruneton = None
+        if "bruneton" in (self.model, self.compare):
+            bruneton = self._bruneton_slice(progress=progress)
+        return draw(self.parameters(), size, bruneton=bruneton, samples=samples, progress=progress)
 
     def curve(self, name: str) -> NDArray[np.float32]:
         """Return one of the curves beside the picture, shape (n, 4).
@@ -498,9 +508,10 @@ class SkyExplorer(anywidget.AnyWidget):
 
     def _answer_snapshot(self, content: dict[str, Any], progress: Progress) -> Answer:
         width, height = content.get("size") or _PICTURE_SIZE
-        progress(0.1, "Drawing the picture …")
         size = _snapshot_edge(width), _snapshot_edge(height)
-        return {"name": "sky.png", "type": "image/png"}, [encode_png(self.render(size))]
+        return {"name": "sky.png", "type": "image/png"}, [
+            encode_png(self.render(size, progress=progress))
+        ]
 
     def _static_picture(self) -> str:
         """Return a small PNG in base64 for viewers that run no widgets."""

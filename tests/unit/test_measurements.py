@@ -14,6 +14,7 @@ from sunwidget.atmosphere.constants import WAVELENGTHS
 from sunwidget.atmosphere.measurements import MeasurementsError, azimuth_of_symmetry, load
 from sunwidget.atmosphere.measurements_source import BASE_URL, CHECKSUMS, default_path, download
 from sunwidget.atmosphere.seven_zip import ArchiveError, read_archive
+from sunwidget.atmosphere.sky import SkyTable
 
 SCANS = {"2013-05-27___09.30.00": 90.0, "2013-05-27___13.30.00": 181.7}
 
@@ -185,10 +186,7 @@ def test_a_comparison_knows_level_pattern_and_error(published):
     assert half.level == pytest.approx(made.level / 2)
     assert half.pattern == pytest.approx(made.pattern)
     # Another model that says exactly what "multiple" says has its figures.
-    from sunwidget.atmosphere.parameters import Atmosphere
-    from sunwidget.atmosphere.sky import SkyTable
-
-    table = SkyTable(Atmosphere())
+    table = SkyTable(measurements.AIR_OF_THE_DAY)
     same = measurements.compare(("twin",), data=data, others={"twin": table.radiance})[0]
     assert same[1:] == pytest.approx(made[1:])
 
