@@ -178,5 +178,19 @@ def test_dragging_the_sun_leaves_the_air_alone(page):
     assert ran == {"sky_view", "shown", "light", "adaptation", "sun_disc", "explorer_frame"}
 
 
+def test_the_reference_gathers_the_same_paths(page):
+    values = sky(model="reference", sun_elevation=12.0, ground_albedo=0.3)
+    size = (60, 40)
+    for samples in range(1, 5):
+        canvas = canvas_of(page, values, size)
+        assert page.evaluate("sky.samples") == samples
+    # Same random numbers; a path that turns elsewhere by a rounding is one pixel of 2400.
+    assert psnr(canvas, draw(values, size, samples=4)) >= 40
+    canvas_of(page, values | {"sun_elevation": 13.0}, size)
+    assert page.evaluate("sky.samples") == 1, "another sun begins anew"
+    canvas_of(page, sky(), size)
+    assert page.evaluate("sky.samples") == 0
+
+
 def test_no_error_was_thrown_on_the_page(page):
     assert page.errors == []
