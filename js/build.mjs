@@ -50,12 +50,14 @@ const GRAPHS = { editor: "graph.json", explorer: "explorer.json" };
 /**
  * The files that a graph's passes expand to.
  *
- * @param {{ passes: { shader: string }[] }} graph
+ * @param {{ passes: { shader: string, constants?: string }[] }} graph
  * @param {Record<string, string>} files text by path
  * @returns {string[]} paths, sorted
  */
 export function reachable(graph, files) {
-  const pending = graph.passes.map(({ shader }) => `${shader}.glsl`);
+  const pending = graph.passes
+    .flatMap(({ shader, constants }) => (constants ? [shader, constants] : [shader]))
+    .map((name) => `${name}.glsl`);
   const found = new Set(pending);
   for (const path of pending) {
     if (files[path] === undefined) throw new Error(`There is no shader file "${path}".`);

@@ -21,9 +21,10 @@ test("a bundle holds what its graph reaches, libraries of libraries too, and no 
     "a.glsl": '#include "lib/b.glsl"\nA',
     "lib/b.glsl": '  #include "lib/c.glsl"\n// #include "lib/no.glsl"\nB',
     "lib/c.glsl": '#include "lib/b.glsl"\nC',
+    "once.glsl": '#include "lib/c.glsl"\nD',
     "other.glsl": "O",
   };
-  const graph = { passes: [{ shader: "a" }, { shader: "a" }] };
-  assert.deepEqual(reachable(graph, files), ["a.glsl", "lib/b.glsl", "lib/c.glsl"]);
+  const graph = { passes: [{ shader: "a" }, { shader: "a", constants: "once" }] };
+  assert.deepEqual(reachable(graph, files), ["a.glsl", "lib/b.glsl", "lib/c.glsl", "once.glsl"]);
   assert.throws(() => reachable({ passes: [{ shader: "gone" }] }, files), /gone\.glsl/);
 });

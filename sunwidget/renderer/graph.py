@@ -14,9 +14,9 @@ import numpy as np
 
 from sunwidget.renderer.shader_source import (
     EGL_HEADER,
-    FULL_SCREEN_TRIANGLE,
     frame_graph,
     resolve_includes,
+    vertex_shader,
 )
 from sunwidget.renderer.values import uniform_value
 
@@ -51,15 +51,18 @@ class Programs:
     arrays: dict[str, moderngl.VertexArray] = field(default_factory=dict)
     uniforms: dict[str, dict[str, moderngl.Uniform]] = field(default_factory=dict)
 
-    def get(self, shader: str) -> moderngl.Program:
-        """Compile ``shader`` on first use; a failure names the shader."""
+    def get(self, shader: str, constants: str | None = None) -> moderngl.Program:
+        """Compile ``shader`` on first use; a failure names the shader.
+
+        ``constants`` is the shader of what is the same for all its pixels.
+        """
         if shader not in self.programs:
             import moderngl
 
             text = EGL_HEADER + resolve_includes(f"{shader}.glsl")
             try:
                 program = self.context.program(
-                    vertex_shader=FULL_SCREEN_TRIANGLE, fragment_shader=text
+                    vertex_shader=vertex_shader(constants), fragment_shader=text
                 )
             except Exception as error:  # moderngl.Error derives from Exception alone
                 raise RuntimeError(f"Shader {shader!r} does not compile:\n{error}") from error
@@ -187,7 +190,7 @@ class FrameGraph:
     ) -> None:
         name, shader = row["name"], row["shader"]
         inputs = {uniform: self._source(names) for uniform, names in row["inputs"].items()}
-        program = self.programs.get(shader)
+        program = self.programs.get(shader, row.get("constants"))
         host = {**host, "pass_size": (float(size[0]), float(size[1]))}
         if row["size"] != "frame":
             # Only frame-sized passes are drawn piece by piece; a table is drawn whole.

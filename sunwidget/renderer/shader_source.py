@@ -15,15 +15,14 @@ from typing import Any
 _INCLUDE = re.compile(r'^[ \t]*#include "([^"]+)"[ \t]*$', re.MULTILINE)
 
 EGL_HEADER = "#version 330\n"
-FULL_SCREEN_TRIANGLE = (
-    EGL_HEADER
-    + """
+# One triangle that covers the target, without buffers.
+_TRIANGLE = """
 void main() {
+  SetConstants();
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   gl_Position = vec4(corner, 0.0, 1.0);
 }
 """
-)
 
 
 def read_shader(path: str) -> str:
@@ -54,3 +53,19 @@ def frame_graph(name: str = "graph") -> dict[str, Any]:
     """Return ``shaders/<name>.json`` as plain data: ``graph`` is the editor's."""
     graph: dict[str, Any] = json.loads(read_shader(f"{name}.json"))
     return graph
+
+
+def vertex_shader(constants: str | None = None) -> str:
+    """Return the text of the vertex shader: the triangle that covers a target.
+
+    Parameters
+    ----------
+    constants : str, optional
+        Name of the shader whose ``SetConstants`` computes what is the same for all pixels of
+        the pass: once a corner instead of once a pixel.
+    """
+    text = resolve_includes(f"{constants}.glsl") if constants else "void SetConstants() {}\n"
+    return EGL_HEADER + text + _TRIANGLE
+
+
+FULL_SCREEN_TRIANGLE = vertex_shader()

@@ -20,7 +20,7 @@ void main() {
   float glitter = ReadBilinear(surface, gl_FragCoord.xy / pass_size).b;
   vec4 before = texelFetch(mirror_source, texel, 0);
   vec4 now = texelFetch(mirror_edit, texel, 0);
-  vec3 ratio = GetRatio(now.rgb + glitter * now.a * texelFetch(terms, ivec2(14, 0), 0).rgb,
-                        before.rgb + glitter * before.a * texelFetch(terms, ivec2(13, 0), 0).rgb);
+  vec3 ratio = GetRatio(now.rgb + glitter * now.a * texelFetch(terms, ivec2(12, 0), 0).rgb,
+                        before.rgb + glitter * before.a * texelFetch(terms, ivec2(11, 0), 0).rgb);
   result = vec4(min(ratio, vec3(kLargestGrowth)), 1.0);
 }

@@ -1,10 +1,15 @@
 // The sky without the old sun: matched model times the slow residual that the analysis filled
-// across the glare (analysis/backdrop.py). Drawn once a photo.
+// across the glare (analysis/backdrop.py). Drawn once a photo. Alpha carries what else the frame
+// asks about the sky of a pixel, so that it reads one map for both: matte, cloud opacity and
+// glare of the old sun.
 
 #include "lib/picture.glsl"
+#include "lib/packed.glsl"
 
 uniform sampler2D sky_source;
 uniform sampler2D backdrop;
+uniform sampler2D layers;
+uniform sampler2D surface;
 uniform vec2 tile_origin;
 
 out vec4 result;
@@ -12,5 +17,6 @@ out vec4 result;
 void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
   vec3 residual = exp(4.0 * ReadBilinear(backdrop, place).rgb - 2.0);
-  result = vec4(texelFetch(sky_source, ivec2(gl_FragCoord.xy), 0).rgb * residual, 1.0);
+  vec3 levels = vec3(ReadPicture(layers, place).rg, ReadPicture(surface, place).r);
+  result = vec4(texelFetch(sky_source, ivec2(gl_FragCoord.xy), 0).rgb * residual, PackLevels(levels));
 }

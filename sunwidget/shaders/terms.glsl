@@ -1,25 +1,31 @@
 // Everything of the ratio composite that is the same for all pixels, so that no pixel computes
 // it again. Texels:
-//   0  exposure gain, how far the sun has moved (0..1), colour lost in shade, unused
+//   0  exposure gain, how far the sun has moved (0..1), colour lost in shade; alpha: whether the
+//      sky is as it was
 //   1  light on lying land before     2  on upright land before     3, 4  the same now
 //   5  light of a cloud before        6  what its forward lobe adds, before     7, 8  now
-//   9  direction of the sun before   10  now
-//  11, 12  right and up of the disc's picture, divided by its reach
-//  13  the sun's light on water before   14  now
+//   9  direction of the sun before
+//  10  the disc (lib/disc.glsl): radius, sine of its middle's elevation, inverse of half its
+//      height; alpha: sine of the horizon's elevation
+//      alphas of 1-3, 4-6, 7-9: log2 of its colour in the middle, slope and bend over its height
+//  11  the sun's light on water before   12  now
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
 #include "lib/matched_sky.glsl"
 #include "lib/daylight.glsl"
-#include "lib/disc_patch.glsl"
 
+uniform sampler2D columns;
 uniform sampler2D light_source;
 uniform sampler2D light_edit;
 uniform sampler2D visibility_source;
 uniform sampler2D visibility_edit;
 uniform sampler2D meter_source;
 uniform sampler2D meter_edit;
-uniform vec2 tile_origin;
+uniform float sun_azimuth;
+uniform float sun_elevation;
+uniform float sun_size;
+uniform float altitude;
 uniform float source_sun_azimuth;
 uniform float source_sun_elevation;
 uniform float land_facing;
@@ -34,46 +40,63 @@ out vec4 result;
 // enough that a pixel's drag shows no step, short enough that a moved sun leaves no ghost.
 const float kGlareFade = 4.0;
 
+// log2 of the light in the middle of a disc at this height, without its limb's darkening.
+vec3 GetDiscColor(float sine_of_elevation) {
+  vec4 disc = SOLAR_IRRADIANCE / (PI * SUN_ANGULAR_RADIUS * SUN_ANGULAR_RADIUS)
+      * (0.5 * LIMB_DARKENING + 1.0) * GetTransmittanceToTop(columns, altitude, sine_of_elevation);
+  return log2(max(sky_gain * SpectralToRec709(disc), vec3(1e-20)));
+}
+
+// The light that a sky sends in all directions is the same to the bit only when the sky is.
+bool IsSkyUnchanged() {
+  bool same = sun_azimuth == source_sun_azimuth && sun_elevation == source_sun_elevation;
+  for (int i = 0; i < 9; ++i) {
+    same = same && texelFetch(light_source, ivec2(i, 0), 0) == texelFetch(light_edit, ivec2(i, 0), 0);
+  }
+  return same;
+}
+
+vec3 GetForwardLight(sampler2D light) {
+  return GetCloudRadiance(light, 1.0) - GetCloudRadiance(light, 0.0);
+}
+
 void main() {
-  int index = int(gl_FragCoord.x + tile_origin.x);
+  int index = int(gl_FragCoord.x);
   vec3 sun_before = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
   float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;
   float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
-  vec3 term;
+  float horizon = GetCosineOfHorizon(altitude);
+  float radius = SUN_ANGULAR_RADIUS * sun_size;
+  // From the horizon, or the lower edge above it, to the upper one.
+  float low = max(sun_now.y - radius, horizon);
+  float high = max(sun_now.y + radius, low + 1e-4);
+  vec3 middle = GetDiscColor(0.5 * (low + high));
+  vec3 lower = GetDiscColor(low);
+  vec3 upper = GetDiscColor(high);
+  mat3 parabola = mat3(middle, 0.5 * (upper - lower), 0.5 * (upper + lower) - middle);
   if (index == 0) {
     float stops = exposure + auto_exposure * (texelFetch(meter_source, ivec2(0), 0).r - texelFetch(meter_edit, ivec2(0), 0).r);
     float turn = degrees(2.0 * asin(min(0.5 * length(sun_now - sun_before), 1.0)));
     float hidden = clamp(visible_before - visible_now, 0.0, 1.0);
-    term = vec3(exp2(stops), smoothstep(0.0, kGlareFade, turn), 0.5 * hidden * colourfulness);
-  } else if (index == 1) {
-    term = sky_gain * GetLandIrradiance(light_source, visible_before, source_land_facing, sun_before);
-  } else if (index == 2) {
-    term = sky_gain * GetLandIrradiance(light_source, visible_before, 1.0, sun_before);
-  } else if (index == 3) {
-    term = sky_gain * GetLandIrradiance(light_edit, visible_now, land_facing, sun_now);
-  } else if (index == 4) {
-    term = sky_gain * GetLandIrradiance(light_edit, visible_now, 1.0, sun_now);
-  } else if (index == 5) {
-    term = sky_gain * GetCloudRadiance(light_source, 0.0);
-  } else if (index == 6) {
-    term = sky_gain * (GetCloudRadiance(light_source, 1.0) - GetCloudRadiance(light_source, 0.0));
-  } else if (index == 7) {
-    term = sky_gain * GetCloudRadiance(light_edit, 0.0);
+    bool same = visible_before == visible_now && IsSkyUnchanged();
+    result = vec4(exp2(stops), smoothstep(0.0, kGlareFade, turn), 0.5 * hidden * colourfulness, same);
   } else if (index == 9) {
-    term = sun_before;
+    result = vec4(sun_before, parabola[2].b);
   } else if (index == 10) {
-    term = sun_now;
-  } else if (index == 11) {
-    term = GetDiscRight() / GetDiscReach();
-  } else if (index == 12) {
-    term = GetDiscUp() / GetDiscReach();
-  } else if (index == 13) {
-    term = sky_gain * visible_before * GetLightTexel(light_source, 1);
-  } else if (index == 14) {
-    term = sky_gain * visible_now * GetLightTexel(light_edit, 1);
+    result = vec4(radius, 0.5 * (low + high), 2.0 / (high - low), horizon);
   } else {
-    term = sky_gain * (GetCloudRadiance(light_edit, 1.0) - GetCloudRadiance(light_edit, 0.0));
+    vec3 light = index == 1 ? GetLandIrradiance(light_source, visible_before, source_land_facing, sun_before)
+        : index == 2 ? GetLandIrradiance(light_source, visible_before, 1.0, sun_before)
+        : index == 3 ? GetLandIrradiance(light_edit, visible_now, land_facing, sun_now)
+        : index == 4 ? GetLandIrradiance(light_edit, visible_now, 1.0, sun_now)
+        : index == 5 ? GetCloudRadiance(light_source, 0.0)
+        : index == 6 ? GetForwardLight(light_source)
+        : index == 7 ? GetCloudRadiance(light_edit, 0.0)
+        : index == 8 ? GetForwardLight(light_edit)
+        : index == 11 ? visible_before * GetLightTexel(light_source, 1)
+        : visible_now * GetLightTexel(light_edit, 1);
+    int part = min(index - 1, 8);
+    result = vec4(sky_gain * light, parabola[part / 3][part % 3]);
   }
-  result = vec4(term, 0.0);
 }

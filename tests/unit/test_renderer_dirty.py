@@ -15,11 +15,9 @@ SUN_PASSES = {
     "sky_view_edit",
     "light_edit",
     "visibility_edit",
-    "sky_edit",
     "meter_edit",
     "mirror_edit",
     "mirror_ratio",
-    "disc",
     "terms",
     "frame",
 }

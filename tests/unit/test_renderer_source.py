@@ -23,9 +23,16 @@ HOST_UNIFORMS = {
 }
 GRAPHS = ("graph", "explorer")
 ROWS = [row for name in GRAPHS for row in frame_graph(name)["passes"]]
-SHADERS = sorted({row["shader"] for row in ROWS})
-EXPLORERS = {row["shader"] for row in frame_graph("explorer")["passes"]}
-EDITORS = {row["shader"] for row in frame_graph()["passes"]}
+
+
+def shaders_of(rows):
+    """Fragment shaders and the shaders of what their pixels share."""
+    return {row[stage] for row in rows for stage in ("shader", "constants") if stage in row}
+
+
+SHADERS = sorted(shaders_of(ROWS))
+EXPLORERS = shaders_of(frame_graph("explorer")["passes"])
+EDITORS = shaders_of(frame_graph()["passes"])
 # Bruneton's table is made once for an atmosphere, outside the graphs (renderer/bruneton.py).
 PRECOMPUTED = {
     f.name.removesuffix(".glsl")
@@ -172,7 +179,7 @@ def test_only_known_states_formats_methods_and_sizes_occur():
 
 def test_each_pass_hands_every_sampler_its_input_and_no_other():
     for row in ROWS:
-        uniforms = declared(row["shader"])
+        uniforms = {k: v for shader in shaders_of([row]) for k, v in declared(shader).items()}
         samplers = {name for name, kind in uniforms.items() if kind == "sampler2D"}
         own = {"history"} if row.get("history") else set()
         assert samplers == set(row["inputs"]) | own, row["name"]

@@ -20,6 +20,7 @@ import { uniformValue } from "./values.js";
  * @typedef {{
  *   name: string, shader: string, size: Size, format: "rgba32f" | "output", state: string,
  *   inputs: Record<string, string | string[]>, when?: string[], history?: boolean,
+ *   constants?: string,
  * }} Pass
  * @typedef {{ passes: Pass[], scene_uniforms: Record<string, string> }} Description
  * @typedef {{
@@ -135,7 +136,7 @@ export class Graph {
     const { gl } = this;
     const output = pass.format === "output";
     const [width, height] = passSize(pass.size, frame.size, frame.sizes);
-    const program = this.program(pass.shader);
+    const program = this.program(pass);
     const own = { ...host, pass_size: [width, height], canvas_flip: output ? 1 : 0 };
 
     /** @type {(number | string)[]} */
@@ -207,11 +208,12 @@ export class Graph {
     return texels;
   }
 
-  /** @param {string} shader */
-  program(shader) {
+  /** @param {Pass} pass */
+  program({ shader, constants }) {
     let program = this.programs.get(shader);
     if (!program) {
-      program = createProgram(this.gl, shader, resolveIncludes(this.files, `${shader}.glsl`));
+      const text = (/** @type {string} */ name) => resolveIncludes(this.files, `${name}.glsl`);
+      program = createProgram(this.gl, shader, text(shader), constants && text(constants));
       this.programs.set(shader, program);
     }
     return program;

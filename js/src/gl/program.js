@@ -4,8 +4,9 @@ const HEADER = "#version 300 es\n";
 const PRECISION = "precision highp float; precision highp int; precision highp sampler2D;\n";
 
 // One triangle that covers the target, without buffers.
-const VERTEX = `${HEADER}
+const TRIANGLE = `
 void main() {
+  SetConstants();
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   gl_Position = vec4(corner, 0.0, 1.0);
 }
@@ -22,12 +23,13 @@ void main() {
  * @param {WebGL2RenderingContext} gl
  * @param {string} name for error messages
  * @param {string} text fragment shader with its includes expanded
+ * @param {string} constants what is the same for all pixels, computed once a corner
  * @returns {Program}
  */
-export function createProgram(gl, name, text) {
+export function createProgram(gl, name, text, constants = "void SetConstants() {}\n") {
   const handle = gl.createProgram();
   const stages = [
-    compile(gl, name, gl.VERTEX_SHADER, VERTEX),
+    compile(gl, name, gl.VERTEX_SHADER, HEADER + PRECISION + constants + TRIANGLE),
     compile(gl, name, gl.FRAGMENT_SHADER, HEADER + PRECISION + text),
   ];
   for (const stage of stages) gl.attachShader(handle, stage);

@@ -10,6 +10,13 @@ float GetCameraGlare(float degrees_from_sun) {
   return glare_profile.x * pow(1.0 + x * x, -glare_profile.z);
 }
 
+// The chord, and the series of its arc: within 1 % at a right angle, far better where glare is.
+float GetDegreesFromSun(vec3 view, vec3 sun) {
+  vec3 chord = view - sun;
+  float x = dot(chord, chord);
+  return degrees(sqrt(x) * (1.0 + x * (1.0 / 24.0 + x * (3.0 / 640.0 + x * (5.0 / 7168.0)))));
+}
+
 // `strength` is the light of the sun now over that in the photo, at most one: a veil scales with
 // the light that makes it, but its ratio to the sky behind must not outgrow what was measured.
 float GetGlareStrength(vec3 sun_now, vec3 sun_before, float visible) {

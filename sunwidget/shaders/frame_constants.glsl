@@ -1,0 +1,12 @@
+// What all pixels of the frame share: terms.glsl, and the sky at the moved sun.
+
+#include "lib/describe_sky.glsl"
+
+uniform sampler2D terms;
+
+flat out vec4 term[11];
+
+void SetConstants() {
+  for (int i = 0; i < 11; ++i) term[i] = texelFetch(terms, ivec2(i, 0), 0);
+  SetDescribedSky();
+}

@@ -1,0 +1,23 @@
+// For a pass's constants: what a look-up in one sky view needs beside its radiances, read once.
+// lib/described_sky.glsl takes it up.
+
+#include "lib/sky.glsl"
+#include "lib/daylight.glsl"
+#include "lib/camera_glare.glsl"
+
+uniform sampler2D sky_view;
+uniform sampler2D light;
+uniform sampler2D light_source;
+uniform sampler2D visibility;
+
+flat out vec4 described[4];
+
+void SetDescribedSky() {
+  SkyView view = ReadSkyView(sky_view);
+  float visible = texelFetch(visibility, ivec2(0), 0).r;
+  float glare = GetGlareStrength(GetLightTexel(light, 1), GetLightTexel(light_source, 1), visible);
+  described[0] = vec4(view.sun, view.asymmetry);
+  described[1] = view.rayleigh;
+  described[2] = view.mie;
+  described[3] = vec4(view.horizon, glare, 0.0, 0.0);
+}

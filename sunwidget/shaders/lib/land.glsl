@@ -1,0 +1,13 @@
+// How much of the land's light is its own, and how much is a mirror image.
+
+// What rises above the horizon stands upright.
+float GetUprightness(vec3 view) {
+  return 0.8 * smoothstep(-0.005, 0.02, view.y);
+}
+
+// What exceeds white paint in this light is a mirror image of the sky and the sun (water, wet
+// road, glass): that part follows what it mirrors (mirror_ratio.glsl), the rest is lit as land.
+float GetMirrorShare(vec3 light, vec3 lit_before, float glitter, float water) {
+  float white = (1.0 - 0.6 * glitter) * GetLuminance(lit_before) / 3.14159265;
+  return max(1.0 - min(white / max(GetLuminance(light), 1e-6), 1.0), water);
+}

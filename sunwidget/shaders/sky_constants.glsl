@@ -1,0 +1,7 @@
+// What all pixels of sky.glsl share.
+
+#include "lib/describe_sky.glsl"
+
+void SetConstants() {
+  SetDescribedSky();
+}
