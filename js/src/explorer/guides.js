@@ -125,7 +125,9 @@ export class Guides {
     const dome = this.view.state.values.projection === "dome";
     const y = dome ? -8 : 16;
     const write = (/** @type {string} */ model, /** @type {number} */ side) => {
-      const label = text(x + side * 10, y, MODEL_LABELS[model] ?? model, "sw-seam-text");
+      const absent = model === "bruneton" && this.view.tables === 0;
+      const name = absent ? "All orders (no table yet)" : MODEL_LABELS[model];
+      const label = text(x + side * 10, y, name ?? model, "sw-seam-text");
       setAttributes(label, { "text-anchor": side < 0 ? "end" : "start" });
       node.append(label);
     };

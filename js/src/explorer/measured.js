@@ -89,7 +89,7 @@ export class Measured {
     }
     this.rms = Math.sqrt(sum / scan.directions.length);
     const model = MODEL_LABELS[String(this.view.state.values.model)];
-    this.text.textContent = `${model} against measured luminance: rms ${(100 * this.rms).toFixed(0)} %`;
+    this.text.textContent = `${model} against the measured luminance, rms ${(100 * this.rms).toFixed(0)} %`;
   }
 }
 
