@@ -18,8 +18,8 @@ out vec4 result;
 
 const float MEADOW_ALBEDO = 0.06;
 const float NOON = 2.85;    // kcd m^-2: the mean below, sun at 60 degrees in the default atmosphere
-const float KEY = 0.5;    // display light that the mean is drawn with
-const float NIGHT = 1e-9;  // no light at all
+const float KEY = 0.5;      // display light that the mean is drawn with
+const float NIGHT = 1e-9;    // no light at all
 const Angle GLOW_RADIUS = 0.011;
 
 vec3 GetIlluminance(int texel) {

@@ -9,12 +9,15 @@
 uniform sampler2D rays;
 uniform sampler2D reference;
 uniform sampler2D sun_disc;
-uniform sampler2D adaptation;
 uniform float model;
 uniform float compare;        // 0 none, else 1 + a model
 uniform float show_multiple;
 
-// The eye's own glare round the sun, far weaker than an eye's: enough to see the sun where its disc
+flat in vec4 described[4];  // explorer_constants.glsl
+flat in vec4 adapted;
+flat in vec4 scales;
+
+// Glare round the sun, far weaker than in an eye: enough to see the sun where its disc
 // is a pixel. A Moffat profile per unit of illuminance, 1/sr.
 const float GLOW = 0.5;
 const float GLOW_FALL = 1.35;
@@ -61,14 +64,12 @@ void main() {
   vec4 ray = texelFetch(rays, texel, 0);
   float from_middle = pixel.x - 0.5 * frame_size.x;
   bool right = compare > 0.5 && from_middle > 0.0;
-  SkyView sky = ReadSkyView(shown);
+  SkyView sky = SkyView(described[0].xyz, described[0].w, described[1], described[2], described[3].x);
   vec4 radiance = GetShownRadiance(sky, right ? 1 : 0, ray.xyz);
   // Where no reference is drawn another table is bound, of another size.
   vec4 traced = texelFetch(reference, min(texel, textureSize(reference, 0) - 1), 0);
   bool is_traced = int((right ? compare - 1.0 : model) + 0.5) == MODEL_REFERENCE;
   radiance = max(radiance + (is_traced ? show_multiple * traced : vec4(0.0)), 0.0);
-  vec4 adapted = texelFetch(adaptation, ivec2(0), 0);
-  vec4 scales = texelFetch(adaptation, ivec2(1, 0), 0);
   vec3 away = ray.xyz - sky.sun;
   float glow = GLOW * pow(1.0 + dot(away, away) * scales.g, -GLOW_FALL);
   vec3 light = SpectralToRec709(radiance) + GetDisc(ray.xyz, sky.sun, scales.r) + glow * adapted.rgb;
