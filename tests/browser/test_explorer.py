@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from chromium import open_page, picture_of, widget_state
+from chromium import STATIC, open_page, picture_of, widget_state
 
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.presets import PRESETS
@@ -35,7 +35,8 @@ def explorer(shared):
         state = {**widget_state(SkyExplorer(**parameters)), **fresh, **(changes or {})}
         shared.evaluate("(state) => { model.sent.length = 0; model.receive(state); }", state)
         shared.mouse.move(2, 2)
-        settled(shared)
+        if "reference" not in (parameters.get("model"), parameters.get("compare")):
+            settled(shared)  # tracing goes on and on
         return shared
 
     yield show
@@ -332,6 +333,72 @@ def test_without_measured_skies_it_says_how_to_get_them_and_asks_first(explorer)
     assert page.evaluate("model.sent.length") == 0
     page.get_by_role("button", name="Yes, download").click()
     assert page.evaluate("model.sent.map(m => m.action)") == ["download_measurements"]
+
+
+def answer(page, action, result, floats=0):
+    """Answer the view's open request as a kernel would, with a buffer of so many ones."""
+    page.wait_for_function("a => model.sent.some(m => m.action === a)", arg=action)
+    page.evaluate(
+        """([action, result, floats]) => {
+          const { id } = model.sent.find((m) => m.action === action);
+          const buffers = floats ? [new DataView(new Float32Array(floats).fill(1).buffer)] : [];
+          model.fire("msg:custom", { type: "response", id, result, error: null }, buffers);
+        }""",
+        [action, result, floats],
+    )
+
+
+def test_brunetons_table_says_its_cost_and_waits_to_be_asked_for(explorer):
+    page = explorer(model="bruneton")
+    note = page.locator(".sw-readout-note")
+    assert "not computed yet" in note.text_content()
+    answer(page, "bruneton_cost", {"cached": False, "seconds": 38.2})
+    button = page.get_by_role("button", name="Compute table (≈ 38 s)")
+    button.wait_for()
+    assert [m["action"] for m in page.evaluate("model.sent")] == ["bruneton_cost"]
+    before = canvas_of(page)
+    button.click()
+    sent = page.evaluate("model.sent.find(m => m.action === 'bruneton')")
+    assert sent["parameters"]["ozone"] == 300
+    answer(page, "bruneton", {"rows": 40, "cols": 32, "seconds": 38}, 4 * 40 * 32)
+    page.wait_for_function("!document.querySelector('.sw-readout-note').textContent")
+    settled(page)
+    assert not np.array_equal(canvas_of(page), before)
+    assert button.count() == 0
+    # Other air needs another table.
+    page.get_by_role("switch", name="Ozone").click()
+    settled(page)
+    assert page.get_by_text("The air has changed since").is_visible()
+
+
+def test_the_reference_gathers_paths_until_it_is_paused(explorer):
+    page = explorer(projection="panorama")
+    page.set_viewport_size({"width": 600, "height": 1200})  # few pixels: paths are slow
+    page = explorer(projection="panorama", compare="reference")
+
+    def paths():
+        return int(page.locator(".sw-readout-note").text_content().split()[0])
+
+    page.wait_for_function(
+        "Number.parseInt(document.querySelector('.sw-readout-note').textContent) > 2"
+    )
+    page.get_by_role("button", name="Pause").click()
+    page.wait_for_timeout(300)
+    count = paths()
+    before = canvas_of(page)
+    page.mouse.move(*centre(page.locator(".sw-sky-picture").bounding_box()))
+    page.wait_for_timeout(300)
+    assert paths() == count
+    assert np.array_equal(canvas_of(page), before)
+    page.get_by_role("button", name="Go on").click()
+    page.wait_for_function(
+        f"Number.parseInt(document.querySelector('.sw-readout-note').textContent) > {count}"
+    )
+    page.set_viewport_size({"width": 1180, "height": 1200})
+
+
+def test_the_bundle_stays_small_enough_to_be_saved_with_every_widget():
+    assert (STATIC / "sky_explorer.js").stat().st_size <= 120_000
 
 
 def test_while_the_sun_is_dragged_plots_are_drawn_ten_times_a_second_at_most(explorer):
