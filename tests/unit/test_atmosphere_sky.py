@@ -30,7 +30,8 @@ def directions(elevation, azimuth):
 )
 def test_all_orders_agree_with_path_tracing(air, sun, allowed):
     error, noise = validation.path_tracing_error(air, sun, paths=200)
-    assert noise < 0.08
+    # Three per cent by day; in twilight few paths meet the light, and weigh much.
+    assert noise.max() < (0.06 if sun > 2 else 0.25)
     assert np.sqrt(np.mean(error**2)) < allowed
 
 
