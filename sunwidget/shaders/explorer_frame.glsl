@@ -29,6 +29,7 @@ const vec3 SATURATION = vec3(0.7, 0.25, 0.7);
 // drawn in.
 const float PURITY = 0.85;
 const float CONTRAST = 1.3;
+const float RESTRAINT = 0.4;  // of what is bright, so that the sun stands out from its aureole
 const float WHITE = 60.0;   // light that is drawn as white
 const vec3 BLEACH = vec3(0.9, 0.9, 0.75);  // share of its colour that far brighter light loses
 
@@ -53,7 +54,7 @@ vec3 GetDisplayLight(vec3 light) {
   away *= 1.0 + SATURATION * (1.0 - away);
   vec3 beyond = max(away - PURITY, 0.0) / (1.0 - PURITY);
   away = min(away, PURITY) + (1.0 - PURITY) * beyond / (1.0 + beyond);
-  float x = pow(peak, CONTRAST);
+  float x = pow(peak, CONTRAST) * inversesqrt(1.0 + RESTRAINT * peak);
   float shown = min(x * (1.0 + x / (WHITE * WHITE)) / (1.0 + x), 1.0);
   return shown * (1.0 - away * (1.0 - BLEACH * x / (x + WHITE)));
 }
