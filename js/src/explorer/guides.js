@@ -50,15 +50,8 @@ export class Guides {
     const { view } = this;
     const box = view.stage.rectangle();
     const { projection, view_azimuth, view_elevation, fov, model, compare } = view.state.values;
-    const key = JSON.stringify([
-      box,
-      projection,
-      view_azimuth,
-      view_elevation,
-      fov,
-      model,
-      compare,
-    ]);
+    const looks = [projection, view_azimuth, view_elevation, fov, model, compare];
+    const key = JSON.stringify([box, looks, view.tables]);
     if (key === this.key) return;
     this.key = key;
     const clip = shape("clipPath", { id: `${view.id}-sky` });

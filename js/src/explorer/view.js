@@ -74,6 +74,8 @@ export class View {
     this.lastFrame = 0;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.settle = undefined;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.tracing = undefined;
     this.signal = signal;
     this.build();
     this.listen(signal);
@@ -120,6 +122,7 @@ export class View {
       model.off("msg:custom", onMessage);
       cancelAnimationFrame(this.request);
       clearTimeout(this.settle);
+      clearTimeout(this.tracing);
       this.frame.dispose();
     });
   }
@@ -307,10 +310,31 @@ export class View {
       this.drawnKey = key;
       this.root.classList.add("sw-live");
       this.plots.request();
-      if (this.usesReference() && !this.referenceRests()) this.requestFrame();
+      if (this.usesReference() && !this.referenceRests()) this.traceOn();
     } catch (error) {
       this.showError(error instanceof Error ? error.message : String(error));
     }
+  }
+
+  /**
+   * Draw the next path once this one is done: a slow machine would else gather frames in a queue,
+   * and everything else would wait behind it.
+   */
+  traceOn() {
+    const gl = this.frame.graph?.gl;
+    const fence = gl?.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    if (!gl || !fence) return;
+    gl.flush();
+    clearTimeout(this.tracing);
+    const look = () => {
+      if (!gl.isContextLost() && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
+        this.tracing = setTimeout(look, 5);
+        return;
+      }
+      gl.deleteSync(fence);
+      if (this.usesReference() && !this.referenceRests()) this.requestFrame();
+    };
+    this.tracing = setTimeout(look, 5);
   }
 
   usesReference() {
