@@ -228,6 +228,15 @@ def test_a_pointer_on_the_sky_reads_it_and_marks_the_phase_functions(explorer):
     value = float(re.search(r"([\d.]+) kcd/m²", text)[1])
     assert 1 < value < 20  # clear zenith, sun at 50°
     assert "40°" in card(page, "Phase functions").locator(".sw-card-value").text_content()
+    # And a place in a plot is marked on the sky: the zenith, half-way along the principal plane.
+    page.mouse.move(
+        *centre(card(page, "Along the principal plane").locator(".u-over").bounding_box())
+    )
+    settled(page)
+    spot = page.locator(".sw-spot")
+    assert spot.get_attribute("visibility") == "visible"
+    sky = centre(page.locator(".sw-sky-picture").bounding_box())
+    assert centre(spot.bounding_box()) == pytest.approx(sky, abs=6)
 
 
 def test_dragging_in_a_plot_moves_the_sun(explorer):
@@ -255,6 +264,9 @@ def test_the_clock_moves_the_sun_without_a_kernel(explorer):
     page.wait_for_timeout(700)
     page.get_by_role("button", name="Play the day").click()
     assert trait(page, "time") > 17.6
+    page.get_by_role("button", name="Quito").click()
+    assert trait(page, "latitude") == pytest.approx(-0.18)
+    assert trait(page, "date") == "2024-06-21"
     # A hand on the sun stops the clock.
     page.get_by_role("button", name="Sunset").click()
     assert trait(page, "time") is None
@@ -418,9 +430,9 @@ def test_while_the_sun_is_dragged_plots_are_drawn_ten_times_a_second_at_most(exp
     x, y = centre(page.locator(".sw-sun-ring").bounding_box())
     page.mouse.move(x, y)
     page.mouse.down()
-    for i in range(40):
-        page.mouse.move(x + 2 * i, y + i)
-        page.wait_for_timeout(16)
+    for i in range(15):
+        page.mouse.move(x + 5 * i, y + 3 * i)
+        page.wait_for_timeout(30)
     page.mouse.up()
     during = page.evaluate("window.draws.length")
     settled(page)

@@ -9,6 +9,14 @@ import { degrees } from "./readout.js";
 
 const HOURS_A_SECOND = 1; // while the day plays
 
+/** Places whose days differ. @type {[string, number, number][]} */
+const PLACES = [
+  ["Quito", -0.18, -78.47],
+  ["Prague", 50.09, 14.42],
+  ["Tromsø", 69.65, 18.96],
+  ["Sydney", -33.87, 151.21],
+];
+
 /**
  * @param {import("./view.js").View} view
  * @param {AbortSignal} signal
@@ -17,6 +25,19 @@ export function placeControls(view, signal) {
   const { state } = view;
   const date = element("input", { type: "date", class: "sw-input", "aria-label": "Date" });
   date.addEventListener("change", () => state.set({ date: date.value || null }));
+  /**
+   * Move to a place. What is still missing for a day's path is today, and the clock at noon.
+   *
+   * @param {Record<string, number | null>} changes
+   */
+  const move = (changes) => {
+    const { latitude, longitude, date: day, time: hours } = { ...state.values, ...changes };
+    const complete = latitude !== null && longitude !== null;
+    state.set({
+      ...changes,
+      ...(complete && { date: day ?? new Date().toISOString().slice(0, 10), time: hours ?? 12 }),
+    });
+  };
   const numbers = ["latitude", "longitude"].map((name) => {
     const p = view.parameter(name);
     const input = element("input", {
@@ -30,7 +51,7 @@ export function placeControls(view, signal) {
     });
     input.addEventListener("change", () => {
       const value = input.value === "" ? null : view.clamp(name, Number(input.value));
-      state.set({ [name]: value });
+      move({ [name]: value });
     });
     return { name, label: p.label, input };
   });
@@ -47,6 +68,12 @@ export function placeControls(view, signal) {
     field("Date", date),
     ...numbers.map(({ label, input }) => field(label, input)),
   );
+
+  const chips = PLACES.map(([name, latitude, longitude]) => {
+    const chip = element("button", { type: "button", class: "sw-chip" }, name);
+    chip.addEventListener("click", () => move({ latitude, longitude }));
+    return chip;
+  });
 
   const time = slider({
     parameter: /** @type {any} */ ({
@@ -97,7 +124,7 @@ export function placeControls(view, signal) {
   signal.addEventListener("abort", () => cancelAnimationFrame(frame));
 
   return {
-    nodes: [fields, row, said],
+    nodes: [element("div", { class: "sw-chips" }, ...chips), fields, row, said],
     show() {
       const { values } = state;
       if (date !== document.activeElement) date.value = String(values.date ?? "");
