@@ -12,9 +12,8 @@ import contextlib
 import datetime as dt
 import math
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
-from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import anywidget
@@ -31,11 +30,12 @@ from sunwidget.atmosphere.constants import (
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.presets import PRESETS
 from sunwidget.explorer import table
-from sunwidget.explorer.table import EXPLORER_PARAMETERS, MODELS
+from sunwidget.explorer.table import EXPLORER_PARAMETERS
 from sunwidget.explorer.values import effective_values
 from sunwidget.widgets.edit_traits import edit_traits
+from sunwidget.widgets.explorer_answers import actions, bruneton_slice, scans
 from sunwidget.widgets.payload import encode_png, parameter_json
-from sunwidget.widgets.requests import Action, Answer, Progress, Requests
+from sunwidget.widgets.requests import Action, Progress, Requests
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -44,8 +44,7 @@ _NAMES = tuple(p.name for p in EXPLORER_PARAMETERS)
 _ALIASES = ("turbidity", "visibility")
 _SUN = ("sun_azimuth", "sun_elevation")
 _SAME_PLACE = 0.01  # degrees; the browser's arithmetic is not to the bit the kernel's
-_PICTURE_SIZE = (480, 320)  # of the static picture, and of a snapshot unless asked otherwise
-_LARGEST_SNAPSHOT = 4096
+_PICTURE_SIZE = (480, 320)  # of the static picture
 
 if not (_STATIC / "sky_explorer.js").is_file():
     raise ImportError(
@@ -127,7 +126,7 @@ class SkyExplorer(anywidget.AnyWidget):
         self._picture: tuple[Any, str] | None = None
         super().__init__(
             _status={"stage": "ready", "fraction": 1.0, "message": ""},
-            _scans=_scans(),
+            _scans=scans(),
             **parameters,
         )
         for name, value in aliases.items():
@@ -267,7 +266,7 @@ class SkyExplorer(anywidget.AnyWidget):
 
         bruneton = None
         if "bruneton" in (self.model, self.compare):
-            bruneton = self._bruneton_slice(progress=progress)
+            bruneton = bruneton_slice(self.values()["edit"], progress)
         return draw(self.parameters(), size, bruneton=bruneton, samples=samples, progress=progress)
 
     def curve(self, name: str) -> NDArray[np.float32]:
@@ -289,7 +288,7 @@ class SkyExplorer(anywidget.AnyWidget):
         """
         from sunwidget.explorer.draw import curve
 
-        bruneton = self._bruneton_slice() if self.model == "bruneton" else None
+        bruneton = bruneton_slice(self.values()["edit"]) if self.model == "bruneton" else None
         return curve(self.parameters(), f"curve_{name}", bruneton=bruneton)
 
     def compare_measured(
@@ -333,6 +332,10 @@ class SkyExplorer(anywidget.AnyWidget):
             models, scan=scan, atmosphere=air, data=data, others=others, progress=progress
         )
         return [row._asdict() for row in rows]
+
+    def refresh_scans(self) -> None:
+        """Look again for measured skies on this machine, after ``measurements.download()``."""
+        self._scans = scans()
 
     def code(self) -> str:
         """Return runnable Python for this state (``import sunwidget as sw`` first)."""
@@ -456,62 +459,9 @@ class SkyExplorer(anywidget.AnyWidget):
                 raise traitlets.TraitError(f"scan = {value}: there are scans 0 to {count - 1}.")
         return value
 
-    def _bruneton_slice(
-        self, values: Mapping[str, float] | None = None, progress: Progress | None = None
-    ) -> NDArray[np.float32]:
-        from sunwidget.renderer.bruneton import bruneton_table
-
-        air, orders = _air_and_orders(values or self.values()["edit"])
-        return bruneton_table(air, orders=orders, progress=progress).slice()
-
     def _actions(self) -> dict[str, Action]:
         """Return what the browser can ask for, by name."""
-        return {
-            "bruneton": self._answer_bruneton,
-            "bruneton_cost": self._answer_bruneton_cost,
-            "rmse": self._answer_rmse,
-            "code": lambda _content, _progress: ({"code": self.code()}, []),
-            "download_measurements": self._answer_download,
-            "snapshot": self._answer_snapshot,
-        }
-
-    def _answer_bruneton(self, content: dict[str, Any], progress: Progress) -> Answer:
-        begin = perf_counter()
-        texture = self._bruneton_slice(self._asked_values(content), progress)
-        rows, columns = texture.shape[:2]
-        result = {"rows": rows, "cols": columns, "seconds": perf_counter() - begin}
-        return result, [np.ascontiguousarray(texture, np.float32).tobytes()]
-
-    def _answer_bruneton_cost(self, content: dict[str, Any], _progress: Progress) -> Answer:
-        from sunwidget.renderer.bruneton import bruneton_cost, is_cached
-
-        air, orders = _air_and_orders(self._asked_values(content))
-        cached = is_cached(air, orders)
-        return {"cached": cached, "seconds": 0.0 if cached else bruneton_cost(orders=orders)}, []
-
-    def _asked_values(self, content: dict[str, Any]) -> dict[str, float]:
-        """Return the uniforms of the traits, with the request's parameters laid over them."""
-        given = content.get("parameters") or {}
-        chosen = {name: table.checked(table.parameter(name), v) for name, v in given.items()}
-        return effective_values({**self.parameters(), **chosen})["edit"]
-
-    def _answer_rmse(self, content: dict[str, Any], progress: Progress) -> Answer:
-        # Fails at once, before a table is made, where nothing was measured.
-        measurements.load()
-        models = tuple(content.get("models") or MODELS)
-        return {"rows": self.compare_measured(models, content.get("scan"), progress)}, []
-
-    def _answer_download(self, _content: dict[str, Any], progress: Progress) -> Answer:
-        measurements.download(progress=progress)
-        self._scans = _scans()
-        return {"scans": self._scans}, []
-
-    def _answer_snapshot(self, content: dict[str, Any], progress: Progress) -> Answer:
-        width, height = content.get("size") or _PICTURE_SIZE
-        size = _snapshot_edge(width), _snapshot_edge(height)
-        return {"name": "sky.png", "type": "image/png"}, [
-            encode_png(self.render(size, progress=progress))
-        ]
+        return actions(self)
 
     def _static_picture(self) -> str:
         """Return a small PNG in base64 for viewers that run no widgets."""
@@ -539,18 +489,3 @@ class SkyExplorer(anywidget.AnyWidget):
         with contextlib.suppress(RendererError):
             data["image/png"] = self._static_picture()
         return data, metadata
-
-
-def _scans() -> list[dict[str, Any]]:
-    """Return the measured scans on this machine as the browser lists them, or none."""
-    return measurements.load().scans_json() if measurements.is_available() else []
-
-
-def _air_and_orders(values: Mapping[str, float]) -> tuple[Atmosphere, int]:
-    """Return what Bruneton's table depends on."""
-    air = Atmosphere(**{name: values[name] for name in table.AIR})
-    return air, round(values["scattering_orders"])
-
-
-def _snapshot_edge(pixels: Any) -> int:
-    return int(np.clip(pixels, 1, _LARGEST_SNAPSHOT))

@@ -424,6 +424,28 @@ def test_the_browser_gets_the_errors_against_the_measured_skies(measured, monkey
     assert single.keys() == {"model", "rmse", "level", "pattern"}
 
 
+def test_without_egl_the_other_models_are_compared_all_the_same(measured, monkeypatch):
+    from sunwidget.renderer import bruneton
+    from sunwidget.renderer.gl_thread import RendererError
+
+    def no_context(*_args, **_kwargs):
+        raise RendererError("no EGL")
+
+    monkeypatch.setattr(bruneton, "bruneton_table", no_context)
+    explorer, messages = SkyExplorer(), []
+    monkeypatch.setattr(
+        explorer, "send", lambda content, buffers=None: messages.append((content, buffers))
+    )
+    response, _ = answer(explorer, messages, "rmse", scan=0)
+    assert [row["model"] for row in response["result"]["rows"]] == [
+        "multiple",
+        "single",
+        "reference",
+    ]
+    response, _ = answer(explorer, messages, "rmse", scan=0, models=["bruneton"])
+    assert response["error"] == "no EGL"
+
+
 def test_measured_skies_are_fetched_only_when_asked(explorer, sent, monkeypatch, measured):
     asked = []
 
