@@ -14,6 +14,7 @@ from sunwidget.atmosphere.path_tracer import trace
 from sunwidget.atmosphere.presets import PRESETS
 from sunwidget.atmosphere.rayleigh import rayleigh_coefficient
 from sunwidget.atmosphere.sky import SHADER, SkyTable, sky_radiance
+from sunwidget.atmosphere.validation import furnace
 from sunwidget.edit import NUMBERS
 
 VIEWS = directions(*np.meshgrid([4.0, 15.0, 40.0, 80.0], [0.0, 60.0, 120.0, 180.0]))
@@ -152,6 +153,17 @@ def test_orders_rise_to_all_of_them(air):
         assert skies[-1] == pytest.approx(whole, rel=0.01)
     alone = sky_radiance(air, VIEWS, 30.0, multiple_scattering=False)
     assert np.array_equal(alone, sky_radiance(air, VIEWS, 30.0, orders=1))
+
+
+def test_late_orders_keep_their_light():
+    # Over white ground in air that absorbs nothing; 3.3 % with each point's own ratio.
+    assert furnace() < 0.015
+    # Haze at low sun in the blue, where half of all light was scattered more than twice: 7 % too
+    # dark with each point's own ratio. The mean over 16 directions has a noise of 1.5 %.
+    haze = Atmosphere(aerosol_optical_depth=0.3, aerosol_asymmetry=0.75)
+    traced, _ = trace(haze, VIEWS, 10.0, wavelengths=[440.0], paths=1500, bounces=20, seed=3)
+    ours = sky_radiance(haze, VIEWS, 10.0, wavelengths=[440.0])
+    assert np.mean(ours / traced) == pytest.approx(1, abs=0.04)
 
 
 @pytest.mark.parametrize("orders", [-1, 1.5])
