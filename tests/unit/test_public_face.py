@@ -274,3 +274,13 @@ def test_a_sweep_of_a_real_scene_moves(coast, tmp_path):
             film.seek(frame)
             means.append(np.asarray(film.convert("RGB"), float).mean((0, 1)))
     assert np.abs(means[0] - means[2]).max() > 5
+
+
+def test_the_teaching_widget_needs_no_photo():
+    explorer = sw.SkyExplorer(sun_elevation=3, projection="panorama")
+    picture = explorer.render(size=SMALL)
+    assert picture.shape == (128, 192, 3)
+    explorer.sun_elevation = -4
+    assert np.abs(explorer.render(size=SMALL).astype(int) - picture).mean() > 3
+    again = eval(explorer.code(), {"sw": sw})
+    assert np.array_equal(again.render(size=SMALL), explorer.render(size=SMALL))
