@@ -19,19 +19,18 @@ flat in vec4 scales;
 
 // Glare round the sun, far weaker than in an eye: enough to see the sun where its disc
 // is a pixel. A Moffat profile per unit of illuminance, 1/sr.
-const float GLOW = 0.5;
+const float GLOW = 0.8;
 const float GLOW_FALL = 1.35;
 
-// Skies lie close to grey; a picture of them without the dazzle of the real one needs more colour,
-// the more the less there is, and less in green, or blues would turn violet and oranges red.
-const vec3 SATURATION = vec3(0.7, 0.25, 0.7);
-// Colours keep their distance from white up to this; what lies beyond, also outside Rec. 709, is
-// drawn in.
-const float PURITY = 0.85;
-const float CONTRAST = 1.3;
-const float RESTRAINT = 0.4;  // of what is bright, so that the sun stands out from its aureole
-const float WHITE = 60.0;   // light that is drawn as white
-const vec3 BLEACH = vec3(0.9, 0.9, 0.75);  // share of its colour that far brighter light loses
+// The way to display light runs as film does, a channel at a time, so that a low sun's light goes
+// from red over orange and yellow to white. Before it the channels are mixed a little towards
+// grey, which takes in what lies outside Rec. 709 and lets the brightest lose its colour; after it
+// they are taken apart further than that, for a picture without the dazzle of a real sky needs
+// more colour.
+const float INSET = 0.12;
+const float OUTSET = 0.32;
+const float CONTRAST = 1.25;
+const float GREY = 0.18;  // stays where it is
 
 // The picture of the disc (sun_disc.glsl) where it lies, in the plane that touches the sphere of
 // directions at the sun. `scale` is one over half its side.
@@ -46,17 +45,13 @@ vec3 GetDisc(vec3 view, vec3 sun, float scale) {
   return within * texelFetch(sun_disc, texel, 0).rgb;
 }
 
-// Display light in [0, 1]. The largest channel alone runs through the shoulder (Reinhard et al. 2002,
-// eq. 4), and the others keep their share of it: a low sun stays orange instead of turning yellow.
+// Display light in [0, 1]: a response x^n / (x^n + k^n) as eyes and film have it (Naka & Rushton 1966).
 vec3 GetDisplayLight(vec3 light) {
-  float peak = max(light.r, max(light.g, max(light.b, 1e-9)));
-  vec3 away = 1.0 - light / peak;
-  away *= 1.0 + SATURATION * (1.0 - away);
-  vec3 beyond = max(away - PURITY, 0.0) / (1.0 - PURITY);
-  away = min(away, PURITY) + (1.0 - PURITY) * beyond / (1.0 + beyond);
-  float x = pow(peak, CONTRAST) * inversesqrt(1.0 + RESTRAINT * peak);
-  float shown = min(x * (1.0 + x / (WHITE * WHITE)) / (1.0 + x), 1.0);
-  return shown * (1.0 - away * (1.0 - BLEACH * x / (x + WHITE)));
+  vec3 inset = max(mix(light, vec3(dot(light, vec3(1.0 / 3.0))), INSET), 0.0);
+  vec3 power = pow(inset, vec3(CONTRAST));
+  vec3 shown = power / (power + pow(GREY, CONTRAST - 1.0) * (1.0 - GREY));
+  float grey = dot(shown, vec3(1.0 / 3.0));
+  return grey + (shown - grey) / (1.0 - OUTSET);
 }
 
 void main() {
