@@ -391,7 +391,12 @@ class SkyExplorer(anywidget.AnyWidget):
         if None in place:
             self._day = []
             return
-        self._day = np.round(solar.day_path(*place), 6).tolist()
+        try:
+            path = solar.day_path(*place)
+        except ImportError:
+            self._day = []  # never the path of another place
+            raise
+        self._day = np.round(path, 6).tolist()
 
     def _followed_sun(self) -> tuple[float, float]:
         """Azimuth and elevation that time, scan or else the table give."""

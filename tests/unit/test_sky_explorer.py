@@ -3,6 +3,7 @@
 import base64
 import io
 import json
+import sys
 import threading
 
 import numpy as np
@@ -209,6 +210,16 @@ def test_a_place_and_a_day_give_the_suns_path(explorer):
     json.dumps(explorer._day)
     explorer.latitude = None
     assert explorer._day == []
+
+
+def test_without_pvlib_the_extra_is_named_and_no_old_path_stays(explorer, sent, monkeypatch):
+    explorer.set_place(ITHACA["latitude"], ITHACA["longitude"], ITHACA["date"])
+    monkeypatch.setitem(sys.modules, "pvlib", None)
+    with pytest.raises(ImportError, match=r"sunwidget\[solar\]"):
+        explorer.latitude = 10
+    assert explorer._day == []
+    explorer.set_state({"latitude": 11.0})
+    assert "sunwidget[solar]" in sent[-1][0]["error"]
 
 
 def test_time_moves_the_sun_along_the_path(explorer):
