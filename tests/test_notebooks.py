@@ -37,6 +37,7 @@ def test_notebook_names_a_kernel(path):
     assert nbformat.read(path, as_version=4).metadata.kernelspec.name == "python3"
 
 
+@pytest.mark.timeout(600)  # 20 s each, but machines are shared
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_notebook_runs_from_top_to_bottom(path, tmp_path, monkeypatch):
     # As after a clean clone: no measured skies, no tables made before.
@@ -48,6 +49,7 @@ def test_notebook_runs_from_top_to_bottom(path, tmp_path, monkeypatch):
 
 
 @pytest.mark.shared
+@pytest.mark.timeout(600)
 @pytest.mark.parametrize("path", NOTEBOOKS[1:], ids=lambda path: path.stem)
 def test_notebook_with_measured_skies_compares_with_them(path, tmp_path, shared, monkeypatch):
     folder = shared / "data" / "sky-reference"
