@@ -50,11 +50,14 @@ def test_committed_constants_are_what_the_generator_writes():
     pytest.importorskip("pvlib")
     pytest.importorskip("colour")
     from sunwidget.atmosphere.generate_constants import constants as generate
-    from sunwidget.atmosphere.generate_constants import glsl
+    from sunwidget.atmosphere.generate_constants import glsl, spectrum_glsl
 
     generated = generate()
     assert generated["solar_W_m2_nm"] == pytest.approx(constants.solar_irradiance(), rel=1e-6)
     assert read_shader("lib/constants.glsl").splitlines()[:20] == glsl(generated).splitlines()[:20]
+    # The matrices at the end are least squares, to which another BLAS gives other last digits.
+    committed, made = read_shader("lib/spectrum.glsl"), spectrum_glsl(generated)
+    assert committed.split("const mat4x3")[0] == made.split("const mat4x3")[0]
 
 
 def test_every_parameter_of_the_air_is_a_parameter_of_the_edit():
