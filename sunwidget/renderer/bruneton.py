@@ -216,7 +216,7 @@ def _key(atmosphere: Atmosphere, orders: int, size: Size) -> str:
     air = {name: value for name, value in atmosphere.parameters().items() if name != "altitude"}
     # The expanded shaders are part of the key: whoever changes one makes new tables.
     shaders = [resolve_includes(f"{name}.glsl") for name in ("columns", *PASSES)]
-    return table_cache.key(air, orders, dataclasses.astuple(size), ALL_ORDERS, shaders)
+    return table_cache.key(air, orders, dataclasses.astuple(size), shaders)
 
 
 def _altitude_coordinate(h: float) -> float:

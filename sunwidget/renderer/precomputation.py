@@ -34,9 +34,11 @@ PASSES = (
 )
 """Shaders that are run here only; ``bruneton_view`` is a pass of the explorer's frame graph."""
 
-ALL_ORDERS = 6
-"""Orders that are iterated when all are asked for; a geometric series stands for the rest."""
+ALL_ORDERS = 8
+"""Orders that clear air takes when all are asked for; white haze over snow takes 24."""
 
+_MOST_ORDERS = 24
+_LAST_SHARE = 0.003  # of the light, that a geometric series may stand for
 _DIRECTIONS = (16, 16)  # zeniths and azimuths of the quadrature, as in lib/bruneton_field.glsl
 _BAND_SECONDS = 0.15
 _FIRST_BAND_TEXELS = 2048
@@ -68,7 +70,7 @@ class Size:
 
 
 SIZES: dict[str, Size] = {
-    "small": Size((16, 64, 40, 12), (16, 40, 25, 13)),
+    "small": Size((16, 64, 40, 12), (16, 40, 17, 9)),
     "full": Size((32, 64, 40, 12), (24, 40, 33, 17)),
     # For tests: coarse enough to take a second.
     "tiny": Size((9, 32, 24, 8), (9, 24, 13, 7)),
@@ -95,9 +97,9 @@ class Precomputation:
         cost = size.texels()
         # Relative cost of one texel of each pass, for the progress alone.
         more = self.orders - 1
-        self.todo = 3.0 * (cost["bruneton_first"] + 2 * cost["bruneton_table"])
-        self.todo += 10.0 * cost["bruneton_table"] + 3.0 * more * cost["bruneton_source"]
-        self.todo += 10.0 * max(more - 1, 0) * cost["bruneton_incident"]
+        self.todo_before_tables = 3.0 * (cost["bruneton_first"] + more * cost["bruneton_source"])
+        self.todo_before_tables += 10.0 * max(more - 1, 0) * cost["bruneton_incident"]
+        self.todo = self.todo_before_tables + 16.0 * cost["bruneton_table"]
         self.done = 0.0
 
     def run(self) -> Floats:
@@ -115,14 +117,16 @@ class Precomputation:
         self._draw("columns", "columns", (256, 64), 0.0)
         self._draw("bruneton_first", "incident", directions, 3.0)
         sources, irradiances = [], []
-        for order in range(2, self.orders + 1):
-            message = f"scattering, order {order} of {self.orders}"
+        for order in range(2, (_MOST_ORDERS if self.all else self.orders) + 1):
+            message = f"scattering, order {order}"
             self._draw("bruneton_irradiance", "irradiance", irradiance_size, 0.0, message)
             self._draw("bruneton_source", "source", source_size, 3.0, message)
             irradiances.append(self._read("irradiance"))
             sources.append(self._read("source"))
-            if order < self.orders:
-                self._draw("bruneton_incident", "incident", directions, 10.0, message)
+            if self._is_last(order, sources):
+                break
+            self._draw("bruneton_incident", "incident", directions, 10.0, message)
+        self.done = self.todo_before_tables
         self.upload("source", self._sum(sources, source_size))
         self.upload("irradiance", self._sum(irradiances, irradiance_size))
         tables = []
@@ -133,16 +137,21 @@ class Precomputation:
         r, mu, mu_s, nu = self.size.table
         return np.stack(tables).reshape(3, r, mu_s, mu, nu, 4)
 
+    def _is_last(self, order: int, sources: list[Floats]) -> bool:
+        """Whether what follows ``order`` is not asked for, or little enough for the series."""
+        if not self.all:
+            return order >= self.orders
+        if order < 4:
+            return False
+        rest = _rest_of_series(sources) / np.maximum(np.sum(sources, axis=0), 1e-30)
+        return bool(rest.mean(axis=(0, 1)).max() < _LAST_SHARE)
+
     def _sum(self, orders: list[Floats], size: tuple[int, int]) -> Floats:
-        """Sum of the orders; of all, with the rest as a geometric series of the last ratio."""
+        """Sum of the orders, and of all, what follows the last of them."""
         if not orders:
             return np.zeros((size[1], size[0], 4), np.float32)
         total = np.sum(orders, axis=0)
-        if self.all:
-            last, before = orders[-1], orders[-2]
-            ratio = np.clip(last / np.maximum(before, 1e-30), 0, 0.95)
-            total = total + last * ratio / (1 - ratio)
-        return np.asarray(total, np.float32)
+        return np.asarray(total + _rest_of_series(orders) if self.all else total, np.float32)
 
     def _draw(
         self,
@@ -164,15 +173,17 @@ class Precomputation:
             return context.framebuffer([texture])
 
         framebuffer = on_gl_thread(prepare)
+        # More orders than expected stand still in the progress, fewer leap ahead.
+        limit = self.todo if shader == "bruneton_table" else self.todo_before_tables
         top, rows = 0, max(1, _FIRST_BAND_TEXELS // width)
         while top < height:
             band = (0, top, width, min(rows, height - top))
             task = partial(_draw_band, shader, framebuffer, band, values, self.textures)
             seconds = on_gl_thread(task)
             top += band[3]
-            self.done += weight * width * band[3]
+            self.done = min(self.done + weight * width * band[3], limit)
             if self.progress is not None:
-                self.progress(min(self.done / self.todo, 1.0), message)
+                self.progress(self.done / self.todo, message)
             rows = max(1, min(4 * rows, int(rows * _BAND_SECONDS / max(seconds, 1e-4))))
 
     def _read(self, name: str) -> Floats:
@@ -191,6 +202,13 @@ class Precomputation:
             self.textures[name] = context.texture((width, height), 4, image.tobytes(), dtype="f4")
 
         on_gl_thread(task)
+
+
+def _rest_of_series(orders: list[Floats]) -> Floats:
+    """Sum of the orders after the last, as a geometric series of the ratio of the last two."""
+    last, before = orders[-1], orders[-2]
+    ratio = np.clip(last / np.maximum(before, 1e-30), 0, 0.95)
+    return np.asarray(last * ratio / (1 - ratio), np.float32)
 
 
 def _draw_band(

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from sunwidget.cache import cache_folder
 
-VERSION = 1
+VERSION = 2
 _LOWEST = -48.0  # log2 of the least value that is kept
 _STEPS = 1023.0  # per octave
 _MOST_BYTES = 400_000_000

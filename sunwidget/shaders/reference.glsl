@@ -6,7 +6,7 @@
 // what comes later (as in atmosphere/path_tracer.py). The path is followed for the second order
 // and above: at every event the sun is sampled directly (next-event estimation), rays to space are
 // forced to scatter, and paths end by Russian roulette. All orders means 24: what is left out is
-// 1e-4 of the light over grass, and less than 1 % over snow in thick white haze.
+// 1e-6 of the light over grass or snow, and 0.4 % over white ground in thick white haze.
 
 #include "lib/path.glsl"
 #include "lib/projection.glsl"
