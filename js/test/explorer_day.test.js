@@ -1,6 +1,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { angleBetween, clock, sunAt, trueElevation, turned } from "../src/explorer/day.js";
+import {
+  angleBetween,
+  clock,
+  horizonElevation,
+  sunAt,
+  trueElevation,
+  turned,
+} from "../src/explorer/day.js";
 
 const near = (actual, expected, tolerance = 1e-6) =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected}`);
@@ -64,4 +71,9 @@ test("the angle between directions", () => {
   near(angleBetween([0, 0], [90, 0]), 90);
   near(angleBetween([10, 89.999], [10, 90]), 0.001);
   near(angleBetween([0, 30], [180, 30]), 120);
+});
+
+test("from thirty kilometres the ground ends 5.6 degrees below the level", () => {
+  near(horizonElevation(0), 0);
+  near(horizonElevation(30000), -5.55, 0.01); // acos(6360 / 6390)
 });

@@ -213,7 +213,8 @@ def test_plots_follow_the_sun(explorer):
     after = plot_pixels(page)
     assert sum(a != b for a, b in zip(before, after, strict=True)) >= 5  # all but the phases
     assert 90 < noon < 125  # klx of direct sun at 60° in clear air
-    assert "below the horizon" in card(page, "The sun's colour").text_content()
+    assert "sun below −1°" in card(page, "The sun's colour").text_content()
+    assert "the sun is down" in card(page, "Sunlight that arrives").text_content()
     x, y = told("Zenith in CIE x, y", r"[\d.]+")
     # As docs/atmosphere.md has the zenith at −6°.
     assert (x, y) == (pytest.approx(0.235, abs=0.01), pytest.approx(0.235, abs=0.01))
@@ -377,7 +378,7 @@ def test_brunetons_table_says_its_cost_and_waits_to_be_asked_for(explorer):
     settled(page)
     assert not np.array_equal(canvas_of(page), before)
     assert button.count() == 0
-    assert page.locator(".sw-guides").text_content().startswith("NESW30°60°Bruneton")
+    assert page.locator(".sw-guides").text_content().startswith("NESW30°60°BrunetonSingle")
     # Other air needs another table.
     page.get_by_role("switch", name="Ozone").click()
     settled(page)

@@ -77,3 +77,9 @@ export function angleBetween([azimuthA, elevationA], [azimuthB, elevationB]) {
     Math.cos(a) * Math.cos(b) * Math.sin(((azimuthA - azimuthB) * DEGREE) / 2) ** 2;
   return (2 * Math.asin(Math.min(1, Math.sqrt(half)))) / DEGREE;
 }
+
+const GROUND = 6_360_000; // metres, the shaders' radius of the earth
+
+/** Where the ground ends for a camera above it: below the level. @param {number} altitude metres */
+export const horizonElevation = (altitude) =>
+  -Math.acos(GROUND / (GROUND + Math.max(0, altitude))) / DEGREE;

@@ -105,7 +105,7 @@ export class Guides {
     const side = { dome: 45, panorama: -172 }[String(projection)] ?? -0.5 * Number(fov);
     const place = this.view.placeOf([Number(view_azimuth) + side, elevation]);
     if (!place || !inside(place, box)) return;
-    const [x, y] = place;
+    const [x, y] = [Math.max(14, place[0]), place[1]];
     node.append(text(x, projection === "dome" ? y + 3 : y - 4, `${elevation}°`, "sw-guide-text"));
   }
 
@@ -116,12 +116,14 @@ export class Guides {
       node.append(shape("line", { x1: x, x2: x, y1: 0, y2: box.height, class: name }));
     }
     const dome = this.view.state.values.projection === "dome";
-    const y = dome ? -8 : 16;
+    // Round the dome the corners are free, and its top has a letter and often the sun.
+    const y = dome ? 6 : 16;
+    const away = dome ? box.width / 2 : 10;
     const write = (/** @type {string} */ model, /** @type {number} */ side) => {
       const absent = model === "bruneton" && this.view.tables === 0;
       const name = absent ? "All orders (no table yet)" : MODEL_LABELS[model];
-      const label = text(x + side * 10, y, name ?? model, "sw-seam-text");
-      setAttributes(label, { "text-anchor": side < 0 ? "end" : "start" });
+      const label = text(x + side * away, y, name ?? model, "sw-seam-text");
+      setAttributes(label, { "text-anchor": side < 0 !== dome ? "end" : "start" });
       node.append(label);
     };
     write(left, -1);

@@ -6,7 +6,10 @@ import { turned } from "./day.js";
 /** @typedef {import("../types.js").Point} Point */
 
 export const GRAB = 26; // CSS pixels round the sun that take hold of it
-const EDGE = 26; // CSS pixels from the stage's edge at which a sun outside it waits
+// CSS pixels from the stage's edge at which a sun outside it waits; round the dome there is room
+// for all of twilight.
+const EDGE = 26;
+const DOME_EDGE = 12;
 const KEY_STEP = 0.5; // degrees
 
 export class SunHandle {
@@ -79,8 +82,9 @@ export class SunHandle {
       ? [box.x + place[0] - cx, box.y + place[1] - cy]
       : // Behind the camera: the side to turn to.
         [turned(azimuth - Number(this.view.state.values.view_azimuth)) < 0 ? -1e6 : 1e6, 0];
-    const roomX = box.stageWidth / 2 - EDGE;
-    const roomY = dy > 0 ? box.stageHeight - EDGE - cy : cy - EDGE;
+    const edge = this.view.state.values.projection === "dome" ? DOME_EDGE : EDGE;
+    const roomX = box.stageWidth / 2 - edge;
+    const roomY = dy > 0 ? box.stageHeight - edge - cy : cy - edge;
     const share = Math.min(1, roomX / Math.abs(dx || 1e-9), roomY / Math.abs(dy || 1e-9));
     return {
       x: cx + dx * share,

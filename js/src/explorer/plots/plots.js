@@ -19,7 +19,7 @@ const PAUSE_MS = 100;
 /**
  * @typedef {{
  *   curve: (pass: string) => Float32Array, sun: [number, number], scatteringAngle: number | null,
- *   measured: import("../measured.js").Scan | null,
+ *   altitude: number, measured: import("../measured.js").Scan | null,
  * }} Context what a plot is drawn from; the sun as azimuth and apparent elevation
  * @typedef {{
  *   moveSun: (chart: import("./chart.js").Chart) => void,
@@ -143,6 +143,7 @@ export class Plots {
     const context = {
       curve,
       sun: this.view.sun(),
+      altitude: this.view.number("altitude"),
       measured: this.view.measured.scan(),
       scatteringAngle: this.angle,
     };

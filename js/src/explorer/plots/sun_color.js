@@ -89,7 +89,7 @@ export class SunColorPlot {
   }
 
   tell() {
-    if (!this.texels || this.elevation < -1) return "below the horizon";
+    if (!this.texels || this.elevation < -1) return "sun below −1°";
     return illuminance(sample(SUN_ELEVATIONS, channel(this.texels, 3), this.elevation));
   }
 }

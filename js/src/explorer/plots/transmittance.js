@@ -2,9 +2,12 @@
 
 import { wavelengthColor } from "../color.js";
 import { channel, WAVELENGTHS } from "../curves.js";
+import { horizonElevation } from "../day.js";
+import { degrees } from "../readout.js";
 import { Chart } from "./chart.js";
 
 const STRIP = 12; // CSS pixels
+const SUN_RADIUS = 0.27; // degrees
 
 const percent = (/** @type {number} */ share) => `${(100 * share).toFixed(0)} %`;
 
@@ -17,6 +20,7 @@ export class TransmittancePlot {
       "aerosol and ozone alone would leave. A low sun shines through far more air, so blue goes first.";
     this.passes = ["curve_transmittance"];
     this.elevation = 0;
+    this.horizon = 0;
     this.chart = new Chart({
       theme,
       height: 210,
@@ -42,8 +46,9 @@ export class TransmittancePlot {
   }
 
   /** @param {import("./plots.js").Context} context */
-  update({ curve, sun }) {
+  update({ curve, sun, altitude }) {
     this.elevation = sun[1];
+    this.horizon = horizonElevation(altitude) - SUN_RADIUS;
     const texels = curve("curve_transmittance");
     this.chart.set([WAVELENGTHS, ...[0, 1, 2, 3].map((c) => channel(texels, c))]);
   }
@@ -71,6 +76,6 @@ export class TransmittancePlot {
   }
 
   tell() {
-    return this.elevation < -0.3 ? "the sun is down" : `sun at ${this.elevation.toFixed(1)}°`;
+    return this.elevation < this.horizon ? "the sun is down" : `sun at ${degrees(this.elevation)}`;
   }
 }
