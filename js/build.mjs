@@ -96,6 +96,12 @@ export const shaderPlugin = {
   },
 };
 
+/** The licence of a package that a bundle contains. @param {string} name */
+function licence(name) {
+  const text = readFileSync(join(here, "node_modules", name, "LICENSE"), "utf-8");
+  return `This bundle contains ${name}:\n${text}`;
+}
+
 async function main() {
   const build = await context({
     entryPoints: [
@@ -111,7 +117,10 @@ async function main() {
     target: "es2022",
     logLevel: "info",
     legalComments: "none",
-    plugins: [shaderPlugin, packPlugin(join(out, "sky_explorer.js"), ["Projection", "SkyFrame"])],
+    plugins: [
+      shaderPlugin,
+      packPlugin(join(out, "sky_explorer.js"), ["Projection", "SkyFrame"], licence("uplot")),
+    ],
   });
   if (process.argv.includes("--watch")) {
     await build.watch();

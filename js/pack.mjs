@@ -10,11 +10,13 @@ import { deflateRawSync } from "node:zlib";
 /**
  * @param {string} code an ES module without imports, with a default export
  * @param {string[]} [names] other exports to hand on
+ * @param {string} [notice] licence of what the bundle contains, to stand above it
  * @returns {string} the same, packed
  */
-export function pack(code, names = []) {
+export function pack(code, names = [], notice = "") {
   const packed = deflateRawSync(Buffer.from(code, "utf-8"), { level: 9 }).toString("base64");
   return [
+    ...(notice ? [`/*!\n${notice.trim()}\n*/`] : []),
     `const packed="${packed}";`,
     "const bytes=Uint8Array.from(atob(packed),(c)=>c.charCodeAt(0));",
     'const plain=new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));',
@@ -33,13 +35,14 @@ export function pack(code, names = []) {
  *
  * @param {string} path
  * @param {string[]} names exports beside the default
+ * @param {string} notice as `pack` takes it
  * @returns {import("esbuild").Plugin}
  */
-export const packPlugin = (path, names) => ({
+export const packPlugin = (path, names, notice) => ({
   name: "sunwidget-pack",
   setup(build) {
     build.onEnd(({ errors }) => {
-      if (!errors.length) writeFileSync(path, pack(readFileSync(path, "utf-8"), names));
+      if (!errors.length) writeFileSync(path, pack(readFileSync(path, "utf-8"), names, notice));
     });
   },
 });

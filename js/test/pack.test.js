@@ -10,3 +10,9 @@ test("a packed module holds its text to the letter, and is smaller", () => {
   assert.equal(inflateRawSync(Buffer.from(payload, "base64")).toString("utf-8"), code);
   assert.ok(packed.length < code.length / 2);
 });
+
+test("a licence stands above the module, whose other exports are handed on", () => {
+  const packed = pack("export default 1; export const Two = 2;", ["Two"], "(c) somebody\n");
+  assert.match(packed, /^\/\*!\n\(c\) somebody\n\*\/\nconst packed="/);
+  assert.match(packed, /export const Two=module\.Two;/);
+});

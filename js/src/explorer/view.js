@@ -30,6 +30,7 @@ import { toolbar } from "./toolbar.js";
  */
 
 const SLOW_FRAME_MS = 33; // slower frames than this are drawn smaller while a drag lasts
+const FAST_FRAME_MS = 18; // waiting for the screen's next refresh takes as long
 const SMALLEST_SCALE = 0.35;
 const SETTLED_MS = 160; // after this long without a change the frame is drawn in full
 const MOST_PIXELS = 900_000;
@@ -71,7 +72,7 @@ export class View {
     this.tables = 0; // how many tables the kernel has sent
     this.scale = 1;
     this.request = 0;
-    this.lastFrame = 0;
+    this.requested = 0; // when the frame under way was asked for, ms
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.settle = undefined;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -267,28 +268,27 @@ export class View {
 
   requestFrame() {
     this.stage.node.setAttribute("aria-busy", "true");
-    this.request ||= requestAnimationFrame((now) => {
+    if (this.request) return;
+    this.requested = performance.now();
+    this.request = requestAnimationFrame(() => {
       this.request = 0;
-      this.drawFrame(now);
+      this.drawFrame();
       const waits = this.request !== 0 || this.settle !== undefined;
       this.stage.node.setAttribute("aria-busy", String(waits));
     });
   }
 
-  /** @param {number} now */
-  drawFrame(now) {
+  drawFrame() {
     const dragging = this.state.before !== null;
     if (dragging) {
-      const spent = now - this.lastFrame;
-      // A pause of the hand is no slow frame.
-      if (spent < 500) this.adapt(spent);
+      // A machine that is behind lets a frame wait; a slow hand does not.
+      this.adapt(performance.now() - this.requested);
       clearTimeout(this.settle);
       this.settle = setTimeout(() => {
         this.settle = undefined;
         this.requestFrame();
       }, SETTLED_MS);
     }
-    this.lastFrame = now;
     this.drawSky(dragging ? this.scale : 1);
     this.drawOverlay();
   }
@@ -346,12 +346,12 @@ export class View {
     return this.paused || this.frame.samples >= MOST_SAMPLES;
   }
 
-  /** Draw smaller while the machine cannot keep up with the drag. @param {number} spent ms */
+  /** Draw smaller while the machine cannot keep up with the drag. @param {number} spent ms of waiting */
   adapt(spent) {
     if (spent > SLOW_FRAME_MS) {
       const wanted = this.scale * Math.sqrt(SLOW_FRAME_MS / spent);
       this.scale = Math.max(SMALLEST_SCALE, 0.5 * (this.scale + wanted));
-    } else if (spent < SLOW_FRAME_MS / 2) {
+    } else if (spent < FAST_FRAME_MS) {
       this.scale = Math.min(1, this.scale * 1.02);
     }
   }
