@@ -5,10 +5,9 @@
 //   1  light on lying land before     2  on upright land before     3, 4  the same now
 //   5  light of a cloud before        6  what its forward lobe adds, before     7, 8  now
 //   9  direction of the sun before
-//  10  the disc (lib/disc.glsl): radius, sine of its middle's elevation, inverse of half its
-//      height; alpha: sine of the horizon's elevation
-//      alphas of 1-3, 4-6, 7-9: log2 of its colour in the middle, slope and bend over its height
+//  10  the disc (lib/disc.glsl): radius, sine of its middle's elevation, inverse of half its height
 //  11  the sun's light on water before   12  now
+//  Alphas of 1-4, 5-8, 9-12: log2 of the disc's radiance in its middle, slope and bend over its height.
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
@@ -40,11 +39,11 @@ out vec4 result;
 // enough that a pixel's drag shows no step, short enough that a moved sun leaves no ghost.
 const float kGlareFade = 4.0;
 
-// log2 of the light in the middle of a disc at this height, without its limb's darkening.
-vec3 GetDiscColor(float sine_of_elevation) {
-  vec4 disc = SOLAR_IRRADIANCE / (PI * SUN_ANGULAR_RADIUS * SUN_ANGULAR_RADIUS)
-      * (0.5 * LIMB_DARKENING + 1.0) * GetTransmittanceToTop(columns, altitude, sine_of_elevation);
-  return log2(max(sky_gain * SpectralToRec709(disc), vec3(1e-20)));
+// log2 of the radiance in the middle of a disc at this height, without its limb's darkening.
+vec4 GetDiscRadiance(float sine_of_elevation) {
+  return log2(max(SOLAR_IRRADIANCE / (PI * SUN_ANGULAR_RADIUS * SUN_ANGULAR_RADIUS)
+      * (0.5 * LIMB_DARKENING + 1.0) * GetTransmittanceToTop(columns, altitude, sine_of_elevation),
+      vec4(1e-30)));
 }
 
 // The light that a sky sends in all directions is the same to the bit only when the sky is.
@@ -66,15 +65,16 @@ void main() {
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
   float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;
   float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
-  float horizon = GetCosineOfHorizon(altitude);
   float radius = SUN_ANGULAR_RADIUS * sun_size;
   // From the horizon, or the lower edge above it, to the upper one.
-  float low = max(sun_now.y - radius, horizon);
+  float low = max(sun_now.y - radius, GetCosineOfHorizon(altitude));
   float high = max(sun_now.y + radius, low + 1e-4);
-  vec3 middle = GetDiscColor(0.5 * (low + high));
-  vec3 lower = GetDiscColor(low);
-  vec3 upper = GetDiscColor(high);
-  mat3 parabola = mat3(middle, 0.5 * (upper - lower), 0.5 * (upper + lower) - middle);
+  vec4 middle = GetDiscRadiance(0.5 * (low + high));
+  vec4 lower = GetDiscRadiance(low);
+  vec4 upper = GetDiscRadiance(high);
+  mat3x4 parabola = mat3x4(middle, 0.5 * (upper - lower), 0.5 * (upper + lower) - middle);
+  int part = max(index - 1, 0);
+  float disc = parabola[part / 4][part % 4];
   if (index == 0) {
     float stops = exposure + auto_exposure * (texelFetch(meter_source, ivec2(0), 0).r - texelFetch(meter_edit, ivec2(0), 0).r);
     float turn = degrees(2.0 * asin(min(0.5 * length(sun_now - sun_before), 1.0)));
@@ -82,9 +82,9 @@ void main() {
     bool same = visible_before == visible_now && IsSkyUnchanged();
     result = vec4(exp2(stops), smoothstep(0.0, kGlareFade, turn), 0.5 * hidden * colourfulness, same);
   } else if (index == 9) {
-    result = vec4(sun_before, parabola[2].b);
+    result = vec4(sun_before, disc);
   } else if (index == 10) {
-    result = vec4(radius, 0.5 * (low + high), 2.0 / (high - low), horizon);
+    result = vec4(radius, 0.5 * (low + high), 2.0 / (high - low), disc);
   } else {
     vec3 light = index == 1 ? GetLandIrradiance(light_source, visible_before, source_land_facing, sun_before)
         : index == 2 ? GetLandIrradiance(light_source, visible_before, 1.0, sun_before)
@@ -96,7 +96,6 @@ void main() {
         : index == 8 ? GetForwardLight(light_edit)
         : index == 11 ? visible_before * GetLightTexel(light_source, 1)
         : visible_now * GetLightTexel(light_edit, 1);
-    int part = min(index - 1, 8);
-    result = vec4(sky_gain * light, parabola[part / 3][part % 3]);
+    result = vec4(sky_gain * light, disc);
   }
 }
