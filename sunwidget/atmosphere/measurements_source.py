@@ -7,6 +7,7 @@ checksum before it is opened.
 from __future__ import annotations
 
 import hashlib
+import io
 import os
 import re
 import tempfile
@@ -14,11 +15,11 @@ import urllib.error
 import urllib.request
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.atmosphere.seven_zip import ArchiveError, read_archive
 from sunwidget.cache import cache_folder
 
 Array = NDArray[np.float64]
@@ -68,6 +69,7 @@ CHECKSUMS: dict[str, str] = {
 # fmt: on
 
 _LARGEST = 64_000_000  # bytes of one archive; the published ones have 1.4-2.3 MB
+_LARGEST_MEMBER = 4_000_000  # bytes of one file in it; the published ones have 50 kB
 _WAVELENGTHS = np.arange(350.0, 1001.0)  # what is kept of 350-2500 nm
 _TIMEOUT_S = 60
 # "2013-05-27___09.30.00_-_12____135.0___12.1151.asd.rad.txt": scan, index, azimuth counter-
@@ -112,8 +114,10 @@ def download(
     Raises
     ------
     MeasurementsError
-        When an archive cannot be fetched, differs from its checksum or cannot be read.
+        When an archive cannot be fetched, differs from its checksum or cannot be read, and
+        without py7zr.
     """
+    _py7zr()  # rather refused now than after 21 MB
     target = default_path() if path is None else Path(path)
     archives: dict[str, bytes] = {}
     for i, (name, checksum) in enumerate(checksums.items()):
@@ -155,15 +159,12 @@ def read_raw_scans(archives: Mapping[str, bytes]) -> Raw:
     Raises
     ------
     MeasurementsError
-        For an archive that cannot be read, or scans whose directions differ.
+        For an archive that cannot be read, scans whose directions differ, or without py7zr.
     """
     scans: dict[str, NDArray[np.float32]] = {}
     directions: Array | None = None
     for name in sorted(archives):
-        try:
-            files = read_archive(archives[name])
-        except ArchiveError as error:
-            raise MeasurementsError(f"{name}: {error}") from error
+        files = _unpack(name, archives[name])
         rows: dict[tuple[float, float, float], Array] = {}
         scan = ""
         for member, content in files.items():
@@ -180,6 +181,30 @@ def read_raw_scans(archives: Mapping[str, bytes]) -> Raw:
     if directions is None:
         raise MeasurementsError("There are no archives with measured skies.")
     return _WAVELENGTHS, directions, scans
+
+
+def _py7zr() -> Any:
+    try:
+        import py7zr
+        import py7zr.io
+    except ImportError as error:
+        raise MeasurementsError(
+            "The archives of measured skies are opened by py7zr, which is not installed. "
+            "Run: pip install 'sunwidget[measurements]'"
+        ) from error
+    return py7zr
+
+
+def _unpack(name: str, archive: bytes) -> dict[str, bytes]:
+    """Return the files of a 7z archive by their names."""
+    py7zr = _py7zr()
+    files = py7zr.io.BytesIOFactory(_LARGEST_MEMBER)
+    try:
+        with py7zr.SevenZipFile(io.BytesIO(archive)) as opened:
+            opened.extractall(factory=files)
+    except Exception as error:  # damage shows as errors of many kinds, the decompressors' too
+        raise MeasurementsError(f"{name} is no 7z archive, or a damaged one ({error}).") from error
+    return {member: content.read() for member, content in files.products.items()}
 
 
 def _spectrum(name: str, content: bytes) -> Array:

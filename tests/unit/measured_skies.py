@@ -1,10 +1,9 @@
 """Made-up skies in the files that Kider et al. publish: archives of spectra, 81 directions each."""
 
-import lzma
-import struct
-import zlib
+import io
 
 import numpy as np
+import py7zr
 
 # Elevations and numbers of azimuths of the instrument's rings.
 RINGS = ((12.1151, 32), (33.749, 24), (53.3665, 16), (71.9187, 8), (90.0, 1))
@@ -26,52 +25,13 @@ def sky(sun_azimuth, sun_elevation=40.0, seed=0):
     return (shape * noise)[:, None] * 0.05 * (np.arange(350, 1001) / 450) ** -3.0
 
 
-def number(value):
-    """A 7z integer; up to 2³² is enough here."""
-    return b"\xf0" + struct.pack("<I", value)
-
-
-def archive(files, *, packed_header=True):
-    """A 7z archive: one block of LZMA, the header packed too, as the published ones are."""
-    filters = [{"id": lzma.FILTER_LZMA1, "dict_size": 1 << 20, "lc": 3, "lp": 0, "pb": 2}]
-    properties = bytes([(2 * 5 + 0) * 9 + 3]) + struct.pack("<I", 1 << 20)
-
-    def pack(data):
-        return lzma.compress(data, lzma.FORMAT_RAW, filters=filters)
-
-    def streams(offset, packed, unpacked, tail):
-        return (
-            b"\x06" + number(offset) + b"\x01\x09" + number(packed) + b"\x00"
-            b"\x07\x0b\x01\x00\x01\x23\x03\x01\x01\x05" + properties + b"\x0c" + number(unpacked)
-            + tail
-        )  # fmt: skip
-
-    whole = b"".join(files.values())
-    body = pack(whole)
-    sizes = b"".join(number(len(data)) for data in list(files.values())[:-1])
-    sums = b"".join(struct.pack("<I", zlib.crc32(data)) for data in files.values())
-    lists = (
-        b"\x00\x08\x0d" + number(len(files)) + b"\x09" + sizes + b"\x0a\x01" + sums + b"\x00\x00"
-    )
-    # A folder without content, as the published archives have one.
-    names = "".join(f"{name}\0" for name in [*files, "folder"]).encode("utf-16-le")
-    count = len(files) + 1
-    empty = np.packbits([0] * len(files) + [1]).tobytes()
-    header = (
-        b"\x01\x04" + streams(0, len(body), len(whole), lists)
-        + b"\x05" + number(count)
-        + b"\x0e" + number(len(empty)) + empty
-        + b"\x11" + number(len(names) + 1) + b"\x00" + names + b"\x00\x00"
-    )  # fmt: skip
-    if packed_header:
-        small = pack(header)
-        tail = b"\x0a\x01" + struct.pack("<I", zlib.crc32(header)) + b"\x00\x00"
-        header = b"\x17" + streams(len(body), len(small), len(header), tail)
-        body += small
-    start = struct.pack("<QQI", len(body), len(header), zlib.crc32(header))
-    return (
-        b"7z\xbc\xaf\x27\x1c\x00\x04" + struct.pack("<I", zlib.crc32(start)) + start + body + header
-    )
+def archive(files):
+    """A 7z archive of files by name."""
+    data = io.BytesIO()
+    with py7zr.SevenZipFile(data, "w") as opened:
+        for name, content in files.items():
+            opened.writestr(content, name)
+    return data.getvalue()
 
 
 def scan_files(name, radiance):

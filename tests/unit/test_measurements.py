@@ -3,6 +3,7 @@
 import datetime as dt
 import hashlib
 import http.server
+import sys
 import threading
 
 import measured_skies as made_up
@@ -12,8 +13,13 @@ import pytest
 from sunwidget.atmosphere import measurements
 from sunwidget.atmosphere.constants import WAVELENGTHS
 from sunwidget.atmosphere.measurements import MeasurementsError, azimuth_of_symmetry, load
-from sunwidget.atmosphere.measurements_source import BASE_URL, CHECKSUMS, default_path, download
-from sunwidget.atmosphere.seven_zip import ArchiveError, read_archive
+from sunwidget.atmosphere.measurements_source import (
+    BASE_URL,
+    CHECKSUMS,
+    default_path,
+    download,
+    read_raw_scans,
+)
 from sunwidget.atmosphere.sky import SkyTable
 
 SCANS = {"2013-05-27___09.30.00": 90.0, "2013-05-27___13.30.00": 181.7}
@@ -54,28 +60,20 @@ def address(published):
     server.server_close()
 
 
-@pytest.mark.parametrize("packed_header", [True, False])
-def test_an_archive_gives_its_files_back(packed_header):
-    files = {"a/b.txt": b"sky " * 999, "ü": b"x", "c": bytes(range(256))}
-    assert read_archive(made_up.archive(files, packed_header=packed_header)) == files
+def test_a_damaged_archive_is_named(published):
+    name = next(iter(published[1]))
+    data = (published[0] / name).read_bytes()
+    middle = len(data) // 2
+    broken = data[:middle] + bytes([data[middle] ^ 0x10]) + data[middle + 1 :]
+    for damaged in (broken, data[:-1], data[:20], b""):
+        with pytest.raises(MeasurementsError, match=f"{name} is no 7z archive, or a damaged one"):
+            read_raw_scans({name: damaged})
 
 
-def test_a_damaged_archive_never_gives_other_files():
-    files = {"a": b"radiance " * 40, "b": b"more"}
-    data = made_up.archive(files)
-    refused = 0
-    for at in range(len(data)):
-        broken = bytearray(data)
-        broken[at] ^= 0x10
-        try:
-            # The version and the mark that ends the packed block are not read.
-            assert read_archive(bytes(broken)) == files
-        except ArchiveError:
-            refused += 1
-    assert refused > len(data) - 16
-    for length in (0, 20, 40, len(data) - 1):
-        with pytest.raises(ArchiveError):
-            read_archive(data[:length])
+def test_without_py7zr_the_error_names_the_extra(published, monkeypatch):
+    monkeypatch.setitem(sys.modules, "py7zr", None)
+    with pytest.raises(MeasurementsError, match=r"sunwidget\[measurements\]"):
+        read_raw_scans({"a.7z": b""})
 
 
 def test_archives_are_fetched_checked_and_kept(published, address):
