@@ -6,7 +6,7 @@
 // the point itself (transfer.glsl). But from one order to the next light spreads, until all of it
 // falls by the same factor everywhere: the largest eigenvalue of scattering. It is the geometric
 // mean of f and of what the second order has of the first, taken 3 km up under a high sun: within
-// 8 % in air from none to twice ours, over any ground; 18 % in the thickest haze. The third order
+// 8 % in air from none to twice ours, over any ground; up to 18 % in the thickest haze. The third order
 // lies half way between what the second had of the first at the point and that.
 //
 // `scattering_orders` n ends the sum (Nishita et al. 1996): the field holds orders 1 to n - 1, of
