@@ -1,5 +1,6 @@
 """The precomputed sky: against the march, path tracing and Bruneton's own code; and its cache."""
 
+import functools
 import itertools
 import os
 import threading
@@ -23,14 +24,18 @@ from sunwidget.renderer.graph import FrameGraph, Programs
 from sunwidget.renderer.shader_source import EGL_HEADER, FULL_SCREEN_TRIANGLE, resolve_includes
 
 AIR = Atmosphere()
-HAZE = Atmosphere(aerosol_optical_depth=0.3, aerosol_asymmetry=0.75)
 ELEVATION = np.array([3, 12, 30, 60, 85.0])[:, None]
 AZIMUTH = np.array([0, 40, 90, 135, 180.0])
 
 
+@functools.cache
+def made(air, orders=0):
+    return bruneton_table(air, orders, size="tiny", cache=False)
+
+
 @pytest.fixture(scope="module")
 def table():
-    return bruneton_table(AIR, size="tiny", cache=False)
+    return made(AIR)
 
 
 @pytest.fixture
@@ -50,7 +55,7 @@ def directions(elevation, azimuth):
 
 @pytest.mark.parametrize("sun", [60, 20, 6, 2, 0])
 def test_one_order_is_the_march(sun):
-    one = bruneton_table(AIR, orders=1, size="tiny", cache=False)
+    one = made(AIR, 1)
     march = SkyTable(AIR, quality=Quality(groups=60), multiple_scattering=False)
     ratio = one.radiance(ELEVATION, AZIMUTH, sun) / march.radiance(ELEVATION, AZIMUTH, sun)
     # 24 suns of a tiny table: what is lost between them, most at the terminator (0.5 % by day, 2 %
@@ -67,13 +72,10 @@ def test_all_orders_agree_with_path_tracing(table, sun, allowed):
 
 
 def test_more_orders_are_brighter_and_reach_all():
-    sky = [
-        bruneton_table(HAZE, orders=n, size="tiny", cache=False).radiance(ELEVATION, AZIMUTH, 30)
-        for n in (1, 2, 4, 12, 0)
-    ]
+    sky = [made(AIR, n).radiance(ELEVATION, AZIMUTH, 30) for n in (1, 2, 4, 12, 0)]
     for fewer, more in itertools.pairwise(sky[:4]):
         assert np.all(more > fewer)
-    # The geometric series after the sixth order is all but what twelve orders hold.
+    # What follows the eighth order, in a geometric series, is all but what twelve orders hold.
     assert sky[4] == pytest.approx(sky[3], rel=3e-3)
 
 
@@ -142,8 +144,8 @@ def test_sky_view_from_a_slice_is_the_table(table, altitude, sun):
     assert error[:3].max() < 0.05
 
 
-def test_slice_is_small_and_knows_its_altitude():
-    cut = bruneton_table(AIR, size="tiny", cache=False).slice(2500.0)
+def test_slice_is_small_and_knows_its_altitude(table):
+    cut = table.slice(2500.0)
     assert cut.dtype == np.float32
     assert cut[-1, 0] == pytest.approx([2500, AIR.aerosol_asymmetry, 8, 24])
     for size in SIZES.values():
@@ -162,7 +164,7 @@ def test_table_serves_every_altitude(table):
 
 def test_progress_rises_to_one_and_can_cancel():
     seen = []
-    bruneton_table(AIR, size="tiny", cache=False, progress=lambda f, _: seen.append(f))
+    bruneton_table(AIR, 2, size="tiny", cache=False, progress=lambda f, _: seen.append(f))
     assert seen == sorted(seen)
     assert seen[-1] == pytest.approx(1)
 
@@ -171,7 +173,7 @@ def test_progress_rises_to_one_and_can_cancel():
             raise InterruptedError
 
     with pytest.raises(InterruptedError):
-        bruneton_table(AIR, size="tiny", cache=False, progress=cancel)
+        bruneton_table(AIR, 2, size="tiny", cache=False, progress=cancel)
 
 
 def test_other_users_of_the_gl_thread_wait_for_one_band_only():
@@ -203,12 +205,12 @@ def test_cost_is_told_before(table):
 
 
 def test_second_time_comes_from_the_disk(folder):
-    assert not is_cached(AIR, size="tiny")
-    first = bruneton_table(AIR, size="tiny")
-    assert is_cached(AIR, size="tiny")
-    assert is_cached(AIR.replace(altitude=900), size="tiny")
-    assert not is_cached(AIR.replace(ozone=250), size="tiny")
-    second = bruneton_table(AIR, size="tiny")
+    assert not is_cached(AIR, 1, size="tiny")
+    first = bruneton_table(AIR, 1, size="tiny")
+    assert is_cached(AIR, 1, size="tiny")
+    assert is_cached(AIR.replace(altitude=900), 1, size="tiny")
+    assert not is_cached(AIR.replace(ozone=250), 1, size="tiny")
+    second = bruneton_table(AIR, 1, size="tiny")
     assert second.seconds == 0
     np.testing.assert_allclose(second.tables, first.tables, rtol=3.5e-4, atol=2**-48)
     assert [f.suffix for f in folder.iterdir()] == [".npz"]
@@ -235,8 +237,8 @@ def test_a_folder_that_cannot_be_written_is_warned_of(tmp_path, monkeypatch):
     blocked.write_text("")
     monkeypatch.setenv("XDG_CACHE_HOME", str(blocked))
     with pytest.warns(UserWarning, match="XDG_CACHE_HOME"):
-        made = bruneton_table(AIR, size="tiny")
-    assert np.all(np.isfinite(made.tables))
+        table = bruneton_table(AIR, 1, size="tiny")
+    assert np.all(np.isfinite(table.tables))
 
 
 def test_least_used_tables_go_first(folder, monkeypatch):
