@@ -1,6 +1,7 @@
 // The pixel that is drawn, top-left origin on every host, and its noise.
 
 #include "lib/frame_size.glsl"
+#include "lib/hash.glsl"
 
 uniform vec2 tile_origin;
 uniform float canvas_flip;     // 1 when drawing to the browser's canvas, whose row 0 is the lowest
@@ -13,13 +14,6 @@ vec2 GetPixel() {
   vec2 at = gl_FragCoord.xy;
   if (canvas_flip > 0.5) at.y = frame_size.y - at.y;
   return at + tile_origin;
-}
-
-// Integer hash (PCG, O'Neill 2014), the same to the bit on every host.
-uint Hash(uint x) {
-  uint state = x * 747796405u + 2891336453u;
-  uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-  return (word >> 22u) ^ word;
 }
 
 float GetNoise(uvec2 at, uint channel) {
