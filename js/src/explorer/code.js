@@ -12,7 +12,8 @@ const SUN = ["sun_azimuth", "sun_elevation"];
 
 /**
  * @param {import("../types.js").Edit} recipe values that differ from their defaults
- * @param {[number, number] | null} sun azimuth and elevation; null when time or scan bring it along
+ * @param {[number, number] | null} sun azimuth and elevation; null when it is where time, scan
+ *   or the table put it
  */
 export function pythonCode(recipe, sun) {
   const named = Object.entries(recipe).filter(([name]) => !SUN.includes(name));

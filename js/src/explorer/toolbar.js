@@ -3,6 +3,7 @@
 import { button, radioButtons } from "../controls/button.js";
 import { element } from "../controls/element.js";
 import { pythonCode } from "./code.js";
+import { turned } from "./day.js";
 
 /** @type {{ value: string, icon: import("../controls/icons.js").IconName, label: string, title: string }[]} */
 const PROJECTIONS = [
@@ -25,6 +26,7 @@ const PROJECTIONS = [
     title: "Camera: a picture; drag to look elsewhere, Ctrl+wheel to zoom",
   },
 ];
+const SAME_PLACE = 0.01; // degrees, as in the kernel's twin
 const KERNEL_PATIENCE_MS = 1500; // without an answer the code is written here
 
 /** @param {import("./view.js").View} view */
@@ -64,12 +66,15 @@ export function toolbar(view) {
     caption: true,
   });
   const said = element("span", { class: "sw-said", role: "status" });
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let silence;
   copy.addEventListener("click", async () => {
     const code = await codeOf(view);
     said.textContent = (await copied(code)) ? "Copied" : "";
     // Without a clipboard the person copies by hand.
     view.showError(said.textContent ? "" : code);
-    setTimeout(() => {
+    clearTimeout(silence);
+    silence = setTimeout(() => {
       said.textContent = "";
     }, 2500);
   });
@@ -94,9 +99,10 @@ export function toolbar(view) {
 
 /** The kernel's code, or the browser's when no kernel answers. @param {import("./view.js").View} view */
 async function codeOf(view) {
-  const { values } = view.state;
-  const follows = (view.day().length > 0 && values.time !== null) || values.scan !== null;
-  const own = pythonCode(view.state.recipe(), follows ? null : view.sun());
+  const [azimuth, elevation] = view.followedSun();
+  const sun = view.sun();
+  const follows = Math.hypot(turned(sun[0] - azimuth), sun[1] - elevation) < SAME_PLACE;
+  const own = pythonCode(view.state.recipe(), follows ? null : sun);
   /** @type {Promise<string>} */
   const late = new Promise((resolve) => {
     setTimeout(() => resolve(own), KERNEL_PATIENCE_MS);

@@ -184,6 +184,17 @@ export class View {
     return this.model.get("_day") ?? [];
   }
 
+  /** Where time, scan or else the table put the sun. @returns {Point} */
+  followedSun() {
+    const hours = this.state.values.time;
+    const place = hours === null ? null : sunAt(this.day(), Number(hours));
+    if (place) return [place.azimuth, this.clamp("sun_elevation", place.apparent)];
+    const scan = this.measured.scan();
+    if (scan) return [scan.sun_azimuth, scan.sun_elevation];
+    const standard = (/** @type {string} */ name) => Number(this.parameter(name).default);
+    return [standard("sun_azimuth"), standard("sun_elevation")];
+  }
+
   /** Set the clock, and the sun with it. @param {number} hours UTC */
   moveTime(hours) {
     const place = sunAt(this.day(), hours);
