@@ -305,6 +305,7 @@ def test_code_without_a_kernel_is_the_kernels(explorer):
 def test_two_views_of_one_model_stay_in_step_and_say_each_thing_once(explorer):
     page = explorer()
     page.evaluate("showAgain()")
+    page.locator(".sunwidget").nth(1).scroll_into_view_if_needed()
     page.locator(".sunwidget.sw-live").nth(1).wait_for()
     settled(page)
     page.evaluate("model.saved.length = 0")
@@ -319,6 +320,18 @@ def test_two_views_of_one_model_stay_in_step_and_say_each_thing_once(explorer):
     page.evaluate("closeAgain()")
     told = [name for saved in page.evaluate("model.saved") for name in saved]
     assert sorted(name for name in told if name != "_history") == ["show_aerosol", "sun_elevation"]
+
+
+def test_a_view_out_of_sight_draws_when_it_comes_into_sight(explorer):
+    page = explorer()
+    page.evaluate("showAgain(); document.body.lastElementChild.style.marginTop = '4000px'")
+    page.get_by_role("button", name="Golden hour").first.click()
+    settled(page)
+    assert page.locator(".sunwidget").count() == 2
+    assert page.locator(".sunwidget.sw-live").count() == 1
+    page.locator(".sunwidget").nth(1).scroll_into_view_if_needed()
+    page.locator(".sunwidget.sw-live").nth(1).wait_for()
+    page.evaluate("closeAgain(); scrollTo(0, 0)")
 
 
 def test_a_scan_that_the_model_made_has_no_error(explorer):

@@ -34,6 +34,7 @@ const FAST_FRAME_MS = 18; // waiting for the screen's next refresh takes as long
 const SMALLEST_SCALE = 0.35;
 const SETTLED_MS = 160; // after this long without a change the frame is drawn in full
 const MOST_PIXELS = 900_000;
+const SIGHT_MARGIN = "200px"; // this near to the window counts as in sight
 
 let views = 0;
 
@@ -78,6 +79,8 @@ export class View {
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.tracing = undefined;
     this.signal = signal;
+    // A notebook that runs all its cells makes many views at once; only those in sight draw.
+    this.inSight = false;
     this.build();
     this.listen(signal);
     this.show();
@@ -105,9 +108,17 @@ export class View {
     const { model, state, stage } = this;
     state.subscribe(() => this.show());
     stage.onLayout = () => this.requestFrame();
+    const sight = new IntersectionObserver(
+      (entries) => {
+        this.inSight = entries.some((entry) => entry.isIntersecting);
+        if (this.inSight) this.requestFrame();
+      },
+      { rootMargin: SIGHT_MARGIN },
+    );
+    sight.observe(this.root);
     const onData = () => {
       this.show();
-      this.plots.request();
+      if (this.inSight) this.plots.request();
     };
     const names = ["_day", "_measured", "_scans", "_aliases", "_presets"];
     for (const name of names) model.on(`change:${name}`, onData);
@@ -119,6 +130,7 @@ export class View {
     listenToPointer(this, signal);
     this.root.addEventListener("keydown", (event) => this.onKey(event), { signal });
     signal.addEventListener("abort", () => {
+      sight.disconnect();
       for (const name of names) model.off(`change:${name}`, onData);
       model.off("msg:custom", onMessage);
       cancelAnimationFrame(this.request);
@@ -278,6 +290,7 @@ export class View {
   }
 
   requestFrame() {
+    if (!this.inSight) return;
     this.stage.node.setAttribute("aria-busy", "true");
     if (this.request) return;
     this.requested = performance.now();
