@@ -18,7 +18,7 @@ out vec4 result;
 
 const float MEADOW_ALBEDO = 0.06;
 const float NOON = 2.85;    // kcd m^-2: the mean below, sun at 60 degrees in the default atmosphere
-const float KEY = 0.17;     // display light that the mean is drawn with
+const float KEY = 0.14;     // display light that the mean is drawn with
 const float NIGHT = 1e-9;    // no light at all
 const Angle GLOW_RADIUS = 0.011;
 const float GLOW_COLOUR = 0.6;  // share of the sun's colour that its glow has

@@ -27,8 +27,8 @@ const float GLOW_FALL = 1.35;
 // grey, which takes in what lies outside Rec. 709 and lets the brightest lose its colour; after it
 // they are taken apart further than that, for a picture without the dazzle of a real sky needs
 // more colour.
-const float INSET = 0.12;
-const float OUTSET = 0.32;
+const float INSET = 0.06;
+const float OUTSET = 0.3;
 const float CONTRAST = 1.25;
 const float GREY = 0.18;  // stays where it is
 
