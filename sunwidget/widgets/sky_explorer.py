@@ -98,7 +98,6 @@ class SkyExplorer(anywidget.AnyWidget):
     _day: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
     _measured: Any = traitlets.Any(None).tag(sync=True, echo_update=False)
     _scans: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
-    _status = traitlets.Dict().tag(sync=True, echo_update=False)
 
     # One trait a row of the table; a class body's locals() is the class's own dictionary. Those
     # that are set below are named for the type checker.
@@ -125,7 +124,6 @@ class SkyExplorer(anywidget.AnyWidget):
         self._moving = False
         self._picture: tuple[Any, str] | None = None
         super().__init__(
-            _status={"stage": "ready", "fraction": 1.0, "message": ""},
             _scans=scans(),
             **parameters,
         )

@@ -294,7 +294,7 @@ def test_the_table_travels_as_json(explorer):
     rows = json.loads(json.dumps(explorer._parameters))
     assert [row["name"] for row in rows] == [p.name for p in EXPLORER_PARAMETERS]
     assert {row["kind"] for row in rows} == {"number", "choice", "switch", "data"}
-    json.dumps(explorer.get_state(["_aliases", "_presets", "_scans", "_status"]))
+    json.dumps(explorer.get_state(["_aliases", "_presets", "_scans"]))
 
 
 def test_the_browser_gets_code(explorer, sent):
