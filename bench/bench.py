@@ -132,6 +132,20 @@ def canvas(runs: int) -> Iterator[Row]:
     yield Row("canvas frame 1024×698, haze drag", milliseconds, "ms", 120)
 
 
+def explorer(runs: int) -> Iterator[Row]:
+    from canvas import sky_frame_times
+
+    size = (1024, 698)
+    for projection in ("dome", "camera"):
+        view = {"projection": projection}
+        suns = [{**view, "sun_elevation": 1 + i * 0.7 % 17} for i in range(runs + 1)]
+        milliseconds, _ = sky_frame_times(suns, size)
+        yield Row(f"explorer frame 1024×698, sun drag, {projection}", milliseconds, "ms", 33)
+    hazes = [{"aerosol_optical_depth": 0.02 * i % 0.6, "sun_elevation": 5} for i in range(runs + 1)]
+    milliseconds, _ = sky_frame_times(hazes, size)
+    yield Row("explorer frame 1024×698, haze drag", milliseconds, "ms", 120)
+
+
 def first_picture() -> Iterator[Row]:
     from PIL import Image
 
@@ -184,6 +198,7 @@ def main() -> int:
         "network": lambda: sky_network(runs),
         "frames": lambda: frames(runs),
         "canvas": lambda: canvas(runs),
+        "explorer": lambda: explorer(runs),
         "first": first_picture,
         "memory": memory,
         "film": lambda: film(24 if options.quick else 120),

@@ -1,4 +1,4 @@
-"""The canvas's frame time: the built front end's Frame in Chromium, without a notebook."""
+"""The canvas's frame time: the built front ends' frames in Chromium, without a notebook."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Any
 from PIL import Image
 
 from sunwidget.edit import PARAMETERS
+from sunwidget.explorer.table import EXPLORER_PARAMETERS
 from sunwidget.renderer.render import scene_textures
 
 STATIC = Path(__file__).resolve().parents[1] / "sunwidget" / "static"
@@ -20,9 +21,7 @@ ADDRESS = "http://canvas.invalid/"
 FLAGS = ["--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist", "--no-sandbox"]
 # Frames that are drawn in a row.
 DRAG = 5
-PAGE = """
-<!doctype html><canvas id="canvas"></canvas>
-<script type="module">
+EDITOR = """
 import { Frame } from "./sun_editor.js";
 const { parameters, scene, pictures } = await (await fetch("./scene.json")).json();
 const frame = new Frame(document.getElementById("canvas"), parameters);
@@ -32,8 +31,15 @@ for (const name of pictures) {
   frame.setPicture(name, await createImageBitmap(bytes, options));
 }
 frame.setScene(scene);
-// Frames follow each other as in a drag, each waited for by reading a pixel where it is drawn. The
-// visible canvas, a copy, is read once at the end: reading it each time would cost as much again.
+"""
+EXPLORER = """
+import { SkyFrame } from "./sky_explorer.js";
+const { parameters } = await (await fetch("./scene.json")).json();
+const frame = new SkyFrame(document.getElementById("canvas"), parameters);
+"""
+# Frames follow each other as in a drag, each waited for by reading a pixel where it is drawn. The
+# visible canvas, a copy, is read once at the end: reading it each time would cost as much again.
+TIME = """
 window.time = (edits, size) => {
   const begin = performance.now();
   for (const edit of edits) {
@@ -45,16 +51,39 @@ window.time = (edits, size) => {
   return [(performance.now() - begin) / edits.length, red];
 };
 window.ready = true;
-</script>
 """
+HTML, SCRIPT = "text/html", "text/javascript"
 
 
 def frame_times(scene: Any, edits: list[dict[str, Any]]) -> tuple[float, str]:
     """Return the median milliseconds of drawing ``edits`` in turn, and the GL renderer's name."""
+    size = (scene.camera.width, scene.camera.height)
+    return _drag(_page(EDITOR, "sun_editor.js") | _answers(scene, size), edits, size)
+
+
+def sky_frame_times(edits: list[dict[str, Any]], size: tuple[int, int]) -> tuple[float, str]:
+    """Return the same for SkyExplorer's picture; ``edits`` are values of its parameters."""
+    facts = {"parameters": [p._asdict() for p in EXPLORER_PARAMETERS]}
+    answers = {"scene.json": {"body": json.dumps(facts), "content_type": "application/json"}}
+    return _drag(_page(EXPLORER, "sky_explorer.js") | answers, edits, size)
+
+
+def _page(code: str, bundle: str) -> dict[str, dict[str, Any]]:
+    html = (
+        f'<!doctype html><canvas id="canvas"></canvas><script type="module">{code}{TIME}</script>'
+    )
+    return {
+        "": {"body": html, "content_type": HTML},
+        bundle: {"body": (STATIC / bundle).read_text("utf-8"), "content_type": SCRIPT},
+        "favicon.ico": {"status": 404},
+    }
+
+
+def _drag(
+    answers: dict[str, dict[str, Any]], edits: list[dict[str, Any]], size: tuple[int, int]
+) -> tuple[float, str]:
     from playwright.sync_api import sync_playwright
 
-    width, height = scene.camera.width, scene.camera.height
-    answers = _answers(scene, (width, height))
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
         page = browser.new_page()
@@ -72,11 +101,11 @@ def frame_times(scene: Any, edits: list[dict[str, Any]]) -> tuple[float, str]:
             }"""
         )
         drags = [edits[:1], *(edits[i : i + DRAG] for i in range(1, len(edits), DRAG))]
-        drawn = [page.evaluate("([e, s]) => time(e, s)", [e, [width, height]]) for e in drags]
+        drawn = [page.evaluate("([e, s]) => time(e, s)", [e, list(size)]) for e in drags]
         browser.close()
     if len({red for _, red in drawn}) == 1:
         raise RuntimeError("The canvas never changed: nothing was measured.")
-    # The first frame compiles the shaders and computes the photo's own sky.
+    # The first frame compiles the shaders and, in the editor, computes the photo's own sky.
     return statistics.median(time for time, _ in drawn[1:]), str(renderer)
 
 
@@ -88,14 +117,8 @@ def _answers(scene: Any, size: tuple[int, int]) -> dict[str, dict[str, Any]]:
         "scene": {"automatic": scene.automatic, "uniforms": scene.uniforms()},
         "pictures": list(textures),
     }
-    answers = {
-        "": {"body": PAGE, "content_type": "text/html"},
+    answers: dict[str, dict[str, Any]] = {
         "scene.json": {"body": json.dumps(facts, default=list), "content_type": "application/json"},
-        "sun_editor.js": {
-            "body": (STATIC / "sun_editor.js").read_text("utf-8"),
-            "content_type": "text/javascript",
-        },
-        "favicon.ico": {"status": 404},
     }
     for name, pixels in textures.items():
         data = io.BytesIO()
