@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { EditState, HISTORY_BYTES, HISTORY_LENGTH } from "../src/editor/state.js";
+import { EditState, HISTORY_BYTES, HISTORY_LENGTH } from "../src/state.js";
 import { FakeModel } from "./fake_model.js";
 
 const parameters = [

@@ -2,6 +2,7 @@
 
 import { button, holdButton, radioButtons } from "../controls/button.js";
 import { element } from "../controls/element.js";
+import { historyButtons } from "../controls/history.js";
 import { BRUSHES } from "./strokes.js";
 
 /** @typedef {import("./view.js").View} View */
@@ -55,24 +56,7 @@ export function toolbar(view) {
     value: view.tool,
     onChange: (tool) => view.setTool(tool),
   });
-  const undo = button({
-    icon: "undo",
-    label: "Undo",
-    title: "Undo (Ctrl+Z)",
-    onClick: () => state.undo(),
-  });
-  const redo = button({
-    icon: "redo",
-    label: "Redo",
-    title: "Redo (Ctrl+Shift+Z)",
-    onClick: () => state.redo(),
-  });
-  const reset = button({
-    icon: "reset",
-    label: "Reset",
-    title: "Everything back to the photo",
-    onClick: () => state.reset(),
-  });
+  const history = historyButtons(state, "Everything back to the photo");
   const before = holdButton({
     icon: "before",
     label: "Before",
@@ -103,16 +87,13 @@ export function toolbar(view) {
     before.node,
     save,
   );
-  node.append(tools.node, size, element("div", { class: "sw-group" }, undo, redo, reset), end);
+  node.append(tools.node, size, history.node, end);
   return {
     node,
     before,
     show() {
       tools.show(view.tool);
-      const { past, future } = state.history();
-      undo.disabled = past.length === 0;
-      redo.disabled = future.length === 0;
-      reset.disabled = Object.keys(state.recipe()).length === 0;
+      history.show();
       save.disabled = !view.scene || view.saving;
       size.hidden = !BRUSHES.includes(view.tool);
       size.value = String(view.brushRadius);

@@ -5,7 +5,7 @@ import { element } from "../controls/element.js";
 import { section } from "../controls/section.js";
 import { slider } from "../controls/slider.js";
 import { toggle } from "../controls/toggle.js";
-import { equal } from "../editor/state.js";
+import { equal } from "../state.js";
 import { depthOfTurbidity, depthOfVisibility, turbidity, visibility } from "./haze.js";
 import { measuredControls } from "./measured.js";
 import { MODEL_NAMES, modelControls } from "./model_controls.js";

@@ -2,6 +2,7 @@
 
 import { button, radioButtons } from "../controls/button.js";
 import { element } from "../controls/element.js";
+import { historyButtons } from "../controls/history.js";
 import { pythonCode } from "./code.js";
 import { turned } from "./day.js";
 
@@ -41,24 +42,7 @@ export function toolbar(view) {
   for (const [i, node] of [...projections.node.children].entries()) {
     node.append(element("span", {}, PROJECTIONS[i].label));
   }
-  const undo = button({
-    icon: "undo",
-    label: "Undo",
-    title: "Undo (Ctrl+Z)",
-    onClick: () => state.undo(),
-  });
-  const redo = button({
-    icon: "redo",
-    label: "Redo",
-    title: "Redo (Ctrl+Shift+Z)",
-    onClick: () => state.redo(),
-  });
-  const reset = button({
-    icon: "reset",
-    label: "Reset",
-    title: "Everything back to its default",
-    onClick: () => state.reset(),
-  });
+  const history = historyButtons(state, "Everything back to its default");
   const copy = button({
     icon: "copy",
     label: "Copy code",
@@ -82,17 +66,14 @@ export function toolbar(view) {
     "div",
     { class: "sw-toolbar", role: "toolbar", "aria-label": "Sky explorer" },
     projections.node,
-    element("div", { class: "sw-group" }, undo, redo, reset),
+    history.node,
     element("div", { class: "sw-group sw-end" }, said, copy),
   );
   return {
     node,
     show() {
       projections.show(String(state.values.projection));
-      const { past, future } = state.history();
-      undo.disabled = past.length === 0;
-      redo.disabled = future.length === 0;
-      reset.disabled = Object.keys(state.recipe()).length === 0;
+      history.show();
     },
   };
 }

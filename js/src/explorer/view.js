@@ -7,7 +7,7 @@
 
 import { Channel } from "../channel.js";
 import { element } from "../controls/element.js";
-import { EditState } from "../editor/state.js";
+import { EditState } from "../state.js";
 import { angleBetween, sunAt, turned } from "./day.js";
 import { Guides } from "./guides.js";
 import { MOST_SAMPLES } from "./limits.js";

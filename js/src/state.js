@@ -8,10 +8,10 @@
  */
 
 /**
- * @typedef {import("../types.js").Edit} Edit
- * @typedef {import("../types.js").History} History
- * @typedef {import("../types.js").Model} Model
- * @typedef {import("../types.js").Parameter} Parameter
+ * @typedef {import("./types.js").Edit} Edit
+ * @typedef {import("./types.js").History} History
+ * @typedef {import("./types.js").Model} Model
+ * @typedef {import("./types.js").Parameter} Parameter
  */
 
 const THROTTLE_MS = 100;
