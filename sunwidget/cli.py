@@ -209,7 +209,7 @@ def _demo(options: argparse.Namespace) -> int:
 
 def _refuse_existing(path: Path, overwrite: bool) -> None:
     """Fail before the work, not after it."""
-    from sunwidget.export.files import target
+    from sunwidget.files import target
 
     if path.exists() and not overwrite:
         raise FileExistsError(f"{path} exists already. Add --overwrite to replace it.")

@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import io
-import os
 import re
-import tempfile
 import urllib.error
 import urllib.request
 from collections.abc import Callable, Mapping
@@ -21,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.cache import cache_folder
+from sunwidget.files import complete_or_absent
 
 Array = NDArray[np.float64]
 Progress = Callable[[float, str], None]
@@ -242,12 +241,6 @@ def _write(
 ) -> None:
     """Write the ``.npz``; a reader never sees half of it."""
     target.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=".measured-", suffix=".npz")
-    try:
-        arrays = {f"scan_{name}": values for name, values in scans.items()}
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, wavelength_nm=nm, dirs=directions, **arrays)  # type: ignore[arg-type]
-        Path(temporary).replace(target)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    arrays = {f"scan_{name}": values for name, values in scans.items()}
+    with complete_or_absent(target, overwrite=True) as unfinished:
+        np.savez(unfinished, wavelength_nm=nm, dirs=directions, **arrays)  # type: ignore[arg-type]

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -17,6 +16,7 @@ from sunwidget.explorer.projection import Projection
 from sunwidget.explorer.values import effective_values
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs, Target
+from sunwidget.renderer.render import checked_size
 from sunwidget.renderer.shader_source import frame_graph
 
 Floats = npt.NDArray[np.float32]
@@ -74,7 +74,7 @@ def draw(
     RendererError
         When this machine has no EGL.
     """
-    size = _checked_size(size)
+    size = checked_size(size)
     host = {"output_transfer": 1, "dither": 0.5}
     texels = _run(values, size, host, None, {"bruneton": bruneton}, samples, progress)
     around = np.array(BACKGROUND, np.float32) / 255
@@ -96,7 +96,7 @@ def radiance_map(
     array, (height, width, 4), float32
         W m⁻² sr⁻¹ nm⁻¹ at 640, 580, 510 and 440 nm; NaN where no sky is shown.
     """
-    size = _checked_size(size)
+    size = checked_size(size)
     host = {"output_transfer": 0, "dither": 0.0}
     texels = _run(values, size, host, None, {"bruneton": bruneton}, samples, None)
     x, y = np.meshgrid(np.arange(size[0]) + 0.5, np.arange(size[1]) + 0.5)
@@ -219,13 +219,3 @@ def _graph(context: Any, textures: Mapping[str, Floats | None]) -> FrameGraph:
             graph.set_texture(name, np.asarray(image, np.float32))
             _tables[key] = image  # keeps it alive, so that its identity stays its own
     return graph
-
-
-def _checked_size(size: Any) -> tuple[int, int]:
-    try:
-        width, height = (operator.index(n) for n in size)
-    except (TypeError, ValueError):
-        width = height = 0
-    if width < 1 or height < 1:
-        raise EditError(f"size must be (width, height) in whole pixels, not {size!r:.40}.")
-    return width, height

@@ -60,19 +60,9 @@ def _switch(name: str, label: str, text: str) -> Parameter:
     )
 
 
-def _data(
-    name: str,
-    span: tuple[float, float],
-    step: float,
-    unit: str,
-    label: str,
-    section: str,
-    text: str,
-) -> Parameter:
-    low, high = map(float, span)
-    return Parameter(
-        name, "data", None, low, high, step, unit, label, section, text, (), False, False
-    )
+def _data(name: str, *row: Any) -> Parameter:
+    """Return a row as ``_number`` makes it, of a value that is no uniform and may be missing."""
+    return _number(name, 0.0, *row)._replace(kind="data", default=None)
 
 
 # fmt: off

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from sunwidget import exif as exif_tags
 from sunwidget.color import strips
 from sunwidget.edit import Edit
-from sunwidget.export.files import complete_or_absent, target
 from sunwidget.export.formats import FORMATS, Encoder, Still
+from sunwidget.files import complete_or_absent, target
 from sunwidget.photo import Photo, PhotoError, open_photo
 
 # Light that differs less than this from the photo's own is the photo's own: it is the

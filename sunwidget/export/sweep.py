@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sunwidget.edit import NUMBERS, PARAMETERS, Edit, EditError
-from sunwidget.export.files import complete_or_absent, target
+from sunwidget.files import complete_or_absent, target
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene

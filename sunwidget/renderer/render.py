@@ -127,7 +127,7 @@ def render(
         raise EditError(f"dtype must be 'uint8', 'uint16' or 'float32', not {dtype!r:.40}.")
     scene = scene.corrected(edit)
     own = (scene.photo.pixels.shape[1], scene.photo.pixels.shape[0])
-    size = own if size is None else _checked_size(size)
+    size = own if size is None else checked_size(size)
 
     def task(context: moderngl.Context) -> npt.NDArray[Any]:
         graph = _renderer(context).graph(scene, size)
@@ -142,7 +142,7 @@ def render_pass(
     """Return what one pass of the frame graph draws, (h, w, 4) float32: for tests and lessons."""
     scene = scene.corrected(edit)
     own = (scene.photo.pixels.shape[1], scene.photo.pixels.shape[0])
-    size = own if size is None else _checked_size(size)
+    size = own if size is None else checked_size(size)
 
     def task(context: moderngl.Context) -> npt.NDArray[np.float32]:
         graph = _renderer(context).graph(scene, size)
@@ -161,7 +161,8 @@ def render_pass(
     return on_gl_thread(task)
 
 
-def _checked_size(size: Any) -> tuple[int, int]:
+def checked_size(size: Any) -> tuple[int, int]:
+    """Return ``size`` as (width, height) in whole pixels, at least one; else raise EditError."""
     try:
         width, height = (operator.index(n) for n in size)
     except (TypeError, ValueError):
@@ -215,4 +216,4 @@ def _draw(
     return out
 
 
-__all__ = ["METHODS", "quantise_map", "render", "render_pass", "scene_textures"]
+__all__ = ["METHODS", "checked_size", "quantise_map", "render", "render_pass", "scene_textures"]

@@ -12,7 +12,6 @@ import contextlib
 import hashlib
 import json
 import os
-import tempfile
 import warnings
 import zipfile
 from pathlib import Path
@@ -22,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.cache import cache_folder
+from sunwidget.files import complete_or_absent
 
 VERSION = 2
 _LOWEST = -48.0  # log2 of the least value that is kept
@@ -60,14 +60,8 @@ def write(name: str, table: NDArray[np.float32]) -> None:
     target = path(name)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=".sky-", suffix=".npz")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                np.savez(file, logarithms=encode(table))
-            Path(temporary).replace(target)
-        except BaseException:
-            Path(temporary).unlink(missing_ok=True)
-            raise
+        with complete_or_absent(target, overwrite=True) as unfinished:
+            np.savez(unfinished, logarithms=encode(table))
         _prune(target.parent)
     except OSError as error:
         warnings.warn(

@@ -30,20 +30,13 @@ Number GetMeanMiePhase(int zenith, int azimuth, Number mu_s) {
 }
 
 void main() {
-  ivec2 texel = ivec2(gl_FragCoord.xy);
-  ivec2 tile = texel / field_size.yx;
-  ivec2 cell = texel - tile * field_size.yx;
-  float mu_s = GetSunCosineOfSample(cell.x, field_size.y);
-  float h = GetAltitudeOfCoordinate(float(cell.y) / float(field_size.x - 1));
-  float mu = GetFieldZenithCosine(tile.y);
-  float nu = GetScatteringCosine(mu, mu_s, cos(GetAzimuth(tile.x, FIELD_AZIMUTHS)));
-  bool ground = RayIntersectsGround(h, mu);
-  float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
-  SingleScattering single = ComputeSingleScattering(h, mu, mu_s, nu, d);
-  vec4 radiance = single.air * RayleighPhase(nu)
-      + single.haze * GetMeanMiePhase(tile.y, tile.x, mu_s);
-  if (ground) {
-    radiance += single.transmittance * ground_albedo / PI * GetSunOnGround(h, mu_s, nu, d);
+  IncidentRay ray = GetIncidentRay(ivec2(gl_FragCoord.xy));
+  SingleScattering single = ComputeSingleScattering(ray.h, ray.mu, ray.mu_s, ray.nu, ray.d);
+  vec4 radiance = single.air * RayleighPhase(ray.nu)
+      + single.haze * GetMeanMiePhase(ray.tile.y, ray.tile.x, ray.mu_s);
+  if (ray.ground) {
+    vec4 sun = GetSunOnGround(ray.h, ray.mu_s, ray.nu, ray.d);
+    radiance += single.transmittance * ground_albedo / PI * sun;
   }
-  result = radiance / GetFading(mu_s);
+  result = radiance / GetFading(ray.mu_s);
 }

@@ -2,8 +2,8 @@
 // of while the precomputed sky is under way.
 //
 // Two textures, both over GetFading and per unit of solar irradiance:
-//   incident   radiance of one order in each direction of a quadrature (four-point
-//              Gauss-Legendre on each hemisphere times AZIMUTHS over half a circle), that is
+//   incident   radiance of one order in each direction of a quadrature (eight-point
+//              Gauss-Legendre on each hemisphere times FIELD_AZIMUTHS over half a circle), that is
 //              tiles of azimuth along x and zenith along y; in each mu_s along x, r along y
 //   source     what air (upper half) and haze (lower half) send on of it towards a viewer who
 //              looks along theta, phi, for a scattering coefficient of one, that is the mean of
@@ -34,6 +34,29 @@ Number GetFieldZenithCosine(int zenith) {
 
 Number GetFieldWeight(int zenith) {
   return 0.5 * FIELD_WEIGHTS[zenith % 8] / float(FIELD_AZIMUTHS);
+}
+
+// The ray that a texel of "incident" stands for.
+struct IncidentRay {
+  ivec2 tile;  // azimuth, zenith
+  Length h;
+  Number mu;
+  Number mu_s;
+  Number nu;
+  bool ground;
+  Length d;  // to the ground or the top
+};
+
+IncidentRay GetIncidentRay(ivec2 texel) {
+  ivec2 tile = texel / field_size.yx;
+  ivec2 cell = texel - tile * field_size.yx;
+  float mu_s = GetSunCosineOfSample(cell.x, field_size.y);
+  float h = GetAltitudeOfCoordinate(float(cell.y) / float(field_size.x - 1));
+  float mu = GetFieldZenithCosine(tile.y);
+  float nu = GetScatteringCosine(mu, mu_s, cos(GetAzimuth(tile.x, FIELD_AZIMUTHS)));
+  bool ground = RayIntersectsGround(h, mu);
+  float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
+  return IncidentRay(tile, h, mu, mu_s, nu, ground, d);
 }
 
 // Means over the phase functions of air and haze of light around a point.
