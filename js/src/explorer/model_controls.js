@@ -2,6 +2,7 @@
 
 import { element } from "../controls/element.js";
 import { MOST_SAMPLES } from "./limits.js";
+import { SWITCHED_OFF } from "./values.js";
 
 /** What people read in the choice of models. @type {Record<string, string>} */
 export const MODEL_NAMES = {
@@ -12,25 +13,6 @@ export const MODEL_NAMES = {
   reference: "Path tracing",
 };
 
-/** The rows that Bruneton's table depends on. */
-const OPTICAL = [
-  "aerosol_optical_depth",
-  "angstrom_exponent",
-  "aerosol_asymmetry",
-  "aerosol_albedo",
-  "ozone",
-  "ground_albedo",
-  "altitude",
-  "air_density",
-  "rayleigh_exponent",
-  "rayleigh_scale_height",
-  "aerosol_scale_height",
-  "scattering_orders",
-  "show_rayleigh",
-  "show_aerosol",
-  "show_ozone",
-];
-
 /**
  * @param {import("./view.js").View} view
  * @param {AbortSignal} signal
@@ -39,7 +21,14 @@ export function modelControls(view, signal) {
   const { state } = view;
   const uses = (/** @type {string} */ model) =>
     state.values.model === model || state.values.compare === model;
-  const key = () => JSON.stringify(OPTICAL.map((name) => state.values[name]));
+  /** What Bruneton's table depends on: the air, the switches over it, and the orders. */
+  const optical = view.parameters
+    .filter(
+      ({ name, section }) =>
+        section === "air" || name in SWITCHED_OFF || name === "scattering_orders",
+    )
+    .map(({ name }) => name);
+  const key = () => JSON.stringify(optical.map((name) => state.values[name]));
   let computed = "";
   let busy = false;
   /** What the kernel says the table takes, and for which air. @type {{ key: string, cached: boolean, seconds: number }} */
@@ -47,7 +36,7 @@ export function modelControls(view, signal) {
   let asking = "";
   const parameters = () =>
     Object.fromEntries(
-      OPTICAL.filter((name) => name in state.values).map((name) => [name, state.values[name]]),
+      optical.filter((name) => name in state.values).map((name) => [name, state.values[name]]),
     );
 
   /** Ask what the table of this air would take; one that lies ready is fetched at once. */
