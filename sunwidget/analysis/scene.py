@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis import match, refine
+from sunwidget.analysis import depth_level, match, refine
 from sunwidget.analysis import sky as sky_stage
 from sunwidget.analysis import water as water_stage
 from sunwidget.analysis.clouds import Clouds
@@ -209,16 +209,27 @@ class Scene:
         return np.stack([resize(image, width, height) for image in maps], axis=-1)
 
     def surface(self, size: tuple[int, int] | None = None) -> np.ndarray:
-        """(H, W, 3) float32 in [0, 1]: glare, water, glitter.
+        """(H, W, 4) float32 in [0, 1]: glare, water, glitter, log-depth of the land.
 
         Glare is where the photo says nothing about the sky behind: the old sun's clipped core
-        and its halo, fading outwards. ``size`` as for ``layers``.
+        and its halo, fading outwards. The log-depth (depth_level.py) is dithered; in the sky it
+        is that of the nearest land. ``size`` as for ``layers``.
         """
         width, height = size or (self.width, self.height)
         small = self.working
         sky = resize(self.sky, small.width, small.height)
         maps = (self.glare, self.water, water_stage.glitter(small, sky))
-        return np.stack([resize(image, width, height) for image in maps], axis=-1)
+        level = resize(depth_level.fill_sky(*self._land_level), width, height)
+        return np.stack(
+            [*(resize(image, width, height) for image in maps), depth_level.dithered(level)],
+            axis=-1,
+        )
+
+    @cached_property
+    def _land_level(self) -> tuple[np.ndarray, np.ndarray]:
+        """Log-depth at working size, and where it is land."""
+        depth = resize(self.depth, self.working.width, self.working.height)
+        return depth_level.to_level(depth), np.isfinite(depth)
 
     def corrected(self, edit: Edit) -> Scene:
         """Return the scene with the edit's strokes, hints and choice of clouds applied.

@@ -64,11 +64,10 @@ def scene_textures(scene: Scene, size: tuple[int, int]) -> dict[str, npt.NDArray
     import cv2
 
     photo = scene.photo.pixels
-    layers, surface = scene.layers(), scene.surface()
+    layers, surface = scene.layers(), scene.surface(size)
     if (photo.shape[1], photo.shape[0]) != size:
         photo = cv2.resize(photo, size, interpolation=cv2.INTER_AREA)
         layers = cv2.resize(layers, size, interpolation=cv2.INTER_AREA)
-        surface = cv2.resize(surface, size, interpolation=cv2.INTER_AREA)
     return {
         "photo": photo.astype(np.float32, copy=False),
         "layers": quantise_map(layers),

@@ -16,9 +16,9 @@ def scene():
     return sw.analyze(seascape(*SIZE), fov=45.0)
 
 
-def test_layers_and_surface_have_three_channels_in_range(scene):
-    for stack in (scene.layers(), scene.surface()):
-        assert stack.shape == (*SIZE[::-1], 3)
+def test_layers_and_surface_are_stacks_in_range(scene):
+    for stack, channels in ((scene.layers(), 3), (scene.surface(), 4)):
+        assert stack.shape == (*SIZE[::-1], channels)
         assert stack.dtype == np.float32
         assert 0 <= stack.min() <= stack.max() <= 1
 

@@ -35,7 +35,8 @@ def test_maps_have_the_photos_size_type_and_range(scene):
         assert found.dtype == np.float32, name
         assert 0 <= found.min() <= found.max() <= 1, name
     assert scene.depth.shape == (HEIGHT, WIDTH)
-    assert scene.layers().shape == scene.surface().shape == (HEIGHT, WIDTH, 3)
+    assert scene.layers().shape == (HEIGHT, WIDTH, 3)
+    assert scene.surface().shape == (HEIGHT, WIDTH, 4)
 
 
 def test_sky_is_infinitely_far_and_the_ground_nears_towards_the_feet(scene):

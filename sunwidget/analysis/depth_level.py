@@ -1,0 +1,63 @@
+"""Depth as the frame reads it: eight bits of log-depth a pixel, the sky filled from the land.
+
+level = log2(depth in metres, clamped to 1 … 65 536) / 16, so that one of 255 levels is 4.4 % of
+the depth. A dither of ± half a level lets neighbours tell what lies between two levels.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+OCTAVES = 16.0  # 1 m to 65 536 m
+
+
+def to_level(depth: np.ndarray) -> np.ndarray:
+    """Return the level of a depth in metres: float32 in [0, 1]; inf is 1."""
+    reach = np.float32(2**OCTAVES)
+    clipped = np.clip(np.asarray(depth, np.float32), np.float32(1), reach)
+    return np.asarray(np.log2(clipped) / np.float32(OCTAVES), np.float32)
+
+
+def to_depth(level: np.ndarray) -> np.ndarray:
+    """Return metres of a level: the inverse of ``to_level``."""
+    return np.asarray(np.exp2(np.asarray(level, np.float32) * np.float32(OCTAVES)))
+
+
+def fill_sky(values: np.ndarray, land: np.ndarray) -> np.ndarray:
+    """Give each pixel outside the land the value of the nearest one inside.
+
+    Parameters
+    ----------
+    values : (h, w) float32
+    land : (h, w) bool
+
+    Returns
+    -------
+    (h, w) float32
+        ``values`` itself where all or nothing is land.
+    """
+    import cv2
+
+    if land.all() or not land.any():
+        return values
+    _, labels = cv2.distanceTransformWithLabels(
+        (~land).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    # Every pixel of the land has a label of its own, its neighbours outside share it.
+    of_label = np.zeros(int(labels.max()) + 1, np.float32)
+    of_label[labels[land]] = values[land]
+    return np.where(land, values, of_label[labels])
+
+
+def dithered(level: np.ndarray) -> np.ndarray:
+    """Add ± half an 8-bit level of noise, always the same: interleaved gradient noise.
+
+    Its mean over any 3 × 3 pixels is nearly 0 (Jimenez, "Next generation post processing in
+    Call of Duty: Advanced Warfare", SIGGRAPH 2014 course), so that small averages are exact.
+    """
+    height, width = level.shape
+    slope = np.float32(0.06711056) * np.arange(width, dtype=np.float32)
+    rows = np.float32(0.00583715) * np.arange(height, dtype=np.float32)[:, None]
+    noise = np.float32(52.9829189) * np.mod(slope + rows, np.float32(1))
+    noise -= np.floor(noise)
+    return np.clip(level + (noise - np.float32(0.5)) / np.float32(255), 0, 1)
