@@ -119,6 +119,7 @@ async function main() {
     legalComments: "none",
     plugins: [
       shaderPlugin,
+      packPlugin(join(out, "sun_editor.js"), ["Frame"]),
       packPlugin(join(out, "sky_explorer.js"), ["Projection", "SkyFrame"], licence("uplot")),
     ],
   });
