@@ -17,6 +17,7 @@ from typing import Any, Literal, NamedTuple, Self
 
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
+LIGHTS = ("sun", "moon")
 # "analysed": as ``analyze`` chose. The others are the names in ``analysis.clouds.METHODS``.
 CLOUD_METHODS = ("analysed", "rb_ratio", "rb_difference", "saturation", "learned", "unmix")
 
@@ -147,6 +148,10 @@ class Edit:
         "Sun's apparent elevation above the horizon; negative is twilight.")
     sun_size: float = _number(1.0, (0, 5), 0.05, "×", "Disc size", "sun",
         "Diameter of the drawn disc in units of the sun's own 0.533°; 0 draws none.")
+    sun_visibility: float = _number(1.0, (0, 1), 0.01, "", "Disc's light", "sun",
+        "Share of the disc's light that comes through; 0 is no sun, as behind a thick cloud.")
+    light_source: str = _choice("sun", LIGHTS, "Light", "sun",
+        "sun, or moon: a full moon that stands where the sun would.")
     sky_strength: float = _number(1.0, (0, 1), 0.01, "", "Sky", "sky",
         "How far the sky follows the moved sun; 0 is exactly off.")
     aerosol_optical_depth: float | None = _number(None, (0, 0.6), 0.005, "", "Haze", "sky",
@@ -186,12 +191,52 @@ class Edit:
     cloud_method: str = _choice("analysed", CLOUD_METHODS, "Found by", "clouds",
         "How clouds are told from clear sky; analysed keeps what analyze() was asked for.",
         analysis=True)
+    cloud_opacity: float = _number(1.0, (0, 2), 0.01, "×", "Opacity", "clouds",
+        "Opacity of the photo's own clouds in units of what it is; 0 removes them.")
+    cloud_softness: float = _number(0.0, (0, 1), 0.01, "", "Softness", "clouds",
+        "How far the edges of the photo's own clouds dissolve.")
+    added_clouds: float = _number(0.0, (0, 1), 0.01, "", "Added clouds", "clouds",
+        "Share of the sky that a layer of added clouds covers; 0 adds none.")
+    added_cloud_size: float = _number(1.0, (0.2, 5), 0.05, "km", "Size", "clouds",
+        "Size of the added clouds.")
+    added_cloud_height: float = _number(1.5, (0.5, 10), 0.1, "km", "Height", "clouds",
+        "Height of the added clouds' layer above the camera.", advanced=True)
+    cloud_pattern: float = _number(0.0, (0, 100), 0.1, "", "Pattern", "clouds",
+        "Which of many patterns the added clouds take; neighbours flow into each other.",
+        advanced=True)
+    wind_speed: float = _number(5.0, (0, 15), 0.1, "m/s", "Wind", "clouds",
+        "Wind: it drives the added clouds and roughens water.")
+    wind_direction: float = _number(0.0, (-180, 180), 1, "°", "Wind towards", "clouds",
+        "Where the wind blows to, relative to the camera's heading, positive to the right.",
+        advanced=True)
+    wind_time: float = _number(0.0, (-60, 60), 0.1, "min", "Drift", "clouds",
+        "How long the wind has driven the added clouds.", advanced=True)
     land_strength: float = _number(1.0, (0, 1), 0.01, "", "Land", "land",
         "How far the land follows the moved sun; 0 is exactly off.")
     land_facing: float = _number(0.15, (0, 1), 0.01, "", "Upright surfaces", "land",
         "Share of the land's surfaces that face the camera; the rest faces the zenith.")
     colourfulness: float = _number(0.5, (0, 1), 0.01, "", "Colour loss in shade", "land",
         "How much colour the land loses when the sun's disc is hidden (thesis eq. 3.8).")
+    shading: float = _number(0.5, (0, 1), 0.01, "", "Shading", "land",
+        "How far the light follows the slope of the land; 0 is exactly off.")
+    cast_shadows: float = _number(0.5, (0, 1), 0.01, "", "Cast shadows", "land",
+        "How far shadows in the land leave the old sun and follow the new one; 0 is exactly off.")
+    cloud_shadows: float = _number(0.5, (0, 1), 0.01, "", "Cloud shadows", "land",
+        "How far the clouds' shadows on the land follow the sun; 0 is exactly off.")
+    aerial_perspective: float = _number(1.0, (0, 1), 0.01, "", "Aerial perspective", "land",
+        "How far the air before distant land follows the sun; 0 is exactly off.")
+    water_strength: float = _number(1.0, (0, 1), 0.01, "", "Water", "water",
+        "How far water mirrors the changed sky; 0 lights it as land.")
+    glitter: float = _number(1.0, (0, 3), 0.05, "", "Glitter", "water",
+        "The sun's glints on water: 1 as the waves of this wind make them.")
+    glow: float = _number(1.0, (0, 3), 0.05, "", "Glow", "effects",
+        "Veiling glare of the camera round the sun, also before the land.")
+    light_shafts: float = _number(0.5, (0, 1), 0.01, "", "Light shafts", "effects",
+        "Beams in the haze where land and clouds let the sun through.")
+    lens_flare: float = _number(0.0, (0, 1), 0.01, "", "Lens flare", "effects",
+        "Reflections in the lens on the line from the sun through the picture's centre.")
+    grain: float = _number(1.0, (0, 2), 0.05, "", "Grain", "effects",
+        "The photo's own noise on what was filled, so that it does not look smooth.")
     exposure: float = _number(0.0, (-4, 4), 0.05, "EV", "Exposure", "light",
         "Exposure compensation of the moved picture.")
     auto_exposure: float = _number(0.9, (0, 1), 0.01, "", "Automatic exposure", "light",

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from sunwidget.edit import METHODS, NUMBERS, Edit
+from sunwidget.edit import PARAMETERS, Edit
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,11 +18,14 @@ Value = float | int | tuple[float, ...]
 
 
 def parameter_values(edit: Edit, automatic: Mapping[str, float]) -> dict[str, Value]:
-    """Return every number of ``edit`` with automatic ones filled in, and ``method``'s index."""
-    values: dict[str, Value] = {"method": METHODS.index(edit.method)}
-    for p in NUMBERS:
+    """Return every number of ``edit`` with automatic ones filled in, and the index of a choice."""
+    values: dict[str, Value] = {}
+    for p in PARAMETERS:
         value = getattr(edit, p.name)
-        values[p.name] = float(automatic[p.name] if value is None else value)
+        if p.kind == "choice":
+            values[p.name] = p.choices.index(value)
+        elif p.kind == "number":
+            values[p.name] = float(automatic[p.name] if value is None else value)
     return values
 
 

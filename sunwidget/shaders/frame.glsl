@@ -9,13 +9,16 @@
 #include "lib/relit_sky.glsl"
 #include "lib/relit_land.glsl"
 #include "lib/disc.glsl"
+#include "lib/land_light.glsl"
+#include "lib/air.glsl"
 #include "lib/frame_output.glsl"
 
-uniform sampler2D photo;
+uniform sampler2D retouched;
 uniform sampler2D scene_light;
 uniform sampler2D sky_source;
 uniform sampler2D sky_behind;
 uniform sampler2D mirror_ratio;
+uniform sampler2D veil;
 
 // Share of a pixel's light that is sky. Where the matte is soft a pixel shows both, and twigs
 // before a bright sky are mostly sky: the light behind is known (sky_behind.glsl), and the rest is
@@ -33,12 +36,12 @@ void main() {
   vec2 place = pixel / frame_size;
   ivec2 texel = ivec2(pixel - tile_origin);
   vec3 view = GetViewDirection(place);
-  vec3 display = ReadPicture(photo, place).rgb;
+  vec3 display = texelFetch(retouched, texel, 0).rgb;
   vec4 scene_texel = texelFetch(scene_light, texel, 0);
   vec4 behind_texel = texelFetch(sky_behind, texel, 0);
   vec3 scene = scene_texel.rgb;
   vec3 sky_marks = UnpackLevels(behind_texel.a);
-  vec2 land_marks = UnpackLevels(scene_texel.a).rg;
+  vec3 land_marks = UnpackLevels(scene_texel.a);
 
   // What of the pixel is sky and what is land, each as if it filled the pixel.
   vec3 clean = behind_texel.rgb;
@@ -56,8 +59,11 @@ void main() {
 
   float upright = GetUprightness(view);
   float mirror = GetMirrorShare(front, GetLitBefore(upright), land_marks.g, land_marks.r);
-  vec3 land_change = GetLandChange(front, GetLandRatio(upright), mirror,
-      ReadBilinear(mirror_ratio, place).rgb);
+  vec3 land_ratio = GetLandLight(place, land_marks.b);
+  vec3 air = GetAirChange(place, land_marks.b, land_ratio);
+  vec3 land_change = GetLandChange(front, land_ratio, mirror, ReadBilinear(mirror_ratio, place).rgb, air);
 
-  WriteChange(display, scene, matte * sky_change + (1.0 - matte) * land_change, pixel);
+  vec3 change = matte * sky_change + (1.0 - matte) * land_change;
+  change += term[0].x * ReadBilinear(veil, place).rgb;
+  WriteChange(display, scene, change, pixel);
 }

@@ -10,7 +10,7 @@
 #include "lib/thesis_sky.glsl"
 #include "lib/output.glsl"
 
-uniform sampler2D photo;
+uniform sampler2D retouched;
 uniform sampler2D columns;
 uniform sampler2D layers;
 uniform sampler2D sky_source;
@@ -64,7 +64,8 @@ void main() {
   vec2 place = pixel / frame_size;
   ivec2 texel = ivec2(pixel - tile_origin);
   vec3 view = GetViewDirection(place);
-  vec3 color = ReadPicture(photo, place).rgb;
+  vec4 retouched_texel = texelFetch(retouched, texel, 0);
+  vec3 color = retouched_texel.rgb;
   vec4 layer = ReadPicture(layers, place);
   vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
   float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;
@@ -82,7 +83,7 @@ void main() {
   vec3 code = EncodeSrgb(color);
   float ratio = code.r / max(code.b, 1.0 / 255.0);
   float softness = (ratio - cloud_ratio_min) / max(cloud_ratio_max - cloud_ratio_min, 1e-3);
-  float opacity = layer.g;
+  float opacity = retouched_texel.a;
   if (method == 2) {
     opacity = step(cloud_ratio_min, ratio);
   } else {

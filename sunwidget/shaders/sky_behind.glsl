@@ -9,6 +9,7 @@
 uniform sampler2D sky_source;
 uniform sampler2D backdrop;
 uniform sampler2D layers;
+uniform sampler2D retouched;
 uniform sampler2D surface;
 uniform vec2 tile_origin;
 
@@ -17,6 +18,8 @@ out vec4 result;
 void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
   vec3 residual = exp(4.0 * ReadBilinear(backdrop, place).rgb - 2.0);
-  vec3 levels = vec3(ReadPicture(layers, place).rg, ReadPicture(surface, place).r);
-  result = vec4(texelFetch(sky_source, ivec2(gl_FragCoord.xy), 0).rgb * residual, PackLevels(levels));
+  ivec2 texel = ivec2(gl_FragCoord.xy);
+  float opacity = texelFetch(retouched, texel, 0).a;
+  vec3 levels = vec3(ReadPicture(layers, place).r, opacity, ReadPicture(surface, place).r);
+  result = vec4(texelFetch(sky_source, texel, 0).rgb * residual, PackLevels(levels));
 }

@@ -6,18 +6,15 @@
 
 uniform float land_strength;
 
-// The share of the light that is a mirror image follows `mirror_ratio`.
-vec3 GetLandChange(vec3 light, vec3 land_ratio, float mirror, vec3 mirror_ratio) {
+// The share of the light that is a mirror image follows `mirror_ratio`; `air` is what the air before
+// it adds (air.glsl).
+vec3 GetLandChange(vec3 light, vec3 land_ratio, float mirror, vec3 mirror_ratio, vec3 air) {
   land_ratio += mirror * (mirror_ratio - land_ratio);
-  vec3 land = light * land_ratio;
+  vec3 land = max(light * land_ratio + air, vec3(0.0));
   land += term[0].z * (vec3(GetLuminance(land)) - land);
   return land_strength * (term[0].x * land - light);
 }
 
 vec3 GetLitBefore(float upright) {
   return mix(term[1].rgb, term[2].rgb, upright);
-}
-
-vec3 GetLandRatio(float upright) {
-  return GetRatio(mix(term[3].rgb, term[4].rgb, upright), GetLitBefore(upright));
 }
