@@ -63,6 +63,8 @@ def scene_textures(scene: Scene, size: tuple[int, int]) -> dict[str, npt.NDArray
     """Return the scene textures of the frame graph at ``size`` (width, height)."""
     import cv2
 
+    from sunwidget.analysis.clear_sky import clear_sky
+
     photo = scene.photo.pixels
     layers, surface = scene.layers(), scene.surface(size)
     if (photo.shape[1], photo.shape[0]) != size:
@@ -73,6 +75,7 @@ def scene_textures(scene: Scene, size: tuple[int, int]) -> dict[str, npt.NDArray
         "layers": quantise_map(layers),
         "surface": quantise_map(surface),
         "backdrop": quantise_map(scene.backdrop),
+        "clear_sky": quantise_map(clear_sky(scene)),
     }
 
 

@@ -3,6 +3,7 @@
 // clouds as with the photo's own.
 
 #include "lib/picture.glsl"
+#include "lib/cloud_opacity.glsl"
 
 uniform sampler2D photo;
 uniform sampler2D layers;
@@ -12,5 +13,7 @@ out vec4 result;
 
 void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
-  result = vec4(ReadPicture(photo, place).rgb, ReadPicture(layers, place).g);
+  vec4 layer = ReadPicture(layers, place);
+  float opacity = EditOpacity(layer.g, layer.r, ReadBilinear(clear_sky, place).a);
+  result = vec4(ReadPicture(photo, place).rgb, opacity);
 }

@@ -5,6 +5,7 @@
 // edge's answer fades to "visible" over a tenth of the picture.
 
 #include "lib/picture.glsl"
+#include "lib/cloud_cover.glsl"
 #include "lib/sky.glsl"
 
 uniform sampler2D layers;
@@ -23,8 +24,9 @@ float GetOpening(vec3 direction) {
   if (at.z <= 0.0) return 1.0;
   vec4 layer = ReadBilinear(layers, at.xy);
   vec2 outside = max(max(-at.xy, at.xy - 1.0), 0.0);
-  float cloud = layer.g * (1.0 - 0.8 * ReadBilinear(surface, at.xy).r);
-  return mix(layer.r * (1.0 - cloud), 1.0, smoothstep(0.0, 0.1, max(outside.x, outside.y)));
+  float cloud = GetOwnOpacity(layers, at.xy) * (1.0 - 0.8 * ReadBilinear(surface, at.xy).r);
+  float open = mix(layer.r * (1.0 - cloud), 1.0, smoothstep(0.0, 0.1, max(outside.x, outside.y)));
+  return open * (1.0 - GetAddedCover(direction));
 }
 
 void main() {

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.analysis import horizon
+from sunwidget.analysis.clear_sky import clear_sky
 from sunwidget.analysis.clouds import INDICES
 from sunwidget.analysis.maps import MAPS, levels, scene_map, shares_of
 from sunwidget.analysis.scene import Scene
@@ -84,7 +85,8 @@ def encode_maps(scene: Scene) -> dict[str, bytes]:
     with ThreadPoolExecutor(2) as pool:
         layers, surface = pool.map(encoded, (scene.layers, scene.surface))
     backdrop = encode_png(quantise_map(scene.backdrop))
-    return {"_layers": layers, "_surface": surface, "_backdrop": backdrop}
+    behind = encode_png(quantise_map(clear_sky(scene)))
+    return {"_layers": layers, "_surface": surface, "_backdrop": backdrop, "_clear_sky": behind}
 
 
 def encode_map(scene: Scene, name: str) -> bytes:

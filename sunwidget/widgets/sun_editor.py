@@ -102,6 +102,7 @@ class SunEditor(anywidget.AnyWidget):
     _layers = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _surface = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _backdrop = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
+    _clear_sky = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _scene = traitlets.Dict().tag(sync=True, echo_update=False)
     _status = traitlets.Dict().tag(sync=True, echo_update=False)
     # Recipes before and after the present one, written by whoever makes a step.

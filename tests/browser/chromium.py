@@ -84,7 +84,8 @@ def connect(page, widget):
         if "changes" in sent:
             widget.set_state(sent["changes"])
             state = widget_state(widget.wait(120))
-            return {n: state[n] for n in ("_scene", "_layers", "_surface", "_backdrop", "_status")}
+            maps = ("_layers", "_surface", "_backdrop", "_clear_sky")
+            return {n: state[n] for n in ("_scene", *maps, "_status")}
         messages = []
 
         def send(content, buffers=()):

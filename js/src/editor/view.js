@@ -2,7 +2,7 @@
  * One view of a SunEditor: it draws from its own state, and the traits follow.
  *
  * The photo is shown as soon as its bytes are there; the composited frame fades in over it
- * when the analysis (`_scene`, `_layers`, `_surface`, `_backdrop`) has arrived.
+ * when the analysis (`_scene`, `_layers`, `_surface`, `_backdrop`, `_clear_sky`) has arrived.
  */
 
 import { Camera } from "../camera.js";
@@ -42,7 +42,7 @@ import { toolbar } from "./toolbar.js";
  * }} Tool
  */
 
-const PICTURES = ["layers", "surface", "backdrop"];
+const PICTURES = ["layers", "surface", "backdrop", "clear_sky"];
 const SLOW_FRAME_MS = 40; // slower frames than this are drawn smaller while a drag lasts
 const SMALLEST_SCALE = 0.35;
 const SETTLED_MS = 160; // after this long without a change the frame is drawn in full
