@@ -15,7 +15,7 @@ uniform sampler2D columns;
 uniform sampler2D layers;
 uniform sampler2D sky_source;
 uniform sampler2D sky_edit;
-uniform sampler2D light_source;
+uniform sampler2D light_before;
 uniform sampler2D light_edit;
 uniform sampler2D visibility_source;
 uniform sampler2D visibility_edit;
@@ -55,7 +55,7 @@ vec3 GetSkyMean(vec3 mean, sampler2D light, float visible) {
     float share = sun_sky_ratio * sun_mask_share * visible;
     return (mean + share * vec3(1.0)) / (1.0 + share);
   }
-  float beam = GetLuminance(GetLightTexel(light, 1)) / max(GetLuminance(GetLightTexel(light_source, 7)), 1e-9);
+  float beam = GetLuminance(GetLightTexel(light, 1)) / max(GetLuminance(GetLightTexel(light_before, 7)), 1e-9);
   return mean + 0.25 * sun_sky_ratio / 1000.0 * visible * beam * GetLuminance(texelFetch(thesis_mean_source, ivec2(0), 0).rgb) * GetSunColor(light);
 }
 
@@ -111,11 +111,11 @@ void main() {
   vec3 mean_now = GetSkyMean(texelFetch(thesis_mean_edit, ivec2(0), 0).rgb, light_edit, visible_now);
   vec3 land;
   if (method == 2) {
-    vec3 mean_photo = GetSkyMean(photo_sky_linear_mean, light_source, 1.0);
+    vec3 mean_photo = GetSkyMean(photo_sky_linear_mean, light_before, 1.0);
     vec3 land_mean = max(photo_land_linear_mean, vec3(1e-3));
     land = color * (mean_photo / land_mean) * mean_now / land_mean;            // 3.7 as printed
   } else {
-    vec3 mean_first = GetSkyMean(texelFetch(thesis_mean_source, ivec2(0), 0).rgb, light_source, visible_before);
+    vec3 mean_first = GetSkyMean(texelFetch(thesis_mean_source, ivec2(0), 0).rgb, light_before, visible_before);
     land = color * mean_now / max(mean_first, vec3(1e-4));                     // 3.7
   }
   float power = 1.0 - (1.0 - thesis_saturation) * clamp(visible_before - visible_now, 0.0, 1.0);

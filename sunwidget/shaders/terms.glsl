@@ -15,7 +15,7 @@
 #include "lib/daylight.glsl"
 
 uniform sampler2D columns;
-uniform sampler2D light_source;
+uniform sampler2D light_before;
 uniform sampler2D light_edit;
 uniform sampler2D visibility_source;
 uniform sampler2D visibility_edit;
@@ -50,7 +50,7 @@ vec4 GetDiscRadiance(float sine_of_elevation) {
 bool IsSkyUnchanged() {
   bool same = sun_azimuth == source_sun_azimuth && sun_elevation == source_sun_elevation;
   for (int i = 0; i < 9; ++i) {
-    same = same && texelFetch(light_source, ivec2(i, 0), 0) == texelFetch(light_edit, ivec2(i, 0), 0);
+    same = same && texelFetch(light_before, ivec2(i, 0), 0) == texelFetch(light_edit, ivec2(i, 0), 0);
   }
   return same;
 }
@@ -86,15 +86,15 @@ void main() {
   } else if (index == 10) {
     result = vec4(radius, 0.5 * (low + high), 2.0 / (high - low), disc);
   } else {
-    vec3 light = index == 1 ? GetLandIrradiance(light_source, visible_before, source_land_facing, sun_before)
-        : index == 2 ? GetLandIrradiance(light_source, visible_before, 1.0, sun_before)
+    vec3 light = index == 1 ? GetLandIrradiance(light_before, visible_before, source_land_facing, sun_before)
+        : index == 2 ? GetLandIrradiance(light_before, visible_before, 1.0, sun_before)
         : index == 3 ? GetLandIrradiance(light_edit, visible_now, land_facing, sun_now)
         : index == 4 ? GetLandIrradiance(light_edit, visible_now, 1.0, sun_now)
-        : index == 5 ? GetCloudRadiance(light_source, 0.0)
-        : index == 6 ? GetForwardLight(light_source)
+        : index == 5 ? GetCloudRadiance(light_before, 0.0)
+        : index == 6 ? GetForwardLight(light_before)
         : index == 7 ? GetCloudRadiance(light_edit, 0.0)
         : index == 8 ? GetForwardLight(light_edit)
-        : index == 11 ? visible_before * GetLightTexel(light_source, 1)
+        : index == 11 ? visible_before * GetLightTexel(light_before, 1)
         : visible_now * GetLightTexel(light_edit, 1);
     result = vec4(sky_gain * light, disc);
   }

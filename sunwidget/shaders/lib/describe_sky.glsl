@@ -7,7 +7,7 @@
 
 uniform sampler2D sky_view;
 uniform sampler2D light;
-uniform sampler2D light_source;
+uniform sampler2D light_before;
 uniform sampler2D visibility;
 
 flat out vec4 described[4];
@@ -15,7 +15,7 @@ flat out vec4 described[4];
 void SetDescribedSky() {
   SkyView view = ReadSkyView(sky_view);
   float visible = texelFetch(visibility, ivec2(0), 0).r;
-  float glare = GetGlareStrength(GetLightTexel(light, 1), GetLightTexel(light_source, 1), visible);
+  float glare = GetGlareStrength(GetLightTexel(light, 1), GetLightTexel(light_before, 1), visible);
   described[0] = vec4(view.sun, view.asymmetry);
   described[1] = view.rayleigh;
   described[2] = view.mie;
