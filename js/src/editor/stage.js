@@ -5,47 +5,33 @@
  * and also outside 0–1. The overlay lies over the whole stage, margin included, in CSS pixels.
  */
 
-import { element, shape } from "../controls/element.js";
+import { element } from "../controls/element.js";
+import { PictureStage } from "../stage.js";
 
 /** @typedef {import("../types.js").Point} Point */
 
 const MAXIMUM_ZOOM = 8;
 
-export class Stage {
+export class Stage extends PictureStage {
   /** @param {AbortSignal} signal */
   constructor(signal) {
-    this.photo = element("img", { class: "sw-photo", alt: "The photo as it was taken" });
-    this.canvas = element("canvas", {
+    const photo = element("img", { class: "sw-photo", alt: "The photo as it was taken" });
+    const canvas = element("canvas", {
       class: "sw-canvas",
       role: "img",
       "aria-label": "The photo with the sun moved",
     });
-    this.mask = element("canvas", { class: "sw-mask", "aria-hidden": "true" });
-    this.picture = element("div", { class: "sw-picture" }, this.photo, this.canvas, this.mask);
-    this.overlay = shape("svg", { class: "sw-overlay" });
-    this.bar = element("div", { class: "sw-progress-bar" });
-    this.caption = element("span", { class: "sw-progress-text", role: "status" });
-    this.progress = element("div", { class: "sw-progress" }, this.bar, this.caption);
-    this.node = element(
-      "div",
-      { class: "sw-stage" },
-      element("div", { class: "sw-window" }, this.picture),
-      this.overlay,
-      this.progress,
-    );
+    const mask = element("canvas", { class: "sw-mask", "aria-hidden": "true" });
+    const picture = element("div", { class: "sw-picture" }, photo, canvas, mask);
+    super(picture, { content: element("div", { class: "sw-window" }, picture), signal });
+    this.photo = photo;
+    this.canvas = canvas;
+    this.mask = mask;
     this.zoom = 1;
     /** @type {Point} shift of the zoomed picture in CSS pixels */
     this.shift = [0, 0];
     this.url = "";
-    /** @type {() => void} called when the layout changed */
-    this.onLayout = () => {};
-    const observer = new ResizeObserver(() => this.onLayout());
-    observer.observe(this.node);
-    observer.observe(this.picture);
-    signal.addEventListener("abort", () => {
-      observer.disconnect();
-      URL.revokeObjectURL(this.url);
-    });
+    signal.addEventListener("abort", () => URL.revokeObjectURL(this.url));
     this.node.addEventListener("wheel", (event) => this.onWheel(event), { passive: false, signal });
   }
 
@@ -64,20 +50,6 @@ export class Stage {
     this.photo.src = url;
     this.picture.style.setProperty("--sw-aspect", String(image.naturalWidth / image.naturalHeight));
     this.node.classList.add("sw-has-photo");
-  }
-
-  /** The picture's rectangle in the overlay, in CSS pixels. */
-  rectangle() {
-    const outer = this.node.getBoundingClientRect();
-    const inner = this.picture.getBoundingClientRect();
-    return {
-      x: inner.left - outer.left,
-      y: inner.top - outer.top,
-      width: inner.width,
-      height: inner.height,
-      stageWidth: outer.width,
-      stageHeight: outer.height,
-    };
   }
 
   /**
@@ -145,18 +117,5 @@ export class Stage {
         : `translate(${this.shift[0]}px, ${this.shift[1]}px) scale(${this.zoom})`;
     this.node.classList.toggle("sw-zoomed", this.zoom > 1);
     this.onLayout();
-  }
-
-  /**
-   * The line at the foot of the stage: `null` hides it.
-   *
-   * @param {number | null} fraction
-   * @param {string} message
-   */
-  setProgress(fraction, message) {
-    this.progress.classList.toggle("sw-shown", fraction !== null);
-    if (fraction === null) return;
-    this.bar.style.transform = `scaleX(${fraction})`;
-    if (this.caption.textContent !== message) this.caption.textContent = message;
   }
 }

@@ -5,15 +5,12 @@
  */
 
 import { setAttributes, shape } from "../controls/element.js";
+import { GRAB, keyStep, SunShape, spotOnStage } from "../sun_shape.js";
 
 /**
  * @typedef {import("../types.js").Point} Point
  * @typedef {import("./view.js").View} View
  */
-
-const GRAB = 26; // CSS pixels round the handle that take hold of it without a jump
-const EDGE = 26; // CSS pixels from the stage's edge at which an outside sun's handle waits
-const KEY_STEP = 0.5; // degrees
 
 export class SunTool {
   /** @param {View} view */
@@ -21,17 +18,8 @@ export class SunTool {
     this.view = view;
     /** @type {Point} offset of the grip from the sun, in fractions of the picture */
     this.offset = [0, 0];
-    const ring = (/** @type {string} */ name, /** @type {number} */ r) =>
-      shape("circle", { class: name, r });
-    this.arrow = shape("path", { class: "sw-sun-arrow", d: "M15 -6 L24 0 L15 6 Z" });
-    this.handle = shape(
-      "g",
-      { class: "sw-sun", tabindex: 0, role: "slider", "aria-label": "Sun" },
-      ring("sw-sun-halo", 15),
-      ring("sw-sun-ring", 11),
-      ring("sw-sun-core", 3),
-      this.arrow,
-    );
+    this.shape = new SunShape(shape("circle", { class: "sw-sun-core", r: 3 }));
+    this.handle = this.shape.node;
     this.origin = shape(
       "g",
       { class: "sw-sun-origin" },
@@ -99,24 +87,16 @@ export class SunTool {
 
   /** @param {KeyboardEvent} event */
   onKey(event) {
-    const direction = {
-      ArrowLeft: [-1, 0],
-      ArrowRight: [1, 0],
-      ArrowUp: [0, 1],
-      ArrowDown: [0, -1],
-    }[event.key];
     if (event.key === "Home") {
       event.preventDefault();
       this.view.state.set({ sun_azimuth: null, sun_elevation: null });
     }
-    if (!direction || event.ctrlKey || event.metaKey) return;
-    event.preventDefault();
-    event.stopPropagation();
-    const step = KEY_STEP * (event.shiftKey ? 10 : event.altKey ? 0.2 : 1);
+    const step = keyStep(event);
+    if (!step) return;
     this.view.state.begin();
     this.moveTo(
-      this.view.value("sun_azimuth") + direction[0] * step,
-      this.view.value("sun_elevation") + direction[1] * step,
+      this.view.value("sun_azimuth") + step[0],
+      this.view.value("sun_elevation") + step[1],
     );
   }
 
@@ -143,17 +123,7 @@ export class SunTool {
     const [azimuth, elevation] = [this.view.value("sun_azimuth"), this.view.value("sun_elevation")];
     const box = stage.rectangle();
     const at = this.onStage(azimuth, elevation, box);
-    setAttributes(this.handle, {
-      transform: `translate(${at.x} ${at.y})`,
-      "aria-valuemin": this.view.parameter("sun_elevation").minimum,
-      "aria-valuemax": this.view.parameter("sun_elevation").maximum,
-      "aria-valuenow": elevation.toFixed(1),
-      "aria-valuetext": `azimuth ${azimuth.toFixed(1)}°, elevation ${elevation.toFixed(1)}°`,
-    });
-    setAttributes(this.arrow, {
-      visibility: at.outside ? "visible" : "hidden",
-      transform: `rotate(${at.angle})`,
-    });
+    this.shape.show(at, [azimuth, elevation], this.view.parameter("sun_elevation"));
 
     const own = this.onStage(scene.automatic.sun_azimuth, scene.automatic.sun_elevation, box);
     const apart = Math.hypot(at.x - own.x, at.y - own.y);
@@ -173,11 +143,10 @@ export class SunTool {
    *
    * @param {number} azimuth
    * @param {number} elevation
-   * @param {ReturnType<import("./stage.js").Stage["rectangle"]>} box
+   * @param {import("../stage.js").Box} box
    */
   onStage(azimuth, elevation, box) {
     const place = this.placeOf(azimuth, elevation);
-    const [cx, cy] = [box.x + box.width / 2, box.y + box.height / 2];
     let [dx, dy] = [0, 0];
     if (place) {
       [dx, dy] = [(place[0] - 0.5) * box.width, (place[1] - 0.5) * box.height];
@@ -185,15 +154,6 @@ export class SunTool {
       const [bx, by] = this.view.camera?.bearing(azimuth, elevation) ?? [0, -1];
       [dx, dy] = [bx * 1e6, by * 1e6];
     }
-    // Shrink the way from the centre until it ends on the stage.
-    const roomX = dx > 0 ? box.stageWidth - EDGE - cx : cx - EDGE;
-    const roomY = dy > 0 ? box.stageHeight - EDGE - cy : cy - EDGE;
-    const share = Math.min(1, roomX / Math.abs(dx || 1e-9), roomY / Math.abs(dy || 1e-9));
-    return {
-      x: cx + dx * share,
-      y: cy + dy * share,
-      outside: share < 1,
-      angle: (Math.atan2(dy, dx) * 180) / Math.PI,
-    };
+    return spotOnStage(box, dx, dy);
   }
 }

@@ -7,6 +7,7 @@
 
 import { Channel } from "../channel.js";
 import { element } from "../controls/element.js";
+import { FrameLoop } from "../frame_loop.js";
 import { EditState } from "../state.js";
 import { angleBetween, sunAt, turned } from "./day.js";
 import { Guides } from "./guides.js";
@@ -29,10 +30,6 @@ import { toolbar } from "./toolbar.js";
  * @typedef {import("../types.js").Point} Point
  */
 
-const SLOW_FRAME_MS = 33; // slower frames than this are drawn smaller while a drag lasts
-const FAST_FRAME_MS = 18; // waiting for the screen's next refresh takes as long
-const SMALLEST_SCALE = 0.35;
-const SETTLED_MS = 160; // after this long without a change the frame is drawn in full
 const MOST_PIXELS = 900_000;
 const SIGHT_MARGIN = "200px"; // this near to the window counts as in sight
 
@@ -71,11 +68,11 @@ export class View {
     /** @type {string} what the picture shows */
     this.drawnKey = "";
     this.tables = 0; // how many tables the kernel has sent
-    this.scale = 1;
-    this.request = 0;
-    this.requested = 0; // when the frame under way was asked for, ms
-    /** @type {ReturnType<typeof setTimeout> | undefined} */
-    this.settle = undefined;
+    this.loop = new FrameLoop(
+      (scale) => this.drawFrame(scale),
+      () => this.state.before !== null,
+      signal,
+    );
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.tracing = undefined;
     this.signal = signal;
@@ -133,8 +130,6 @@ export class View {
       sight.disconnect();
       for (const name of names) model.off(`change:${name}`, onData);
       model.off("msg:custom", onMessage);
-      cancelAnimationFrame(this.request);
-      clearTimeout(this.settle);
       clearTimeout(this.tracing);
       this.frame.dispose();
     });
@@ -292,29 +287,14 @@ export class View {
   requestFrame() {
     if (!this.inSight) return;
     this.stage.node.setAttribute("aria-busy", "true");
-    if (this.request) return;
-    this.requested = performance.now();
-    this.request = requestAnimationFrame(() => {
-      this.request = 0;
-      this.drawFrame();
-      const waits = this.request !== 0 || this.settle !== undefined;
-      this.stage.node.setAttribute("aria-busy", String(waits));
-    });
+    this.loop.request();
   }
 
-  drawFrame() {
-    const dragging = this.state.before !== null;
-    if (dragging) {
-      // A machine that is behind lets a frame wait; a slow hand does not.
-      this.adapt(performance.now() - this.requested);
-      clearTimeout(this.settle);
-      this.settle = setTimeout(() => {
-        this.settle = undefined;
-        this.requestFrame();
-      }, SETTLED_MS);
-    }
-    this.drawSky(dragging ? this.scale : 1);
+  /** @param {number} scale of the full size */
+  drawFrame(scale) {
+    this.drawSky(scale);
     this.drawOverlay();
+    this.stage.node.setAttribute("aria-busy", String(this.loop.busy));
   }
 
   /** @param {number} scale of the full size */
@@ -368,16 +348,6 @@ export class View {
 
   referenceRests() {
     return this.paused || this.frame.samples >= MOST_SAMPLES;
-  }
-
-  /** Draw smaller while the machine cannot keep up with the drag. @param {number} spent ms of waiting */
-  adapt(spent) {
-    if (spent > SLOW_FRAME_MS) {
-      const wanted = this.scale * Math.sqrt(SLOW_FRAME_MS / spent);
-      this.scale = Math.max(SMALLEST_SCALE, 0.5 * (this.scale + wanted));
-    } else if (spent < FAST_FRAME_MS) {
-      this.scale = Math.min(1, this.scale * 1.02);
-    }
   }
 
   drawOverlay() {
