@@ -21,7 +21,7 @@ export interface Parameter {
 export type Point = [number, number];
 
 export interface Stroke {
-  label: "sky" | "not_sky";
+  label: "sky" | "not_sky" | "water" | "not_water";
   points: Point[];
   radius: number;
 }

@@ -7,6 +7,7 @@ const parameters = [
   { name: "sun_elevation", kind: "number", default: null },
   { name: "exposure", kind: "number", default: 0 },
   { name: "method", kind: "choice", default: "ratio", choices: ["ratio", "thesis"] },
+  { name: "light_source", kind: "choice", default: "sun", choices: ["sun", "moon"] },
   { name: "strokes", kind: "data", default: [] },
 ];
 
@@ -25,6 +26,11 @@ test("the source state does not move with the edit", () => {
   assert.deepEqual([edit.sun_elevation, edit.exposure], [3, 1]);
   assert.equal(edit.source_sun_elevation, 12.5);
   assert.equal(source.method, 1, "both states are drawn by the chosen method");
+});
+
+test("a choice is its index, and at its default in the source", () => {
+  const { source, edit } = states(parameters, { light_source: "moon" }, { sun_elevation: 0 });
+  assert.deepEqual([edit.light_source, source.light_source, edit.source_light_source], [1, 0, 0]);
 });
 
 test("strokes are no uniform", () => {

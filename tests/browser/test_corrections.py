@@ -1,9 +1,13 @@
 """Brushes, eraser, horizon, cloud thresholds and notes, in a real browser."""
 
+import base64
+
+import numpy as np
 import pytest
 from chromium import connect, widget_state
 
 from sunwidget.widgets import SunEditor
+from sunwidget.widgets.payload import encode_png
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 
@@ -109,6 +113,46 @@ def test_the_eraser_takes_the_strokes_it_meets_in_one_step(editor):
     assert len(trait(editor, "strokes")) == 3
     drag(editor, (0.9, 0.2), (0.95, 0.2))
     assert len(trait(editor, "strokes")) == 3
+
+
+def test_a_brush_paints_water_when_told_so_and_the_eraser_takes_it_away(editor):
+    choose(editor, "Brush: sky")
+    editor.keyboard.press("w")
+    assert editor.get_by_role("button", name="Water").get_attribute("aria-pressed") == "true"
+    drag(editor, (0.3, 0.8), (0.5, 0.8))
+    choose(editor, "Brush: not water")
+    drag(editor, (0.3, 0.3), (0.5, 0.3))
+    editor.get_by_role("button", name="Water").click()
+    choose(editor, "Brush: not sky")
+    drag(editor, (0.3, 0.5), (0.5, 0.5))
+    said = [stroke["label"] for stroke in trait(editor, "strokes")]
+    assert said == ["water", "not_water", "not_sky"]
+    lines = editor.locator(".sw-strokes polyline")
+    lines.nth(2).wait_for(state="attached")
+    classes = lines.evaluate_all("(all) => all.map((line) => line.getAttribute('class'))")
+    assert classes == [f"sw-stroke sw-stroke-{label}" for label in said]
+    editor.keyboard.press("Control+z")
+    choose(editor, "Erase strokes")
+    drag(editor, (0.4, 0.75), (0.4, 0.85))
+    assert [stroke["label"] for stroke in trait(editor, "strokes")] == ["not_water"]
+
+
+def test_the_water_tint_is_the_water_of_the_scene_also_where_the_land_is_near(page, state, coast):
+    size = (512, 768)
+    surface = np.zeros((*size, 4), np.uint8)
+    surface[300:, :, 1] = 200  # alpha 0: as near as the depth can be
+    page.evaluate(
+        "(state) => showEditor(state)",
+        {**state, "_surface": base64.b64encode(encode_png(surface)).decode("ascii")},
+    )
+    page.locator(".sunwidget.sw-live").wait_for()
+    page.get_by_role("slider", name="Sun", exact=True).focus()
+    page.keyboard.press("w")
+    alpha = page.evaluate(
+        """[100, 400].map((y) =>
+          document.querySelector(".sw-mask").getContext("2d").getImageData(384, y, 1, 1).data[3])"""
+    )
+    assert alpha == [0, 90]
 
 
 def test_the_brush_ring_has_the_brushs_size_and_leaves_with_the_pointer(editor):
@@ -249,6 +293,7 @@ def test_the_histogram_counts_the_sky_and_its_lines_set_the_thresholds(editor, s
     text = editor.locator(".sw-histogram-text").text_content()
     shares = [float(part) for part in text.replace("·", " ").split() if part.isdigit()]
     assert sum(shares) == pytest.approx(100, abs=2)
+    editor.locator(".sw-histogram").scroll_into_view_if_needed()
     histogram = editor.locator(".sw-histogram").bounding_box()
 
     def at(ratio):

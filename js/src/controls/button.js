@@ -56,7 +56,12 @@ export function radioButtons({ label, choices, value, onChange }) {
     onChange(next.value);
   });
   show(value);
-  return { node: group, show };
+  /** @type {(value: string, label: string, title: string) => void} */
+  const rename = (value, label, title) => {
+    const found = buttons.find((button) => button.value === value);
+    if (found) setAttributes(found.node, { "aria-label": label, title });
+  };
+  return { node: group, show, rename };
 }
 
 const HOLD_MS = 300;

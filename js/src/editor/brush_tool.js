@@ -1,7 +1,7 @@
-/** Sky / not-sky strokes: drawn here, sent as polylines, answered by the kernel's new maps. */
+/** Strokes that say what is sky or water, and what is not: drawn here, sent as polylines, answered by the kernel's new maps. */
 
 import { setAttributes, shape } from "../controls/element.js";
-import { line, meets, setLine, simplify } from "./strokes.js";
+import { line, meets, setLine, simplify, strokeClass } from "./strokes.js";
 
 /**
  * @typedef {import("../types.js").Point} Point
@@ -51,16 +51,21 @@ class Brush {
 export class BrushTool extends Brush {
   /**
    * @param {View} view
-   * @param {"sky" | "not_sky"} label
+   * @param {"sky" | "not_sky"} tool
    */
-  constructor(view, label) {
-    super(view, label);
-    this.stroke = label;
+  constructor(view, tool) {
+    super(view, tool);
     /** @type {Point[]} */
     this.points = [];
-    this.path = line(label);
+    this.path = line(tool);
     this.scaled = shape("g", {}, this.path);
     this.node = shape("g", {}, this.scaled, this.ring);
+  }
+
+  /** What a stroke of this brush says. @returns {Stroke["label"]} */
+  says() {
+    if (this.view.subject === "sky") return this.label === "sky" ? "sky" : "not_sky";
+    return this.label === "sky" ? "water" : "not_water";
   }
 
   /** @param {Point} place */
@@ -86,7 +91,7 @@ export class BrushTool extends Brush {
     if (!this.points.length) return;
     /** @type {Stroke} */
     const stroke = {
-      label: this.stroke,
+      label: this.says(),
       points: simplify(this.points, this.view.brushRadius / 10, this.view.stage.rectangle()),
       radius: Math.round(this.view.brushRadius * 1e5) / 1e5,
     };
@@ -105,6 +110,8 @@ export class BrushTool extends Brush {
     setAttributes(this.node, { visibility: active ? "visible" : "hidden" });
     this.drawRing();
     if (!active) return;
+    setAttributes(this.path, { class: strokeClass(this.says()) });
+    setAttributes(this.ring, { class: `sw-brush sw-stroke-${this.says()}` });
     setAttributes(this.scaled, { transform: this.view.strokes.transform() });
     setLine(this.path, this.points, this.view.brushRadius, this.view.stage.rectangle());
   }

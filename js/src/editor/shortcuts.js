@@ -18,6 +18,7 @@ export function onShortcut(view, event) {
   } else if (key >= "1" && key <= String(TOOLS.length)) view.setTool(TOOLS[Number(key) - 1]);
   else if (key === "[") view.setBrushRadius(view.brushRadius / 1.25);
   else if (key === "]") view.setBrushRadius(view.brushRadius * 1.25);
+  else if (key === "w") view.setSubject(view.subject === "sky" ? "water" : "sky");
   else if (key === "b") view.toolbar.before.show(!view.toolbar.before.isOn());
   else if (key === "m") view.inspector.step(event.shiftKey ? -1 : 1);
   else if (key === "escape") {

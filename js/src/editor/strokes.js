@@ -69,8 +69,11 @@ function distance([x, y], [a, b]) {
 
 /** The line that a stroke is drawn with; its parent scales it to the picture. */
 export function line(/** @type {string} */ label) {
-  return shape("polyline", { class: `sw-stroke sw-stroke-${label}` });
+  return shape("polyline", { class: strokeClass(label) });
 }
+
+/** @param {string} label what the stroke says */
+export const strokeClass = (label) => `sw-stroke sw-stroke-${label}`;
 
 /**
  * @param {SVGElement} node

@@ -47,6 +47,9 @@ const TOOLS = [
   },
 ];
 
+// Their texts name what the brush is about.
+const PAINTS = TOOLS.filter(({ label }) => label.startsWith("Brush"));
+
 /** @param {View} view */
 export function toolbar(view) {
   const { state } = view;
@@ -79,6 +82,13 @@ export function toolbar(view) {
     "aria-label": "Brush size",
   });
   size.addEventListener("input", () => view.setBrushRadius(Number(size.value)));
+  const water = button({
+    icon: "water",
+    label: "Water",
+    title: "Brushes mark water instead of sky (W)",
+    caption: true,
+    onClick: () => view.setSubject(view.subject === "sky" ? "water" : "sky"),
+  });
   const node = element("div", { class: "sw-toolbar", role: "toolbar", "aria-label": "Sun editor" });
   const end = element(
     "div",
@@ -87,7 +97,7 @@ export function toolbar(view) {
     before.node,
     save,
   );
-  node.append(tools.node, size, history.node, end);
+  node.append(tools.node, water, size, history.node, end);
   return {
     node,
     before,
@@ -95,6 +105,11 @@ export function toolbar(view) {
       tools.show(view.tool);
       history.show();
       save.disabled = !view.scene || view.saving;
+      for (const { value, label, title } of PAINTS) {
+        tools.rename(value, label.replace("sky", view.subject), title.replace("sky", view.subject));
+      }
+      water.hidden = !PAINTS.some(({ value }) => value === view.tool);
+      water.setAttribute("aria-pressed", String(view.subject === "water"));
       size.hidden = !BRUSHES.includes(view.tool);
       size.value = String(view.brushRadius);
       size.style.setProperty("--sw-share", String((view.brushRadius - 0.003) / 0.057));

@@ -9,8 +9,10 @@ import { Camera } from "../camera.js";
 import { Channel } from "../channel.js";
 import { element } from "../controls/element.js";
 import { Frame } from "../frame.js";
+import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
 import { EditState } from "../state.js";
+import { paintBrushMask, SUBJECTS } from "./brush_mask.js";
 import { BrushTool, EraseTool } from "./brush_tool.js";
 import { HorizonTool } from "./horizon_tool.js";
 import { Inspector } from "./inspector.js";
@@ -19,7 +21,6 @@ import { panel } from "./panel.js";
 import { PickTool } from "./pick_tool.js";
 import { listenToPointer } from "./pointer.js";
 import { onShortcut } from "./shortcuts.js";
-import { paintSkyMask } from "./sky_mask.js";
 import { Stage } from "./stage.js";
 import { BRUSHES, StrokesLayer } from "./strokes.js";
 import { SunTool } from "./sun_tool.js";
@@ -43,9 +44,6 @@ import { toolbar } from "./toolbar.js";
  */
 
 const PICTURES = ["layers", "surface", "backdrop", "clear_sky"];
-const SLOW_FRAME_MS = 40; // slower frames than this are drawn smaller while a drag lasts
-const SMALLEST_SCALE = 0.35;
-const SETTLED_MS = 160; // after this long without a change the frame is drawn in full
 
 export class View {
   /**
@@ -68,17 +66,18 @@ export class View {
     this.camera = null;
     this.tool = "sun";
     this.brushRadius = 0.015;
+    this.subject = "sky"; // what brush strokes are about
     this.saving = false;
     /** @type {[number, number]} size of the full preview in pixels */
     this.size = [0, 0];
-    this.scale = 1;
     this.loads = 0;
-    this.request = 0;
     /** @type {number | null} the pointer that drags */
     this.pointer = null;
-    this.lastFrame = 0;
-    /** @type {ReturnType<typeof setTimeout> | undefined} */
-    this.settle = undefined;
+    this.loop = new FrameLoop(
+      (scale) => this.drawFrame(scale),
+      () => this.state.before !== null,
+      signal,
+    );
 
     /** @type {Record<string, Tool>} */
     this.tools = {
@@ -151,8 +150,6 @@ export class View {
     signal.addEventListener("abort", () => {
       for (const [event, handler] of Object.entries(handlers)) model.off(event, handler);
       model.off("msg:custom", onMessage);
-      cancelAnimationFrame(this.request);
-      clearTimeout(this.settle);
       this.frame.dispose();
     });
   }
@@ -202,9 +199,7 @@ export class View {
         for (const bitmap of bitmaps) bitmap.close();
         return;
       }
-      const [preview, layers] = bitmaps;
-      this.size = [preview.width, preview.height];
-      paintSkyMask(this.stage.mask, layers);
+      this.size = [bitmaps[0].width, bitmaps[0].height];
       names.forEach((name, i) => {
         this.frame.setPicture(name, bitmaps[i]);
       });
@@ -217,6 +212,7 @@ export class View {
     const { fov_vertical_deg, pitch, roll } = scene.camera;
     this.camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
     this.notes.show(scene.warnings);
+    this.showMask();
     void this.inspector.refresh();
     this.tools[this.tool].refresh?.();
     this.show();
@@ -245,9 +241,27 @@ export class View {
     this.tool = tool;
     this.root.dataset.tool = tool;
     this.root.classList.toggle("sw-brushing", BRUSHES.includes(tool));
+    this.showMask();
     this.toolbar.show();
     this.tools[tool].refresh?.();
     this.drawOverlay();
+  }
+
+  /** What brush strokes are about from now on. @param {string} subject sky or water */
+  setSubject(subject) {
+    this.subject = subject;
+    this.setTool(this.tool === "not_sky" ? "not_sky" : "sky");
+  }
+
+  /** While a brush is chosen: what the kernel holds for its subject, as a tint. */
+  showMask() {
+    if (!BRUSHES.includes(this.tool)) return;
+    try {
+      const levels = this.frame.levels(SUBJECTS[this.subject].texture);
+      if (levels) paintBrushMask(this.stage.mask, levels, this.subject);
+    } catch (error) {
+      this.showError(message(error));
+    }
   }
 
   /** @param {boolean} on */
@@ -266,55 +280,20 @@ export class View {
   show() {
     this.panel.show();
     this.toolbar.show();
-    this.requestFrame();
+    this.loop.request();
   }
 
-  requestFrame() {
-    this.request ||= requestAnimationFrame((now) => {
-      this.request = 0;
-      this.drawFrame(now);
-    });
-  }
-
-  /** @param {number} now */
-  drawFrame(now) {
+  /** @param {number} scale of the full size */
+  drawFrame(scale) {
     this.drawOverlay();
     if (!this.scene) return;
-    const dragging = this.state.before !== null;
-    if (dragging) {
-      const spent = now - this.lastFrame;
-      // A pause of the hand is no slow frame.
-      if (spent < 500) this.adapt(spent);
-      clearTimeout(this.settle);
-      this.settle = setTimeout(() => this.drawInFull(), SETTLED_MS);
-    }
-    this.lastFrame = now;
-    const scale = dragging ? this.scale : 1;
+    const [width, height] = this.size;
     try {
       const drawn = this.frame.draw(this.state.values, [
-        Math.max(1, Math.round(this.size[0] * scale)),
-        Math.max(1, Math.round(this.size[1] * scale)),
+        Math.max(1, Math.round(width * scale)),
+        Math.max(1, Math.round(height * scale)),
       ]);
       if (drawn) this.root.classList.add("sw-live");
-    } catch (error) {
-      this.showError(message(error));
-    }
-  }
-
-  /** Draw smaller while the machine cannot keep up with the drag. @param {number} spent ms */
-  adapt(spent) {
-    if (spent > SLOW_FRAME_MS) {
-      const wanted = this.scale * Math.sqrt(SLOW_FRAME_MS / spent);
-      this.scale = Math.max(SMALLEST_SCALE, 0.5 * (this.scale + wanted));
-    } else if (spent < SLOW_FRAME_MS / 2) {
-      this.scale = Math.min(1, this.scale * 1.02);
-    }
-  }
-
-  drawInFull() {
-    if (!this.scene) return;
-    try {
-      this.frame.draw(this.state.values, this.size);
     } catch (error) {
       this.showError(message(error));
     }

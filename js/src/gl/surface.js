@@ -7,6 +7,7 @@
  */
 
 import { Graph } from "./graph.js";
+import { readLevels } from "./texture.js";
 
 /**
  * @typedef {import("./graph.js").Description} Description
@@ -84,6 +85,22 @@ export class Surface {
     graph.run(frame, name);
     const texels = graph.read(name);
     if (!graph.gl.isContextLost()) return texels;
+    this.forget();
+    return null;
+  }
+
+  /**
+   * The levels of a texture of bytes, all four channels as they were sent; null while there is none
+   * or when the context was lost.
+   *
+   * @param {string} name
+   */
+  levels(name) {
+    if (!this.pictures.has(name)) return null;
+    const { gl, textures } = this.liveGraph();
+    const texture = textures.get(name);
+    const levels = texture ? readLevels(gl, texture) : null;
+    if (!gl.isContextLost()) return levels;
     this.forget();
     return null;
   }

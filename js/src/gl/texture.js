@@ -2,6 +2,7 @@
 
 /**
  * @typedef {{ handle: WebGLTexture, width: number, height: number, version: number }} Texture
+ * @typedef {{ data: Uint8Array, width: number, height: number }} Levels RGBA, row 0 at the top
  * @typedef {ImageBitmap | { width: number, height: number, data: ArrayBufferView }} Pixels
  */
 
@@ -42,6 +43,23 @@ export function createPictureTexture(gl, pixels) {
     gl.texImage2D(target, 0, gl.RGBA8, gl.RGBA, type, pixels);
   }
   return { handle, width, height, version: 0 };
+}
+
+/**
+ * Read a texture of bytes back. A 2-D canvas could not: it multiplies colours by alpha.
+ *
+ * @param {WebGL2RenderingContext} gl
+ * @param {Texture} texture
+ * @returns {Levels}
+ */
+export function readLevels(gl, { handle, width, height }) {
+  const framebuffer = gl.createFramebuffer();
+  gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, handle, 0);
+  const data = new Uint8Array(4 * width * height);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, data);
+  gl.deleteFramebuffer(framebuffer);
+  return { data, width, height };
 }
 
 /**
