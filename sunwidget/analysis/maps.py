@@ -175,6 +175,13 @@ def _sun(scene: Scene) -> np.ndarray | None:
     return scene.sun.mask
 
 
+def _glitter(scene: Scene) -> np.ndarray | None:
+    if not (scene.water > 0).any():
+        return None
+    small = scene.working
+    return scene.surface((small.width, small.height))[..., 2]
+
+
 def _shade(scene: Scene) -> np.ndarray | None:
     if scene.shade is None:  # only un-mixing tells it
         return None
@@ -256,6 +263,13 @@ MAPS: tuple[SceneMap, ...] = (
         lambda scene: scene.water,
         "Share of water in a pixel.",
         WATER,
+    ),
+    SceneMap(
+        "glitter",
+        "Old sun's glitter",
+        _glitter,
+        "Where on the water the photo's own sun glints: taken out once the sun has moved.",
+        PATCH,
     ),
     SceneMap(
         "depth",

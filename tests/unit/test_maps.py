@@ -1,5 +1,6 @@
 """The table of inspectable maps, its files and its overview."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -72,6 +73,16 @@ def test_the_horizon_map_is_the_cameras(scene):
     shares = shares_of(scene, entry, scene.photo.size)
     at = scene.camera.angles(40.5, 30.5)[1]
     assert entry.value(shares[30, 40]) == pytest.approx(at, abs=0.01)
+
+
+def test_the_glitter_map_is_the_shaders_own_and_none_without_water(scene):
+    small = scene.working
+    wet = dataclasses.replace(scene, water=(1 - scene.sky).astype(np.float32))
+    glitter = wet.surface((small.width, small.height))[..., 2]
+    assert glitter.max() > 0
+    assert np.array_equal(scene_map("glitter").read(wet), glitter)
+    dry = dataclasses.replace(scene, water=np.zeros_like(scene.water))
+    assert scene_map("glitter").read(dry) is None
 
 
 def test_the_overview_shows_every_map(scene, folder):
