@@ -1,11 +1,11 @@
 /** The panel: sun, place and time, terms, air, model, view, measured skies. */
 
+import { chip, presetChips } from "../controls/chips.js";
 import { choice } from "../controls/choice.js";
 import { element } from "../controls/element.js";
 import { section } from "../controls/section.js";
 import { slider } from "../controls/slider.js";
 import { toggle } from "../controls/toggle.js";
-import { equal } from "../state.js";
 import { depthOfTurbidity, depthOfVisibility, turbidity, visibility } from "./haze.js";
 import { measuredControls } from "./measured.js";
 import { MODEL_NAMES, modelControls } from "./model_controls.js";
@@ -95,7 +95,7 @@ export function panel(view, signal) {
   const place = placeControls(view, signal);
   const models = modelControls(view, signal);
   const measured = measuredControls(view);
-  const presets = presetChips(view);
+  const presets = presetChips(state, () => atmospheres(view));
   const aliases = aliasSliders(view);
   updates.push(place.show, models.show, measured.show, presets.show, aliases.show);
 
@@ -133,13 +133,6 @@ export function panel(view, signal) {
   };
 }
 
-/** @type {(label: string, title: string, onClick: () => void) => HTMLButtonElement} */
-function chip(label, title, onClick) {
-  const node = element("button", { type: "button", class: "sw-chip", title }, label);
-  node.addEventListener("click", onClick);
-  return node;
-}
-
 /** @param {View} view */
 function hours(view) {
   const chips = HOURS.map(([label, elevation, title]) =>
@@ -148,38 +141,14 @@ function hours(view) {
   return element("div", { class: "sw-chips" }, ...chips);
 }
 
-/** Atmospheres by name, one step each. @param {View} view */
-function presetChips(view) {
-  const { state } = view;
-  const node = element("div", {
-    class: "sw-chips sw-presets",
-    role: "group",
-    "aria-label": "Presets",
+/** Atmospheres by name. @param {View} view */
+function atmospheres(view) {
+  /** @type {Record<string, Record<string, number>>} */
+  const presets = view.model.get("_presets") ?? {};
+  return Object.entries(presets).map(([name, values]) => {
+    const label = name[0].toUpperCase() + name.slice(1).replaceAll("_", " ");
+    return { label, title: `Air: ${label}`, values };
   });
-  let key = "";
-  return {
-    node,
-    show() {
-      /** @type {Record<string, Record<string, number>>} */
-      const presets = view.model.get("_presets") ?? {};
-      if (key !== JSON.stringify(presets)) {
-        key = JSON.stringify(presets);
-        node.replaceChildren(
-          ...Object.entries(presets).map(([name, values]) => {
-            const title = name[0].toUpperCase() + name.slice(1).replaceAll("_", " ");
-            const known = Object.entries(values).filter(([n]) => n in state.values);
-            return chip(title, `Air: ${title}`, () => state.set(Object.fromEntries(known)));
-          }),
-        );
-      }
-      for (const [i, values] of Object.values(presets).entries()) {
-        const chosen = Object.entries(values).every(
-          ([name, value]) => !(name in state.values) || equal(state.values[name], value),
-        );
-        node.children[i]?.setAttribute("aria-pressed", String(chosen));
-      }
-    },
-  };
 }
 
 /** Turbidity and visibility: two more handles on the optical depth of the haze. @param {View} view */
