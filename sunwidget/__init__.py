@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from sunwidget.renderer.gl_thread import RendererError
     from sunwidget.renderer.render import render
     from sunwidget.samples import sample
+    from sunwidget.transfer.sky_replacement import replace_sky
     from sunwidget.widgets import SkyExplorer, SunEditor
 
 __version__ = "0.1.0"
@@ -49,6 +50,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "SunEditor": ("sunwidget.widgets", "SunEditor"),
     "analyze": ("sunwidget.analysis.scene", "analyze"),
     "open": ("sunwidget.photo", "open_photo"),
+    "replace_sky": ("sunwidget.transfer.sky_replacement", "replace_sky"),
     "render": ("sunwidget.renderer.render", "render"),
     "sample": ("sunwidget.samples", "sample"),
     "save": ("sunwidget.export.stills", "save"),
@@ -74,6 +76,7 @@ __all__ = [
     "analyze",
     "open",
     "render",
+    "replace_sky",
     "sample",
     "save",
     "sweep",

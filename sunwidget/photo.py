@@ -61,6 +61,9 @@ class Photo:
         Recipe of the edit that made this picture, when sunwidget wrote it.
     notes : tuple of str
         Sentences about what could not be kept; also given as PhotoWarning.
+    sun : (x, y) or None
+        Where the sun stands in pixels, when sunwidget composed the picture and knows it
+        (``replace_sky``); ``analyze`` takes it for a hint. May lie outside the picture.
     """
 
     encoded: NDArray[Any]
@@ -76,6 +79,7 @@ class Photo:
     turned: bool = False
     recipe: dict[str, Any] | None = None
     notes: tuple[str, ...] = ()
+    sun: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         self.encoded.flags.writeable = False

@@ -302,7 +302,8 @@ def analyze(
     ----------
     photo : Photo or anything that ``sunwidget.open`` takes
     sun : (x, y), optional
-        Where the photo's own sun is, in pixels; may lie outside the picture.
+        Where the photo's own sun is, in pixels; may lie outside the picture. Default: what
+        the photo itself knows (``Photo.sun``), else looked for.
     horizon : float or ((x0, y0), (x1, y1)), optional
         Row of the horizon at the picture's centre, or two of its points, in pixels.
     fov : float, optional
@@ -331,6 +332,7 @@ def analyze(
         When the photo cannot be opened.
     """
     photo = open_photo(photo)
+    sun = photo.sun if sun is None else sun
     methods = {
         "refine": refine,
         "clouds": clouds,

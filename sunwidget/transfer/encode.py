@@ -1,0 +1,44 @@
+"""From light to a Photo like the first: its depth, its profile, its metadata."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sunwidget.analysis.errors import AnalysisError
+from sunwidget.export.stills import encode_like
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+    from sunwidget.photo import Photo
+
+
+def photo_like(photo: Photo, light: np.ndarray) -> Photo:
+    """Return ``light`` (H, W, 3) display-linear as a photo in the encoding of ``photo``.
+
+    What equals the photo's own light keeps its code values. The recipe is dropped: it
+    tells how the first photo was made.
+    """
+    if photo.encoded.dtype.kind == "f":
+        codes = np.ascontiguousarray(light, np.float32)
+    else:
+        codes = encode_like(photo, light)
+    return dataclasses.replace(photo, encoded=codes, recipe=None)
+
+
+def scene_of(source: Any) -> Scene:
+    """Return a scene as it is, and anything else analysed."""
+    from sunwidget.analysis.scene import Scene, analyze
+
+    return source if isinstance(source, Scene) else analyze(source)
+
+
+def check_strength(strength: Any) -> None:
+    """Raise AnalysisError unless ``strength`` is a number from 0 to 1."""
+    if not isinstance(strength, (int, float)) or not math.isfinite(strength):
+        raise AnalysisError(f"strength must be a number from 0 to 1, not {strength!r:.40}.")
+    if not 0 <= strength <= 1:
+        raise AnalysisError(f"strength must lie between 0 and 1, not {strength!r:.40}.")

@@ -1,0 +1,99 @@
+"""The light on a scene's land, from its fitted atmosphere, in the photo's own exposure.
+
+The NumPy twin of shaders/light.glsl and lib/daylight.glsl, for two photos that are
+compared once: sky by summing the model over the sky, sun by its transmittance.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from sunwidget.analysis.fit import model_sky
+from sunwidget.analysis.sun_search import night
+from sunwidget.analysis.working import LUMINANCE, resize
+from sunwidget.atmosphere.color import spectral_to_rec709
+from sunwidget.atmosphere.optics import direct_irradiance
+from sunwidget.atmosphere.parameters import Atmosphere
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+
+_ROUGHNESS = 0.35  # as kRoughness of daylight.glsl
+
+
+class LandLight(NamedTuple):
+    """Irradiance (3,) linear Rec. 709 of surfaces that lie, and of those that face the camera.
+
+    In all, and by the sky alone.
+    """
+
+    lying: np.ndarray
+    upright: np.ndarray
+    lying_by_sky: np.ndarray
+    upright_by_sky: np.ndarray
+
+
+def land_light(scene: Scene) -> LandLight:
+    """Return the light on the land of ``scene``, in its scene-linear unit times π.
+
+    At night there is no sun: what the fit took for one is not.
+    """
+    assert scene.fitted is not None
+    azimuth, elevation = scene.fitted.sun
+    sky, sun = _light(scene.fitted.atmosphere.replace(residual=None), azimuth, elevation)
+    visible = sun_share(scene)
+    az, el = np.radians(azimuth), np.radians(elevation)
+    gain = np.array(scene.fitted.gain)
+    return LandLight(
+        gain * (sky[0] + visible * _rough(np.sin(el)) * sun),
+        gain * (sky[1] + visible * _rough(-np.cos(el) * np.cos(az)) * sun),
+        gain * sky[0],
+        gain * sky[1],
+    )
+
+
+def sun_share(scene: Scene) -> float:
+    """Share of the direct sun that clouds let through, 0 to 1.
+
+    Of the clouds in front of a sun that is seen; of all clouds where it is not.
+    """
+    small = scene.working
+    opacity = resize(scene.clouds, small.width, small.height)
+    weight = resize(scene.sky, small.width, small.height)
+    if is_night(scene):
+        return 0.0
+    if scene.sun is not None and scene.sun.visible:
+        return 1.0  # it shines through, whatever the un-mixing says of its glare
+    total = float(weight.sum())
+    return 1.0 - float((opacity * weight).sum()) / total if total > 1 else 1.0
+
+
+def is_night(scene: Scene) -> bool:
+    """Whether the sky is too dark for one with a sun."""
+    small = scene.working
+    return night(small.encoded @ LUMINANCE, resize(scene.sky, small.width, small.height))
+
+
+@lru_cache(maxsize=16)
+def _light(
+    atmosphere: Atmosphere, azimuth: float, elevation: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Irradiance by the sky of lying and of upright surfaces (2, 3), and by the sun (3,)."""
+    height = np.arange(3.0, 90, 6)[:, None]
+    around = np.arange(7.5, 360, 15)[None, :]
+    towards, up = np.broadcast_arrays(around, height)
+    radiance = model_sky(atmosphere, towards, up, (azimuth, elevation))
+    el, az = np.radians(height), np.radians(around)
+    solid = np.cos(el) * np.radians(6) * np.radians(15)
+    lying = np.sin(el) * solid + 0 * az
+    upright = np.maximum(-np.cos(el) * np.cos(az), 0) * solid
+    sky = np.stack([(radiance * weight[..., None]).sum((0, 1)) for weight in (lying, upright)])
+    sun = np.maximum(spectral_to_rec709(direct_irradiance(atmosphere, elevation)), 0)
+    return np.maximum(sky, 1e-12), np.asarray(sun).reshape(3)
+
+
+def _rough(cosine: float) -> float:
+    return float(0.5 * (cosine + np.hypot(cosine, _ROUGHNESS)))

@@ -1,0 +1,299 @@
+"""How the land follows a new sky: statistics of its labels, and the light of two fitted skies.
+
+After Tsai et al., "Sky is Not the Limit: Semantic-Aware Sky Replacement" (2016), section 5: each
+label of the photo moves towards what the donor's same label shows. Labels are what can be told
+without another network: lying ground, upright things, green plants, water. A statistic compares
+unlike materials, the ratio of two irradiances does not; so both are asked, and neither may
+change the order of brightness of land and sky beyond what the two photos show.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from sunwidget.analysis import depth as depth_stage
+from sunwidget.analysis.fit import view_angles
+from sunwidget.analysis.match import LMS_TO_LAB, RGB_TO_LMS
+from sunwidget.analysis.working import LUMINANCE, resize
+from sunwidget.transfer.irradiance import is_night, land_light
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+
+LABELS = ("ground", "upright", "plants", "water")
+_FLOOR = 1e-4  # of cone response; below one step of 8 bits
+_STATISTICS = 0.5  # how much they count against the ratio of irradiances, where both are sure
+_DARKEST, _BRIGHTEST = -3.2, 1.8  # natural log of the change of luminance
+# Of α (yellow–blue) and β (red–green), log10: how far the light may tint the land, and how far the
+# statistics of unlike materials may tint it beyond that. No natural light is green.
+_TINT_OF_LIGHT = np.array([[-0.20, -0.015], [0.20, 0.06]])
+_TINT_OF_LAND = np.array([0.05, 0.015])
+_SKY_IN_TINT = 0.3  # how much of the land's tint follows the sky that is seen
+_WELL_EXPOSED = 0.22  # luminance of land that a camera would not expose any brighter
+_MARGIN = 0.35  # natural log by which land against sky may leave the range of the two photos
+_CONTRAST, _COLOUR = (0.75, 1.2), (0.65, 1.25)
+_FROM_LAB = np.linalg.inv(LMS_TO_LAB)
+_FROM_LMS = np.linalg.inv(RGB_TO_LMS)
+
+
+class Tones(NamedTuple):
+    """Mean and deviation (3,) in lαβ (log10 of cone responses), and share of the picture."""
+
+    mean: np.ndarray
+    deviation: np.ndarray
+    share: float
+
+
+@dataclass(frozen=True, eq=False)
+class LandChange:
+    """What becomes of the land's light: lαβ → mean + gain (lαβ − mean) + shift, per pixel.
+
+    Attributes
+    ----------
+    mean, gain, shift : (h, w, 3) float32
+        At working size; slow, so that they can be read at any.
+    """
+
+    mean: np.ndarray
+    gain: np.ndarray
+    shift: np.ndarray
+
+    def apply(self, light: np.ndarray, rows: slice, size: tuple[int, int]) -> np.ndarray:
+        """Change scene-linear light (n, w, 3), the ``rows`` of a picture of ``size`` (w, h)."""
+        lab = _lab(light)
+        mean, gain, shift = (rows_at(m, rows, size) for m in (self.mean, self.gain, self.shift))
+        cones = np.power(10.0, (mean + gain * (lab - mean) + shift) @ _FROM_LAB.T)
+        return np.maximum(cones @ _FROM_LMS.T, 0).astype(np.float32)
+
+
+def labels_of(scene: Scene) -> dict[str, np.ndarray]:
+    """Return how far each pixel of the land belongs to each label: (h, w) in [0, 1], soft.
+
+    At working size; they add up to the land.
+    """
+    small = scene.working
+    size = (small.width, small.height)
+    land = 1 - resize(scene.sky, *size)
+    water = resize(scene.water, *size) * land
+    total = np.maximum(small.encoded.sum(-1), 1e-3)
+    # Excess green (Woebbecke et al. 1995) tells leaves and grass; in the dark it is noise.
+    excess = (2 * small.encoded[..., 1] - small.encoded[..., 0] - small.encoded[..., 2]) / total
+    green = _smoothstep(0.03, 0.15, excess) * _smoothstep(0.08, 0.25, total)
+    plants = green * (land - water)
+    elevation = view_angles(scene.camera, *size)[1]
+    below = _smoothstep(0.0, -1.5, elevation)
+    flat = depth_stage.ground_plane(1 - land, scene.camera.resized(*size))
+    depth = resize(np.minimum(scene.depth, depth_stage.FAR), *size)
+    # What is much nearer than the ground would be here stands on it.
+    lying = below * _smoothstep(0.5, 0.8, depth / np.minimum(flat, depth_stage.FAR))
+    ground = lying * (land - water - plants)
+    parts = (ground, land - water - plants - ground, plants, water)
+    return {n: _soft(p, small.encoded) for n, p in zip(LABELS, parts, strict=True)}
+
+
+def land_change(
+    scene: Scene, donor: Scene, new_sky: np.ndarray, old_sky: np.ndarray, strength: float
+) -> LandChange:
+    """Find how the land of ``scene`` follows the sky of ``donor``.
+
+    Parameters
+    ----------
+    scene, donor : Scene
+    new_sky, old_sky : (3,) float
+        Mean scene-linear light of the sky in the photo, replaced and as it was.
+    strength : float
+        0 (nothing changes) to 1.
+    """
+    ours, theirs = labels_of(scene), labels_of(donor)
+    own, other = _tones(scene, ours), _tones(donor, theirs)
+    all_own, all_other = (_all(scene, ours), _all(donor, theirs))
+    by_sky = _lab(new_sky) - _lab(old_sky)
+    lit = _light_ratio(scene, donor, by_sky) | {"water": by_sky}  # it mirrors
+    lit["plants"] = 0.5 * (lit["ground"] + lit["upright"])
+    bounds = _order(scene, donor, all_own, all_other, new_sky, old_sky)
+    mean, gain, shift, total = (np.zeros((*ours["ground"].shape, 3), np.float32) for _ in range(4))
+    for label in LABELS:
+        if own[label].share < 1e-4:
+            continue
+        wanted, ratio = _label_change(
+            own[label], other[label], all_own, all_other, lit[label], by_sky, bounds
+        )
+        weight = ours[label][..., None]
+        mean += weight * own[label].mean
+        gain += weight * (1 + strength * (ratio - 1))
+        shift += weight * strength * wanted
+        total += weight
+    here = np.maximum(total, 1e-4)
+    # Without land there is nothing to change: gain 1, shift 0.
+    sure = np.clip(total / 0.02, 0, 1)
+    return LandChange(mean / here, 1 + sure * (gain / here - 1), sure * shift / here)
+
+
+def _light_ratio(scene: Scene, donor: Scene, by_sky: np.ndarray) -> dict[str, np.ndarray]:
+    """Log of the donor's light over the photo's, in lαβ, on the ground and on upright things."""
+    own, other = land_light(scene), land_light(donor)
+    if is_night(scene) or is_night(donor):
+        # By night the fit means nothing, but there the sky that is seen is all the light.
+        return {
+            "ground": by_sky
+            + _by_sun(other.lying, other.lying_by_sky)
+            - _by_sun(own.lying, own.lying_by_sky),
+            "upright": by_sky
+            + _by_sun(other.upright, other.upright_by_sky)
+            - _by_sun(own.upright, own.upright_by_sky),
+        }
+    return {
+        "ground": _lab(other.lying) - _lab(own.lying),
+        "upright": _lab(other.upright) - _lab(own.upright),
+    }
+
+
+def _by_sun(light: np.ndarray, by_sky: np.ndarray) -> np.ndarray:
+    return _lab(light) - _lab(by_sky)
+
+
+def _label_change(
+    own: Tones,
+    other: Tones,
+    all_own: Tones,
+    all_other: Tones,
+    lit: np.ndarray,
+    by_sky: np.ndarray,
+    bounds: tuple[float, float],
+) -> tuple[np.ndarray, np.ndarray]:
+    """Shift (3,) and gain (3,) in lαβ of one label."""
+    sure = _sure(other.share)
+    sure_of_all = _sure(all_other.share)
+    like = all_other.mean - all_own.mean
+    statistic = sure * (other.mean - own.mean) + (1 - sure) * like
+    weight = _STATISTICS * max(sure, 0.5 * sure_of_all)
+    # A fit in the dark or under cloud may be far off; the sky that is seen is not.
+    light = lit + _SKY_IN_TINT * (by_sky - lit)
+    step = np.sqrt(3) * np.log10(np.e)
+    light[0] = by_sky[0] + np.clip(lit[0] - by_sky[0], -step, step)
+    if lit is by_sky:  # a mirror shows the sky's colour, whatever it is
+        light = lit.copy()
+    else:
+        light[1:] = np.clip(light[1:], *_TINT_OF_LIGHT)
+    shift = light + weight * (statistic - light)
+    shift[1:] = light[1:] + np.clip(shift[1:] - light[1:], -_TINT_OF_LAND, _TINT_OF_LAND)
+    # l of lαβ is √3 times the mean log10 of the cones: nearly the luminance's.
+    low, high = max(bounds[0], _DARKEST), min(bounds[1], _BRIGHTEST)
+    shift[0] = np.clip(shift[0], step * low, step * max(high, low))
+    spread = np.sqrt(np.maximum(other.deviation, 1e-3) / np.maximum(own.deviation, 1e-3))
+    limits = np.array([_CONTRAST, _COLOUR, _COLOUR])
+    gain = 1 + sure * (np.clip(spread, limits[:, 0], limits[:, 1]) - 1)
+    return shift, gain
+
+
+def _order(
+    scene: Scene,
+    donor: Scene,
+    own: Tones,
+    other: Tones,
+    new_sky: np.ndarray,
+    old_sky: np.ndarray,
+) -> tuple[float, float]:
+    """Bounds of the land's change (natural log) that keep a dark sky's land dark.
+
+    The land stands to the new sky as it stood to the old one, or as the donor's stands to its
+    sky, or between; a darker sky never brightens the land, nor a brighter one darkens it much.
+    """
+    before, after = (_log_luminance(light) for light in (old_sky, new_sky))
+    sky = after - before
+    sure = _sure(other.share)
+    in_photo = _luminance(own.mean) - before
+    in_donor = _luminance(other.mean) - _log_luminance(mean_sky(donor))
+    change = sure * (in_donor - in_photo)
+    low = sky + min(change, 0.0) - _MARGIN
+    high = sky + max(change, 0.0) + _MARGIN
+    if is_night(donor) and sky < 0:
+        high = min(high, 0.8 * sky)
+    elif sky < 0:
+        high = min(high, max(0.0, _MARGIN + 0.5 * sky))
+    else:
+        low = max(low, min(0.0, -_MARGIN - 0.25 * sky))
+    room = max(0.0, float(np.log(_WELL_EXPOSED)) - _luminance(own.mean))
+    low, high = min(low, room), min(high, room)
+    return low, max(low, high)
+
+
+def mean_sky(scene: Scene) -> np.ndarray:
+    """Mean scene-linear light (3,) of a scene's sky."""
+    assert scene.fitted is not None
+    small = scene.working
+    weight = resize(scene.sky, small.width, small.height).ravel()
+    light = scene.fitted.response.scene_light(small.linear).reshape(-1, 3)
+    return np.asarray(weight @ light / max(float(weight.sum()), 1e-6))
+
+
+def _tones(scene: Scene, labels: dict[str, np.ndarray]) -> dict[str, Tones]:
+    assert scene.fitted is not None
+    lab = _lab(scene.fitted.response.scene_light(scene.working.linear)).reshape(-1, 3)
+    return {name: _weighted(lab, weight) for name, weight in labels.items()}
+
+
+def _all(scene: Scene, labels: dict[str, np.ndarray]) -> Tones:
+    assert scene.fitted is not None
+    lab = _lab(scene.fitted.response.scene_light(scene.working.linear)).reshape(-1, 3)
+    return _weighted(lab, np.sum(list(labels.values()), axis=0))
+
+
+def _weighted(lab: np.ndarray, weight: np.ndarray) -> Tones:
+    share = weight.ravel().astype(np.float64)
+    total = max(float(share.sum()), 1e-6)
+    mean = share @ lab / total
+    deviation = np.sqrt(np.maximum(share @ (lab - mean) ** 2 / total, 0))
+    return Tones(mean, deviation, float(share.mean()))
+
+
+def _sure(share: float) -> float:
+    """How far a label that covers this share of a picture can be trusted."""
+    return share / (share + 0.02)
+
+
+def _luminance(lab: np.ndarray) -> float:
+    """Natural log of the luminance of a colour in lαβ."""
+    rgb = np.power(10.0, lab @ _FROM_LAB.T) @ _FROM_LMS.T
+    return _log_luminance(rgb)
+
+
+def _log_luminance(light: np.ndarray) -> float:
+    return float(np.log(max(float(light @ LUMINANCE), 1e-6)))
+
+
+def _lab(light: np.ndarray) -> np.ndarray:
+    """Scene-linear light (..., 3) to lαβ, float32."""
+    cones = np.maximum(light @ RGB_TO_LMS.T.astype(np.float32), _FLOOR)
+    return np.asarray(np.log10(cones) @ LMS_TO_LAB.T.astype(np.float32))
+
+
+def rows_at(image: np.ndarray, rows: slice, size: tuple[int, int]) -> np.ndarray:
+    """Rows of a map as if it were resized to ``size``: bilinear, without making all of it."""
+    import cv2
+
+    height, width = image.shape[:2]
+    if (width, height) == size:
+        return image[rows]
+    y = (np.arange(size[1])[rows] + 0.5) * height / size[1] - 0.5
+    x = (np.arange(size[0]) + 0.5) * width / size[0] - 0.5
+    grid = np.meshgrid(x.astype(np.float32), y.astype(np.float32))
+    found = cv2.remap(image, *grid, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE)
+    return np.asarray(found)
+
+
+def _soft(label: np.ndarray, guide: np.ndarray) -> np.ndarray:
+    """Follow the picture's own edges, so that no label ends in a line of its own."""
+    import cv2
+
+    radius = max(2, round(0.012 * max(label.shape)))
+    label = label.astype(np.float32)
+    return np.clip(cv2.ximgproc.guidedFilter(guide, label, radius, 1e-3), 0, 1)
+
+
+def _smoothstep(low: float, high: float, x: np.ndarray) -> np.ndarray:
+    t = np.clip((x - low) / (high - low), 0, 1)
+    return np.asarray(t * t * (3 - 2 * t), np.float32)
