@@ -45,6 +45,8 @@ export interface Scene {
   };
   /** Shares of the sky by bins of whiteness from 0 to reach, as the method measures it. */
   whiteness: { method: string; reach: number; shares: number[] };
+  /** Times of day, with what each sets in this photo. */
+  presets: import("./controls/chips.js").Preset[];
   warnings: string[];
 }
 

@@ -20,8 +20,15 @@ export function choice({ parameter: p, onChange, names = {} }) {
   );
   return {
     node,
-    /** @param {string} value */
-    show(value) {
+    /**
+     * @param {string} value
+     * @param {number} [found] index of what stands behind "automatic"
+     */
+    show(value, found) {
+      const at = p.choices.indexOf("automatic");
+      if (at >= 0 && found !== undefined) {
+        select.options[at].textContent = `automatic: ${p.choices[found]}`;
+      }
       select.value = value;
       node.classList.toggle("sw-default", value === p.default);
     },

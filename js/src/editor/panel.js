@@ -1,5 +1,6 @@
 /** The sliders, drawn from the kernel's parameter table. */
 
+import { presetChips } from "../controls/chips.js";
 import { choice } from "../controls/choice.js";
 import { element } from "../controls/element.js";
 import { section } from "../controls/section.js";
@@ -26,7 +27,10 @@ export function panel(view) {
         parameter: p,
         onChange: (value) => state.set({ [p.name]: value }),
       });
-      updates.push(() => control.show(String(state.values[p.name] ?? p.default)));
+      updates.push(() => {
+        const found = view.scene?.automatic[p.name];
+        control.show(String(state.values[p.name] ?? p.default), found);
+      });
       return control.node;
     }
     const control = slider({
@@ -42,17 +46,23 @@ export function panel(view) {
     return control.node;
   };
 
+  const presets = presetChips(state, () => view.scene?.presets ?? []);
+  node.append(presets.node);
+  updates.push(presets.show);
   const softness = new Softness(view);
   updates.push(() => softness.show());
   const shown = view.parameters.filter((p) => p.kind !== "data");
   for (const name of new Set(shown.map((p) => p.section))) {
     const rows = shown.filter((p) => p.section === name);
-    const main = rows.filter((p) => !p.advanced);
-    const more = rows.filter((p) => p.advanced);
+    // What the kernel has to answer is set once, not played with.
+    const folded = (/** @type {import("../types.js").Parameter} */ p) => p.advanced || p.analysis;
+    const main = rows.filter((p) => !folded(p));
+    const more = rows.filter(folded);
     const body = /** @type {Node[]} */ (main.map(row));
-    if (name === "clouds") body.push(softness.node);
     if (main.length && more.length) {
-      body.push(section({ title: "More", open: false, className: "sw-more" }, ...more.map(row)));
+      const nodes = /** @type {Node[]} */ (more.map(row));
+      if (name === "clouds") nodes.splice(1, 0, softness.node);
+      body.push(section({ title: "More", open: false, className: "sw-more" }, ...nodes));
     }
     node.append(
       main.length

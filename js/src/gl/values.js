@@ -10,7 +10,7 @@
  */
 
 /**
- * Every number of an edit with automatic ones filled in, and the index of the method.
+ * Every number of an edit with automatic ones filled in, and the index of every choice.
  *
  * @param {Parameter[]} parameters
  * @param {Edit} edit
@@ -22,7 +22,10 @@ export function parameterValues(parameters, edit, automatic) {
   const values = {};
   for (const p of parameters) {
     const value = edit[p.name] ?? p.default;
-    if (p.kind === "choice") values[p.name] = p.choices.indexOf(String(value));
+    if (p.kind === "choice") {
+      const found = value === "automatic" ? automatic[p.name] : undefined;
+      values[p.name] = found ?? p.choices.indexOf(String(value));
+    }
     if (p.kind === "number") values[p.name] = Number(value ?? automatic[p.name]);
   }
   return values;
