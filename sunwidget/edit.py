@@ -20,6 +20,7 @@ METHODS = ("ratio", "thesis", "thesis_literal")
 LIGHTS = ("sun", "moon")
 # "analysed": as ``analyze`` chose. The others are the names in ``analysis.clouds.METHODS``.
 CLOUD_METHODS = ("analysed", "rb_ratio", "rb_difference", "saturation", "learned", "unmix")
+STROKE_LABELS = ("sky", "not_sky", "water", "not_water")
 
 Point = tuple[float, float]
 
@@ -124,7 +125,7 @@ class Stroke:
 
     Parameters
     ----------
-    label : {"sky", "not_sky"}
+    label : {"sky", "not_sky", "water", "not_water"}
         What the person says lies under the brush.
     points : tuple of (x, y)
         Polyline in fractions of the picture's width and height, 0–1.
@@ -132,7 +133,7 @@ class Stroke:
         Brush radius in fractions of the picture's longer side.
     """
 
-    label: Literal["sky", "not_sky"]
+    label: Literal["sky", "not_sky", "water", "not_water"]
     points: tuple[Point, ...]
     radius: float = 0.01
 
@@ -258,7 +259,7 @@ class Edit:
     blend_power: float = _number(1.0, (0.1, 8), 0.1, "", "Blend power B_fp", "thesis",
         "B_fp of eq. 3.12.", advanced=True)
     strokes: tuple[Stroke, ...] = _data((), "Strokes",
-        "Sky / not-sky strokes, replayed in order.")
+        "Sky, not-sky, water and not-water strokes, replayed in order.")
     sun_hint: Point | None = _data(None, "Sun in the photo",
         "Where the person says the photo's own sun is, in fractions of width and height.")
     horizon_hint: tuple[Point, Point] | None = _data(None, "Horizon in the photo",
@@ -473,8 +474,11 @@ def _check_strokes(value: Any) -> tuple[Stroke, ...]:
             stroke = dataclasses.asdict(stroke)
         if not isinstance(stroke, dict) or not {"label", "points"} <= stroke.keys():
             raise EditError(f"A stroke needs a label and points, not {_shown(stroke)}.")
-        if stroke["label"] not in ("sky", "not_sky"):
-            raise EditError(f"A stroke's label is 'sky' or 'not_sky', not {stroke['label']!r:.80}.")
+        if stroke["label"] not in STROKE_LABELS:
+            raise EditError(
+                f"A stroke's label is one of {', '.join(STROKE_LABELS)}, "
+                f"not {stroke['label']!r:.80}."
+            )
         extra = stroke.keys() - {"label", "points", "radius"}
         if extra:
             raise EditError(f"A stroke has no {_shown(min(map(str, extra)))}.")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ class Hints:
     """What a person says about the photo; a hint wins over detection.
 
     Points are pixels of the photo. ``methods`` names the method of each stage; ``cloud_ratios``
-    are m_min and m_max of the clouds.
+    are m_min and m_max of the clouds; ``water`` is a given map (h, w) in [0, 1] of any size.
     """
 
     sun: Point | None = None
@@ -29,6 +29,7 @@ class Hints:
         parameter("cloud_ratio_min").default,
         parameter("cloud_ratio_max").default,
     )
+    water: np.ndarray | None = field(default=None, repr=False, compare=False)
 
     def method(self, stage: str) -> str:
         """Name of the stage's method."""

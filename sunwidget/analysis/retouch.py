@@ -29,6 +29,8 @@ from sunwidget.analysis.refine import (
 )
 from sunwidget.analysis.stages import Steps, complete
 from sunwidget.analysis.strokes import Painting, set_strokes
+from sunwidget.analysis.water_strokes import LABELS as WATER
+from sunwidget.analysis.water_strokes import with_water
 from sunwidget.analysis.working import code_values, resize
 
 if TYPE_CHECKING:
@@ -51,9 +53,11 @@ class _Tile(NamedTuple):
 
 def stroked(base: Scene, strokes: tuple[Stroke, ...]) -> Scene:
     """Return a scene that has no strokes after ``strokes``; without any the very same."""
-    if not strokes:
-        return base
-    return base.memory.scene(strokes, lambda: _draw(base, strokes))
+    of_sky = tuple(stroke for stroke in strokes if stroke.label not in WATER)
+    scene = base if not of_sky else base.memory.scene(of_sky, lambda: _draw(base, of_sky))
+    if of_sky == strokes:
+        return scene
+    return base.memory.scene(strokes, lambda: with_water(base, scene, strokes))
 
 
 def _draw(base: Scene, strokes: tuple[Stroke, ...]) -> Scene:

@@ -292,7 +292,7 @@ def analyze(
     horizon_method: str = "water_line",
     sun_method: str = "disc_fit",
     depth: str = "ground_plane",
-    water: str = "none",
+    water: Any = "streaks",
     strokes: tuple[Stroke, ...] = (),
     progress: Progress | None = None,
 ) -> Scene:
@@ -313,9 +313,11 @@ def analyze(
         network, doubted where it hardly believes itself (plausible.py); a named one is not.
     sky_label : int or str, optional
         The class "sky" of an ONNX network, index from 0 or name (``SkyNetwork.label``).
-    refine, clouds, horizon_method, sun_method, depth, water : str
+    refine, clouds, horizon_method, sun_method, depth : str
         Name in the stage's ``METHODS``.
     strokes : tuple of Stroke
+    water : str or array
+        Name in ``water.METHODS``, or a map (H, W), 1 = water.
         Corrections of the sky.
     progress : callable, optional
         Called with (fraction, message); raise in it to cancel.
@@ -339,7 +341,7 @@ def analyze(
         "horizon": horizon_method,
         "sun": sun_method,
         "depth": depth,
-        "water": water,
+        "water": water if isinstance(water, str) else "none",
     }
     for stage, name in methods.items():
         check_method(stage, name)
@@ -349,6 +351,7 @@ def analyze(
         check_fov(fov),
         methods=tuple(methods.items()),
     )
+        water=None if isinstance(water, str) else sky_stage.mask_from(water, photo.size, "water"),
     step = Steps(progress)
     step("prepare", 0.0, "Preparing the photo")
     working = Working.of(photo)

@@ -122,8 +122,8 @@ def _read_mask(path: Path) -> np.ndarray:
         ) from error
 
 
-def mask_from(mask: Any, size: tuple[int, int] | None = None) -> np.ndarray:
-    """Turn what a caller passes as a mask into (h, w) float32 in [0, 1].
+def mask_from(mask: Any, size: tuple[int, int] | None = None, of: str = "sky") -> np.ndarray:
+    """Turn what a caller passes as a mask ``of`` something into (h, w) float32 in [0, 1].
 
     Raises
     ------
@@ -139,12 +139,12 @@ def mask_from(mask: Any, size: tuple[int, int] | None = None) -> np.ndarray:
         array = array.astype(np.float32)
     except (TypeError, ValueError) as error:
         raise AnalysisError(
-            f"sky= takes a mask array, a path or a method, not {mask!r:.80}."
+            f"{of}= takes a mask array, a path or a method, not {mask!r:.80}."
         ) from error
     if array.ndim != 2 or array.size == 0:
-        raise AnalysisError(f"A sky mask has shape (height, width), not {array.shape}.")
+        raise AnalysisError(f"A {of} mask has shape (height, width), not {array.shape}.")
     if not np.isfinite(array).all():
-        raise AnalysisError("The sky mask holds NaN or infinite values; it must lie in 0 to 1.")
+        raise AnalysisError(f"The {of} mask holds NaN or infinite values; it must lie in 0 to 1.")
     if not boolean and array.max() > 1:
         array = array / (255 if array.max() <= 255 else 65535)
     if size is not None:
@@ -152,7 +152,7 @@ def mask_from(mask: Any, size: tuple[int, int] | None = None) -> np.ndarray:
         slack = 1 + 1.5 / min(array.shape) + 1.5 / min(size)
         if not 1 / slack <= ratio <= slack:
             raise AnalysisError(
-                f"The sky mask is {array.shape[1]} × {array.shape[0]}, the photo "
+                f"The {of} mask is {array.shape[1]} × {array.shape[0]}, the photo "
                 f"{size[0]} × {size[1]}: shapes must agree. Was one of them rotated?"
             )
     return np.clip(array, 0, 1)

@@ -125,7 +125,7 @@ def complete(
     fitted, behind, (cover, everywhere) = _atmosphere(working, sky, covers, camera, sun, hints)
 
     step("water", 0.95, "Looking for water")
-    water = METHODS["water"][hints.method("water")](working, sky, horizon.row / zoom_y)
+    water = _water(working, sky, horizon.scaled(1 / zoom_x, 1 / zoom_y), hints)
     scene = dataclasses.replace(
         base,
         sky=matte,
@@ -138,7 +138,7 @@ def complete(
         horizon=horizon,
         camera=camera,
         atmosphere=fitted.atmosphere,
-        water=resize(water, *photo.size),
+        water=np.minimum(resize(water, *photo.size), 1 - matte),
         assumed_sun=fitted.sun,
         fitted=fitted,
         response={
@@ -192,6 +192,14 @@ def _horizon(working: Working, sky: np.ndarray, hints: Hints, width: int) -> Hor
 
 def _by_colour(
     working: Working, sky: np.ndarray, hints: Hints, sun_mask: np.ndarray | None
+def _water(working: Working, sky: np.ndarray, horizon: Horizon, hints: Hints) -> np.ndarray:
+    """Return the given or found water, (h, w) float32; a given map keeps its size."""
+    if hints.water is not None:
+        return hints.water
+    found = METHODS["water"][hints.method("water")](working, sky, horizon)
+    return np.asarray(found, np.float32)
+
+
 ) -> tuple[Clouds, Clouds]:
     """Return the clouds of the sky, and of the whole picture as if it were sky; minus the sun."""
     find = METHODS["clouds"][hints.method("clouds")]

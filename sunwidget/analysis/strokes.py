@@ -216,7 +216,7 @@ def _nearest(lab: np.ndarray, where: np.ndarray, colours: np.ndarray, most: int)
 
 
 def set_strokes(matte: np.ndarray, strokes: Sequence[Stroke]) -> None:
-    """Set a matte (H, W) under each brush, in place: what a person says wins over everything."""
+    """Set a map (H, W) under each brush, in place: what a person says wins over everything."""
     height, width = matte.shape
     for stroke in strokes:
         reach = stroke.radius * max(width, height) + 2
@@ -227,4 +227,4 @@ def set_strokes(matte: np.ndarray, strokes: Sequence[Stroke]) -> None:
         if left < right and top < bottom:
             # Painting only the stroke's box saves most of the time on a large photo.
             box = slice(top, bottom), slice(left, right)
-            matte[box][paint(stroke, width, height, box)] = stroke.label == "sky"
+            matte[box][paint(stroke, width, height, box)] = stroke.label in ("sky", "water")

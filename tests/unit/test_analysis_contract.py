@@ -102,7 +102,9 @@ def test_the_path_of_a_mask_is_the_mask(tmp_path):
         ({"sun_method": "guess"}, r"choose one of .*disc_fit"),
         ({"horizon_method": "guess"}, r"choose one of .*robust_line"),
         ({"depth": "sonar"}, r"choose one of .*ground_plane"),
-        ({"water": ["none"]}, r"choose one of"),
+        ({"water": "moat"}, r"choose one of .*streaks"),
+        ({"water": ["none"]}, r"water= takes a mask array"),
+        ({"water": np.zeros((160, 30))}, r"shapes must agree"),
     ],
 )
 def test_a_hint_that_cannot_be_used_is_refused_with_what_to_do(hints, words):

@@ -10,7 +10,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import sunwidget as sw
-from sunwidget.edit import METHODS, NUMBERS, PARAMETERS, Edit, EditError, Stroke, parameter
+from sunwidget.edit import (
+    METHODS,
+    NUMBERS,
+    PARAMETERS,
+    STROKE_LABELS,
+    Edit,
+    EditError,
+    Stroke,
+    parameter,
+)
 
 # Too long for str(), so pytest must not make its name of it.
 HUGE = pytest.param(10**5000, id="huge")
@@ -39,7 +48,7 @@ def edits(draw):
     fraction = st.floats(0, 1)
     stroke = st.builds(
         Stroke,
-        st.sampled_from(["sky", "not_sky"]),
+        st.sampled_from(STROKE_LABELS),
         st.lists(st.tuples(fraction, fraction), min_size=1, max_size=5).map(tuple),
         st.floats(0.0005, 0.5),
     )
@@ -170,8 +179,8 @@ def test_replace_leaves_the_original_alone():
         ("sky", "list of strokes"),
         ([3], "label and points"),
         ([{"label": "sky"}], "label and points"),
-        ([{"label": "cloud", "points": [[0, 0]]}], "'sky' or 'not_sky'"),
-        ([{"label": ["sky"], "points": [[0, 0]]}], "'sky' or 'not_sky'"),
+        ([{"label": "cloud", "points": [[0, 0]]}], "one of sky, not_sky, water, not_water"),
+        ([{"label": ["sky"], "points": [[0, 0]]}], "one of sky, not_sky, water, not_water"),
         ([{"label": "sky", "points": []}], "pairs"),
         ([{"label": "sky", "points": 7}], "pairs"),
         ([{"label": "sky", "points": [[0]]}], "pair"),
@@ -181,7 +190,7 @@ def test_replace_leaves_the_original_alone():
         ([{"label": "sky", "points": [[0, 0]], "radius": 0}], "radius"),
         ([{"label": "sky", "points": [[0, 0]], "radius": None}], "radius"),
         ([{"label": "sky", "points": [[0, 0]], "color": "red"}], "no 'color'"),
-        ([Stroke("cloud", ((0.0, 0.0),))], "'sky' or 'not_sky'"),
+        ([Stroke("cloud", ((0.0, 0.0),))], "one of sky, not_sky, water, not_water"),
     ],
 )
 def test_a_senseless_stroke_is_refused(strokes, message):
