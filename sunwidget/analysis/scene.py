@@ -315,9 +315,9 @@ def analyze(
         The class "sky" of an ONNX network, index from 0 or name (``SkyNetwork.label``).
     refine, clouds, horizon_method, sun_method, depth : str
         Name in the stage's ``METHODS``.
-    strokes : tuple of Stroke
     water : str or array
         Name in ``water.METHODS``, or a map (H, W), 1 = water.
+    strokes : tuple of Stroke
         Corrections of the sky.
     progress : callable, optional
         Called with (fraction, message); raise in it to cancel.
@@ -350,8 +350,8 @@ def analyze(
         check_horizon(horizon),
         check_fov(fov),
         methods=tuple(methods.items()),
-    )
         water=None if isinstance(water, str) else sky_stage.mask_from(water, photo.size, "water"),
+    )
     step = Steps(progress)
     step("prepare", 0.0, "Preparing the photo")
     working = Working.of(photo)

@@ -190,8 +190,6 @@ def _horizon(working: Working, sky: np.ndarray, hints: Hints, width: int) -> Hor
     return find(sky, working.encoded).scaled(*working.zoom)
 
 
-def _by_colour(
-    working: Working, sky: np.ndarray, hints: Hints, sun_mask: np.ndarray | None
 def _water(working: Working, sky: np.ndarray, horizon: Horizon, hints: Hints) -> np.ndarray:
     """Return the given or found water, (h, w) float32; a given map keeps its size."""
     if hints.water is not None:
@@ -200,6 +198,8 @@ def _water(working: Working, sky: np.ndarray, horizon: Horizon, hints: Hints) ->
     return np.asarray(found, np.float32)
 
 
+def _by_colour(
+    working: Working, sky: np.ndarray, hints: Hints, sun_mask: np.ndarray | None
 ) -> tuple[Clouds, Clouds]:
     """Return the clouds of the sky, and of the whole picture as if it were sky; minus the sun."""
     find = METHODS["clouds"][hints.method("clouds")]
