@@ -43,6 +43,8 @@ export interface Scene {
     confidence: number;
     source: string;
   };
+  /** How likely the fitted atmosphere is right, 0–1; null when none was fitted. */
+  sureness: number | null;
   /** Shares of the sky by bins of whiteness from 0 to reach, as the method measures it. */
   whiteness: { method: string; reach: number; shares: number[] };
   /** Times of day, with what each sets in this photo. */

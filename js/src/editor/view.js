@@ -93,6 +93,10 @@ export class View {
     this.panel = panel(this);
     this.toolbar = toolbar(this);
     this.readout = element("div", { class: "sw-readout" });
+    this.sureness = element("div", {
+      class: "sw-readout",
+      title: "How likely the sky that was fitted to the photo changes with the sun as the real one",
+    });
     this.notes = new Notes();
     this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
     this.build();
@@ -116,7 +120,7 @@ export class View {
       this.stage.node,
       this.message,
       this.inspector.node,
-      element("div", { class: "sw-foot" }, this.readout, this.notes.node),
+      element("div", { class: "sw-foot" }, this.readout, this.sureness, this.notes.node),
     );
     const body = element("div", { class: "sw-body" }, main, this.panel.node);
     this.root.append(this.toolbar.node, body);
@@ -212,6 +216,7 @@ export class View {
     const { fov_vertical_deg, pitch, roll } = scene.camera;
     this.camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
     this.notes.show(scene.warnings);
+    this.sureness.textContent = surenessText(scene.sureness);
     this.showMask();
     void this.inspector.refresh();
     this.tools[this.tool].refresh?.();
@@ -333,6 +338,10 @@ export class View {
     }
   }
 }
+
+/** @param {number | null | undefined} sureness */
+const surenessText = (sureness) =>
+  typeof sureness === "number" ? `Atmosphere: ${Math.round(100 * sureness)} % sure` : "";
 
 /** @param {unknown} error */
 const message = (error) => (error instanceof Error ? error.message : String(error));
