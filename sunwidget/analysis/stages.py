@@ -29,6 +29,7 @@ from sunwidget.analysis.islands import fill_islands, grow_over_glow
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.notices import notices
 from sunwidget.analysis.sun import Blot, SunObservation
+from sunwidget.analysis.unmix import cloud_gain
 from sunwidget.analysis.working import Working, resize
 from sunwidget.camera import Camera, Point
 
@@ -145,6 +146,7 @@ def complete(
             "response_shoulder": fitted.response.shoulder,
             "response_contrast": fitted.response.contrast,
             "sky_gain": fitted.gain,
+            "cloud_gain": cloud_gain(fitted),
             "glare_profile": fitted.glare,
         },
         warnings=notices(photo, sky, sun, horizon, camera, hints, base.doubted, moon),

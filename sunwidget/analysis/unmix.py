@@ -32,6 +32,18 @@ def cloud_white(fit: SkyFit) -> np.ndarray:
     return np.asarray(mean + 2.0 * height * float(mean @ LUMINANCE), np.float32)
 
 
+def cloud_gain(fit: SkyFit) -> tuple[float, float, float]:
+    """Return the scene-linear light (r, g, b) of a cloud per kcd m⁻² of the model's cloud.
+
+    As bright as the sky's gain, but grey: what makes skies bluer than the model is the camera's
+    picture style, which leaves white things white. Daylight as a whole is white in Rec. 709.
+    """
+    azimuth, elevation = np.meshgrid(np.arange(-165, 181, 30.0), np.array([10.0, 30, 50, 70]))
+    sky = model_sky(fit.atmosphere, azimuth, elevation, fit.sun).mean((0, 1)) @ np.diag(LUMINANCE)
+    level = float(sky @ np.array(fit.gain) / sky.sum())
+    return (level, level, level)
+
+
 def unmix(
     scene_light: np.ndarray, clear: np.ndarray, white: np.ndarray, sky: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:

@@ -19,19 +19,24 @@ const float kDiscRadius = 0.2665;  // degrees
 const int kRings = 3;
 const int kSpokes = 12;
 
+// The added clouds are bright themselves and let light through: they take no more than this share
+// (of a cloud of optical depth 16 a third comes through), and come slowly before the sun.
+const float kCloudShade = 0.65;
+const float kCloudPenumbra = 10.0;  // in disc radii
+
 float GetOpening(vec3 direction) {
   vec3 at = GetPlaceOfDirection(direction);
   if (at.z <= 0.0) return 1.0;
   vec4 layer = ReadBilinear(layers, at.xy);
   vec2 outside = max(max(-at.xy, at.xy - 1.0), 0.0);
   float cloud = GetOwnOpacity(layers, at.xy) * (1.0 - 0.8 * ReadBilinear(surface, at.xy).r);
-  float open = mix(layer.r * (1.0 - cloud), 1.0, smoothstep(0.0, 0.1, max(outside.x, outside.y)));
-  return open * (1.0 - GetAddedCover(direction));
+  return mix(layer.r * (1.0 - cloud), 1.0, smoothstep(0.0, 0.1, max(outside.x, outside.y)));
 }
 
 void main() {
   float open = 0.0;
   float above = 0.0;
+  float shaded = 0.0;
   for (int ring = 0; ring < kRings; ++ring) {
     // Rings of equal area.
     float radius = kDiscRadius * sqrt((float(ring) + 0.5) / float(kRings));
@@ -41,7 +46,10 @@ void main() {
       float weight = smoothstep(-0.05, 0.05, elevation) + 1e-4;
       open += weight * GetOpening(GetSunDirection(sun_azimuth + radius * cos(turn), elevation));
       above += weight;
+      vec2 wide = kCloudPenumbra * radius * vec2(cos(turn), sin(turn));
+      shaded += GetAddedCover(GetSunDirection(sun_azimuth + wide.x, sun_elevation + wide.y));
     }
   }
-  result = vec4(open / above, 0.0, 0.0, 1.0);
+  float added = 1.0 - kCloudShade * shaded / float(kRings * kSpokes);
+  result = vec4(added * open / above, 0.0, 0.0, 1.0);
 }

@@ -136,6 +136,12 @@ SHOWN = {
     "blend_power": {"method": "thesis"},
     "colourfulness": {"sun_elevation": -2},
     "auto_exposure": {"sun_elevation": 2},
+    "added_cloud_size": {"added_clouds": 0.5},
+    "added_cloud_height": {"added_clouds": 0.5},
+    "cloud_pattern": {"added_clouds": 0.5},
+    "wind_speed": {"added_clouds": 0.5, "wind_time": 30},
+    "wind_direction": {"added_clouds": 0.5, "wind_time": 30},
+    "wind_time": {"added_clouds": 0.5},
 }
 
 

@@ -26,17 +26,20 @@ vec2 GetLayerPlace(vec2 kilometres) {
   return (kilometres - drift) / added_cloud_size;
 }
 
-// How far the field of clouds rises over the threshold that leaves the wanted share of the sky:
-// > 0 is cloud, about 0.25 the middle of a large one. `octave_share` is how much of the third
-// octave counts.
-float GetCoverField(vec2 at, float octave_share) {
-  vec3 p = vec3(0.5 * at, 0.7 * cloud_pattern);
-  // Warped by itself, clouds get lobes and gaps instead of round blots.
-  float bend = GetNoise(0.7 * p + vec3(19.7, 3.1, 7.3));
-  p.xy += 0.5 * vec2(bend, -bend);
-  float field = GetNoise(p) + 0.5 * GetNoise(2.03 * p + vec3(5.2, 1.3, 8.1))
-      + 0.25 * octave_share * GetNoise(4.1 * p + vec3(1.7, 9.2, 2.8));
-  // The field is normal with deviation 0.22 (measured); the logistic's quantile is within 2 %.
+// Warped by this, the field gets lobes and gaps instead of round blots.
+vec2 GetWarp(vec2 at) {
+  float bend = 0.5 * GetNoise(vec3(0.35 * at, 0.49 * cloud_pattern) + vec3(19.7, 3.1, 7.3));
+  return vec2(bend, -bend);
+}
+
+// The field that is cloud where it is positive, 0.25 in the middle of a large one. `known` is how
+// much of its two finer octaves counts: what is smaller than a pixel is left out.
+float GetCoverField(vec2 at, vec2 warp, vec2 known) {
+  vec3 p = vec3(0.5 * at + warp, 0.7 * cloud_pattern);
+  float field = GetNoise(p);
+  if (known.x > 0.0) field += 0.5 * known.x * GetNoise(2.03 * p + vec3(5.2, 1.3, 8.1));
+  if (known.y > 0.0) field += 0.25 * known.y * GetNoise(4.1 * p + vec3(1.7, 9.2, 2.8));
+  // It is normal with deviation 0.22 (measured); the logistic's quantile is within 2 % of that.
   float share = mix(0.003, 0.997, added_clouds);
   return field + 0.13 * log(share / (1.0 - share));
 }
@@ -45,8 +48,8 @@ float GetCoverField(vec2 at, float octave_share) {
 float GetAddedCover(vec3 view) {
   if (added_clouds <= 0.0) return 0.0;
   float far = GetDistanceToLevel(view.y, added_cloud_height);
-  float field = GetCoverField(GetLayerPlace(far * view.xz), 1.0);
-  float depth = clamp(field / 0.3, 0.0, 1.0);
+  vec2 at = GetLayerPlace(far * view.xz);
+  float field = GetCoverField(at, GetWarp(at), vec2(1.0));
   float above = smoothstep(-0.004, 0.004, view.y);
-  return above * smoothstep(0.0, 0.02, added_clouds) * (1.0 - exp(-5.0 * depth));
+  return above * smoothstep(0.0, 0.02, added_clouds) * (1.0 - exp(-16.0 * max(field, 0.0)));
 }

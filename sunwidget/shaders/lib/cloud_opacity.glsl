@@ -15,10 +15,15 @@ float GetThinned(float opacity) {
   return cloud_opacity > 1.0 ? max(thicker, opacity) : cloud_opacity * opacity;
 }
 
+// How far dissolved edges replace the photo where their opacity is `soft`: only near edges.
+float GetSoftened(float soft) {
+  return cloud_softness * min(6.0 * soft * (1.0 - soft), 1.0);
+}
+
 // `own` is the opacity times the matte, as `layers` holds it, and so is the result; `soft` the
 // opacity with dissolved edges.
 float EditOpacity(float own, float matte, float soft) {
   float opacity = min(own / max(matte, 1.0 / 255.0), 1.0);
-  float changed = matte * GetThinned(mix(opacity, soft, cloud_softness));
+  float changed = matte * GetThinned(mix(opacity, soft, GetSoftened(soft)));
   return cloud_opacity == 1.0 && cloud_softness == 0.0 ? own : changed;
 }
