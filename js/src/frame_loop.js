@@ -7,6 +7,8 @@ const SLOW_MS = 33; // a frame that waits longer makes the next ones smaller
 const FAST_MS = 18; // waiting for the screen's next refresh takes as long
 // Sizes that a drag may take. Few, since with a new size all of the picture's passes are drawn again.
 const SCALES = [1, 0.84, 0.71, 0.59, 0.5, 0.42, 0.35];
+// Frames after a new size: the first draws what later ones find drawn, the second waits for it.
+const UNLIKE_FRAMES = 2;
 const SETTLED_MS = 160; // after this long without a change the frame is drawn in full
 
 export class FrameLoop {
@@ -20,9 +22,10 @@ export class FrameLoop {
     this.dragging = dragging;
     this.wanted = 1; // the scale that would be just fast enough
     this.scale = 1; // the last one that was drawn
-    this.resized = true; // whether the last frame had another size than the one before
+    this.unlike = UNLIKE_FRAMES; // how many frames still say nothing about speed
     this.pending = 0;
     this.asked = 0; // when the frame under way was asked for, ms
+    this.spent = 0; // from asking for the last frame until it was drawn, ms
     this.rests = false;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.settle = undefined;
@@ -53,31 +56,34 @@ export class FrameLoop {
   }
 
   run() {
+    const { asked } = this;
     const small = this.dragging() && !this.rests;
-    clearTimeout(this.settle);
-    this.settle = undefined;
-    if (small) {
-      // A machine that is behind lets a frame wait; a slow hand does not. The frame after a new
-      // size waits for what is drawn only once.
-      if (!this.resized) this.adapt(performance.now() - this.asked);
-      this.settle = setTimeout(() => {
-        this.settle = undefined;
-        this.rests = true;
-        this.schedule();
-      }, SETTLED_MS);
-    }
     const scale = small ? rung(this.wanted) : 1;
-    this.resized = scale !== this.scale;
+    if (scale !== this.scale) this.unlike = UNLIKE_FRAMES;
     this.scale = scale;
+    clearTimeout(this.settle);
+    // Where frames take long, so do the hand's moves until they arrive.
+    this.settle = small ? setTimeout(() => this.finish(), SETTLED_MS + 2 * this.spent) : undefined;
     this.draw(scale);
+    // A machine that is behind lets a frame wait, or its drawing; a slow hand does neither.
+    this.spent = performance.now() - asked;
+    if (this.unlike > 0) this.unlike -= 1;
+    else if (small) this.adapt(this.spent);
   }
 
-  /** @param {number} waited ms */
-  adapt(waited) {
-    if (waited > SLOW_MS) {
-      const enough = this.scale * Math.sqrt(SLOW_MS / waited);
-      this.wanted = Math.max(SCALES[SCALES.length - 1], 0.5 * (this.scale + enough));
-    } else if (waited < FAST_MS) {
+  /** The hand rests: draw in full. */
+  finish() {
+    this.settle = undefined;
+    this.rests = true;
+    this.schedule();
+  }
+
+  /** @param {number} spent ms */
+  adapt(spent) {
+    if (spent > SLOW_MS) {
+      // One slow frame may be an accident: at most half the size at once.
+      this.wanted = this.scale * Math.max(0.5, Math.sqrt(SLOW_MS / spent));
+    } else if (spent < FAST_MS) {
       this.wanted = Math.min(1, this.wanted * 1.01);
     }
   }

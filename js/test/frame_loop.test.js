@@ -34,7 +34,7 @@ test("a machine that is behind draws smaller, in few sizes, and one that is not 
   const { drawn, step } = loopOf(t);
   for (let i = 0; i < 3; i++) step(16);
   assert.deepEqual(drawn, [1, 1, 1]);
-  for (let i = 0; i < 12; i++) step(200);
+  for (let i = 0; i < 24; i++) step(200);
   assert.equal(drawn.at(-1), 0.35);
   for (let i = 0; i < 200; i++) step(16);
   assert.equal(drawn.at(-1), 1);
@@ -43,7 +43,8 @@ test("a machine that is behind draws smaller, in few sizes, and one that is not 
 
 test("at a speed in between the size stays", (t) => {
   const { drawn, step } = loopOf(t);
-  for (let i = 0; i < 4; i++) step(60);
+  for (let i = 0; i < 6; i++) step(60);
+  step(25);
   const [reached] = drawn.slice(-1);
   assert.ok(reached < 1);
   for (let i = 0; i < 50; i++) step(25);
@@ -64,7 +65,9 @@ test("a hand that rests gets the picture in full, and so does the end of a drag"
   const { loop, drawn, step, run, pending } = loopOf(t, { dragging: () => dragging });
   for (let i = 0; i < 12; i++) step(200);
   assert.ok(drawn.at(-1) < 1 && loop.busy);
-  t.mock.timers.tick(200);
+  t.mock.timers.tick(300);
+  assert.ok(!pending(), "slow frames: the hand may still be on its way");
+  t.mock.timers.tick(300);
   assert.ok(pending());
   run(16);
   assert.equal(drawn.at(-1), 1);
