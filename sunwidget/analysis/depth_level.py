@@ -11,11 +11,10 @@ import numpy as np
 OCTAVES = 16.0  # 1 m to 65 536 m
 
 
-def to_level(depth: np.ndarray) -> np.ndarray:
-    """Return the level of a depth in metres: float32 in [0, 1]; inf is 1."""
-    reach = np.float32(2**OCTAVES)
-    clipped = np.clip(np.asarray(depth, np.float32), np.float32(1), reach)
-    return np.asarray(np.log2(clipped) / np.float32(OCTAVES), np.float32)
+def to_level(log_depth: np.ndarray) -> np.ndarray:
+    """Return the level of ln(metres): float32 in [0, 1]; below 1 m it is 0, inf is 1."""
+    octaves = np.asarray(log_depth, np.float32) * np.float32(1 / (OCTAVES * np.log(2)))
+    return np.clip(octaves, 0, 1)
 
 
 def to_depth(level: np.ndarray) -> np.ndarray:
@@ -58,6 +57,11 @@ def dithered(level: np.ndarray) -> np.ndarray:
     height, width = level.shape
     slope = np.float32(0.06711056) * np.arange(width, dtype=np.float32)
     rows = np.float32(0.00583715) * np.arange(height, dtype=np.float32)[:, None]
-    noise = np.float32(52.9829189) * np.mod(slope + rows, np.float32(1))
+    noise = slope + rows
     noise -= np.floor(noise)
-    return np.clip(level + (noise - np.float32(0.5)) / np.float32(255), 0, 1)
+    noise *= np.float32(52.9829189)
+    noise -= np.floor(noise)
+    noise -= np.float32(0.5)
+    noise *= np.float32(1 / 255)
+    noise += level
+    return np.clip(noise, 0, 1, out=noise)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from sunwidget.analysis.depth_network import DepthNetwork
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.camera import Point
 from sunwidget.edit import Stroke, parameter
@@ -17,7 +18,8 @@ class Hints:
     """What a person says about the photo; a hint wins over detection.
 
     Points are pixels of the photo. ``methods`` names the method of each stage; ``cloud_ratios``
-    are m_min and m_max of the clouds; ``water`` is a given map (h, w) in [0, 1] of any size.
+    are m_min and m_max of the clouds; ``water`` is a given map (h, w) in [0, 1] of any size;
+    ``depth`` a given map (h, w) in metres, or a network.
     """
 
     sun: Point | None = None
@@ -30,6 +32,7 @@ class Hints:
         parameter("cloud_ratio_max").default,
     )
     water: np.ndarray | None = field(default=None, repr=False, compare=False)
+    depth: np.ndarray | DepthNetwork | None = field(default=None, repr=False, compare=False)
 
     def method(self, stage: str) -> str:
         """Name of the stage's method."""

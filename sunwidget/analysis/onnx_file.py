@@ -1,7 +1,8 @@
-"""An ONNX file of a segmentation network: what it takes, and how to run it on a picture."""
+"""An ONNX file of a network that looks at a picture: what it takes, and how to run it."""
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -24,6 +25,12 @@ TYPES = {
 
 Scale = tuple[Any, Any]  # mean and deviation, each a number or three
 
+# What else a person can pass instead of a network, by what the network finds.
+INSTEAD = {
+    "sky": "sky=mask, the path of an .onnx file, or sky='skyline'",
+    "depth": "depth=an array of metres, the path of an .onnx file, or depth='fused'",
+}
+
 
 @dataclass(frozen=True, eq=False)
 class Opened:
@@ -37,6 +44,12 @@ class Opened:
     layout: str
     batch: bool
     size: tuple[int, int]
+    free: bool = False  # the file leaves the size open
+    finds: str = "sky"  # key of INSTEAD
+
+    def sized(self, side: int | None) -> Opened:
+        """Return the same network for another size of its input; None leaves it."""
+        return self if side is None else dataclasses.replace(self, size=(side, side))
 
     @classmethod
     def of(
@@ -44,6 +57,7 @@ class Opened:
         path: str | Path,
         layout: str | None = None,
         size: int | tuple[int, int] | None = None,
+        finds: str = "sky",
     ) -> Opened:
         """Open a file and read its input's layout, type and size.
 
@@ -54,6 +68,8 @@ class Opened:
             Where the file leaves it open; default "nchw".
         size : int or (width, height), optional
             Of the input in pixels, where the file leaves it open; default 384.
+        finds : {"sky", "depth"}
+            For the errors.
 
         Raises
         ------
@@ -62,13 +78,10 @@ class Opened:
         """
         path = Path(path)
         if not path.is_file():
-            raise AnalysisError(
-                f"No sky network at {path}. Pass sky=mask, the path of an .onnx file, or "
-                "sky='skyline'."
-            )
+            raise AnalysisError(f"No {finds} network at {path}. Pass {INSTEAD[finds]}.")
         stat = path.stat()
         stamp = (stat.st_mtime_ns, stat.st_size)
-        session = _session(str(path), stamp)
+        session = _session(str(path), stamp, finds)
         entries = session.get_inputs()
         takes = "; ".join(f"{e.name} {e.type} {e.shape}" for e in entries) or "nothing"
         refused = f"{path} is no network of one picture: it takes {takes}. "
@@ -98,7 +111,10 @@ class Opened:
                 f"{path} takes pictures of {takes_size[0]} × {takes_size[1]} only; leave out size=."
             )
         kind = TYPES[entry.type]
-        return cls(str(path), session, stamp, entry.name, kind, layout, batch, takes_size)
+        free = width is None and height is None
+        return cls(
+            str(path), session, stamp, entry.name, kind, layout, batch, takes_size, free, finds
+        )
 
     @property
     def metadata(self) -> dict[str, str]:
@@ -133,9 +149,10 @@ class Opened:
             outputs = self.session.run(None, {self.name: batch})
         except Exception as error:  # onnxruntime's exceptions share no public base class
             raise AnalysisError(
-                f"The sky network {self.path} failed on a {self.size[0]} × {self.size[1]} picture: "
-                f"{str(error)[:300]}. Give the size and layout it was made for, "
-                "sky=SkyNetwork(path, size=…, layout=…), or a mask."
+                f"The {self.finds} network {self.path} failed on a {self.size[0]} × {self.size[1]} "
+                f"picture: {str(error)[:300]}. Give the size and layout it was made for, "
+                f"{self.finds}={self.finds.capitalize()}Network(path, size=…, layout=…), or an "
+                "array."
             ) from error
         for asked in dict.fromkeys((label, None)):  # without the label: for the error
             for output in outputs:
@@ -143,6 +160,11 @@ class Opened:
                 if found is not None:
                     return found
         shapes = ", ".join(str(np.shape(output)) for output in outputs)
+        if self.finds == "depth":
+            raise AnalysisError(
+                f"The depth network {self.path} returned {shapes}; expected a map of depth: "
+                "(1, 1, h, w), (1, h, w) or (1, h, w, 1)."
+            )
         raise AnalysisError(
             f"The sky network {self.path} returned {shapes}; expected a map of the sky, of "
             "classes' scores or of labels: (1, 1, h, w), (1, classes, h, w), (1, h, w, classes) or "
@@ -151,13 +173,13 @@ class Opened:
 
 
 @lru_cache(maxsize=4)
-def _session(path: str, _stamp: tuple[int, int]) -> Any:
+def _session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
     try:
         import onnxruntime
     except ImportError as error:
         raise AnalysisError(
-            "Finding the sky needs onnxruntime (pip install onnxruntime). "
-            "Without it pass sky=mask or sky='skyline'."
+            f"A {finds} network needs onnxruntime (pip install onnxruntime). "
+            f"Without it pass {INSTEAD[finds]}."
         ) from error
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = 2
@@ -170,5 +192,5 @@ def _session(path: str, _stamp: tuple[int, int]) -> Any:
     except Exception as error:  # onnxruntime's exceptions share no public base class
         raise AnalysisError(
             f"{path} is not an ONNX network that can be read: {str(error)[:200]}. "
-            "Pass sky=mask, or the path of another network."
+            f"Pass {INSTEAD[finds]}."
         ) from error

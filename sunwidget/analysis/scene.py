@@ -12,10 +12,12 @@ from typing import Any
 
 import numpy as np
 
+from sunwidget.analysis import depth as depth_stage
 from sunwidget.analysis import depth_level, match, refine
 from sunwidget.analysis import sky as sky_stage
 from sunwidget.analysis import water as water_stage
 from sunwidget.analysis.clouds import Clouds
+from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.hints import Hints, check_fov, check_horizon, check_point
@@ -43,6 +45,8 @@ from sunwidget.photo import Photo, open_photo
 _ANALYSED_CLOUDS = {
     name: parameter(name).default for name in ("cloud_method", "cloud_ratio_min", "cloud_ratio_max")
 }
+
+_DEPTH_EDGE = 2048
 
 __all__ = ["AnalysisError", "Hints", "Progress", "Scene", "analyze"]
 
@@ -134,9 +138,34 @@ class Scene:
 
     @cached_property
     def depth(self) -> np.ndarray:
-        """Metres along the optical axis, inf for the sky: (H, W) float32; found when asked for."""
-        small = resize(self.sky, self.working.width, self.working.height)
-        return depth_of(small, self.camera, self.hints)
+        """Metres along the optical axis, inf for the sky: (H, W) float32; found when asked for.
+
+        Right up to one scale at best: the eye is taken to be 1.7 m above the ground.
+        """
+        metres = np.exp(self._log_depth(self.width, self.height))
+        return np.where(self.sky > 0.5, np.float32(np.inf), metres)
+
+    @cached_property
+    def depth_confidence(self) -> np.ndarray:
+        """How well the depth is known but for its scale: (H, W) float32 in [0, 1], 1 in the sky.
+
+        1 / (1 + (2 σ)²) with the standard error σ of ln depth.
+        """
+        found = resize(self._depth_field.confidence, self.width, self.height)
+        return np.where(self.sky > 0.5, np.float32(1), found)
+
+    @cached_property
+    def _depth_field(self) -> DepthField:
+        return depth_of(self)
+
+    def _log_depth(self, width: int, height: int) -> np.ndarray:
+        """Return ln(metres), the sky as its nearest land: (height, width) float32."""
+        # Beyond a preview's size depth has nothing finer to show.
+        scale = min(1.0, _DEPTH_EDGE / max(width, height))
+        size = max(1, round(width * scale)), max(1, round(height * scale))
+        metres = self._depth_field.log_metres(*size, self.working)
+        land = resize(self.sky, *size) <= 0.5
+        return resize(depth_level.fill_sky(metres, land), width, height)
 
     @cached_property
     def shown(self) -> refine.Decision:
@@ -219,17 +248,11 @@ class Scene:
         small = self.working
         sky = resize(self.sky, small.width, small.height)
         maps = (self.glare, self.water, water_stage.glitter(small, sky))
-        level = resize(depth_level.fill_sky(*self._land_level), width, height)
+        level = depth_level.to_level(self._log_depth(width, height))
         return np.stack(
             [*(resize(image, width, height) for image in maps), depth_level.dithered(level)],
             axis=-1,
         )
-
-    @cached_property
-    def _land_level(self) -> tuple[np.ndarray, np.ndarray]:
-        """Log-depth at working size, and where it is land."""
-        depth = resize(self.depth, self.working.width, self.working.height)
-        return depth_level.to_level(depth), np.isfinite(depth)
 
     def corrected(self, edit: Edit) -> Scene:
         """Return the scene with the edit's strokes, hints and choice of clouds applied.
@@ -291,7 +314,7 @@ def analyze(
     clouds: str = "unmix",
     horizon_method: str = "water_line",
     sun_method: str = "disc_fit",
-    depth: str = "ground_plane",
+    depth: Any = "fused",
     water: Any = "streaks",
     strokes: tuple[Stroke, ...] = (),
     progress: Progress | None = None,
@@ -313,8 +336,11 @@ def analyze(
         network, doubted where it hardly believes itself (plausible.py); a named one is not.
     sky_label : int or str, optional
         The class "sky" of an ONNX network, index from 0 or name (``SkyNetwork.label``).
-    refine, clouds, horizon_method, sun_method, depth : str
+    refine, clouds, horizon_method, sun_method : str
         Name in the stage's ``METHODS``.
+    depth : str, path, DepthNetwork or array
+        Name in ``depth.METHODS``; an ONNX network for depth from one picture, or its path; or
+        metres along the optical axis (H, W), inf for the sky.
     water : str or array
         Name in ``water.METHODS``, or a map (H, W), 1 = water.
     strokes : tuple of Stroke
@@ -340,7 +366,7 @@ def analyze(
         "clouds": clouds,
         "horizon": horizon_method,
         "sun": sun_method,
-        "depth": depth,
+        "depth": depth if isinstance(depth, str) and depth in METHODS["depth"] else "fused",
         "water": water if isinstance(water, str) else "none",
     }
     for stage, name in methods.items():
@@ -351,6 +377,7 @@ def analyze(
         check_fov(fov),
         methods=tuple(methods.items()),
         water=None if isinstance(water, str) else sky_stage.mask_from(water, photo.size, "water"),
+        depth=depth_stage.given(depth, photo.size),
     )
     step = Steps(progress)
     step("prepare", 0.0, "Preparing the photo")

@@ -21,6 +21,8 @@ from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis import water as water_stage
 from sunwidget.analysis.backdrop import Backdrop, behind_sun, fill_by_pyramid
 from sunwidget.analysis.clouds import Clouds
+from sunwidget.analysis.depth_field import DepthField
+from sunwidget.analysis.depth_view import View
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit, fit_sky
 from sunwidget.analysis.hints import Hints
@@ -297,11 +299,13 @@ def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> 
     )
 
 
-def depth_of(sky: np.ndarray, camera: Camera, hints: Hints) -> np.ndarray:
-    """Return metres at the photo's size."""
-    small = METHODS["depth"][hints.method("depth")](sky, camera.resized(*sky.shape[::-1]))
-    # Interpolated as 1 / depth, which is finite in the sky and linear on the ground.
-    nearness = resize(1 / small, camera.width, camera.height)
-    with np.errstate(divide="ignore"):
-        depth = np.where(nearness < 0.5 / depth_stage.FAR, np.inf, 1 / nearness)
-    return depth.astype(np.float32)
+def depth_of(scene: Scene) -> DepthField:
+    """Return the depth that was given, or found by the method that was asked for."""
+    hints, working = scene.hints, scene.working
+    view = View.of(working, scene.sky, scene.water, scene.camera, scene.horizon, scene.atmosphere)
+    if isinstance(hints.depth, np.ndarray):
+        return depth_stage.field_of(view, hints.depth)
+    if hints.depth is not None:
+        return hints.depth(view, working)
+    field: DepthField = METHODS["depth"][hints.method("depth")](view)
+    return field

@@ -16,7 +16,7 @@ def scene():
 
 def test_levels_are_log_depth():
     depth = np.array([0.1, 1, 256, 65536, 1e9, np.inf], np.float32)
-    level = depth_level.to_level(depth)
+    level = depth_level.to_level(np.log(depth))
     assert level == pytest.approx([0, 0, 0.5, 1, 1, 1])
     assert depth_level.to_depth(level)[1:4] == pytest.approx([1, 256, 65536])
 
