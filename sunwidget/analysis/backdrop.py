@@ -14,7 +14,15 @@ from functools import lru_cache
 
 import numpy as np
 
-from sunwidget.analysis.fit import SkyFit, view_angles, with_glare
+from sunwidget.analysis.camera_glare import (
+    angle_to_sun,
+    share_of_glare,
+    through_glare,
+    with_glare,
+)
+from sunwidget.analysis.fit import SkyFit, view_angles
+from sunwidget.analysis.old_sun import old_sun_mark, smoothstep, starburst
+from sunwidget.analysis.unmix import cloud_white, unmix
 from sunwidget.analysis.working import LUMINANCE, Working, resize
 from sunwidget.camera import Camera
 
@@ -40,7 +48,6 @@ class Backdrop:
 
 LONG_SIDE = 256
 _MODEL_SIDE = 80
-_LARGEST_GLARE = 15.0  # degrees; a halo wider than this is sky or cloud
 
 
 def behind_sun(
@@ -77,33 +84,45 @@ def behind_sun(
     size = (max(1, round(working.width * scale)), max(1, round(working.height * scale)))
     display = np.asarray(resize(working.linear, *size), np.float32)
     matte = np.asarray(resize(sky, *size), np.float32)
-    angle = _angle_to_sun(camera, size, fit.sun)
     scene_light = fit.response.scene_light(display)
-    clipped = _smoothstep(0.90, 0.97, display.max(-1))
+    clipped = smoothstep(0.90, 0.97, display.max(-1))
     clear = _clear_sky(fit, camera, size)
+    angle = angle_to_sun(camera, size, fit.sun)
     if visible and measure:
         # Against the sky without glare, also when ``fit`` has been here before and has some.
-        residual = _log_residual(scene_light, clear) @ LUMINANCE
-        fit = with_glare(fit, residual, angle, (matte > 0.95) & (clipped < 0.3))
-    model = _through_glare(clear, fit, camera)
+        trusted = (matte > 0.95) & (clipped < 0.3)
+        fit = with_glare(fit, scene_light @ LUMINANCE, clear @ LUMINANCE, angle, trusted)
+    model = through_glare(clear, fit, camera)
     log_residual = _log_residual(scene_light, model)
-    glare = _glare(log_residual @ LUMINANCE, clipped, matte, angle) if visible else 0 * matte
-    weight = (matte > 0.98) * (1 - clipped) * np.square(1 - glare)
-    filled = fill_by_pyramid(log_residual, weight.astype(np.float32))
-    # What borders on the glare is bleached by it; the sky behind has the tint of the rest.
-    trusted = weight > 0.5
-    if visible and trusted.any():
-        tint = np.median(log_residual[trusted], axis=0)
-        level = (filled @ LUMINANCE)[..., None]
-        plain = level + tint - float(tint @ LUMINANCE)
-        filled = filled + np.sqrt(glare)[..., None] * (plain - filled)
-    encoded = (filled + RANGE) / (2 * RANGE)
-    return fit, Backdrop(_dithered(encoded), glare.astype(np.float32))
+    weight = (matte > 0.98) * (1 - clipped)
+    if not visible:
+        filled = fill_by_pyramid(log_residual, weight.astype(np.float32))
+        return fit, Backdrop(_dithered((filled + RANGE) / (2 * RANGE)), 0 * matte)
+
+    # Where white light hides the sky says little about it, be it cloud or the rim of the glare.
+    whiteness = unmix(scene_light, model, cloud_white(fit), np.ones_like(matte))[0]
+    residual = log_residual @ LUMINANCE
+    rays = starburst(
+        residual, (matte > 0.9) & (clipped < 0.9), _place_of_sun(camera, size, fit.sun)
+    )
+    glare = old_sun_mark(residual, clipped, matte, angle)
+    for _ in range(2):
+        # First against the level far away, then against the sky that the fill expects there,
+        # in the channel that white light changes most.
+        mark = np.maximum(glare, rays)
+        trust = (weight * np.square(1 - mark)).astype(np.float32)
+        behind = fill_by_pyramid(log_residual, trust * clearness(whiteness, trust, mark, angle))
+        glare = old_sun_mark((log_residual - behind).max(-1), clipped, matte, angle)
+    mark = np.maximum(glare, rays)
+    # Away from the glare the field follows the clouds, too.
+    plain = fill_by_pyramid(log_residual, (weight * np.square(1 - mark)).astype(np.float32))
+    filled = plain + np.sqrt(mark)[..., None] * (behind - plain)
+    return fit, Backdrop(_dithered((filled + RANGE) / (2 * RANGE)), mark.astype(np.float32))
 
 
 def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
     """Return the fitted sky with the camera's glare at ``size`` (w, h): (h, w, 3) scene-linear."""
-    return _through_glare(_clear_sky(fit, camera, size), fit, camera)
+    return through_glare(_clear_sky(fit, camera, size), fit, camera)
 
 
 def _clear_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
@@ -126,26 +145,68 @@ def _coarse_logs(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarr
     return logs
 
 
-def _through_glare(clear: np.ndarray, fit: SkyFit, camera: Camera) -> np.ndarray:
-    height, width, power = fit.glare
-    if height <= 0:
-        return clear
-    angle = _angle_to_sun(camera, (clear.shape[1], clear.shape[0]), fit.sun)
-    veil = 1 + height * (1 + (angle / width) ** 2) ** -power
-    return (clear * veil[..., None]).astype(np.float32)
-
-
 def _log_residual(scene_light: np.ndarray, model: np.ndarray) -> np.ndarray:
     ratio = np.maximum(scene_light, 1e-4) / np.maximum(model, 1e-6)
     return np.clip(np.log(ratio), -RANGE, RANGE).astype(np.float32)
 
 
-def _angle_to_sun(camera: Camera, size: tuple[int, int], sun: tuple[float, float]) -> np.ndarray:
-    azimuth, elevation = view_angles(camera, *size)
-    az, el = np.radians(azimuth - sun[0]), np.radians(elevation)
-    sun_el = np.radians(sun[1])
-    cosine = np.sin(el) * np.sin(sun_el) + np.cos(el) * np.cos(sun_el) * np.cos(az)
-    return np.asarray(np.degrees(np.arccos(np.clip(cosine, -1, 1))), np.float32)
+def clouds_behind_sun(
+    opacity: np.ndarray, weight: np.ndarray, mark: np.ndarray, camera: Camera, fit: SkyFit
+) -> np.ndarray:
+    """Continue the clouds across the old sun, as the sky behind it is: (h, w) float32.
+
+    Parameters
+    ----------
+    opacity, weight : (h, w) float32
+        Of the clouds, and the trust in it.
+    mark : (h, w) float32
+        Where the old sun hides the sky.
+    camera : Camera
+    fit : SkyFit
+        With its glare: where that is much of the light, whiteness tells little of clouds.
+    """
+    size = opacity.shape[1], opacity.shape[0]
+    clear = _clear_sky(fit, camera, size)
+    share = share_of_glare(clear, through_glare(clear, fit, camera))
+    blind = np.maximum(mark, smoothstep(0.1, 0.4, share))
+    trust = (weight * (1 - blind)).astype(np.float32)
+    trust *= clearness(opacity, trust, mark, angle_to_sun(camera, size, fit.sun))
+    behind = fill_by_pyramid(opacity[..., None], trust)[..., 0]
+    return np.asarray(opacity + np.sqrt(blind) * (behind - opacity), np.float32)
+
+
+def clearness(
+    opacity: np.ndarray, trust: np.ndarray, mark: np.ndarray, angle: np.ndarray
+) -> np.ndarray:
+    """How much each pixel says about the sky behind the sun, (h, w) float32 in (0, 1].
+
+    Relative to the clearest quarter of what is seen just round the mark: a sun in a veil of cirrus
+    leaves cirrus, one between clouds leaves blue.
+
+    Parameters
+    ----------
+    opacity : (h, w) float32
+        Of the white light before the sky.
+    trust : (h, w) float32
+        Unclipped sky away from the glare.
+    mark : (h, w) float32
+        Where the old sun hides the sky.
+    angle : (h, w) float32
+        Degrees from the sun.
+    """
+    inside = mark > 0.5
+    reach = 2 * float(np.quantile(angle[inside], 0.9)) + 2 if inside.any() else 0.0
+    near = (trust > 0.5) & (angle < reach)
+    usual = float(np.quantile(opacity[near], 0.25)) if near.sum() >= 12 else 0.0
+    return np.asarray(1e-3 + 1 - smoothstep(0.05, 0.3, opacity - usual), np.float32)
+
+
+def _place_of_sun(
+    camera: Camera, size: tuple[int, int], sun: tuple[float, float]
+) -> tuple[float, float]:
+    """Return the sun's pixel in a picture shrunk to ``size`` (w, h)."""
+    x, y = camera.pixel(*sun)
+    return x * size[0] / camera.width, y * size[1] / camera.height
 
 
 def fill_by_pyramid(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -180,56 +241,7 @@ def fill_by_pyramid(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
     return (share * values + (1 - share) * below).astype(np.float32)
 
 
-def _glare(
-    residual: np.ndarray, clipped: np.ndarray, sky: np.ndarray, angle: np.ndarray
-) -> np.ndarray:
-    """Weight of the old sun's clipped core and of the halo that the model does not explain."""
-    import cv2
-
-    rings = np.arange(0.0, min(_LARGEST_GLARE, float(angle.max())) + 0.5, 0.5)
-    which = np.clip((angle / 0.5).astype(int), 0, len(rings) - 1)
-    usable = (sky > 0.9) & (clipped < 0.5)
-    profile = np.full(len(rings), np.nan)
-    burnt = np.zeros(len(rings))
-    for index in range(len(rings)):
-        inside = (which == index) & (sky > 0.9)
-        if inside.sum() >= 8:
-            burnt[index] = clipped[inside].mean()
-            if (inside & usable).sum() >= 8:
-                profile[index] = np.median(residual[inside & usable])
-    known = np.isfinite(profile)
-    if known.sum() >= 4:
-        level = np.nanmedian(profile[len(rings) // 3 :]) if known[len(rings) // 3 :].any() else 0.0
-        excess = np.interp(rings, rings[known], profile[known]) - level
-    else:
-        excess = np.zeros(len(rings))
-    # The halo ends where the excess first falls under a twelfth of a stop; the core is burnt.
-    halo = np.maximum(_smoothstep(0.06, 0.3, excess), _smoothstep(0.05, 0.5, burnt))
-    halo[:2] = 1.0
-    ended = np.flatnonzero(halo < 0.02)
-    if ended.size:
-        halo[ended[0] :] = 0.0
-    # Bloom reaches well past the burnt core, and a fill that starts inside it would keep a ghost.
-    core = max(0.5 * np.count_nonzero(burnt > 0.3), 0.4)
-    halo = np.maximum(halo, 1 - _smoothstep(1.5 * core, 4.0 * core + 0.5, rings))
-    halo *= 1 - _smoothstep(0.6 * _LARGEST_GLARE, _LARGEST_GLARE, rings)
-    radial = np.interp(angle, rings, halo).astype(np.float32)
-    # Clipped pixels that touch the halo belong to it, whatever their shape.
-    burnt_out = (clipped > 0.5) & (sky > 0.3)
-    labels = cv2.connectedComponents(burnt_out.astype(np.uint8))[1]
-    touched = np.unique(labels[burnt_out & (radial > 0.3)])
-    mine = np.isin(labels, touched[touched > 0]).astype(np.float32)
-    size = max(3, round(0.02 * max(sky.shape))) | 1
-    mine = cv2.GaussianBlur(cv2.dilate(mine, np.ones((size, size), np.uint8)), (0, 0), size / 3)
-    return np.clip(np.maximum(radial, mine), 0, 1).astype(np.float32)
-
-
 def _dithered(encoded: np.ndarray) -> np.ndarray:
     """Add ±half an 8-bit level of fixed noise: the field is slow and would band when stored."""
     noise = np.random.default_rng(20170601).random(encoded.shape, np.float32) - 0.5
     return np.clip(encoded + noise / 255, 0, 1).astype(np.float32)
-
-
-def _smoothstep(low: float, high: float, x: np.ndarray) -> np.ndarray:
-    t = np.clip((x - low) / (high - low), 0, 1)
-    return t * t * (3 - 2 * t)

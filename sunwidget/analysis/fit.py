@@ -7,12 +7,20 @@ in the encoded domain, where a photo's noise is even, and is robust: what a mode
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
+from sunwidget.analysis.confidence import (
+    Evidence,
+    confidence_of_fit,
+    confidence_of_sun,
+    doubt,
+    spread_of_angles,
+)
 from sunwidget.analysis.working import LUMINANCE, Working
 from sunwidget.atmosphere.constants import SPECTRAL_TO_REC709
 from sunwidget.atmosphere.parameters import Atmosphere
@@ -70,9 +78,12 @@ class SkyFit:
     gain : tuple of 3 floats
         Scene-linear light per kcd m⁻² of the model, for R, G, B.
     glare : tuple of 3 floats
-        Moffat profile (a, b in degrees, c) of the camera's glare round the sun.
+        Moffat profile (a in scene-linear luminance, b in degrees, c) of the camera's glare
+        round the sun (camera_glare.py).
     sun : (azimuth, elevation)
         Degrees; the given sun, or the one that explains the sky best.
+    sun_confidence : float
+        How likely that sun is near the true one, [0, 1]: 1 when it was given.
     """
 
     atmosphere: Atmosphere
@@ -80,6 +91,7 @@ class SkyFit:
     gain: tuple[float, float, float]
     glare: tuple[float, float, float]
     sun: tuple[float, float]
+    sun_confidence: float = 1.0
 
     def model(self, azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
         """Return the matched clear sky (..., 3) in scene-linear light, without glare."""
@@ -94,7 +106,7 @@ def model_sky(
 ) -> np.ndarray:
     """Return the model's sky (..., 3) in linear Rec. 709, kcd m⁻²; angles in degrees."""
     # One fit asks for the same airs again and again, and the next one does, too.
-    table = _table(atmosphere.replace(residual=None))
+    table = _table(atmosphere.replace(residual=None, confidence=None))
     spectral = table.radiance(elevation, azimuth - sun[0], sun[1])
     color = spectral @ np.asarray(SPECTRAL_TO_REC709).reshape(3, 4).T
     # As matched_sky.glsl: saturated spectra keep a share of the luminance in each channel.
@@ -145,8 +157,9 @@ def fit_sky(
     index = index[:: max(1, index.size // _SAMPLES)]
     where = (azimuth.ravel()[index], elevation.ravel()[index])
     display = light.reshape(-1, 3)[index].astype(np.float64)
+    sure_of_sun = 1.0
     if sun is None:
-        sun = _search_sun(display, where, assumed)
+        sun, sure_of_sun = _search_sun(display, where, assumed)
 
     # First the air under a middling response, then the response under the likeliest airs.
     airs = []
@@ -160,6 +173,16 @@ def fit_sky(
         model = model_sky(atmosphere, *where, sun)
         airs.append((_compare(display, model, Response())[0], atmosphere, model))
     airs.sort(key=lambda air: air[0])
+    evidence = Evidence(
+        residual=airs[0][0],
+        share=float(clear.mean()),
+        spread=spread_of_angles(*where, sun),
+        doubt=doubt(
+            np.array([air[0] for air in airs]),
+            np.log2([air[1].aerosol_optical_depth for air in airs]),
+        ),
+        told=sure_of_sun,
+    )
     trials = []
     for _, atmosphere, model in airs[:4]:
         for shoulder, contrast in itertools.product(_SHOULDERS, _CONTRASTS):
@@ -169,50 +192,15 @@ def fit_sky(
             error += 0.015 * abs(contrast - 1) + 0.004 * abs(shoulder - DEFAULT_SHOULDER)
             trials.append((error, atmosphere, response, gain))
     error, atmosphere, response, gain = min(trials, key=lambda trial: trial[0])
+    confidence = confidence_of_fit(dataclasses.replace(evidence, residual=float(error)))
     return SkyFit(
-        atmosphere.replace(residual=float(error)),
+        atmosphere.replace(residual=float(error), confidence=confidence),
         response,
         (float(gain[0]), float(gain[1]), float(gain[2])),
         (0.0, 3.0, 2.0),
         sun,
+        sure_of_sun,
     )
-
-
-def with_glare(
-    fit: SkyFit, log_residual: np.ndarray, angle: np.ndarray, trusted: np.ndarray
-) -> SkyFit:
-    """Return the fit with the camera's glare round a visible sun.
-
-    Parameters
-    ----------
-    fit : SkyFit
-    log_residual : (h, w) float32
-        log luminance of photo over model, scene-linear.
-    angle : (h, w) float32
-        Degrees from the sun.
-    trusted : (h, w) bool
-        Unclipped sky.
-    """
-    edges = np.concatenate([np.arange(0, 10, 0.5), np.arange(10, 41, 2.0)])
-    centres, medians = [], []
-    for low, high in itertools.pairwise(edges):
-        ring = trusted & (angle >= low) & (angle < high)
-        if ring.sum() >= 12:
-            centres.append((low + high) / 2)
-            medians.append(float(np.median(log_residual[ring])))
-    if len(centres) < 5:
-        return fit
-    theta, level = np.array(centres), np.array(medians)
-    outer = level[theta >= 0.5 * theta[-1]]
-    excess = np.clip(np.exp(level - np.median(outer)) - 1, -0.5, 20)
-    best = (float(np.square(excess).sum()), 0.0, 3.0, 2.0)
-    for width, power in itertools.product((0.5, 1.0, 2.0, 4.0, 7.0), (1.0, 1.5, 2.5)):
-        shape = (1 + (theta / width) ** 2) ** -power
-        height = float(np.clip((shape @ excess) / (shape @ shape), 0, 30))
-        cost = float(np.square(excess - height * shape).sum())
-        if cost < best[0]:
-            best = (cost, height, width, power)
-    return SkyFit(fit.atmosphere, fit.response, fit.gain, best[1:], fit.sun)
 
 
 def view_angles(camera: Camera, width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
@@ -239,8 +227,8 @@ def _compare(
 
 def _search_sun(
     display: np.ndarray, where: tuple[np.ndarray, np.ndarray], assumed: tuple[float, float]
-) -> tuple[float, float]:
-    """Direction of an unseen sun: coarse search over the sphere, starting from the assumed one."""
+) -> tuple[tuple[float, float], float]:
+    """Direction of an unseen sun, and how sure it is: coarse search from the assumed one."""
     step = max(1, display.shape[0] // 120)
     display, where = display[::step], (where[0][::step], where[1][::step])
     response = Response()
@@ -248,7 +236,7 @@ def _search_sun(
     # Suns of one height are marched together: they share the air's table.
     rings = [(np.array([assumed[0]]), assumed[1])]
     rings += [(around, height) for height in (-2.0, 2.0, 8.0, 18.0, 35.0, 60.0)]
-    best_error, best = np.inf, assumed
+    errors: dict[tuple[float, float], float] = {}
     for depth in (0.03, 0.12):
         air = Atmosphere(
             aerosol_optical_depth=depth,
@@ -264,9 +252,9 @@ def _search_sun(
                 # The sky must speak clearly to overrule the assumption.
                 if candidate == assumed:
                     error *= 0.9
-                if error < best_error:
-                    best_error, best = error, candidate
-    return best
+                errors[candidate] = min(error, errors.get(candidate, np.inf))
+    best = min(errors, key=lambda candidate: errors[candidate])
+    return best, confidence_of_sun(best, errors)
 
 
 def _without_sky(light: np.ndarray, sky: np.ndarray, sun: tuple[float, float]) -> SkyFit:
@@ -278,4 +266,6 @@ def _without_sky(light: np.ndarray, sky: np.ndarray, sun: tuple[float, float]) -
     seen = response.scene_light(light[land] if land.any() else light.reshape(-1, 3))
     level = float(np.median(seen @ LUMINANCE))
     gain = max(level, 1e-3) / max(float(overhead @ LUMINANCE) * 0.5, 1e-9)
-    return SkyFit(atmosphere, response, (gain, gain, gain), (0.0, 3.0, 2.0), sun)
+    # Nothing was compared: the defaults are sure of nothing.
+    atmosphere = atmosphere.replace(confidence=0.0)
+    return SkyFit(atmosphere, response, (gain, gain, gain), (0.0, 3.0, 2.0), sun, 0.0)

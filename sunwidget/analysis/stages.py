@@ -19,7 +19,7 @@ from sunwidget.analysis import horizon as horizon_stage
 from sunwidget.analysis import refine
 from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis import water as water_stage
-from sunwidget.analysis.backdrop import Backdrop, behind_sun, fill_by_pyramid
+from sunwidget.analysis.backdrop import Backdrop, behind_sun, clouds_behind_sun, fill_by_pyramid
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.depth_view import View
@@ -259,7 +259,12 @@ def _unmixed(
     # Round the sun whiteness tells nothing, and where the matte is soft, twigs darken the sky as a
     # cloud would: continue the clouds from around them.
     trust = 1 - resize(glare, working.width, working.height)
-    filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), trust * inner(sky > 0.98))
+    weight = trust * inner(sky > 0.98)
+    found = np.dstack([of_sky.opacity, of_sky.shade])
+    filled = fill_by_pyramid(found, weight)
+    if glare.max() > 0:
+        behind = clouds_behind_sun(filled[..., 0], weight, 1 - trust, camera, fitted)
+        filled = np.dstack([behind, filled[..., 1]])
     return (
         Clouds(filled[..., 0] * sky, covers[0].softness, filled[..., 1]),
         Clouds(of_all.opacity * trust, covers[1].softness, of_all.shade),

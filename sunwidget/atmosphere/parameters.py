@@ -82,6 +82,9 @@ class Atmosphere:
     residual : float or None
         Relative misfit (rms) of the photo's clear sky that this atmosphere leaves; ``None``
         when it was not fitted.
+    confidence : float or None
+        How likely the fitted sky changes with the sun as the photo's would, 0-1
+        (analysis/confidence.py); ``None`` when it was not fitted.
 
     Raises
     ------
@@ -101,6 +104,7 @@ class Atmosphere:
     rayleigh_scale_height: float = RAYLEIGH_SCALE_HEIGHT
     aerosol_scale_height: float = MIE_SCALE_HEIGHT
     residual: float | None = None
+    confidence: float | None = None
 
     def __post_init__(self) -> None:
         for name, (low, high) in RANGES.items():

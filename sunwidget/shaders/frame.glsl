@@ -50,12 +50,15 @@ void main() {
   vec3 behind = scene * share / max(matte, 1e-4);
   vec3 front = scene * (1.0 - share) / max(1.0 - matte, 1e-4);
 
-  vec3 sky_before = texelFetch(sky_source, texel, 0).rgb;
+  vec4 sky_before = texelFetch(sky_source, texel, 0);
   // An unchanged sky is the same to the bit, whatever two programs make of the same formula.
-  vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(term[0].w > 0.5));
+  vec4 sky_now = mix(GetDescribedSky(view), sky_before, bvec4(term[0].w > 0.5));
+  // Less glare than in the photo leaves by the ratio; more is light from the lens, of its own colour.
+  vec3 added_glare = max(sky_now.a - sky_before.a, 0.0) * GetGlareColor();
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   vec3 disc = GetDisc(view, GetDescribedSun());
-  vec3 sky_change = GetSkyChange(behind, clean, opacity, sky_marks.b, sky_before, sky_now, view, disc);
+  vec3 sky_change = GetSkyChange(behind, clean, opacity, sky_marks.b, sky_before.rgb, sky_now.rgb - added_glare, view, disc);
+  sky_change += sky_strength * term[0].x * added_glare;
 
   float upright = GetUprightness(view);
   float mirror = GetMirrorShare(front, GetLitBefore(upright), land_marks.g, land_marks.r);

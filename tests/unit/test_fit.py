@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
-from sunwidget.analysis.fit import Response, fit_sky, view_angles, with_glare
+from sunwidget.analysis.fit import Response, fit_sky, view_angles
 from sunwidget.analysis.working import Working
 from sunwidget.photo import open_photo
 
@@ -135,26 +135,3 @@ def test_the_response_and_its_inverse_agree_below_the_shoulders_end(response):
     display = np.linspace(0.001, 0.98, 200)
     assert np.allclose(response.display_light(response.scene_light(display)), display, rtol=1e-3)
     assert np.all(np.diff(response.scene_light(display)) > 0)
-
-
-@pytest.mark.parametrize("true", [(3.0, 2.0, 1.5), (1.0, 4.0, 1.0)])
-def test_a_drawn_glare_is_measured(true):
-    photo = known_photo(clouds=False)
-    fit = fitted(photo)
-    angle = np.linspace(0, 40, 12000).reshape(100, 120).astype(np.float32)
-    height, width, power = true
-    residual = np.log1p(height * (1 + (angle / width) ** 2) ** -power) + 0.3
-    found = with_glare(fit, residual, angle, angle > 0.5).glare
-
-    def profile(g, x):
-        return g[0] * (1 + (x / g[1]) ** 2) ** -g[2]
-
-    x = np.linspace(1, 12, 50)
-    assert np.abs(profile(found, x) - profile(true, x)).max() < 0.25 * height
-
-
-def test_a_flat_residual_has_no_glare():
-    fit = fitted(known_photo(clouds=False))
-    angle = np.linspace(0, 40, 12000).reshape(100, 120).astype(np.float32)
-    flat = np.full_like(angle, -0.4)
-    assert with_glare(fit, flat, angle, angle > 0).glare[0] == 0

@@ -23,7 +23,7 @@ from sunwidget.atmosphere.optics import direct_irradiance
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.sky import SkyTable
 from sunwidget.atmosphere.sun import disc_radiance
-from sunwidget.edit import Edit
+from sunwidget.edit import NUMBERS, Edit
 from sunwidget.renderer import render_pass
 from sunwidget.renderer.shader_source import read_shader
 from sunwidget.renderer.values import parameter_values
@@ -190,7 +190,7 @@ def rendered_sky(scene, values, origin, state):
 
 
 def render_pass_of(scene, values, name):
-    numbers = {k: v for k, v in values.items() if k != "method"}
+    numbers = {p.name: values[p.name] for p in NUMBERS if p.name in values}
     return render_pass(scene, Edit(**numbers, method="thesis"), name).astype(np.float64)
 
 
@@ -225,15 +225,22 @@ def look_up(view, azimuth, elevation):
 
 
 def light_with_glare(scene, values, source, sky):
-    """Add the camera's glare round the sun, as measured in the photo."""
+    """Add the camera's glare round the sun, as measured in the photo; scene-linear."""
     height, width, power = scene.uniforms()["glare_profile"]
-    ratio = beam(scene, values, risen=False).sum() / max(
-        beam(scene, source, risen=False).sum(), 1e-6
-    )
-    strength = visible(scene, values) * min(ratio, 1.0)
+    sun = beam(scene, values, risen=False)
+    ratio = sun.sum() / max(beam(scene, source, risen=False).sum(), 1e-6)
+    ratio = min(ratio, sky_irradiance(scene, values).sum() / sky_irradiance(scene, source).sum())
     angle = angle_from_sun(scene, values)
     glare = height * (1 + (angle / max(width, 0.1)) ** 2) ** -power
-    return sky * (1 + strength * glare)[..., None]
+    color = sun * np.array(scene.uniforms()["sky_gain"])
+    color = color / (color @ LUMINANCE)
+    return sky + visible(scene, values) * ratio * glare[..., None] * color
+
+
+def sky_irradiance(scene, values):
+    """Light of the sky on the ground, (3,) linear Rec. 709: the frame's own sum over its sky."""
+    texel = render_pass_of(scene, values, "light_edit")[0, 0]
+    return np.maximum(spectral_to_rec709(texel), 1e-9)
 
 
 def drawn_disc(scene, values):

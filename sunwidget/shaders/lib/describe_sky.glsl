@@ -3,6 +3,7 @@
 
 #include "lib/sky.glsl"
 #include "lib/daylight.glsl"
+#include "lib/matched_sky.glsl"
 #include "lib/camera_glare.glsl"
 
 uniform sampler2D sky_view;
@@ -15,8 +16,10 @@ flat out vec4 described[4];
 void SetDescribedSky() {
   SkyView view = ReadSkyView(sky_view);
   float visible = texelFetch(visibility, ivec2(0), 0).r;
-  float glare = GetGlareStrength(GetLightTexel(light, 1), GetLightTexel(light_before, 1), visible);
-  described[0] = vec4(view.sun, view.asymmetry);
+  vec3 beam = GetLightTexel(light, 1);
+  float glare = GetGlareStrength(GetLightRatio(beam, GetLightTexel(light_before, 1)),
+      GetLightRatio(GetLightTexel(light, 0), GetLightTexel(light_before, 0)), visible);
+  described[0] = vec4(view.sun, PackColor(sky_gain * beam));
   described[1] = view.rayleigh;
   described[2] = view.mie;
   described[3] = vec4(view.horizon, glare, 0.0, 0.0);

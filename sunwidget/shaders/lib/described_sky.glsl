@@ -13,8 +13,13 @@ vec3 GetDescribedSun() {
   return described[0].xyz;
 }
 
-vec3 GetDescribedSky(vec3 view) {
-  SkyView model = SkyView(described[0].xyz, described[0].w, described[1], described[2], described[3].x);
+vec3 GetGlareColor() {
+  return UnpackColor(described[0].w);
+}
+
+// Alpha: the luminance that is glare.
+vec4 GetDescribedSky(vec3 view) {
+  SkyView model = SkyView(described[0].xyz, aerosol_asymmetry, described[1], described[2], described[3].x);
   float glare = GetCameraGlare(GetDegreesFromSun(view, model.sun)) * described[3].y;
-  return GetMatchedSky(sky_view, model, view) * (1.0 + glare);
+  return vec4(GetMatchedSky(sky_view, model, view) + glare * GetGlareColor(), glare);
 }

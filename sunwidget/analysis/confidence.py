@@ -1,0 +1,122 @@
+"""How far a fit to the sky can be believed: probabilities, calibrated on skies that are known.
+
+Two questions. Will the fitted sky change with the sun as the photo's would? Is the sun, where the
+photo does not show it, where the fit puts it? Each answer is a logistic regression (as Platt
+1999, "Probabilistic outputs for support vector machines") on what the fit saw;
+``bench/confidence.py`` draws the skies, fits the weights and prints how often it is right.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+GOOD_FIT = 0.3
+"""Mean stops by which the sky's change under other suns may be wrong and the fit still good."""
+
+GOOD_SUN = 35.0
+"""Degrees by which the found azimuth of an unseen sun may be wrong and it still serves."""
+
+# Bias, then the weights of ``features_of_fit`` and of ``features_of_sun``.
+FIT_WEIGHTS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+SUN_WEIGHTS = (0.0, 0.0, 0.0, 0.0)
+_CLOSE = 0.15  # how much worse than the best an air may be and still be one of the likely ones
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a fit of the sky rests on.
+
+    Parameters
+    ----------
+    residual : float
+        Mean absolute error of the encoded sky, [0, 1].
+    share : float
+        Share of the picture that is clear sky.
+    spread : float
+        Degrees from the nearest to the farthest of it from the sun (deciles).
+    doubt : float
+        log2 by which the optical depths of the likely airs differ (standard deviation).
+    told : float
+        How sure the sun's place is, [0, 1].
+    """
+
+    residual: float
+    share: float
+    spread: float
+    doubt: float
+    told: float = 1.0
+
+
+def spread_of_angles(azimuth: np.ndarray, elevation: np.ndarray, sun: tuple[float, float]) -> float:
+    """Return between which angles from the sun the sky is seen: degrees between the deciles."""
+    az, el, height = np.radians(azimuth - sun[0]), np.radians(elevation), np.radians(sun[1])
+    cosine = np.sin(el) * np.sin(height) + np.cos(el) * np.cos(height) * np.cos(az)
+    low, high = np.quantile(np.degrees(np.arccos(np.clip(cosine, -1, 1))), (0.1, 0.9))
+    return float(high - low)
+
+
+def doubt(errors: np.ndarray, levels: np.ndarray) -> float:
+    """Return how far the likely answers lie apart: deviation of their ``levels``, (n,) each.
+
+    Likely is what is hardly worse than the best: a sharp minimum leaves one, a flat one many.
+    """
+    likely = errors <= (1 + _CLOSE) * float(errors.min()) + 0.0005
+    return float(np.std(levels[likely]))
+
+
+def features_of_fit(evidence: Evidence) -> np.ndarray:
+    """Return what the regression sees of a fit, (5,)."""
+    return np.array(
+        [
+            np.log2(max(evidence.residual, 0.002) / 0.02),
+            np.log2(max(evidence.share, 0.002) / 0.2),
+            min(evidence.spread, 90.0) / 30,
+            evidence.doubt,
+            evidence.told,
+        ]
+    )
+
+
+def features_of_sun(
+    best: tuple[float, float], errors: dict[tuple[float, float], float]
+) -> np.ndarray:
+    """Return what the regression sees of a search, (3,).
+
+    How much worse the best sun of elsewhere is, how bad the best one is itself, and how near to
+    the picture's middle it lies: its colours tell a sun in front better than one behind.
+    """
+    turns = np.array([_turn(sun[0], best[0]) for sun in errors])
+    values = np.array(list(errors.values()))
+    elsewhere = values[turns > GOOD_SUN]
+    margin = float(elsewhere.min() / max(errors[best], 1e-4) - 1) if elsewhere.size else 0.0
+    return np.array([min(margin, 2.0), np.log2(max(errors[best], 0.002) / 0.02), abs(best[0]) / 90])
+
+
+def confidence_of_fit(evidence: Evidence) -> float:
+    """Return the probability that the fit is good (``GOOD_FIT``), [0, 1]."""
+    return probability(FIT_WEIGHTS, features_of_fit(evidence))
+
+
+def confidence_of_sun(best: tuple[float, float], errors: dict[tuple[float, float], float]) -> float:
+    """Return the probability that an unseen sun is near ``best`` (``GOOD_SUN``), [0, 1].
+
+    Parameters
+    ----------
+    best : (azimuth, elevation)
+        Degrees.
+    errors : dict
+        The misfit of each direction that was tried.
+    """
+    return probability(SUN_WEIGHTS, features_of_sun(best, errors))
+
+
+def _turn(one: float, other: float) -> float:
+    return abs((one - other + 180) % 360 - 180)
+
+
+def probability(weights: tuple[float, ...], features: np.ndarray) -> float:
+    """Return the logistic function of bias and weighted features."""
+    score = weights[0] + float(features @ np.array(weights[1:]))
+    return float(1 / (1 + np.exp(-np.clip(score, -30, 30))))
