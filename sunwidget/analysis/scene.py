@@ -15,11 +15,11 @@ import numpy as np
 from sunwidget.analysis import depth as depth_stage
 from sunwidget.analysis import depth_level, match, refine
 from sunwidget.analysis import sky as sky_stage
-from sunwidget.analysis import water as water_stage
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
+from sunwidget.analysis.glitter import column_of, glitter
 from sunwidget.analysis.hints import Hints, check_fov, check_horizon, check_point
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.memory import Memory
@@ -247,7 +247,9 @@ class Scene:
         width, height = size or (self.width, self.height)
         small = self.working
         sky = resize(self.sky, small.width, small.height)
-        maps = (self.glare, self.water, water_stage.glitter(small, sky))
+        water = resize(self.water, small.width, small.height)
+        column = None if self.sun is None else column_of(self.camera, self.sun.azimuth)
+        maps = (self.glare, self.water, glitter(small, sky, water, column))
         level = depth_level.to_level(self._log_depth(width, height))
         return np.stack(
             [*(resize(image, width, height) for image in maps), depth_level.dithered(level)],

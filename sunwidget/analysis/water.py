@@ -175,26 +175,3 @@ def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarr
     slope = (mean(guide * rough) - middle * share) / (mean(guide * guide) - middle**2 + _EPSILON)
     fine = mean(slope) * guide + mean(share - slope * middle)
     return np.clip(1.5 * (fine - 0.5) + 0.5, 0, 1).astype(np.float32) * (1 - sky)
-
-
-def glitter(working: Working, sky: np.ndarray) -> np.ndarray:
-    """Zone of the old sun's glints: land or water around pixels burnt white.
-
-    A zone, not the pixels themselves: what is burnt and what nearly is must be relit alike, or
-    the brightest would come out darker than their rim.
-
-    Returns
-    -------
-    (h, w) float32 in [0, 1]
-    """
-    import cv2
-
-    red, green, blue = np.moveaxis(working.linear, -1, 0)
-    white = np.minimum(np.minimum(red, green), blue)  # ten times as fast as min(-1)
-    burnt = np.clip((white - 0.5) / 0.4, 0, 1).astype(np.float32) * (1 - sky)
-    reach = 2 * max(2, round(0.012 * max(sky.shape))) + 1
-    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
-    # In bytes: a fifth of the time, and as fine as what it becomes for the frame.
-    spread = cv2.dilate(np.round(burnt * 255).astype(np.uint8), kernel)
-    zone = cv2.GaussianBlur(spread.astype(np.float32) / 255, (0, 0), reach / 3)
-    return np.clip(zone * (1 - sky), 0, 1).astype(np.float32)

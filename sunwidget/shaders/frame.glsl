@@ -8,6 +8,7 @@
 #include "lib/packed.glsl"
 #include "lib/relit_sky.glsl"
 #include "lib/relit_land.glsl"
+#include "lib/water.glsl"
 #include "lib/disc.glsl"
 #include "lib/land_light.glsl"
 #include "lib/air.glsl"
@@ -61,10 +62,13 @@ void main() {
   sky_change += sky_strength * term[0].x * added_glare;
 
   float upright = GetUprightness(view);
-  float mirror = GetMirrorShare(front, GetLitBefore(upright), land_marks.g, land_marks.r);
+  float shine = GetMirrorShare(front, GetLitBefore(upright), land_marks.g);
+  vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
   vec3 air = GetAirChange(place, land_marks.b, land_ratio);
-  vec3 land_change = GetLandChange(front, land_ratio, mirror, ReadBilinear(mirror_ratio, place).rgb, air);
+  vec3 land_change = GetLandChange(front, land_ratio, shine, mirror.rgb, air);
+  vec3 water_change = GetWaterChange(front, clean, land_marks.g, sky_marks.b, mirror, air, view);
+  land_change += water_strength * land_marks.r * (water_change - land_change);
 
   vec3 change = matte * sky_change + (1.0 - matte) * land_change;
   change += term[0].x * ReadBilinear(veil, place).rgb;

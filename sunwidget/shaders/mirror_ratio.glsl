@@ -1,26 +1,58 @@
-// How the mirror image in level water changes from the photo's sun to the moved one. The sun
-// itself is mirrored where the photo glitters, the sky elsewhere.
+// How what is mirrored changes from the photo's sun to the moved one: rgb the ratio, a the new sun's
+// glints per unit of its light. On water the sky is mirrored, less the steeper one looks, and the
+// water's own light follows what falls into it; glints are left to the frame (lib/water.glsl). What
+// glitters on land is mirrored sky and sun together.
 
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
+#include "lib/glint.glsl"
 
 uniform sampler2D mirror_source;
 uniform sampler2D mirror_edit;
 uniform sampler2D surface;
+uniform sampler2D layers;
 uniform sampler2D terms;
 uniform vec2 pass_size;
+uniform float wind_speed;
+uniform float source_wind_speed;
+uniform float glitter;
 
 out vec4 result;
 
 // A clipped glint does not say how bright it was: let it fade freely, but hardly grow.
 const float kLargestGrowth = 2.0;
+// Irradiance reflectance of the sea just below its surface, between clear ocean and coast
+// (Jerlov 1976): water swallows red.
+const vec3 kBody = vec3(0.008, 0.025, 0.035);
+
+// Light of the water itself under an irradiance, of which the surface lets in what it does not
+// reflect.
+vec3 GetBody(vec3 irradiance, vec3 view, float wind) {
+  return (1.0 - GetFresnel(GetFacing(view, wind))) * kBody / 3.14159265 * irradiance;
+}
+
+vec3 GetTerm(int index) {
+  return texelFetch(terms, ivec2(index, 0), 0).rgb;
+}
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
-  float glitter = ReadBilinear(surface, gl_FragCoord.xy / pass_size).b;
+  vec2 place = gl_FragCoord.xy / pass_size;
+  vec4 marks = ReadBilinear(surface, place);
   vec4 before = texelFetch(mirror_source, texel, 0);
   vec4 now = texelFetch(mirror_edit, texel, 0);
-  vec3 ratio = GetRatio(now.rgb + glitter * now.a * texelFetch(terms, ivec2(12, 0), 0).rgb,
-                        before.rgb + glitter * before.a * texelFetch(terms, ivec2(11, 0), 0).rgb);
-  result = vec4(min(ratio, vec3(kLargestGrowth)), 1.0);
+  vec3 view = GetViewDirection(place);
+
+  // Clouds are mirrored, too: those that stand as high above the horizon as this lies below it.
+  vec3 up = normalize(vec3(view.x, GetFacing(view, source_wind_speed), view.z));
+  vec4 layer = ReadBilinear(layers, GetPlaceOfDirection(up).xy);
+  float cloud = layer.g * step(view.y, 0.0);
+  float share = GetFresnel(GetFacing(view, source_wind_speed));
+  vec3 sky_before = before.rgb + cloud * (share * GetTerm(5) - before.rgb);
+  vec3 sky_now = now.rgb + cloud * (share * GetTerm(7) - now.rgb);
+  vec3 water = GetRatio(sky_now + GetBody(GetTerm(3), view, wind_speed),
+                        sky_before + GetBody(GetTerm(1), view, source_wind_speed));
+  vec3 shine = min(GetRatio(now.rgb + marks.b * now.a * GetTerm(12),
+                            before.rgb + marks.b * before.a * GetTerm(11)), vec3(kLargestGrowth));
+  result = vec4(shine + marks.g * (water - shine), glitter * now.a);
 }

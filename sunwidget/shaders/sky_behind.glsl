@@ -1,7 +1,8 @@
 // The sky without the old sun: matched model times the slow residual that the analysis filled
 // across the glare (analysis/backdrop.py). Drawn once a photo. Alpha carries what else the frame
 // asks about the sky of a pixel, so that it reads one map for both: matte, cloud opacity and
-// glare of the old sun.
+// glare of the old sun. On water it is the water without the old sun's glints, and its waves
+// instead of the glare (water_behind.glsl).
 
 #include "lib/picture.glsl"
 #include "lib/packed.glsl"
@@ -11,6 +12,7 @@ uniform sampler2D backdrop;
 uniform sampler2D layers;
 uniform sampler2D retouched;
 uniform sampler2D surface;
+uniform sampler2D water_behind;
 uniform vec2 tile_origin;
 
 out vec4 result;
@@ -21,5 +23,9 @@ void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
   float opacity = texelFetch(retouched, texel, 0).a;
   vec3 levels = vec3(ReadPicture(layers, place).r, opacity, ReadPicture(surface, place).r);
-  result = vec4(texelFetch(sky_source, texel, 0).rgb * residual, PackLevels(levels));
+  vec3 sky = texelFetch(sky_source, texel, 0).rgb * residual;
+  float water = smoothstep(0.0, 0.2, ReadPicture(surface, place).g) * (1.0 - smoothstep(0.0, 0.2, levels.r));
+  vec4 calm = texelFetch(water_behind, texel, 0);
+  levels.b += water * (calm.a - levels.b);
+  result = vec4(mix(sky, calm.rgb, water), PackLevels(levels));
 }

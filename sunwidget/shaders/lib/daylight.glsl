@@ -27,17 +27,3 @@ vec3 GetCloudRadiance(sampler2D light, float forward) {
   vec3 sky = 0.5 * (GetLightTexel(light, 0) + GetLightTexel(light, 2));
   return (sky + 0.5 * (1.0 + forward) * GetLightTexel(light, 8)) / 3.14159265;
 }
-
-// The sun's glint on rough level water, per unit of the sun's irradiance and of Fresnel's share,
-// towards `view`: Cox & Munk 1954, slopes normal with variance kSlopeVariance.
-const float kSlopeVariance = 0.03;
-
-float GetGlint(vec3 sun, vec3 view) {
-  vec3 facet = sun - view;  // halfway between the sun and the viewer, not normalised
-  float rise = max(facet.y, 1e-3);
-  float slope = dot(facet.xz, facet.xz) / (rise * rise);
-  float steepness = rise / max(length(facet), 1e-3);
-  float density = exp(-slope / (2.0 * kSlopeVariance)) / (6.2831853 * kSlopeVariance);
-  float spread = 4.0 * max(-view.y, 0.03) * steepness * steepness * steepness * steepness;
-  return density / max(spread, 1e-3);
-}

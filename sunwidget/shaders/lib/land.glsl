@@ -5,9 +5,10 @@ float GetUprightness(vec3 view) {
   return 0.8 * smoothstep(-0.005, 0.02, view.y);
 }
 
-// What exceeds white paint in this light is a mirror image of the sky and the sun (water, wet
-// road, glass): that part follows what it mirrors (mirror_ratio.glsl), the rest is lit as land.
-float GetMirrorShare(vec3 light, vec3 lit_before, float glitter, float water) {
+// What exceeds white paint in this light is a mirror image of the sky and the sun (wet road, glass,
+// water that is not known for it): that part follows what it mirrors (mirror_ratio.glsl), the rest
+// is lit as land.
+float GetMirrorShare(vec3 light, vec3 lit_before, float glitter) {
   float white = (1.0 - 0.6 * glitter) * GetLuminance(lit_before) / 3.14159265;
-  return max(1.0 - min(white / max(GetLuminance(light), 1e-6), 1.0), water);
+  return 1.0 - min(white / max(GetLuminance(light), 1e-6), 1.0);
 }
