@@ -283,6 +283,13 @@ MAPS: tuple[SceneMap, ...] = (
         scale="log",
         bits=16,
     ),
+    SceneMap(
+        "depth_confidence",
+        "Depth, sureness",
+        lambda scene: scene.depth_confidence,
+        "How sure the distance of the land is; low where it was only guessed.",
+        DOUBT,
+    ),
 )
 
 

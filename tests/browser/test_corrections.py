@@ -286,6 +286,7 @@ def test_a_guessed_horizon_is_dashed_and_a_given_one_is_not(editor, state):
 def test_the_histogram_counts_the_sky_and_its_lines_set_the_thresholds(editor, state):
     # Un-mixed clouds need no thresholds, and the panel says so.
     assert "un-mixed" in editor.locator(".sw-histogram-text").text_content()
+    editor.locator(".sw-more:has(.sw-histogram) > summary").click()
     whiteness = {**state["_scene"]["whiteness"], "method": "rb_ratio"}
     scene = {**state["_scene"], "whiteness": whiteness, "revision": 7}
     editor.evaluate("(scene) => model.receive({ _scene: scene })", scene)
@@ -320,6 +321,17 @@ def test_the_histogram_counts_the_sky_and_its_lines_set_the_thresholds(editor, s
     assert trait(editor, "cloud_ratio_max") == pytest.approx(before + 0.1)
     editor.mouse.dblclick(at(1.5), middle)
     assert (trait(editor, "cloud_ratio_min"), trait(editor, "cloud_ratio_max")) == (0.62, 1.0)
+
+
+def test_how_sure_the_atmosphere_is_stands_under_the_picture(editor, state):
+    scene = {**state["_scene"], "sureness": 0.804, "revision": 21}
+    editor.evaluate("(scene) => model.receive({ _scene: scene })", scene)
+    said = editor.get_by_text("Atmosphere: 80 % sure", exact=True)
+    said.wait_for()
+    editor.evaluate(
+        "(scene) => model.receive({ _scene: scene })", {**scene, "sureness": None, "revision": 22}
+    )
+    said.wait_for(state="detached")
 
 
 def test_notes_can_be_put_away_and_brought_back(editor, state):
