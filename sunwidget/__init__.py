@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from sunwidget.export.sweep import sweep
     from sunwidget.photo import Photo, PhotoError, PhotoWarning
     from sunwidget.photo import open_photo as open  # noqa: A004 - sw.open, as Image.open
+    from sunwidget.presets import PRESETS
+    from sunwidget.presets import edit as preset
     from sunwidget.renderer.gl_thread import RendererError
     from sunwidget.renderer.render import render
     from sunwidget.samples import sample
@@ -36,6 +38,7 @@ __version__ = "0.1.0"
 _HOMES: dict[str, tuple[str, str]] = {
     "AnalysisError": ("sunwidget.analysis.errors", "AnalysisError"),
     "PARAMETERS": ("sunwidget.edit", "PARAMETERS"),
+    "PRESETS": ("sunwidget.presets", "PRESETS"),
     "Camera": ("sunwidget.camera", "Camera"),
     "Edit": ("sunwidget.edit", "Edit"),
     "EditError": ("sunwidget.edit", "EditError"),
@@ -50,6 +53,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "SunEditor": ("sunwidget.widgets", "SunEditor"),
     "analyze": ("sunwidget.analysis.scene", "analyze"),
     "open": ("sunwidget.photo", "open_photo"),
+    "preset": ("sunwidget.presets", "edit"),
     "replace_sky": ("sunwidget.transfer.sky_replacement", "replace_sky"),
     "render": ("sunwidget.renderer.render", "render"),
     "sample": ("sunwidget.samples", "sample"),
@@ -59,6 +63,7 @@ _HOMES: dict[str, tuple[str, str]] = {
 
 __all__ = [
     "PARAMETERS",
+    "PRESETS",
     "AnalysisError",
     "Camera",
     "Edit",
@@ -75,6 +80,7 @@ __all__ = [
     "__version__",
     "analyze",
     "open",
+    "preset",
     "render",
     "replace_sky",
     "sample",

@@ -15,8 +15,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
+from sunwidget import presets
 from sunwidget.cli_photo import Progress, add_methods, add_photo, flag, scene_of
-from sunwidget.edit import NUMBERS, PARAMETERS, Edit, Parameter
+from sunwidget.edit import NUMBERS, PARAMETERS, Edit, EditError, Parameter
 
 
 class _Parser(argparse.ArgumentParser):
@@ -101,6 +102,12 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_edit(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--recipe", type=Path, help="JSON recipe; flags win over it")
+    parser.add_argument(
+        "--preset",
+        metavar="NAME",
+        type=_preset,
+        help=f"time of day: {', '.join(presets.NAMES)}; wins over the recipe, flags win over it",
+    )
     group = parser.add_argument_group("parameters")
     for p in PARAMETERS:
         if p.kind == "number":
@@ -132,12 +139,22 @@ def _size(text: str) -> tuple[int, int]:
     return int(width), int(height)
 
 
+def _preset(text: str) -> str:
+    try:
+        return presets.find(text).name
+    except EditError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+
+
+def _recipe(options: argparse.Namespace) -> Edit:
+    if options.recipe is None:
+        return Edit()
+    return Edit.from_json(options.recipe.read_text("utf-8"))
+
+
 def _edit(options: argparse.Namespace, prefix: str = "", start: Edit | None = None) -> Edit:
-    """Return the Edit of a recipe and the flags that were given, the flags winning."""
-    if start is None:
-        start = Edit()
-        if options.recipe is not None:
-            start = Edit.from_json(options.recipe.read_text("utf-8"))
+    """Return ``start``, or the recipe, with the flags that were given, the flags winning."""
+    start = _recipe(options) if start is None else start
     given = {p.name: getattr(options, prefix + p.name, None) for p in PARAMETERS}
     return start.replace(**{name: value for name, value in given.items() if value is not None})
 
@@ -145,9 +162,11 @@ def _edit(options: argparse.Namespace, prefix: str = "", start: Edit | None = No
 def _render(options: argparse.Namespace) -> int:
     import sunwidget as sw
 
-    edit = _edit(options)
+    edit = _edit(options)  # what is wrong with it shows before the work
     _refuse_existing(options.output, options.overwrite)
     scene = scene_of(options)
+    if options.preset is not None:
+        edit = _edit(options, start=presets.edit(options.preset, scene, _recipe(options)))
     begin = time.perf_counter()
     if options.size is None:
         sw.save((scene, edit), options.output, overwrite=options.overwrite)
@@ -162,11 +181,15 @@ def _sweep(options: argparse.Namespace) -> int:
     import sunwidget as sw
 
     start = _edit(options)
-    end = _edit(options, "to_", start)
-    if start == end:
+    if start == _edit(options, "to_", start) and options.preset is None:
         raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
     _refuse_existing(options.output, options.overwrite)
     scene = scene_of(options)
+    if options.preset is not None:
+        start = _edit(options, start=presets.edit(options.preset, scene, _recipe(options)))
+    end = _edit(options, "to_", start)
+    if start == end:
+        raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
     with Progress("film") as progress:
         sw.sweep(
             scene,

@@ -17,7 +17,7 @@ from typing import Any, Literal, NamedTuple, Self
 
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
-LIGHTS = ("sun", "moon")
+LIGHTS = ("sun", "moon", "automatic")
 # "analysed": as ``analyze`` chose. The others are the names in ``analysis.clouds.METHODS``.
 CLOUD_METHODS = ("analysed", "rb_ratio", "rb_difference", "saturation", "learned", "unmix")
 STROKE_LABELS = ("sky", "not_sky", "water", "not_water")
@@ -151,8 +151,8 @@ class Edit:
         "Diameter of the drawn disc in units of the sun's own 0.533°; 0 draws none.")
     sun_visibility: float = _number(1.0, (0, 1), 0.01, "", "Disc's light", "sun",
         "Share of the disc's light that comes through; 0 is no sun, as behind a thick cloud.")
-    light_source: str = _choice("sun", LIGHTS, "Light", "sun",
-        "sun, or moon: a full moon that stands where the sun would.")
+    light_source: str = _choice("automatic", LIGHTS, "Light", "sun",
+        "sun, or moon: a full moon that stands where the sun would; automatic as in the photo.")
     sky_strength: float = _number(1.0, (0, 1), 0.01, "", "Sky", "sky",
         "How far the sky follows the moved sun; 0 is exactly off.")
     aerosol_optical_depth: float | None = _number(None, (0, 0.6), 0.005, "", "Haze", "sky",

@@ -51,8 +51,8 @@ def notices(
     if sun is None and moon is not None:
         notes.append(
             f"The disc at ({moon[0] * photo.width:.0f}, {moon[1] * photo.height:.0f}) of "
-            f"{photo.name} is taken for the moon, as the sky round it is dark; the sun's place is "
-            "assumed. If it is the sun, click it or pass sun=(x, y)."
+            f"{photo.name} is taken for the moon, as the sky round it is dark; it lights "
+            "the picture. If it is the sun, click it or pass sun=(x, y)."
         )
     elif sun is None:
         notes.append(

@@ -75,7 +75,7 @@ class Scene:
     glare : (h, w) float32
         Where the backdrop replaces the photo once the sun has moved.
     assumed_sun : (azimuth, elevation)
-        Degrees; where the sun is taken to be while ``sun`` is None.
+        Degrees; where the sun, or the moon that lights a night, is while ``sun`` is None.
     response : dict
         Further uniforms from the fit: camera response, gain and glare.
     warnings : tuple of str
@@ -87,7 +87,8 @@ class Scene:
     doubted : float
         Share of the picture that was dropped from the sky as unlikely.
     moon : (x, y) or None
-        Where a disc in a night sky was taken for the moon, in fractions of the picture.
+        Where a disc in a night sky was taken for the moon, in fractions of the picture; it
+        lights the picture in the sun's stead (``Edit.light_source``).
     everywhere : Clouds
         The clouds at working size as if all of the picture were sky: for strokes that say so.
     unstroked : Scene or None
@@ -130,6 +131,11 @@ class Scene:
     def height(self) -> int:
         """Rows of the photo."""
         return self.camera.height
+
+    @property
+    def lit_by_moon(self) -> bool:
+        """Whether the photo's own light is the moon's: of a moon found, or pointed at as a sun."""
+        return self.moon is not None or (self.sun is not None and self.sun.kind == "moon")
 
     @cached_property
     def sureness(self) -> np.ndarray:
@@ -217,6 +223,7 @@ class Scene:
             "camera_forward": self.camera.forward,
             "camera_focal": self.camera.focal / self.camera.height,
             "sun_visible": float(self.sun is not None and self.sun.visible),
+            "photo_light": float(self.lit_by_moon),
             "sun_mask_share": min(1.0, blot / max(float(self.sky.sum()), 1.0)),
             "photo_sky_mean": own.mean,
             "photo_sky_deviation": own.deviation,

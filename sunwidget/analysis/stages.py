@@ -120,12 +120,18 @@ def complete(
         matte = matte * horizon_stage.above(camera, *photo.size)
     sun = sun_stage.observe(seed, blot, sky, camera, working)
     moon = None if sun is not None else sun_stage.find_moon(working, sky)
+    light = sun
+    if moon is not None:
+        # The light of a night is its moon: the fit looks round it as it does round a sun by day.
+        seed = moon[0] * working.width, moon[1] * working.height
+        blot = _sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
+        light = sun_stage.observe(seed, blot, sky, camera, working)
 
     step("clouds", 0.81, "Finding clouds")
     covers = _by_colour(working, sky, hints, None if blot is None else blot.mask)
 
     step("fit", 0.82, "Fitting the atmosphere")
-    fitted, behind, (cover, everywhere) = _atmosphere(working, sky, covers, camera, sun, hints)
+    fitted, behind, (cover, everywhere) = _atmosphere(working, sky, covers, camera, light, hints)
 
     step("water", 0.95, "Looking for water")
     water = _water(working, sky, horizon.scaled(1 / zoom_x, 1 / zoom_y), hints)

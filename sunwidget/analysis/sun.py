@@ -55,7 +55,7 @@ class SunObservation:
         Name of the method, "hint", or "assumed".
     kind : str
         "sun"; or "moon", when a person pointed at a disc in a night sky. A moon that is found
-        is only told (``Scene.warnings``): it neither lights the sky nor takes the sun's place.
+        is ``Scene.moon`` instead.
     """
 
     x: float

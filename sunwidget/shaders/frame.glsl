@@ -12,6 +12,7 @@
 #include "lib/disc.glsl"
 #include "lib/land_light.glsl"
 #include "lib/air.glsl"
+#include "lib/night_vision.glsl"
 #include "lib/frame_output.glsl"
 
 uniform sampler2D retouched;
@@ -72,5 +73,6 @@ void main() {
 
   vec3 change = matte * sky_change + (1.0 - matte) * land_change;
   change += term[0].x * ReadBilinear(veil, place).rgb;
+  change += GetNight() * GetRodShift(scene + change);
   WriteChange(display, scene, change, pixel);
 }

@@ -24,7 +24,8 @@ void main() {
   vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
   // The meter averages, so a half-visible sun stands for any state of the disc: whether a
   // twig hides the sun must not change the exposure.
-  vec3 land = sky_gain * kLandAlbedo / 3.14159265 * GetLandIrradiance(light, 0.5, land_facing, sun);
+  vec3 land = sky_gain * kLandAlbedo * (GetNightSky(GetMoon()) + GetLightScale(GetMoon()) / 3.14159265
+      * GetLandIrradiance(light, 0.5, land_facing, sun));
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       vec2 place = (vec2(column, row) + 0.5) / vec2(kColumns, kRows);

@@ -1,6 +1,7 @@
 // The matched sky at every pixel (lib/described_sky.glsl). Of the photo's own sun it is drawn once
 // a photo; the frame relights by what the sky at the moved sun is to it, and draws that itself.
 
+#define PHOTOS_OWN_LIGHT
 #include "lib/picture.glsl"
 #include "lib/described_sky.glsl"
 

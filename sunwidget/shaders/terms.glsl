@@ -13,6 +13,7 @@
 #include "lib/sky.glsl"
 #include "lib/matched_sky.glsl"
 #include "lib/daylight.glsl"
+#include "lib/response.glsl"
 
 uniform sampler2D columns;
 uniform sampler2D light_before;
@@ -38,17 +39,36 @@ out vec4 result;
 // Over this many degrees of movement the old sun's glare gives way to the sky behind it: long
 // enough that a pixel's drag shows no step, short enough that a moved sun leaves no ghost.
 const float kGlareFade = 4.0;
+// A camera that re-exposes for a moonlit night stops this far (EV) short of what it does by day: a
+// print of a night is dark, or it is taken for a day. Krawczyk et al. 2005 ("Perceptual effects in
+// real-time tone mapping", eq. 11) find 3.7 EV between keys at 1000 and 0.01 cd m^-2, of which
+// `auto_exposure` leaves out nearly half already.
+const float kNightKey = 1.4;
+
+// A moon is 20 EV brighter than the sky it lights and would burn to a white hole; it is drawn so
+// bright, of white, and dimmed less by the air, as when a second, short exposure is laid over.
+const float kMoonLevel = 0.85;
+const float kMoonDimming = 0.35;
+
+float GetStops() {
+  return exposure + auto_exposure * (texelFetch(meter_source, ivec2(0), 0).r - texelFetch(meter_edit, ivec2(0), 0).r)
+      - auto_exposure * kNightKey * (GetMoon() - photo_light);
+}
 
 // log2 of the radiance in the middle of a disc at this height, without its limb's darkening.
 vec4 GetDiscRadiance(float sine_of_elevation) {
-  return log2(max(SOLAR_IRRADIANCE / (PI * SUN_ANGULAR_RADIUS * SUN_ANGULAR_RADIUS)
-      * (0.5 * LIMB_DARKENING + 1.0) * GetTransmittanceToTop(columns, altitude, sine_of_elevation),
-      vec4(1e-30)));
+  vec4 path = log2(max(GetTransmittanceToTop(columns, altitude, sine_of_elevation), vec4(1e-30)));
+  vec4 sun = log2(SOLAR_IRRADIANCE / (PI * SUN_ANGULAR_RADIUS * SUN_ANGULAR_RADIUS)
+      * (0.5 * LIMB_DARKENING + 1.0)) + path;
+  float level = GetSceneLight(vec3(kMoonLevel)).g / GetLuminance(sky_gain * SpectralToRec709(SOLAR_IRRADIANCE));
+  vec4 moon = log2(SOLAR_IRRADIANCE * level) - GetStops() + exposure + kMoonDimming * path;
+  return mix(sun, moon, GetMoon());
 }
 
 // The light that a sky sends in all directions is the same to the bit only when the sky is.
 bool IsSkyUnchanged() {
-  bool same = sun_azimuth == source_sun_azimuth && sun_elevation == source_sun_elevation;
+  bool same = sun_azimuth == source_sun_azimuth && sun_elevation == source_sun_elevation
+      && GetMoon() == photo_light;
   for (int i = 0; i < 9; ++i) {
     same = same && texelFetch(light_before, ivec2(i, 0), 0) == texelFetch(light_edit, ivec2(i, 0), 0);
   }
@@ -76,11 +96,12 @@ void main() {
   int part = max(index - 1, 0);
   float disc = parabola[part / 4][part % 4];
   if (index == 0) {
-    float stops = exposure + auto_exposure * (texelFetch(meter_source, ivec2(0), 0).r - texelFetch(meter_edit, ivec2(0), 0).r);
     float turn = degrees(2.0 * asin(min(0.5 * length(sun_now - sun_before), 1.0)));
     float hidden = clamp(visible_before - visible_now, 0.0, 1.0);
     bool same = visible_before == visible_now && IsSkyUnchanged();
-    result = vec4(exp2(stops), smoothstep(0.0, kGlareFade, turn), 0.5 * hidden * colourfulness, same);
+    // Another light has another disc and another glow, also in the same place.
+    float moved = GetMoon() == photo_light ? smoothstep(0.0, kGlareFade, turn) : 1.0;
+    result = vec4(exp2(GetStops()), moved, 0.5 * hidden * colourfulness, same);
   } else if (index == 9) {
     result = vec4(sun_before, disc);
   } else if (index == 10) {
@@ -96,6 +117,9 @@ void main() {
         : index == 8 ? GetForwardLight(light_edit)
         : index == 11 ? visible_before * GetLightTexel(light_before, 1)
         : visible_now * GetLightTexel(light_edit, 1);
-    result = vec4(sky_gain * light, disc);
+    // Without a moon no light reaches a surface but the night sky's, from half the sphere.
+    float moon = index == 3 || index == 4 || index == 7 || index == 8 || index == 12 ? GetMoon() : photo_light;
+    float night = index <= 4 ? PI : index == 5 || index == 7 ? 1.0 : 0.0;
+    result = vec4(sky_gain * (GetLightScale(moon) * light + night * GetNightSky(moon)), disc);
   }
 }

@@ -1,5 +1,6 @@
 // S_b: the thesis' sky, blurred over an eighth of the picture (eq. 3.13).
 
+#define PHOTOS_OWN_LIGHT
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
 #include "lib/sky.glsl"

@@ -1,5 +1,6 @@
 // S̄: the mean of the thesis' sky over the picture's sky pixels. One pixel.
 
+#define PHOTOS_OWN_LIGHT
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
 #include "lib/sky.glsl"

@@ -1,5 +1,6 @@
 // Mean (texel 0) and deviation (texel 1) of the model's sky in lαβ over the picture's sky.
 
+#define PHOTOS_OWN_LIGHT
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
 #include "lib/sky.glsl"

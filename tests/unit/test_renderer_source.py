@@ -187,7 +187,7 @@ def test_each_pass_hands_every_sampler_its_input_and_no_other():
 
 @pytest.mark.parametrize("shader", SHADERS)
 def test_every_uniform_has_a_source_for_its_value(shader):
-    parameters = {p.name for p in NUMBERS} | {"method"}
+    parameters = {p.name for p in NUMBERS} | {"method", "light_source"}
     edits = parameters | {f"source_{name}" for name in parameters}
     edits |= set(frame_graph()["scene_uniforms"]) | HOST_UNIFORMS
     explorers = {p.name for p in EXPLORER_PARAMETERS if p.kind != "data"} | HOST_UNIFORMS

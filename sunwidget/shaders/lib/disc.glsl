@@ -3,6 +3,7 @@
 
 #include "lib/terms.glsl"
 #include "lib/described_sky.glsl"
+#include "lib/moon_disc.glsl"
 
 vec3 GetDisc(vec3 view, vec3 sun) {
   float radius = term[10].x;
@@ -12,11 +13,14 @@ vec3 GetDisc(vec3 view, vec3 sun) {
   float horizon = described[3].x;
   float risen = clamp((view.y - horizon * (1.0 - horizon * horizon / 6.0)) / softness + 0.5, 0.0, 1.0);
   float x = min(chord / max(radius, 1e-9), 1.0);
+  float moon = GetMoon();
   float limb = 0.5 * log2(max(1.0 - x * x, 1e-4));
   float height = clamp((view.y - term[10].y) * term[10].z, -1.0, 1.0);
   vec4 middle = vec4(term[1].w, term[2].w, term[3].w, term[4].w);
   vec4 slope = vec4(term[5].w, term[6].w, term[7].w, term[8].w);
   vec4 bend = vec4(term[9].w, term[10].w, described[3].zw);
-  vec4 radiance = exp2(middle + height * (slope + height * bend) + limb * LIMB_DARKENING);
-  return coverage * risen * sky_gain * max(SpectralToRec709(radiance), vec3(0.0));
+  vec4 radiance = exp2(middle + height * (slope + height * bend) + (1.0 - moon) * limb * LIMB_DARKENING);
+  vec2 place = vec2(dot(view - sun, normalize(vec3(sun.z, 0.0, -sun.x))), (view.y - sun.y) / max(length(sun.xz), 0.1));
+  float albedo = 1.0 + moon * (GetMoonAlbedo(place / max(radius, 1e-9)) - 1.0);
+  return albedo * coverage * risen * sky_gain * max(SpectralToRec709(radiance), vec3(0.0));
 }

@@ -1,6 +1,8 @@
 // The model's sky in the photo's colours: gain per channel, fitted once at the photo's own
 // sun (analysis/fit.py) and frozen, since a refit after a move would pull a sunset back to noon.
 
+#include "lib/moonlight.glsl"
+
 uniform vec3 sky_gain;
 
 vec3 GetMatchedSky(sampler2D sky_view, SkyView view, vec3 direction) {
@@ -8,7 +10,8 @@ vec3 GetMatchedSky(sampler2D sky_view, SkyView view, vec3 direction) {
   vec3 sky = SpectralToRec709(GetSkyRadiance(sky_view, view, ivec2(0), size, direction));
   // Saturated spectra leave Rec. 709: keep a small share of the luminance in each channel.
   float luminance = max(dot(sky, vec3(0.2126, 0.7152, 0.0722)), 1e-12);
-  return sky_gain * max(sky, vec3(0.02 * luminance));
+  float moon = GetMoon();
+  return sky_gain * (GetLightScale(moon) * max(sky, vec3(0.02 * luminance)) + GetNightSky(moon));
 }
 
 vec3 GetMatchedSky(sampler2D sky_view, vec3 direction) {

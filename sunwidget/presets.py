@@ -1,0 +1,153 @@
+"""Presets: times of day as plain data, and the edits that they make of a photo.
+
+A preset sets the sun's place, which light there is, and the exposure; everything else of an edit
+(strokes, hints, strengths, the air) stays as it is.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from sunwidget.edit import Edit, EditError
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+
+
+class Preset(NamedTuple):
+    """A time of day.
+
+    Parameters
+    ----------
+    name, label, help : str
+    parameters : mapping
+        Values by name of a parameter of ``Edit``; every preset sets the same ones. The azimuth is
+        found for each photo (``azimuth``).
+    in_view : bool
+        Whether a sun that stands behind the camera is brought into the picture.
+    """
+
+    name: str
+    label: str
+    help: str
+    parameters: Mapping[str, float | str]
+    in_view: bool
+
+
+def _preset(
+    name: str,
+    label: str,
+    text: str,
+    elevation: float,
+    *,
+    exposure: float = 0.0,
+    light: str = "sun",
+    in_view: bool = True,
+) -> Preset:
+    parameters: dict[str, float | str] = {
+        "sun_elevation": elevation,
+        "light_source": light,
+        "exposure": exposure,
+    }
+    return Preset(name, label, text, MappingProxyType(parameters), in_view)
+
+
+# fmt: off
+PRESETS: tuple[Preset, ...] = (
+    _preset("dawn", "Dawn", "A little before sunrise: a cool sky with a warm edge, no shadows.",
+        -3.0, exposure=-0.3),
+    _preset("golden_hour", "Golden hour", "A low, warm sun over a sky that is still blue.", 4.0,
+        exposure=-0.4),
+    _preset("noon", "Noon", "A high sun: neutral colours, short shadows.", 55.0, in_view=False),
+    _preset("sunset", "Sunset", "The sun at the horizon.", 0.8, exposure=-0.6),
+    _preset("blue_hour", "Blue hour", "The sun well below the horizon: an even, deep blue.", -5.5,
+        exposure=-0.9),
+    _preset("moonlight", "Moonlight", "Night, with a full moon where the sun would be.", 18.0,
+        light="moon"),
+)
+# fmt: on
+
+NAMES: tuple[str, ...] = tuple(preset.name for preset in PRESETS)
+_BY_NAME = {preset.name: preset for preset in PRESETS}
+# Where a sun is brought in: a third of the picture's width from its left or right edge.
+_THIRD = 1 / 3
+
+
+def find(name: str) -> Preset:
+    """Return the preset of this name.
+
+    Raises
+    ------
+    EditError
+        For an unknown name; the nearest spelling is suggested.
+    """
+    if isinstance(name, str) and name in _BY_NAME:
+        return _BY_NAME[name]
+    spelled = str(name)[:80].strip().lower().replace(" ", "_").replace("-", "_")
+    near = difflib.get_close_matches(spelled, NAMES, n=1)
+    hint = f" Did you mean {near[0]!r}?" if near else f" There are {', '.join(NAMES)}."
+    raise EditError(f"Unknown preset {str(name)[:80]!r}.{hint}")
+
+
+def azimuth(preset: Preset, scene: Scene) -> float:
+    """Return the sun's azimuth in degrees, relative to the camera's heading.
+
+    It is the photo's own where that lies before the camera, or where the preset does not ask for
+    the sun in view. Otherwise it is a third of the picture from that edge on whose side more sky
+    is open at the sun's height, at equal openness the one nearer to the photo's own sun.
+    """
+    own = scene.automatic["sun_azimuth"]
+    if not preset.in_view or abs(own) <= 90:
+        return own
+    elevation = float(preset.parameters["sun_elevation"])
+    height = max(elevation, 1.0)
+    sides = []
+    for share in (_THIRD, 1 - _THIRD):
+        x = share * scene.width
+        place = scene.camera.angles(x, scene.camera.pixel(0.0, height)[1])[0]
+        sides.append((_openness(scene, x, height), share, float(place)))
+    nearer = 1 - _THIRD if own > 0 else _THIRD
+    best = max(sides, key=lambda side: (round(side[0], 1), side[1] == nearer))
+    return round(best[2], 1)
+
+
+def _openness(scene: Scene, x: float, elevation: float) -> float:
+    """Share of sky in the column ``x`` of the picture from this elevation to its top edge."""
+    row = int(min(max(scene.camera.pixel(0.0, elevation)[1], 1), scene.height))
+    return float(scene.sky[:row, min(int(x), scene.width - 1)].mean())
+
+
+def values(name: str, scene: Scene) -> dict[str, Any]:
+    """Return what a preset sets in this photo, by name of a parameter; see ``edit``."""
+    preset = find(name)
+    return {"sun_azimuth": azimuth(preset, scene), **preset.parameters}
+
+
+def edit(name: str, scene: Scene, base: Edit | None = None) -> Edit:
+    """Return the edit that shows a photo at another time of day.
+
+    Parameters
+    ----------
+    name : {"dawn", "golden_hour", "noon", "sunset", "blue_hour", "moonlight"}
+    scene : Scene
+        What ``analyze`` returned.
+    base : Edit, optional
+        What to start from: its other parameters stay, strokes and hints too.
+
+    Raises
+    ------
+    EditError
+        For an unknown name; the nearest spelling is suggested.
+
+    Examples
+    --------
+    >>> sw.render(scene, sw.preset("sunset", scene))
+    """
+    found = values(name, scene)
+    base = Edit() if base is None else base
+    if base.sun_hint or base.horizon_hint or base.fov_hint:
+        found["sun_azimuth"] = azimuth(find(name), scene.corrected(base))
+    return base.replace(**found)
