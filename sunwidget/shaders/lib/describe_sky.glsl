@@ -22,5 +22,5 @@ void SetDescribedSky() {
   described[0] = vec4(view.sun, PackColor(sky_gain * beam));
   described[1] = view.rayleigh;
   described[2] = view.mie;
-  described[3] = vec4(view.horizon, glare, 0.0, 0.0);
+  described[3] = vec4(view.horizon, glare * GetLightScale(GetMoon()).g, 0.0, 0.0);
 }
