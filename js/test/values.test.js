@@ -33,15 +33,6 @@ test("a choice is its index, and at its default in the source", () => {
   assert.deepEqual([edit.light_source, source.light_source, edit.source_light_source], [1, 0, 0]);
 });
 
-test("an automatic choice is what the analysis found", () => {
-  const light = { ...parameters[3], default: "automatic", choices: ["sun", "moon", "automatic"] };
-  const found = { light_source: 1 };
-  const indices = (edit) => states([light], edit, found).edit;
-  assert.equal(indices({}).light_source, 1);
-  assert.equal(indices({ light_source: "sun" }).light_source, 0);
-  assert.equal(indices({ light_source: "sun" }).source_light_source, 1);
-});
-
 test("strokes are no uniform", () => {
   assert.ok(!("strokes" in states(parameters, {}, { sun_elevation: 0 }).edit));
 });

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget import presets
 from sunwidget.analysis import horizon
 from sunwidget.analysis.clear_sky import clear_sky
 from sunwidget.analysis.clouds import INDICES
@@ -142,10 +143,20 @@ def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
                 "confidence": scene.horizon.confidence,
                 "source": scene.horizon.source,
             },
+            "sureness": scene.atmosphere.confidence,
             "whiteness": whiteness(scene),
+            "presets": preset_json(scene),
             "warnings": list(scene.warnings),
         }
     )
+
+
+def preset_json(scene: Scene) -> list[dict[str, Any]]:
+    """Return the presets with what each sets in this photo, as plain JSON types."""
+    return [
+        {"label": p.label, "title": p.help, "values": presets.values(p.name, scene)}
+        for p in presets.PRESETS
+    ]
 
 
 def whiteness(scene: Scene, bins: int = 64, reach: float = 1.6) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from typing import Any
 import anywidget
 import traitlets
 
+from sunwidget import presets
 from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.edit import PARAMETERS, Edit, unknown_name_message
 from sunwidget.photo import Photo, open_photo
@@ -210,6 +211,28 @@ class SunEditor(anywidget.AnyWidget):
     def reset(self) -> None:
         """Set every parameter to its default, as one step: the photo as it was."""
         self._step(Edit())
+
+    def apply_preset(self, name: str) -> None:
+        """Set the time of day to a preset of ``sunwidget.presets``, in one step.
+
+        Sun, light and exposure are set; everything else stays as it is. Waits for the analysis,
+        since where a preset puts the sun depends on the photo.
+
+        Parameters
+        ----------
+        name : {"dawn", "golden_hour", "noon", "sunset", "blue_hour", "moonlight"}
+
+        Raises
+        ------
+        EditError
+            For an unknown name; the nearest spelling is suggested.
+
+        Examples
+        --------
+        >>> editor.apply_preset("sunset")
+        """
+        presets.find(name)
+        self._step(self.edit.replace(**presets.values(name, self.scene)))
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
         """Take over what the browser sent; a value that is refused is answered, not raised."""

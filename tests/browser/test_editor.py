@@ -155,6 +155,32 @@ def test_a_slider_sets_its_parameter_and_a_double_click_resets_it(editor):
     assert trait(editor, "exposure") == 0
 
 
+def test_a_preset_is_a_chip_that_stays_pressed_while_it_holds(editor, state):
+    chips = editor.get_by_role("group", name="Presets").get_by_role("button")
+    sent = state["_scene"]["presets"]
+    assert chips.all_text_contents() == [preset["label"] for preset in sent]
+    pressed = "(all) => all.map((chip) => chip.getAttribute('aria-pressed'))"
+    assert "true" not in chips.evaluate_all(pressed)
+    before = canvas_of(editor)
+    chips.nth(3).focus()
+    editor.keyboard.press("Enter")
+    for name, value in sent[3]["values"].items():
+        assert trait(editor, name) == value
+    assert chips.evaluate_all(pressed).index("true") == 3
+    assert settled(editor, before).std() > 10
+    chips.nth(4).click()
+    assert len(trait(editor, "_history")["past"]) == 2
+    editor.get_by_role("button", name="Undo").click()
+    assert chips.evaluate_all(pressed).index("true") == 3
+    # A preset that is no longer in force is not pressed.
+    editor.get_by_role("slider", name="Exposure in EV").focus()
+    editor.keyboard.press("ArrowRight")
+    assert "true" not in chips.evaluate_all(pressed)
+    editor.get_by_role("button", name="Undo").click()
+    editor.get_by_role("button", name="Undo").click()
+    assert trait(editor, "sun_elevation") is None
+
+
 def test_a_typed_value_is_clamped_and_nonsense_is_refused(editor):
     field = editor.get_by_label("Elevation, value")
     field.fill("500")

@@ -13,9 +13,10 @@ from PIL import Image
 from traitlets import TraitError
 
 import sunwidget as sw
+from sunwidget import presets
 from sunwidget.analysis.clouds import softness_histogram
 from sunwidget.analysis.maps import MAPS, scene_map
-from sunwidget.edit import PARAMETERS
+from sunwidget.edit import PARAMETERS, EditError
 from sunwidget.widgets import SunEditor
 from sunwidget.widgets import sun_editor as module
 from sunwidget.widgets.payload import PREVIEW_EDGE, preview_size, whiteness
@@ -280,6 +281,26 @@ def test_every_request_is_answered_errors_included(editor, sent):
     ((response, _),) = sent
     assert response["id"] == "b"
     assert "no action 'explode'" in response["error"]
+
+
+def test_a_preset_is_one_step_that_leaves_the_rest_alone(editor, scene):
+    editor.land_strength = 0.5
+    editor.apply_preset("sunset")
+    assert editor.edit == presets.edit("sunset", scene, sw.Edit(land_strength=0.5))
+    editor.apply_preset("moonlight")
+    editor.undo()
+    assert editor.edit == presets.edit("sunset", scene, sw.Edit(land_strength=0.5))
+    editor.undo()
+    assert editor.edit == sw.Edit(land_strength=0.5)
+    with pytest.raises(EditError, match="sunset"):
+        editor.apply_preset("sunrise")
+
+
+def test_presets_travel_with_the_scene_as_plain_values(editor, scene):
+    sent = json.loads(json.dumps(editor._scene["presets"]))
+    assert [row["label"] for row in sent] == [preset.label for preset in presets.PRESETS]
+    for row, preset in zip(sent, presets.PRESETS, strict=True):
+        assert sw.Edit(**row["values"]) == presets.edit(preset.name, scene)
 
 
 def test_static_viewers_get_a_picture(editor):

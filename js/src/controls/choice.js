@@ -20,15 +20,8 @@ export function choice({ parameter: p, onChange, names = {} }) {
   );
   return {
     node,
-    /**
-     * @param {string} value
-     * @param {number} [found] index of what stands behind "automatic"
-     */
-    show(value, found) {
-      const at = p.choices.indexOf("automatic");
-      if (at >= 0 && found !== undefined) {
-        select.options[at].textContent = `automatic: ${p.choices[found]}`;
-      }
+    /** @param {string} value */
+    show(value) {
       select.value = value;
       node.classList.toggle("sw-default", value === p.default);
     },

@@ -27,10 +27,7 @@ export function panel(view) {
         parameter: p,
         onChange: (value) => state.set({ [p.name]: value }),
       });
-      updates.push(() => {
-        const found = view.scene?.automatic[p.name];
-        control.show(String(state.values[p.name] ?? p.default), found);
-      });
+      updates.push(() => control.show(String(state.values[p.name] ?? p.default)));
       return control.node;
     }
     const control = slider({

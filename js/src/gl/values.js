@@ -22,10 +22,7 @@ export function parameterValues(parameters, edit, automatic) {
   const values = {};
   for (const p of parameters) {
     const value = edit[p.name] ?? p.default;
-    if (p.kind === "choice") {
-      const found = value === "automatic" ? automatic[p.name] : undefined;
-      values[p.name] = found ?? p.choices.indexOf(String(value));
-    }
+    if (p.kind === "choice") values[p.name] = p.choices.indexOf(String(value));
     if (p.kind === "number") values[p.name] = Number(value ?? automatic[p.name]);
   }
   return values;
