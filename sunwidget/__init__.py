@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from sunwidget.renderer.gl_thread import RendererError
     from sunwidget.renderer.render import render
     from sunwidget.samples import sample
+    from sunwidget.transfer.look import transfer_look
     from sunwidget.transfer.sky_replacement import replace_sky
     from sunwidget.widgets import SkyExplorer, SunEditor
 
@@ -58,6 +59,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "render": ("sunwidget.renderer.render", "render"),
     "sample": ("sunwidget.samples", "sample"),
     "save": ("sunwidget.export.stills", "save"),
+    "transfer_look": ("sunwidget.transfer.look", "transfer_look"),
     "sweep": ("sunwidget.export.sweep", "sweep"),
 }
 
@@ -86,6 +88,7 @@ __all__ = [
     "sample",
     "save",
     "sweep",
+    "transfer_look",
 ]
 
 

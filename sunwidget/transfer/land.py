@@ -14,16 +14,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis import depth as depth_stage
-from sunwidget.analysis.fit import view_angles
 from sunwidget.analysis.match import LMS_TO_LAB, RGB_TO_LMS
 from sunwidget.analysis.working import LUMINANCE, resize
 from sunwidget.transfer.irradiance import is_night, land_light
+from sunwidget.transfer.labels import LABELS, labels_of
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
 
-LABELS = ("ground", "upright", "plants", "water")
 _FLOOR = 1e-4  # of cone response; below one step of 8 bits
 _STATISTICS = 0.5  # how much they count against the ratio of irradiances, where both are sure
 _DARKEST, _BRIGHTEST = -3.2, 1.8  # natural log of the change of luminance
@@ -67,31 +65,6 @@ class LandChange:
         mean, gain, shift = (rows_at(m, rows, size) for m in (self.mean, self.gain, self.shift))
         cones = np.power(10.0, (mean + gain * (lab - mean) + shift) @ _FROM_LAB.T)
         return np.maximum(cones @ _FROM_LMS.T, 0).astype(np.float32)
-
-
-def labels_of(scene: Scene) -> dict[str, np.ndarray]:
-    """Return how far each pixel of the land belongs to each label: (h, w) in [0, 1], soft.
-
-    At working size; they add up to the land.
-    """
-    small = scene.working
-    size = (small.width, small.height)
-    land = 1 - resize(scene.sky, *size)
-    water = resize(scene.water, *size) * land
-    total = np.maximum(small.encoded.sum(-1), 1e-3)
-    # Excess green (Woebbecke et al. 1995) tells leaves and grass; in the dark it is noise.
-    excess = (2 * small.encoded[..., 1] - small.encoded[..., 0] - small.encoded[..., 2]) / total
-    green = _smoothstep(0.03, 0.15, excess) * _smoothstep(0.08, 0.25, total)
-    plants = green * (land - water)
-    elevation = view_angles(scene.camera, *size)[1]
-    below = _smoothstep(0.0, -1.5, elevation)
-    flat = depth_stage.ground_plane(1 - land, scene.camera.resized(*size))
-    depth = resize(np.minimum(scene.depth, depth_stage.FAR), *size)
-    # What is much nearer than the ground would be here stands on it.
-    lying = below * _smoothstep(0.5, 0.8, depth / np.minimum(flat, depth_stage.FAR))
-    ground = lying * (land - water - plants)
-    parts = (ground, land - water - plants - ground, plants, water)
-    return {n: _soft(p, small.encoded) for n, p in zip(LABELS, parts, strict=True)}
 
 
 def land_change(
@@ -283,17 +256,3 @@ def rows_at(image: np.ndarray, rows: slice, size: tuple[int, int]) -> np.ndarray
     grid = np.meshgrid(x.astype(np.float32), y.astype(np.float32))
     found = cv2.remap(image, *grid, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE)
     return np.asarray(found)
-
-
-def _soft(label: np.ndarray, guide: np.ndarray) -> np.ndarray:
-    """Follow the picture's own edges, so that no label ends in a line of its own."""
-    import cv2
-
-    radius = max(2, round(0.012 * max(label.shape)))
-    label = label.astype(np.float32)
-    return np.clip(cv2.ximgproc.guidedFilter(guide, label, radius, 1e-3), 0, 1)
-
-
-def _smoothstep(low: float, high: float, x: np.ndarray) -> np.ndarray:
-    t = np.clip((x - low) / (high - low), 0, 1)
-    return np.asarray(t * t * (3 - 2 * t), np.float32)

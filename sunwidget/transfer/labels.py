@@ -1,0 +1,65 @@
+"""What the land consists of, as far as it can be told without another network."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sunwidget.analysis.fit import view_angles
+from sunwidget.analysis.working import resize
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+    from sunwidget.camera import Camera
+
+LABELS = ("ground", "upright", "plants", "water")
+_EYE_HEIGHT = 1.7  # metres above the ground; the depth map assumes the same
+_FAR = 20_000.0  # metres
+
+
+def labels_of(scene: Scene) -> dict[str, np.ndarray]:
+    """Return how far each pixel of the land belongs to each label: (h, w) in [0, 1], soft.
+
+    At working size; they add up to the land.
+    """
+    small = scene.working
+    size = (small.width, small.height)
+    land = 1 - resize(scene.sky, *size)
+    water = resize(scene.water, *size) * land
+    total = np.maximum(small.encoded.sum(-1), 1e-3)
+    # Excess green (Woebbecke et al. 1995) tells leaves and grass; in the dark it is noise.
+    excess = (2 * small.encoded[..., 1] - small.encoded[..., 0] - small.encoded[..., 2]) / total
+    green = _smoothstep(0.03, 0.15, excess) * _smoothstep(0.08, 0.25, total)
+    plants = green * (land - water)
+    elevation = view_angles(scene.camera, *size)[1]
+    below = _smoothstep(0.0, -1.5, elevation)
+    flat = _ground(scene.camera.resized(*size))
+    depth = resize(np.minimum(scene.depth, _FAR), *size)
+    # What is much nearer than the ground would be here stands on it.
+    lying = below * _smoothstep(0.5, 0.8, depth / flat)
+    ground = lying * (land - water - plants)
+    parts = (ground, land - water - plants - ground, plants, water)
+    return {n: _soft(p, small.encoded) for n, p in zip(LABELS, parts, strict=True)}
+
+
+def _ground(camera: Camera) -> np.ndarray:
+    """Depth (h, w) in metres of level ground under the camera, at most ``_FAR``."""
+    y, x = np.mgrid[: camera.height, : camera.width] + 0.5
+    u, v = (x - camera.width / 2) / camera.focal, (y - camera.height / 2) / camera.focal
+    fall = -(u * camera.up[0] + v * camera.up[1] + camera.up[2])
+    return np.asarray(_EYE_HEIGHT / np.maximum(fall, _EYE_HEIGHT / _FAR), np.float32)
+
+
+def _soft(label: np.ndarray, guide: np.ndarray) -> np.ndarray:
+    """Follow the picture's own edges, so that no label ends in a line of its own."""
+    import cv2
+
+    radius = max(2, round(0.012 * max(label.shape)))
+    label = label.astype(np.float32)
+    return np.clip(cv2.ximgproc.guidedFilter(guide, label, radius, 1e-3), 0, 1)
+
+
+def _smoothstep(low: float, high: float, x: np.ndarray) -> np.ndarray:
+    t = np.clip((x - low) / (high - low), 0, 1)
+    return np.asarray(t * t * (3 - 2 * t), np.float32)

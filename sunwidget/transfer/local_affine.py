@@ -1,0 +1,121 @@
+"""Locally affine colour transforms: learned from a registered pair, applied to a picture.
+
+A transform is a map (h, w, 3, 4): row i gives output channel i from R, G, B and 1.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+_GRAIN = 2e-4  # variance in squared encoded units that says nothing of contrast
+_RIDGE = 1e-4  # of the global fit, in squared encoded units
+
+
+def global_affine(
+    before: np.ndarray, after: np.ndarray, weight: np.ndarray | None = None
+) -> np.ndarray:
+    """Least-squares affine (3, 4) from ``before`` to ``after`` (h, w, 3), near the identity.
+
+    ``weight`` (h, w) says how much each pixel counts; default all the same.
+    """
+    x = before.reshape(-1, 3).astype(np.float64)
+    y = after.reshape(-1, 3).astype(np.float64)
+    share = np.ones(len(x)) if weight is None else weight.ravel().astype(np.float64)
+    share = share / max(float(share.sum()), 1e-9)
+    mean_x, mean_y = share @ x, share @ y
+    covariance = (x - mean_x).T @ ((x - mean_x) * share[:, None])
+    cross = (x - mean_x).T @ ((y - mean_y) * share[:, None])
+    ridge = _RIDGE * np.eye(3)
+    matrix = np.linalg.solve(covariance + ridge, cross + ridge).T
+    return np.column_stack([matrix, mean_y - matrix @ mean_x])
+
+
+def local_affine(before: np.ndarray, after: np.ndarray, radius: int, epsilon: float) -> np.ndarray:
+    """Fit an affine in the window round each pixel, drawn towards the global one.
+
+    The regression of the guided filter (He et al. 2010, eq. 19) with the global affine instead of
+    zero as what a flat window falls back to.
+
+    Parameters
+    ----------
+    before, after : (h, w, 3) float32
+        Registered, encoded in [0, 1].
+    radius : int
+        Of the window in pixels.
+    epsilon : float
+        Variance, in squared encoded units, below which the global affine is trusted more.
+
+    Returns
+    -------
+    (h, w, 3, 4) float32
+    """
+    fallback = global_affine(before, after)
+    x, y = before.astype(np.float64), after.astype(np.float64)
+    mean_x, mean_y = _mean(x, radius), _mean(y, radius)
+
+    def covariance(a: np.ndarray, b: np.ndarray, of_a: np.ndarray, of_b: np.ndarray) -> np.ndarray:
+        products = (a[..., :, None] * b[..., None, :]).reshape(*a.shape[:2], 9)
+        return _mean(products, radius).reshape(*a.shape[:2], 3, 3) - (
+            of_a[..., :, None] * of_b[..., None, :]
+        )
+
+    regular = covariance(x, x, mean_x, mean_x) + epsilon * np.eye(3)
+    cross = covariance(x, y, mean_x, mean_y) + epsilon * fallback[:, :3].T
+    matrix = np.swapaxes(np.linalg.solve(regular, cross), -1, -2)
+    shift = mean_y - np.einsum("hwij,hwj->hwi", matrix, mean_x)
+    return np.concatenate([matrix, shift[..., None]], -1).astype(np.float32)
+
+
+def local_contrast(before: np.ndarray, after: np.ndarray, radius: int, limit: float) -> np.ndarray:
+    """Deviation of ``after`` over that of ``before`` in the window round each pixel.
+
+    What a regression makes of detail that moved between the two pictures is haze; the
+    ratio of deviations keeps it crisp.
+
+    Returns
+    -------
+    (h, w) float32 in 1 / limit … limit
+    """
+    spread = []
+    for picture in (before, after):
+        x = picture.astype(np.float64)
+        variance = _mean(np.square(x), radius) - np.square(_mean(x, radius))
+        spread.append(np.sqrt(np.maximum(variance.mean(-1), 0) + _GRAIN))
+    ratio = spread[1] / spread[0]
+    return np.clip(ratio, 1 / limit, limit).astype(np.float32)
+
+
+def base_of(image: np.ndarray, radius: int, epsilon: float) -> np.ndarray:
+    """Picture without its detail: smoothed, but not across its strong edges."""
+    import cv2
+
+    return np.asarray(cv2.ximgproc.guidedFilter(image, image, radius, epsilon))
+
+
+def smoothed(transforms: np.ndarray, guide: np.ndarray, radius: int, epsilon: float) -> np.ndarray:
+    """Smooth a map (h, w, …) along the edges of ``guide`` (h, w, 3): no seams."""
+    import cv2
+
+    flat = np.asarray(transforms.reshape(*transforms.shape[:2], -1), np.float32)
+    parts = [
+        cv2.ximgproc.guidedFilter(guide, np.ascontiguousarray(flat[..., i]), radius, epsilon)
+        for i in range(flat.shape[-1])
+    ]
+    return np.stack(parts, -1).reshape(transforms.shape)
+
+
+def apply(transforms: np.ndarray, image: np.ndarray) -> np.ndarray:
+    """Apply (h, w, 3, 4) transforms to (h, w, 3) colours."""
+    return np.einsum("hwij,hwj->hwi", transforms[..., :3], image) + transforms[..., 3]
+
+
+def _mean(values: np.ndarray, radius: int) -> np.ndarray:
+    """Mean over the square window round each pixel, cut at the border; any number of channels."""
+    import cv2
+
+    size = (2 * radius + 1, 2 * radius + 1)
+    parts = [
+        cv2.blur(np.ascontiguousarray(values[..., i]), size, borderType=cv2.BORDER_REFLECT)
+        for i in range(values.shape[-1])
+    ]
+    return np.stack(parts, -1)
