@@ -51,8 +51,10 @@ def glitter(
     return np.clip(zone * (1 - sky), 0, 1).astype(np.float32)
 
 
-def column_of(camera: Camera, azimuth: float) -> float:
-    """Where an azimuth (degrees) meets the horizon, in fractions of the width."""
+def column_of(camera: Camera, azimuth: float) -> float | None:
+    """Where an azimuth (degrees) meets the horizon, in fractions of the width; None behind it."""
+    if abs(azimuth) > 80:
+        return None
     return float(camera.pixel(azimuth, 0.0)[0] / camera.width)
 
 

@@ -255,8 +255,8 @@ class Scene:
         small = self.working
         sky = resize(self.sky, small.width, small.height)
         water = resize(self.water, small.width, small.height)
-        column = None if self.sun is None else column_of(self.camera, self.sun.azimuth)
-        maps = (self.glare, self.water, glitter(small, sky, water, column))
+        azimuth = self.assumed_sun[0] if self.sun is None else self.sun.azimuth
+        maps = (self.glare, self.water, glitter(small, sky, water, column_of(self.camera, azimuth)))
         level = depth_level.to_level(self._log_depth(width, height))
         return np.stack(
             [*(resize(image, width, height) for image in maps), depth_level.dithered(level)],

@@ -104,10 +104,15 @@ def _extent(look: Look) -> np.ndarray:
     plain = look.glint_columns < 0.4  # away from the glints
     level = _level(light[:, plain], sure[:, plain]) if plain.any() else _level(light, sure)
     rock = smoothstep(0.5, 1.0, level[:, None] - light) * smoothstep(0.05, 0.1, look.roughness)
+    # The trough of a wave is as dark and as sharp, but not as high.
+    rock = cv2.morphologyEx(rock, cv2.MORPH_OPEN, np.ones((max(3, height // 20), 3), np.uint8))
     row = int(np.clip(round(look.row), 0, height - 2))
     first = sure[row : row + max(3, int(0.06 * height))]
     shade = np.median(look.earthiness[row : row + len(first)][first]) if first.any() else 0.0
     earth = smoothstep(0.1, 0.2, look.earthiness - max(float(shade), 0.0))
+    # A red evening sky is mirrored redder still; what is brighter than the water then is no earth.
+    evening = smoothstep(0.5, 1.2, look.redness_of_sky())
+    earth = earth * (1 - evening * smoothstep(-0.9, -0.4, light - level[:, None]))
     open_water = (1 - rock) * (1 - earth) * look.streaks * look.land
     below = (np.arange(height) + 0.5 > look.row)[:, None]
     candidates = (sure | (open_water > 0.5)) & (rock < 0.5) & (earth < 0.5) & below
@@ -118,7 +123,33 @@ def _extent(look: Look) -> np.ndarray:
     certain = np.bincount(labels[sure], minlength=count) / area
     kept = (area >= 0.01 * width * height) & (certain > 0.3)
     kept[0] = False
-    return _without_holes(kept[labels], rock > 0.5)
+    return _by_neighbours(look, _without_holes(kept[labels], rock > 0.5), below & (look.land > 0.5))
+
+
+def _by_neighbours(look: Look, water: np.ndarray, ground: np.ndarray) -> np.ndarray:
+    """Redraw the border: texture is blurred over several pixels, colours are sharp.
+
+    Near the border a pixel is what its colour is nearer to: the water's beside it or the other's.
+    """
+    import cv2
+
+    core = np.ones((9, 9), np.uint8)  # what texture blurs over
+    inside = cv2.erode(water, core)
+    outside = cv2.erode(ground * (1 - water).astype(np.float32), core)
+    lab = cv2.cvtColor(look.encoded, cv2.COLOR_RGB2LAB)
+
+    def mean(weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        around = (31, 15)
+        total = cv2.blur(weight, around)
+        return cv2.blur(lab * weight[..., None], around) / np.maximum(total, 1e-4)[..., None], total
+
+    of_water, near_water = mean(inside)
+    of_other, near_other = mean(outside)
+    nearer = np.linalg.norm(lab - of_water, axis=-1) < np.linalg.norm(lab - of_other, axis=-1)
+    both = (near_water > 0.01) & (near_other > 0.01)
+    unsure = ground & (inside < 0.5) & (outside < 0.5)
+    result = np.where(unsure & both, nearer, water > 0.5).astype(np.uint8)
+    return np.asarray(cv2.medianBlur(result, 3), np.float32)
 
 
 def _without_holes(water: np.ndarray, rock: np.ndarray) -> np.ndarray:
@@ -131,9 +162,9 @@ def _without_holes(water: np.ndarray, rock: np.ndarray) -> np.ndarray:
     right = left + stats[:, cv2.CC_STAT_WIDTH]
     bottom = top + stats[:, cv2.CC_STAT_HEIGHT]
     area = stats[:, cv2.CC_STAT_AREA]
-    inside = (left > 0) & (top > 0) & (right < width) & (bottom < height)
-    rocky = np.bincount(labels[rock], minlength=count) / area > 0.3
-    filled = inside & (area < np.where(rocky, 0.0015, 0.05) * water.size)
+    inside = (left > 0) & (top > 0) & (right < width)
+    rocky = np.bincount(labels[rock], minlength=count) / area > np.where(bottom < height, 0.3, 0.15)
+    filled = inside & (area < np.where(rocky, 0.0015, 0.12) * water.size)
     filled[0] = False
     return np.asarray(water | filled[labels], np.float32)
 
@@ -152,6 +183,9 @@ def _level(light: np.ndarray, sure: np.ndarray) -> np.ndarray:
         return np.full(height, -np.inf, np.float32)
     known = [float(np.quantile(light[row][sure[row]], 0.75)) for row in rows]
     level = np.interp(np.arange(height), rows, known).astype(np.float32)
+    # Water darkens slowly towards the viewer: a pier that fills most of a row does not count.
+    fall = 0.9 * np.arange(height, dtype=np.float32) / (height - rows[0])
+    level = np.maximum.accumulate(level + fall) - fall
     return cv2.GaussianBlur(level[:, None], (0, 0), 0.1, sigmaY=0.03 * height).ravel()
 
 

@@ -129,6 +129,17 @@ class Look:
         lengths = [np.linalg.norm(mean, axis=-1) for mean in means]
         return float(np.mean(lengths, axis=0).max())
 
+    def redness_of_sky(self) -> float:
+        """log(red/blue) of the sky over the horizon; 0 without any."""
+        height = self.land.shape[0]
+        row = int(np.clip(round(self.row), 1, height))
+        band = slice(max(row - int(0.2 * height) - 1, 0), row)
+        sky = self.encoded[band][self.land[band] < 0.1]
+        if not sky.size:
+            return 0.0
+        red, _, blue = np.square(sky).mean(axis=0)
+        return float(np.log((red + _DARK) / (blue + _DARK)))
+
     @cached_property
     def glint_columns(self) -> np.ndarray:
         """How far each column under the horizon is brighter than others, in log luminance: (w,)."""

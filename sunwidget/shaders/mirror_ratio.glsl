@@ -25,6 +25,9 @@ const float kLargestGrowth = 2.0;
 // (Jerlov 1976): water swallows red.
 const vec3 kBody = vec3(0.008, 0.025, 0.035);
 
+const int kClouds = 5;
+const float kCloudShare = 0.6;  // the steeper facets mirror the sky above them
+
 // Light of the water itself under an irradiance, of which the surface lets in what it does not
 // reflect.
 vec3 GetBody(vec3 irradiance, vec3 view, float wind) {
@@ -43,11 +46,16 @@ void main() {
   vec4 now = texelFetch(mirror_edit, texel, 0);
   vec3 view = GetViewDirection(place);
 
-  // Clouds are mirrored, too: those that stand as high above the horizon as this lies below it.
-  vec3 up = normalize(vec3(view.x, GetFacing(view, source_wind_speed), view.z));
-  vec4 layer = ReadBilinear(layers, GetPlaceOfDirection(up).xy);
-  float cloud = layer.g * step(view.y, 0.0);
-  float share = GetFresnel(GetFacing(view, source_wind_speed));
+  // Clouds are mirrored, too, drawn out along the line of sight.
+  float facing = GetFacing(view, source_wind_speed);
+  float cloud = 0.0;
+  for (int i = 0; i < kClouds; ++i) {
+    float higher = (float(i) + 0.5) / float(kClouds);
+    vec3 up = normalize(vec3(view.x, mix(0.3, 1.5, higher) * facing, view.z));
+    cloud += ReadBilinear(layers, GetPlaceOfDirection(up).xy).g / float(kClouds);
+  }
+  cloud *= kCloudShare * step(view.y, 0.0);
+  float share = GetFresnel(facing);
   vec3 sky_before = before.rgb + cloud * (share * GetTerm(5) - before.rgb);
   vec3 sky_now = now.rgb + cloud * (share * GetTerm(7) - now.rgb);
   vec3 water = GetRatio(sky_now + GetBody(GetTerm(3), view, wind_speed),

@@ -3,6 +3,7 @@
 
 #include "lib/hash.glsl"
 #include "lib/relit_land.glsl"
+#include "lib/matched_sky.glsl"
 
 uniform sampler2D terms;
 uniform float water_strength;
@@ -68,7 +69,9 @@ vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float wave, vec4 mirror,
   float changed = GetGlitterChange();
   vec3 calm = light + changed * mark * (clean - light);
   float shown = mirror.a * GetSparkle(view, wave);
-  vec3 glints = changed * shown / (1.0 + shown / kBrightest) * texelFetch(terms, ivec2(12, 0), 0).rgb;
+  // The sun's own colour: what tints the photo's sky would dye what is nearly white.
+  vec3 sun = texelFetch(terms, ivec2(12, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
+  vec3 glints = changed * shown / (1.0 + shown / kBrightest) * sun;
   vec3 relit = max(calm * mirror.rgb + air, vec3(0.0)) + glints;
   return land_strength * (term[0].x * relit - light);
 }
