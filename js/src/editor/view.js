@@ -94,7 +94,7 @@ export class View {
     this.toolbar = toolbar(this);
     this.readout = element("div", { class: "sw-readout" });
     this.sureness = element("div", {
-      class: "sw-readout",
+      class: "sw-sureness",
       title: "How likely the sky that was fitted to the photo changes with the sun as the real one",
     });
     this.notes = new Notes();
