@@ -1,4 +1,4 @@
-"""The command line: ``sunwidget render | sweep | analyze | doctor | demo``.
+"""The command line: ``sunwidget render | sweep | analyze | replace-sky | transfer-look | …``.
 
 Every parameter flag comes from the one table in ``edit.py``. Errors are one line on
 stderr and exit status 2, without a traceback (``--debug`` shows it).
@@ -16,7 +16,15 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from sunwidget import presets
-from sunwidget.cli_photo import Progress, add_methods, add_photo, flag, scene_of
+from sunwidget.cli_photo import (
+    Progress,
+    add_methods,
+    add_photo,
+    flag,
+    refuse_existing,
+    scene_of,
+)
+from sunwidget.cli_transfer import add_transfer
 from sunwidget.edit import NUMBERS, PARAMETERS, Edit, EditError, Parameter
 
 
@@ -91,6 +99,8 @@ def _parser() -> argparse.ArgumentParser:
     add_methods(analyze)
     analyze.set_defaults(run=_analyze)
 
+    add_transfer(commands)
+
     doctor = commands.add_parser("doctor", help="what was found on this machine, what is missing")
     doctor.set_defaults(run=_doctor)
 
@@ -163,7 +173,7 @@ def _render(options: argparse.Namespace) -> int:
     import sunwidget as sw
 
     edit = _edit(options)  # what is wrong with it shows before the work
-    _refuse_existing(options.output, options.overwrite)
+    refuse_existing(options.output, options.overwrite)
     scene = scene_of(options)
     if options.preset is not None:
         edit = _edit(options, start=presets.edit(options.preset, scene, _recipe(options)))
@@ -183,7 +193,7 @@ def _sweep(options: argparse.Namespace) -> int:
     start = _edit(options)
     if start == _edit(options, "to_", start) and options.preset is None:
         raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
-    _refuse_existing(options.output, options.overwrite)
+    refuse_existing(options.output, options.overwrite)
     scene = scene_of(options)
     if options.preset is not None:
         start = _edit(options, start=presets.edit(options.preset, scene, _recipe(options)))
@@ -228,15 +238,6 @@ def _demo(options: argparse.Namespace) -> int:
     for path, what in paths:
         print(f"{path}  {what}")
     return 0
-
-
-def _refuse_existing(path: Path, overwrite: bool) -> None:
-    """Fail before the work, not after it."""
-    from sunwidget.files import target
-
-    if path.exists() and not overwrite:
-        raise FileExistsError(f"{path} exists already. Add --overwrite to replace it.")
-    target(path, overwrite=True)
 
 
 def _one_line_warning(message: Warning | str, *_rest: Any, **_more: Any) -> None:

@@ -90,12 +90,28 @@ def _numbers(*counts: int) -> Callable[[str], tuple[float, ...]]:
     return parse
 
 
+def opened(name: str) -> Any:
+    """Open a picture file, or a bundled sample as sample:NAME."""
+    import sunwidget as sw
+
+    prefix, _, sample = name.partition("sample:")
+    return sw.sample(sample) if sample and not prefix else sw.open(name)
+
+
+def refuse_existing(path: Path, overwrite: bool) -> None:
+    """Fail before the work, not after it."""
+    from sunwidget.files import target
+
+    if path.exists() and not overwrite:
+        raise FileExistsError(f"{path} exists already. Add --overwrite to replace it.")
+    target(path, overwrite=True)
+
+
 def scene_of(options: argparse.Namespace) -> Any:
     """Open and analyse the photo as the flags say; print what the scene warns of."""
     import sunwidget as sw
 
-    prefix, _, name = options.photo.partition("sample:")
-    photo = sw.sample(name) if name and not prefix else sw.open(options.photo)
+    photo = opened(options.photo)
     named = (*_HINTS, *methods_of_stages())
     given = {name: getattr(options, name, None) for name in named}
     hints: dict[str, Any] = {name: value for name, value in given.items() if value is not None}

@@ -223,6 +223,30 @@ def test_analyze_takes_a_mask_for_the_sky(photo, tmp_path):
     assert sky[80:].max() < 5
 
 
+def test_replace_sky_and_transfer_look_write_what_python_makes(photo, tmp_path):
+    out = tmp_path / "sky.png"
+    donor = tmp_path / "donor.png"
+    Image.fromarray(sw.sample("mountains").preview(long_edge=240)).save(donor)
+    assert main(["replace-sky", photo, "--sky", str(donor), "--turn", "5", "-o", str(out)]) == 0
+    assert np.array_equal(sw.open(out).encoded, sw.replace_sky(photo, donor, turn=5).encoded)
+    look = tmp_path / "look.png"
+    pair = ["--before", photo, "--after", str(out), "--strength", "0.5"]
+    assert main(["transfer-look", str(donor), *pair, "-o", str(look)]) == 0
+    wanted = sw.transfer_look(donor, photo, out, strength=0.5).encoded
+    assert np.array_equal(sw.open(look).encoded, wanted)
+
+
+def test_neither_replaces_a_file_unasked(photo, tmp_path, capsys):
+    out = tmp_path / "mine.png"
+    out.write_bytes(b"mine")
+    for command in (
+        ["replace-sky", photo, "--sky", photo],
+        ["transfer-look", photo, "--before", photo, "--after", photo],
+    ):
+        assert "--overwrite" in fails(capsys, *command, "-o", str(out))
+    assert out.read_bytes() == b"mine"
+
+
 def test_sweep_writes_a_film(photo, tmp_path):
     film = tmp_path / "sunset.webp"
     ends = ["--sun-elevation", "10", "--to-sun-elevation", "-2", "--frames", "3"]
