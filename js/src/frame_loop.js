@@ -20,6 +20,8 @@ export class FrameLoop {
   constructor(draw, dragging, signal) {
     this.draw = draw;
     this.dragging = dragging;
+    /** @type {() => number} the largest scale that can be seen while a drag lasts */
+    this.limit = () => 1;
     this.wanted = 1; // the scale that would be just fast enough
     this.scale = 1; // the last one that was drawn
     this.unlike = UNLIKE_FRAMES; // how many frames still say nothing about speed
@@ -58,7 +60,7 @@ export class FrameLoop {
   run() {
     const { asked } = this;
     const small = this.dragging() && !this.rests;
-    const scale = small ? rung(this.wanted) : 1;
+    const scale = small ? Math.min(rung(this.wanted), this.limit()) : 1;
     if (scale !== this.scale) this.unlike = UNLIKE_FRAMES;
     this.scale = scale;
     clearTimeout(this.settle);

@@ -80,6 +80,18 @@ test("a hand that rests gets the picture in full, and so does the end of a drag"
   assert.ok(!loop.busy);
 });
 
+test("a drag draws no more than can be seen, a rest all of it", (t) => {
+  const { loop, drawn, step, run } = loopOf(t);
+  loop.limit = () => 0.45;
+  for (let i = 0; i < 30; i++) step(16);
+  assert.deepEqual(new Set(drawn), new Set([0.45]));
+  for (let i = 0; i < 8; i++) step(100);
+  assert.equal(drawn.at(-1), 0.35);
+  t.mock.timers.tick(1000);
+  run(16);
+  assert.equal(drawn.at(-1), 1);
+});
+
 test("requests of one refresh are one frame; a view that ends draws no more", (t) => {
   const { loop, drawn, run, stop } = loopOf(t);
   loop.request();

@@ -43,6 +43,7 @@ import { toolbar } from "./toolbar.js";
  * }} Tool
  */
 
+const WORTHWHILE = 0.75; // a drag that shows less of the preview's size is drawn smaller
 const PICTURES = ["layers", "surface", "backdrop", "clear_sky"];
 
 export class View {
@@ -78,6 +79,8 @@ export class View {
       () => this.state.before !== null,
       signal,
     );
+
+    this.loop.limit = () => this.visibleScale();
 
     /** @type {Record<string, Tool>} */
     this.tools = {
@@ -286,6 +289,13 @@ export class View {
     this.panel.show();
     this.toolbar.show();
     this.loop.request();
+  }
+
+  /** Share of the preview's size that the screen can show; 1 where less would gain little. */
+  visibleScale() {
+    const shown = this.stage.rectangle().width * (window.devicePixelRatio || 1);
+    const scale = shown / Math.max(1, this.size[0]);
+    return scale < WORTHWHILE ? scale : 1;
   }
 
   /** @param {number} scale of the full size */
