@@ -5,19 +5,13 @@ vec3 GetLightTexel(sampler2D light, int index) {
   return max(SpectralToRec709(texelFetch(light, ivec2(index, 0), 0)), vec3(1e-9));
 }
 
+#include "lib/soft_cosine.glsl"
+
 // Irradiance of a landscape seen from the camera: `facing` of its surfaces stand upright and
 // face the viewer, the rest lie flat. `visible` is the share of the disc that is not hidden.
-// Ground is rough: grains, blades and waves catch a low sun that a plane would lose, so the
-// cosine runs out softly (half of kRoughness at grazing light) instead of at zero.
-const float kRoughness = 0.35;
-
-float GetRoughCosine(float cosine) {
-  return 0.5 * (cosine + sqrt(cosine * cosine + kRoughness * kRoughness));
-}
-
 vec3 GetLandIrradiance(sampler2D light, float visible, float facing, vec3 sun_direction) {
   vec3 sky = mix(GetLightTexel(light, 0), GetLightTexel(light, 2), facing);
-  float cosine = mix(GetRoughCosine(sun_direction.y), GetRoughCosine(-sun_direction.z), facing);
+  float cosine = mix(GetSoftCosine(sun_direction.y, kRoughness), GetSoftCosine(-sun_direction.z, kRoughness), facing);
   return sky + visible * cosine * GetLightTexel(light, 1);
 }
 

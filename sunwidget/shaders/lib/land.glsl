@@ -7,8 +7,10 @@ float GetUprightness(vec3 view) {
 
 // What exceeds white paint in this light is a mirror image of the sky and the sun (wet road, glass,
 // water that is not known for it): that part follows what it mirrors (mirror_ratio.glsl), the rest
-// is lit as land.
+// is lit as land. A mirror image has the light's own colour: it is the channel that exceeds least
+// that counts, so that red leaves and yellow flowers mirror nothing.
 float GetMirrorShare(vec3 light, vec3 lit_before, float glitter) {
-  float white = (1.0 - 0.6 * glitter) * GetLuminance(lit_before) / 3.14159265;
-  return 1.0 - min(white / max(GetLuminance(light), 1e-6), 1.0);
+  vec3 white = (1.0 - 0.6 * glitter) / 3.14159265 * lit_before;
+  vec3 excess = light / max(white, vec3(1e-9));
+  return 1.0 - min(1.0 / max(min(min(excess.r, excess.g), excess.b), 1e-6), 1.0);
 }

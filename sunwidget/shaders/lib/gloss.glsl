@@ -1,0 +1,31 @@
+// Rough ground gleams towards a low sun: grass, sand and roads send more of a grazing light onwards
+// than Lambert's law has it.
+
+const float kGlossRoughness = 0.8;
+const float kGlossAlbedo = 0.27;    // of the ground below, which the gleam is added to
+const float kGlossReflectance = 0.04;
+const float kHighestGleam = 0.342;  // sine of the sun's elevation (20 degrees)
+
+float GetSmithShadowing(float cosine, float square) {
+  return 2.0 * cosine / (cosine + sqrt(square + (1.0 - square) * cosine * cosine));
+}
+
+// A GGX lobe (Walter et al. 2007, eqs. 20, 33, 34) on level ground in units of diffuse light: what
+// it adds to the cosine of a sun in direction `sun` for a viewer who looks along `view`. Above
+// kHighestGleam it fades with the cosine of the elevation and no faster, so that ground never
+// darkens under a rising sun.
+float GetGloss(vec3 view, vec3 sun) {
+  float square = kGlossRoughness * kGlossRoughness;
+  float along = max(length(sun.xz), 1e-4);
+  float rise = clamp(sun.y, 0.0, kHighestGleam);
+  vec3 low = vec3(sun.xz / along * sqrt(1.0 - rise * rise), rise).xzy;
+  float fade = min(along / sqrt(1.0 - kHighestGleam * kHighestGleam), 1.0);
+  vec3 facet = normalize(low - view + vec3(0.0, 1e-3, 0.0));
+  float n_view = max(-view.y, 0.02);
+  float tilt = facet.y * facet.y * (square - 1.0) + 1.0;
+  float facets = square / (3.14159265 * tilt * tilt);
+  float away = 1.0 - clamp(dot(low, facet), 0.0, 1.0);
+  float fresnel = kGlossReflectance + (1.0 - kGlossReflectance) * away * away * away * away * away;
+  float shadowing = GetSmithShadowing(n_view, square) * GetSmithShadowing(low.y, square);
+  return fade * 3.14159265 / kGlossAlbedo * facets * fresnel * shadowing / (4.0 * n_view);
+}

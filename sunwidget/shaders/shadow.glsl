@@ -1,0 +1,94 @@
+// What of the sun reaches the land: r past other land, g past the clouds, both 1 where nothing is in
+// the way. A quarter of the size.
+//
+// Land: a march through the log-depth from a point towards the sun, in steps that are even in the
+// picture (McGuire & Mara, "Efficient GPU Screen-Space Ray Tracing", JCGT 2014). Only ratios of
+// depths matter, so the unknown scale of the depth does not. What hides the sun counts softly, the
+// more so the farther along the ray it stands: a penumbra, and no jump when the sun moves.
+// Clouds: where the ray leaves through the clouds' layer is seen from the camera elsewhere in the sky.
+
+#include "lib/picture.glsl"
+#include "lib/cloud_cover.glsl"
+#include "lib/sky.glsl"
+
+uniform sampler2D layers;
+uniform sampler2D surface;
+uniform sampler2D land_depth;
+uniform float sun_azimuth;
+uniform float sun_elevation;
+uniform vec2 pass_size;
+
+out vec4 result;
+
+const int kSteps = 20;
+const float kClearance = 0.05;   // octaves that the ray passes behind land before it counts
+const float kThickness = 1.2;    // octaves behind its face at which land ends
+const float kCloudHeight = 1500.0;
+const int kCloudTaps = 3;        // by as many
+const float kCloudPenumbra = 0.03;  // half-width of the taps, in heights of the picture
+
+// In camera coordinates: x right, y down, z forward.
+vec3 GetCameraDirection(vec3 direction) {
+  return direction.x * camera_right + direction.y * camera_up + direction.z * camera_forward;
+}
+
+float GetLandHiding(vec2 place, float level, vec3 sun) {
+  float aspect = frame_size.x / frame_size.y;
+  vec3 ray = vec3((place.x - 0.5) * aspect / camera_focal, (place.y - 0.5) / camera_focal, 1.0);
+  float hidden = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    float share = (float(i) + 0.7) / float(kSteps);
+    vec3 at = (1.0 - share) * ray + share * sun;
+    if (at.z < 0.02) break;
+    vec2 seen = vec2(0.5 + at.x / at.z * camera_focal / aspect, 0.5 + at.y / at.z * camera_focal);
+    vec2 outside = max(-seen, seen - 1.0);
+    vec4 land = ReadBilinear(land_depth, seen);
+    float behind = 16.0 * (level - land.r) + log2(at.z / (1.0 - share));
+    float soft = 0.1 + 0.6 * share;
+    float hit = smoothstep(kClearance, kClearance + soft, behind)
+        * (1.0 - smoothstep(kThickness, 2.0 * kThickness, behind))
+        * smoothstep(0.2, 0.7, land.g)
+        * (1.0 - smoothstep(-0.02, 0.0, max(outside.x, outside.y)));
+    hidden = max(hidden, hit);
+  }
+  // At the ray's end stands whatever is in the sun's own direction: far land hides it from all.
+  if (sun.z > 0.02) {
+    vec2 seen = vec2(0.5 + sun.x / sun.z * camera_focal / aspect, 0.5 + sun.y / sun.z * camera_focal);
+    vec2 outside = max(-seen, seen - 1.0);
+    vec4 land = ReadBilinear(land_depth, seen);
+    float farther = smoothstep(2.0, 4.0, 16.0 * (land.r - level));
+    float inside = 1.0 - smoothstep(0.0, 0.1, max(outside.x, outside.y));
+    hidden = max(hidden, smoothstep(0.2, 0.8, land.g) * farther * inside);
+  }
+  return hidden;
+}
+
+// Share of the sun that clouds take at `position`, metres from the camera in world coordinates.
+float GetCloudHiding(vec3 position, vec3 sun) {
+  vec3 leaves = position + sun * (kCloudHeight - position.y) / max(sun.y, 0.03);
+  vec3 seen = GetPlaceOfDirection(leaves);
+  vec2 outside = max(-seen.xy, seen.xy - 1.0);
+  float inside = step(0.0, seen.z) * (1.0 - smoothstep(-0.05, 0.1, max(outside.x, outside.y)));
+  float sum = 0.0;
+  for (int row = 0; row < kCloudTaps; ++row) {
+    for (int column = 0; column < kCloudTaps; ++column) {
+      vec2 aside = (vec2(column, row) - 1.0) * kCloudPenumbra;
+      vec2 at = seen.xy + aside * vec2(frame_size.y / frame_size.x, 1.0);
+      float matte = ReadBilinear(layers, at).r;
+      // Where the sun's glare burnt the photo its whiteness is no cloud; land before the sky tells nothing.
+      sum += min(GetCloudOpacity(layers, at) / max(matte, 0.05), 1.0) * smoothstep(0.0, 0.5, matte)
+          * (1.0 - 0.8 * ReadBilinear(surface, at).r);
+    }
+  }
+  return inside * sum / float(kCloudTaps * kCloudTaps);
+}
+
+void main() {
+  vec2 place = gl_FragCoord.xy / pass_size;
+  vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
+  float level = ReadBilinear(land_depth, place).r;
+  float hidden = GetLandHiding(place, level, GetCameraDirection(sun));
+  vec3 view = GetViewDirection(place);
+  float along = exp2(16.0 * level) / max(dot(view, vec3(camera_right.z, camera_up.z, camera_forward.z)), 0.1);
+  result = vec4(1.0 - hidden, 1.0 - GetCloudHiding(along * view, sun), 0.0, 1.0);
+}
