@@ -21,7 +21,7 @@ from sunwidget.analysis.camera_glare import (
     with_glare,
 )
 from sunwidget.analysis.fit import SkyFit, view_angles
-from sunwidget.analysis.old_sun import old_sun_mark, smoothstep, starburst
+from sunwidget.analysis.old_sun import largest_halo, old_sun_mark, smoothstep, starburst
 from sunwidget.analysis.unmix import cloud_white, unmix
 from sunwidget.analysis.working import LUMINANCE, Working, resize
 from sunwidget.camera import Camera
@@ -101,18 +101,21 @@ def behind_sun(
 
     # Where white light hides the sky says little about it, be it cloud or the rim of the glare.
     whiteness = unmix(scene_light, model, cloud_white(fit), np.ones_like(matte))[0]
+    white = smoothstep(0.85, 0.95, display @ LUMINANCE)
     residual = log_residual @ LUMINANCE
     rays = starburst(
         residual, (matte > 0.9) & (clipped < 0.9), _place_of_sun(camera, size, fit.sun)
     )
-    glare = old_sun_mark(residual, clipped, matte, angle)
+    reach = largest_halo(white, matte, angle)
+    rays *= 1 - smoothstep(1.5 * reach, 2.2 * reach, angle)
+    glare = old_sun_mark(residual, white, matte, angle)
     for _ in range(2):
         # First against the level far away, then against the sky that the fill expects there,
         # in the channel that white light changes most.
         mark = np.maximum(glare, rays)
         trust = (weight * np.square(1 - mark)).astype(np.float32)
         behind = fill_by_pyramid(log_residual, trust * clearness(whiteness, trust, mark, angle))
-        glare = old_sun_mark((log_residual - behind).max(-1), clipped, matte, angle)
+        glare = old_sun_mark((log_residual - behind).max(-1), white, matte, angle)
     mark = np.maximum(glare, rays)
     # Away from the glare the field follows the clouds, too.
     plain = fill_by_pyramid(log_residual, (weight * np.square(1 - mark)).astype(np.float32))

@@ -4,26 +4,55 @@ from __future__ import annotations
 
 import numpy as np
 
-_LARGEST_GLARE = 22.0  # degrees; a halo wider than this is sky or cloud
+_LARGEST_HALO = 22.0  # degrees; what is wider is sky or cloud
+_LEAST_HALO = 6.0  # degrees, round a sun that burnt nothing
 _ANGLES = 256  # of the polar picture
 _RAY_WIDTH = 0.1  # of the longer side, at most
 
 
+def largest_halo(white: np.ndarray, sky: np.ndarray, angle: np.ndarray) -> float:
+    """Degrees from the sun within which glare is looked for: the more, the more is burnt.
+
+    Parameters
+    ----------
+    white : (h, w) float32
+        Where all channels are burnt, [0, 1]: the red round a setting sun is its sky.
+    sky : (h, w) float32
+        Matte.
+    angle : (h, w) float32
+        Degrees from the sun.
+    """
+    burnt = 0.0
+    for inner in np.arange(0.0, _LARGEST_HALO, 0.5):
+        ring = (angle >= inner) & (angle < inner + 0.5) & (sky > 0.9)
+        if ring.sum() < 8:
+            continue
+        if white[ring].mean() < 0.3:
+            break
+        burnt = inner + 0.5
+    return float(min(_LARGEST_HALO, _LEAST_HALO + 5 * burnt))
+
+
 def old_sun_mark(
-    residual: np.ndarray, clipped: np.ndarray, sky: np.ndarray, angle: np.ndarray
+    residual: np.ndarray, white: np.ndarray, sky: np.ndarray, angle: np.ndarray
 ) -> np.ndarray:
-    """Weight of the old sun's clipped core and of the halo that the model does not explain."""
+    """Weight of the old sun's burnt core and of the halo that the model does not explain.
+
+    (h, w) float32 in [0, 1]; the arguments are those of ``largest_halo``, and ``residual``, the
+    log light of photo over what is expected of the sky.
+    """
     import cv2
 
-    rings = np.arange(0.0, min(_LARGEST_GLARE, float(angle.max())) + 0.5, 0.5)
+    reach = largest_halo(white, sky, angle)
+    rings = np.arange(0.0, min(reach, float(angle.max())) + 0.5, 0.5)
     which = np.clip((angle / 0.5).astype(int), 0, len(rings) - 1)
-    usable = (sky > 0.9) & (clipped < 0.5)
+    usable = (sky > 0.9) & (white < 0.5)
     profile = np.full(len(rings), np.nan)
     burnt = np.zeros(len(rings))
     for index in range(len(rings)):
         inside = (which == index) & (sky > 0.9)
         if inside.sum() >= 8:
-            burnt[index] = clipped[inside].mean()
+            burnt[index] = white[inside].mean()
             if (inside & usable).sum() >= 8:
                 profile[index] = np.quantile(residual[inside & usable], 0.35)
     known = np.isfinite(profile)
@@ -41,10 +70,10 @@ def old_sun_mark(
     # Bloom reaches well past the burnt core, and a fill that starts inside it would keep a ghost.
     core = max(0.5 * np.count_nonzero(burnt > 0.3), 0.4)
     halo = np.maximum(halo, 1 - smoothstep(1.5 * core, 4.0 * core + 0.5, rings))
-    halo *= 1 - smoothstep(0.6 * _LARGEST_GLARE, _LARGEST_GLARE, rings)
+    halo *= 1 - smoothstep(0.6 * reach, reach, rings)
     radial = np.interp(angle, rings, halo).astype(np.float32)
-    # Clipped pixels that touch the halo belong to it, whatever their shape.
-    burnt_out = (clipped > 0.5) & (sky > 0.3)
+    # Burnt pixels that touch the halo belong to it, whatever their shape.
+    burnt_out = (white > 0.5) & (sky > 0.3)
     labels = cv2.connectedComponents(burnt_out.astype(np.uint8))[1]
     touched = np.unique(labels[burnt_out & (radial > 0.3)])
     mine = np.isin(labels, touched[touched > 0]).astype(np.float32)
@@ -103,7 +132,10 @@ def starburst(residual: np.ndarray, sky: np.ndarray, centre: tuple[float, float]
     core = seen[: max(3, reach // 3)] < 0.5  # burnt: no ray ends there
     over[: len(core)] = np.where(core, np.inf, over[: len(core)])
     outwards = np.minimum.accumulate(over, axis=0)
-    strength = smoothstep(0.04, 0.2, np.where(np.isfinite(outwards), outwards, 1))
+    # A ray is far brighter than the sky where it leaves the core; lanes between clouds are not.
+    root = np.max(np.where(np.isfinite(outwards), outwards, 0), axis=0)
+    outwards = np.where(np.isfinite(outwards), outwards, 1)
+    strength = smoothstep(0.04, 0.2, outwards) * smoothstep(0.06, 0.2, root)
     columns, rows = np.arange(width) + 0.5 - centre[0], np.arange(height)[:, None] + 0.5 - centre[1]
     distance = np.hypot(columns, rows)
     angle = np.arctan2(rows, columns) / (2 * np.pi) * _ANGLES - 0.5

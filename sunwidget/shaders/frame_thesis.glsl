@@ -31,6 +31,7 @@ uniform float sun_azimuth;
 uniform float sun_elevation;
 uniform float altitude;
 uniform float sun_size;
+uniform float sun_visibility;
 uniform float sun_sky_ratio;
 uniform float thesis_saturation;
 uniform float cloud_ratio_min;
@@ -76,7 +77,7 @@ void main() {
   vec3 sky_now = GetThesisSky(texelFetch(sky_edit, texel, 0).rgb, thesis_statistics);
   float pixel_angle = 1.0 / (camera_focal * frame_size.y);
   vec3 disc = sky_gain * max(SpectralToRec709(GetSunDiscRadiance(columns, view, sun, altitude, sun_size, pixel_angle)), vec3(0.0));
-  float mask = min(GetLuminance(disc), 1.0);
+  float mask = sun_visibility * min(GetLuminance(disc), 1.0);
   sky_now = mix(sky_now, GetDisplayLight(disc), mask);
 
   // Clouds, eq. 3.5–3.6, on encoded values; then 3.9–3.14.

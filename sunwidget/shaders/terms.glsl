@@ -25,6 +25,8 @@ uniform sampler2D meter_edit;
 uniform float sun_azimuth;
 uniform float sun_elevation;
 uniform float sun_size;
+uniform float sun_visibility;
+uniform float source_sun_visibility;
 uniform float altitude;
 uniform float source_sun_azimuth;
 uniform float source_sun_elevation;
@@ -62,13 +64,13 @@ vec4 GetDiscRadiance(float sine_of_elevation) {
       * (0.5 * LIMB_DARKENING + 1.0)) + path;
   float level = GetSceneLight(vec3(kMoonLevel)).g / GetLuminance(sky_gain * SpectralToRec709(SOLAR_IRRADIANCE));
   vec4 moon = log2(SOLAR_IRRADIANCE * level) - GetStops() + exposure + kMoonDimming * path;
-  return mix(sun, moon, GetMoon());
+  return mix(sun, moon, GetMoon()) + log2(max(sun_visibility, 1e-9));
 }
 
 // The light that a sky sends in all directions is the same to the bit only when the sky is.
 bool IsSkyUnchanged() {
   bool same = sun_azimuth == source_sun_azimuth && sun_elevation == source_sun_elevation
-      && GetMoon() == photo_light;
+      && GetMoon() == photo_light && sun_visibility == source_sun_visibility;
   for (int i = 0; i < 9; ++i) {
     same = same && texelFetch(light_before, ivec2(i, 0), 0) == texelFetch(light_edit, ivec2(i, 0), 0);
   }
@@ -100,7 +102,9 @@ void main() {
     float hidden = clamp(visible_before - visible_now, 0.0, 1.0);
     bool same = visible_before == visible_now && IsSkyUnchanged();
     // Another light has another disc and another glow, also in the same place.
-    float moved = GetMoon() == photo_light ? smoothstep(0.0, kGlareFade, turn) : 1.0;
+    // A sun that is taken away leaves the sky behind it, as one that moves does.
+    float moved = GetMoon() == photo_light
+        ? max(smoothstep(0.0, kGlareFade, turn), source_sun_visibility - sun_visibility) : 1.0;
     result = vec4(exp2(GetStops()), moved, 0.5 * hidden * colourfulness, same);
   } else if (index == 9) {
     result = vec4(sun_before, disc);

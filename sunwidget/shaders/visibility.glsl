@@ -2,7 +2,7 @@
 // Land hides it (sky matte), clouds veil it (opacity); the horizon itself is light.glsl's
 // affair, so only the part of the disc above it is counted here. A sun that the photo shows (its
 // glare, in `surface`) is not behind the thick cloud that its whiteness pretends. Outside the picture the
-// edge's answer fades to "visible" over a tenth of the picture.
+// edge's answer fades to "visible" over a tenth of the picture. `sun_visibility` veils all of it.
 
 #include "lib/picture.glsl"
 #include "lib/cloud_cover.glsl"
@@ -12,6 +12,7 @@ uniform sampler2D layers;
 uniform sampler2D surface;
 uniform float sun_azimuth;
 uniform float sun_elevation;
+uniform float sun_visibility;
 
 out vec4 result;
 
@@ -51,5 +52,5 @@ void main() {
     }
   }
   float added = 1.0 - kCloudShade * shaded / float(kRings * kSpokes);
-  result = vec4(added * open / above, 0.0, 0.0, 1.0);
+  result = vec4(sun_visibility * added * open / above, 0.0, 0.0, 1.0);
 }

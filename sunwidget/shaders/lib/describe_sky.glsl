@@ -5,6 +5,7 @@
 #include "lib/daylight.glsl"
 #include "lib/matched_sky.glsl"
 #include "lib/camera_glare.glsl"
+#include "lib/sun_behind_cloud.glsl"
 
 uniform sampler2D sky_view;
 uniform sampler2D light;
@@ -21,6 +22,6 @@ void SetDescribedSky() {
       GetLightRatio(GetLightTexel(light, 0), GetLightTexel(light_before, 0)), visible);
   described[0] = vec4(view.sun, PackColor(sky_gain * beam));
   described[1] = view.rayleigh;
-  described[2] = view.mie;
+  described[2] = view.mie * GetShadedShare();
   described[3] = vec4(view.horizon, glare * GetLightScale(GetMoon()).g, 0.0, 0.0);
 }

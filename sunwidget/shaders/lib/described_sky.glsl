@@ -4,6 +4,7 @@
 #include "lib/sky.glsl"
 #include "lib/matched_sky.glsl"
 #include "lib/camera_glare.glsl"
+#include "lib/sun_behind_cloud.glsl"
 
 uniform sampler2D sky_view;
 
@@ -19,7 +20,7 @@ vec3 GetGlareColor() {
 
 // Alpha: the luminance that is glare.
 vec4 GetDescribedSky(vec3 view) {
-  SkyView model = SkyView(described[0].xyz, aerosol_asymmetry, described[1], described[2], described[3].x);
+  SkyView model = SkyView(described[0].xyz, GetShadedAsymmetry(), described[1], described[2], described[3].x);
   float glare = GetCameraGlare(GetDegreesFromSun(view, model.sun)) * described[3].y;
   return vec4(GetMatchedSky(sky_view, model, view) + glare * GetGlareColor(), glare);
 }
