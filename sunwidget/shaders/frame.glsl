@@ -74,5 +74,7 @@ void main() {
   vec3 change = matte * sky_change + (1.0 - matte) * land_change;
   change += term[0].x * ReadBilinear(veil, place).rgb;
   change += GetNight() * GetRodShift(scene + change);
-  WriteChange(display, scene, change, pixel);
+  // What was filled where the old sun hid the sky gets the grain of the rest.
+  float filled = matte * sky_marks.b * term[0].y * min(sky_strength, 1.0);
+  WriteChange(display, scene, change, filled, pixel);
 }

@@ -136,6 +136,7 @@ SHOWN = {
     "blend_power": {"method": "thesis"},
     "colourfulness": {"sun_elevation": -2},
     "auto_exposure": {"sun_elevation": 2},
+    "grain": {"auto_exposure": 0},
     "added_cloud_size": {"added_clouds": 0.5},
     "added_cloud_height": {"added_clouds": 0.5},
     "cloud_pattern": {"added_clouds": 0.5},
