@@ -13,6 +13,7 @@
 #include "lib/land_light.glsl"
 #include "lib/air.glsl"
 #include "lib/night_vision.glsl"
+#include "lib/veil.glsl"
 #include "lib/frame_output.glsl"
 
 uniform sampler2D retouched;
@@ -72,9 +73,7 @@ void main() {
   land_change += water_strength * land_marks.r * (water_change - land_change);
 
   vec3 change = matte * sky_change + (1.0 - matte) * land_change;
-  change += term[0].x * ReadBilinear(veil, place).rgb;
-  change += GetNight() * GetRodShift(scene + change);
-  // What was filled where the old sun hid the sky gets the grain of the rest.
-  float filled = matte * sky_marks.b * term[0].y * min(sky_strength, 1.0);
-  WriteChange(display, scene, change, filled, pixel);
+  change += GetVeil(scene + change, ReadBilinear(veil, place) * vec4(vec3(term[0].x), 1.0), matte);
+  change += mix(land_strength, sky_strength, matte) * GetNight() * GetRodShift(scene + change);
+  WriteChange(display, scene, change, pixel);
 }

@@ -18,6 +18,13 @@ SUN_PASSES = {
     "meter_edit",
     "mirror_edit",
     "mirror_ratio",
+    "air_edit",
+    "shadow_edit",
+    "land_terms",
+    "land_light",
+    "shaft_rings_edit",
+    "shafts_edit",
+    "veil",
     "terms",
     "frame",
 }
@@ -82,6 +89,7 @@ def test_exposure_runs_the_terms_and_the_frame_only(passes_run_by, name):
     assert passes_run_by(Edit(sun_elevation=5, **{name: 0.75})) == {
         "terms",
         "mirror_ratio",
+        "veil",
         "frame",
     }
 
@@ -121,7 +129,10 @@ def test_a_new_texture_is_drawn(passes_run_by):
     graph = on_gl_thread(lambda context: module._renderer(context).graph(scene, size))
     try:
         on_gl_thread(lambda _: graph.set_texture("photo", textures["photo"] * np.float32(0.5)))
-        assert passes_run_by(edit) == {"scene_light", "frame"}
+        assert passes_run_by(edit) == {
+            *("soft_sky", "retouched", "sky_behind", "water_level", "water_behind"),
+            *("scene_light", "frame"),
+        }
         assert module.render(scene, edit).mean() < 0.9 * first.mean()
     finally:
         on_gl_thread(lambda _: graph.set_texture("photo", textures["photo"]))

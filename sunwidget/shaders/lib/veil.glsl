@@ -1,0 +1,16 @@
+// Laying the veil (veil.glsl) over a pixel.
+
+#include "lib/relit_sky.glsl"
+#include "lib/relit_land.glsl"
+
+// Glare that leaves with the old sun, and shadows in the haze, take no more than this share of what
+// is there: the model may know more of them than the photo holds.
+const float kMostTaken = 0.4;
+
+// `veil` of the exposure of `light`; `matte` is the pixel's share of sky.
+vec3 GetVeil(vec3 light, vec4 veil, float matte) {
+  vec3 added = mix(land_strength, sky_strength * (1.0 - veil.a), matte) * veil.rgb;
+  vec3 taken = min(added, vec3(0.0));
+  vec3 most = kMostTaken * max(light, vec3(1e-6));
+  return max(added, vec3(0.0)) + taken * most / (most - taken);
+}
