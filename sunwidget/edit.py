@@ -18,6 +18,7 @@ from typing import Any, Literal, NamedTuple, Self
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
 LIGHTS = ("sun", "moon", "automatic")
+COLOUR_LOSSES = ("luminance", "power")
 # "analysed": as ``analyze`` chose. The others are the names in ``analysis.clouds.METHODS``.
 CLOUD_METHODS = ("analysed", "rb_ratio", "rb_difference", "saturation", "learned", "unmix")
 STROKE_LABELS = ("sky", "not_sky", "water", "not_water")
@@ -218,6 +219,8 @@ class Edit:
         "Share of the land's surfaces that face the camera; the rest faces the zenith.")
     colourfulness: float = _number(0.5, (0, 1), 0.01, "", "Colour loss in shade", "land",
         "How much colour the land loses when the sun's disc is hidden (thesis eq. 3.8).")
+    colour_loss: str = _choice("luminance", COLOUR_LOSSES, "Colour loss by", "land",
+        "luminance, which it keeps, or power, as in eq. 3.8 of the thesis.")
     shading: float = _number(1.0, (0, 1), 0.01, "", "Shading", "land",
         "How far the light follows the slope of the land; 0 is exactly off.")
     gloss: float = _number(1.0, (0, 1), 0.01, "", "Gleam", "land",

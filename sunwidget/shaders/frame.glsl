@@ -67,7 +67,7 @@ void main() {
   float shine = GetMirrorShare(front, GetLitBefore(upright), land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
-  vec3 air = GetAirChange(place, land_marks.b, land_ratio);
+  vec3 air = GetAirChange(place, land_marks.b, front, land_ratio);
   vec3 land_change = GetLandChange(front, land_ratio, shine, mirror.rgb, air);
   vec3 water_change = GetWaterChange(front, clean, land_marks.g, sky_marks.b, mirror, air, view);
   land_change += water_strength * land_marks.r * (water_change - land_change);

@@ -16,6 +16,7 @@
 #include "lib/response.glsl"
 
 uniform sampler2D columns;
+uniform sampler2D land_terms;
 uniform sampler2D light_before;
 uniform sampler2D light_edit;
 uniform sampler2D visibility_source;
@@ -99,7 +100,10 @@ void main() {
   float disc = parabola[part / 4][part % 4];
   if (index == 0) {
     float turn = degrees(2.0 * asin(min(0.5 * length(sun_now - sun_before), 1.0)));
-    float hidden = clamp(visible_before - visible_now, 0.0, 1.0);
+    // As the landscape sees the sun on average, not the camera alone; a sun that comes out gives
+    // the colour back.
+    vec4 reached = texelFetch(land_terms, ivec2(16, 0), 0);
+    float hidden = reached.x * reached.y * source_sun_visibility - reached.z * reached.w * sun_visibility;
     bool same = visible_before == visible_now && IsSkyUnchanged();
     // Another light has another disc and another glow, also in the same place.
     // A sun that is taken away leaves the sky behind it, as one that moves does.
