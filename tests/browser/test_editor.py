@@ -322,6 +322,24 @@ def test_more_editors_than_contexts_stay_usable(page, state):
     assert same == [True, True]
 
 
+def test_two_sizes_in_turn_draw_the_unmoved_picture_once_each(page, state):
+    page.evaluate("async (state) => makeFrame(state)", state)
+    fresh = picture_of(page.evaluate("drawn({sun_elevation: 9})"))
+    page.evaluate("async (state) => makeFrame(state)", state)
+    page.evaluate("drawn({sun_elevation: 4})")
+    for size in ([300, 200], [400, 270]):
+        page.evaluate("(size) => drawn({sun_elevation: 6}, size)", size)
+    before = page.evaluate("({...frame.graph.runs})")
+    again = picture_of(page.evaluate("drawn({sun_elevation: 9})"))
+    page.evaluate("drawn({sun_elevation: 7}, [400, 270])")
+    page.evaluate("drawn({sun_elevation: 8})")
+    after = page.evaluate("frame.graph.runs")
+    drawn = {name for name in after if after[name] > before.get(name, 0)}
+    assert "frame" in drawn
+    assert not {"retouched", "sky_source", "sky_behind", "scene_light"} & drawn
+    assert np.array_equal(again, fresh)
+
+
 def test_dragging_runs_no_pass_of_the_unmoved_picture_again(page, state):
     page.evaluate("async (state) => makeFrame(state)", state)
     page.evaluate("drawn({sun_elevation: 4})")

@@ -51,13 +51,19 @@ export class Graph {
     this.programs = new Map();
     /** @type {Map<string, Target>} */
     this.targets = new Map();
+    /**
+     * What passes drew at another size: a drag draws smaller, and what follows it is there already.
+     *
+     * @type {Map<string, Target>}
+     */
+    this.spares = new Map();
     /** @type {Map<string, Texture>} */
     this.textures = new Map();
     /** @type {Record<string, number>} how often each pass was drawn */
     this.runs = {};
     /** @type {Set<string>} passes that the present run may draw */
     this.drawn = new Set();
-    this.uploads = 0;
+    this.versions = 0; // of all textures: two sizes of one pass must differ, too
   }
 
   /**
@@ -71,8 +77,8 @@ export class Graph {
     const texture = create(this.gl, pixels);
     const previous = this.textures.get(name);
     if (previous) this.gl.deleteTexture(previous.handle);
-    this.uploads += 1;
-    texture.version = this.uploads;
+    this.versions += 1;
+    texture.version = this.versions;
     this.textures.set(name, texture);
   }
 
@@ -158,7 +164,7 @@ export class Graph {
       }
     }
 
-    const target = output ? null : this.target(pass.name, width, height);
+    const target = output ? null : this.target(pass.name, [width, height], key, frame.size[0]);
     const unchanged = target?.key && same(target.key, key);
     if (target && pass.history) {
       if (!unchanged) target.samples = 0;
@@ -187,7 +193,8 @@ export class Graph {
     if (target) {
       target.key = key;
       target.samples += 1;
-      target.texture.version += 1;
+      this.versions += 1;
+      target.texture.version = this.versions;
     }
     this.runs[pass.name] = (this.runs[pass.name] ?? 0) + 1;
   }
@@ -220,19 +227,26 @@ export class Graph {
   }
 
   /**
+   * Where a pass draws, or has drawn just this: what it drew for another size of the frame stays.
+   *
    * @param {string} name
-   * @param {number} width
-   * @param {number} height
+   * @param {[number, number]} size
+   * @param {(number | string)[]} key what the pass is drawn from
+   * @param {number} frame width of the frame
    */
-  target(name, width, height) {
-    const previous = this.targets.get(name);
-    if (previous?.texture.width === width && previous.texture.height === height) return previous;
-    const target = createTarget(this.gl, name, width, height);
-    if (previous) {
-      target.texture.version = previous.texture.version;
-      deleteTarget(this.gl, previous);
-    }
+  target(name, size, key, frame) {
+    const made = [this.targets.get(name), this.spares.get(name)].flatMap((t) => t ?? []);
+    const fitting = made.filter(({ texture: t }) => t.width === size[0] && t.height === size[1]);
+    const target =
+      fitting.find((t) => t.key && same(t.key, key)) ??
+      fitting.find((t) => t.frame === frame) ??
+      createTarget(this.gl, name, ...size);
+    target.frame = frame;
     this.targets.set(name, target);
+    // Of many sizes the picture in full is kept: it is the dearest.
+    const others = made.filter((t) => t !== target).sort((a, b) => b.frame - a.frame);
+    if (others.length) this.spares.set(name, others[0]);
+    for (const other of others.slice(1)) deleteTarget(this.gl, other);
     return target;
   }
 
@@ -252,10 +266,13 @@ export class Graph {
   /** Free every GL object. */
   dispose() {
     const { gl } = this;
-    for (const target of this.targets.values()) deleteTarget(gl, target);
+    for (const target of [...this.targets.values(), ...this.spares.values()]) {
+      deleteTarget(gl, target);
+    }
     for (const texture of this.textures.values()) gl.deleteTexture(texture.handle);
     for (const program of this.programs.values()) gl.deleteProgram(program.handle);
     this.targets.clear();
+    this.spares.clear();
     this.textures.clear();
     this.programs.clear();
   }

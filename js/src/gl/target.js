@@ -8,8 +8,10 @@ import { createFloatTexture } from "./texture.js";
  *   framebuffer: WebGLFramebuffer,
  *   key: (number | string)[] | null,
  *   samples: number,
+ *   frame: number,
  *   previous: Target | null,
- * }} Target `samples`: how many draws a pass with a history has gathered, in turn with `previous`
+ * }} Target `samples`: how many draws a pass with a history has gathered, in turn with `previous`;
+ *   `frame`: width of the frame that it was drawn for
  */
 
 /** Say why a picture cannot be drawn here, or return null when it can.
@@ -42,7 +44,7 @@ export function createTarget(gl, pass, width, height) {
   if (status !== gl.FRAMEBUFFER_COMPLETE && !gl.isContextLost()) {
     throw new Error(`The target of pass "${pass}" (${width}×${height}) is incomplete (${status}).`);
   }
-  return { texture, framebuffer, key: null, samples: 0, previous: null };
+  return { texture, framebuffer, key: null, samples: 0, frame: 0, previous: null };
 }
 
 /**
