@@ -15,7 +15,7 @@ import numpy as np
 
 from sunwidget.analysis import depth_contact, depth_ground, depth_haze
 from sunwidget.analysis.depth_contact import Contacts
-from sunwidget.analysis.depth_field import DepthField
+from sunwidget.analysis.depth_field import DepthField, guided
 from sunwidget.analysis.depth_ground import EYE_HEIGHT
 from sunwidget.analysis.depth_level import fill_sky
 from sunwidget.analysis.depth_network import DepthNetwork
@@ -24,8 +24,9 @@ from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.working import LUMINANCE
 
 FAR_CONTACT = 3_000.0  # metres: what stands on the horizon itself is taken to be no farther
-_FINEST = 0.004  # of the height: contacts are not seen any finer
-_SMOOTH, _EPSILON = 0.02, 1e-3  # of the width; squared contrast that is an edge
+_GRAIN = 0.06  # of the width: texture is finer than this
+_SMOOTH, _EPSILON = 0.02, 1e-2  # of the width; squared contrast that is an edge
+_BEND = 30.0 / 320  # times the width: price of a fold in what stands upright
 _VISTA_WINDOW = 0.08  # of the width
 _AS_BRIGHT = 0.75  # luminance over airlight from which it is no haze: glare, snow, a white wall
 
@@ -33,11 +34,13 @@ _AS_BRIGHT = 0.75  # luminance over airlight from which it is no haze: glare, sn
 def ground_plane(view: View) -> DepthField:
     """Flat ground below the horizon; what stands on it takes the depth of its contact row.
 
-    Where the contact lies (``depth_contact``) is a probability, and so are share and depth of
-    what stands upright: its mean ln depth, given that the contact lies below the pixel.
+    Where the contact lies (``depth_contact``) is a probability: its mean ln depth is the column's,
+    and how probably it lies below a pixel is how far that pixel stands upright.
     """
     stands, log_depth, error, _ = _upright(view)
-    return _field(view, stands, log_depth, _mixed_error(view, stands, log_depth, error))
+    return _field(
+        view, stands, log_depth, _mixed_error(view, _ground(view), stands, log_depth, error)
+    )
 
 
 def haze(view: View) -> DepthField:
@@ -57,7 +60,7 @@ def fused(view: View) -> DepthField:
     """
     stands, contact, contact_error, contacts = _upright(view)
     air = depth_haze.airlight(view)
-    through = depth_haze.transmittance(view, air)
+    through = _without_texture(view, depth_haze.transmittance(view, air))
     by_haze, haze_error = depth_haze.log_depth(view, through)
     by_haze = np.minimum(by_haze, np.log(depth_ground.FAR))
     dry = 1 - view.water
@@ -77,7 +80,9 @@ def fused(view: View) -> DepthField:
     own = stands * upright + (1 - stands) * departs * by_haze
     log_depth = np.where(share > 1e-3, own / np.maximum(share, 1e-3), upright)
     log_depth = _smoothed(view, log_depth, share > 0.3)
-    return _field(view, share, log_depth, _mixed_error(view, share, log_depth, upright_error))
+    return _field(
+        view, share, log_depth, _mixed_error(view, ground, share, log_depth, upright_error)
+    )
 
 
 METHODS: dict[str, Callable[[View], DepthField]] = {
@@ -147,7 +152,7 @@ def field_of(view: View, depth: np.ndarray) -> DepthField:
     log_depth = fill_sky(np.log(np.where(land, depth, 1)).astype(np.float32), land)
     everywhere = np.ones(depth.shape, np.float32)
     share = view.horizon_error / view.shape[0]
-    return DepthField(everywhere, log_depth, everywhere, view.camera, share)
+    return DepthField(everywhere, log_depth, everywhere, view.camera, share, sharpen=False)
 
 
 def _ground(view: View) -> np.ndarray:
@@ -170,35 +175,23 @@ def _upright(view: View) -> tuple[np.ndarray, np.ndarray, np.ndarray, Contacts]:
     depth = depth_ground.log_depth(fall, view.horizon_error, camera.focal, camera.height)
     # A contact at the horizon, as far as one can tell, says only that the thing is at least so
     # far; then its likely size says more.
-    finest = max(view.horizon_error, _FINEST * camera.height)
+    finest = depth_contact.finest_drop(view)
     at_horizon = np.exp(-2 * (drop / finest) ** 2)[:, None]
     likely = EYE_HEIGHT * camera.focal / np.maximum(depth_contact.RATIO * contacts.rise, 1e-3)
     likely = np.clip(likely, 2 * EYE_HEIGHT * camera.focal / finest, FAR_CONTACT)
     depths = depth[:, None] + at_horizon * np.maximum(np.log(likely) - depth[:, None], 0)
     probability = contacts.probability
     mean = (depths * probability).sum(axis=0)
-    doubt = depth_ground.log_error(fall, view.horizon_error, camera.focal)
+    doubt = depth_ground.log_error(fall, finest, camera.focal)
     spread = (depths**2 * probability).sum(axis=0) - mean**2
     spread = np.maximum(spread, 0) + doubt**2 @ probability
-    beyond, beyond_depth = (
-        _from_below(view, contacts, values) for values in (probability, probability * depths)
+    mean = depth_contact.levelled(mean, 1 / spread, _BEND * view.shape[1])
+    return (
+        depth_contact.stands_at(contacts, view.shape[0]) * view.land,
+        np.broadcast_to(mean, view.shape),
+        np.broadcast_to(np.sqrt(spread), view.shape),
+        contacts,
     )
-    sure = beyond > 1e-3
-    own = np.where(sure, beyond_depth / np.maximum(beyond, 1e-3), depths[0])
-    error = np.broadcast_to(np.sqrt(spread), view.shape)
-    return beyond * view.land, own, error, contacts
-
-
-def _from_below(view: View, contacts: Contacts, values: np.ndarray) -> np.ndarray:
-    """Return the sum of ``values`` (n, w) over all contacts below each pixel: (h, w)."""
-    height, width = view.shape
-    above = np.cumsum(values, axis=0)
-    rows = np.arange(height)
-    total = above[-1]
-    out = np.empty((height, width))
-    for x in range(width):
-        out[:, x] = total[x] - np.interp(rows, contacts.rows[:, x], above[:, x], 0, total[x])
-    return out
 
 
 def _vista(view: View, air: np.ndarray, through: np.ndarray, contacts: Contacts) -> np.ndarray:
@@ -221,30 +214,35 @@ def _vista(view: View, air: np.ndarray, through: np.ndarray, contacts: Contacts)
     return np.asarray(surely * np.clip(2 * dark - 0.5, 0, 1) * dim)
 
 
-def _smoothed(view: View, log_depth: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Spread what is known over the rest, and smooth it between the picture's edges."""
+def _without_texture(view: View, through: np.ndarray) -> np.ndarray:
+    """Return a transmittance with steps between things, but none within them: by a median."""
     import cv2
 
+    size = 2 * max(1, round(_GRAIN * view.shape[1] / 2)) + 1
+    levels = cv2.medianBlur(np.round(through * 255).astype(np.uint8), size)
+    return np.maximum(cv2.blur(levels.astype(np.float32), (5, 5)) / 255, 0.02)
+
+
+def _smoothed(view: View, log_depth: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Spread what is known over the rest, and smooth it between the picture's edges."""
     filled = fill_sky(log_depth.astype(np.float32), known)
     radius = max(2, round(_SMOOTH * view.shape[1]))
-    return np.asarray(cv2.ximgproc.guidedFilter(view.working.encoded, filled, radius, _EPSILON))
+    return guided(view.working.encoded, filled, radius, _EPSILON)
 
 
 def _mixed_error(
-    view: View, share: np.ndarray, log_depth: np.ndarray, error: np.ndarray
+    view: View, ground: np.ndarray, share: np.ndarray, log_depth: np.ndarray, error: np.ndarray
 ) -> np.ndarray:
     """Return the standard error of a mixture of the ground and what departs from it."""
-    apart = share * (1 - share) * (log_depth - _ground(view)) ** 2
+    apart = share * (1 - share) * (log_depth - ground) ** 2
     squared = share * error**2 + (1 - share) * _ground_error(view) ** 2 + apart
     return np.asarray(np.sqrt(squared))
 
 
 def _field(view: View, share: np.ndarray, log_depth: np.ndarray, error: np.ndarray) -> DepthField:
     """Return the field, its sky filled from the nearest land."""
-    land = view.land
-    share, log_depth = (
-        fill_sky(np.asarray(values, np.float32), land) for values in (share, log_depth)
-    )
+    both = fill_sky(np.dstack([share, log_depth]).astype(np.float32), view.land)
+    share, log_depth = both[..., 0].copy(), both[..., 1].copy()
     confidence = (1 / (1 + (2 * np.asarray(error)) ** 2)).astype(np.float32)
     horizon_error = view.horizon_error / view.shape[0]
     return DepthField(share, log_depth, confidence, view.camera, horizon_error)

@@ -17,6 +17,7 @@ import numpy as np
 from sunwidget.analysis.depth_view import View
 
 STATES = 64
+_FINEST = 0.008  # of the height: contacts are not seen any finer
 _UPRIGHT_WINDOW, _GROUND_WINDOW = 0.062, 0.22  # of the width: colours of which columns count
 _FOOT = 0.43  # ground's colours are taken from here (0 horizon, 1 lower edge) to the edge
 _FLOOR = 3.3  # Lab units: finer differences of colour say nothing
@@ -25,9 +26,10 @@ _ROWS = 0.061 * 256  # ... and weight of them, as a picture has so many independ
 _EDGE, _EDGE_MOST = 0.5, 2.5  # weight of an edge, in deviations of its surroundings
 RATIO = 0.107  # drop of the foot over rise of the top, typically ...
 _RATIO_SPREAD = 1.3  # ... with this deviation of its logarithm
-_JUMP = 8.0 / 256  # cost of a neighbour e times as far, at 256 columns
-_JUMP_MOST, _JUMP_AT_STEP = 8.5, 1.25  # cost of any jump, and where the skyline steps, too
+_JUMP = 60.0 / 256  # cost of a neighbour e times as far, at 256 columns
+_JUMP_MOST, _JUMP_AT_STEP = 12.0, 3.0  # cost of any jump, and where the skyline steps, too
 _STEP = 0.25  # a change of ln(rise) that is a step
+_ROUNDS, _FLAT, _HIGH = 12, 2e-3, 0.6  # of reweighting; a difference that is none; a step
 _OUTSIDE = 20.0  # cost of a foot below the picture
 
 
@@ -56,11 +58,16 @@ class Contacts:
     above: np.ndarray
 
 
+def finest_drop(view: View) -> float:
+    """Return how finely a drop below the horizon is known, in pixels."""
+    return max(view.horizon_error, _FINEST * view.shape[0])
+
+
 def find(view: View) -> Contacts:
     """Find how probable each contact row is in each column."""
     height, width = view.shape
     above, rise = _above(view)
-    finest = max(view.horizon_error, 0.004 * height)
+    finest = finest_drop(view)
     horizon = view.horizon_rows - 0.5
     deepest = max(float((height - horizon).max()), 0.5 * height)
     levels = np.linspace(0, np.log1p(deepest / finest), STATES)
@@ -76,6 +83,38 @@ def find(view: View) -> Contacts:
     distance = np.abs(levels[:, None] - levels) * (_JUMP * width)
     probability = _marginals(cost, distance, np.clip(step / _STEP, 0, 1))
     return Contacts(drop, probability, rows, rise, above)
+
+
+def stands_at(contacts: Contacts, height: int) -> np.ndarray:
+    """Return how probably the contact lies below each pixel: (height, w) float32."""
+    above = np.cumsum(contacts.probability, axis=0)
+    rows = np.arange(height)
+    out = np.empty((height, above.shape[1]), np.float32)
+    for x in range(above.shape[1]):
+        out[:, x] = 1 - np.interp(rows, contacts.rows[:, x], above[:, x], 0, 1)
+    return out
+
+
+def levelled(values: np.ndarray, weight: np.ndarray, price: float) -> np.ndarray:
+    """Flatten the small folds of a profile and keep its steps and slopes: (w,) float64.
+
+    Least Σ weight (v − values)² / 2 + price Σ s ln(1 + |difference of neighbours| / s), by
+    reweighted least squares: total variation (Rudin, Osher & Fatemi 1992) for small differences,
+    while a step costs hardly more when it is high, so that steps stay as high as they are. A
+    column's contact errs by itself, and a few percent of depth would be walls that face sideways.
+    """
+    from scipy.linalg import solveh_banded
+
+    found = values
+    if len(values) < 3:
+        return found
+    for _ in range(_ROUNDS):
+        fold = np.maximum(np.abs(np.diff(found)), _FLAT)
+        tie = price / (fold * (1 + fold / _HIGH))
+        diagonal = weight + np.append(tie, 0) + np.append(0, tie)
+        bands = np.vstack([np.append(0, -tie), diagonal])
+        found = solveh_banded(bands, weight * values)
+    return np.asarray(found)
 
 
 def _above(view: View) -> tuple[np.ndarray, np.ndarray]:

@@ -35,6 +35,8 @@ class DepthField:
         Of any size.
     horizon_error : float
         In heights of the picture.
+    sharpen : bool
+        Whether the maps follow the picture when they are enlarged, or are taken as they are.
     """
 
     share: np.ndarray
@@ -42,6 +44,7 @@ class DepthField:
     confidence: np.ndarray
     camera: Camera
     horizon_error: float
+    sharpen: bool = True
 
     def log_metres(self, width: int, height: int, working: Working) -> np.ndarray:
         """Return ln(metres) along the optical axis at a size, (height, width) float32."""
@@ -54,7 +57,7 @@ class DepthField:
 
     def _enlarged(self, width: int, height: int, working: Working) -> tuple[np.ndarray, np.ndarray]:
         rows, columns = self.share.shape
-        if width * height <= 1.5 * rows * columns or min(rows, columns) < 8:
+        if not self.sharpen or width * height <= 1.5 * rows * columns or min(rows, columns) < 8:
             return resize(self.share, width, height), resize(self.log_depth, width, height)
         fine = working.encoded @ LUMINANCE
         coarse = resize(fine, columns, rows)
@@ -80,3 +83,30 @@ def _local_lines(guide: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.
     covariance = mean(guide * values) - of_guide * of_values
     slope = covariance / (mean(guide * guide) - of_guide**2 + np.float32(_EPSILON))
     return mean(slope), mean(of_values - slope * of_guide)
+
+
+def guided(guide: np.ndarray, values: np.ndarray, radius: int, epsilon: float) -> np.ndarray:
+    """Smooth a map between the edges of a coloured picture (He, Sun & Tang, ECCV 2010).
+
+    Parameters
+    ----------
+    guide : (h, w, 3) float32 in [0, 1]
+    values : (h, w) float32
+    radius : int
+        Pixels.
+    epsilon : float
+        Squared contrast of the guide that is no edge.
+
+    Returns
+    -------
+    (h, w) float32
+    """
+    import cv2
+
+    # In code values: OpenCV takes a covariance whose determinant is below 1e-6 for singular, and
+    # of colours up to 1 nearly all are; it would only blur.
+    code = np.multiply(guide, 255, dtype=np.float32)
+    filtered = cv2.ximgproc.guidedFilter(
+        code, np.ascontiguousarray(values), radius, epsilon * 255**2
+    )
+    return np.asarray(filtered)

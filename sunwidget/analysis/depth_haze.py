@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from sunwidget.analysis.depth_field import guided
 from sunwidget.analysis.depth_ground import EYE_HEIGHT
 from sunwidget.analysis.depth_level import fill_sky
 from sunwidget.analysis.depth_view import View
@@ -20,7 +21,7 @@ _REFERENCE = 600
 _THINNEST = 0.02  # transmittance below which nothing of the surface shows
 _BAND = 0.16  # of the height: the sky so far above the land is the horizon's
 _SURFACE_ERROR = 0.08  # of t: surfaces without anything dark in them
-_AIR_ERROR = 0.7  # of ln β: the fitted air may be wrong by a factor of two
+_AIR_ERROR = 0.5  # of ln β: the fitted air may well be wrong by a factor of 1.6
 _FEET = 5e-4  # of the picture: less ground near by tells nothing
 _NEAR = 30.0  # metres: so near the air does nothing
 
@@ -66,9 +67,10 @@ def transmittance(view: View, air: np.ndarray) -> np.ndarray:
     # Neither the patch nor the filter may mix the sky into the land.
     patch = np.ones((max(3, round(_PATCH * scale) | 1),) * 2, np.uint8)
     least = np.where(view.land, np.minimum(least, 1), np.float32(1))
-    dark = fill_sky(cv2.erode(least.astype(np.float32), patch), view.land)
+    dark = cv2.erode(least.astype(np.float32), patch)
+    filled = fill_sky(np.dstack([view.working.encoded, dark]), view.land)
     radius = max(2, round(_RADIUS * scale))
-    smooth = cv2.ximgproc.guidedFilter(view.working.encoded, dark, radius, _EPSILON)
+    smooth = guided(filled[..., :3], filled[..., 3], radius, _EPSILON)
     through = np.clip(1 - OMEGA * smooth, _THINNEST, 1)
     feet = view.land & (view.fall > EYE_HEIGHT / _NEAR)
     if feet.mean() > _FEET:
@@ -79,8 +81,10 @@ def transmittance(view: View, air: np.ndarray) -> np.ndarray:
 def log_depth(view: View, through: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return ln(metres) of a transmittance and its standard error, (h, w) each.
 
-    d = −ln t / β. Where hardly any haze shows the error is large: it could be anything nearer.
+    d = −ln t / β. Where hardly any haze shows, t is noise and its logarithm far more so: the error
+    grows with the square of what the surface does to −ln t.
     """
     depth = -np.log(np.minimum(through, 0.999))
     slope = _SURFACE_ERROR / (through * depth)
-    return np.log(depth / view.atmosphere.extinction_550), np.hypot(_AIR_ERROR, slope)
+    error = np.hypot(_AIR_ERROR, slope * np.hypot(1, slope))
+    return np.log(depth / view.atmosphere.extinction_550), error

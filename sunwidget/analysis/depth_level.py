@@ -27,12 +27,12 @@ def fill_sky(values: np.ndarray, land: np.ndarray) -> np.ndarray:
 
     Parameters
     ----------
-    values : (h, w) float32
+    values : (h, w) or (h, w, n) float32
     land : (h, w) bool
 
     Returns
     -------
-    (h, w) float32
+    array of the shape of ``values``
         ``values`` itself where all or nothing is land.
     """
     import cv2
@@ -43,9 +43,11 @@ def fill_sky(values: np.ndarray, land: np.ndarray) -> np.ndarray:
         (~land).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
     )
     # Every pixel of the land has a label of its own, its neighbours outside share it.
-    of_label = np.zeros(int(labels.max()) + 1, np.float32)
+    of_label = np.zeros((int(labels.max()) + 1, *values.shape[2:]), np.float32)
     of_label[labels[land]] = values[land]
-    return np.where(land, values, of_label[labels])
+    filled = values.copy()
+    filled[~land] = of_label[labels[~land]]
+    return filled
 
 
 def dithered(level: np.ndarray) -> np.ndarray:

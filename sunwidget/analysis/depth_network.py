@@ -151,7 +151,8 @@ def aligned(
     confidence = np.full(log_depth.shape, 1 / (1 + (2 * spread) ** 2), np.float32)
     land = resize(view.sky, *log_depth.shape[::-1]) < 0.5
     everywhere = np.ones(log_depth.shape, np.float32)
-    return DepthField(everywhere, fill_sky(log_depth, land), confidence, view.camera, share)
+    filled = fill_sky(log_depth, land)
+    return DepthField(everywhere, filled, confidence, view.camera, share, sharpen=False)
 
 
 def _correlation(a: np.ndarray, b: np.ndarray) -> float:
@@ -160,14 +161,21 @@ def _correlation(a: np.ndarray, b: np.ndarray) -> float:
 
 
 def _line(values: np.ndarray, near: np.ndarray, sky: np.ndarray) -> tuple[float, float]:
-    """Return slope ≥ 0 and shift of near = slope · values + shift; the sky is at 0."""
+    """Return slope ≥ 0 and shift of near = slope · values + shift; the sky is at 0.
+
+    Some networks return anything in the sky: where it contradicts the ground it does not count.
+    """
     if sky.size:
-        # As many pixels of the sky as of the ground, at most: it only fixes the shift.
+        # A quarter as many pixels of the sky as of the ground, at most: they only fix the shift.
         sky = np.quantile(sky, np.linspace(0.05, 0.95, min(sky.size, near.size // 4 + 1)))
-    x = np.concatenate([values, sky])
-    y = np.concatenate([near, np.zeros(sky.size)])
-    floor = np.median(near)
-    weight = base = 1 / np.maximum(y, 0.05 * floor)
+        slope, shift = _robust_line(np.append(values, sky), np.append(near, np.zeros(sky.size)))
+        if slope > 0 and np.median(sky) < np.median(values):
+            return slope, shift
+    return _robust_line(values, near)
+
+
+def _robust_line(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
+    weight = base = 1 / np.maximum(y, 0.05 * np.median(y[y > 0]))
     slope = shift = 0.0
     for _ in range(_ROUNDS):
         total = weight.sum()

@@ -12,7 +12,7 @@ from sunwidget.analysis.working import Working, resize
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.camera import Camera
 
-SIDE = 384  # pixels of the longer side at which depth is found
+SIDE = 320  # pixels of the longer side at which depth is found
 # Standard error of the horizon's row in heights of the picture, when it is sure and when it is
 # assumed; between them by its confidence, geometrically.
 _LEAST_ERROR, _LARGEST_ERROR = 0.002, 0.04

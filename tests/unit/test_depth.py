@@ -1,12 +1,63 @@
-"""Depth of the photo: its methods, and how the frame gets it."""
+"""Depth of the photo: its methods on drawn scenes of known depth, and how the frame gets it."""
 
+import dataclasses
+
+import cv2
 import numpy as np
+import onnx_files as onnx
 import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
-from sunwidget.analysis import depth_level
+from sunwidget.analysis import depth, depth_contact, depth_ground, depth_haze, depth_level
+from sunwidget.analysis.depth_network import DepthNetwork, aligned
+from sunwidget.analysis.depth_view import View
+from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.horizon import Horizon
+from sunwidget.analysis.working import Working, encode
+from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.camera import Camera
+from sunwidget.photo import open_photo
 from sunwidget.renderer import quantise_map, scene_textures
+
+WIDTH, HEIGHT, ROW, FOV = 300, 200, 100, 40.0
+CAMERA = Camera.from_horizon(WIDTH, HEIGHT, FOV, ROW)
+AIR = Atmosphere().with_visibility(20_000.0)
+BOX = 14.0  # metres to a wall 8 m wide and 4 m high, somewhat right of the middle
+RIDGE = 6_000.0
+
+
+def drawn():
+    """Draw a plain, a dark wall on it and a hazy ridge behind: linear light, depth, sky."""
+    rows, columns = np.mgrid[:HEIGHT, :WIDTH] + 0.5
+    x, y = (columns - WIDTH / 2) / CAMERA.focal, (rows - ROW) / CAMERA.focal
+    metres = np.full((HEIGHT, WIDTH), np.inf)
+    light = np.broadcast_to(np.array([0.62, 0.72, 0.85]), (HEIGHT, WIDTH, 3)).copy()
+    noise = np.random.default_rng(5).normal(1, 0.1, (HEIGHT, WIDTH, 1))
+
+    def paint(where, depth, colour):
+        metres[where] = np.broadcast_to(depth, where.shape)[where]
+        through = np.exp(-AIR.extinction_550 * metres)[..., None]
+        seen = colour * noise * through + np.array([0.62, 0.72, 0.85]) * (1 - through)
+        light[where] = seen[where]
+
+    hill = 300 + 120 * np.sin(columns / 40)
+    paint((y < 0) & (-y * RIDGE < hill), RIDGE, np.array([0.03, 0.05, 0.02]))
+    paint(y > 0, depth_ground.EYE_HEIGHT / np.maximum(y, 1e-9), np.array([0.25, 0.22, 0.05]))
+    wall = (np.abs(x * BOX - 2) < 4) & (y * BOX < depth_ground.EYE_HEIGHT) & (y * BOX > -2.3)
+    paint(wall, BOX, np.array([0.10, 0.03, 0.02]))
+    return light.astype(np.float32), metres, wall
+
+
+@pytest.fixture(scope="module")
+def plain():
+    """Light, depth and wall of the drawn plain, and the view that knows all but the depth."""
+    light, metres, wall = drawn()
+    encoded = encode(light)
+    working = Working(light, encoded, encoded, (1.0, 1.0))
+    sky = np.isinf(metres).astype(np.float32)
+    view = View.of(working, sky, np.zeros_like(sky), CAMERA, Horizon(ROW, 0.0, 1.0, "hint"), AIR)
+    return light, metres, wall, view
 
 
 @pytest.fixture(scope="module")
@@ -14,9 +65,106 @@ def scene():
     return sw.analyze(seascape(240, 160), fov=45.0)
 
 
+def metres_of(method, view):
+    field = depth.METHODS[method](view)
+    return np.exp(field.log_metres(WIDTH, HEIGHT, view.working)), field
+
+
+def within(found, known, factor):
+    """Share of pixels whose depth is right within a factor."""
+    return np.mean(np.abs(np.log(found / known)) < np.log(factor))
+
+
+def inner_of(wall):
+    """Leave out the rim: a pixel or two of the wall's edge may go either way."""
+    return cv2.erode(wall.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0
+
+
+@pytest.mark.parametrize("method", ["ground_plane", "fused"])
+def test_the_plain_the_wall_and_the_ridge_have_their_depths(plain, method):
+    _, metres, wall, view = plain
+    found, field = metres_of(method, view)
+    land = np.isfinite(metres)
+    near = land & ~wall & (metres < 200)
+    assert within(found[near], metres[near], 1.1) > 0.9
+    inner = inner_of(wall)
+    assert within(found[inner], metres[inner], 1.35) > 0.95
+    # Its foot is at the horizon: contacts alone say only that it is far.
+    ridge = metres == RIDGE
+    assert np.median(found[ridge]) > {"ground_plane": 250, "fused": 1_000}[method]
+    assert 0 <= field.confidence.min() <= field.confidence.max() <= 1
+    # What stands nearer, on ground that is seen, is known better than the ridge.
+    assert np.median(field.confidence[inner]) > np.median(field.confidence[ridge])
+
+
+def test_the_contact_row_is_the_foot_of_the_wall(plain):
+    _, _, wall, view = plain
+    contacts = depth_contact.find(view)
+    assert contacts.probability.sum(axis=0) == pytest.approx(1)
+    columns = np.flatnonzero(wall.any(axis=0))[6:-6]
+    foot = HEIGHT - np.argmax(wall[::-1], axis=0)
+    mean = (contacts.probability * contacts.rows).sum(axis=0)
+    assert np.abs(mean - foot)[columns].max() < 6
+    away = np.flatnonzero(~wall.any(axis=0))
+    assert np.median(mean[away] - ROW) < 4
+
+
+def test_haze_tells_the_ridge_by_its_light(plain):
+    _, metres, wall, view = plain
+    through = depth_haze.transmittance(view, depth_haze.airlight(view))
+    ridge = (metres == RIDGE) & ~wall
+    known = np.exp(-AIR.extinction_550 * RIDGE)  # 0.31
+    assert np.median(through[ridge]) == pytest.approx(known, abs=0.2)
+    assert np.median(through[wall]) > 0.9
+    found, field = metres_of("haze", view)
+    assert np.median(found[ridge]) == pytest.approx(RIDGE, rel=0.6)
+    # Haze says nothing of what is near.
+    assert np.median(field.confidence[ridge]) > 2 * np.median(field.confidence[wall])
+
+
+def test_haze_moves_the_ridge_away_from_where_contacts_put_it(plain):
+    _, metres, wall, view = plain
+    ridge = (metres == RIDGE) & ~wall
+    error = {
+        method: abs(np.log(np.median(metres_of(method, view)[0][ridge]) / RIDGE))
+        for method in ("ground_plane", "fused")
+    }
+    assert error["fused"] < 0.8 * error["ground_plane"]
+
+
+def test_an_unsure_horizon_is_a_lower_confidence(plain):
+    *_, view = plain
+    sure = depth.fused(view).confidence.mean()
+    unsure = depth.fused(dataclasses.replace(view, horizon_error=8.0)).confidence.mean()
+    assert unsure < 0.9 * sure
+
+
+def test_ground_has_no_terraces_at_any_size(plain):
+    *_, view = plain
+    field = depth.fused(view)
+    for scale in (0.5, 1, 3):
+        width, height = round(WIDTH * scale), round(HEIGHT * scale)
+        column = field.log_metres(width, height, view.working)[:, round(20 * scale)]
+        ground = column[round(120 * scale) :]
+        known = np.log(
+            depth_ground.EYE_HEIGHT
+            * CAMERA.resized(width, height).focal
+            / (np.arange(round(120 * scale), height) + 0.5 - ROW * scale)
+        )
+        assert np.abs(ground - known).max() < 0.02
+
+
+def test_folds_are_levelled_and_steps_kept():
+    rng = np.random.default_rng(2)
+    truth = np.where(np.arange(200) < 90, 3.0, 5.0)
+    found = depth_contact.levelled(truth + rng.normal(0, 0.15, 200), np.full(200, 10.0), 15.0)
+    assert np.abs(np.diff(found[:85])).max() < 0.02
+    assert found[120] - found[60] == pytest.approx(2, abs=0.2)
+
+
 def test_levels_are_log_depth():
-    depth = np.array([0.1, 1, 256, 65536, 1e9, np.inf], np.float32)
-    level = depth_level.to_level(np.log(depth))
+    metres = np.array([0.1, 1, 256, 65536, 1e9, np.inf], np.float32)
+    level = depth_level.to_level(np.log(metres))
     assert level == pytest.approx([0, 0, 0.5, 1, 1, 1])
     assert depth_level.to_depth(level)[1:4] == pytest.approx([1, 256, 65536])
 
@@ -31,6 +179,7 @@ def test_sky_takes_the_depth_of_the_nearest_land():
     assert filled[0, 1] == 1
     assert filled[0, 5] == 5
     assert set(np.unique(filled)) == {0, 1, 5}
+    assert (depth_level.fill_sky(np.dstack([values, -values]), land)[..., 1] == -filled).all()
     nothing = np.zeros_like(land)
     assert (depth_level.fill_sky(values, nothing) == values).all()
 
@@ -48,8 +197,152 @@ def test_alpha_of_the_surface_is_the_depth_of_the_land(scene):
     for size in ((240, 160), (120, 80), (480, 320)):
         alpha = scene_textures(scene, size)["surface"][..., 3] / 255
         ground = alpha[-1, size[0] // 2]
-        depth = depth_level.to_depth(ground)
-        assert depth == pytest.approx(scene.depth[-1, 120], rel=0.05)
-        assert np.isfinite(scene.depth).any()
+        assert depth_level.to_depth(ground) == pytest.approx(scene.depth[-1, 120], rel=0.05)
         # Nothing in the sky is nearer or farther than the land at the skyline.
         assert alpha[: size[1] // 3].std() < 0.02
+
+
+def test_the_sky_is_infinitely_far_and_known_to_be(scene):
+    sky = scene.sky > 0.5
+    assert (np.isinf(scene.depth) == sky).all()
+    assert (scene.depth_confidence[sky] == 1).all()
+    assert scene.depth_confidence.dtype == scene.depth.dtype == np.float32
+    assert 0 <= scene.depth_confidence.min() <= scene.depth_confidence.max() <= 1
+
+
+def test_a_given_array_is_the_depth():
+    picture = seascape(240, 160)
+    metres = np.broadcast_to(np.linspace(400, 80, 80)[:, None], (80, 120)).copy()
+    metres[:40] = np.inf
+    scene = sw.analyze(picture, depth=metres)
+    land = scene.sky < 0.5
+    below = land & (np.arange(160)[:, None] > 100)
+    known = np.repeat(np.repeat(metres, 2, 0), 2, 1)
+    # Half a row of the array is this far in depth.
+    assert np.abs(scene.depth[below] - known[below]).max() < 4.5
+    assert (scene.depth_confidence == 1).all()
+    assert np.isinf(scene.depth[~land]).all()
+    assert np.isfinite(scene.depth[land]).all()
+    level = scene.surface()[-1, 100, 3]
+    assert depth_level.to_depth(level) == pytest.approx(80, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        ("stereo", "choose one of fused, ground_plane, haze"),
+        (3.0, "knows no method 3.0"),
+        (object(), "knows no method"),
+        (np.ones((4, 5, 2)), r"shape \(height, width\)"),
+        (np.full((160, 240), np.nan), "NaN, zero or negative"),
+        (np.zeros((160, 240)), "NaN, zero or negative"),
+        (np.full((160, 240), np.inf), "infinite everywhere"),
+        (np.ones((240, 160)), "Was one of them rotated"),
+    ],
+)
+def test_what_is_no_depth_is_refused_with_what_to_do(value, message):
+    with pytest.raises(AnalysisError, match=message):
+        sw.analyze(seascape(240, 160), depth=value)
+
+
+@pytest.mark.parametrize("method", list(depth.METHODS))
+@pytest.mark.parametrize("shape", [(1, 1), (1, 300), (300, 1), (9, 11), (40, 60)])
+def test_pictures_of_odd_sizes_have_a_depth(method, shape):
+    rng = np.random.default_rng(1)
+    light = rng.random((*shape, 3)).astype(np.float32)
+    working = Working(light, encode(light), encode(light), (1.0, 1.0))
+    camera = Camera(shape[1], shape[0], 40.0)
+    for sky in (np.zeros(shape, np.float32), np.ones(shape, np.float32)):
+        view = View.of(working, sky, sky * 0, camera, Horizon(shape[0] / 2), AIR)
+        field = depth.METHODS[method](view)
+        found = field.log_metres(shape[1], shape[0], working)
+        assert found.shape == shape
+        assert np.isfinite(found).all()
+        assert np.isfinite(field.confidence).all()
+
+
+def test_a_photo_is_analysed_by_each_method():
+    photo = open_photo(seascape(240, 160))
+    base = sw.analyze(photo)
+    assert base.hints.method("depth") == "fused"
+    for method in depth.METHODS:
+        assert np.isfinite(sw.analyze(photo, depth=method).surface()).all()
+
+
+def test_inverse_depth_is_aligned_with_the_ground(plain):
+    _, metres, wall, view = plain
+    land = np.isfinite(metres)
+    nearness = np.where(land, 1 / metres, 0)
+    value = (3.0 + 70.0 * nearness).astype(np.float32)
+    # The wall is an outlier on what would be ground.
+    field = aligned(view, value, value)
+    found = np.exp(field.log_metres(WIDTH, HEIGHT, view.working))
+    near = land & (metres < 500)
+    assert within(found[near], metres[near], 1.08) > 0.97
+    assert within(found[wall], metres[wall], 1.08) > 0.97
+    assert field.confidence.min() > 0.5
+
+
+def test_depth_up_to_a_scale_is_aligned_with_the_ground(plain):
+    _, metres, wall, view = plain
+    value = np.where(np.isfinite(metres), metres / 7.5, 1e4).astype(np.float32)
+    field = aligned(view, value, value)
+    found = np.exp(field.log_metres(WIDTH, HEIGHT, view.working))
+    near = np.isfinite(metres) & (metres < 500)
+    assert within(found[near], metres[near], 1.05) > 0.97
+
+
+def test_the_other_way_round_can_be_told(plain):
+    *_, metres, _, view = (None, *plain[1:])
+    value = np.where(np.isfinite(metres), metres, 1e4).astype(np.float32)
+    as_told = aligned(view, value, value, "inverse")
+    # As inverse depth it disagrees with the ground, and the confidence says so.
+    assert as_told.confidence.max() < 0.5 < aligned(view, value, value).confidence.min()
+
+
+def network(tmp_path, size=("height", "width"), weights=((1,), (1,), (1,)), maps=1, **options):
+    """Write a network that returns a weighted sum of the channels."""
+    weight = np.tile(np.array(weights, np.float32).reshape(1, 3, 1, 1), (maps, 1, 1, 1))
+    nodes = [onnx.node("Conv", ["image", "w"], ["depth"])]
+    path = tmp_path / "depth.onnx"
+    entries = [("image", np.float32, (1, 3, *size))]
+    result = ("depth", np.float32, (1, maps, *size))
+    return onnx.write(path, nodes, {"w": weight}, entries, [result], **options)
+
+
+def shaded():
+    """Draw a seascape whose sea is the brighter the nearer it is."""
+    picture = seascape(240, 160).astype(np.float32)
+    rows = np.arange(160)[:, None, None]
+    sea = 20 + 120 * (rows - 96) / 64 + 0 * picture
+    return np.where(rows > 96, sea, picture * 0 + np.array([120, 160, 220])).astype(np.uint8)
+
+
+@pytest.mark.parametrize("size", [("height", "width"), (64, 96)])
+def test_a_network_of_any_size_finds_depth(tmp_path, size):
+    path = network(tmp_path, size)
+    scene = sw.analyze(shaded(), depth=str(path), horizon=96.0)
+    column = scene.depth[100:, 120]
+    assert np.isfinite(column).all()
+    assert (np.diff(column) <= 1e-3).all()
+    plane = sw.analyze(shaded(), depth="ground_plane", horizon=96.0).depth[100:, 120]
+    assert np.median(np.abs(np.log(column / plane))) < 0.35
+    assert np.isinf(scene.depth[:90]).all()
+    told = sw.analyze(shaded(), depth=DepthNetwork(path, kind="inverse"), horizon=96.0)
+    assert (told.depth[100:] == scene.depth[100:]).all()
+
+
+def test_networks_that_cannot_be_used_are_refused_with_what_to_do(tmp_path):
+    with pytest.raises(AnalysisError, match=r"No depth network at .*Pass depth="):
+        _ = sw.analyze(shaded(), depth=str(tmp_path / "missing.onnx")).depth
+    broken = tmp_path / "broken.onnx"
+    broken.write_bytes(b"no network")
+    with pytest.raises(AnalysisError, match=r"not an ONNX network.*depth="):
+        _ = sw.analyze(shaded(), depth=broken).depth
+    with pytest.raises(AnalysisError, match="the same everywhere"):
+        _ = sw.analyze(shaded(), depth=network(tmp_path, weights=((0,), (0,), (0,)))).depth
+    with pytest.raises(AnalysisError, match="returned 5 maps"):
+        _ = sw.analyze(shaded(), depth=network(tmp_path, maps=5)).depth
+    for options in ({"kind": "metres"}, {"layout": "hwc"}):
+        with pytest.raises(AnalysisError, match="must be"):
+            DepthNetwork(tmp_path / "x.onnx", **options)
