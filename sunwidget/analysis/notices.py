@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from sunwidget.analysis import sun as sun_stage
+from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.sun import SunObservation
 from sunwidget.camera import Camera, Point
 from sunwidget.photo import Photo
 
+UNSURE = 0.3  # confidence of the fit below which a person should know
 NO_SKY = 0.005  # share of the picture below which the photo counts as without sky
 
 
@@ -23,12 +25,13 @@ def notices(
     hints: Hints,
     doubted: float = 0.0,
     moon: Point | None = None,
+    fit: SkyFit | None = None,
 ) -> tuple[str, ...]:
     """Return one sentence for each doubt.
 
     ``sky`` is the matte at working size, ``doubted`` the share of the picture that was dropped
     from the sky as unlikely (plausible.py), ``moon`` where one was found, in fractions of the
-    picture.
+    picture, ``fit`` what was fitted to the sky.
     """
     notes = []
     share = float(np.mean(sky > 0.5))
@@ -56,7 +59,7 @@ def notices(
         )
     elif sun is None:
         notes.append(
-            f"No sun found in {photo.name}. Its place is assumed; click where it is, "
+            f"No sun found in {photo.name}. Its place is assumed{_sure(fit)}; click where it is, "
             "or pass sun=(x, y) in pixels (outside the picture is fine)."
         )
     elif sun.kind == "moon":
@@ -72,6 +75,14 @@ def notices(
                 f"The sun's mask covers {100 * area / sun.mask.size:.0f} % of {photo.name}, "
                 "far more than a sun. Click on its centre, or pass sun_method='disc_fit'."
             )
+    sureness = None if fit is None else fit.atmosphere.confidence
+    if share >= NO_SKY and sureness is not None and sureness < UNSURE:
+        first = "Click the sun" if sun is None else "Check the sun"
+        notes.append(
+            f"How the sky of {photo.name} changes with the sun is a guess "
+            f"({100 * sureness:.0f} % sure): it shows too little clear sky, or one that no "
+            f"atmosphere explains. {first} and the horizon, then set the haze by hand."
+        )
     if horizon.confidence < 0.3:
         notes.append(
             f"The horizon of {photo.name} is a guess (row {horizon.row:.0f}). "
@@ -90,6 +101,10 @@ def notices(
             "of view is assumed. Pass fov= in degrees."
         )
     return tuple(notes)
+
+
+def _sure(fit: SkyFit | None) -> str:
+    return "" if fit is None else f" ({100 * fit.sun_confidence:.0f} % sure)"
 
 
 def _sky_below(sky: np.ndarray, horizon: Horizon, camera: Camera) -> bool:

@@ -141,7 +141,7 @@ def _retouch(
         decision=decision,
         hints=hints,
         warnings=notices(
-            photo, sky, sun, source.horizon, source.camera, hints, base.doubted, source.moon
+            photo, sky, sun, source.horizon, source.camera, hints, base.doubted, source.moon, fitted
         ),
         unstroked=base,
         memory=Memory(),

@@ -23,6 +23,7 @@ from sunwidget.analysis.glitter import column_of, glitter
 from sunwidget.analysis.hints import Hints, check_fov, check_horizon, check_point
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.memory import Memory
+from sunwidget.analysis.noise import noise_level
 from sunwidget.analysis.plausible import plausible
 from sunwidget.analysis.retouch import stroked
 from sunwidget.analysis.stages import (
@@ -194,6 +195,11 @@ class Scene:
         return resize(self.shade, self.width, self.height)
 
     @property
+    def sun_confidence(self) -> float:
+        """How likely the sun is where it is taken to be, [0, 1]: 1 where it is seen or told."""
+        return 1.0 if self.fitted is None else self.fitted.sun_confidence
+
+    @property
     def automatic(self) -> dict[str, float]:
         """The value that each automatic parameter of ``Edit`` takes in this photo."""
         azimuth, elevation = (
@@ -232,6 +238,8 @@ class Scene:
             "response_shoulder": 0.0,
             "response_contrast": 1.0,
             "glare_profile": (0.0, 3.0, 2.0),
+            "noise_level": noise_level(self.photo, self.sky),
+            "photo_height": float(self.height),
             "sky_gain": (1.0, 1.0, 1.0),
         } | self.response
 

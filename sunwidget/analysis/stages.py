@@ -157,7 +157,7 @@ def complete(
             "cloud_gain": cloud_gain(fitted),
             "glare_profile": fitted.glare,
         },
-        warnings=notices(photo, sky, sun, horizon, camera, hints, base.doubted, moon),
+        warnings=notices(photo, sky, sun, horizon, camera, hints, base.doubted, moon, fitted),
         hints=hints,
         timings=step.timings,
         backdrop=behind.field,

@@ -16,7 +16,16 @@ from sunwidget.analysis.maps import MAPS, levels, shares_of
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
 
-FACTS = ("camera", "horizon", "sun", "atmosphere", "automatic", "warnings", "timings")
+FACTS = (
+    "camera",
+    "horizon",
+    "sun",
+    "atmosphere",
+    "sun_confidence",
+    "automatic",
+    "warnings",
+    "timings",
+)
 
 
 def save_maps(

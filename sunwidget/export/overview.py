@@ -131,7 +131,7 @@ def _facts(scene: Scene) -> str:
     sky = 100 * float(np.mean(scene.sky))
     parts = [f"{scene.width} x {scene.height}, sky {sky:.0f} %"]
     if scene.sun is None:
-        parts.append("no sun found")
+        parts.append(f"no sun found, its place {100 * scene.sun_confidence:.0f} % sure")
     else:
         side = "left" if scene.sun.azimuth < 0 else "right"
         where = "" if scene.sun.visible else " (not seen)"
@@ -144,6 +144,8 @@ def _facts(scene: Scene) -> str:
         f"roll {horizon.roll:.1f}° ({horizon.source}, {sure})"
     )
     parts.append(f"field of view {scene.camera.fov_vertical_deg:.0f}°")
+    if scene.atmosphere.confidence is not None:
+        parts.append(f"atmosphere {100 * scene.atmosphere.confidence:.0f} % sure")
     return " · ".join(parts)
 
 

@@ -75,5 +75,7 @@ void main() {
   vec3 change = matte * sky_change + (1.0 - matte) * land_change;
   change += GetVeil(scene + change, ReadBilinear(veil, place) * vec4(vec3(term[0].x), 1.0), matte);
   change += mix(land_strength, sky_strength, matte) * GetNight() * GetRodShift(scene + change);
-  WriteChange(display, scene, change, pixel);
+  // What was filled where the old sun hid the sky gets the grain of the rest.
+  float filled = matte * sky_marks.b * term[0].y * min(sky_strength, 1.0);
+  WriteChange(display, scene, change, filled, pixel);
 }

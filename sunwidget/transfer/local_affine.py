@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 _GRAIN = 2e-4  # variance in squared encoded units that says nothing of contrast
+_LEAST_CONTRAST = 0.45  # that a transform may leave of a difference of colours
 _RIDGE = 1e-4  # of the global fit, in squared encoded units
 
 
@@ -64,6 +65,34 @@ def local_affine(before: np.ndarray, after: np.ndarray, radius: int, epsilon: fl
     matrix = np.swapaxes(np.linalg.solve(regular, cross), -1, -2)
     shift = mean_y - np.einsum("hwij,hwj->hwi", matrix, mean_x)
     return np.concatenate([matrix, shift[..., None]], -1).astype(np.float32)
+
+
+def ordered(transforms: np.ndarray, pivot: np.ndarray) -> np.ndarray:
+    """Keep every transform from flattening or inverting differences of colour.
+
+    Where things moved between the two pictures the regression finds no contrast, or the
+    inverse: haze, white clouds turned dark. What it makes of the mean is true still.
+
+    Parameters
+    ----------
+    transforms : (h, w, 3, 4) float32
+    pivot : (h, w, 3) float32
+        Colours that become what they became: means of the neighbourhood.
+
+    Returns
+    -------
+    (h, w, 3, 4) float32
+        Mixed with a plain gain until no direction keeps less than ``_LEAST_CONTRAST``.
+    """
+    matrix = transforms[..., :3]
+    lowest = np.linalg.eigvalsh((matrix + np.swapaxes(matrix, -1, -2)) / 2)[..., 0]
+    gain = np.maximum(np.trace(matrix, axis1=-2, axis2=-1) / 3, 2 * _LEAST_CONTRAST)
+    missing = (_LEAST_CONTRAST - lowest) / np.maximum(gain - lowest, 1e-6)
+    share = np.clip(missing, 0, 1)[..., None, None]
+    plain = gain[..., None, None] * np.eye(3, dtype=np.float32)
+    kept = matrix + share * (plain - matrix)
+    shift = transforms[..., 3] + np.einsum("hwij,hwj->hwi", matrix - kept, pivot)
+    return np.concatenate([kept, shift[..., None]], -1).astype(np.float32)
 
 
 def local_contrast(before: np.ndarray, after: np.ndarray, radius: int, limit: float) -> np.ndarray:

@@ -28,6 +28,7 @@ from sunwidget.transfer.local_affine import (
     global_affine,
     local_affine,
     local_contrast,
+    ordered,
     smoothed,
 )
 
@@ -40,6 +41,7 @@ _LEARNED_SIDE = 640  # of the pair when the transforms are fitted
 _WINDOW, _FLAT = 0.012, 1e-3  # of the fit
 _SMOOTH, _EDGE = 0.012, 1e-3  # of the smoothing along the photo's edges
 _DETAIL, _STRONG = 0.01, 1e-2  # what is finer and weaker is detail
+_CALM = 0.08  # of the sky's transforms, a Gaussian's deviation
 _LEAST = 0.01  # share of a picture from which a sky or a land says something
 _CONTRAST = 1.5  # largest gain of detail
 
@@ -126,10 +128,12 @@ def _change(photo: Photo, before: Photo, after: Photo) -> tuple[np.ndarray, np.n
     level = ours * gain + shift
     matched = correspond(level, our_sky, theirs, their_sky)
     learned, crisp = _learned(before, after, theirs.shape[1::-1])
+    learned = _calm_sky(learned, their_sky)
     # Where the pair shows nothing like the photo, what its sky or its land does as a whole.
     alike = matched.likeness[..., None, None]
     plain = _by_label(before, after, our_sky, their_sky)
     carried = plain + alike * (matched.carried(learned) - plain)
+    carried = ordered(carried, _pivot(level, our_sky))
     # What the transform does to the photo at the level of ``before``, minus that level itself.
     carried[..., :3] -= np.eye(3, dtype=np.float32)
     change = np.empty_like(carried)
@@ -175,6 +179,27 @@ def _learned(before: Photo, after: Photo, size: tuple[int, int]) -> tuple[np.nda
     rows = [resize(np.ascontiguousarray(maps[..., i, :]), *size) for i in range(3)]
     crisp = local_contrast(pair[0] - base[0], pair[1] - base[1], radius, _CONTRAST)
     return np.stack(rows, axis=-2), resize(crisp, *size)
+
+
+def _calm_sky(learned: np.ndarray, sky: np.ndarray) -> np.ndarray:
+    """Smooth the transforms of the sky widely: clouds move, and no cloud tells of another."""
+    import cv2
+
+    deviation = _CALM * max(sky.shape)
+    flat = learned.reshape(*sky.shape, 12) * sky[..., None]
+    weight = cv2.GaussianBlur(np.asarray(sky, np.float32), (0, 0), deviation)
+    parts = [cv2.GaussianBlur(flat[..., i], (0, 0), deviation) for i in range(12)]
+    slow = np.stack(parts, -1) / np.maximum(weight, 1e-4)[..., None]
+    share = sky[..., None, None]
+    return np.asarray(learned + share * (slow.reshape(learned.shape) - learned), np.float32)
+
+
+def _pivot(level: np.ndarray, sky: np.ndarray) -> np.ndarray:
+    """Mean colours of the neighbourhood: of a wide one in the sky, where clouds move."""
+    import cv2
+
+    near, wide = (cv2.GaussianBlur(level, (0, 0), s * max(sky.shape)) for s in (_WINDOW, _CALM))
+    return np.asarray(near + sky[..., None] * (wide - near))
 
 
 def _fine(photo: Photo) -> np.ndarray:

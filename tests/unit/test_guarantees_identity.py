@@ -138,6 +138,7 @@ SHOWN = {
     "colourfulness": {"sun_elevation": -2},
     "auto_exposure": {"sun_elevation": 2},
     "light_shafts": {"aerosol_optical_depth": 0.5, "sun_azimuth": -20, "sun_elevation": 14},
+    "grain": {"auto_exposure": 0},
     "added_cloud_size": {"added_clouds": 0.5},
     "added_cloud_height": {"added_clouds": 0.5},
     "cloud_pattern": {"added_clouds": 0.5},

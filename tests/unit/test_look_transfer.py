@@ -8,7 +8,7 @@ from PIL import Image
 import sunwidget as sw
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.transfer.correspondence import correspond, normalisation
-from sunwidget.transfer.local_affine import apply, global_affine, local_affine
+from sunwidget.transfer.local_affine import apply, global_affine, local_affine, ordered
 
 SIZE = (288, 192)
 
@@ -166,3 +166,34 @@ def test_a_time_lapse_pair_is_carried_to_its_own_frame(shared):
     )
     out = sw.transfer_look(before, before, after).encoded
     assert psnr(out, after) > psnr(before, after) + 9
+
+
+def test_no_transform_flattens_or_inverts():
+    rng = np.random.default_rng(11)
+    matrix = rng.normal(0, 0.8, (20, 30, 3, 4)).astype(np.float32)
+    pivot = rng.random((20, 30, 3)).astype(np.float32)
+    kept = ordered(matrix, pivot)
+    symmetric = (kept[..., :3] + np.swapaxes(kept[..., :3], -1, -2)) / 2
+    assert np.linalg.eigvalsh(symmetric)[..., 0].min() > 0.44
+    assert np.abs(apply(kept, pivot) - apply(matrix, pivot)).max() < 1e-4
+    good = np.zeros((2, 2, 3, 4), np.float32)
+    good[..., :3] = np.diag([0.6, 0.9, 1.3])
+    assert np.array_equal(ordered(good, pivot[:2, :2]), good)
+
+
+def test_clouds_that_moved_do_not_turn_dark(pictures):
+    """A pair whose clouds have gone elsewhere: white stays brighter than the blue round it."""
+    rng = np.random.default_rng(2)
+
+    def sky(seed):
+        noise = np.random.default_rng(seed).random((SIZE[1], SIZE[0])).astype(np.float32)
+        cloud = np.clip(60 * (cv2.GaussianBlur(noise, (0, 0), 9) - 0.5) + 0.3, 0, 1)[..., None]
+        land = (np.arange(SIZE[1]) > 140)[:, None, None]
+        view = cloud * 235 + (1 - cloud) * np.array([70, 120, 200])
+        return np.where(land, 60 + 20 * rng.random((SIZE[1], SIZE[0], 1)), view).astype(np.uint8)
+
+    photo = sky(1)
+    out = sw.transfer_look(photo, sky(2), sky(3)).encoded[:120]
+    white, blue = photo[:120, :, 0] > 200, photo[:120, :, 0] < 90
+    assert min(white.sum(), blue.sum()) > 500
+    assert out[white].mean() > out[blue].mean() + 20
