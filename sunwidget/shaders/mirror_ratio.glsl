@@ -6,21 +6,26 @@
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
 #include "lib/glint.glsl"
+#include "lib/gloss.glsl"
 
 uniform sampler2D mirror_source;
 uniform sampler2D mirror_edit;
 uniform sampler2D surface;
 uniform sampler2D layers;
 uniform sampler2D terms;
+uniform sampler2D land_terms;
 uniform vec2 pass_size;
 uniform float wind_speed;
 uniform float source_wind_speed;
 uniform float glitter;
+uniform float water_strength;
 
 out vec4 result;
 
 // A clipped glint does not say how bright it was: let it fade freely, but hardly grow.
 const float kLargestGrowth = 2.0;
+// Asphalt, wet sand, roofs.
+const float kRoadRoughness = 0.3;
 // Irradiance reflectance of the sea just below its surface, between clear ocean and coast
 // (Jerlov 1976): water swallows red.
 const vec3 kBody = vec3(0.008, 0.025, 0.035);
@@ -60,7 +65,14 @@ void main() {
   vec3 sky_now = now.rgb + cloud * (share * GetTerm(7) - now.rgb);
   vec3 water = GetRatio(sky_now + GetBody(GetTerm(3), view, wind_speed),
                         sky_before + GetBody(GetTerm(1), view, source_wind_speed));
-  vec3 shine = min(GetRatio(now.rgb + marks.b * now.a * GetTerm(12),
-                            before.rgb + marks.b * before.a * GetTerm(11)), vec3(kLargestGrowth));
-  result = vec4(shine + marks.g * (water - shine), glitter * now.a);
+  // On land the sun is mirrored by a surface that is rougher than water, wide round its glints.
+  float shine_before = GetGroundLobe(view, texelFetch(land_terms, ivec2(7, 0), 0).xyz, kRoadRoughness);
+  float shine_now = GetGroundLobe(view, texelFetch(land_terms, ivec2(15, 0), 0).xyz, kRoadRoughness);
+  vec3 gleam = before.rgb + shine_before * GetTerm(11);
+  vec3 shine = min(GetRatio(now.rgb + shine_now * GetTerm(12), gleam), vec3(kLargestGrowth));
+  // Burnt glints are white in the photo, whatever their colour was.
+  vec3 bleached = gleam / GetLuminance(gleam);
+  shine *= 1.0 + marks.b * texelFetch(terms, ivec2(0, 0), 0).y * (bleached - 1.0);
+  float known = marks.g * step(1e-6, water_strength);
+  result = vec4(shine + known * (water - shine), glitter * now.a);
 }

@@ -10,12 +10,11 @@ float GetSmithShadowing(float cosine, float square) {
   return 2.0 * cosine / (cosine + sqrt(square + (1.0 - square) * cosine * cosine));
 }
 
-// A GGX lobe (Walter et al. 2007, eqs. 20, 33, 34) on level ground in units of diffuse light: what
-// it adds to the cosine of a sun in direction `sun` for a viewer who looks along `view`. Above
-// kHighestGleam it fades with the cosine of the elevation and no faster, so that ground never
-// darkens under a rising sun.
-float GetGloss(vec3 view, vec3 sun) {
-  float square = kGlossRoughness * kGlossRoughness;
+// BRDF times the sun's cosine of a GGX lobe (Walter et al. 2007, eqs. 20, 33, 34) on level ground, 1/sr,
+// for a sun in direction `sun` and a viewer who looks along `view`. Above kHighestGleam it fades with
+// the cosine of the elevation and no faster, so that ground never darkens under a rising sun.
+float GetGroundLobe(vec3 view, vec3 sun, float roughness) {
+  float square = roughness * roughness;
   float along = max(length(sun.xz), 1e-4);
   float rise = clamp(sun.y, 0.0, kHighestGleam);
   vec3 low = vec3(sun.xz / along * sqrt(1.0 - rise * rise), rise).xzy;
@@ -27,5 +26,10 @@ float GetGloss(vec3 view, vec3 sun) {
   float away = 1.0 - clamp(dot(low, facet), 0.0, 1.0);
   float fresnel = kGlossReflectance + (1.0 - kGlossReflectance) * away * away * away * away * away;
   float shadowing = GetSmithShadowing(n_view, square) * GetSmithShadowing(low.y, square);
-  return fade * 3.14159265 / kGlossAlbedo * facets * fresnel * shadowing / (4.0 * n_view);
+  return fade * facets * fresnel * shadowing / (4.0 * n_view);
+}
+
+// What it adds to the cosine of the sun, in units of diffuse light.
+float GetGloss(vec3 view, vec3 sun) {
+  return 3.14159265 / kGlossAlbedo * GetGroundLobe(view, sun, kGlossRoughness);
 }
