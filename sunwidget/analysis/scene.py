@@ -19,7 +19,7 @@ from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
-from sunwidget.analysis.glitter import column_of, glitter
+from sunwidget.analysis.glitter import column_of, glitter, roughness
 from sunwidget.analysis.hints import Hints, check_fov, check_horizon, check_point
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.memory import Memory
@@ -230,6 +230,7 @@ class Scene:
             "camera_focal": self.camera.focal / self.camera.height,
             "sun_visible": float(self.sun is not None and self.sun.visible),
             "photo_light": float(self.lit_by_moon),
+            "water_roughness": self._water_roughness(),
             "sun_mask_share": min(1.0, blot / max(float(self.sky.sum()), 1.0)),
             "photo_sky_mean": own.mean,
             "photo_sky_deviation": own.deviation,
@@ -242,6 +243,12 @@ class Scene:
             "photo_height": float(self.height),
             "sky_gain": (1.0, 1.0, 1.0),
         } | self.response
+
+    def _water_roughness(self) -> float:
+        if self.sun is None or not self.sun.visible:
+            return 1.0
+        water = resize(self.water, self.working.width, self.working.height)
+        return roughness(self.working, water, self.camera, (self.sun.azimuth, self.sun.elevation))
 
     def layers(self, size: tuple[int, int] | None = None) -> np.ndarray:
         """(H, W, 3) float32 in [0, 1]: sky matte, cloud opacity, cloud softness.

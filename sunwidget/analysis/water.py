@@ -123,7 +123,11 @@ def _extent(look: Look) -> np.ndarray:
     certain = np.bincount(labels[sure], minlength=count) / area
     kept = (area >= 0.01 * width * height) & (certain > 0.3)
     kept[0] = False
-    return _by_neighbours(look, _without_holes(kept[labels], rock > 0.5), below & (look.land > 0.5))
+    return _by_neighbours(
+        look,
+        _without_holes(kept[labels], below, rock > 0.5, light > level[:, None]),
+        below & (look.land > 0.5),
+    )
 
 
 def _by_neighbours(look: Look, water: np.ndarray, ground: np.ndarray) -> np.ndarray:
@@ -152,19 +156,30 @@ def _by_neighbours(look: Look, water: np.ndarray, ground: np.ndarray) -> np.ndar
     return np.asarray(cv2.medianBlur(result, 3), np.float32)
 
 
-def _without_holes(water: np.ndarray, rock: np.ndarray) -> np.ndarray:
-    """Fill what water surrounds: glints and foam, and of rocks what is no larger than a wave."""
+def _without_holes(
+    water: np.ndarray, below: np.ndarray, rock: np.ndarray, bright: np.ndarray
+) -> np.ndarray:
+    """Fill what water and the horizon surround: glints, foam, mirrored shores; no rocks.
+
+    Of rocks only what is no larger than a wave.
+    """
     import cv2
 
-    count, labels, stats, _ = cv2.connectedComponentsWithStats((~water).astype(np.uint8))
+    holes = ~water & below
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(holes.astype(np.uint8))
     height, width = water.shape
     left, top = stats[:, cv2.CC_STAT_LEFT], stats[:, cv2.CC_STAT_TOP]
     right = left + stats[:, cv2.CC_STAT_WIDTH]
     bottom = top + stats[:, cv2.CC_STAT_HEIGHT]
+    far = int(np.argmax(below.any(axis=1))) + 2  # rows that touch the horizon
     area = stats[:, cv2.CC_STAT_AREA]
-    inside = (left > 0) & (top > 0) & (right < width)
+    # Glints may lead from the horizon to the frame; a dark headland is none.
+    shining = np.bincount(labels[bright], minlength=count) / area > 0.6
+    inside = (left > 0) & (right < width)
     rocky = np.bincount(labels[rock], minlength=count) / area > np.where(bottom < height, 0.3, 0.15)
-    filled = inside & (area < np.where(rocky, 0.0015, 0.12) * water.size)
+    filled = inside & (
+        area < np.where(rocky, 0.005, np.where((top > far) | shining, 0.12, 0.03)) * water.size
+    )
     filled[0] = False
     return np.asarray(water | filled[labels], np.float32)
 

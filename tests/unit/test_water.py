@@ -1,5 +1,6 @@
-"""Water: what is called water, by the analysis and by a person."""
+"""Water: what is called water, by the analysis and by a person, and how it is relit."""
 
+import dataclasses
 import functools
 
 import cv2
@@ -8,6 +9,8 @@ import pytest
 from relight_scenes import sample_scene
 
 import sunwidget as sw
+from sunwidget.analysis.working import Working
+from sunwidget.camera import Camera
 
 SIZE = (240, 160)
 ROW = 90  # of the horizon
@@ -131,3 +134,125 @@ def test_no_photo_of_land_has_water(shared):
         scale = 320 / max(photo.shape[:2])
         small = cv2.resize(photo, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
         assert (sw.analyze(small).water.mean() > 0.1) == (name in sea), name
+
+
+MOVES = [(25, 10), (8, 2), (-20, 30)]
+
+
+@functools.cache
+def glittering():
+    """A sea with the sun over it and its glints, as ``shore`` else; the sun is told."""
+    picture = shore().astype(np.float32)
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
+    random = np.random.default_rng(8)
+    waves = cv2.GaussianBlur(
+        random.standard_normal(rows.shape).astype(np.float32), (0, 0), 3.0, sigmaY=0.7
+    )
+    path = np.exp(-0.5 * ((columns - 150) / 10.0) ** 2) * (rows > ROW)
+    picture += (260 * path * (0.8 + waves / waves.std() * 0.2))[..., None]
+    picture[np.hypot(rows - 40, columns - 150) < 4] = 255
+    return np.round(np.clip(picture, 0, 255)).astype(np.uint8)
+
+
+@functools.cache
+def sunny():
+    """``glittering``, analysed with sky, horizon and sun told."""
+    sky = (np.arange(SIZE[1])[:, None] < ROW).astype(np.float32) * np.ones(SIZE[0], np.float32)
+    told = {"sky": sky, "refine": "none", "horizon": float(ROW), "fov": 40.0}
+    return sw.analyze(glittering(), sun=(150, 40), **told)
+
+
+def column_light(picture, left, right):
+    """Mean code value of the water between two columns."""
+    return float(picture[ROW + 10 :, left:right].mean())
+
+
+def test_an_unmoved_sun_leaves_water_to_the_bit():
+    assert sunny().water.mean() > 0.3
+    assert np.array_equal(sw.render(sunny()), glittering())
+
+
+@pytest.mark.parametrize("move", MOVES)
+def test_water_strength_zero_lights_water_as_land(move):
+    scene = sunny()
+    dry = dataclasses.replace(scene, water=np.zeros_like(scene.water))
+    edit = sw.Edit(sun_azimuth=move[0], sun_elevation=move[1], water_strength=0)
+    # The zone of glints is wider where water is known, and is read at a quarter of the size.
+    other = scene.surface()[..., 2] != dry.surface()[..., 2]
+    still = cv2.dilate(other.astype(np.uint8), np.ones((17, 17), np.uint8)) == 0
+    assert still[ROW:].mean() > 0.3
+    off = sw.render(scene, edit)
+    difference = np.abs(off.astype(int) - sw.render(dry, edit)).max(axis=-1)
+    assert difference[still].max() <= 1  # depth knows of the water, too
+    assert np.array_equal(
+        off[still], sw.render(scene, edit.replace(glitter=3, wind_speed=9))[still]
+    )
+
+
+def test_the_old_glints_go_and_new_ones_come():
+    scene = sunny()
+    old = column_light(glittering(), 140, 160)
+    azimuth, _ = scene.camera.angles(60, ROW)
+    moved = sw.render(scene, sw.Edit(sun_azimuth=azimuth, auto_exposure=0))
+    beside = column_light(moved, 190, 220)
+    assert abs(column_light(moved, 140, 160) - beside) < 0.2 * (old - beside)
+    assert column_light(moved, 50, 70) > beside + 40
+
+
+def test_glints_fade_as_the_sun_sets_and_follow_their_slider():
+    scene = sunny()
+    azimuth, _ = scene.camera.angles(60, ROW)
+    light = [
+        column_light(sw.render(scene, sw.Edit(sun_azimuth=azimuth, **change)), 50, 70)
+        for change in (
+            {"glitter": 0, "sun_elevation": 6},
+            {"glitter": 1, "sun_elevation": 6},
+            {"glitter": 3, "sun_elevation": 6},
+        )
+    ]
+    assert light[0] + 20 < light[1] <= light[2]
+    night = sw.Edit(sun_azimuth=azimuth, sun_elevation=-3)
+    without = sw.render(scene, night.replace(glitter=0))
+    assert np.array_equal(sw.render(scene, night), without)
+
+
+def test_wind_widens_the_glints():
+    scene = sunny()
+    azimuth, _ = scene.camera.angles(60, ROW)
+    edit = sw.Edit(sun_azimuth=azimuth, sun_elevation=10, auto_exposure=0)
+    breadth = []
+    for speed in (1, 15):
+        bright = sw.render(scene, edit.replace(wind_speed=speed))[ROW + 10 :, :130].mean(
+            axis=(0, 2)
+        )
+        breadth.append(int((bright > np.median(bright) + 25).sum()))
+    assert breadth[0] > 3
+    assert breadth[1] > 1.3 * breadth[0]
+
+
+def test_glints_move_no_faster_than_the_sun():
+    scene = sunny()
+    # A tenth of a pixel here is a pixel of a photo ten times as wide.
+    step = 0.1 * (scene.camera.angles(101, 60)[0] - scene.camera.angles(100, 60)[0])
+    suns = [sw.Edit(sun_azimuth=-6 + k * step, sun_elevation=9) for k in (0, 1, 2)]
+    codes = [np.clip(sw.render(scene, edit, dtype="float32"), 0, 1) ** (1 / 2.2) for edit in suns]
+    steps = [np.abs(codes[k + 1] - codes[k])[ROW + 2 :] for k in (0, 1)]
+    assert 0 < max(step.max() for step in steps) < 0.1
+    assert max(step.mean() for step in steps) < 0.003
+
+
+def test_water_is_rougher_where_it_glitters_wider():
+    from sunwidget.analysis.glitter import roughness
+
+    rough = []
+    for width in (3.0, 12.0):
+        linear = np.full((160, 240, 3), 0.05, np.float32)
+        columns = np.arange(240)
+        linear[90:] += np.exp(-0.5 * ((columns - 120) / width) ** 2)[:, None] * 30
+        working = Working(np.minimum(linear, 1), linear, linear, (1, 1))
+        water = (np.arange(160)[:, None] >= 90) * np.ones(240, np.float32)
+        camera = Camera.from_horizon(240, 160, 40.0, 90.0)
+        rough.append(roughness(working, water.astype(np.float32), camera, (0.0, 12.0)))
+    assert rough[0] < 0.5 * rough[1]
+    flat = Working(np.full((160, 240, 3), 0.2, np.float32), linear, linear, (1, 1))
+    assert roughness(flat, water.astype(np.float32), camera, (0.0, 12.0)) == 1

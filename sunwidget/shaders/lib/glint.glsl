@@ -3,9 +3,12 @@
 // distributed slopes, a little wider along the wind than across.
 
 // Mean square slopes along and across the wind (their equations for a clean surface); the first has
-// a floor for swell and for the sun's own size, which keeps a calm from being a mirror.
+// a floor for swell and for the sun's own size, which keeps a calm from being a mirror. All of it by how
+// much rougher or smoother the photo's own glints are than these would be (analysis/glitter.py).
+uniform float water_roughness;
+
 vec2 GetSlopeVariance(float wind) {
-  return vec2(1e-3 + 3.16e-3 * wind, 3e-3 + 1.92e-3 * wind);
+  return water_roughness * vec2(1e-3 + 3.16e-3 * wind, 3e-3 + 1.92e-3 * wind);
 }
 
 // Cosine between the line of sight and the facets that are seen: at grazing sight waves hide all

@@ -16,7 +16,7 @@ uniform float source_wind_direction;
 
 // Brightest a pixel of glints gets, as radiance per unit of the sun's light, 1/sr. Far below what one
 // facet shows of the sun: no pixel is as small, and a camera would show no more.
-const float kBrightest = 0.6;
+const float kBrightest = 1.0;
 // Height of a wave in the picture, in radians: a part for the horizon, and a share of how far below
 // the horizon it lies. Waves look several times as wide as high.
 const float kFarWave = 0.0011;
