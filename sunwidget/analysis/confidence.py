@@ -19,8 +19,8 @@ GOOD_SUN = 35.0
 """Degrees by which the found azimuth of an unseen sun may be wrong and it still serves."""
 
 # Bias, then the weights of ``features_of_fit`` and of ``features_of_sun``.
-FIT_WEIGHTS = (-1.16, -1.77, 0.64, -0.35, -0.05, 3.7)
-SUN_WEIGHTS = (0.91, 2.74, 0.29, -0.05)
+FIT_WEIGHTS = (-0.78, -1.73, 0.49, -0.19, -0.33, 3.26)
+SUN_WEIGHTS = (1.07, 2.26, 0.34, 0.05)
 _CLOSE = 0.15  # how much worse than the best an air may be and still be one of the likely ones
 
 

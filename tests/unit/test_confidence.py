@@ -1,0 +1,127 @@
+"""How sure a fit is: less with less evidence, and as often right as it says on known skies."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from relight_scenes import known_photo
+
+import sunwidget as sw
+from sunwidget.analysis.confidence import (
+    GOOD_SUN,
+    Evidence,
+    confidence_of_fit,
+    confidence_of_sun,
+    doubt,
+    spread_of_angles,
+)
+from sunwidget.analysis.fit import fit_sky, model_sky, view_angles
+from sunwidget.analysis.working import Working
+from sunwidget.photo import open_photo
+
+CLEAR = Evidence(residual=0.008, share=0.5, spread=40.0, doubt=0.5)
+
+
+def test_a_clear_sky_with_a_known_sun_is_sure():
+    assert confidence_of_fit(CLEAR) > 0.8
+
+
+@pytest.mark.parametrize(
+    "worse",
+    [{"residual": 0.06}, {"share": 0.004}, {"told": 0.1}],
+    ids=lambda worse: next(iter(worse)),
+)
+def test_less_evidence_is_less_sure(worse):
+    assert confidence_of_fit(dataclasses.replace(CLEAR, **worse)) < confidence_of_fit(CLEAR) - 0.1
+
+
+def test_a_sharp_minimum_leaves_one_answer_and_a_flat_one_many():
+    levels = np.arange(-3.0, 4.0)
+    assert doubt(0.01 + 0.01 * levels**2, levels) < 0.1
+    assert doubt(np.full(7, 0.02), levels) == pytest.approx(2.0)
+
+
+def test_the_spread_is_that_of_the_angles_from_the_sun():
+    azimuth = np.linspace(-20, 20, 400)
+    assert spread_of_angles(azimuth, 0 * azimuth, (-30.0, 0.0)) == pytest.approx(32, abs=0.5)
+    assert spread_of_angles(azimuth[:1], azimuth[:1], (0.0, 0.0)) == 0
+
+
+def test_a_sun_that_stands_out_is_surer_than_one_among_equals():
+    suns = [(float(a), 20.0) for a in range(-150, 181, 30)]
+    flat = dict.fromkeys(suns, 0.02)
+    sharp = flat | {(30.0, 20.0): 0.004}
+    assert confidence_of_sun((30.0, 20.0), sharp) > confidence_of_sun((30.0, 20.0), flat) + 0.1
+
+
+def fitted(photo, *, told, assumed=(0.0, 30.0)):
+    working = Working.of(open_photo(photo.bytes))
+    sun = photo.sun if told else None
+    return fit_sky(working, photo.sky, photo.opacity, photo.camera, sun, assumed)
+
+
+def wrong_stops(photo, fit):
+    """Mean stops by which the fitted sky's change under two other suns is wrong."""
+    azimuth, elevation = view_angles(photo.camera, *photo.sky.shape[::-1])
+    above = elevation > 1
+    where = azimuth[above][::9], elevation[above][::9]
+
+    def change(air, sun, turn, height):
+        now = model_sky(air, *where, (sun[0] + turn, height))
+        return np.log2(now / model_sky(air, *where, sun))
+
+    wrong = []
+    for move in ((-60.0, 2.0), (25.0, 40.0)):
+        apart = change(fit.atmosphere, fit.sun, *move) - change(photo.atmosphere, photo.sun, *move)
+        wrong.append(np.abs(apart - np.median(apart)).mean())
+    return float(np.mean(wrong))
+
+
+def test_on_known_skies_the_surer_fits_are_the_better_ones():
+    cases = [
+        ({"sun": (8.0, 14.0)}, True),
+        ({"sun": (-20.0, 35.0), "depth": 0.03}, True),
+        ({"sun": (3.0, 4.0), "level": 0.2}, True),
+        ({"sun": (40.0, 50.0), "tint": (1.25, 1.0, 0.8)}, True),
+        ({"sun": (170.0, 8.0)}, False),
+        ({"sun": (-120.0, 50.0), "noise": 0.02}, False),
+        ({"sun": (90.0, 3.0), "depth": 0.25}, False),
+        ({"sun": (140.0, 25.0), "level": 0.6}, False),
+    ]
+    sure, wrong = [], []
+    for options, told in cases:
+        photo = known_photo(clouds=False, **options)
+        fit = fitted(photo, told=told, assumed=(10.0, 30.0))
+        sure.append(fit.atmosphere.confidence)
+        wrong.append(wrong_stops(photo, fit))
+    sure, wrong = np.array(sure), np.array(wrong)
+    assert np.all((sure >= 0) & (sure <= 1))
+    # Those that it is sure of are good (0.3 stops), and better than those that it doubts.
+    assert np.median(wrong[sure > 0.7]) < 0.3
+    assert wrong[sure >= np.median(sure)].mean() < 0.6 * wrong[sure < np.median(sure)].mean()
+
+
+def test_a_sun_that_is_told_is_sure_and_one_that_is_guessed_is_not():
+    photo = known_photo(clouds=False)
+    assert fitted(photo, told=True).sun_confidence == 1
+    guessed = fitted(photo, told=False).sun_confidence
+    assert 0 < guessed < 1
+    assert GOOD_SUN < 90
+
+
+def test_a_photo_without_sky_is_sure_of_nothing_and_says_what_to_do():
+    land = np.full((60, 90, 3), 90, np.uint8)
+    scene = sw.analyze(land, sky=np.zeros((60, 90), np.float32), refine="none")
+    assert scene.atmosphere.confidence == 0
+    assert scene.sun_confidence == 0
+    assert any("0 % sure" in notice and "click" in notice for notice in scene.warnings)
+
+
+def test_a_doubtful_sky_is_told_with_what_to_do():
+    random = np.random.default_rng(6)
+    picture = random.integers(30, 220, (60, 90, 3)).astype(np.uint8)
+    sky = np.zeros((60, 90), np.float32)
+    sky[:20] = 1
+    scene = sw.analyze(picture, sky=sky, refine="none")
+    assert scene.atmosphere.confidence < 0.3
+    assert any("changes with the sun is a guess" in notice for notice in scene.warnings)
