@@ -4,6 +4,7 @@
 
 #include "lib/picture.glsl"
 #include "lib/cloud_edit.glsl"
+#include "lib/added_layer.glsl"
 #include "lib/response.glsl"
 #include "lib/sky.glsl"
 
@@ -13,7 +14,6 @@ uniform sampler2D surface;
 uniform sampler2D backdrop;
 uniform sampler2D sky_source;
 uniform sampler2D soft_sky;
-uniform sampler2D added_layer;
 uniform float source_sun_azimuth;
 uniform float source_sun_elevation;
 uniform vec2 tile_origin;
@@ -31,16 +31,6 @@ vec3 GetGrain(ivec2 texel, vec3 light) {
   }
   vec3 grain = log(max(light, vec3(1e-4)) / max(sum / 9.0, vec3(1e-4)));
   return grain / (1.0 + 30.0 * abs(grain));
-}
-
-// A texel about: neighbours hold parts of one march (added_layer.glsl).
-vec4 ReadAddedLayer(vec2 place) {
-  vec2 half_texel = 0.5 / vec2(textureSize(added_layer, 0));
-  vec4 sum = vec4(0.0);
-  for (int i = 0; i < 4; ++i) {
-    sum += 0.25 * ReadBilinear(added_layer, place + (2.0 * vec2(i & 1, i >> 1) - 1.0) * half_texel);
-  }
-  return sum;
 }
 
 void main() {

@@ -6,6 +6,8 @@
 
 #include "lib/picture.glsl"
 #include "lib/packed.glsl"
+#include "lib/cloud_edit.glsl"
+#include "lib/added_layer.glsl"
 
 uniform sampler2D sky_source;
 uniform sampler2D backdrop;
@@ -19,11 +21,17 @@ out vec4 result;
 
 void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
-  vec3 residual = exp(4.0 * ReadBilinear(backdrop, place).rgb - 2.0);
   ivec2 texel = ivec2(gl_FragCoord.xy);
   float opacity = texelFetch(retouched, texel, 0).a;
-  vec3 levels = vec3(ReadPicture(layers, place).r, opacity, ReadPicture(surface, place).r);
-  vec3 sky = texelFetch(sky_source, texel, 0).rgb * residual;
+  vec4 layer = ReadPicture(layers, place);
+  vec3 levels = vec3(layer.r, opacity, ReadPicture(surface, place).r);
+  vec3 model = texelFetch(sky_source, texel, 0).rgb;
+  vec3 sky = model * DecodeResidual(ReadBilinear(backdrop, place).rgb);
+  if (IsCloudEdited()) {
+    // As retouch.glsl changes the photo; a sky without detail needs no dissolving.
+    vec4 open = ReadBilinear(clear_sky, place);
+    sky = GetEditedSky(sky, model * DecodeResidual(open.rgb), sky, layer, open.a, 1.0, ReadAddedLayer(place));
+  }
   float water = smoothstep(0.0, 0.2, ReadPicture(surface, place).g) * (1.0 - smoothstep(0.0, 0.2, levels.r));
   vec4 calm = texelFetch(water_behind, texel, 0);
   levels.b += water * (calm.a - levels.b);
