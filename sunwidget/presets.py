@@ -58,7 +58,7 @@ def _preset(
 # fmt: off
 PRESETS: tuple[Preset, ...] = (
     _preset("dawn", "Dawn", "A little before sunrise: a cool sky with a warm edge, no shadows.",
-        -3.0, exposure=-0.3),
+        -3.0),
     _preset("golden_hour", "Golden hour", "A low, warm sun over a sky that is still blue.", 4.0,
         exposure=-0.4),
     _preset("noon", "Noon", "A high sun: neutral colours, short shadows.", 55.0, in_view=False),
