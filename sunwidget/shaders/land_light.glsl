@@ -58,6 +58,24 @@ vec3 GetIrradiance(int first, vec3 normal, float sure, float upright, float faci
   return sky + visible * cosine * GetTerm(first + 6);
 }
 
+// What of the sun reaches a place, averaged with neighbours of like depth: the march's few steps
+// leave stripes else.
+vec4 GetSunShare(ivec2 texel, float level) {
+  ivec2 last = ivec2(pass_size) - 1;
+  vec4 sum = vec4(0.0);
+  float total = 0.0;
+  for (int row = -1; row <= 1; ++row) {
+    for (int column = -1; column <= 1; ++column) {
+      ivec2 at = clamp(texel + 2 * ivec2(column, row), ivec2(0), last);
+      float apart = 32.0 * (texelFetch(land_shape, at, 0).a - level);
+      float weight = 1.0 / (1.0 + apart * apart * apart * apart);
+      sum += weight * vec4(texelFetch(shadow_source, at, 0).rg, texelFetch(shadow_edit, at, 0).rg);
+      total += weight;
+    }
+  }
+  return sum / total;
+}
+
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
   vec3 view = GetViewDirection(gl_FragCoord.xy / pass_size);
@@ -66,7 +84,7 @@ void main() {
   vec3 normal = shape.rgb / max(sure, 1e-6);
   float upright = GetUprightness(view);
   vec4 mean = texelFetch(land_terms, ivec2(16, 0), 0);
-  vec4 here = vec4(texelFetch(shadow_source, texel, 0).rg, texelFetch(shadow_edit, texel, 0).rg);
+  vec4 here = GetSunShare(texel, shape.a);
   vec4 sun_share = mean + vec2(cast_shadows, cloud_shadows).xyxy * (here - mean);
   vec3 before = GetIrradiance(0, normal, sure, upright, source_land_facing, view, sun_share.x * sun_share.y);
   vec3 now = GetIrradiance(8, normal, sure, upright, land_facing, view, sun_share.z * sun_share.w);

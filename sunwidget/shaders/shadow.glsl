@@ -1,8 +1,9 @@
 // What of the sun reaches the land: r past other land, g past the clouds, both 1 where nothing is in
 // the way. A quarter of the size.
 //
-// Land: a march through the log-depth from a point towards the sun, in steps that are even in the
-// picture (McGuire & Mara, "Efficient GPU Screen-Space Ray Tracing", JCGT 2014). Only ratios of
+// Land: a march through the log-depth from a point towards the sun, in steps even in the picture at
+// first and even in log-depth later (after McGuire & Mara, "Efficient GPU Screen-Space Ray
+// Tracing", JCGT 2014). Only ratios of
 // depths matter, so the unknown scale of the depth does not. What hides the sun counts softly, the
 // more so the farther along the ray it stands: a penumbra, and no jump when the sun moves.
 // Clouds: where the ray leaves through the clouds' layer is seen from the camera elsewhere in the sky.
@@ -20,9 +21,10 @@ uniform vec2 pass_size;
 
 out vec4 result;
 
-const int kSteps = 20;
+const int kSteps = 24;
+const float kOctaves = 5.0;      // of depth that a march spans, in ever longer steps
 const float kClearance = 0.05;   // octaves that the ray passes behind land before it counts
-const float kThickness = 1.2;    // octaves behind its face at which land ends
+const float kThickness = 0.8;    // octaves behind its face at which land ends
 const float kCloudHeight = 1500.0;
 const int kCloudTaps = 3;        // by as many
 const float kCloudPenumbra = 0.03;  // half-width of the taps, in heights of the picture
@@ -37,7 +39,8 @@ float GetLandHiding(vec2 place, float level, vec3 sun) {
   vec3 ray = vec3((place.x - 0.5) * aspect / camera_focal, (place.y - 0.5) / camera_focal, 1.0);
   float hidden = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    float share = (float(i) + 0.7) / float(kSteps);
+    float part = (float(i) + 0.7) / float(kSteps);
+    float share = 1.0 - exp2(-kOctaves * part * sqrt(part));
     vec3 at = (1.0 - share) * ray + share * sun;
     if (at.z < 0.02) break;
     vec2 seen = vec2(0.5 + at.x / at.z * camera_focal / aspect, 0.5 + at.y / at.z * camera_focal);
@@ -46,7 +49,7 @@ float GetLandHiding(vec2 place, float level, vec3 sun) {
     float behind = 16.0 * (level - land.r) + log2(at.z / (1.0 - share));
     float soft = 0.1 + 0.6 * share;
     float hit = smoothstep(kClearance, kClearance + soft, behind)
-        * (1.0 - smoothstep(kThickness, 2.0 * kThickness, behind))
+        * (1.0 - smoothstep(kThickness, 3.0 * kThickness, behind))
         * smoothstep(0.2, 0.7, land.g)
         * (1.0 - smoothstep(-0.02, 0.0, max(outside.x, outside.y)));
     hidden = max(hidden, hit);

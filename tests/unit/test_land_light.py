@@ -1,0 +1,169 @@
+"""Light on the land: slope, shadows, gleam, clouds' shadows, and the air before it."""
+
+import functools
+
+import numpy as np
+import pytest
+from relight_scenes import known_photo
+
+from sunwidget.camera import Camera
+from sunwidget.edit import Edit
+from sunwidget.renderer import render, render_pass
+
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+SIZE = (240, 160)
+EFFECTS = ("shading", "gloss", "cast_shadows", "cloud_shadows", "aerial_perspective")
+HIGH = 1.6  # metres of the camera over the plain
+WALL = 20.0  # metres to the wall
+RIDGE = 5000.0
+
+
+@functools.cache
+def street():
+    """A plain with a wall across its right half, its depth told: the sun stands ahead."""
+    known = known_photo(size=SIZE, clouds=False)
+    camera: Camera = known.camera
+    width, height = SIZE
+    rows, columns = np.mgrid[:height, :width] + 0.5
+    x, y = (columns - width / 2) / camera.focal, (rows - height / 2) / camera.focal
+    fall = -(x * camera.up[0] + y * camera.up[1] + camera.up[2])
+    plain = np.where(fall > 1e-4, HIGH / np.maximum(fall, 1e-4), np.inf)
+    wall = (x > 0.05) & (-WALL * fall < 4.0)
+    ridge = fall > -0.05  # hills along the horizon
+    depth = np.where(wall & (plain > WALL), WALL, np.minimum(plain, RIDGE))
+    sky = np.where(~ridge & ~wall, 1.0, 0.0).astype(np.float32)
+    depth = np.where(sky > 0, np.inf, depth).astype(np.float32)
+    # Dry, dull ground of one colour: nothing glitters, nothing is water.
+    picture = np.where(sky[..., None] > 0, known.bytes, np.uint8((90, 84, 70)))
+    scene = known.analyze(picture, sky=sky, depth=depth, water="none")
+    return scene, depth
+
+
+def maps(edit, name):
+    return render_pass(street()[0], edit, name)
+
+
+def places(test):
+    """(h, w) bool at the size of the land's maps from a test of depth, row share, column share."""
+    depth = street()[1][2::4, 2::4]
+    rows, columns = np.mgrid[: depth.shape[0], : depth.shape[1]]
+    return test(depth, (rows + 0.5) / depth.shape[0], (columns + 0.5) / depth.shape[1])
+
+
+def test_normals_of_a_plain_and_of_a_wall():
+    shape = maps(Edit(), "land_shape")
+    ground = places(lambda z, y, x: (z < 12) & (y < 0.95) & (x > 0.05) & (x < 0.95))
+    wall = places(lambda z, y, x: (z == WALL) & (x > 0.65) & (x < 0.95) & (y < 0.68) & (y > 0.6))
+    assert ground.sum() > 50
+    assert wall.sum() > 5
+    sure = np.linalg.norm(shape[..., :3], axis=-1)
+    assert np.median(sure[ground]) > 0.6
+    assert np.median(sure[wall]) > 0.6
+    normal = shape[..., :3] / np.maximum(sure, 1e-6)[..., None]
+    assert np.median(normal[ground][:, 1]) > 0.95
+    assert np.median(-normal[wall][:, 2]) > 0.95
+
+
+def test_the_wall_shades_the_plain_on_its_side_of_the_sun_and_no_other():
+    # Low and to the right, behind the wall as seen from the right of the plain; then to the left.
+    right = maps(Edit(sun_azimuth=12, sun_elevation=5), "shadow_edit")[..., 0]
+    left = maps(Edit(sun_azimuth=-14, sun_elevation=5), "shadow_edit")[..., 0]
+    assert right[behind_the_wall()].mean() < 0.3
+    assert left[in_the_open()].mean() > 0.9
+    high = maps(Edit(sun_azimuth=12, sun_elevation=60), "shadow_edit")[..., 0]
+    assert high[behind_the_wall()].mean() > 0.9
+
+
+def test_land_that_leaves_the_old_shadow_brightens_and_loses_its_blue():
+    # The photo's own sun, at 14 degrees, stands behind the wall.
+    moved = Edit(sun_azimuth=12, sun_elevation=60, gloss=0)
+    cast, even = (
+        maps(moved.replace(cast_shadows=value), "land_light")[behind_the_wall()][:, :3].mean(0)
+        for value in (1, 0)
+    )
+    assert cast @ LUMINANCE > 1.3 * (even @ LUMINANCE)
+    assert cast[2] / cast[0] < even[2] / even[0]
+
+
+def behind_the_wall():
+    return places(lambda z, y, x: (z < 15) & (z > 6) & (x > 0.7) & (x < 0.9))
+
+
+def in_the_open():
+    return places(lambda z, y, x: (z < 15) & (z > 6) & (x < 0.2))
+
+
+def test_a_slope_towards_the_sun_gains_by_shading():
+    # A sun behind the camera lights the wall; without shading all below the horizon lies.
+    moved = Edit(sun_azimuth=175, sun_elevation=10, gloss=0, cast_shadows=0)
+    wall = places(lambda z, y, x: (z == WALL) & (x > 0.65) & (x < 0.95) & (y > 0.68))
+    assert wall.any()
+    slanted = (maps(moved, "land_light")[wall][:, :3] @ LUMINANCE).mean()
+    lying = (maps(moved.replace(shading=0), "land_light")[wall][:, :3] @ LUMINANCE).mean()
+    assert slanted > 1.1 * lying
+
+
+def test_ground_gleams_below_the_sun():
+    moved = Edit(sun_azimuth=-18, sun_elevation=6, cast_shadows=0)
+    row = maps(moved, "land_light")[-8, :, :3] @ LUMINANCE
+    left, right = row[:8].mean(), row[-8:].mean()
+    dull = maps(moved.replace(gloss=0), "land_light")[-8, :, :3] @ LUMINANCE
+    assert left > 1.2 * right
+    assert dull[:8].mean() < 1.1 * dull[-8:].mean()
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_an_unmoved_sun_changes_nothing_at_any_strength(name):
+    scene, _ = street()
+    expected = render(scene, dtype="float32")
+    for value in (0, 0.5, 1):
+        assert np.array_equal(render(scene, Edit(**{name: value}), dtype="float32"), expected)
+
+
+@pytest.mark.parametrize("name", ["shading", "gloss", "cast_shadows", "aerial_perspective"])
+def test_each_effect_shows_in_a_moved_picture(name):
+    scene, _ = street()
+    moved = Edit(sun_azimuth=12, sun_elevation=5)
+    off, on = (render(scene, moved.replace(**{name: value})).astype(int) for value in (0, 1))
+    assert np.abs(off - on).max() >= 3
+
+
+def test_the_air_reddens_distant_land_at_sunset_and_leaves_near_land():
+    scene, depth = street()
+    moved = Edit(sun_azimuth=-10, sun_elevation=1, colourfulness=0)
+    air = render(scene, moved, dtype="float32") - render(
+        scene, moved.replace(aerial_perspective=0), dtype="float32"
+    )
+    far, near = (depth == RIDGE) & (scene.sky < 0.01), depth < 10
+    assert far.any()
+    assert np.abs(air[near]).max() < 0.1 * np.abs(air[far]).max()
+
+
+def test_more_haze_veils_distant_land_and_never_darkens_below_zero():
+    scene, depth = street()
+    land = scene.sky < 0.01
+    for optical_depth in (0, 0.1, 0.3, 0.6):
+        light = render(scene, Edit(aerosol_optical_depth=optical_depth), dtype="float32")
+        assert light[land].min() >= 0
+    hazy, clear = (
+        render(scene, Edit(aerosol_optical_depth=t, auto_exposure=0), dtype="float32") @ LUMINANCE
+        for t in (0.5, 0.02)
+    )
+    near, far = depth < 10, (depth == RIDGE) & land
+    assert (hazy[far] / clear[far]).mean() > (hazy[near] / clear[near]).mean()
+
+
+def test_colour_loss_by_luminance_and_by_power_keep_the_luminance_alike():
+    scene, _ = street()
+    land = scene.sky < 0.01
+    # A sun that is gone: the land has lost its direct light.
+    gone = Edit(sun_visibility=0, colourfulness=1, auto_exposure=0)
+    pictures = {
+        name: render(scene, gone.replace(colour_loss=name), dtype="float32")[land].mean(0)
+        for name in ("luminance", "power")
+    }
+    kept = render(scene, gone.replace(colourfulness=0), dtype="float32")[land].mean(0)
+    spread = {name: np.ptp(p) / p.mean() for name, p in pictures.items()}
+    assert spread["luminance"] < np.ptp(kept) / kept.mean()
+    assert spread["power"] < np.ptp(kept) / kept.mean()
+    assert pictures["luminance"] @ LUMINANCE == pytest.approx(kept @ LUMINANCE, rel=0.02)
