@@ -97,7 +97,7 @@ def analysed(path: Path, mask: np.ndarray, place: Place, width: int) -> sw.Scene
     fov = sw.open(picture).field_of_view.vertical
     x, y = Camera.from_horizon(width, height, fov, horizon).pixel(*sun)
     hint = (x, y) if np.isfinite(x) and max(abs(x), abs(y)) < 20 * width else None
-    scene = sw.analyze(picture, sky=sky, refine="none", horizon=horizon, sun=hint)
+    scene = sw.analyze(picture, sky=sky, horizon=horizon, sun=hint)
     return scene if hint else dataclasses.replace(scene, sun=None, assumed_sun=sun)
 
 
@@ -135,7 +135,9 @@ def score(folder: Path, options: argparse.Namespace) -> list[dict[str, float]]:
                 continue
             true, sun = frame(target, width), sun_of(target, place)
             edit = sw.Edit(sun_azimuth=sun[0], sun_elevation=sun[1])
-            made = {m: sw.render(scene, edit, method=m).astype(float) for m in METHODS}
+            # In float: a picture that came out dark is brightened below, and 8 bits would band.
+            light = {m: sw.render(scene, edit, method=m, dtype="float32") for m in METHODS}
+            made = {m: linear_to_srgb(x).astype(float) * 255 for m, x in light.items()}
             made |= {"copy": photo, "gain": best_gain(photo, true, land)}
             if options.look and (pair := _pair(chosen, frames, source, target, place)):
                 first, second = (frame(p, width).astype(np.uint8) for p in pair)
