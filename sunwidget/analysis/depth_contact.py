@@ -30,6 +30,7 @@ _JUMP = 60.0 / 256  # cost of a neighbour e times as far, at 256 columns
 _JUMP_MOST, _JUMP_AT_STEP = 12.0, 3.0  # cost of any jump, and where the skyline steps, too
 _STEP = 0.25  # a change of ln(rise) that is a step
 _ROUNDS, _FLAT, _HIGH = 12, 2e-3, 0.6  # of reweighting; a difference that is none; a step
+_STAIRS, _OTHER = 0.06, 0.6  # of the width; of ln depth: so far apart are different things
 _OUTSIDE = 20.0  # cost of a foot below the picture
 
 
@@ -114,6 +115,13 @@ def levelled(values: np.ndarray, weight: np.ndarray, price: float) -> np.ndarray
         diagonal = weight + np.append(tie, 0) + np.append(0, tie)
         bands = np.vstack([np.append(0, -tie), diagonal])
         found = solveh_banded(bands, weight * values)
+    # What is left of a slope is stairs: slopes again, by a bilateral filter (Tomasi & Manduchi
+    # 1998), which leaves steps of another thing alone.
+    column = np.arange(len(values))
+    near = np.exp(-0.5 * ((column[:, None] - column) / (_STAIRS * len(values))) ** 2) * weight
+    for _ in range(2):
+        alike = near * np.exp(-0.5 * ((found[:, None] - found) / _OTHER) ** 2)
+        found = alike @ found / alike.sum(axis=1)
     return np.asarray(found)
 
 
