@@ -64,7 +64,7 @@ PRESETS: tuple[Preset, ...] = (
     _preset("noon", "Noon", "A high sun: neutral colours, short shadows.", 55.0, in_view=False),
     _preset("sunset", "Sunset", "The sun at the horizon.", 0.8, exposure=-0.6),
     _preset("blue_hour", "Blue hour", "The sun well below the horizon: an even, deep blue.", -5.5,
-        exposure=-0.9),
+        exposure=-0.5),
     _preset("moonlight", "Moonlight", "Night, with a full moon where the sun would be.", 18.0,
         light="moon"),
 )

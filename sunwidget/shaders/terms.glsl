@@ -42,20 +42,28 @@ out vec4 result;
 // Over this many degrees of movement the old sun's glare gives way to the sky behind it: long
 // enough that a pixel's drag shows no step, short enough that a moved sun leaves no ghost.
 const float kGlareFade = 4.0;
-// A camera that re-exposes for a moonlit night stops this far (EV) short of what it does by day: a
-// print of a night is dark, or it is taken for a day. Krawczyk et al. 2005 ("Perceptual effects in
-// real-time tone mapping", eq. 11) find 3.7 EV between keys at 1000 and 0.01 cd m^-2, of which
-// `auto_exposure` leaves out nearly half already.
-const float kNightKey = 1.4;
+// A camera that re-exposes for dusk and night stops short of what it does by day, by this much (EV)
+// between these luminances (log2 of cd m^-2: 60 and 0.03): a print of a night is dark, or it is taken
+// for a day. Krawczyk et al. 2005 ("Perceptual effects in real-time tone mapping", eq. 11) find 2.2 EV
+// at 0.1 cd m^-2 beyond what `auto_exposure` leaves out already; less of it keeps the land readable.
+const float kNightKey = 1.6;
+const vec2 kNightBegins = vec2(5.9, -5.06);
 
 // A moon is 20 EV brighter than the sky it lights and would burn to a white hole; it is drawn so
 // bright, of white, and dimmed less by the air, as when a second, short exposure is laid over.
 const float kMoonLevel = 0.85;
 const float kMoonDimming = 0.35;
 
+// `meter` as meter.glsl has it, of the photo's unit.
+float GetNightStops(float meter) {
+  float luminance = meter + log2(1000.0 / GetLuminance(sky_gain)) + photo_light * log2(kMoonOverSun.g);
+  return kNightKey * (1.0 - smoothstep(kNightBegins.y, kNightBegins.x, luminance));
+}
+
 float GetStops() {
-  return exposure + auto_exposure * (texelFetch(meter_source, ivec2(0), 0).r - texelFetch(meter_edit, ivec2(0), 0).r)
-      - auto_exposure * kNightKey * (GetMoon() - photo_light);
+  float before = texelFetch(meter_source, ivec2(0), 0).r;
+  float now = texelFetch(meter_edit, ivec2(0), 0).r;
+  return exposure + auto_exposure * (before - now - (GetNightStops(now) - GetNightStops(before)));
 }
 
 // log2 of the radiance in the middle of a disc at this height, without its limb's darkening.

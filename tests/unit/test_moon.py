@@ -146,3 +146,23 @@ def test_a_found_moon_is_where_the_light_comes_from():
     assert scene.automatic["sun_azimuth"] == pytest.approx(-6.0, abs=0.6)
     assert scene.automatic["sun_elevation"] == pytest.approx(12.0, abs=0.6)
     assert np.array_equal(render(scene), scene.photo.encoded)
+
+
+def test_dusk_and_night_are_printed_darker_and_days_are_not():
+    scene = known_scene()
+
+    def stops(elevation, light="sun"):
+        """EV by which the exposure stays behind the meter's."""
+        edit = Edit(sun_elevation=elevation, light_source=light, auto_exposure=1)
+        gain = render_pass(scene, edit, "terms")[0, 0, 0]
+        fall = (
+            render_pass(scene, edit, "meter_source")[0, 0, 0]
+            - render_pass(scene, edit, "meter_edit")[0, 0, 0]
+        )
+        return fall - np.log2(gain)
+
+    assert abs(stops(40)) < 1e-3
+    assert abs(stops(2)) < 0.1
+    dusk = [stops(e) for e in (-2, -4, -6, -8, -11)]
+    assert dusk == sorted(dusk)
+    assert 0.8 < dusk[-2] < stops(30, "moon") < 1.61
