@@ -10,6 +10,7 @@
 #include "lib/daylight.glsl"
 #include "lib/cloud_layer.glsl"
 #include "lib/forward_lobe.glsl"
+#include "lib/response.glsl"
 
 uniform sampler2D light_before;
 uniform vec3 cloud_gain;
@@ -23,6 +24,7 @@ const int kSteps = 18;
 const float kThickness = 0.45;     // of the layer; lengths here are in cloud sizes
 const float kExtinction = 40.0;
 const float kLongestPath = 4.0;
+const float kWhitest = 0.8;        // display-linear: no photographer lets clouds burn out
 const float kTallest = 0.34;       // how far the cover field rises under the tallest tower
 
 // Towers grow where the field rises; the base is flat.
@@ -80,7 +82,8 @@ void main() {
   vec3 direct = GetLightTexel(light_before, 8) / PI;
   vec3 above = 0.5 * (GetLightTexel(light_before, 0) + GetLightTexel(light_before, 2)) / PI;
   vec3 below = 0.15 * (above + max(sun.y, 0.0) * direct);
-  vec3 lobe = 0.2 * GetForwardLobe(dot(sun, view)) * direct;
+  // What is turned aside again and again inside spreads the lobe: its peak is not that of one drop.
+  vec3 lobe = 0.12 * min(GetForwardLobe(dot(sun, view)), 8.0) * direct;
 
   // Where single clouds are smaller than a pixel is the share that they cover, and rows of them hide
   // the gaps between: an even bank.
@@ -114,5 +117,7 @@ void main() {
   light = mix(light, covered * (0.35 * direct + 0.8 * above), bank);
   float share = smoothstep(0.0, 0.02, added_clouds) * smoothstep(-0.004, 0.004, view.y);
   vec3 air = share * GetAirBefore(near);
-  result = vec4(cloud_gain * light * air, covered * air.g);
+  vec3 white = cloud_gain * (0.6 * direct + above);
+  vec3 gain = cloud_gain * min(1.0, GetSceneLight(vec3(kWhitest)).g / max(GetLuminance(white), 1e-6));
+  result = vec4(gain * light * air, covered * air.g);
 }
