@@ -104,6 +104,8 @@ def _extent(look: Look) -> np.ndarray:
     plain = look.glint_columns < 0.4  # away from the glints
     level = _level(light[:, plain], sure[:, plain]) if plain.any() else _level(light, sure)
     rock = smoothstep(0.5, 1.0, level[:, None] - light) * smoothstep(0.05, 0.1, look.roughness)
+    # The horizon itself is an edge, too.
+    rock *= np.clip((np.arange(height) - look.row) / 8, 0, 1)[:, None].astype(np.float32)
     # The trough of a wave is as dark and as sharp, but not as high.
     rock = cv2.morphologyEx(rock, cv2.MORPH_OPEN, np.ones((max(3, height // 20), 3), np.uint8))
     row = int(np.clip(round(look.row), 0, height - 2))

@@ -69,7 +69,7 @@ void main() {
   vec3 land_ratio = GetLandLight(place, land_marks.b);
   vec3 air = GetAirChange(place, land_marks.b, front, land_ratio);
   vec3 land_change = GetLandChange(front, land_ratio, shine, mirror.rgb, air);
-  vec3 water_change = GetWaterChange(front, clean, land_marks.g, sky_marks.b, mirror, air, view);
+  vec3 water_change = GetWaterChange(front, clean, land_marks.g, sky_marks.b, mirror, air);
   land_change += water_strength * land_marks.r * (water_change - land_change);
 
   vec3 change = matte * sky_change + (1.0 - matte) * land_change;

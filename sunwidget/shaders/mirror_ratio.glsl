@@ -30,8 +30,8 @@ const float kRoadRoughness = 0.3;
 // (Jerlov 1976): water swallows red.
 const vec3 kBody = vec3(0.008, 0.025, 0.035);
 
-const int kClouds = 5;
-const float kCloudShare = 0.6;  // the steeper facets mirror the sky above them
+const int kClouds = 18;  // three by six
+const float kCloudShare = 0.4;  // the steeper facets mirror the sky above them
 
 // Light of the water itself under an irradiance, of which the surface lets in what it does not
 // reflect.
@@ -51,13 +51,14 @@ void main() {
   vec4 now = texelFetch(mirror_edit, texel, 0);
   vec3 view = GetViewDirection(place);
 
-  // Clouds are mirrored, too, drawn out along the line of sight.
+  // Clouds are mirrored, too, drawn out along the line of sight and blurred across it.
   float facing = GetFacing(view, source_wind_speed);
   float cloud = 0.0;
   for (int i = 0; i < kClouds; ++i) {
-    float higher = (float(i) + 0.5) / float(kClouds);
+    float higher = (float(i / 3) + 0.5) / float(kClouds / 3);
     vec3 up = normalize(vec3(view.x, mix(0.3, 1.5, higher) * facing, view.z));
-    cloud += ReadBilinear(layers, GetPlaceOfDirection(up).xy).g / float(kClouds);
+    vec2 at = GetPlaceOfDirection(up).xy + vec2(0.025 * (float(i % 3) - 1.0 + 0.7 * (higher - 0.5)), 0.0);
+    cloud += ReadPicture(layers, at).g / float(kClouds);
   }
   cloud *= kCloudShare * step(view.y, 0.0);
   float share = GetFresnel(facing);

@@ -1,8 +1,8 @@
 // The sky without the old sun: matched model times the slow residual that the analysis filled
 // across the glare (analysis/backdrop.py). Drawn once a photo. Alpha carries what else the frame
 // asks about the sky of a pixel, so that it reads one map for both: matte, cloud opacity and
-// glare of the old sun. On water it is the water without the old sun's glints, and its waves
-// instead of the glare (water_behind.glsl).
+// glare of the old sun. On water it is the water without the old sun's glints, and what
+// its waves make of glints instead of the glare (water_behind.glsl).
 
 #include "lib/picture.glsl"
 #include "lib/packed.glsl"

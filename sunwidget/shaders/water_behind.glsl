@@ -1,9 +1,10 @@
 // The water without the old sun's glints: its light (water_level.glsl) with the waves of the water
-// beside it, which looks the same as far away. Alpha: how bright a wave is here, 0.5 for the mean of
-// the water around, so that new glints lie on the waves that are there. Drawn once a photo.
+// beside it, which looks the same as far away. Alpha: what waves make of new glints here
+// (lib/waves.glsl), which lie on the waves that are there. Drawn once a photo.
 
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
+#include "lib/waves.glsl"
 
 uniform sampler2D photo;
 uniform sampler2D surface;
@@ -12,7 +13,7 @@ uniform vec2 tile_origin;
 
 out vec4 result;
 
-const int kPlaces = 4;
+const int kPlaces = 6;
 const float kHighestWave = 0.6;  // of natural logarithm
 
 // Inside the picture, mirrored at its sides.
@@ -20,7 +21,7 @@ float Reflect(float x) {
   return 1.0 - abs(1.0 - abs(x));
 }
 
-float GetWave(vec3 light, vec3 level) {
+float GetBrightness(vec3 light, vec3 level) {
   return log(max(GetLuminance(light), 1e-5) / max(GetLuminance(level), 1e-5));
 }
 
@@ -30,11 +31,11 @@ void main() {
   float sum = 0.0;
   float squares = 1e-4;
   for (int i = 0; i < kPlaces; ++i) {
-    float shift = i == 0 ? -0.13 : i == 1 ? 0.17 : i == 2 ? -0.31 : 0.37;
+    float shift = (i % 2 == 0 ? -0.13 : 0.17) + 0.19 * float(i / 2) * (i % 2 == 0 ? -1.0 : 1.0);
     vec2 at = vec2(Reflect(place.x + shift), place.y);
     vec2 marks = ReadPicture(surface, at).gb;
     float weight = smoothstep(0.5, 1.0, marks.x) * (1.0 - marks.y) * (1.0 - marks.y);
-    float wave = GetWave(GetSceneLight(ReadPicture(photo, at).rgb), ReadBilinear(water_level, at).rgb);
+    float wave = GetBrightness(GetSceneLight(ReadPicture(photo, at).rgb), ReadBilinear(water_level, at).rgb);
     sum += weight * clamp(wave, -kHighestWave, kHighestWave);
     squares += weight * weight;
   }
@@ -43,7 +44,8 @@ void main() {
   vec3 own = GetSceneLight(ReadPicture(photo, place).rgb);
   // Where no water is without glints, nothing better is known than what is seen.
   vec3 water = mix(own, level.rgb * exp(wave), smoothstep(0.0, 0.01, level.a));
-  float seen = clamp(GetWave(own, level.rgb), -kHighestWave, kHighestWave);
+  float seen = clamp(GetBrightness(own, level.rgb), -kHighestWave, kHighestWave);
   wave = mix(seen, wave, ReadPicture(surface, place).b);
-  result = vec4(water, 0.5 + 0.5 * wave / kHighestWave);
+  float sparkle = GetLogSparkle(GetViewDirection(place), 0.5 + 0.5 * wave / kHighestWave);
+  result = vec4(water, EncodeSparkle(sparkle));
 }
