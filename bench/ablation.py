@@ -1,6 +1,7 @@
 """What each effect adds: the score against rendered truth with every effect off in turn.
 
-usage: python bench/ablation.py [--truth FOLDER ...] [--hints] [--only NAME,NAME] [--json OUT]
+usage: python bench/ablation.py [--truth FOLDER ...] [--hints] [--only NAME,NAME] [--width N]
+                                [--json OUT]
 
 The score is that of the shared tool ``score_relight.py``, means over all moves of all scenes: skill
 and ΔE00 of sky and land, and the angle between the mean colours. A row "without X" is the
@@ -115,21 +116,31 @@ def subjects(folder: Path, *, hints: bool) -> Iterator[Subject]:
         yield Subject(told["scene"], scene, photo, alpha > 250, alpha < 5, moves)
 
 
-def score_of(score: Any, subject: Subject, changes: dict[str, float]) -> list[dict[str, float]]:
-    """Score each move of ``subject`` with these parameters changed."""
+def score_of(
+    score: Any, subject: Subject, changes: dict[str, float], width: int | None
+) -> list[dict[str, float]]:
+    """Score each move of ``subject`` with these parameters changed, in pictures this wide."""
     rows = []
-    height, width = subject.moves[0].truth.shape[:2]
+    rows_of, columns = subject.moves[0].truth.shape[:2]
+    width = width or columns
+    size = (width, round(rows_of * width / columns))
+    box = Image.Resampling.BOX
 
     def small(image: np.ndarray) -> np.ndarray:
-        if image.shape[1] == width:
-            return image
-        return np.asarray(Image.fromarray(image).resize((width, height), Image.Resampling.BOX))
+        return np.asarray(Image.fromarray(image).resize(size, box))
 
+    sky, land = (
+        small(subject.sky.astype(np.uint8) * 255),
+        small(subject.land.astype(np.uint8) * 255),
+    )
     for move in subject.moves:
         edit = sw.Edit(sun_azimuth=move.azimuth, sun_elevation=move.elevation, **changes)
-        pictures = (small(sw.render(subject.scene, edit)), move.truth, small(subject.photo))
+        # At the truth's own size the photo may be larger: it is drawn whole and then averaged.
+        whole = width == columns
+        drawn = sw.render(subject.scene, edit, size=None if whole else size)
+        pictures = (small(drawn), small(move.truth), small(subject.photo))
         light = [score.linear(image) for image in pictures]
-        rows.append(score.compare(*light, subject.sky, subject.land))
+        rows.append(score.compare(*light, sky > 250, land > 250))
     return rows
 
 
@@ -146,6 +157,7 @@ def main() -> None:
     parser.add_argument("--truth", type=Path, nargs="+", default=[SHARED / "truth"])
     parser.add_argument("--hints", action="store_true", help="tell field of view, horizon and sun")
     parser.add_argument("--only", help="names of effects, separated by commas")
+    parser.add_argument("--width", type=int, help="compare smaller pictures: quicker")
     parser.add_argument("--json", type=Path, help="write the means here, too")
     options = parser.parse_args()
     score = load_score()
@@ -155,7 +167,7 @@ def main() -> None:
     for folder in options.truth:
         for subject in subjects(folder, hints=options.hints):
             for name, changes in edits.items():
-                rows[name] += score_of(score, subject, changes)
+                rows[name] += score_of(score, subject, changes, options.width)
     means = {name: mean(found) for name, found in rows.items()}
     print("| " + " | ".join(["", *MEASURES]) + " |")
     print("|" + "---|" * (len(MEASURES) + 1))
