@@ -91,7 +91,9 @@ void main() {
   // Neighbours start a quarter of a step apart, else the steps show as slices; retouch.glsl averages
   // any four of them.
   ivec2 parity = ivec2(gl_FragCoord.xy) & 1;
-  float offset = 0.125 + 0.5 * float(parity.x ^ parity.y) + 0.25 * float(parity.y);
+  // Within its quarter each starts at random, else large pictures show combs at the fringes.
+  float jitter = float(Hash(uint(gl_FragCoord.x) + Hash(uint(gl_FragCoord.y))) >> 8u) / 16777216.0;
+  float offset = 0.5 * float(parity.x ^ parity.y) + 0.25 * (float(parity.y) + jitter);
   float edge = 0.08 + 0.5 * stride;
 
   vec3 light = vec3(0.0);
