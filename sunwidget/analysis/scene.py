@@ -270,8 +270,12 @@ class Scene:
         small = self.working
         sky = resize(self.sky, small.width, small.height)
         water = resize(self.water, small.width, small.height)
-        azimuth = self.assumed_sun[0] if self.sun is None else self.sun.azimuth
-        maps = (self.glare, self.water, glitter(small, sky, water, column_of(self.camera, azimuth)))
+        # Of a sun that the photo does not show, only a low one ahead would glint.
+        azimuth, elevation = self.assumed_sun
+        column = None if elevation > 15 else column_of(self.camera, azimuth)
+        if self.sun is not None:
+            column = column_of(self.camera, self.sun.azimuth)
+        maps = (self.glare, self.water, glitter(small, sky, water, column))
         level = depth_level.to_level(self._log_depth(width, height))
         return np.stack(
             [*(resize(image, width, height) for image in maps), depth_level.dithered(level)],
