@@ -101,7 +101,9 @@ def behind_sun(
 
     # Where white light hides the sky says little about it, be it cloud or the rim of the glare.
     whiteness = unmix(scene_light, model, cloud_white(fit), np.ones_like(matte))[0]
+    # By day a burnt channel is glare; round a setting sun the sky's red burns by itself.
     white = smoothstep(0.85, 0.95, display @ LUMINANCE)
+    white += smoothstep(4.0, 10.0, np.array(fit.sun[1], np.float32)) * (clipped - white)
     residual = log_residual @ LUMINANCE
     rays = starburst(
         residual, (matte > 0.9) & (clipped < 0.9), _place_of_sun(camera, size, fit.sun)

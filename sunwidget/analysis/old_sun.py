@@ -16,7 +16,7 @@ def largest_halo(white: np.ndarray, sky: np.ndarray, angle: np.ndarray) -> float
     Parameters
     ----------
     white : (h, w) float32
-        Where all channels are burnt, [0, 1]: the red round a setting sun is its sky.
+        Where the photo is burnt, [0, 1].
     sky : (h, w) float32
         Matte.
     angle : (h, w) float32
