@@ -73,7 +73,7 @@ void main() {
   land_change += water_strength * land_marks.r * (water_change - land_change);
 
   vec3 change = matte * sky_change + (1.0 - matte) * land_change;
-  change += GetVeil(scene + change, ReadBilinear(veil, place) * vec4(vec3(term[0].x), 1.0), matte);
+  change += GetVeil(scene + change, term[0].x * ReadBilinear(veil, place), matte);
   change += mix(land_strength, sky_strength, matte) * GetNight() * GetRodShift(scene + change);
   // What was filled where the old sun hid the sky gets the grain of the rest.
   float filled = matte * sky_marks.b * term[0].y * min(sky_strength, 1.0);

@@ -18,13 +18,16 @@ void main() {
   vec2 place = gl_FragCoord.xy / pass_size;
   vec3 sun = GetShaftSun();
   float count = float(textureSize(rings, 0).x);
-  float radius = length((place - sun.xy) * vec2(GetAspect(), 1.0)) / kLargestRing * (count - 1.0);
+  float apart = length((place - sun.xy) * vec2(GetAspect(), 1.0));
+  float radius = apart / kLargestRing * (count - 1.0);
   int inner = int(clamp(radius, 0.0, count - 2.0));
   vec4 ring = mix(texelFetch(rings, ivec2(inner, 0), 0), texelFetch(rings, ivec2(inner + 1, 0), 0),
                   clamp(radius - float(inner), 0.0, 1.0));
   // Hardly a ring in the picture tells no mean.
   vec2 shaft = GetShaft(place, sun.xy);
   float known = smoothstep(0.5, 4.0, ring.g) * smoothstep(0.0, 0.3, shaft.y);
+  // Beside the sun beams are too short to be told from its glow, and would turn with each pixel of a drag.
+  known *= smoothstep(0.03, 0.3, apart);
   float distance = exp2(16.0 * ReadBilinear(surface, place).a);
   float air = mix(1.0 - (1.0 - kLeastAir) * exp(-distance / kMuchAir), 1.0, ReadBilinear(layers, place).r);
   float haze = GetHazeLight(dot(GetViewDirection(place), GetSunDirection(sun_azimuth, sun_elevation)));

@@ -1,6 +1,6 @@
 // What the camera and the air between put before the whole picture: glow, light shafts and lens
 // flare, now minus with the photo's own sun. Soft, so a quarter of the size is enough. Alpha: the
-// share of it that the sky has already (its glare was measured in the photo: lib/camera_glare.glsl).
+// luminance of it without the glow.
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
@@ -71,8 +71,5 @@ void main() {
   float flaring = lens_flare * first.y * visible_now * step(0.0, at.z);
   vec3 flare = flaring * beam_now * GetFlare((place - 0.5) * scale_of_place, (at.xy - 0.5) * scale_of_place);
 
-  vec3 veil = glare + shafts + flare;
-  float known = step(1e-6, glare_profile.x) * GetLuminance(glare) / max(abs(GetLuminance(veil)), 1e-20)
-      * sign(GetLuminance(veil));
-  result = vec4(veil, clamp(known, 0.0, 1.0));
+  result = vec4(glare + shafts + flare, GetLuminance(shafts + flare));
 }
