@@ -105,8 +105,8 @@ def subjects(folder: Path, *, hints: bool) -> Iterator[Subject]:
         alpha = np.asarray(matte.resize((width, height), Image.Resampling.BOX))
         known = {
             "fov": told["fov_v_deg"],
-            "horizon": told["horizon_row"] * zoom,
-            "sun": (own["sun_x"] * zoom, own["sun_y"] * zoom),
+            "horizon": told["horizon_row"],
+            "sun": (own["sun_x"], own["sun_y"]),
         }
         scene = sw.analyze(photo, **(known if hints else {}))
         moves = [
