@@ -25,7 +25,7 @@ void main() {
                   clamp(radius - float(inner), 0.0, 1.0));
   // Hardly a ring in the picture tells no mean.
   vec2 shaft = GetShaft(place, sun.xy);
-  float known = smoothstep(0.5, 4.0, ring.g) * smoothstep(0.0, 0.3, shaft.y);
+  float known = smoothstep(0.5, 4.0, ring.g) * smoothstep(0.25, 0.75, shaft.y);
   // Beside the sun beams are too short to be told from its glow, and would turn with each pixel of a drag.
   known *= smoothstep(0.03, 0.3, apart);
   float distance = exp2(16.0 * ReadBilinear(surface, place).a);
