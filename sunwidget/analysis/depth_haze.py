@@ -39,7 +39,8 @@ def airlight(view: View) -> np.ndarray:
     if not band.any():
         dark = linear.min(axis=-1)
         brightest = dark >= np.quantile(dark, 0.999)
-        return np.broadcast_to(linear[brightest].mean(axis=0), (width, 3)).astype(np.float32)
+        light = np.maximum(linear[brightest].mean(axis=0), 1e-3)
+        return np.broadcast_to(light, (width, 3)).astype(np.float32)
     # Columns without such sky take their neighbours': normalised convolution over a third of them.
     weight = band.astype(np.float32)
     columns = np.empty((1, width, 4), np.float32)

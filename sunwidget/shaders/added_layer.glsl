@@ -8,6 +8,7 @@
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
 #include "lib/daylight.glsl"
+#include "lib/extinction.glsl"
 #include "lib/cloud_layer.glsl"
 #include "lib/forward_lobe.glsl"
 #include "lib/response.glsl"
@@ -17,6 +18,7 @@ uniform vec3 cloud_gain;
 uniform vec2 pass_size;
 uniform float source_sun_azimuth;
 uniform float source_sun_elevation;
+uniform float source_rayleigh_scale_height;
 
 out vec4 result;
 
@@ -55,12 +57,14 @@ float GetKnown(float size, float footprint) {
   return 1.0 - smoothstep(0.2 * size, 0.6 * size, footprint);
 }
 
+// The photo's own air, as all that is changed before the sun is moved.
 vec3 GetAirBefore(float far) {
   float top = 1000.0 * added_cloud_height;
-  vec4 depth = GetRayleighScattering() * rayleigh_scale_height * (1.0 - exp(-top / rayleigh_scale_height))
-      + GetMieExtinction() * aerosol_scale_height * (1.0 - exp(-top / aerosol_scale_height));
-  vec4 through = exp(-depth * far / added_cloud_height);
-  return vec3(through.x, 0.5 * (through.y + through.z), through.w);
+  vec3 depth = GetExtinction(source_air_density, 0.0, 1.0, 0.0) * source_rayleigh_scale_height
+      * (1.0 - exp(-top / source_rayleigh_scale_height));
+  depth += GetExtinction(0.0, source_aerosol_optical_depth, source_aerosol_scale_height, source_angstrom_exponent)
+      * source_aerosol_scale_height * (1.0 - exp(-top / source_aerosol_scale_height));
+  return exp(-depth * far / added_cloud_height);
 }
 
 void main() {

@@ -6,7 +6,7 @@ from importlib.resources import files
 
 import pytest
 
-from sunwidget.edit import METHODS, NUMBERS
+from sunwidget.edit import METHODS, NUMBERS, PARAMETERS
 from sunwidget.explorer.table import EXPLORER_PARAMETERS, MODELS
 from sunwidget.renderer import shader_source
 from sunwidget.renderer.shader_source import frame_graph, read_shader, resolve_includes
@@ -187,7 +187,7 @@ def test_each_pass_hands_every_sampler_its_input_and_no_other():
 
 @pytest.mark.parametrize("shader", SHADERS)
 def test_every_uniform_has_a_source_for_its_value(shader):
-    parameters = {p.name for p in NUMBERS} | {"method", "light_source"}
+    parameters = {p.name for p in PARAMETERS if p.kind in ("number", "choice")}
     edits = parameters | {f"source_{name}" for name in parameters}
     edits |= set(frame_graph()["scene_uniforms"]) | HOST_UNIFORMS
     explorers = {p.name for p in EXPLORER_PARAMETERS if p.kind != "data"} | HOST_UNIFORMS

@@ -1,28 +1,16 @@
 // The air before distant land (aerial perspective), by the strips that air.glsl draws.
 
 #include "lib/atmosphere.glsl"
+#include "lib/extinction.glsl"
 
 uniform sampler2D air_source;
 uniform sampler2D air_edit;
 uniform float aerial_perspective;
-uniform float source_air_density;
-uniform float source_aerosol_optical_depth;
-uniform float source_aerosol_scale_height;
-uniform float source_angstrom_exponent;
 
-// Rayleigh scattering at the ground where Rec. 709's primaries lie (612, 549, 465 nm), 1/m
-// (Bodhaine et al. 1999), and log2 of those wavelengths over 550 nm.
-const vec3 kAirScattering = vec3(7.5e-6, 1.17e-5, 2.32e-5);
-const vec3 kWavelengthSteps = vec3(0.154, -0.0026, -0.242);
 // Depth is a guess where it is large: beyond this it counts ever less.
 const float kFarthestAir = 15000.0;  // m
 // A pixel is no darker than the air before it, so that this share of it at most is air.
 const float kLargestShare = 0.9;
-
-// Extinction at the ground, 1/m per channel.
-vec3 GetExtinction(float density, float optical_depth, float scale_height, float exponent) {
-  return density * kAirScattering + optical_depth / scale_height * exp2(-exponent * kWavelengthSteps);
-}
 
 // What the air adds to relit land when sun or haze change. `light` is the pixel's light, `gain` the
 // land's own ratio. Koschmieder 1924: I = J t + A (1 - t) with t = exp(-extinction * distance), so
