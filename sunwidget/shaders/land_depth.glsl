@@ -1,7 +1,8 @@
-// The land's log-depth at an eighth of the size, for the march of shadow.glsl: r the level, g how
-// much of the texel is land. Drawn once a photo.
+// The land's log-depth at an eighth of the size, for the march of shadow.glsl, laid out as
+// lib/land_depth.glsl says. Drawn once a photo.
 
 #include "lib/picture.glsl"
+#include "lib/land_depth.glsl"
 
 uniform sampler2D surface;
 uniform sampler2D layers;
@@ -11,14 +12,14 @@ out vec4 result;
 
 const int kSamples = 4;
 
-void main() {
+vec2 GetLandDepth(vec2 middle) {
   float level = 0.0;
   float land = 0.0;
   float weight = 1e-6;
   for (int row = 0; row < kSamples; ++row) {
     for (int column = 0; column < kSamples; ++column) {
       vec2 inside = (vec2(column, row) + 0.5) / float(kSamples) - 0.5;
-      vec2 place = (gl_FragCoord.xy + inside) / pass_size;
+      vec2 place = (middle + inside) / pass_size;
       // The sky of a texel has its depth from the land beside it: only land counts where there is some.
       float here = 1.0 - ReadPicture(layers, place).r;
       level += (here + 1e-6) * ReadPicture(surface, place).a;
@@ -26,5 +27,15 @@ void main() {
       land += here;
     }
   }
-  result = vec4(level / weight, land / float(kSamples * kSamples), 0.0, 1.0);
+  return vec2(level / weight, land / float(kSamples * kSamples));
+}
+
+void main() {
+  vec2 here = gl_FragCoord.xy;
+  vec2 next = min(here + 1.0, pass_size - 0.5);
+  vec2 right = GetLandDepth(vec2(next.x, here.y));
+  vec2 below = GetLandDepth(vec2(here.x, next.y));
+  vec2 beyond = GetLandDepth(next);
+  vec2 own = GetLandDepth(here);
+  result = PackLandDepth(vec4(own.x, right.x, below.x, beyond.x), vec4(own.y, right.y, below.y, beyond.y));
 }

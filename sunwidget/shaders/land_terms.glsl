@@ -7,6 +7,7 @@
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
+#include "lib/land_depth.glsl"
 #include "lib/matched_sky.glsl"
 #include "lib/daylight.glsl"
 
@@ -37,7 +38,7 @@ vec2 GetMean(sampler2D shadow, float visible) {
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       vec2 place = (vec2(column, row) + 0.5) / vec2(kColumns, kRows);
-      sum += ReadBilinear(land_depth, place).g * vec3(ReadBilinear(shadow, place).rg, 1.0);
+      sum += ReadLandDepth(land_depth, place).g * vec3(ReadBilinear(shadow, place).rg, 1.0);
     }
   }
   return sum.xy / sum.z;

@@ -9,11 +9,10 @@
 // Clouds: where the ray leaves through the clouds' layer is seen from the camera elsewhere in the sky.
 
 #include "lib/picture.glsl"
-#include "lib/cloud_cover.glsl"
+#include "lib/land_depth.glsl"
 #include "lib/sky.glsl"
 
-uniform sampler2D layers;
-uniform sampler2D surface;
+uniform sampler2D openness;
 uniform sampler2D land_depth;
 uniform float sun_azimuth;
 uniform float sun_elevation;
@@ -26,8 +25,6 @@ const float kOctaves = 5.0;      // of depth that a march spans, in ever longer 
 const float kClearance = 0.05;   // octaves that the ray passes behind land before it counts
 const float kThickness = 0.8;    // octaves behind its face at which land ends
 const float kCloudHeight = 1500.0;
-const int kCloudTaps = 3;        // by as many
-const float kCloudPenumbra = 0.03;  // half-width of the taps, in heights of the picture
 
 // In camera coordinates: x right, y down, z forward.
 vec3 GetCameraDirection(vec3 direction) {
@@ -45,7 +42,7 @@ float GetLandHiding(vec2 place, float level, vec3 sun) {
     if (at.z < 0.02) break;
     vec2 seen = vec2(0.5 + at.x / at.z * camera_focal / aspect, 0.5 + at.y / at.z * camera_focal);
     vec2 outside = max(-seen, seen - 1.0);
-    vec4 land = ReadBilinear(land_depth, seen);
+    vec2 land = ReadLandDepth(land_depth, seen);
     float behind = 16.0 * (level - land.r) + log2(at.z / (1.0 - share));
     float soft = 0.1 + 0.6 * share;
     float hit = smoothstep(kClearance, kClearance + soft, behind)
@@ -58,7 +55,7 @@ float GetLandHiding(vec2 place, float level, vec3 sun) {
   if (sun.z > 0.02) {
     vec2 seen = vec2(0.5 + sun.x / sun.z * camera_focal / aspect, 0.5 + sun.y / sun.z * camera_focal);
     vec2 outside = max(-seen, seen - 1.0);
-    vec4 land = ReadBilinear(land_depth, seen);
+    vec2 land = ReadLandDepth(land_depth, seen);
     float farther = smoothstep(2.0, 4.0, 16.0 * (land.r - level));
     float inside = 1.0 - smoothstep(0.0, 0.1, max(outside.x, outside.y));
     hidden = max(hidden, smoothstep(0.2, 0.8, land.g) * farther * inside);
@@ -72,24 +69,13 @@ float GetCloudHiding(vec3 position, vec3 sun) {
   vec3 seen = GetPlaceOfDirection(leaves);
   vec2 outside = max(-seen.xy, seen.xy - 1.0);
   float inside = step(0.0, seen.z) * (1.0 - smoothstep(-0.05, 0.1, max(outside.x, outside.y)));
-  float sum = 0.0;
-  for (int row = 0; row < kCloudTaps; ++row) {
-    for (int column = 0; column < kCloudTaps; ++column) {
-      vec2 aside = (vec2(column, row) - 1.0) * kCloudPenumbra;
-      vec2 at = seen.xy + aside * vec2(frame_size.y / frame_size.x, 1.0);
-      float matte = ReadBilinear(layers, at).r;
-      // Where the sun's glare burnt the photo its whiteness is no cloud; land before the sky tells nothing.
-      sum += min(GetCloudOpacity(layers, at) / max(matte, 0.05), 1.0) * smoothstep(0.0, 0.5, matte)
-          * (1.0 - 0.8 * ReadBilinear(surface, at).r);
-    }
-  }
-  return inside * sum / float(kCloudTaps * kCloudTaps);
+  return inside * ReadBilinear(openness, seen.xy).b;
 }
 
 void main() {
   vec2 place = gl_FragCoord.xy / pass_size;
   vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
-  float level = ReadBilinear(land_depth, place).r;
+  float level = ReadLandDepth(land_depth, place).r;
   float hidden = GetLandHiding(place, level, GetCameraDirection(sun));
   vec3 view = GetViewDirection(place);
   float along = exp2(16.0 * level) / max(dot(view, vec3(camera_right.z, camera_up.z, camera_forward.z)), 0.1);
