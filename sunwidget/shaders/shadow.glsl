@@ -44,10 +44,10 @@ float GetLandHiding(vec2 place, float level, vec3 sun) {
     vec2 outside = max(-seen, seen - 1.0);
     vec2 land = ReadLandDepth(land_depth, seen);
     float behind = 16.0 * (level - land.r) + log2(at.z / (1.0 - share));
-    float soft = 0.1 + 0.6 * share;
+    float soft = 0.2 + 0.8 * share;
     float hit = smoothstep(kClearance, kClearance + soft, behind)
         * (1.0 - smoothstep(kThickness, 3.0 * kThickness, behind))
-        * smoothstep(0.2, 0.7, land.g)
+        * smoothstep(0.0, 0.9, land.g)
         * (1.0 - smoothstep(-0.02, 0.0, max(outside.x, outside.y)));
     hidden = max(hidden, hit);
   }

@@ -40,8 +40,8 @@ void main() {
   vec4 first = texelFetch(terms, ivec2(0), 0);
   vec3 sun_before = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
-  float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;
-  float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
+  float glowing_before = texelFetch(visibility_source, ivec2(0), 0).g;
+  vec2 visible_now = texelFetch(visibility_edit, ivec2(0), 0).rg;
   vec3 scale = GetLightScale(GetMoon());
   // The gain of each channel was fitted to the sky and holds what that sky had of its own; what is
   // added gets the sun's colour and the gain of all three.
@@ -49,7 +49,7 @@ void main() {
   vec3 beam_before = gain * GetLightTexel(light_before, 1);
   vec3 beam_now = gain * scale * GetLightTexel(light_edit, 1);
   float strength = scale.g * GetGlareStrength(GetLightRatio(GetLightTexel(light_edit, 1), GetLightTexel(light_before, 1)),
-      GetLightRatio(GetLightTexel(light_edit, 0), GetLightTexel(light_before, 0)), visible_now);
+      GetLightRatio(GetLightTexel(light_edit, 0), GetLightTexel(light_before, 0)), visible_now.g);
 
   // What the old sun's veil put into the photo was relit with the land and goes as it is by now.
   float relit = GetLuminance(texelFetch(terms, ivec2(3, 0), 0).rgb) / max(GetLuminance(texelFetch(terms, ivec2(1, 0), 0).rgb), 1e-20);
@@ -57,8 +57,8 @@ void main() {
 
   float shaft_before = ReadBilinear(shafts_source, place).r;
   float shaft_now = ReadBilinear(shafts_edit, place).r;
-  vec3 glare = GetGlowOf(view, sun_now, visible_now * beam_now, strength)
-      - GetGlowOf(view, sun_before, visible_before * left, visible_before * relit);
+  vec3 glare = GetGlowOf(view, sun_now, visible_now.g * beam_now, strength)
+      - GetGlowOf(view, sun_before, glowing_before * left, glowing_before * relit);
   vec3 shafts = shaft_now * beam_now - shaft_before * left;
   // Two texts of one formula need not agree to the bit.
   bool same = first.w > 0.5;
@@ -68,7 +68,7 @@ void main() {
   vec3 at = GetPlaceOfDirection(sun_now);
   vec2 scale_of_place = vec2(frame_size.x / frame_size.y, 1.0);
   // The photo's own flare stays where it is: nobody knows it. The new one comes as the sun moves.
-  float flaring = lens_flare * first.y * visible_now * step(0.0, at.z);
+  float flaring = lens_flare * first.y * visible_now.r * step(0.0, at.z);
   vec3 flare = flaring * beam_now * GetFlare((place - 0.5) * scale_of_place, (at.xy - 0.5) * scale_of_place);
 
   result = vec4(glare + shafts + flare, GetLuminance(shafts + flare));
