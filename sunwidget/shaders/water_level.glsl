@@ -1,6 +1,6 @@
 // The light of the water without the old sun's glints, slowly varying: the mean of the logarithms of
-// the water about as far away, that is in the same rows, where the photo does not glitter. An eighth
-// of the size, drawn once a photo.
+// the water about as far away, that is in the same rows, where the photo does not glitter. Of one size
+// for all pictures, so that a large one has the preview's water; drawn once a photo.
 
 #include "lib/picture.glsl"
 #include "lib/response.glsl"

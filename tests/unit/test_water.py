@@ -256,3 +256,15 @@ def test_water_is_rougher_where_it_glitters_wider():
     assert rough[0] < 0.5 * rough[1]
     flat = Working(np.full((160, 240, 3), 0.2, np.float32), linear, linear, (1, 1))
     assert roughness(flat, water.astype(np.float32), camera, (0.0, 12.0)) == 1
+
+
+def test_a_large_picture_has_the_water_of_its_preview():
+    coast = sample_scene("coast")
+    edit = sw.Edit(sun_azimuth=20, sun_elevation=25)
+    small, large = (
+        sw.render(coast, edit, size=size, dtype="float32") for size in ((300, 200), (1200, 800))
+    )
+    large = cv2.resize(large, (300, 200), interpolation=cv2.INTER_AREA)
+    water = cv2.resize(coast.water.astype(np.float32), (300, 200)) > 0.9
+    codes = [255 * np.clip(light[water], 0, 1) ** (1 / 2.2) for light in (small, large)]
+    assert np.abs(codes[1] - codes[0]).mean() < 2  # of 255
