@@ -177,7 +177,8 @@ def clouds_behind_sun(
     trust = (weight * (1 - blind)).astype(np.float32)
     trust *= clearness(opacity, trust, mark, angle_to_sun(camera, size, fit.sun))
     behind = fill_by_pyramid(opacity[..., None], trust)[..., 0]
-    return np.asarray(opacity + np.sqrt(blind) * (behind - opacity), np.float32)
+    mixed = opacity + np.sqrt(blind) * (behind - opacity)
+    return np.clip(mixed, 0, 1).astype(np.float32)  # rounding leaves it by a hair
 
 
 def clearness(
