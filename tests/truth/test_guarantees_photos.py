@@ -9,7 +9,8 @@ import sunwidget as sw
 from sunwidget.edit import Edit
 from sunwidget.renderer import render, render_pass
 
-pytestmark = pytest.mark.shared
+# Fifty photos on two busy cores.
+pytestmark = [pytest.mark.shared, pytest.mark.timeout(900)]
 SIDE = 160
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 MOVED = Edit(sun_azimuth=-20, sun_elevation=6)
