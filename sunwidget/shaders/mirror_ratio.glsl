@@ -74,6 +74,6 @@ void main() {
   // Burnt glints are white in the photo, whatever their colour was.
   vec3 bleached = gleam / GetLuminance(gleam);
   shine *= 1.0 + marks.b * texelFetch(terms, ivec2(0, 0), 0).y * (bleached - 1.0);
-  float known = marks.g * step(1e-6, water_strength);
+  float known = marks.g * water_strength;
   result = vec4(shine + known * (water - shine), glitter * now.a);
 }
