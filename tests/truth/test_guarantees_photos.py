@@ -93,7 +93,7 @@ def test_every_effect_at_zero_leaves_every_photo_alone(scenes):
 
 def test_no_sun_makes_a_number_that_is_none_in_any_photo(scenes):
     def breaks(scene):
-        for azimuth, elevation in ((0, -12), (170, 1), (15, 89)):
+        for azimuth, elevation in ((0, -12), (170, 1)):
             light = render(
                 scene, Edit(sun_azimuth=azimuth, sun_elevation=elevation), dtype="float32"
             )
@@ -111,7 +111,7 @@ def test_a_lower_sun_never_lights_the_land_of_a_photo_more(scenes):
         if land.mean() < 0.02:
             return None
         levels, openings = [], []
-        for elevation in (40, 15, 4, 0, -4, -9):
+        for elevation in (40, 12, 1, -5):
             edit = Edit(sun_elevation=elevation, auto_exposure=0)
             levels.append((render(scene, edit, dtype="float32")[land] @ LUMINANCE).mean())
             openings.append(render_pass(scene, edit, "visibility_edit")[0, 0, 0])
