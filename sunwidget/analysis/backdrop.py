@@ -21,9 +21,9 @@ from sunwidget.analysis.camera_glare import (
     with_glare,
 )
 from sunwidget.analysis.fit import SkyFit, view_angles
-from sunwidget.analysis.old_sun import largest_halo, old_sun_mark, smoothstep, starburst
+from sunwidget.analysis.old_sun import largest_halo, old_sun_mark, starburst
 from sunwidget.analysis.unmix import cloud_white, unmix
-from sunwidget.analysis.working import LUMINANCE, Working, resize
+from sunwidget.analysis.working import LUMINANCE, Working, resize, smoothstep
 from sunwidget.camera import Camera
 
 RANGE = 2.0

@@ -21,6 +21,7 @@ from sunwidget.analysis.depth_level import fill_sky
 from sunwidget.analysis.depth_network import DepthNetwork
 from sunwidget.analysis.depth_view import View
 from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.sky import check_proportions
 from sunwidget.analysis.working import LUMINANCE
 
 FAR_CONTACT = 3_000.0  # metres: what stands on the horizon itself is taken to be no farther
@@ -136,13 +137,7 @@ def given(value: Any, size: tuple[int, int]) -> np.ndarray | DepthNetwork | None
         )
     if not np.isfinite(array).any():
         raise AnalysisError("The depth map is infinite everywhere; give metres where land is.")
-    ratio = array.shape[1] / array.shape[0] * size[1] / size[0]
-    slack = 1 + 1.5 / min(array.shape) + 1.5 / min(size)
-    if not 1 / slack <= ratio <= slack:
-        raise AnalysisError(
-            f"The depth map is {array.shape[1]} × {array.shape[0]}, the photo {size[0]} × "
-            f"{size[1]}: shapes must agree. Was one of them rotated?"
-        )
+    check_proportions("depth map", array.shape, size)
     return array
 
 

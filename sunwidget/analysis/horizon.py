@@ -265,9 +265,20 @@ def above(camera: Camera, width: int, height: int) -> np.ndarray:
     The edge lies 0.8 % of the height under the line, so that a line a little too high cuts
     nothing off the sky.
     """
+    line, rows = _line_and_rows(camera, width, height)
+    return np.clip((line + 0.012 - rows) / 0.008, 0, 1).astype(np.float32)
+
+
+def below(camera: Camera, width: int, height: int) -> np.ndarray:
+    """Whether each pixel of a picture of this size lies below the horizon: (height, width) bool."""
+    line, rows = _line_and_rows(camera, width, height)
+    return np.asarray(rows > line)
+
+
+def _line_and_rows(camera: Camera, width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the horizon's height in each column (width,), and of each row (height, 1)."""
     (x0, y0), (x1, y1) = camera.pixel(-10.0, 0.0), camera.pixel(10.0, 0.0)
     slope = (y1 - y0) / (x1 - x0)
     columns = (np.arange(width) + 0.5) * camera.width / width
     line = (y0 + slope * (columns - x0)) / camera.height
-    rows = ((np.arange(height) + 0.5) / height)[:, None]
-    return np.clip((line + 0.012 - rows) / 0.008, 0, 1).astype(np.float32)
+    return line, ((np.arange(height) + 0.5) / height)[:, None]

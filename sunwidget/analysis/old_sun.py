@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from sunwidget.analysis.working import smoothstep
+
 _LARGEST_HALO = 22.0  # degrees; what is wider is sky or cloud
 _LEAST_HALO = 6.0  # degrees, round a sun that burnt nothing
 _ANGLES = 256  # of the polar picture
@@ -150,9 +152,3 @@ def starburst(residual: np.ndarray, sky: np.ndarray, centre: tuple[float, float]
     )
     fade = 1 - smoothstep(0.75 * reach, 0.95 * reach, distance)
     return np.asarray(np.clip(found * fade * sky, 0, 1), np.float32)
-
-
-def smoothstep(low: float, high: float, x: np.ndarray) -> np.ndarray:
-    """Rise from 0 at ``low`` to 1 at ``high`` without corners."""
-    t = np.clip((x - low) / (high - low), 0, 1)
-    return t * t * (3 - 2 * t)

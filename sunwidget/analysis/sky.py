@@ -148,11 +148,16 @@ def mask_from(mask: Any, size: tuple[int, int] | None = None, of: str = "sky") -
     if not boolean and array.max() > 1:
         array = array / (255 if array.max() <= 255 else 65535)
     if size is not None:
-        ratio = array.shape[1] / array.shape[0] * size[1] / size[0]
-        slack = 1 + 1.5 / min(array.shape) + 1.5 / min(size)
-        if not 1 / slack <= ratio <= slack:
-            raise AnalysisError(
-                f"The {of} mask is {array.shape[1]} × {array.shape[0]}, the photo "
-                f"{size[0]} × {size[1]}: shapes must agree. Was one of them rotated?"
-            )
+        check_proportions(f"{of} mask", array.shape, size)
     return np.clip(array, 0, 1)
+
+
+def check_proportions(name: str, shape: tuple[int, ...], size: tuple[int, int]) -> None:
+    """Raise AnalysisError unless a map of ``shape`` (h, w) fits a photo of ``size`` (w, h)."""
+    ratio = shape[1] / shape[0] * size[1] / size[0]
+    slack = 1 + 1.5 / min(shape) + 1.5 / min(size)
+    if not 1 / slack <= ratio <= slack:
+        raise AnalysisError(
+            f"The {name} is {shape[1]} × {shape[0]}, the photo {size[0]} × {size[1]}: "
+            "shapes must agree. Was one of them rotated?"
+        )

@@ -11,8 +11,8 @@ from collections.abc import Callable
 import numpy as np
 
 from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.water_look import Look, smoothstep
-from sunwidget.analysis.working import Working, resize
+from sunwidget.analysis.water_look import Look
+from sunwidget.analysis.working import Working, resize, smoothstep
 
 _RADIUS = 5  # px of the working copy: how far the edge of the mask follows the picture
 _EPSILON = 1e-4

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.working import LUMINANCE, Working, resize
+from sunwidget.analysis.working import LUMINANCE, Working, resize, smoothstep
 
 SIDE = 256  # px: waves average out, and a hundredth of a second is enough
 _SHARES = (0.15, 0.5, 1.0)  # of the way up to the exact reflection
@@ -165,12 +165,6 @@ class Look:
         excess = self.glint_columns
         narrow = float(np.mean(excess > 0.5 * excess.max())) < 0.3
         return float(smoothstep(0.4, 1.0, excess.max()) * smoothstep(0.4, 0.7, level)) * narrow
-
-
-def smoothstep(low: float, high: float, x: np.ndarray | float) -> np.ndarray:
-    """Hermite step from 0 at ``low`` to 1 at ``high``."""
-    t = np.clip((x - low) / (high - low), 0, 1)
-    return np.asarray(t * t * (3 - 2 * t), np.float32)
 
 
 def _sheared(image: np.ndarray, shear: np.ndarray) -> np.ndarray:

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sunwidget.analysis import horizon
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.refine import SIDE, paint
 from sunwidget.analysis.strokes import set_strokes
 from sunwidget.analysis.water import soft_edged
 from sunwidget.analysis.working import resize, shrink
-from sunwidget.camera import Camera
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -45,7 +45,7 @@ def with_water(base: Scene, scene: Scene, strokes: tuple[Stroke, ...]) -> Scene:
     image = shrink(scene.working.bytes, SIDE)
     size = image.shape[1], image.shape[0]
     start = resize(scene.water, *size) > 0.5
-    ground = (resize(scene.sky, *size) < 0.5) & below_horizon(scene.camera, *size)
+    ground = (resize(scene.sky, *size) < 0.5) & horizon.below(scene.camera, *size)
     water = start.copy()
     said = np.full(start.shape, -1, np.int8)
     for stroke in ours:
@@ -65,14 +65,6 @@ def with_water(base: Scene, scene: Scene, strokes: tuple[Stroke, ...]) -> Scene:
         unstroked=base,
         memory=Memory(),
     )
-
-
-def below_horizon(camera: Camera, width: int, height: int) -> np.ndarray:
-    """Whether each pixel of a picture of this size lies below the horizon: (height, width) bool."""
-    (x0, y0), (x1, y1) = camera.pixel(-10.0, 0.0), camera.pixel(10.0, 0.0)
-    columns = (np.arange(width) + 0.5) * camera.width / width
-    line = (y0 + (y1 - y0) / (x1 - x0) * (columns - x0)) / camera.height
-    return np.asarray(((np.arange(height) + 0.5) / height)[:, None] > line)
 
 
 def _around(changed: np.ndarray, size: tuple[int, int]) -> np.ndarray:

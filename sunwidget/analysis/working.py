@@ -22,6 +22,12 @@ def encode(linear: np.ndarray) -> np.ndarray:
     ).astype(np.float32)
 
 
+def smoothstep(low: float, high: float, x: np.ndarray | float) -> np.ndarray:
+    """Rise from 0 at ``low`` to 1 at ``high`` without corners (Hermite), in the type of ``x``."""
+    t = np.clip((x - low) / (high - low), 0, 1)
+    return np.asarray(t * t * (3 - 2 * t))
+
+
 def saturation(encoded: np.ndarray) -> np.ndarray:
     """Saturation of HSI of encoded colours (…, 3): 0 grey, 1 pure, and 1 in black."""
     # Three planes, as NumPy's minimum over a last axis of three takes twenty times as long.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sunwidget.analysis.fit import view_angles
-from sunwidget.analysis.working import resize
+from sunwidget.analysis.working import resize, smoothstep
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -30,14 +30,14 @@ def labels_of(scene: Scene) -> dict[str, np.ndarray]:
     total = np.maximum(small.encoded.sum(-1), 1e-3)
     # Excess green (Woebbecke et al. 1995) tells leaves and grass; in the dark it is noise.
     excess = (2 * small.encoded[..., 1] - small.encoded[..., 0] - small.encoded[..., 2]) / total
-    green = _smoothstep(0.03, 0.15, excess) * _smoothstep(0.08, 0.25, total)
+    green = smoothstep(0.03, 0.15, excess) * smoothstep(0.08, 0.25, total)
     plants = green * (land - water)
     elevation = view_angles(scene.camera, *size)[1]
-    below = _smoothstep(0.0, -1.5, elevation)
+    below = smoothstep(0.0, -1.5, elevation)
     flat = _ground(scene.camera.resized(*size))
     depth = resize(np.minimum(scene.depth, _FAR), *size)
     # What is much nearer than the ground would be here stands on it.
-    lying = below * _smoothstep(0.5, 0.8, depth / flat)
+    lying = below * smoothstep(0.5, 0.8, depth / flat)
     ground = lying * (land - water - plants)
     parts = (ground, land - water - plants - ground, plants, water)
     return {n: _soft(p, small.encoded) for n, p in zip(LABELS, parts, strict=True)}
@@ -58,8 +58,3 @@ def _soft(label: np.ndarray, guide: np.ndarray) -> np.ndarray:
     radius = max(2, round(0.012 * max(label.shape)))
     label = label.astype(np.float32)
     return np.clip(cv2.ximgproc.guidedFilter(guide, label, radius, 1e-3), 0, 1)
-
-
-def _smoothstep(low: float, high: float, x: np.ndarray) -> np.ndarray:
-    t = np.clip((x - low) / (high - low), 0, 1)
-    return np.asarray(t * t * (3 - 2 * t), np.float32)
