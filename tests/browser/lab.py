@@ -12,6 +12,7 @@ import urllib.request
 from contextlib import contextmanager
 
 import nbformat
+from chromium import PATIENCE
 
 _PATIENCE = 120  # s
 
@@ -92,6 +93,25 @@ def _wait_until_up(process, status, log):
         except OSError:
             time.sleep(0.5)
     raise RuntimeError(f"JupyterLab did not start:\n{log.read_text()[-4000:]}")
+
+
+def lab_page(context):
+    """A page for JupyterLab that answers the questions Lab asks on a slow machine.
+
+    A dialog lies over everything until it is answered: whether to keep waiting for a slow
+    start, which kernel to take, that something failed. What was asked is printed.
+    """
+    page = context.new_page()
+    page.set_default_timeout(PATIENCE)
+    dialog = page.locator(".jp-Dialog").first
+
+    def answer():
+        print(f"JupyterLab asks: {dialog.inner_text()!r}")
+        wait = dialog.get_by_role("button", name="Keep Waiting")
+        (wait if wait.count() else dialog.locator("button.jp-mod-accept")).first.click()
+
+    page.add_locator_handler(dialog, answer)
+    return page
 
 
 def write_notebook(path, cells):

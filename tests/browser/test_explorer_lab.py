@@ -4,8 +4,8 @@ import json
 
 import numpy as np
 import pytest
-from chromium import PATIENCE, picture_of
-from lab import jupyterlab, write_notebook
+from chromium import picture_of
+from lab import jupyterlab, lab_page, write_notebook
 from PIL import Image
 from test_jupyterlab import run_cell, run_cell_that_writes
 
@@ -37,8 +37,7 @@ def test_the_explorer_in_jupyterlab_draws_what_the_kernel_draws(
             viewport={"width": 1400, "height": 1100},
             permissions=["clipboard-read", "clipboard-write"],
         )
-        page = context.new_page()
-        page.set_default_timeout(PATIENCE)
+        page = lab_page(context)
         try:
             page.goto(url("sky.ipynb"))
             page.locator(".jp-Notebook .jp-CodeCell").first.wait_for()

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from chromium import PATIENCE, picture_of
-from lab import jupyterlab, write_notebook
+from lab import jupyterlab, lab_page, write_notebook
 from PIL import Image
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(600)]
@@ -66,8 +66,7 @@ def test_dragging_the_sun_in_jupyterlab_shows_what_the_kernel_exports(
     write_notebook(tmp_path / "journey.ipynb", CELLS)
     with jupyterlab(tmp_path, root) as url:
         context = browser.new_context(viewport={"width": 1400, "height": 1000})
-        page = context.new_page()
-        page.set_default_timeout(PATIENCE)
+        page = lab_page(context)
         try:
             page.goto(url("journey.ipynb"))
             page.locator(".jp-Notebook .jp-CodeCell").first.wait_for()
