@@ -12,7 +12,7 @@ const title = (name) => name[0].toUpperCase() + name.slice(1);
 
 /**
  * @param {import("./view.js").View} view
- * @returns {{ node: HTMLElement, show: () => void }}
+ * @returns {{ node: HTMLElement, show: () => void, section: (name: string) => HTMLElement }}
  */
 export function panel(view) {
   const { state } = view;
@@ -48,6 +48,8 @@ export function panel(view) {
   updates.push(presets.show);
   const softness = new Softness(view);
   updates.push(() => softness.show());
+  /** @type {Map<string, HTMLElement>} */
+  const sections = new Map();
   const shown = view.parameters.filter((p) => p.kind !== "data");
   for (const name of new Set(shown.map((p) => p.section))) {
     const rows = shown.filter((p) => p.section === name);
@@ -61,14 +63,20 @@ export function panel(view) {
       if (name === "clouds") nodes.splice(1, 0, softness.node);
       body.push(section({ title: "More", open: false, className: "sw-more" }, ...nodes));
     }
-    node.append(
-      main.length
-        ? section({ title: title(name) }, ...body)
-        : section({ title: title(name), open: false }, ...more.map(row)),
-    );
+    const made = main.length
+      ? section({ title: title(name) }, ...body)
+      : section({ title: title(name), open: false }, ...more.map(row));
+    node.append(made);
+    sections.set(name, /** @type {HTMLElement} */ (made.querySelector(".sw-section-body")));
   }
   return {
     node,
+    /** Where a part may add its rows. */
+    section(name) {
+      const body = sections.get(name);
+      if (!body) throw new Error(`The panel has no section "${name}".`);
+      return body;
+    },
     show: () => {
       for (const update of updates) update();
     },

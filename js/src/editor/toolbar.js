@@ -100,6 +100,7 @@ export function toolbar(view) {
   node.append(tools.node, water, size, history.node, end);
   return {
     node,
+    end,
     before,
     show() {
       tools.show(view.tool);

@@ -16,8 +16,10 @@ import { paintBrushMask, SUBJECTS } from "./brush_mask.js";
 import { BrushTool, EraseTool } from "./brush_tool.js";
 import { HorizonTool } from "./horizon_tool.js";
 import { Inspector } from "./inspector.js";
+import { Kernel } from "./kernel.js";
 import { Notes } from "./notes.js";
 import { panel } from "./panel.js";
+import { makeParts } from "./parts.js";
 import { PickTool } from "./pick_tool.js";
 import { listenToPointer } from "./pointer.js";
 import { onShortcut } from "./shortcuts.js";
@@ -59,6 +61,7 @@ export class View {
     this.parameters = model.get("_parameters");
     this.state = new EditState(model, this.parameters, signal);
     this.channel = new Channel(model, signal);
+    this.kernel = new Kernel(model);
     this.stage = new Stage(signal);
     this.frame = new Frame(this.stage.canvas, this.parameters);
     /** @type {Scene | null} */
@@ -102,7 +105,11 @@ export class View {
     });
     this.notes = new Notes();
     this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
+    this.foot = element("div", { class: "sw-foot" }, this.readout, this.sureness, this.notes.node);
+    /** @type {import("./parts.js").Part[]} */
+    this.parts = [];
     this.build();
+    this.parts = makeParts(this, signal);
     this.listen(signal);
     this.showStatus();
     void this.loadPhoto();
@@ -123,7 +130,7 @@ export class View {
       this.stage.node,
       this.message,
       this.inspector.node,
-      element("div", { class: "sw-foot" }, this.readout, this.sureness, this.notes.node),
+      this.foot,
     );
     const body = element("div", { class: "sw-body" }, main, this.panel.node);
     this.root.append(this.toolbar.node, body);
@@ -223,6 +230,7 @@ export class View {
     this.showMask();
     void this.inspector.refresh();
     this.tools[this.tool].refresh?.();
+    for (const part of this.parts) part.loaded?.(scene);
     this.show();
   }
 
@@ -288,6 +296,7 @@ export class View {
   show() {
     this.panel.show();
     this.toolbar.show();
+    for (const part of this.parts) part.show?.();
     this.loop.request();
   }
 
@@ -308,7 +317,10 @@ export class View {
         Math.max(1, Math.round(width * scale)),
         Math.max(1, Math.round(height * scale)),
       ]);
-      if (drawn) this.root.classList.add("sw-live");
+      if (drawn) {
+        this.root.classList.add("sw-live");
+        for (const part of this.parts) part.drawn?.(scale);
+      }
     } catch (error) {
       this.showError(message(error));
     }
@@ -317,6 +329,7 @@ export class View {
   drawOverlay() {
     this.strokes.draw();
     for (const tool of Object.values(this.tools)) tool.draw();
+    for (const part of this.parts) part.draw?.();
     if (!this.scene) return;
     const azimuth = this.value("sun_azimuth");
     const side = azimuth < 0 ? "left" : "right";

@@ -1,0 +1,29 @@
+/**
+ * What hangs on the editor's view, each in a room of its own. A part puts its nodes where they
+ * belong (`view.stage`, `view.toolbar.end`, `view.panel.section(name)`, `view.foot`) and is told:
+ *
+ *   loaded(scene)  the analysis, or an answer to a correction, has arrived
+ *   show()         the edit or the history changed: controls follow at once
+ *   draw()         the overlay is drawn: layout, zoom or edit changed
+ *   drawn(scale)   a frame stands on the canvas, at a share of its full size
+ */
+
+/**
+ * @typedef {{
+ *   loaded?: (scene: import("../types.js").Scene) => void,
+ *   show?: () => void,
+ *   draw?: () => void,
+ *   drawn?: (scale: number) => void,
+ * }} Part
+ * @typedef {(view: import("./view.js").View, signal: AbortSignal) => Part} MakePart
+ */
+
+/** @type {MakePart[]} */
+const PARTS = [];
+
+/**
+ * @param {import("./view.js").View} view
+ * @param {AbortSignal} signal
+ * @returns {Part[]}
+ */
+export const makeParts = (view, signal) => PARTS.map((make) => make(view, signal));
