@@ -199,11 +199,11 @@ class Edit:
         "How far the edges of the photo's own clouds dissolve.")
     added_clouds: float = _number(0.0, (0, 1), 0.01, "", "Added clouds", "clouds",
         "Share of the sky that a layer of added clouds covers; 0 adds none.")
-    added_cloud_size: float = _number(1.0, (0.2, 5), 0.05, "km", "Size", "clouds",
+    added_cloud_size: float = _number(1.0, (0.2, 5), 0.05, "km", "Added size", "clouds",
         "Size of the added clouds.")
-    added_cloud_height: float = _number(1.5, (0.5, 10), 0.1, "km", "Height", "clouds",
+    added_cloud_height: float = _number(1.5, (0.5, 10), 0.1, "km", "Added height", "clouds",
         "Height of the added clouds' layer above the camera.", advanced=True)
-    cloud_pattern: float = _number(0.0, (0, 100), 0.1, "", "Pattern", "clouds",
+    cloud_pattern: float = _number(0.0, (0, 100), 0.1, "", "Added pattern", "clouds",
         "Which of many patterns the added clouds take; neighbours flow into each other.",
         advanced=True)
     wind_speed: float = _number(5.0, (0, 15), 0.1, "m/s", "Wind", "clouds",
@@ -243,25 +243,25 @@ class Edit:
         "Reflections in the lens on the line from the sun through the picture's centre.")
     grain: float = _number(1.0, (0, 2), 0.05, "", "Grain", "effects",
         "The photo's own noise on what was filled, so that it does not look smooth.")
-    exposure: float = _number(0.0, (-4, 4), 0.05, "EV", "Exposure", "light",
+    exposure: float = _number(0.0, (-4, 4), 0.05, "EV", "Exposure", "camera",
         "Exposure compensation of the moved picture.")
-    auto_exposure: float = _number(0.9, (0, 1), 0.01, "", "Automatic exposure", "light",
+    auto_exposure: float = _number(0.9, (0, 1), 0.01, "", "Automatic exposure", "camera",
         "How far the camera re-exposes as the light falls: 0 locked, 1 fully automatic.")
     method: str = _choice("ratio", METHODS, "Method", "match",
         "ratio (default), thesis (corrected equations) or thesis_literal (as printed).")
-    sun_sky_ratio: float = _number(1000.0, (0, 5000), 10, "×", "Sun to sky ratio", "thesis",
+    sun_sky_ratio: float = _number(1000.0, (0, 5000), 10, "×", "Sun to sky ratio", "advanced",
         "F^s: weight of sun pixels in the sky's mean colour (methods thesis*).", advanced=True)
-    thesis_saturation: float = _number(1.0, (0, 1), 0.01, "", "Contrast s", "thesis",
+    thesis_saturation: float = _number(1.0, (0, 1), 0.01, "", "Contrast s", "advanced",
         "s of eq. 3.8 when the sun is fully hidden (methods thesis*).", advanced=True)
-    cloud_ratio_min: float = _number(0.62, (0, 2), 0.01, "", "Cloud r/b minimum", "thesis",
+    cloud_ratio_min: float = _number(0.62, (0, 2), 0.01, "", "Cloud r/b minimum", "advanced",
         "m_min of eq. 3.5: red/blue, or its like for the method, above which sky is cloud.",
         advanced=True, analysis=True)
-    cloud_ratio_max: float = _number(1.0, (0, 3), 0.01, "", "Cloud r/b maximum", "thesis",
+    cloud_ratio_max: float = _number(1.0, (0, 3), 0.01, "", "Cloud r/b maximum", "advanced",
         "m_max of eq. 3.6: red/blue, or its like, at which softness reaches 1.",
         advanced=True, analysis=True)
-    blend_distance: float = _number(0.35, (0.01, 2), 0.01, "", "Blend distance d_m", "thesis",
+    blend_distance: float = _number(0.35, (0.01, 2), 0.01, "", "Blend distance d_m", "advanced",
         "d_m of eq. 3.12, in picture widths.", advanced=True)
-    blend_power: float = _number(1.0, (0.1, 8), 0.1, "", "Blend power B_fp", "thesis",
+    blend_power: float = _number(1.0, (0.1, 8), 0.1, "", "Blend power B_fp", "advanced",
         "B_fp of eq. 3.12.", advanced=True)
     strokes: tuple[Stroke, ...] = _data((), "Strokes",
         "Sky, not-sky, water and not-water strokes, replayed in order.")

@@ -1,4 +1,5 @@
 import copy
+import itertools
 import json
 import math
 import pickle
@@ -72,6 +73,19 @@ def test_every_parameter_has_a_label_a_section_and_a_sentence():
         assert p.label
         assert p.section
         assert p.help.endswith("."), p.name
+
+
+def test_the_sections_are_the_panel_s_in_its_order():
+    sections = [p.section for p in PARAMETERS if p.kind != "data"]
+    # Each section's rows stand together: the panel and the page of parameters read them in turn.
+    assert [name for name, _ in itertools.groupby(sections)] == [
+        "sun", "sky", "clouds", "land", "water", "effects", "camera", "match", "advanced",
+    ]  # fmt: skip
+
+
+def test_no_two_rows_of_a_section_share_a_label():
+    labels = [(p.section, p.label) for p in PARAMETERS]
+    assert len(set(labels)) == len(labels)
 
 
 def test_every_number_has_a_default_inside_a_real_range_and_a_step_that_fits():
