@@ -8,15 +8,11 @@ sends messages to kernel subshells.
 from __future__ import annotations
 
 import base64
-import contextlib
 import inspect
 import tempfile
-import threading
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import anywidget
 import traitlets
 
 from sunwidget import presets
@@ -24,7 +20,7 @@ from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.edit import PARAMETERS, Edit, unknown_name_message
 from sunwidget.photo import Photo, open_photo
 from sunwidget.widgets.analyst import Analyst
-from sunwidget.widgets.edit_traits import edit_traits
+from sunwidget.widgets.history import NAMES, EditHistory, edit_of
 from sunwidget.widgets.payload import (
     encode_map,
     encode_maps,
@@ -38,15 +34,13 @@ from sunwidget.widgets.payload import (
 from sunwidget.widgets.requests import Action, Answer, Progress, Requests
 
 _STATIC = Path(__file__).parents[1] / "static"
-_NAMES = tuple(p.name for p in PARAMETERS)
 _CORRECTIONS = frozenset(p.name for p in PARAMETERS if p.analysis)
 # Strokes are a parameter of the edit, and progress has its own line on the stage.
 _ANALYSIS = tuple(
     name
     for name, p in inspect.signature(analyze).parameters.items()
-    if p.kind is p.KEYWORD_ONLY and name not in (*_NAMES, "progress")
+    if p.kind is p.KEYWORD_ONLY and name not in (*NAMES, "progress")
 )
-_HISTORY_LENGTH = 100
 _SUFFIXES = {"JPEG": ".jpg", "PNG": ".png", "TIFF": ".tif", "WEBP": ".webp"}
 _TYPES = {
     ".jpg": "image/jpeg",
@@ -62,7 +56,7 @@ if not (_STATIC / "sun_editor.js").is_file():
     )
 
 
-class SunEditor(anywidget.AnyWidget):
+class SunEditor(EditHistory):
     """Drag the sun in a photo.
 
     Every parameter of ``Edit`` is a trait of the same name, both ways: setting one moves the
@@ -106,11 +100,6 @@ class SunEditor(anywidget.AnyWidget):
     _clear_sky = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _scene = traitlets.Dict().tag(sync=True, echo_update=False)
     _status = traitlets.Dict().tag(sync=True, echo_update=False)
-    # Recipes before and after the present one, written by whoever makes a step.
-    _history = traitlets.Dict().tag(sync=True)
-
-    # One trait a row of the table; a class body's locals() is the class's own dictionary.
-    locals().update(edit_traits())
 
     def __init__(
         self,
@@ -120,10 +109,10 @@ class SunEditor(anywidget.AnyWidget):
         **options: Any,
     ) -> None:
         for name in options:
-            if name not in _NAMES and name not in _ANALYSIS:
+            if name not in NAMES and name not in _ANALYSIS:
                 raise TypeError(f"SunEditor: {unknown_name_message(name, _ANALYSIS)}")
         analysis = {name: options.pop(name) for name in _ANALYSIS if name in options}
-        start = _edit_of(recipe).replace(**options)
+        start = edit_of(recipe).replace(**options)
         scene = source if isinstance(source, Scene) else None
         if scene is not None and analysis:
             raise TypeError(
@@ -131,24 +120,19 @@ class SunEditor(anywidget.AnyWidget):
                 "already. Pass the photo, or analyze(photo, ...) with the option."
             )
         self.photo: Photo = scene.photo if scene is not None else open_photo(source)
-        self._lock = threading.RLock()
-        self._browser_thread: int | None = None
-        self._applying = False
-        self._committed = start
         self._revision = 0
         self._shown: Scene | None = None  # the scene that the browser has
         self._thumbnail: bytes | None = None
         super().__init__(
+            start,
             _photo=encode_preview(self.photo),
             _status={"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"},
-            _history={"past": [], "future": []},
-            **{name: getattr(start, name) for name in _NAMES},
         )
         self.on_msg(Requests(self.send, self._actions()))
-        self.observe(self._on_edit, list(_NAMES))
         self._analyst = Analyst(
             self.photo if scene is None else scene, analysis, self._deliver, self._report
         )
+        self.observe(lambda _: self._analyst.ask(self.edit), list(_CORRECTIONS))
         self._analyst.ask(start)
 
     @traitlets.default("_parameters")
@@ -175,15 +159,6 @@ class SunEditor(anywidget.AnyWidget):
         self._analyst.wait(timeout)
         return self
 
-    @property
-    def edit(self) -> Edit:
-        """The traits as an ``Edit``. Assign an ``Edit`` or a recipe to set them all in one step."""
-        return Edit(**{name: getattr(self, name) for name in _NAMES})
-
-    @edit.setter
-    def edit(self, value: Edit | dict[str, Any]) -> None:
-        self._step(_edit_of(value))
-
     def render(self, **options: Any) -> Any:
         """Return the picture as it is now; ``options`` as in ``sunwidget.render``."""
         from sunwidget.renderer.render import render
@@ -195,22 +170,6 @@ class SunEditor(anywidget.AnyWidget):
         from sunwidget.export.stills import save
 
         return save((self._base_scene(), self.edit), path, **options)
-
-    def undo(self) -> None:
-        """Take back the last step, whether made here or in the browser."""
-        past, future = self._steps()
-        if past:
-            self._travel(past[-1], past[:-1], [self.edit.to_dict(), *future])
-
-    def redo(self) -> None:
-        """Make the last undone step again."""
-        past, future = self._steps()
-        if future:
-            self._travel(future[0], [*past, self.edit.to_dict()], future[1:])
-
-    def reset(self) -> None:
-        """Set every parameter to its default, as one step: the photo as it was."""
-        self._step(Edit())
 
     def apply_preset(self, name: str) -> None:
         """Set the time of day to a preset of ``sunwidget.presets``, in one step.
@@ -234,70 +193,12 @@ class SunEditor(anywidget.AnyWidget):
         presets.find(name)
         self._step(self.edit.replace(**presets.values(name, self.scene)))
 
-    def set_state(self, sync_data: dict[str, Any]) -> None:
-        """Take over what the browser sent; a value that is refused is answered, not raised."""
-        with self._lock:
-            self._browser_thread = threading.get_ident()
-            try:
-                super().set_state(sync_data)
-            except traitlets.TraitError as error:
-                self.send({"type": "error", "error": str(error)})
-                self.send_state([name for name in sync_data if name in self.keys])
-            finally:
-                self._browser_thread = None
-                self._committed = self.edit
-
     def _base_scene(self) -> Scene:
         # The edit's corrections are applied by the renderer, from the scene without them.
         self._analyst.wait()
         base = self._analyst.base
         assert base is not None
         return base
-
-    def _steps(self) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-        return list(self._history.get("past", [])), list(self._history.get("future", []))
-
-    def _remember(self, before: Edit) -> None:
-        past, _ = self._steps()
-        past = [*past, before.to_dict()][-_HISTORY_LENGTH:]
-        self._history = {"past": past, "future": []}
-
-    def _step(self, edit: Edit) -> None:
-        with self._lock:
-            before = self.edit
-            if edit != before:
-                self._remember(before)
-                self._apply(edit)
-
-    def _travel(
-        self, recipe: dict[str, Any], past: list[dict[str, Any]], future: list[dict[str, Any]]
-    ) -> None:
-        with self._lock:
-            self._history = {"past": past, "future": future}
-            self._apply(Edit.from_dict(recipe))
-
-    def _apply(self, edit: Edit) -> None:
-        with self._quietly(), self.hold_sync():
-            for name in _NAMES:
-                setattr(self, name, getattr(edit, name))
-        self._committed = edit
-
-    @contextlib.contextmanager
-    def _quietly(self) -> Iterator[None]:
-        self._applying = True
-        try:
-            yield
-        finally:
-            self._applying = False
-
-    def _on_edit(self, change: Any) -> None:
-        if change.name in _CORRECTIONS:
-            self._analyst.ask(self.edit)
-        if self._applying or self._browser_thread == threading.get_ident():
-            return
-        with self._lock:
-            self._remember(self._committed)
-            self._committed = self.edit
 
     def _deliver(self, scene: Scene) -> None:
         maps = encode_maps(scene)
@@ -351,9 +252,3 @@ class SunEditor(anywidget.AnyWidget):
         # GitHub, nbconvert and other viewers without widgets show this one.
         data["image/png"] = base64.b64encode(self._thumbnail).decode("ascii")
         return data, metadata
-
-
-def _edit_of(recipe: Edit | dict[str, Any] | None) -> Edit:
-    if recipe is None:
-        return Edit()
-    return recipe if isinstance(recipe, Edit) else Edit.from_dict(recipe)
