@@ -304,7 +304,7 @@ class Edit:
         """Return the recipe: plain JSON types, ``version`` first, non-default values only."""
         recipe: dict[str, Any] = {"version": RECIPE_VERSION}
         for name, value in self.changed().items():
-            recipe[name] = _plain(value)
+            recipe[name] = plain(value)
         return recipe
 
     @classmethod
@@ -350,15 +350,7 @@ class Edit:
 
     def to_code(self) -> str:
         """Return runnable Python that builds this Edit (``import sunwidget as sw`` first)."""
-        arguments = []
-        for name, value in self.changed().items():
-            if name == "strokes":
-                inner = ", ".join(
-                    f"sw.Stroke({s.label!r}, {s.points!r}, radius={s.radius!r})" for s in value
-                )
-                arguments.append(f"strokes=({inner},)")
-            else:
-                arguments.append(f"{name}={value!r}")
+        arguments = [f"{name}={_code(value)}" for name, value in self.changed().items()]
         return f"sw.Edit({', '.join(arguments)})"
 
 
@@ -497,13 +489,19 @@ def _check_strokes(value: Any) -> tuple[Stroke, ...]:
     return tuple(checked)
 
 
-def _plain(value: Any) -> Any:
-    if isinstance(value, Stroke):
-        return {
-            "label": value.label,
-            "points": [list(point) for point in value.points],
-            "radius": value.radius,
-        }
+def plain(value: Any) -> Any:
+    """Return a parameter's value as plain JSON types: lists for tuples, objects for strokes."""
+    if dataclasses.is_dataclass(value):
+        return {f.name: plain(getattr(value, f.name)) for f in fields(value)}
     if isinstance(value, tuple):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     return value
+
+
+def _code(value: Any) -> str:
+    if dataclasses.is_dataclass(value):
+        arguments = (f"{f.name}={_code(getattr(value, f.name))}" for f in fields(value))
+        return f"sw.{type(value).__name__}({', '.join(arguments)})"
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_code, value))}{',' * (len(value) == 1)})"
+    return repr(value)

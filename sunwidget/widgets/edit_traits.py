@@ -7,7 +7,7 @@ from typing import Any
 
 import traitlets
 
-from sunwidget.edit import PARAMETERS, EditError, Parameter, checked
+from sunwidget.edit import PARAMETERS, EditError, Parameter, checked, plain
 
 Check = Callable[[Parameter, Any], Any]
 
@@ -61,9 +61,4 @@ def span_text(parameter: Parameter) -> str:
 
 
 def _to_json(value: Any, _widget: Any) -> Any:
-    if isinstance(value, tuple):
-        return [_to_json(item, _widget) for item in value]
-    if hasattr(value, "points"):  # a Stroke
-        points = [list(point) for point in value.points]
-        return {"label": value.label, "points": points, "radius": value.radius}
-    return value
+    return plain(value)
