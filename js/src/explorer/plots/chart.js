@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import { element } from "../../controls/element.js";
 
 /**
- * @typedef {import("./theme.js").Theme} Theme
+ * @typedef {import("../../controls/theme.js").Theme} Theme
  * @typedef {{ label: string, color: string, dash?: number[], text?: (value: number) => string }} Line
  *   `color` is a name of the theme
  * @typedef {{ time?: boolean, range?: any, distr?: 1 | 3 | 100, fwd?: (v: number) => number,

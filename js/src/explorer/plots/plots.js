@@ -7,14 +7,18 @@
 
 import { element } from "../../controls/element.js";
 import { icon } from "../../controls/icons.js";
+import { followTheme, readTheme } from "../../controls/theme.js";
 import { PhasePlot } from "./phase.js";
 import { PrincipalPlanePlot } from "./principal_plane.js";
 import { SunColorPlot } from "./sun_color.js";
-import { followTheme, readTheme } from "./theme.js";
 import { TransmittancePlot } from "./transmittance.js";
 import { ZenithElevationPlot, ZenithTrackPlot } from "./zenith.js";
 
 const PAUSE_MS = 100;
+const COLORS = [
+  ...["text", "quiet", "line", "panel", "accent", "rayleigh", "aerosol", "ozone"],
+  ...["nm640", "nm580", "nm510", "nm440"],
+];
 
 /**
  * @typedef {{
@@ -39,7 +43,7 @@ export class Plots {
    */
   constructor(view, signal) {
     this.view = view;
-    this.theme = followTheme(view.root, () => this.redraw(), signal);
+    this.theme = followTheme(view.root, COLORS, () => this.redraw(), signal);
     /** @type {Links} */
     const links = {
       moveSun: (chart) => this.dragSun(chart),
@@ -130,7 +134,7 @@ export class Plots {
 
   update() {
     const begin = performance.now();
-    readTheme(this.view.root, this.theme);
+    readTheme(this.view.root, COLORS, this.theme);
     /** @type {Map<string, Float32Array>} */
     const read = new Map();
     const curve = (/** @type {string} */ pass) => {

@@ -10,7 +10,7 @@ const NEAR = 8; // degrees from the plane at which a measured direction is shown
 
 export class PrincipalPlanePlot {
   /**
-   * @param {import("./theme.js").Theme} theme
+   * @param {import("../../controls/theme.js").Theme} theme
    * @param {import("./plots.js").Links} links
    */
   constructor(theme, links) {

@@ -12,7 +12,7 @@ const SUN_RADIUS = 0.27; // degrees
 const percent = (/** @type {number} */ share) => `${(100 * share).toFixed(0)} %`;
 
 export class TransmittancePlot {
-  /** @param {import("./theme.js").Theme} theme */
+  /** @param {import("../../controls/theme.js").Theme} theme */
   constructor(theme) {
     this.title = "Sunlight that arrives";
     this.help =
