@@ -1,0 +1,18 @@
+"""Studies in which people compare pictures two by two: answers, their files, strengths.
+
+>>> import sunwidget.study
+>>> sunwidget.study.bradley_terry(sunwidget.study.read_csv("anna.csv", "bert.csv"))
+"""
+
+from sunwidget.study.answers import Answer, StudyError, read_csv, write_csv
+from sunwidget.study.bradley_terry import BradleyTerry, bradley_terry, by_rater
+
+__all__ = [
+    "Answer",
+    "BradleyTerry",
+    "StudyError",
+    "bradley_terry",
+    "by_rater",
+    "read_csv",
+    "write_csv",
+]
