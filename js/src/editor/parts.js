@@ -8,6 +8,8 @@
  *   drawn(scale)   a frame stands on the canvas, at a share of its full size
  */
 
+import { help } from "./help.js";
+
 /**
  * @typedef {{
  *   loaded?: (scene: import("../types.js").Scene) => void,
@@ -19,7 +21,7 @@
  */
 
 /** @type {MakePart[]} */
-const PARTS = [];
+const PARTS = [help];
 
 /**
  * @param {import("./view.js").View} view

@@ -1,33 +1,114 @@
-/** Keys of the whole editor; the sun's arrow keys belong to its handle. */
+/**
+ * Every key of the editor, in one table: the key handler runs it and the help shows it. Rows
+ * without `run` tell of keys that the part with the focus handles itself.
+ */
 
-const TOOLS = ["sun", "horizon", "pick", "sky", "not_sky", "erase"];
+import { openHelp } from "../controls/help_dialog.js";
+import { runShortcut } from "../controls/keys.js";
+
+/** @typedef {import("./view.js").View} View */
+
+/** @type {(tool: string) => (view: View) => void} */
+const take = (tool) => (view) => view.setTool(tool);
+
+/** @param {View} view */
+function stepBack(view) {
+  const busy = view.pointer !== null;
+  view.cancelGesture();
+  // One thing at a time: the gesture, the map, the tool.
+  if (!busy && view.inspector.map) view.inspector.show("");
+  else view.setTool("sun");
+}
+
+/** @type {import("../controls/keys.js").Shortcut<View>[]} */
+export const SHORTCUTS = [
+  { section: "Tools", keys: ["1"], label: "Move the sun", run: take("sun") },
+  { section: "Tools", keys: ["2"], label: "Set the horizon", run: take("horizon") },
+  { section: "Tools", keys: ["3"], label: "Point at the photo's own sun", run: take("pick") },
+  { section: "Tools", keys: ["4"], label: "Brush: this is sky", run: take("sky") },
+  { section: "Tools", keys: ["5"], label: "Brush: this is not sky", run: take("not_sky") },
+  { section: "Tools", keys: ["6"], label: "Erase strokes", run: take("erase") },
+  {
+    section: "Tools",
+    keys: ["Escape"],
+    label: "Give up what was begun; back to the sun",
+    run: stepBack,
+  },
+
+  {
+    section: "Sun and horizon",
+    keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
+    label: "Move the handle that has the focus",
+  },
+  {
+    section: "Sun and horizon",
+    keys: ["Shift+ArrowLeft", "Shift+ArrowRight"],
+    label: "Ten times as far",
+  },
+  { section: "Sun and horizon", keys: ["Home"], label: "Back to what was found in the photo" },
+
+  {
+    section: "Brushes",
+    keys: ["["],
+    label: "Smaller brush",
+    run: (view) => view.setBrushRadius(view.brushRadius / 1.25),
+  },
+  {
+    section: "Brushes",
+    keys: ["]"],
+    label: "Larger brush",
+    run: (view) => view.setBrushRadius(view.brushRadius * 1.25),
+  },
+  {
+    section: "Brushes",
+    keys: ["W"],
+    label: "Mark water or sky",
+    run: (view) => view.setSubject(view.subject === "sky" ? "water" : "sky"),
+  },
+
+  {
+    section: "View",
+    keys: ["B"],
+    label: "Before or after",
+    run: (view) => view.toolbar.before.show(!view.toolbar.before.isOn()),
+  },
+  {
+    section: "View",
+    keys: ["Mod+0"],
+    label: "The whole picture",
+    run: (view) => view.stage.setZoom(1),
+  },
+  {
+    section: "View",
+    keys: ["M"],
+    label: "Next map of the analysis",
+    run: (view) => view.inspector.step(1),
+  },
+  {
+    section: "View",
+    keys: ["Shift+M"],
+    label: "Map before",
+    run: (view) => view.inspector.step(-1),
+  },
+
+  { section: "History", keys: ["Mod+Z"], label: "Undo", run: (view) => view.state.undo() },
+  {
+    section: "History",
+    keys: ["Mod+Shift+Z", "Mod+Y"],
+    label: "Redo",
+    run: (view) => view.state.redo(),
+  },
+
+  {
+    section: "Help",
+    keys: ["?"],
+    label: "These keys",
+    run: (view) => openHelp(view.root, "Keys of the sun editor", SHORTCUTS),
+  },
+];
 
 /**
- * @param {import("./view.js").View} view
+ * @param {View} view
  * @param {KeyboardEvent} event
  */
-export function onShortcut(view, event) {
-  const target = /** @type {HTMLElement} */ (event.target);
-  if (target instanceof HTMLInputElement && target.type === "text") return;
-  const key = event.key.toLowerCase();
-  if (event.ctrlKey || event.metaKey) {
-    if (key === "z" && !event.shiftKey) view.state.undo();
-    else if (key === "y" || (key === "z" && event.shiftKey)) view.state.redo();
-    else if (key === "0") view.stage.setZoom(1);
-    else return;
-  } else if (key >= "1" && key <= String(TOOLS.length)) view.setTool(TOOLS[Number(key) - 1]);
-  else if (key === "[") view.setBrushRadius(view.brushRadius / 1.25);
-  else if (key === "]") view.setBrushRadius(view.brushRadius * 1.25);
-  else if (key === "w") view.setSubject(view.subject === "sky" ? "water" : "sky");
-  else if (key === "b") view.toolbar.before.show(!view.toolbar.before.isOn());
-  else if (key === "m") view.inspector.step(event.shiftKey ? -1 : 1);
-  else if (key === "escape") {
-    const busy = view.pointer !== null;
-    view.cancelGesture();
-    // One thing at a time: the gesture, the map, the tool.
-    if (!busy && view.inspector.map) view.inspector.show("");
-    else view.setTool("sun");
-  } else return;
-  event.preventDefault();
-  event.stopPropagation();
-}
+export const onShortcut = (view, event) => runShortcut(SHORTCUTS, view, event);
