@@ -9,6 +9,9 @@
  */
 
 import { help } from "./help.js";
+import { histogram } from "./histogram.js";
+import { presetThumbnails } from "./preset_thumbnails.js";
+import { recipe } from "./recipe.js";
 
 /**
  * @typedef {{
@@ -21,7 +24,7 @@ import { help } from "./help.js";
  */
 
 /** @type {MakePart[]} */
-const PARTS = [help];
+const PARTS = [presetThumbnails, histogram, recipe, help];
 
 /**
  * @param {import("./view.js").View} view

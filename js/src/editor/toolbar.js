@@ -3,6 +3,7 @@
 import { button, holdButton, radioButtons } from "../controls/button.js";
 import { element } from "../controls/element.js";
 import { historyButtons } from "../controls/history.js";
+import { menuButton } from "../controls/menu.js";
 import { BRUSHES } from "./strokes.js";
 
 /** @typedef {import("./view.js").View} View */
@@ -89,6 +90,12 @@ export function toolbar(view) {
     caption: true,
     onClick: () => view.setSubject(view.subject === "sky" ? "water" : "sky"),
   });
+  const menu = menuButton({
+    icon: "menu",
+    label: "Menu",
+    title: "Menu: photos, recipes, and what there is beside",
+    groups: ["photo", "recipe", "picture", "help"],
+  });
   const node = element("div", { class: "sw-toolbar", role: "toolbar", "aria-label": "Sun editor" });
   const end = element(
     "div",
@@ -96,11 +103,13 @@ export function toolbar(view) {
     view.inspector.choice,
     before.node,
     save,
+    menu.node,
   );
   node.append(tools.node, water, size, history.node, end);
   return {
     node,
     end,
+    menu,
     before,
     show() {
       tools.show(view.tool);
