@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from sunwidget.transfer.look import transfer_look
     from sunwidget.transfer.sky_replacement import replace_sky
     from sunwidget.widgets import SkyExplorer, SunEditor
+    from sunwidget.widgets.unseen import to_html
 
 __version__ = "0.1.0"
 
@@ -61,6 +62,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "save": ("sunwidget.export.stills", "save"),
     "transfer_look": ("sunwidget.transfer.look", "transfer_look"),
     "sweep": ("sunwidget.export.sweep", "sweep"),
+    "to_html": ("sunwidget.widgets.unseen", "to_html"),
 }
 
 __all__ = [
@@ -88,6 +90,7 @@ __all__ = [
     "sample",
     "save",
     "sweep",
+    "to_html",
     "transfer_look",
 ]
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import base64
 import inspect
+import os
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ import traitlets
 from sunwidget import presets
 from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.edit import PARAMETERS, Edit, unknown_name_message
+from sunwidget.files import target
 from sunwidget.photo import Photo, open_photo
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.history import NAMES, EditHistory, edit_of
@@ -32,6 +34,7 @@ from sunwidget.widgets.payload import (
     thumbnail,
 )
 from sunwidget.widgets.requests import Action, Answer, Progress, Requests
+from sunwidget.widgets.standalone import editor_page, embedded_state, still_of, write_page
 
 _STATIC = Path(__file__).parents[1] / "static"
 _CORRECTIONS = frozenset(p.name for p in PARAMETERS if p.analysis)
@@ -170,6 +173,26 @@ class SunEditor(EditHistory):
         from sunwidget.export.stills import save
 
         return save((self._base_scene(), self.edit), path, **options)
+
+    def to_html(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        title: str | None = None,
+        overwrite: bool = False,
+    ) -> Path | str:
+        """Write a page in which the sun can be moved: one file, no kernel, no network.
+
+        Waits for the analysis. Parameters and errors as for ``sunwidget.to_html``; without a
+        ``path`` the page is returned as text.
+        """
+        place = None if path is None else target(path, overwrite=overwrite)
+        self._analyst.wait()
+        still = still_of(self.photo, self.render)
+        with self._lock:
+            embedded = embedded_state(self)
+        text = editor_page(embedded, still, self.photo, title=title)
+        return text if place is None else write_page(text, place, overwrite=overwrite)
 
     def apply_preset(self, name: str) -> None:
         """Set the time of day to a preset of ``sunwidget.presets``, in one step.

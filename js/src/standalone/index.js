@@ -1,0 +1,38 @@
+/**
+ * Starts a widget in a page that holds all of it: the front end and the state lie in the page as
+ * text (`sunwidget/export/html.py`), and no kernel stands behind. The page's still picture stays
+ * where the widget cannot run.
+ */
+
+import { StandaloneModel, stateOf } from "./model.js";
+
+/** @param {string} id */
+const part = (id) => /** @type {HTMLElement} */ (document.getElementById(id));
+
+/** What this browser lacks, as a sentence; "" when nothing. */
+function missing() {
+  if (!("DecompressionStream" in window)) return "This browser is too old to move the sun here.";
+  if (document.createElement("canvas").getContext("webgl2")) return "";
+  return "This browser offers no WebGL2. Turn on hardware acceleration to move the sun here.";
+}
+
+async function start() {
+  const lack = missing();
+  if (lack) throw new Error(lack);
+  const state = stateOf(JSON.parse(part("content").textContent ?? ""));
+  const url = URL.createObjectURL(
+    new Blob([/** @type {string} */ (state._esm)], { type: "text/javascript" }),
+  );
+  const { default: widget } = await import(url);
+  URL.revokeObjectURL(url);
+  delete state._esm;
+  const host = part("widget");
+  await widget.render({ model: new StandaloneModel(state), el: host });
+  part("still").hidden = true;
+}
+
+start().catch((error) => {
+  const problem = part("problem");
+  problem.textContent = error instanceof Error ? error.message : String(error);
+  problem.hidden = false;
+});

@@ -1,0 +1,98 @@
+"""A widget as one HTML file: what a shader draws stays live, without kernel and network."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sunwidget.export.html import Still, page
+from sunwidget.files import complete_or_absent
+from sunwidget.photo import Photo
+
+_STILL_EDGE = 1024
+_STILL_QUALITY = 90
+# What places a widget in a notebook means nothing in a page.
+_HOST = ("layout", "tabbable", "tooltip", "_anywidget_id", "_dom_classes")
+_HOST_PREFIXES = ("_model_", "_view_")
+_NOTES = (
+    "Drag the sun, or the sliders: everything happens in this file, and nothing leaves it.",
+    "Brushes, horizon and the full size need the notebook that it was made with.",
+)
+
+
+def editor_page(
+    embedded: dict[str, Any], still: Still, photo: Photo, *, title: str | None = None
+) -> str:
+    """Return the page of an editor from its ``embedded_state``."""
+    state = embedded["state"] | {
+        "_name": Path(photo.name).stem,
+        # The steps back are the maker's own, and a stroke taken back would need the kernel.
+        "_history": {"past": [], "future": []},
+    }
+    name = photo.name if title is None else title
+    return page({**embedded, "state": state}, still, title=name, notes=_NOTES)
+
+
+def embedded_state(widget: Any) -> dict[str, Any]:
+    """Return what a page needs of a widget, as ``page`` takes it."""
+    buffers: list[dict[str, Any]] = []
+    state = {
+        name: _without_bytes(value, [name], buffers)
+        for name, value in widget.get_state().items()
+        if name not in _HOST and not name.startswith(_HOST_PREFIXES)
+    }
+    return {"state": state, "buffers": buffers}
+
+
+def _without_bytes(value: Any, path: list[Any], buffers: list[dict[str, Any]]) -> Any:
+    """Return ``value`` with None for its bytes, which are put into ``buffers``."""
+    if isinstance(value, (bytes, bytearray, memoryview)):
+        data = base64.b64encode(value).decode("ascii")
+        buffers.append({"path": path, "encoding": "base64", "data": data})
+        return None
+    if isinstance(value, dict):
+        return {key: _without_bytes(item, [*path, key], buffers) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_without_bytes(item, [*path, i], buffers) for i, item in enumerate(value)]
+    return value
+
+
+def still_of(photo: Photo, render: Callable[..., np.ndarray]) -> Still:
+    """Return the picture as ``render(size=(width, height))`` makes it, for a page.
+
+    Where this machine cannot render it is the photo as it was taken.
+    """
+    from sunwidget.renderer.gl_thread import RendererError
+
+    scale = min(1.0, _STILL_EDGE / max(photo.size))
+    width, height = (max(1, round(n * scale)) for n in photo.size)
+    try:
+        picture = render(size=(width, height))
+        text = f"{photo.name}, its sun moved as the page was made"
+    except RendererError:
+        picture, text = photo.preview(_STILL_EDGE), f"{photo.name} as it was taken"
+    return Still(_jpeg(picture), (picture.shape[1], picture.shape[0]), text)
+
+
+def write_page(text: str, place: Path, *, overwrite: bool) -> Path:
+    """Write a page, whole or not at all."""
+    try:
+        with complete_or_absent(place, overwrite=overwrite) as unfinished:
+            unfinished.write_bytes(text.encode("utf-8"))
+    except FileExistsError:
+        raise
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise type(error)(f"{place} was not written: {reason}. No part of it was left.") from error
+    return place
+
+
+def _jpeg(picture: np.ndarray) -> bytes:
+    import cv2
+
+    options = [cv2.IMWRITE_JPEG_QUALITY, _STILL_QUALITY]
+    return bytes(cv2.imencode(".jpg", picture[..., ::-1], options)[1])
