@@ -1,6 +1,6 @@
 /**
- * When a view draws: once a refresh of the screen at most, smaller while a drag lasts and the
- * machine is behind, and in full as soon as the hand rests.
+ * When a view draws: once a refresh of the screen at most, only while it is in sight, smaller while
+ * a drag lasts and the machine is behind, and in full as soon as the hand rests.
  */
 
 const SLOW_MS = 33; // a frame that waits longer makes the next ones smaller
@@ -20,6 +20,9 @@ export class FrameLoop {
   constructor(draw, dragging, signal) {
     this.draw = draw;
     this.dragging = dragging;
+    this.signal = signal;
+    this.inSight = true;
+    this.owed = false; // a frame was asked for while out of sight
     /** @type {() => number} the largest scale that can be seen while a drag lasts */
     this.limit = () => 1;
     this.wanted = 1; // the scale that would be just fast enough
@@ -48,8 +51,15 @@ export class FrameLoop {
     this.schedule();
   }
 
+  /** Whether anybody can see the view: what it owes is drawn when it comes in sight. @param {boolean} inSight */
+  setSight(inSight) {
+    this.inSight = inSight;
+    if (inSight && this.owed) this.schedule();
+  }
+
   schedule() {
-    if (this.pending) return;
+    this.owed = !this.inSight;
+    if (this.owed || this.pending || this.signal.aborted) return;
     this.asked = performance.now();
     this.pending = requestAnimationFrame(() => {
       this.pending = 0;

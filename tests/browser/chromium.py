@@ -25,6 +25,16 @@ ARGUMENTS = [
     "--disable-sync",
 ]
 PATIENCE = 120_000  # ms: two shared cores may take their time
+# What a page runs to note every WebGL context that it makes from now on.
+COUNT_CONTEXTS = """(() => {
+  window.contexts = [];
+  const original = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+    const context = original.call(this, kind, ...rest);
+    if (context && kind === "webgl2" && !contexts.includes(context)) contexts.push(context);
+    return context;
+  };
+})()"""
 _TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html"}
 
 
@@ -62,6 +72,16 @@ def open_page(context, name="page.html"):
     page.goto(f"{ORIGIN}/{name}")
     page.wait_for_function("window.ready")
     return page
+
+
+def count_contexts(page):
+    """From now on note every WebGL context that the page makes; see ``live_contexts``."""
+    page.evaluate(COUNT_CONTEXTS)
+
+
+def live_contexts(page):
+    """How many of the noted contexts are not lost."""
+    return page.evaluate("contexts.filter((gl) => !gl.isContextLost()).length")
 
 
 def widget_state(widget):

@@ -11,9 +11,11 @@ import { element } from "../controls/element.js";
 import { Frame } from "../frame.js";
 import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
+import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { paintBrushMask, SUBJECTS } from "./brush_mask.js";
 import { BrushTool, EraseTool } from "./brush_tool.js";
+import { download } from "./download.js";
 import { HorizonTool } from "./horizon_tool.js";
 import { Inspector } from "./inspector.js";
 import { Kernel } from "./kernel.js";
@@ -84,6 +86,8 @@ export class View {
     );
 
     this.loop.limit = () => this.visibleScale();
+    this.loop.setSight(false); // until the page is laid out
+    watchSight(root, signal, (inSight) => this.loop.setSight(inSight));
 
     /** @type {Record<string, Tool>} */
     this.tools = {
@@ -162,6 +166,7 @@ export class View {
     listenToPointer(this, signal);
     this.root.addEventListener("keydown", (event) => onShortcut(this, event), { signal });
     signal.addEventListener("abort", () => {
+      this.loads += 1; // pictures that are being decoded come too late
       for (const [event, handler] of Object.entries(handlers)) model.off(event, handler);
       model.off("msg:custom", onMessage);
       this.frame.dispose();
@@ -349,9 +354,7 @@ export class View {
         this.stage.setProgress(fraction, text),
       );
       const blob = new Blob([/** @type {BlobPart} */ (buffers[0])], { type: result.type });
-      const link = element("a", { href: URL.createObjectURL(blob), download: result.name });
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+      download(blob, result.name);
     } catch (error) {
       this.showError(`Saving failed: ${message(error)}`);
     } finally {

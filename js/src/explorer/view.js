@@ -8,6 +8,7 @@
 import { Channel } from "../channel.js";
 import { element } from "../controls/element.js";
 import { FrameLoop } from "../frame_loop.js";
+import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { angleBetween, sunAt, turned } from "./day.js";
 import { Guides } from "./guides.js";
@@ -31,7 +32,6 @@ import { toolbar } from "./toolbar.js";
  */
 
 const MOST_PIXELS = 900_000;
-const SIGHT_MARGIN = "200px"; // this near to the window counts as in sight
 
 let views = 0;
 
@@ -76,8 +76,7 @@ export class View {
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.tracing = undefined;
     this.signal = signal;
-    // A notebook that runs all its cells makes many views at once; only those in sight draw.
-    this.inSight = false;
+    this.loop.setSight(false); // until the page is laid out
     this.build();
     this.listen(signal);
     this.show();
@@ -105,17 +104,13 @@ export class View {
     const { model, state, stage } = this;
     state.subscribe(() => this.show());
     stage.onLayout = () => this.requestFrame();
-    const sight = new IntersectionObserver(
-      (entries) => {
-        this.inSight = entries.some((entry) => entry.isIntersecting);
-        if (this.inSight) this.requestFrame();
-      },
-      { rootMargin: SIGHT_MARGIN },
-    );
-    sight.observe(this.root);
+    watchSight(this.root, signal, (inSight) => {
+      this.loop.setSight(inSight);
+      if (inSight) this.requestFrame();
+    });
     const onData = () => {
       this.show();
-      if (this.inSight) this.plots.request();
+      if (this.loop.inSight) this.plots.request();
     };
     const names = ["_day", "_measured", "_scans", "_aliases", "_presets"];
     for (const name of names) model.on(`change:${name}`, onData);
@@ -127,7 +122,6 @@ export class View {
     listenToPointer(this, signal);
     this.root.addEventListener("keydown", (event) => this.onKey(event), { signal });
     signal.addEventListener("abort", () => {
-      sight.disconnect();
       for (const name of names) model.off(`change:${name}`, onData);
       model.off("msg:custom", onMessage);
       clearTimeout(this.tracing);
@@ -285,7 +279,7 @@ export class View {
   }
 
   requestFrame() {
-    if (!this.inSight) return;
+    if (!this.loop.inSight) return;
     this.stage.node.setAttribute("aria-busy", "true");
     this.loop.request();
   }

@@ -2,11 +2,12 @@
  * A frame graph's pixels on a canvas of the page.
  *
  * The graph draws to a WebGL canvas of its own, and each finished frame is copied to the
- * visible 2-D canvas. So the last frame stays in sight when the WebGL context is lost
- * (Chromium keeps 16 contexts and kills the oldest), and the next draw makes a new one.
+ * visible 2-D canvas. So the last frame stays in sight when the WebGL context is lost or given
+ * back to the page's pool, and the next draw makes a new one.
  */
 
 import { Graph } from "./graph.js";
+import { forgetContext, useContext } from "./pool.js";
 import { readLevels } from "./texture.js";
 
 /**
@@ -38,6 +39,7 @@ export class Surface {
     this.pictures = new Map();
     /** @type {Graph | null} */
     this.graph = null;
+    this.release = () => this.giveBack();
   }
 
   /**
@@ -107,26 +109,33 @@ export class Surface {
 
   /** The graph on a living context: the present one, or all of it made again. */
   liveGraph() {
+    useContext(this.release);
     if (this.graph && !this.graph.gl.isContextLost()) return this.graph;
-    this.forget();
-    const surface = document.createElement("canvas");
-    const gl = surface.getContext("webgl2", {
+    this.graph = null;
+    const gl = document.createElement("canvas").getContext("webgl2", {
       alpha: this.alpha,
       antialias: false,
       depth: false,
       stencil: false,
       powerPreference: "high-performance",
     });
-    if (!gl) throw new Error(NO_WEBGL);
-    const graph = new Graph(gl, this.description, this.files);
-    for (const [name, pixels] of this.pictures) graph.setTexture(name, pixels);
-    this.graph = graph;
-    return graph;
+    try {
+      if (!gl) throw new Error(NO_WEBGL);
+      const graph = new Graph(gl, this.description, this.files);
+      for (const [name, pixels] of this.pictures) graph.setTexture(name, pixels);
+      this.graph = graph;
+      return graph;
+    } catch (error) {
+      loseContext(gl);
+      this.forget();
+      throw error;
+    }
   }
 
   /** Drop a lost context's objects: the driver has freed them. */
   forget() {
     this.graph = null;
+    forgetContext(this.release);
   }
 
   /** RGBA of the last frame, row 0 at the top. */
@@ -134,18 +143,25 @@ export class Surface {
     return this.context.getImageData(0, 0, this.canvas.width, this.canvas.height).data;
   }
 
-  /** Free the context and the pictures. */
-  dispose() {
+  /** Free the context: the canvas keeps its last frame, and the next draw makes another context. */
+  giveBack() {
     if (this.graph) {
-      const { gl } = this.graph;
       this.graph.dispose();
-      gl.getExtension("WEBGL_lose_context")?.loseContext();
+      loseContext(this.graph.gl);
     }
     this.forget();
+  }
+
+  /** Free the context and the pictures. */
+  dispose() {
+    this.giveBack();
     for (const picture of this.pictures.values()) if ("close" in picture) picture.close();
     this.pictures.clear();
   }
 }
+
+/** Free a context now; without a word it would live until memory runs short. @param {WebGL2RenderingContext | null} gl */
+const loseContext = (gl) => gl?.getExtension("WEBGL_lose_context")?.loseContext();
 
 /**
  * Give a canvas a size, which empties it; returns whether it had another.

@@ -1,0 +1,71 @@
+"""Many editors in one page, as in a long notebook: all show their picture, few hold a context."""
+
+import pytest
+from chromium import count_contexts, live_contexts, widget_state
+
+import sunwidget as sw
+from sunwidget.widgets import SunEditor
+
+pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
+
+EDITORS = 20
+MOST_CONTEXTS = 6  # js/src/gl/pool.js
+SPREAD = """i => {
+  const canvas = document.querySelectorAll(".sw-canvas")[i];
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  let [least, most] = [255, 0];
+  for (let i = 0; i < data.length; i += 4) {
+    least = Math.min(least, data[i]);
+    most = Math.max(most, data[i]);
+  }
+  return most - least;
+}"""
+
+
+@pytest.fixture(scope="module")
+def state():
+    return widget_state(SunEditor(sw.analyze(sw.sample("coast").preview(192))).wait())
+
+
+def drag_sun(page, i):
+    """Drag the sun of the i-th editor and wait until its picture is another."""
+    ring = page.locator(".sunwidget").nth(i).locator(".sw-sun-ring")
+    ring.scroll_into_view_if_needed()
+    box = ring.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    before = page.evaluate(f"document.querySelectorAll('.sw-canvas')[{i}].toDataURL()")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x - 60, y + 20)
+    page.mouse.up()
+    page.wait_for_function(
+        "([i, before]) => document.querySelectorAll('.sw-canvas')[i].toDataURL() !== before",
+        arg=[i, before],
+    )
+
+
+def test_twenty_editors_in_one_page(page, state):
+    count_contexts(page)
+    page.evaluate(f"state => {{ for (let i = 0; i < {EDITORS}; i++) addEditor(state); }}", state)
+    views = page.locator(".sunwidget")
+    live = page.locator(".sw-live")
+    assert views.count() == EDITORS
+    # Those far below the window wait until they are scrolled to.
+    views.first.and_(live).wait_for()
+    assert live.count() < 4
+    most = 0
+    for i in range(EDITORS):
+        views.nth(i).scroll_into_view_if_needed()
+        views.nth(i).and_(live).wait_for()
+        assert page.evaluate(SPREAD, i) > 100, f"editor {i} shows no picture"
+        drag_sun(page, i)
+        assert page.evaluate(f"models[{i}].get('sun_azimuth')") is not None
+        most = max(most, live_contexts(page))
+    assert 1 < most <= MOST_CONTEXTS
+    # Those that had to give their context back still show their picture, and can be dragged.
+    assert min(page.evaluate(SPREAD, i) for i in range(EDITORS)) > 100
+    drag_sun(page, 0)
+    assert live_contexts(page) <= MOST_CONTEXTS
+    page.evaluate("closeAll()")
+    assert live_contexts(page) == 0
+    assert page.errors == []
