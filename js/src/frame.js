@@ -45,6 +45,24 @@ export class Frame extends Surface {
   }
 
   /**
+   * What the graph needs to draw an edit at a size in pixels; null before the scene is there.
+   *
+   * @param {Edit} edit
+   * @param {[number, number]} size
+   * @returns {import("./gl/graph.js").Frame | null}
+   */
+  describe(edit, size) {
+    if (!this.scene) return null;
+    return {
+      states: states(this.parameters, edit, this.scene.automatic),
+      scene: this.scene.uniforms,
+      host: this.host,
+      size,
+      methods: [String(edit.method ?? "ratio")],
+    };
+  }
+
+  /**
    * Draw the edit at a size in pixels. Returns false when the context was lost meanwhile: the
    * canvas then keeps its last frame, and another call draws anew.
    *
@@ -52,13 +70,7 @@ export class Frame extends Surface {
    * @param {[number, number]} size
    */
   draw(edit, size) {
-    if (!this.scene) return false;
-    return this.show({
-      states: states(this.parameters, edit, this.scene.automatic),
-      scene: this.scene.uniforms,
-      host: this.host,
-      size,
-      methods: [String(edit.method ?? "ratio")],
-    });
+    const frame = this.describe(edit, size);
+    return frame !== null && this.show(frame);
   }
 }

@@ -18,8 +18,9 @@ export function chip(label, title, onClick) {
  *
  * @param {import("../state.js").EditState} state
  * @param {() => Preset[]} read the presets as they are now
+ * @param {(preset: Preset) => Node | string} [lead] what stands before a chip's label
  */
-export function presetChips(state, read) {
+export function presetChips(state, read, lead = () => "") {
   const node = element("div", {
     class: "sw-chips sw-presets",
     role: "group",
@@ -37,7 +38,11 @@ export function presetChips(state, read) {
       if (text !== drawn) {
         drawn = text;
         node.replaceChildren(
-          ...presets.map(({ label, title, values }) => chip(label, title, () => state.set(values))),
+          ...presets.map((preset) => {
+            const made = chip(preset.label, preset.title, () => state.set(preset.values));
+            made.prepend(lead(preset));
+            return made;
+          }),
         );
         node.hidden = !presets.length;
       }

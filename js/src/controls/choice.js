@@ -9,21 +9,52 @@ import { element } from "./element.js";
 export function choice({ parameter: p, onChange, names = {} }) {
   const select = element("select", { class: "sw-select", "aria-label": p.label });
   for (const value of p.choices) {
-    select.append(element("option", { value }, names[value] ?? value.replaceAll("_", " ")));
+    select.append(element("option", { value }, names[value] ?? spoken(value)));
   }
   select.addEventListener("change", () => onChange(select.value));
+  const back = element(
+    "button",
+    {
+      type: "button",
+      class: "sw-back",
+      title: "Return to the default (double-click)",
+      "aria-label": `Reset ${p.label}`,
+    },
+    "↺",
+  );
+  const reset = () => onChange(String(p.default));
+  back.addEventListener("click", () => {
+    reset();
+    select.focus();
+  });
+  const label = element("span", { class: "sw-label" }, p.label);
+  label.addEventListener("dblclick", () => {
+    if (!select.disabled) reset();
+  });
   const node = element(
     "div",
     { class: "sw-choice", title: p.help, "data-parameter": p.name },
-    element("span", { class: "sw-label" }, p.label),
+    label,
+    back,
     select,
   );
   return {
     node,
-    /** @param {string} value */
-    show(value) {
+    /** @param {string} value @param {string} [idle] why it cannot be used now */
+    show(value, idle = "") {
+      const isDefault = value === p.default;
       select.value = value;
-      node.classList.toggle("sw-default", value === p.default);
+      select.disabled = back.disabled = idle !== "";
+      back.hidden = isDefault;
+      node.title = idle || p.help;
+      node.classList.toggle("sw-default", isDefault);
+      node.classList.toggle("sw-idle", idle !== "");
     },
   };
 }
+
+/** A value of the table as a person reads it. @param {string} value */
+const spoken = (value) => {
+  const text = value.replaceAll("_", " ");
+  return text[0].toUpperCase() + text.slice(1);
+};

@@ -1,6 +1,7 @@
-/** A section of the panel that folds. */
+/** Sections of a panel that fold. */
 
-import { element } from "./element.js";
+import { button } from "./button.js";
+import { element, setAttributes } from "./element.js";
 import { icon } from "./icons.js";
 
 /**
@@ -11,4 +12,75 @@ export function section({ title, open = true, className = "sw-section" }, ...chi
   const body = element("div", { class: "sw-section-body" }, ...children);
   const heading = element("summary", {}, icon("chevron"), element("span", {}, title));
   return element("details", { class: className, open }, heading, body);
+}
+
+let sections = 0;
+
+/**
+ * A section that says how many of its values are changed, and resets them. Not `details`: a
+ * button inside its summary is hidden from assistive technology.
+ *
+ * @param {{ title: string, open: boolean, onFold: (open: boolean) => void,
+ *   onReset?: () => void }} options
+ * @param {Node[]} children
+ */
+export function countedSection({ title, open, onFold, onReset }, ...children) {
+  sections += 1;
+  const id = `sw-section-${sections}`;
+  const body = element("div", { class: "sw-section-body", id }, ...children);
+  const count = element("span", { class: "sw-count", hidden: true });
+  const fold = element(
+    "button",
+    { type: "button", class: "sw-fold", "aria-controls": id },
+    icon("chevron"),
+    element("span", { class: "sw-fold-title" }, title),
+    count,
+  );
+  const reset = button({
+    icon: "reset",
+    label: `Reset ${title}`,
+    onClick: () => {
+      onReset?.();
+      fold.focus();
+    },
+  });
+  reset.hidden = true;
+  const head = element("div", { class: "sw-section-head" }, fold, reset);
+  const node = element(
+    "div",
+    { class: "sw-section", role: "group", "aria-label": title },
+    head,
+    body,
+  );
+  /** @param {boolean} on */
+  const setOpen = (on) => {
+    fold.setAttribute("aria-expanded", String(on));
+    body.hidden = !on;
+  };
+  setOpen(open);
+  fold.addEventListener("click", () => {
+    const on = body.hidden !== false;
+    setOpen(on);
+    onFold(on);
+  });
+  return {
+    node,
+    head,
+    body,
+    setOpen,
+    /** @param {string[]} labels of the values that are changed */
+    setChanged(labels) {
+      const some = labels.length > 0;
+      count.hidden = reset.hidden = !some;
+      if (!some) return;
+      const text = labels.join(", ");
+      count.textContent = String(labels.length);
+      setAttributes(count, {
+        role: "img",
+        "aria-label": `${labels.length} changed`,
+        title: `Changed: ${text}`,
+      });
+      reset.title = `Reset ${text}`;
+    },
+  };
 }

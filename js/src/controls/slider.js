@@ -1,11 +1,11 @@
 /** A labelled slider with a value field, for one number of the parameter table. */
 
-import { element } from "./element.js";
+import { element, setAttributes } from "./element.js";
 
 /**
  * @typedef {{
  *   node: HTMLElement,
- *   show: (value: number | null, automatic: number | undefined) => void,
+ *   show: (value: number | null, automatic: number | undefined, idle?: string) => void,
  * }} Slider
  */
 
@@ -37,18 +37,25 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
     autocomplete: "off",
   });
   const automatic = p.default === null;
-  const badge = element("button", {
-    type: "button",
-    class: "sw-auto",
-    title: automatic ? "Return to what was found in the photo" : "Return to the default",
-    "aria-label": `Reset ${p.label}`,
-  });
-  badge.textContent = automatic ? "auto" : "↺";
+  const found = element("span", { class: "sw-found", title: "Found in the photo" }, "auto");
+  const back = element(
+    "button",
+    {
+      type: "button",
+      class: "sw-back",
+      title: automatic
+        ? "Return to what was found in the photo (double-click)"
+        : "Return to the default (double-click)",
+      "aria-label": `Reset ${p.label}`,
+    },
+    automatic ? "auto" : "↺",
+  );
   const node = element(
     "div",
     { class: "sw-slider", title: p.help, "data-parameter": p.name },
     element("span", { class: "sw-label" }, p.label),
-    badge,
+    automatic ? found : "",
+    back,
     element("span", { class: "sw-value" }, field, element("span", { class: "sw-unit" }, p.unit)),
     range,
   );
@@ -59,9 +66,13 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
     onInput(/** @type {number | null} */ (p.default));
     onCommit();
   };
-  badge.addEventListener("click", reset);
+  back.addEventListener("click", () => {
+    reset();
+    // The button goes with the change: the keyboard stays in the row.
+    range.focus();
+  });
   node.addEventListener("dblclick", (event) => {
-    if (event.target !== field) reset();
+    if (event.target !== field && !range.disabled) reset();
   });
   range.addEventListener("input", () => {
     onBegin();
@@ -98,21 +109,39 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
     onCommit();
   }
 
+  /** Where a value stands on the track, 0–1. @param {number} value */
+  const share = (value) => Math.min(1, Math.max(0, (value - p.minimum) / (p.maximum - p.minimum)));
+  // What has two signs is filled from its zero.
+  const from = p.minimum < 0 && p.maximum > 0 ? share(0) : 0;
+
   return {
     node,
-    show(value, found) {
-      const effective = value ?? found;
+    /** `idle` says why the slider cannot be used now. */
+    show(value, foundValue, idle = "") {
+      const effective = value ?? foundValue;
       const known = effective !== undefined && effective !== null;
       const isDefault = value === p.default;
       node.classList.toggle("sw-default", isDefault);
-      node.classList.toggle("sw-is-auto", automatic && isDefault);
-      range.disabled = !known;
+      node.classList.toggle("sw-idle", idle !== "");
+      node.title = idle || p.help;
+      found.hidden = !isDefault || !known;
+      back.hidden = isDefault;
+      range.disabled = !known || idle !== "";
+      field.disabled = back.disabled = idle !== "";
       shown = known ? effective.toFixed(decimals) : "";
       if (field !== field.ownerDocument.activeElement || field.value !== shown) field.value = shown;
       if (!known) return;
       range.value = String(effective);
-      const share = (effective - p.minimum) / (p.maximum - p.minimum);
-      range.style.setProperty("--sw-share", String(Math.min(1, Math.max(0, share))));
+      const unit = /^[°×]?$/.test(p.unit) ? p.unit : ` ${p.unit}`;
+      setAttributes(range, {
+        "aria-valuetext": `${shown}${unit}${automatic && isDefault ? ", automatic" : ""}`,
+      });
+      const at = share(effective);
+      const home = /** @type {number | undefined} */ (p.default ?? foundValue);
+      range.style.setProperty("--sw-share", String(Math.max(from, at)));
+      range.style.setProperty("--sw-low", String(Math.min(from, at)));
+      range.style.setProperty("--sw-home", String(share(home ?? effective)));
+      range.classList.toggle("sw-has-home", !isDefault && home !== undefined);
     },
   };
 }

@@ -1,84 +1,153 @@
-/** The sliders, drawn from the kernel's parameter table. */
+/**
+ * The panel: presets, a filter, and the sliders by section, drawn from the kernel's parameter
+ * table. Few sections are open; each says how many of its values are changed.
+ */
 
-import { presetChips } from "../controls/chips.js";
 import { choice } from "../controls/choice.js";
 import { element } from "../controls/element.js";
-import { section } from "../controls/section.js";
+import { countedSection, section } from "../controls/section.js";
 import { slider } from "../controls/slider.js";
+import { equal } from "../state.js";
+import { panelFilter } from "./panel_filter.js";
 import { Softness } from "./softness.js";
+
+/**
+ * @typedef {import("../types.js").Parameter} Parameter
+ * @typedef {import("./view.js").View} View
+ * @typedef {{ parameter: Parameter, node: HTMLElement, show: () => void }} Row
+ * @typedef {ReturnType<typeof countedSection> & {
+ *   name: string, rows: Row[], main: HTMLElement, more: HTMLDetailsElement | null,
+ *   inMore: HTMLElement,
+ * }} Section
+ */
+
+const OPEN = ["sun"];
+
+/**
+ * Which sections are open, by model: another view of the editor starts as the last one was left.
+ *
+ * @type {WeakMap<object, Record<string, boolean>>}
+ */
+const folds = new WeakMap();
 
 /** @param {string} name */
 const title = (name) => name[0].toUpperCase() + name.slice(1);
 
-/**
- * @param {import("./view.js").View} view
- * @returns {{ node: HTMLElement, show: () => void, section: (name: string) => HTMLElement }}
- */
+/** @param {View} view */
 export function panel(view) {
   const { state } = view;
-  const node = element("div", { class: "sw-panel", role: "group", "aria-label": "Parameters" });
-  /** @type {(() => void)[]} */
-  const updates = [];
+  const open = { ...folds.get(view.model) };
+  /** @param {string} name @param {boolean} on */
+  const keepFold = (name, on) => {
+    open[name] = on;
+    folds.set(view.model, { ...open });
+  };
+  const softness = new Softness(view);
 
-  /** @param {import("../types.js").Parameter} p */
-  const row = (p) => {
-    if (p.kind === "choice") {
-      const control = choice({
-        parameter: p,
-        onChange: (value) => state.set({ [p.name]: value }),
-      });
-      updates.push(() => control.show(String(state.values[p.name] ?? p.default)));
-      return control.node;
+  /** @param {Parameter} p */
+  const isChanged = (p) => !equal(state.values[p.name], p.default);
+
+  /** @param {string} name @param {Parameter[]} parameters @returns {Section} */
+  const makeSection = (name, parameters) => {
+    const rows = parameters.map((p) => makeRow(view, p));
+    // What the kernel has to answer is set once, not played with.
+    const folded = rows.filter(({ parameter: p }) => p.advanced || p.analysis);
+    const all = folded.length === rows.length;
+    const main = element("div", { class: "sw-section-main" });
+    main.append(...rows.filter((row) => all || !folded.includes(row)).map(({ node }) => node));
+    /** @type {HTMLDetailsElement | null} */
+    let more = null;
+    const inMore = element("span", { class: "sw-more-changed" });
+    if (folded.length && !all) {
+      const nodes = /** @type {Node[]} */ (folded.map(({ node }) => node));
+      if (name === "clouds") nodes.splice(1, 0, softness.node);
+      more = section({ title: "More", open: false, className: "sw-more" }, ...nodes);
+      more.querySelector("summary")?.append(inMore);
     }
-    const control = slider({
-      parameter: p,
-      onBegin: () => state.begin(),
-      onInput: (value) => state.set({ [p.name]: value }),
-      onCommit: () => state.commit(),
-    });
-    updates.push(() => {
-      const value = /** @type {number | null} */ (state.values[p.name]);
-      control.show(value, view.scene?.automatic[p.name]);
-    });
-    return control.node;
+    const made = countedSection(
+      {
+        title: title(name),
+        open: open[name] ?? OPEN.includes(name),
+        onFold: (on) => {
+          if (!filter.active()) keepFold(name, on);
+        },
+        onReset: () => state.set(Object.fromEntries(parameters.map((p) => [p.name, p.default]))),
+      },
+      main,
+      ...(more ? [more] : []),
+    );
+    made.node.dataset.section = name;
+    return { ...made, name, rows, main, more, inMore };
   };
 
-  const presets = presetChips(state, () => view.scene?.presets ?? []);
-  node.append(presets.node);
-  updates.push(presets.show);
-  const softness = new Softness(view);
-  updates.push(() => softness.show());
-  /** @type {Map<string, HTMLElement>} */
-  const sections = new Map();
   const shown = view.parameters.filter((p) => p.kind !== "data");
-  for (const name of new Set(shown.map((p) => p.section))) {
-    const rows = shown.filter((p) => p.section === name);
-    // What the kernel has to answer is set once, not played with.
-    const folded = (/** @type {import("../types.js").Parameter} */ p) => p.advanced || p.analysis;
-    const main = rows.filter((p) => !folded(p));
-    const more = rows.filter(folded);
-    const body = /** @type {Node[]} */ (main.map(row));
-    if (main.length && more.length) {
-      const nodes = /** @type {Node[]} */ (more.map(row));
-      if (name === "clouds") nodes.splice(1, 0, softness.node);
-      body.push(section({ title: "More", open: false, className: "sw-more" }, ...nodes));
-    }
-    const made = main.length
-      ? section({ title: title(name) }, ...body)
-      : section({ title: title(name), open: false }, ...more.map(row));
-    node.append(made);
-    sections.set(name, /** @type {HTMLElement} */ (made.querySelector(".sw-section-body")));
-  }
+  const names = [...new Set(shown.map((p) => p.section))];
+  const sections = names.map((name) =>
+    makeSection(
+      name,
+      shown.filter((p) => p.section === name),
+    ),
+  );
+  const filter = panelFilter(view, sections, {
+    isChanged,
+    isOpen: (name) => open[name] ?? OPEN.includes(name),
+  });
+  const top = element("div", { class: "sw-panel-top" });
+  const node = element(
+    "div",
+    { class: "sw-panel", role: "group", "aria-label": "Parameters" },
+    top,
+    filter.node,
+    ...sections.map((made) => made.node),
+    filter.none,
+  );
   return {
     node,
-    /** Where a part may add its rows. */
+    /** Above the sections: presets, histogram. */
+    top,
+    /** Where a part may add its rows: below the section's own, above "More". @param {string} name */
     section(name) {
-      const body = sections.get(name);
-      if (!body) throw new Error(`The panel has no section "${name}".`);
-      return body;
+      const found = sections.find((made) => made.name === name);
+      if (!found) throw new Error(`The panel has no section "${name}".`);
+      return found.main;
     },
-    show: () => {
-      for (const update of updates) update();
+    show() {
+      softness.show();
+      for (const { rows, setChanged, more, inMore } of sections) {
+        for (const row of rows) row.show();
+        const changed = rows.filter(({ parameter }) => isChanged(parameter));
+        setChanged(changed.map(({ parameter }) => parameter.label));
+        const within = changed.filter(({ node: row }) => more?.contains(row)).length;
+        inMore.textContent = within ? `· ${within} changed` : "";
+      }
+      filter.show();
     },
   };
+}
+
+/** One control of the table. @param {View} view @param {Parameter} p @returns {Row} */
+function makeRow(view, p) {
+  const { state } = view;
+  const idle = () => {
+    if (!p.analysis || view.kernel.answers) return "";
+    return view.kernel.state === "none"
+      ? `${p.label} asks the analysis, which a page without a kernel does not have.`
+      : `${p.label} asks the analysis: run the cell again to connect the kernel.`;
+  };
+  if (p.kind === "choice") {
+    const control = choice({ parameter: p, onChange: (value) => state.set({ [p.name]: value }) });
+    const show = () => control.show(String(state.values[p.name] ?? p.default), idle());
+    return { parameter: p, node: control.node, show };
+  }
+  const control = slider({
+    parameter: p,
+    onBegin: () => state.begin(),
+    onInput: (value) => state.set({ [p.name]: value }),
+    onCommit: () => state.commit(),
+  });
+  const show = () => {
+    const value = /** @type {number | null} */ (state.values[p.name]);
+    control.show(value, view.scene?.automatic[p.name], idle());
+  };
+  return { parameter: p, node: control.node, show };
 }

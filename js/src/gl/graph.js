@@ -263,16 +263,21 @@ export class Graph {
     return texture;
   }
 
+  /** Free what the passes drew into. */
+  deleteTargets() {
+    for (const target of [...this.targets.values(), ...this.spares.values()]) {
+      deleteTarget(this.gl, target);
+    }
+    this.targets.clear();
+    this.spares.clear();
+  }
+
   /** Free every GL object. */
   dispose() {
     const { gl } = this;
-    for (const target of [...this.targets.values(), ...this.spares.values()]) {
-      deleteTarget(gl, target);
-    }
+    this.deleteTargets();
     for (const texture of this.textures.values()) gl.deleteTexture(texture.handle);
     for (const program of this.programs.values()) gl.deleteProgram(program.handle);
-    this.targets.clear();
-    this.spares.clear();
     this.textures.clear();
     this.programs.clear();
   }

@@ -1,0 +1,123 @@
+/**
+ * The histogram of what is on the canvas: red, green, blue and luminance, the photo's own
+ * luminance as a line, and a mark at each end where detail is lost.
+ */
+
+import { element, setAttributes, shape } from "../controls/element.js";
+import { section } from "../controls/section.js";
+import { whenIdle } from "../idle.js";
+import { ceiling, countLevels, hill } from "./levels.js";
+
+/** @typedef {import("./levels.js").Levels} Levels */
+
+const EDGE = 256; // pixels of the longer side that are counted
+const EVERY_MS = 150;
+const WIDTH = 240;
+const HEIGHT = 56;
+const CHANNELS = /** @type {const} */ (["red", "green", "blue"]);
+const WORTH_SAYING = 0.001; // share of the picture that is clipped
+
+/** @type {import("./parts.js").MakePart} */
+export function histogram(view, signal) {
+  const hills = CHANNELS.map((name) => shape("path", { class: `sw-levels-${name}` }));
+  const luminance = shape("path", { class: "sw-levels-luminance" });
+  const before = shape("path", { class: "sw-levels-before" });
+  const svg = shape(
+    "svg",
+    {
+      class: "sw-levels",
+      viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+      preserveAspectRatio: "none",
+      role: "img",
+    },
+    ...hills,
+    luminance,
+    before,
+  );
+  const marks = {
+    black: element("span", { class: "sw-clipped sw-clipped-black", role: "img" }),
+    white: element("span", { class: "sw-clipped sw-clipped-white", role: "img" }),
+  };
+  const text = element("p", { class: "sw-levels-text" });
+  const node = section(
+    { title: "Histogram", open: true, className: "sw-section sw-levels-section" },
+    element("div", { class: "sw-levels-box" }, svg, marks.black, marks.white),
+    text,
+  );
+  view.panel.top.append(node);
+
+  const small = document.createElement("canvas");
+  const context = small.getContext("2d", { willReadFrequently: true });
+  /** @type {Levels | null} */
+  let own = null; // of the photo
+  let counted = 0; // when, ms
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+  let forget = () => {};
+
+  /** @param {HTMLCanvasElement | HTMLImageElement} source @returns {Levels | null} */
+  const read = (source) => {
+    const [width, height] =
+      source instanceof HTMLImageElement
+        ? [source.naturalWidth, source.naturalHeight]
+        : [source.width, source.height];
+    if (!context || !width || !height) return null;
+    const scale = Math.min(1, EDGE / Math.max(width, height));
+    small.width = Math.max(1, Math.round(width * scale));
+    small.height = Math.max(1, Math.round(height * scale));
+    // Averages would hide what is clipped: pixels are picked.
+    context.imageSmoothingEnabled = false;
+    context.drawImage(source, 0, 0, small.width, small.height);
+    return countLevels(context.getImageData(0, 0, small.width, small.height).data);
+  };
+
+  const show = () => {
+    counted = performance.now();
+    own ??= read(view.stage.photo);
+    const now = read(view.stage.canvas);
+    if (!now) return;
+    const most = ceiling([now.red, now.green, now.blue, now.luminance]);
+    CHANNELS.forEach((name, i) => {
+      setAttributes(hills[i], { d: hill(now[name], most, WIDTH, HEIGHT) });
+    });
+    setAttributes(luminance, { d: hill(now.luminance, most, WIDTH, HEIGHT) });
+    setAttributes(before, { d: own ? hill(own.luminance, most, WIDTH, HEIGHT) : "" });
+    const said = /** @type {const} */ (["black", "white"]).map((end) => {
+      const share = now.clipped[end];
+      const word = end === "black" ? "Blacks" : "Highlights";
+      const was = own ? `, in the photo ${percent(own.clipped[end])}` : "";
+      const label = `${word} clipped: ${percent(share)}${was}`;
+      setAttributes(marks[end], { "aria-label": label, title: label });
+      marks[end].classList.toggle("sw-on", share > WORTH_SAYING);
+      return share > WORTH_SAYING ? `${word} clipped ${percent(share)}` : "";
+    });
+    text.textContent = said.filter(Boolean).join(" · ") || "Nothing clipped";
+    svg.setAttribute("aria-label", `Histogram. ${text.textContent}.`);
+  };
+  const wake = () => {
+    if (!node.open || timer || signal.aborted) return;
+    timer = setTimeout(
+      () => {
+        timer = undefined;
+        forget();
+        forget = whenIdle(show);
+      },
+      Math.max(0, counted + EVERY_MS - performance.now()),
+    );
+  };
+  node.addEventListener("toggle", wake);
+  signal.addEventListener("abort", () => {
+    clearTimeout(timer);
+    forget();
+  });
+  view.stage.photo.addEventListener("load", () => {
+    own = null;
+  });
+  return { drawn: wake };
+}
+
+/** @param {number} share */
+const percent = (share) => {
+  const value = 100 * share;
+  return `${value === 0 || value >= 10 ? Math.round(value) : value.toFixed(1)} %`;
+};

@@ -1,0 +1,108 @@
+/**
+ * The presets, each with a small picture of what it makes of this photo. They are drawn one by
+ * one while the page has nothing else to do, never while a hand is on the picture.
+ */
+
+import { presetChips } from "../controls/chips.js";
+import { element } from "../controls/element.js";
+import { Sketch } from "../gl/sketch.js";
+import { whenIdle } from "../idle.js";
+
+/** @typedef {import("../controls/chips.js").Preset} Preset */
+
+const AREA = 76_000; // pixels of a frame; nine make one of the thumbnail
+const SHRINK = 3;
+const DENSE = 2; // device pixels to a CSS pixel that the thumbnails are made for
+const QUIET_MS = 400; // after the last change
+const PAUSE_MS = 60; // between two of them
+
+/** @type {import("./parts.js").MakePart} */
+export function presetThumbnails(view, signal) {
+  const sketch = new Sketch(view.frame);
+  /** @type {{ preset: Preset, canvas: HTMLCanvasElement, key: string }[]} */
+  let all = [];
+  let generation = 0; // of the scene
+  let inSight = false;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+  let forget = () => {};
+
+  const chips = presetChips(
+    view.state,
+    () => view.scene?.presets ?? [],
+    (preset) => {
+      const canvas = element("canvas", { class: "sw-thumbnail", "aria-hidden": "true" });
+      all = all.filter((one) => one.preset.label !== preset.label);
+      all.push({ preset, canvas, key: "" });
+      return canvas;
+    },
+  );
+  view.panel.top.append(chips.node);
+
+  /** What a thumbnail shows; a sun that is moved by hand changes none. @param {Preset} preset */
+  const keyOf = (preset) => {
+    const numbers = view.parameters.filter(({ kind }) => kind !== "data");
+    return JSON.stringify([
+      generation,
+      ...numbers.map(({ name }) => preset.values[name] ?? view.state.values[name]),
+    ]);
+  };
+  const busy = () => view.loop.busy || view.pointer !== null || view.state.before !== null;
+  const stale = () => all.find(({ preset, key }) => key !== keyOf(preset));
+
+  /** @type {(wait: number) => void} */
+  const wake = (wait) => {
+    if (signal.aborted) return;
+    clearTimeout(timer);
+    forget();
+    timer = setTimeout(() => {
+      if (!view.scene || !inSight) return;
+      forget = whenIdle(draw);
+    }, wait);
+  };
+  const draw = () => {
+    if (busy()) return wake(QUIET_MS);
+    const next = stale();
+    if (!next) return sketch.rest();
+    const [width, height] = view.size;
+    const scale = Math.min(1, Math.sqrt(AREA / (width * height)));
+    /** @type {[number, number]} */
+    const size = [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
+    const { canvas, preset } = next;
+    const frame = view.frame.describe({ ...view.state.values, ...preset.values }, size);
+    if (!frame) return;
+    canvas.width = Math.ceil((size[0] * DENSE) / SHRINK);
+    canvas.height = Math.ceil((size[1] * DENSE) / SHRINK);
+    const key = keyOf(preset);
+    // Without a context there will be one when the picture is drawn again.
+    if (!sketch.draw(frame, canvas)) return;
+    next.key = key;
+    canvas.classList.add("sw-drawn");
+    wake(PAUSE_MS);
+  };
+
+  const observer = new IntersectionObserver((entries) => {
+    inSight = entries[entries.length - 1].isIntersecting;
+    if (inSight) wake(QUIET_MS);
+  });
+  observer.observe(chips.node);
+  signal.addEventListener("abort", () => {
+    clearTimeout(timer);
+    forget();
+    observer.disconnect();
+    sketch.rest();
+  });
+
+  return {
+    loaded() {
+      generation += 1;
+    },
+    show() {
+      chips.show();
+      wake(QUIET_MS);
+    },
+    drawn() {
+      wake(QUIET_MS);
+    },
+  };
+}
