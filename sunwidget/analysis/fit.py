@@ -9,8 +9,11 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TypeVar
 
 import numpy as np
 
@@ -26,6 +29,8 @@ from sunwidget.atmosphere.constants import SPECTRAL_TO_REC709
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.sky import SkyTable
 from sunwidget.camera import Camera
+
+T = TypeVar("T")
 
 # What is searched. Finer steps change no picture visibly: gain and contrast absorb the rest.
 _OPTICAL_DEPTHS = (0.01, 0.03, 0.06, 0.12, 0.25, 0.5)
@@ -162,16 +167,20 @@ def fit_sky(
         sun, sure_of_sun = _search_sun(display, where, assumed)
 
     # First the air under a middling response, then the response under the likeliest airs.
-    airs = []
-    for depth, asymmetry in itertools.product(_OPTICAL_DEPTHS, _ASYMMETRIES):
-        atmosphere = Atmosphere(
+    candidates = [
+        Atmosphere(
             aerosol_optical_depth=depth,
             aerosol_asymmetry=asymmetry,
             angstrom_exponent=_ANGSTROM,
             aerosol_albedo=_ALBEDO,
         )
-        model = model_sky(atmosphere, *where, sun)
-        airs.append((_compare(display, model, Response())[0], atmosphere, model))
+        for depth, asymmetry in itertools.product(_OPTICAL_DEPTHS, _ASYMMETRIES)
+    ]
+    models = _side_by_side(lambda air: model_sky(air, *where, sun), candidates)
+    airs = [
+        (_compare(display, model, Response())[0], air, model)
+        for air, model in zip(candidates, models, strict=True)
+    ]
     airs.sort(key=lambda air: air[0])
     evidence = Evidence(
         residual=airs[0][0],
@@ -201,6 +210,12 @@ def fit_sky(
         sun,
         sure_of_sun,
     )
+
+
+def _side_by_side(task: Callable[[T], np.ndarray], items: list[T]) -> list[np.ndarray]:
+    """Map over two threads, since a person waits; NumPy lets go of the interpreter."""
+    with ThreadPoolExecutor(2) as pool:
+        return list(pool.map(task, items))
 
 
 def view_angles(camera: Camera, width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
@@ -236,23 +251,30 @@ def _search_sun(
     # Suns of one height are marched together: they share the air's table.
     rings = [(np.array([assumed[0]]), assumed[1])]
     rings += [(around, height) for height in (-2.0, 2.0, 8.0, 18.0, 35.0, 60.0)]
-    errors: dict[tuple[float, float], float] = {}
-    for depth in (0.03, 0.12):
-        air = Atmosphere(
+    airs = [
+        Atmosphere(
             aerosol_optical_depth=depth,
             aerosol_asymmetry=0.76,
             angstrom_exponent=_ANGSTROM,
             aerosol_albedo=_ALBEDO,
         )
-        for azimuths, height in rings:
-            skies = model_sky(air, where[0] - azimuths[:, None], where[1], (0.0, height))
-            for azimuth, sky in zip(azimuths, skies, strict=True):
-                candidate = float(azimuth), float(height)
-                error, _ = _compare(display, sky, response)
-                # The sky must speak clearly to overrule the assumption.
-                if candidate == assumed:
-                    error *= 0.9
-                errors[candidate] = min(error, errors.get(candidate, np.inf))
+        for depth in (0.03, 0.12)
+    ]
+
+    def march(task: tuple[Atmosphere, tuple[np.ndarray, float]]) -> np.ndarray:
+        air, (azimuths, height) = task
+        return model_sky(air, where[0] - azimuths[:, None], where[1], (0.0, height))
+
+    tasks = list(itertools.product(airs, rings))
+    errors: dict[tuple[float, float], float] = {}
+    for (_, (azimuths, height)), skies in zip(tasks, _side_by_side(march, tasks), strict=True):
+        for azimuth, sky in zip(azimuths, skies, strict=True):
+            candidate = float(azimuth), float(height)
+            error, _ = _compare(display, sky, response)
+            # The sky must speak clearly to overrule the assumption.
+            if candidate == assumed:
+                error *= 0.9
+            errors[candidate] = min(error, errors.get(candidate, np.inf))
     best = min(errors, key=lambda candidate: errors[candidate])
     return best, confidence_of_sun(best, errors)
 

@@ -182,23 +182,30 @@ def _rings(
     luminance: np.ndarray, sky: np.ndarray, seed: tuple[float, float], radius: float
 ) -> tuple[np.ndarray, float]:
     """Mean luminance of the sky in widening rings, and the share of sectors that darken."""
-    height, width = luminance.shape
-    side = max(height, width)
-    columns, rows = np.arange(width) + 0.5 - seed[0], np.arange(height)[:, None] + 0.5 - seed[1]
-    distance = np.hypot(columns, rows)
-    sector = ((np.arctan2(rows, columns) / (2 * np.pi) + 0.5) * 12).astype(int) % 12
+    side = max(luminance.shape)
     edges = radius + side * np.array([0.012, 0.03, 0.055, 0.09, 0.14, 0.2])
-    means, table = [], np.full((12, 5), np.nan)
-    for k in range(5):
-        ring = sky & (distance >= edges[k]) & (distance < edges[k + 1])
-        if ring.sum() < 20:
-            break
-        means.append(float(luminance[ring].mean()))
-        weight = np.bincount(sector[ring], minlength=12)
-        total = np.bincount(sector[ring], luminance[ring], minlength=12)
-        table[:, k] = np.where(weight >= 5, total / np.maximum(weight, 1), np.nan)
+    # Only the square round the rings: a photo may have twenty blots to ask about.
+    column, row = seed
+    left, top = (max(0, math.floor(at - edges[-1])) for at in (column, row))
+    box = slice(top, math.ceil(row + edges[-1])), slice(left, math.ceil(column + edges[-1]))
+    luminance, sky = luminance[box], sky[box]
+    rows, columns = np.ogrid[: luminance.shape[0], : luminance.shape[1]]
+    rows, columns = rows + (top + 0.5 - row), columns + (left + 0.5 - column)
+    distance = np.hypot(columns, rows)
+    counted = sky & (distance >= edges[0]) & (distance < edges[-1])
+    ring = np.searchsorted(edges, distance[counted], side="right") - 1
+    turn = np.arctan2(*(np.broadcast_to(a, counted.shape)[counted] for a in (rows, columns)))
+    sector = ((turn / (2 * np.pi) + 0.5) * 12).astype(int) % 12
+    cells = 5 * sector + ring
+    weight = np.bincount(cells, minlength=60).reshape(12, 5)
+    total = np.bincount(cells, luminance[counted], minlength=60).reshape(12, 5)
+    filled = weight.sum(axis=0) >= 20
+    reached = 5 if filled.all() else int(filled.argmin())
+    means = total.sum(axis=0)[:reached] / weight.sum(axis=0)[:reached]
+    table = np.where(weight >= 5, total / np.maximum(weight, 1), np.nan)
+    table[:, reached:] = np.nan
     usable = np.isfinite(table[:, 0]) & np.isfinite(table[:, 2])
     if usable.sum() < 4:
         return np.array([]), 0.0
     inner, outer = table[usable, 0], np.nanmin(table[usable], axis=1)
-    return np.array(means), float(np.mean(inner - outer > 0.03))
+    return means, float(np.mean(inner - outer > 0.03))
