@@ -41,7 +41,7 @@ function contrast(a, b) {
   return (high + 0.05) / (low + 0.05);
 }
 
-const SHARED = tokens(read("controls/style.css"));
+const SHARED = tokens(read("controls/colors.css"));
 const PLOTS = tokens(read("explorer/style.css"));
 
 // What stands on what; a list of grounds lies one on the other, the last at the bottom.
@@ -117,7 +117,7 @@ test("no part has colours of its own", () => {
   const sheets = readdirSync(new URL("../src", import.meta.url), { recursive: true })
     .map((path) => path.replaceAll("\\", "/"))
     .filter((path) => path.endsWith(".css"));
-  assert.ok(sheets.includes("controls/style.css"));
+  assert.ok(sheets.includes("controls/colors.css"));
   const own = sheets.flatMap((path) =>
     read(path)
       .split("\n")
