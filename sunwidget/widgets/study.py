@@ -1,0 +1,175 @@
+"""Study: which of two pictures looks more realistic? Many raters, in a notebook or beside it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import anywidget
+import traitlets
+
+from sunwidget.photo import open_photo
+from sunwidget.study import (
+    Answer,
+    BradleyTerry,
+    StudyError,
+    bradley_terry,
+    by_rater,
+    read_csv,
+    write_csv,
+)
+from sunwidget.study.bradley_terry import PRIOR
+from sunwidget.widgets.payload import encode_preview
+
+_STATIC = Path(__file__).parents[1] / "static"
+_MOST_REPEATS = 100
+
+
+class Study(anywidget.AnyWidget):
+    """Show pictures two by two and let people choose; the thesis' user study (section 6.3).
+
+    Each rater sees every pair of methods of every photo, in an order and on sides drawn by
+    chance from seed and rater, and chooses by click or arrow key. Which method made a picture is
+    nowhere on the screen. Needs no kernel while people answer.
+
+    Parameters
+    ----------
+    pictures : mapping
+        Picture by method, ``{"ratio": a, "thesis": b}``; or such a mapping for each of several
+        photos, ``{"coast": {"ratio": a, "thesis": b}, "meadow": {...}}``. A picture is whatever
+        ``sunwidget.open`` takes; it is shown with a long edge of at most 2048 pixels.
+    question : str
+    rater : str, optional
+        Who answers; people can also say so themselves.
+    repeats : int, default 1
+        How often each rater sees a pair, with sides swapped from one time to the next.
+    ties : bool, default False
+        Whether "cannot decide" is an answer. It counts as half a win for each.
+    seed : int, default 0
+
+    Raises
+    ------
+    StudyError
+        For fewer than two pictures of a photo, or names that are no text.
+    PhotoError
+        For a picture that cannot be opened.
+
+    Examples
+    --------
+    >>> study = sw.Study({"coast": compare.render()}, rater="anna")
+    >>> study.to_csv("anna.csv")
+    >>> study.results()
+    """
+
+    _esm = _STATIC / "study.js"
+    _css = _STATIC / "study.css"
+
+    rater = traitlets.Unicode("", help="Who answers.").tag(sync=True)
+    _pictures: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
+    _groups: traitlets.List = traitlets.List().tag(sync=True)
+    _answers: traitlets.List = traitlets.List().tag(sync=True)
+    _question = traitlets.Unicode().tag(sync=True)
+    _repeats = traitlets.Int(1).tag(sync=True)
+    _ties = traitlets.Bool(False).tag(sync=True)
+    _seed = traitlets.Int(0).tag(sync=True)
+
+    def __init__(
+        self,
+        pictures: Mapping[str, Any],
+        *,
+        question: str = "Which picture looks more realistic?",
+        rater: str = "",
+        repeats: int = 1,
+        ties: bool = False,
+        seed: int = 0,
+    ) -> None:
+        if not 1 <= repeats <= _MOST_REPEATS:
+            raise StudyError(f"repeats is a number from 1 to {_MOST_REPEATS}, not {repeats!r:.80}.")
+        groups, files = _read(pictures)
+        super().__init__(
+            _pictures=files,
+            _groups=groups,
+            _question=question,
+            _repeats=repeats,
+            _ties=ties,
+            _seed=seed,
+            rater=rater,
+        )
+
+    @property
+    def answers(self) -> list[Answer]:
+        """All answers so far, of all raters, in the order in which they came."""
+        return [Answer.from_row(row) for row in self._answers]
+
+    def to_csv(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
+        """Write one row an answer; see ``sunwidget.study.Answer`` for the columns.
+
+        Raises
+        ------
+        FileExistsError
+            When ``path`` exists and ``overwrite`` is false.
+        """
+        return write_csv(self.answers, path, overwrite=overwrite)
+
+    @staticmethod
+    def read_csv(*paths: str | os.PathLike[str]) -> list[Answer]:
+        """Read the answers of one or more files; see ``sunwidget.study.read_csv``."""
+        return read_csv(*paths)
+
+    def results(self, *, prior: float = PRIOR) -> BradleyTerry:
+        """Return the methods' strengths after Bradley and Terry, pooled over raters and photos.
+
+        Raises
+        ------
+        StudyError
+            While there are no answers.
+
+        See Also
+        --------
+        sunwidget.study.bradley_terry : what is computed, and what ``prior`` means.
+        """
+        return bradley_terry(self.answers, prior=prior, methods=self.methods)
+
+    def results_by_rater(self, *, prior: float = PRIOR) -> dict[str, BradleyTerry]:
+        """Return the strengths by each rater's own answers, by rater."""
+        return by_rater(self.answers, prior=prior)
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """Names of the methods that are compared."""
+        names = (method["name"] for group in self._groups for method in group["methods"])
+        return tuple(dict.fromkeys(names))
+
+
+def _read(pictures: Mapping[str, Any]) -> tuple[list[dict[str, Any]], list[bytes]]:
+    """Return the photos' methods by index of their pictures, and these encoded."""
+    if not isinstance(pictures, Mapping):
+        raise StudyError(
+            f"Pictures are given by the name of what made them, not as {type(pictures).__name__}: "
+            'sw.Study({"ratio": a, "thesis": b}).'
+        )
+    nested = [isinstance(item, Mapping) for item in pictures.values()]
+    if any(nested) and not all(nested):
+        raise StudyError(
+            "Either every entry is a picture, or every entry is a mapping of pictures by method; "
+            "here both occur."
+        )
+    by_photo = pictures if any(nested) else {"": pictures}
+    groups: list[dict[str, Any]] = []
+    files: list[bytes] = []
+    for photo, methods in by_photo.items():
+        if len(methods) < 2:
+            raise StudyError(
+                f"A study compares pictures two by two, but {photo or 'it'} has {len(methods)}. "
+                "Give at least two methods."
+            )
+        rows = []
+        for name, picture in methods.items():
+            if not isinstance(name, str) or not name or not isinstance(photo, str):
+                raise StudyError(f"Photos and methods are named by texts, not {name!r:.80}.")
+            rows.append({"name": name, "picture": len(files)})
+            files.append(encode_preview(open_photo(picture)))
+        groups.append({"name": photo, "methods": rows})
+    return groups, files
