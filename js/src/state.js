@@ -39,6 +39,8 @@ export class EditState {
     this.unsent = new Set();
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
+    /** Whether the photo's maps can follow: corrections stay as they are until they can. */
+    this.correctable = () => true;
     /** @type {() => void} called when something was sent that the photo's maps follow */
     this.onCorrection = () => {};
 
@@ -85,13 +87,18 @@ export class EditState {
     const single = this.before === null;
     if (single) this.begin();
     for (const [name, value] of Object.entries(changes)) {
-      if (equal(this.values[name], value)) continue;
+      if (equal(this.values[name], value) || this.fixed(name)) continue;
       this.values[name] = value;
       this.unsent.add(name);
     }
     this.notify();
     if (single) this.commit();
     else this.timer ??= setTimeout(() => this.push(), THROTTLE_MS);
+  }
+
+  /** Whether a value stays as it is, since the maps could not follow. @param {string} name */
+  fixed(name) {
+    return !this.correctable() && this.parameters.some((p) => p.name === name && p.analysis);
   }
 
   /** Start a gesture: all changes until `commit` are one step of the history. */
@@ -148,7 +155,7 @@ export class EditState {
   apply(recipe) {
     for (const p of this.parameters) {
       const value = p.name in recipe ? recipe[p.name] : p.default;
-      if (equal(this.values[p.name], value)) continue;
+      if (equal(this.values[p.name], value) || this.fixed(p.name)) continue;
       this.values[p.name] = value;
       this.unsent.add(p.name);
     }

@@ -10,6 +10,7 @@
 
 import { help } from "./help.js";
 import { histogram } from "./histogram.js";
+import { needsKernel } from "./needs_kernel.js";
 import { presetThumbnails } from "./preset_thumbnails.js";
 import { recipe } from "./recipe.js";
 
@@ -24,7 +25,7 @@ import { recipe } from "./recipe.js";
  */
 
 /** @type {MakePart[]} */
-const PARTS = [presetThumbnails, histogram, recipe, help];
+const PARTS = [presetThumbnails, histogram, recipe, help, needsKernel];
 
 /**
  * @param {import("./view.js").View} view

@@ -111,6 +111,12 @@ export function toolbar(view) {
     end,
     menu,
     before,
+    save,
+    /** The tools' buttons by name. */
+    tools: TOOLS.map(({ value }, i) => ({
+      value,
+      node: /** @type {HTMLElement} */ (tools.node.children[i]),
+    })),
     show() {
       tools.show(view.tool);
       history.show();

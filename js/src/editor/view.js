@@ -15,7 +15,6 @@ import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { paintBrushMask, SUBJECTS } from "./brush_mask.js";
 import { BrushTool, EraseTool } from "./brush_tool.js";
-import { download } from "./download.js";
 import { HorizonTool } from "./horizon_tool.js";
 import { Inspector } from "./inspector.js";
 import { Kernel } from "./kernel.js";
@@ -24,6 +23,7 @@ import { panel } from "./panel.js";
 import { makeParts } from "./parts.js";
 import { PickTool } from "./pick_tool.js";
 import { listenToPointer } from "./pointer.js";
+import { saveFullSize, savePreview } from "./save.js";
 import { onShortcut } from "./shortcuts.js";
 import { Stage } from "./stage.js";
 import { BRUSHES, StrokesLayer } from "./strokes.js";
@@ -64,6 +64,7 @@ export class View {
     this.state = new EditState(model, this.parameters, signal);
     this.channel = new Channel(model, signal);
     this.kernel = new Kernel(model);
+    this.state.correctable = () => this.kernel.answers;
     this.stage = new Stage(signal);
     this.frame = new Frame(this.stage.canvas, this.parameters);
     /** @type {Scene | null} */
@@ -258,6 +259,7 @@ export class View {
 
   /** @param {string} tool */
   setTool(tool) {
+    if (tool !== "sun" && !this.kernel.answers) return; // all others correct the analysis
     this.tools[this.tool].cancel();
     this.tool = tool;
     this.root.dataset.tool = tool;
@@ -343,18 +345,14 @@ export class View {
       `${this.value("sun_elevation").toFixed(1)}° elevation`;
   }
 
-  /** Ask the kernel for the frame at full size and hand it to the person. */
+  /** Hand the picture to the person, of full size where the kernel answers. */
   async save() {
     if (this.saving) return;
     this.saving = true;
     this.state.push();
     this.toolbar.show();
     try {
-      const { result, buffers } = await this.channel.request("save", {}, (fraction, text) =>
-        this.stage.setProgress(fraction, text),
-      );
-      const blob = new Blob([/** @type {BlobPart} */ (buffers[0])], { type: result.type });
-      download(blob, result.name);
+      await (this.kernel.answers ? saveFullSize(this) : savePreview(this));
     } catch (error) {
       this.showError(`Saving failed: ${message(error)}`);
     } finally {

@@ -1,0 +1,55 @@
+/**
+ * What only the kernel can do is disabled while none answers, and says why: in a stand-alone page
+ * for ever, in a notebook until the kernel is back. What a shader draws stays live.
+ */
+
+/** @typedef {"none" | "lost"} Absence */
+
+/** @type {Record<Absence, string>} */
+const REASONS = {
+  none: "Needs a kernel: open the photo in a notebook",
+  lost: "Needs the kernel: run the cell again",
+};
+
+/** @type {import("./parts.js").MakePart} */
+export function needsKernel(view) {
+  const { kernel, panel, root, toolbar } = view;
+  const corrections = view.parameters.filter((p) => p.analysis).map((p) => p.name);
+  /** @type {Map<HTMLElement, string>} titles as they were */
+  const titles = new Map();
+
+  /** Controls that ask the kernel. @returns {HTMLElement[]} */
+  const controls = () => [
+    ...toolbar.tools.filter(({ value }) => value !== "sun").map(({ node }) => node),
+    view.inspector.choice,
+    ...corrections.flatMap((name) => inputs(panel.node, `[data-parameter="${name}"]`)),
+    ...inputs(panel.node, ".sw-softness"),
+  ];
+
+  /** @param {HTMLElement} node @param {string} reason "" when the kernel answers */
+  const mark = (node, reason) => {
+    if (reason && !titles.has(node)) titles.set(node, node.title);
+    if (!reason && !titles.has(node)) return;
+    node.title = reason || (titles.get(node) ?? "");
+    node.toggleAttribute("disabled", reason !== "");
+    if (!reason) titles.delete(node);
+  };
+
+  return {
+    show() {
+      const reason = kernel.state === "live" ? "" : REASONS[kernel.state];
+      root.classList.toggle("sw-without-kernel", reason !== "");
+      if (!reason && !titles.size) return;
+      for (const node of controls()) mark(node, reason);
+      if (reason && view.tool !== "sun") view.setTool("sun");
+      if (reason && view.inspector.map) view.inspector.show("");
+      toolbar.save.title = reason
+        ? "Download the picture at the size it has here"
+        : "Render at full size and download";
+    },
+  };
+}
+
+/** @param {HTMLElement} node @param {string} row */
+const inputs = (node, row) =>
+  /** @type {HTMLElement[]} */ ([...node.querySelectorAll(`${row} :is(input, select, button)`)]);
