@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from sunwidget.export.sweep import sweep
     from sunwidget.photo import Photo, PhotoError, PhotoWarning
     from sunwidget.photo import open_photo as open  # noqa: A004 - sw.open, as Image.open
+    from sunwidget.place import Place
     from sunwidget.presets import PRESETS
     from sunwidget.presets import edit as preset
     from sunwidget.renderer.gl_thread import RendererError
@@ -47,6 +48,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Photo": ("sunwidget.photo", "Photo"),
     "PhotoError": ("sunwidget.photo", "PhotoError"),
     "PhotoWarning": ("sunwidget.photo", "PhotoWarning"),
+    "Place": ("sunwidget.place", "Place"),
     "RendererError": ("sunwidget.renderer.gl_thread", "RendererError"),
     "Scene": ("sunwidget.analysis.scene", "Scene"),
     "SkyExplorer": ("sunwidget.widgets", "SkyExplorer"),
@@ -75,6 +77,7 @@ __all__ = [
     "Photo",
     "PhotoError",
     "PhotoWarning",
+    "Place",
     "RendererError",
     "Scene",
     "SkyExplorer",

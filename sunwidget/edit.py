@@ -15,6 +15,8 @@ import math
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal, NamedTuple, Self
 
+from sunwidget.place import Place
+
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
 LIGHTS = ("sun", "moon", "automatic")
@@ -37,7 +39,7 @@ class UnknownParameterError(EditError, TypeError):
 class Parameter(NamedTuple):
     """One row of the table, as seen by sliders, uniforms, flags and the docs.
 
-    ``kind`` is ``"number"``, ``"choice"`` or ``"data"`` (strokes and hints: kept in
+    ``kind`` is ``"number"``, ``"choice"`` or ``"data"`` (strokes, hints and the place: kept in
     the recipe, never a slider or a uniform). ``analysis`` says that the photo's maps follow the
     parameter, so that a host has to ask ``Scene.corrected`` for them when it changes.
     """
@@ -107,15 +109,17 @@ def _choice(
     )
 
 
-def _data(default: Any, label: str, text: str) -> Any:
+def _data(
+    default: Any, label: str, text: str, section: str = "corrections", *, analysis: bool = True
+) -> Any:
     return field(
         default=default,
         metadata={
             "kind": "data",
             "label": label,
-            "section": "corrections",
+            "section": section,
             "help": text,
-            "analysis": True,
+            "analysis": analysis,
         },
     )
 
@@ -271,6 +275,9 @@ class Edit:
         "Two points of the horizon that the person set, in fractions of width and height.")
     fov_hint: float | None = _data(None, "Vertical field of view",
         "Vertical field of view in degrees that the person set.")
+    place: Place | None = _data(None, "Time and place",
+        "Latitude, longitude, date, hours UTC and the camera's heading; the editor's clock moves "
+        "the sun by them, they alone move nothing.", "place", analysis=False)
     # fmt: on
 
     def __new__(cls, **values: Any) -> Self:
@@ -427,6 +434,8 @@ def checked(p: Parameter, value: Any) -> Any:
         return None
     if p.name == "fov_hint":
         return _check_number(p.name, value, 5, 150, "°")
+    if p.name == "place":
+        return _check_place(value)
     if p.name == "sun_hint":
         return _check_point(p.name, value)
     points = _check_points(p.name, value)
@@ -487,6 +496,17 @@ def _check_strokes(value: Any) -> tuple[Stroke, ...]:
             )
         )
     return tuple(checked)
+
+
+def _check_place(value: Any) -> Place:
+    if isinstance(value, Place):
+        return value
+    try:
+        return Place.from_dict(value)
+    except ValueError as error:
+        raise EditError(str(error)) from None
+    except RecursionError:  # lists a thousand deep have no repr
+        raise EditError("place is no place.") from None
 
 
 def plain(value: Any) -> Any:

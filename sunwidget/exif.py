@@ -16,6 +16,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from sunwidget import exif_place
+from sunwidget.exif_values import number, positive, text
+
 _ORIENTATION = 0x0112
 _EXIF_IFD = 0x8769
 _GPS_IFD = 0x8825
@@ -44,7 +47,11 @@ class CameraFacts:
 
     Lengths in millimetres; ``stored_size`` is the width and height that the camera wrote,
     before turning; latitude and longitude in degrees, north and east positive; heading in
-    degrees from north, clockwise; altitude in metres.
+    degrees from north, clockwise, from magnetic north where ``heading_magnetic``; altitude in
+    metres. ``clock`` is what the camera's clock showed, without a zone; ``utc_offset`` the hours
+    that it was ahead of UTC, by its own tag (``offset_tagged``) or by the GPS; ``gps_time`` the
+    time in UTC of the last GPS fix, which may be some minutes before the shot; ``time`` the best
+    of them, see ``exif_place.best_time``.
     """
 
     focal_length: float | None = None
@@ -56,7 +63,12 @@ class CameraFacts:
     longitude: float | None = None
     altitude: float | None = None
     heading: float | None = None
+    heading_magnetic: bool = False
     time: dt.datetime | None = None
+    clock: dt.datetime | None = None
+    utc_offset: float | None = None
+    offset_tagged: bool = False
+    gps_time: dt.datetime | None = None
 
 
 def load(block: bytes) -> Any:
@@ -109,7 +121,7 @@ def says_adobe_rgb(exif: Any) -> bool:
         return False
     try:
         with quiet():
-            return _text(exif.get_ifd(_INTEROPERABILITY_IFD).get(1)) == "R03"
+            return text(exif.get_ifd(_INTEROPERABILITY_IFD).get(1)) == "R03"
     except Exception:  # noqa: BLE001 - a damaged pointer; before Pillow 13 also a missing one
         return False
 
@@ -211,21 +223,17 @@ def camera_facts(exif: Any) -> CameraFacts:
     if exif is None:
         return CameraFacts()
     shot, gps = exif.get_ifd(_EXIF_IFD), exif.get_ifd(_GPS_IFD)
-    unit = _number(shot.get(0xA210)) or 2.0
-    per_unit = _positive(shot.get(0xA20E))
+    unit = number(shot.get(0xA210)) or 2.0
+    per_unit = positive(shot.get(0xA20E))
     mm = _MM_PER_UNIT.get(int(unit))
-    width, height = _positive(shot.get(_PIXEL_WIDTH)), _positive(shot.get(_PIXEL_HEIGHT))
+    width, height = positive(shot.get(_PIXEL_WIDTH)), positive(shot.get(_PIXEL_HEIGHT))
     return CameraFacts(
-        focal_length=_positive(shot.get(0x920A)),
-        focal_35mm=_positive(shot.get(0xA405)),
+        focal_length=positive(shot.get(0x920A)),
+        focal_35mm=positive(shot.get(0xA405)),
         focal_plane_mm_per_px=mm / per_unit if mm and per_unit else None,
-        digital_zoom=_positive(shot.get(0xA404)) or 1.0,
+        digital_zoom=positive(shot.get(0xA404)) or 1.0,
         stored_size=(width, height) if width and height else None,
-        latitude=_degrees(gps.get(2), gps.get(1), "S", 90),
-        longitude=_degrees(gps.get(4), gps.get(3), "W", 180),
-        altitude=_altitude(gps),
-        heading=_heading(gps),
-        time=_time(exif, shot, gps),
+        **exif_place.facts(exif, shot, gps),
     )
 
 
@@ -276,74 +284,3 @@ def _resized(facts: CameraFacts, stored: tuple[int, int]) -> float:
     # Cropped: the scale is unknown. Full resolution is the likeliest, but a picture that
     # reaches beyond the camera's own frame must have been enlarged.
     return max(1.0, across, down)
-
-
-def _number(value: Any) -> float | None:
-    if isinstance(value, (tuple, list)) and len(value) == 1:
-        value = value[0]
-    try:
-        number = float(value)
-    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
-        return None
-    return number if math.isfinite(number) else None
-
-
-def _positive(value: Any) -> float | None:
-    number = _number(value)
-    return number if number is not None and number > 0 else None
-
-
-def _degrees(value: Any, reference: Any, negative: str, limit: float) -> float | None:
-    if not isinstance(value, (tuple, list)) or not 1 <= len(value) <= 3:
-        return None
-    parts = [_number(part) for part in value]
-    if any(part is None for part in parts):
-        return None
-    degrees = sum(part / 60**power for power, part in enumerate(parts) if part is not None)
-    if not 0 <= degrees <= limit:
-        return None
-    return -degrees if _text(reference).upper().startswith(negative) else degrees
-
-
-def _altitude(gps: dict[int, Any]) -> float | None:
-    metres = _number(gps.get(6))
-    if metres is None:
-        return None
-    below = gps.get(5) in (1, b"\x01")
-    return -metres if below else metres
-
-
-def _heading(gps: dict[int, Any]) -> float | None:
-    degrees = _number(gps.get(17))
-    return degrees % 360 if degrees is not None and 0 <= degrees <= 360 else None
-
-
-def _time(exif: Any, shot: dict[int, Any], gps: dict[int, Any]) -> dt.datetime | None:
-    """Time of the shot: with a zone from the GPS or the offset tag, else local and naive."""
-    stamp = gps.get(7)
-    if gps.get(29) and isinstance(stamp, (tuple, list)) and len(stamp) == 3:
-        numbers = [_number(part) for part in stamp]
-        try:
-            day = dt.datetime.strptime(_text(gps[29]) + " +0000", "%Y:%m:%d %z")
-            seconds = sum(
-                part * step for part, step in zip(numbers, (3600, 60, 1), strict=True) if part
-            )
-            return day.astimezone(dt.UTC) + dt.timedelta(seconds=seconds)
-        except (ValueError, OverflowError):
-            pass
-    text = _text(shot.get(0x9003) or exif.get(0x0132))
-    try:
-        moment = dt.datetime.strptime(text[:19], "%Y:%m:%d %H:%M:%S")  # noqa: DTZ007 - see below
-    except ValueError:
-        return None
-    try:
-        zone = dt.datetime.strptime(_text(shot.get(0x9011)), "%z").tzinfo
-    except ValueError:
-        zone = None
-    return moment.replace(tzinfo=zone)
-
-
-def _text(value: Any) -> str:
-    if isinstance(value, bytes):
-        value = value.decode("latin-1")
-    return value.strip("\0 ") if isinstance(value, str) else ""

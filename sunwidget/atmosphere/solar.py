@@ -65,7 +65,11 @@ def solar_position(when: Any, latitude: float, longitude: float) -> SolarPositio
 
 
 def day_path(
-    date: dt.date | str, latitude: float, longitude: float, step_minutes: float = 5
+    date: dt.date | str,
+    latitude: float,
+    longitude: float,
+    step_minutes: float = 5,
+    start: float = 0.0,
 ) -> Array:
     """Return the sun's path over one day, counted in UTC.
 
@@ -77,11 +81,14 @@ def day_path(
         Degrees, positive to the north and to the east.
     step_minutes : float, default 5
         Step, a divisor of the day's 1440 minutes.
+    start : float, default 0
+        Hours after the day's midnight in UTC at which the path begins; may be negative.
 
     Returns
     -------
     ndarray, shape (n, 4), float64
-        Hours UTC from 0 to 24, azimuth 0-360°, apparent and true elevation in degrees.
+        Hours UTC from ``start`` to ``start`` + 24, azimuth 0-360°, apparent and true elevation
+        in degrees.
 
     Raises
     ------
@@ -93,7 +100,7 @@ def day_path(
     if steps < 1 or abs(steps * step_minutes - 1440) > 1e-6:
         raise ValueError(f"step_minutes must divide the day's 1440, not {step_minutes!r}.")
     midnight = dt.datetime(day.year, day.month, day.day, tzinfo=dt.UTC)
-    minutes = [step_minutes * i for i in range(steps + 1)]
+    minutes = [60 * start + step_minutes * i for i in range(steps + 1)]
     sun = solar_position([midnight + dt.timedelta(minutes=m) for m in minutes], latitude, longitude)
     hours = np.array(minutes) / 60
     return np.stack([hours, sun.azimuth, sun.apparent_elevation, sun.true_elevation], axis=1)

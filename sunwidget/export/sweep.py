@@ -113,10 +113,12 @@ def between(start: Edit, end: Edit, fraction: float, automatic: dict[str, Any]) 
 
     An automatic parameter stands for what the analysis found (``automatic``); the azimuth
     takes the shorter way round. Methods, strokes and hints cannot lie between two values,
-    so both ends must agree on them.
+    so both ends must agree on them; the place, which moves nothing, stays the first one's.
     """
     for p in PARAMETERS:
-        if p.kind != "number" and getattr(start, p.name) != getattr(end, p.name):
+        if p.kind == "number" or p.name == "place":
+            continue
+        if getattr(start, p.name) != getattr(end, p.name):
             raise EditError(f"Both ends of a sweep need the same {p.name}.")
     changes: dict[str, float] = {}
     for p in NUMBERS:

@@ -1,0 +1,30 @@
+"""Numbers and texts out of EXIF values, which may be anything; None rather than nonsense."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+
+def number(value: Any) -> float | None:
+    """Return a finite number, also out of a row of one."""
+    if isinstance(value, (tuple, list)) and len(value) == 1:
+        value = value[0]
+    try:
+        found = float(value)
+    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
+        return None
+    return found if math.isfinite(found) else None
+
+
+def positive(value: Any) -> float | None:
+    """Return a number above 0."""
+    found = number(value)
+    return found if found is not None and found > 0 else None
+
+
+def text(value: Any) -> str:
+    """Return text without its padding; empty for anything else."""
+    if isinstance(value, bytes):
+        value = value.decode("latin-1")
+    return value.strip("\0 ") if isinstance(value, str) else ""

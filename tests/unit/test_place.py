@@ -1,0 +1,255 @@
+"""Where and when a photo was taken, where the sun then stands, and which way the camera looked."""
+
+import datetime as dt
+import json
+
+import numpy as np
+import photo_corpus as corpus
+import pytest
+
+import sunwidget as sw
+from sunwidget.edit import EditError
+from sunwidget.heading import heading_by_sun, match
+from sunwidget.photo_place import date_and_hours, from_photo, zone_name
+from sunwidget.place import Place, at_hours, day_table, hours_of_day, solar_day, sun_at
+
+ITHACA = Place(42.4434, -76.482, "2024-06-21", 16.0, 180.0)
+PRAGUE = Place(50.09, 14.42, "2024-03-20", 17.0, 270.0)
+SYDNEY = Place(-33.87, 151.21, "2024-06-21", 2.0, 0.0)
+
+
+@pytest.fixture
+def pvlib():
+    return pytest.importorskip("pvlib")
+
+
+def taken(clock="2024:03:20 18:00:00", offset=None, gps=None, **tags):
+    """Open a photo that was taken so."""
+    shot = {} if clock is None else {0x9003: clock}
+    if offset is not None:
+        shot[0x9011] = offset
+    block = corpus.exif_block(tags=tags or None, shot=shot, gps=gps)
+    stored = np.zeros((30, 40, 3), np.uint8)
+    return sw.open(corpus.png_file(stored, chunks=[(b"eXIf", block[6:])]))
+
+
+def fix(latitude=50.09, longitude=14.42, time=None, date="2024:03:20", heading=None, north="T"):
+    """GPS tags: a position, and what else is asked for."""
+    tags = {
+        1: "N" if latitude >= 0 else "S",
+        2: (abs(latitude), 0.0, 0.0),
+        3: "E" if longitude >= 0 else "W",
+        4: (abs(longitude), 0.0, 0.0),
+    }
+    if time is not None:
+        tags |= {7: tuple(map(float, time)), 29: date}
+    if heading is not None:
+        tags |= {16: north, 17: heading}
+    return tags
+
+
+# --- the place in the edit ---------------------------------------------------------------
+
+
+def test_a_place_is_kept_in_recipe_and_code():
+    edit = sw.Edit(place=PRAGUE, sun_elevation=3)
+    assert sw.Edit.from_json(edit.to_json()) == edit
+    assert eval(edit.to_code(), {"sw": sw}) == edit
+    assert json.loads(edit.to_json())["place"] == {
+        "latitude": 50.09,
+        "longitude": 14.42,
+        "date": "2024-03-20",
+        "time": 17.0,
+        "heading": 270.0,
+    }
+    assert sw.Edit(place={"latitude": 1, "longitude": 2, "date": "2024-03-20", "time": 3}) == (
+        sw.Edit(place=Place(1.0, 2.0, dt.date(2024, 3, 20), 3.0))
+    )
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"latitude": 91}, "latitude must be a number from -90 to 90"),
+        ({"longitude": float("nan")}, "longitude must be a number from -180 to 180"),
+        ({"date": "21.6.2024"}, "YYYY-MM-DD"),
+        ({"date": "0003-01-01"}, "YYYY-MM-DD"),
+        ({"time": 24.5}, "time must be a number from 0 to 24"),
+        ({"time": "17:30"}, "time must be a number"),
+        ({"heading": 400}, "heading must be a number"),
+        ({"zone": 2}, "place needs latitude, longitude, date, time"),
+    ],
+)
+def test_what_is_no_place_is_refused_in_words(changes, said):
+    values = {"latitude": 50, "longitude": 14, "date": "2024-03-20", "time": 17} | changes
+    with pytest.raises(EditError, match=said):
+        sw.Edit(place=values)
+
+
+@pytest.mark.parametrize("value", ["Prague", 3, [50, 14], {}, {"latitude": 50, "longitude": 14}])
+def test_a_place_needs_all_its_parts(value):
+    with pytest.raises(EditError, match="place needs"):
+        sw.Edit(place=value)
+
+
+# --- the sun over a place ----------------------------------------------------------------
+
+
+def test_the_sun_stands_where_nrels_example_has_it(pvlib):
+    # Reda & Andreas 2004, appendix A.5: azimuth 194.340241°, elevation without the air's lift
+    # 39.872046°, 17 October 2003 at 12:30:30, seven hours behind UTC. The path is straight
+    # between rows five minutes apart.
+    place = Place(39.742476, -105.1786, "2003-10-17", 19 + 30.5 / 60, 0.0)
+    sun = sun_at(place)
+    assert sun.azimuth % 360 == pytest.approx(194.340241, abs=2e-3)
+    assert sun.true_elevation == pytest.approx(39.872046, abs=2e-3)
+    assert 0.01 < sun.elevation - sun.true_elevation < 0.03  # lifted by the air
+    looking = sun_at(place.replace(heading=194.340241))
+    assert looking.azimuth == pytest.approx(0, abs=2e-3)
+
+
+@pytest.mark.parametrize("longitude", [-180, -119, -76, 0, 14, 77, 151, 180])
+@pytest.mark.parametrize("time", [0, 3.3, 11.9, 17.2, 24])
+def test_a_day_goes_from_night_to_night_wherever_it_is(pvlib, longitude, time):
+    place = Place(35, longitude, "2024-03-20", time)
+    table, hours = day_table(place), hours_of_day(place)
+    assert table.shape == (289, 4)
+    assert table[0, 0] - 1e-6 <= hours <= table[-1, 0] + 1e-6
+    assert max(table[0, 2], table[-1, 2]) < -40  # begins and ends around the sun's midnight
+    assert at_hours(place, hours).moment == place.moment
+
+
+def test_times_that_neighbour_across_a_date_are_neighbours_on_the_path(pvlib):
+    before = sun_at(Place(-33.87, 151.21, "2024-06-20", 23.999, 0.0))
+    after = sun_at(Place(-33.87, 151.21, "2024-06-21", 0.001, 0.0))
+    assert before.azimuth == pytest.approx(after.azimuth, abs=0.05)
+    assert before.elevation == pytest.approx(after.elevation, abs=0.05)
+    assert after.elevation > 20  # while UTC changes its date, the sun is high in Sydney
+    assert solar_day(SYDNEY) == "2024-06-21"
+    assert at_hours(SYDNEY, -3).date == "2024-06-20"
+
+
+def test_without_a_heading_the_azimuth_is_unknown(pvlib):
+    assert sun_at(PRAGUE.replace(heading=None)).azimuth is None
+
+
+# --- what the file tells -----------------------------------------------------------------
+
+
+def test_the_offset_that_the_file_names_gives_utc():
+    found = from_photo(taken(offset="+01:00", gps=fix(time=(16, 58, 0))))
+    assert found.source == "offset"
+    assert found.moment == dt.datetime(2024, 3, 20, 17, tzinfo=dt.UTC)
+    assert found.notes == ()
+    assert found.place == Place(50.09, 14.42, "2024-03-20", 17.0)
+
+
+def test_a_clock_without_a_zone_takes_it_from_the_gps():
+    # The last fix is two minutes old: the zone is what it shows, the clock says the minute.
+    found = from_photo(taken(gps=fix(time=(16, 58, 0))))
+    assert found.source == "gps"
+    assert found.moment == dt.datetime(2024, 3, 20, 17, tzinfo=dt.UTC)
+    # Half an hour and a quarter are zones too, also across midnight.
+    nepal = from_photo(taken("2024:03:21 01:45:00", gps=fix(27.7, 85.3, time=(20, 0, 0))))
+    assert nepal.moment == dt.datetime(2024, 3, 20, 20, tzinfo=dt.UTC)
+
+
+def test_a_clock_that_fits_no_zone_leaves_the_time_to_the_gps():
+    found = from_photo(taken("2024:03:20 18:08:00", gps=fix(time=(17, 0, 30))))
+    assert found.source == "gps"
+    assert found.moment == dt.datetime(2024, 3, 20, 17, 0, 30, tzinfo=dt.UTC)
+
+
+def test_a_zone_by_the_longitude_is_said_to_be_a_guess():
+    found = from_photo(taken(gps=fix()))
+    assert found.source == "longitude"
+    assert found.moment == dt.datetime(2024, 3, 20, 17, tzinfo=dt.UTC)
+    assert "UTC+1 is a guess" in found.notes[0]
+    # The same for a place that a person gives.
+    placed = from_photo(taken(), longitude=-76.5)
+    assert placed.moment == dt.datetime(2024, 3, 20, 23, tzinfo=dt.UTC)
+
+
+def test_a_clock_alone_gives_no_moment():
+    found = from_photo(taken())
+    assert found.moment is None
+    assert found.place is None
+    assert found.clock.isoformat() == "2024-03-20T18:00:00"
+    assert "no time zone" in found.notes[0]
+
+
+def test_a_heading_from_magnetic_north_is_said_to_be_one():
+    assert from_photo(taken(gps=fix(heading=270.0))).notes[1:] == ()
+    found = from_photo(taken(offset="+01:00", gps=fix(heading=270.0, north="M")))
+    assert found.heading == 270
+    assert "magnetic" in found.notes[0]
+
+
+def test_a_receiver_without_a_fix_is_no_place_in_the_gulf_of_guinea():
+    found = from_photo(taken(gps=fix(0, 0)))
+    assert found.latitude is None
+    assert found.longitude is None
+
+
+def test_a_photo_without_exif_tells_nothing():
+    found = from_photo(sw.open(np.zeros((8, 8, 3), np.uint8)))
+    assert found == (None, None, None, None, None, "", ())
+    # As does a clock that was never set.
+    assert from_photo(taken("0001:01:01 00:00:00", gps=fix())).moment is None
+
+
+def test_moments_and_zones_in_words():
+    moment = dt.datetime(2024, 3, 20, 18, 30, tzinfo=dt.timezone(dt.timedelta(hours=2)))
+    assert date_and_hours(moment) == ("2024-03-20", 16.5)
+    assert [zone_name(h) for h in (0, 2, -3.5, 5.75)] == [
+        "UTC+0",
+        "UTC+2",
+        "UTC-3:30",
+        "UTC+5:45",
+    ]
+
+
+# --- the heading by the photo's sun ------------------------------------------------------
+
+
+@pytest.mark.parametrize("place", [ITHACA, PRAGUE, SYDNEY])
+def test_a_match_undoes_the_path(pvlib, place):
+    sun = sun_at(place)
+    found = match(place.replace(heading=None), sun.azimuth, sun.elevation)
+    assert found.place.heading == pytest.approx(place.heading, abs=1e-3)
+    assert found.mismatch == pytest.approx(0, abs=1e-9)
+    assert found.agrees
+    assert "agree" in found.note
+
+
+def test_a_wrong_zone_is_found_by_the_elevation(pvlib):
+    truth = sun_at(PRAGUE)
+    early = PRAGUE.replace(time=PRAGUE.time - 2)  # two hours of zone forgotten
+    found = match(early, truth.azimuth, truth.elevation)
+    assert not found.agrees
+    assert found.mismatch < -10
+    best = found.agreeing[0]
+    assert best.time == pytest.approx(PRAGUE.time, abs=0.01)
+    assert best.heading == pytest.approx(PRAGUE.heading, abs=0.05)
+    assert "17:00 UTC (2 h later)" in found.note
+    assert "zone" in found.note
+    # The sun is as high once more, in the morning.
+    assert len(found.agreeing) == 2
+    assert found.agreeing[1].time < 12
+
+
+def test_an_elevation_that_the_day_does_not_reach_doubts_the_date(pvlib):
+    found = match(PRAGUE.replace(date="2024-12-21", time=11.0), 5.0, 60.0)
+    assert found.agreeing == ()
+    assert "never stands at 60.0°: check date and place" in found.note
+
+
+def test_the_samples_heading_is_found_by_its_sun(pvlib):
+    photo = sw.sample("coast")
+    scene = sw.analyze(photo.preview(512), fov=photo.field_of_view.vertical)
+    told = from_photo(photo)
+    found = heading_by_sun(scene, told.place.replace(heading=None))
+    turn = (found.place.heading - told.heading + 180) % 360 - 180
+    assert abs(turn) < 2
+    assert found.agrees
+    assert found.seen
