@@ -146,6 +146,10 @@ export class HorizonTool {
     this.view.drawOverlay();
   }
 
+  focus() {
+    this.handles[0].focus({ preventScroll: true });
+  }
+
   /** Back to the horizon that the analysis finds. */
   reset() {
     this.line = null;

@@ -8,6 +8,7 @@
  *   drawn(scale)   a frame stands on the canvas, at a share of its full size
  */
 
+import { announcements } from "./announcements.js";
 import { help } from "./help.js";
 import { histogram } from "./histogram.js";
 import { needsKernel } from "./needs_kernel.js";
@@ -25,7 +26,7 @@ import { recipe } from "./recipe.js";
  */
 
 /** @type {MakePart[]} */
-const PARTS = [presetThumbnails, histogram, recipe, help, needsKernel];
+const PARTS = [presetThumbnails, histogram, recipe, help, needsKernel, announcements];
 
 /**
  * @param {import("./view.js").View} view

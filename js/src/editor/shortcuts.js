@@ -8,8 +8,12 @@ import { runShortcut } from "../controls/keys.js";
 
 /** @typedef {import("./view.js").View} View */
 
-/** @type {(tool: string) => (view: View) => void} */
-const take = (tool) => (view) => view.setTool(tool);
+/** Choose a tool and go to its handle, or else to the picture. @type {(tool: string) => (view: View) => void} */
+const take = (tool) => (view) => {
+  view.setTool(tool);
+  if (view.tools[tool].focus) view.tools[tool].focus();
+  else view.stage.node.focus({ preventScroll: true });
+};
 
 /** @param {View} view */
 function stepBack(view) {

@@ -44,7 +44,7 @@ export class SunTool {
       const near = Math.hypot(dx * box.width, dy * box.height) < GRAB;
       if (near) this.offset = [dx, dy];
     }
-    this.handle.focus({ preventScroll: true });
+    this.focus();
     this.move(place, event);
   }
 
@@ -63,6 +63,10 @@ export class SunTool {
 
   end() {
     this.view.state.commit();
+  }
+
+  focus() {
+    this.handle.focus({ preventScroll: true });
   }
 
   cancel() {

@@ -7,6 +7,7 @@
 
 import { Camera } from "../camera.js";
 import { Channel } from "../channel.js";
+import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
 import { Frame } from "../frame.js";
 import { FrameLoop } from "../frame_loop.js";
@@ -43,6 +44,7 @@ import { toolbar } from "./toolbar.js";
  *   hover?: (place: Point | null) => void,
  *   reset?: () => void,
  *   refresh?: () => void,
+ *   focus?: () => void,
  *   fine?: boolean,
  * }} Tool
  */
@@ -108,6 +110,7 @@ export class View {
       class: "sw-sureness",
       title: "How likely the sky that was fitted to the photo changes with the sun as the real one",
     });
+    this.announcer = new Announcer(signal);
     this.notes = new Notes();
     this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
     this.foot = element("div", { class: "sw-foot" }, this.readout, this.sureness, this.notes.node);
@@ -138,7 +141,7 @@ export class View {
       this.foot,
     );
     const body = element("div", { class: "sw-body" }, main, this.panel.node);
-    this.root.append(this.toolbar.node, body);
+    this.root.append(this.toolbar.node, body, this.announcer.node);
     this.setTool("sun");
   }
 
