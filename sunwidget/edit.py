@@ -94,6 +94,7 @@ def _choice(
     section: str,
     text: str,
     *,
+    advanced: bool = False,
     analysis: bool = False,
 ) -> Any:
     return field(
@@ -104,6 +105,7 @@ def _choice(
             "label": label,
             "section": section,
             "help": text,
+            "advanced": advanced,
             "analysis": analysis,
         },
     )
@@ -153,12 +155,14 @@ class Edit:
     sun_elevation: float | None = _number(None, (-12, 90), 0.1, "°", "Elevation", "sun",
         "Sun's apparent elevation above the horizon; negative is twilight.")
     sun_size: float = _number(1.0, (0, 5), 0.05, "×", "Disc size", "sun",
-        "Diameter of the drawn disc in units of the sun's own 0.533°; 0 draws none.")
+        "Diameter of the drawn disc in units of the sun's own 0.533°; 0 draws none.",
+        advanced=True)
     sun_visibility: float = _number(1.0, (0, 1), 0.01, "", "Disc's light", "sun",
-        "Share of the disc's light that comes through; 0 is no sun, as behind a thick cloud.")
+        "Share of the disc's light that comes through; 0 is no sun, as behind a thick cloud.",
+        advanced=True)
     light_source: str = _choice("automatic", LIGHTS, "Light", "sun",
         "sun, or moon: a full moon that stands where the sun would; automatic as in the photo.")
-    sky_strength: float = _number(1.0, (0, 1), 0.01, "", "Sky", "sky",
+    sky_strength: float = _number(1.0, (0, 1), 0.01, "", "Sky strength", "sky",
         "How far the sky follows the moved sun; 0 is exactly off.")
     aerosol_optical_depth: float | None = _number(None, (0, 0.6), 0.005, "", "Haze", "sky",
         "Aerosol optical depth at 550 nm (AOD).")
@@ -190,7 +194,7 @@ class Edit:
     scattering_orders: float = _number(0.0, (0, 16), 1, "", "Scattering orders", "sky",
         "How often light may be scattered: 0 any number of times, 1 once, n up to n times.",
         advanced=True)
-    cloud_strength: float = _number(1.0, (0, 1), 0.01, "", "Clouds", "clouds",
+    cloud_strength: float = _number(1.0, (0, 1), 0.01, "", "Cloud strength", "clouds",
         "How far the clouds follow the moved sun; 0 is exactly off.")
     silver_lining: float = _number(1.0, (0, 3), 0.05, "", "Silver lining", "clouds",
         "Forward scattering in thin cloud edges near the sun.")
@@ -217,14 +221,15 @@ class Edit:
         advanced=True)
     wind_time: float = _number(0.0, (-60, 60), 0.1, "min", "Drift", "clouds",
         "How long the wind has driven the added clouds.", advanced=True)
-    land_strength: float = _number(1.0, (0, 1), 0.01, "", "Land", "land",
+    land_strength: float = _number(1.0, (0, 1), 0.01, "", "Land strength", "land",
         "How far the land follows the moved sun; 0 is exactly off.")
     land_facing: float = _number(0.15, (0, 1), 0.01, "", "Upright surfaces", "land",
-        "Share of the land's surfaces that face the camera; the rest faces the zenith.")
+        "Share of the land's surfaces that face the camera; the rest faces the zenith.",
+        advanced=True)
     colourfulness: float = _number(0.5, (0, 1), 0.01, "", "Colour loss in shade", "land",
         "How much colour the land loses when the sun's disc is hidden (thesis eq. 3.8).")
     colour_loss: str = _choice("luminance", COLOUR_LOSSES, "Colour loss by", "land",
-        "luminance, which it keeps, or power, as in eq. 3.8 of the thesis.")
+        "luminance, which it keeps, or power, as in eq. 3.8 of the thesis.", advanced=True)
     shading: float = _number(0.7, (0, 1), 0.01, "", "Shading", "land",
         "How far the light follows the slope of the land; 0 is exactly off.")
     gloss: float = _number(1.0, (0, 1), 0.01, "", "Gleam", "land",
@@ -235,7 +240,7 @@ class Edit:
         "How far the clouds' shadows on the land follow the sun; 0 is exactly off.")
     aerial_perspective: float = _number(1.0, (0, 1), 0.01, "", "Aerial perspective", "land",
         "How far the air before distant land follows the sun; 0 is exactly off.")
-    water_strength: float = _number(1.0, (0, 1), 0.01, "", "Water", "water",
+    water_strength: float = _number(1.0, (0, 1), 0.01, "", "Water strength", "water",
         "How far water mirrors the changed sky; 0 lights it as land.")
     glitter: float = _number(1.0, (0, 3), 0.05, "", "Glitter", "water",
         "The sun's glints on water: 1 as the waves of this wind make them.")
