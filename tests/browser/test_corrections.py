@@ -118,11 +118,16 @@ def test_the_eraser_takes_the_strokes_it_meets_in_one_step(editor):
 def test_a_brush_paints_water_when_told_so_and_the_eraser_takes_it_away(editor):
     choose(editor, "Brush: sky")
     editor.keyboard.press("w")
-    assert editor.get_by_role("button", name="Water").get_attribute("aria-pressed") == "true"
+    assert (
+        editor.get_by_role("toolbar")
+        .get_by_role("button", name="Water")
+        .get_attribute("aria-pressed")
+        == "true"
+    )
     drag(editor, (0.3, 0.8), (0.5, 0.8))
     choose(editor, "Brush: not water")
     drag(editor, (0.3, 0.3), (0.5, 0.3))
-    editor.get_by_role("button", name="Water").click()
+    editor.get_by_role("toolbar").get_by_role("button", name="Water").click()
     choose(editor, "Brush: not sky")
     drag(editor, (0.3, 0.5), (0.5, 0.5))
     said = [stroke["label"] for stroke in trait(editor, "strokes")]
@@ -286,6 +291,7 @@ def test_a_guessed_horizon_is_dashed_and_a_given_one_is_not(editor, state):
 def test_the_histogram_counts_the_sky_and_its_lines_set_the_thresholds(editor, state):
     # Un-mixed clouds need no thresholds, and the panel says so.
     assert "un-mixed" in editor.locator(".sw-histogram-text").text_content()
+    editor.locator("[data-section='clouds'] .sw-fold").click()
     editor.locator(".sw-more:has(.sw-histogram) > summary").click()
     whiteness = {**state["_scene"]["whiteness"], "method": "rb_ratio"}
     scene = {**state["_scene"], "whiteness": whiteness, "revision": 7}

@@ -136,6 +136,7 @@ def test_arrow_keys_move_the_sun(editor):
 
 
 def test_a_slider_sets_its_parameter_and_a_double_click_resets_it(editor):
+    editor.locator("[data-section='camera'] .sw-fold").click()
     slider = editor.get_by_role("slider", name="Exposure in EV")
     slider.focus()
     for _ in range(4):
@@ -163,6 +164,7 @@ def test_a_preset_is_a_chip_that_stays_pressed_while_it_holds(editor, state):
     editor.get_by_role("button", name="Undo").click()
     assert chips.evaluate_all(pressed).index("true") == 3
     # A preset that is no longer in force is not pressed.
+    editor.locator("[data-section='camera'] .sw-fold").click()
     editor.get_by_role("slider", name="Exposure in EV").focus()
     editor.keyboard.press("ArrowRight")
     assert "true" not in chips.evaluate_all(pressed)
