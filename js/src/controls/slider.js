@@ -112,7 +112,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
   /** Where a value stands on the track, 0–1. @param {number} value */
   const share = (value) => Math.min(1, Math.max(0, (value - p.minimum) / (p.maximum - p.minimum)));
   // What has two signs is filled from its zero.
-  const from = p.minimum < 0 && p.maximum > 0 ? share(0) : 0;
+  const signed = p.minimum < 0 && p.maximum > 0;
 
   return {
     node,
@@ -138,8 +138,10 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
       });
       const at = share(effective);
       const home = /** @type {number | undefined} */ (p.default ?? foundValue);
-      range.style.setProperty("--sw-share", String(Math.max(from, at)));
-      range.style.setProperty("--sw-low", String(Math.min(from, at)));
+      const zero = signed ? share(0) : 0;
+      range.style.setProperty("--sw-share", String(Math.max(zero, at)));
+      // Below the track's own start, so that no gap is left there.
+      range.style.setProperty("--sw-low", signed ? String(Math.min(zero, at)) : "-1");
       range.style.setProperty("--sw-home", String(share(home ?? effective)));
       range.classList.toggle("sw-has-home", !isDefault && home !== undefined);
     },

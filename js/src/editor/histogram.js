@@ -4,7 +4,7 @@
  */
 
 import { element, setAttributes, shape } from "../controls/element.js";
-import { section } from "../controls/section.js";
+import { countedSection } from "../controls/section.js";
 import { whenIdle } from "../idle.js";
 import { ceiling, countLevels, hill } from "./levels.js";
 
@@ -38,13 +38,21 @@ export function histogram(view, signal) {
     black: element("span", { class: "sw-clipped sw-clipped-black", role: "img" }),
     white: element("span", { class: "sw-clipped sw-clipped-white", role: "img" }),
   };
-  const text = element("p", { class: "sw-levels-text" });
-  const node = section(
-    { title: "Histogram", open: true, className: "sw-section sw-levels-section" },
+  const { panel } = view;
+  const { node, head, body } = countedSection(
+    {
+      title: "Histogram",
+      open: panel.isOpen("histogram"),
+      onFold: (open) => {
+        panel.keepFold("histogram", open);
+        wake();
+      },
+    },
     element("div", { class: "sw-levels-box" }, svg, marks.black, marks.white),
-    text,
   );
-  view.panel.top.append(node);
+  const text = element("span", { class: "sw-levels-text" });
+  head.append(text);
+  panel.top.append(node);
 
   const small = document.createElement("canvas");
   const context = small.getContext("2d", { willReadFrequently: true });
@@ -89,13 +97,13 @@ export function histogram(view, signal) {
       const label = `${word} clipped: ${percent(share)}${was}`;
       setAttributes(marks[end], { "aria-label": label, title: label });
       marks[end].classList.toggle("sw-on", share > WORTH_SAYING);
-      return share > WORTH_SAYING ? `${word} clipped ${percent(share)}` : "";
+      return share > WORTH_SAYING ? `${word} ${percent(share)}` : "";
     });
-    text.textContent = said.filter(Boolean).join(" · ") || "Nothing clipped";
-    svg.setAttribute("aria-label", `Histogram. ${text.textContent}.`);
+    text.textContent = said.filter(Boolean).join(" · ");
+    svg.setAttribute("aria-label", `Histogram. ${text.textContent || "Nothing is clipped"}.`);
   };
   const wake = () => {
-    if (!node.open || timer || signal.aborted) return;
+    if (body.hidden || timer || signal.aborted) return;
     timer = setTimeout(
       () => {
         timer = undefined;
@@ -105,7 +113,6 @@ export function histogram(view, signal) {
       Math.max(0, counted + EVERY_MS - performance.now()),
     );
   };
-  node.addEventListener("toggle", wake);
   signal.addEventListener("abort", () => {
     clearTimeout(timer);
     forget();

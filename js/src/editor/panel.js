@@ -21,7 +21,7 @@ import { Softness } from "./softness.js";
  * }} Section
  */
 
-const OPEN = ["sun"];
+const OPEN = ["sun", "histogram"];
 
 /**
  * Which sections are open, by model: another view of the editor starts as the last one was left.
@@ -37,6 +37,8 @@ const title = (name) => name[0].toUpperCase() + name.slice(1);
 export function panel(view) {
   const { state } = view;
   const open = { ...folds.get(view.model) };
+  /** Whether a section is open when nothing is filtered. @param {string} name */
+  const isOpen = (name) => open[name] ?? OPEN.includes(name);
   /** @param {string} name @param {boolean} on */
   const keepFold = (name, on) => {
     open[name] = on;
@@ -67,7 +69,7 @@ export function panel(view) {
     const made = countedSection(
       {
         title: title(name),
-        open: open[name] ?? OPEN.includes(name),
+        open: isOpen(name),
         onFold: (on) => {
           if (!filter.active()) keepFold(name, on);
         },
@@ -88,10 +90,7 @@ export function panel(view) {
       shown.filter((p) => p.section === name),
     ),
   );
-  const filter = panelFilter(view, sections, {
-    isChanged,
-    isOpen: (name) => open[name] ?? OPEN.includes(name),
-  });
+  const filter = panelFilter(view, sections, { isChanged, isOpen });
   const top = element("div", { class: "sw-panel-top" });
   const node = element(
     "div",
@@ -105,6 +104,8 @@ export function panel(view) {
     node,
     /** Above the sections: presets, histogram. */
     top,
+    isOpen,
+    keepFold,
     /** Where a part may add its rows: below the section's own, above "More". @param {string} name */
     section(name) {
       const found = sections.find((made) => made.name === name);
