@@ -15,7 +15,7 @@ import math
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal, NamedTuple, Self
 
-from sunwidget.place import Place
+from sunwidget.place import Place, sun_at
 
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
@@ -305,6 +305,30 @@ class Edit:
         """
         _refuse_unknown(changes)
         return dataclasses.replace(self, **changes)
+
+    def at(self, place: Place) -> Edit:
+        """Return a copy with the sun where it stands at a place and its time.
+
+        Parameters
+        ----------
+        place : Place
+            Without a heading the azimuth stays as it is. Below −12° the sun is held there.
+
+        Raises
+        ------
+        ImportError
+            Without pvlib; the message names the extra that brings it.
+
+        Examples
+        --------
+        >>> place = sw.Place(41.0, 29.0, "2024-06-21", time=16.5, heading=270)
+        >>> sw.sweep(scene, [sw.Edit().at(place.replace(time=t)) for t in (15, 16, 17)], "day.mp4")
+        """
+        sun = sun_at(place)
+        changes: dict[str, Any] = {"place": place, "sun_elevation": round(sun.elevation, 4)}
+        if sun.azimuth is not None:
+            changes["sun_azimuth"] = round(sun.azimuth, 4)
+        return self.replace(**changes)
 
     def changed(self) -> dict[str, Any]:
         """Parameters that differ from their defaults, by name."""
