@@ -32,10 +32,15 @@ export class PictureStage {
     );
     /** @type {() => void} called when the layout changed */
     this.onLayout = () => {};
-    const observer = new ResizeObserver(() => this.onLayout());
+    const observer = new ResizeObserver(() => this.resized());
     observer.observe(this.node);
     observer.observe(picture);
     signal.addEventListener("abort", () => observer.disconnect());
+  }
+
+  /** The stage or the picture has another size. */
+  resized() {
+    this.onLayout();
   }
 
   /** The picture's rectangle in the overlay. @returns {Box} */

@@ -56,16 +56,15 @@ export class SunShape {
  * @returns {Spot}
  */
 export function spotOnStage(box, dx, dy, edge = EDGE) {
-  const [cx, cy] = [box.x + box.width / 2, box.y + box.height / 2];
-  const roomX = dx > 0 ? box.stageWidth - edge - cx : cx - edge;
-  const roomY = dy > 0 ? box.stageHeight - edge - cy : cy - edge;
-  // Shrink the way from the middle until it ends on the stage.
-  const share = Math.min(1, roomX / Math.abs(dx || 1e-9), roomY / Math.abs(dy || 1e-9));
+  // Towards the sun from the stage's middle: that of a zoomed picture may be out of sight.
+  const [cx, cy] = [box.stageWidth / 2, box.stageHeight / 2];
+  const [x, y] = [box.x + box.width / 2 + dx - cx, box.y + box.height / 2 + dy - cy];
+  const share = Math.min(1, (cx - edge) / Math.abs(x || 1e-9), (cy - edge) / Math.abs(y || 1e-9));
   return {
-    x: cx + dx * share,
-    y: cy + dy * share,
+    x: cx + x * share,
+    y: cy + y * share,
     outside: share < 1,
-    angle: (Math.atan2(dy, dx) * 180) / Math.PI,
+    angle: (Math.atan2(y, x) * 180) / Math.PI,
   };
 }
 

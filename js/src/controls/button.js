@@ -83,19 +83,22 @@ export function holdButton({ onChange, ...options }) {
     onChange(value);
   };
   let wasOn = false;
-  node.addEventListener("pointerdown", (event) => {
-    node.setPointerCapture(event.pointerId);
+  const press = () => {
     since = performance.now();
     wasOn = on;
     show(true);
+  };
+  const release = () => show(performance.now() - since < HOLD_MS && !wasOn);
+  node.addEventListener("pointerdown", (event) => {
+    node.setPointerCapture(event.pointerId);
+    press();
   });
-  node.addEventListener("lostpointercapture", () => {
-    show(performance.now() - since < HOLD_MS && !wasOn);
-  });
+  node.addEventListener("lostpointercapture", release);
   // Keyboard and assistive technology click without a pointer.
   node.addEventListener("click", (event) => {
     if (event.detail === 0) show(!on);
   });
   node.setAttribute("aria-pressed", "false");
-  return { node, show, isOn: () => on };
+  // `press` and `release` are what a key does that is held instead.
+  return { node, show, press, release, isOn: () => on };
 }

@@ -12,7 +12,7 @@ import { setAttributes, shape } from "../controls/element.js";
  * @typedef {import("./view.js").View} View
  */
 
-const ENDS = [0.12, 0.88]; // fractions of the width at which the handles stand
+const ENDS = [0.12, 0.88]; // fractions of the width in sight at which the handles stand
 const GRAB = 40; // CSS pixels round a handle that take hold of it
 const EDGE = 16; // CSS pixels from the stage's edge at which an outside handle waits
 const GUESSED = 0.3; // confidence below which the line was not really seen
@@ -80,16 +80,26 @@ export class HorizonTool {
   current() {
     const { camera } = this.view;
     if (this.line || !camera) return this.line;
+    const columns = this.columns();
     const hint = /** @type {[Point, Point] | null} */ (this.view.state.values.horizon_hint);
-    if (hint) return through(hint);
+    if (hint) return through(hint, columns);
     const [ux, uy, uz] = camera.up;
     return /** @type {[Point, Point]} */ (
-      ENDS.map((x) => {
+      columns.map((x) => {
         const u = (x - 0.5) * camera.width;
         const row = camera.height / 2 - (ux * u + uz * camera.focal) / uy;
         return [x, row / camera.height];
       })
     );
+  }
+
+  /** Where across the picture the handles stand: both are in sight, however it is zoomed. */
+  columns() {
+    const { x, width, stageWidth } = this.view.stage.rectangle();
+    if (!width) return ENDS;
+    const left = Math.max(0, -x / width);
+    const right = Math.min(1, (stageWidth - x) / width);
+    return ENDS.map((end) => left + end * (right - left));
   }
 
   /** @param {Point} place */
@@ -250,11 +260,13 @@ export class HorizonTool {
   drawOthers(box) {
     const lines = Object.entries(this.rows).map(([name, [left, right]]) => {
       const [y1, y2] = [box.y + left * box.height, box.y + right * box.height];
+      const end = Math.min(box.stageWidth, box.x + box.width) - 6;
+      const y = y1 + ((y2 - y1) * (end - box.x)) / box.width;
       return shape(
         "g",
         { class: "sw-horizon-other" },
         shape("line", { x1: box.x, y1, x2: box.x + box.width, y2 }),
-        text(OTHERS[name] ?? name, box.x + box.width - 6, y2 + 13),
+        text(OTHERS[name] ?? name, end, y + 13),
       );
     });
     this.others.replaceChildren(...lines);
@@ -268,10 +280,10 @@ function text(content, x, y) {
   return node;
 }
 
-/** @param {[Point, Point]} hint @returns {[Point, Point]} the same line at the handles' columns */
-function through([a, b]) {
+/** @param {[Point, Point]} hint @param {number[]} columns @returns {[Point, Point]} the same line at other columns */
+function through([a, b], columns) {
   const slope = (b[1] - a[1]) / (b[0] - a[0]);
-  return /** @type {[Point, Point]} */ (ENDS.map((x) => [x, a[1] + slope * (x - a[0])]));
+  return /** @type {[Point, Point]} */ (columns.map((x) => [x, a[1] + slope * (x - a[0])]));
 }
 
 /** @type {(line: [Point, Point]) => Point} */

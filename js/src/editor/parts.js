@@ -6,14 +6,21 @@
  *   show()         the edit or the history changed: controls follow at once
  *   draw()         the overlay is drawn: layout, zoom or edit changed
  *   drawn(scale)   a frame stands on the canvas, at a share of its full size
+ *   point(place)   the pointer, or the keyboard's cross, is at a place of the picture, or gone
  */
 
 import { announcements } from "./announcements.js";
+import { cross } from "./cross.js";
+import { fullScreen } from "./full_screen.js";
+import { heldKeys } from "./held_keys.js";
 import { help } from "./help.js";
 import { histogram } from "./histogram.js";
+import { hover } from "./hover.js";
 import { needsKernel } from "./needs_kernel.js";
 import { presetThumbnails } from "./preset_thumbnails.js";
 import { recipe } from "./recipe.js";
+import { split } from "./split.js";
+import { zoomControl } from "./zoom_control.js";
 
 /**
  * @typedef {{
@@ -21,12 +28,26 @@ import { recipe } from "./recipe.js";
  *   show?: () => void,
  *   draw?: () => void,
  *   drawn?: (scale: number) => void,
+ *   point?: (place: import("../types.js").Point | null) => void,
  * }} Part
  * @typedef {(view: import("./view.js").View, signal: AbortSignal) => Part} MakePart
  */
 
 /** @type {MakePart[]} */
-const PARTS = [presetThumbnails, histogram, recipe, help, needsKernel, announcements];
+const PARTS = [
+  zoomControl,
+  hover,
+  cross,
+  heldKeys,
+  split,
+  fullScreen,
+  presetThumbnails,
+  histogram,
+  recipe,
+  help,
+  needsKernel,
+  announcements,
+];
 
 /**
  * @param {import("./view.js").View} view

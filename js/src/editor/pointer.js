@@ -1,53 +1,145 @@
-/** The pointer on the stage: it drags with the chosen tool, pans, and hovers. */
+/**
+ * Pointers on the stage: one drags with the chosen tool or hovers; the middle button, or any with
+ * the space bar held, shifts the picture; two fingers shift and zoom it.
+ */
 
-/** @typedef {import("./view.js").View} View */
+/**
+ * @typedef {import("./view.js").View} View
+ * @typedef {{ clientX: number, clientY: number }} Spot
+ */
+
+const SLOP = 5; // CSS pixels that a finger may move before it means a drag
+const HESITATION = 120; // ms after which a finger that rests means one too
 
 /**
  * @param {View} view
  * @param {AbortSignal} signal
  */
 export function listenToPointer(view, signal) {
-  const { overlay } = view.stage;
-  let panning = false;
+  const { stage } = view;
+  const { overlay } = stage;
   const tool = () => view.tools[view.tool];
+  /** @type {Map<number, Spot>} */
+  const fingers = new Map();
+  let pinching = false; // until the last finger is lifted
+  let panning = false;
+  /** @type {Spot} where a pointer that pans was last */
+  let last = { clientX: 0, clientY: 0 };
+  /** @type {PointerEvent | null} a finger that may be the first of two */
+  let waiting = null;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+
+  const begin = () => {
+    clearTimeout(timer);
+    const event = waiting;
+    waiting = null;
+    if (event) tool().begin(stage.placeOf(event), event);
+  };
+
+  /** A second finger: what the first began was not meant. */
+  const pinch = () => {
+    clearTimeout(timer);
+    if (view.pointer !== null && !waiting && !panning) tool().cancel();
+    waiting = null;
+    view.pointer = null;
+    panning = false;
+    pinching = true;
+  };
+
   /** @param {PointerEvent} event */
   const down = (event) => {
-    if (view.pointer !== null || !view.scene || event.button > 1) return;
+    const touch = event.pointerType === "touch";
+    if (touch) fingers.set(event.pointerId, at(event));
+    if (touch && fingers.size === 2) pinch();
+    if (pinching) overlay.setPointerCapture(event.pointerId);
+    if (pinching || view.pointer !== null || event.button > 1) return;
+    panning = event.button === 1 || view.root.classList.contains("sw-hand");
+    if (!panning && !view.scene) return;
     view.pointer = event.pointerId;
-    panning = event.button === 1;
     overlay.setPointerCapture(view.pointer);
     event.preventDefault();
-    if (!panning) tool().begin(view.stage.placeOf(event), event);
+    // So that keys reach the editor from now on.
+    stage.node.focus({ preventScroll: true });
+    last = at(event);
+    if (panning) return;
+    waiting = event;
+    if (touch) timer = setTimeout(begin, HESITATION);
+    else begin();
   };
+
   /** @param {PointerEvent} event */
   const move = (event) => {
-    const place = view.stage.placeOf(event);
-    view.inspector.point(place);
+    if (pinching) return stretch(event);
+    const place = stage.placeOf(event);
+    view.point(place);
     if (view.pointer === null) tool().hover?.(place);
     else if (event.pointerId !== view.pointer) return;
-    else if (panning) view.stage.pan(event.movementX, event.movementY);
-    else if (tool().fine) {
-      const passed = event.getCoalescedEvents?.() ?? [];
+    else if (panning) {
+      stage.pan(event.clientX - last.clientX, event.clientY - last.clientY);
+      last = at(event);
+    } else {
+      if (waiting && apart(waiting, event) < SLOP) return;
+      begin();
+      const passed = tool().fine ? (event.getCoalescedEvents?.() ?? []) : [];
       for (const each of passed.length ? passed : [event]) {
-        tool().move(view.stage.placeOf(each), each);
+        tool().move(stage.placeOf(each), each);
       }
-    } else tool().move(place, event);
+    }
   };
+
+  /** @param {PointerEvent} event */
+  const stretch = (event) => {
+    if (!fingers.has(event.pointerId)) return;
+    const before = span([...fingers.values()]);
+    fingers.set(event.pointerId, at(event));
+    const now = span([...fingers.values()]);
+    stage.pan(now.clientX - before.clientX, now.clientY - before.clientY);
+    if (before.size && now.size) stage.zoomTo((stage.zoom.scale * now.size) / before.size, now);
+  };
+
   // The end of capture is the one end of a drag, whatever ended it.
   /** @param {PointerEvent} event */
   const lost = (event) => {
+    fingers.delete(event.pointerId);
+    if (!fingers.size) pinching = false;
     if (event.pointerId !== view.pointer) return;
+    begin();
     view.pointer = null;
     if (!panning) tool().end();
+    panning = false;
+  };
+  const cancel = () => {
+    clearTimeout(timer);
+    waiting = null;
+    tool().cancel();
   };
   const leave = () => {
-    view.inspector.point(null);
+    view.point(null);
     if (view.pointer === null) tool().hover?.(null);
   };
   overlay.addEventListener("pointerdown", down, { signal });
   overlay.addEventListener("pointermove", move, { signal });
   overlay.addEventListener("lostpointercapture", lost, { signal });
   overlay.addEventListener("pointerleave", leave, { signal });
-  overlay.addEventListener("pointercancel", () => tool().cancel(), { signal });
+  overlay.addEventListener("pointercancel", cancel, { signal });
   overlay.addEventListener("dblclick", () => tool().reset?.(), { signal });
+  // The focus is where `down` or the tool has put it.
+  overlay.addEventListener("mousedown", (event) => event.preventDefault(), { signal });
+  signal.addEventListener("abort", () => clearTimeout(timer));
+}
+
+/** @param {Spot} event @returns {Spot} */
+const at = ({ clientX, clientY }) => ({ clientX, clientY });
+
+/** @param {Spot} a @param {Spot} b */
+const apart = (a, b) => Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+
+/** The middle of one or two fingers, and how far apart these are. @param {Spot[]} fingers */
+function span([a, b = a]) {
+  return {
+    clientX: (a.clientX + b.clientX) / 2,
+    clientY: (a.clientY + b.clientY) / 2,
+    size: apart(a, b),
+  };
 }

@@ -19,8 +19,9 @@ const take = (tool) => (view) => {
 function stepBack(view) {
   const busy = view.pointer !== null;
   view.cancelGesture();
-  // One thing at a time: the gesture, the map, the tool.
+  // One thing at a time: the gesture, the map, the tool, the full screen.
   if (!busy && view.inspector.map) view.inspector.show("");
+  else if (!busy && view.tool === "sun" && view.fullScreen?.on) view.fullScreen.leave();
   else view.setTool("sun");
 }
 
@@ -73,14 +74,39 @@ export const SHORTCUTS = [
   {
     section: "View",
     keys: ["B"],
-    label: "Before or after",
-    run: (view) => view.toolbar.before.show(!view.toolbar.before.isOn()),
+    label: "The photo as it was: held, or pressed to stay",
   },
   {
     section: "View",
-    keys: ["Mod+0"],
-    label: "The whole picture",
-    run: (view) => view.stage.setZoom(1),
+    keys: ["S"],
+    label: "Before and after side by side",
+    run: (view) => view.split?.toggle(),
+  },
+  { section: "View", keys: ["F"], label: "Full screen", run: (view) => view.fullScreen?.toggle() },
+  { section: "View", keys: ["+", "="], label: "Zoom in", run: (view) => view.stage.stepZoom(1) },
+  { section: "View", keys: ["-"], label: "Zoom out", run: (view) => view.stage.stepZoom(-1) },
+  {
+    section: "View",
+    keys: ["0", "Mod+0"],
+    label: "All of the picture",
+    run: (view) => view.stage.fit(),
+  },
+  {
+    section: "View",
+    keys: ["Z"],
+    label: "100 %, or all of the picture",
+    run: (view) => view.stage.toggleZoom(),
+  },
+  { section: "View", keys: ["Space"], label: "Held: drag the picture itself" },
+  {
+    section: "Picture, when it has the focus",
+    keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
+    label: "Move the cross; a zoomed picture follows it",
+  },
+  {
+    section: "Picture, when it has the focus",
+    keys: ["Enter"],
+    label: "Use the tool at the cross; held, drag with the arrow keys",
   },
   {
     section: "View",

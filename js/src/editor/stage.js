@@ -3,14 +3,20 @@
  *
  * Places on the picture are fractions of its width and height, (0, 0) at the top left corner
  * and also outside 0–1. The overlay lies over the whole stage, margin included, in CSS pixels.
+ * The picture fits the window in its middle until it is zoomed; then it may cover the whole stage.
  */
 
-import { element } from "../controls/element.js";
+import { element, setAttributes } from "../controls/element.js";
 import { PictureStage } from "../stage.js";
+import { Zoom } from "./zoom.js";
 
 /** @typedef {import("../types.js").Point} Point */
 
-const MAXIMUM_ZOOM = 8;
+const WHEEL = 0.002; // what a CSS pixel of the wheel zooms by, as a logarithm
+const PINCH = 0.01; // and of two fingers on a touchpad, which sends smaller steps
+const WHEEL_NOTCH = 50; // CSS pixels: a wheel sends more at once, two fingers less
+const LINE = 33; // CSS pixels to a line, which some browsers count in
+const PIXELS_FROM = 2; // the scale from which the preview's pixels are shown as squares
 
 export class Stage extends PictureStage {
   /** @param {AbortSignal} signal */
@@ -23,13 +29,22 @@ export class Stage extends PictureStage {
     });
     const mask = element("canvas", { class: "sw-mask", "aria-hidden": "true" });
     const picture = element("div", { class: "sw-picture" }, photo, canvas, mask);
-    super(picture, { content: element("div", { class: "sw-window" }, picture), signal });
+    const room = element("div", { class: "sw-window" }, picture);
+    super(picture, { content: room, className: "sw-photo-stage", signal });
+    setAttributes(this.node, {
+      tabindex: 0,
+      role: "application",
+      "aria-label": "Picture: arrow keys move a cross, Enter uses the tool there, + and − zoom",
+    });
+    // Of the screen, not of the window: in a frame this follows its content.
+    const tallest = Math.min(900, Math.max(420, 0.72 * window.screen.availHeight));
+    this.node.style.setProperty("--sw-tallest", `${Math.round(tallest)}px`);
+    this.window = room;
     this.photo = photo;
     this.canvas = canvas;
     this.mask = mask;
-    this.zoom = 1;
-    /** @type {Point} shift of the zoomed picture in CSS pixels */
-    this.shift = [0, 0];
+    this.zoom = new Zoom();
+    this.full = true; // whether the canvas holds the frame at its full size
     this.url = "";
     signal.addEventListener("abort", () => URL.revokeObjectURL(this.url));
     this.node.addEventListener("wheel", (event) => this.onWheel(event), { passive: false, signal });
@@ -48,8 +63,12 @@ export class Stage extends PictureStage {
     URL.revokeObjectURL(this.url);
     this.url = url;
     this.photo.src = url;
-    this.picture.style.setProperty("--sw-aspect", String(image.naturalWidth / image.naturalHeight));
+    const { naturalWidth: width, naturalHeight: height } = image;
+    if (width !== this.zoom.size[0] || height !== this.zoom.size[1]) this.zoom.fit();
+    this.zoom.size = [width, height];
+    this.node.style.setProperty("--sw-aspect", String(width / height));
     this.node.classList.add("sw-has-photo");
+    this.layOut();
   }
 
   /**
@@ -75,27 +94,47 @@ export class Stage extends PictureStage {
   }
 
   /**
-   * Plain wheel scrolls the page; with Ctrl or Cmd it zooms about the pointer.
+   * Plain wheel scrolls the page; with Ctrl or Cmd it zooms about the pointer, and so it does where
+   * nothing else can be meant: in full screen, or while the picture has the keyboard's focus.
    *
    * @param {WheelEvent} event
    */
   onWheel(event) {
-    if (!event.ctrlKey && !event.metaKey) return;
+    const meant = event.ctrlKey || event.metaKey || this.node.closest(".sw-full");
+    if (!meant && !this.node.matches(":focus-visible")) return;
     event.preventDefault();
-    const before = this.placeOf(event);
-    const zoom = this.zoom * Math.exp(-event.deltaY * 0.002);
-    this.setZoom(zoom);
-    const box = this.picture.getBoundingClientRect();
-    this.pan(
-      event.clientX - (box.left + before[0] * box.width),
-      event.clientY - (box.top + before[1] * box.height),
-    );
+    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : LINE);
+    const pinch = event.ctrlKey && Math.abs(pixels) < WHEEL_NOTCH;
+    const much = Math.min(200, Math.max(-200, pixels)) * (pinch ? PINCH : WHEEL);
+    this.zoomTo(this.zoom.scale * Math.exp(-much), event);
   }
 
-  /** @param {number} zoom */
-  setZoom(zoom) {
-    this.zoom = Math.min(MAXIMUM_ZOOM, Math.max(1, zoom));
-    this.pan(0, 0);
+  /**
+   * The scale of 1 shows a pixel of the preview on one of the screen.
+   *
+   * @param {number} scale
+   * @param {{ clientX: number, clientY: number }} [about] what stays where it is
+   */
+  zoomTo(scale, about) {
+    this.zoom.zoomTo(scale, about && this.pointOf(about));
+    this.layOut();
+  }
+
+  /** @param {1 | -1} way */
+  stepZoom(way) {
+    this.zoom.step(way);
+    this.layOut();
+  }
+
+  /** Between all of the picture and 100 %. */
+  toggleZoom() {
+    this.zoom.toggle();
+    this.layOut();
+  }
+
+  fit() {
+    this.zoom.fit();
+    this.layOut();
   }
 
   /**
@@ -105,17 +144,64 @@ export class Stage extends PictureStage {
    * @param {number} y
    */
   pan(x, y) {
-    const slackX = ((this.zoom - 1) * this.picture.offsetWidth) / 2;
-    const slackY = ((this.zoom - 1) * this.picture.offsetHeight) / 2;
-    this.shift = [
-      Math.min(slackX, Math.max(-slackX, this.shift[0] + x)),
-      Math.min(slackY, Math.max(-slackY, this.shift[1] + y)),
-    ];
-    this.picture.style.transform =
-      this.zoom === 1
-        ? ""
-        : `translate(${this.shift[0]}px, ${this.shift[1]}px) scale(${this.zoom})`;
-    this.node.classList.toggle("sw-zoomed", this.zoom > 1);
+    this.zoom.pan(x, y);
+    this.layOut();
+  }
+
+  /** Bring a place of the zoomed picture to the middle. @param {Point} place */
+  bring(place) {
+    this.zoom.bring(place);
+    this.layOut();
+  }
+
+  /** A pointer's point on the stage in CSS pixels. @param {{ clientX: number, clientY: number }} event @returns {Point} */
+  pointOf(event) {
+    const { left, top } = this.node.getBoundingClientRect();
+    return [event.clientX - left, event.clientY - top];
+  }
+
+  resized() {
+    this.layOut();
+  }
+
+  /** A drag may draw smaller: blocks of such a frame are no pixels of the preview. @param {boolean} full */
+  setFull(full) {
+    this.full = full;
+    this.showPixels();
+  }
+
+  showPixels() {
+    const squares = this.full && this.zoom.scale >= PIXELS_FROM;
+    this.node.classList.toggle("sw-pixels", squares);
+  }
+
+  /** Put the picture where the zoom says. */
+  layOut() {
+    const { zoom } = this;
+    const stage = this.node.getBoundingClientRect();
+    const fit = this.window.getBoundingClientRect();
+    if (!fit.width || !fit.height) return;
+    const [x0, y0] = [fit.left - stage.left, fit.top - stage.top];
+    const pixelRatio = window.devicePixelRatio || 1;
+    zoom.setRoom({
+      width: stage.width,
+      height: stage.height,
+      fit: { x: x0, y: y0, width: fit.width, height: fit.height },
+      pixelRatio,
+    });
+    const { style } = this.picture;
+    if (zoom.fits) style.inset = style.width = style.height = "";
+    else {
+      const { x, y, width, height } = zoom.box();
+      // On whole pixels of the screen: half-way between two a picture at 100 % would be soft.
+      const whole = (/** @type {number} */ at, /** @type {number} */ origin) =>
+        Math.round((origin + at) * pixelRatio) / pixelRatio - origin;
+      style.inset = `${whole(y, stage.top) - y0}px auto auto ${whole(x, stage.left) - x0}px`;
+      style.width = `${width}px`;
+      style.height = `${height}px`;
+    }
+    this.node.classList.toggle("sw-zoomed", !zoom.fits);
+    this.showPixels();
     this.onLayout();
   }
 }

@@ -114,6 +114,10 @@ export class View {
     this.notes = new Notes();
     this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
     this.foot = element("div", { class: "sw-foot" }, this.readout, this.sureness, this.notes.node);
+    /** @type {import("./split.js").Split | null} */
+    this.split = null;
+    /** @type {import("./full_screen.js").FullScreen | null} */
+    this.fullScreen = null;
     /** @type {import("./parts.js").Part[]} */
     this.parts = [];
     this.build();
@@ -308,6 +312,12 @@ export class View {
     this.toolbar.show();
     for (const part of this.parts) part.show?.();
     this.loop.request();
+  }
+
+  /** The pointer, or the keyboard's cross, is at a place of the picture, or gone. @param {Point | null} place */
+  point(place) {
+    this.inspector.point(place);
+    for (const part of this.parts) part.point?.(place);
   }
 
   /** Share of the preview's size that the screen can show; 1 where less would gain little. */
