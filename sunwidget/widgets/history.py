@@ -8,6 +8,7 @@ browser for its gestures, this class for what Python sets.
 from __future__ import annotations
 
 import contextlib
+import difflib
 import json
 import threading
 from collections.abc import Iterator
@@ -16,13 +17,15 @@ from typing import Any
 import anywidget
 import traitlets
 
-from sunwidget.edit import PARAMETERS, Edit
+from sunwidget.edit import PARAMETERS, Edit, EditError
 from sunwidget.widgets.edit_traits import edit_traits
 
 NAMES = tuple(p.name for p in PARAMETERS)
 HISTORY_LENGTH = 100
 # Every step repeats all strokes, and a message of 10 MiB would break the connection.
 HISTORY_BYTES = 2_000_000
+VERSIONS = 100
+NAME_LENGTH = 80
 
 Recipe = dict[str, Any]
 
@@ -40,6 +43,8 @@ class EditHistory(anywidget.AnyWidget):
 
     # Recipes before and after the present one.
     _history = traitlets.Dict().tag(sync=True)
+    # What was kept by name, oldest first: {"name": …, "recipe": …}.
+    _versions: traitlets.List = traitlets.List().tag(sync=True)
 
     # One trait a row of the table; a class body's locals() is the class's own dictionary.
     locals().update(edit_traits())
@@ -79,6 +84,87 @@ class EditHistory(anywidget.AnyWidget):
     def reset(self) -> None:
         """Set every parameter to its default, as one step: the photo as it was."""
         self._step(Edit())
+
+    @property
+    def versions(self) -> dict[str, Edit]:
+        """What was kept by name, oldest first; see ``keep``."""
+        return {v["name"]: Edit.from_dict(v["recipe"]) for v in self._versions}
+
+    def keep(self, name: str, *, overwrite: bool = False) -> None:
+        """Keep the edit as it is now under a name, to come back to with ``go_to``.
+
+        Parameters
+        ----------
+        name : str
+            At most 80 characters.
+        overwrite : bool, default False
+            Whether another edit may have had the name before.
+
+        Raises
+        ------
+        EditError
+            For a name that another edit has, an empty or too long one, or the 101st.
+
+        Examples
+        --------
+        >>> editor.keep("warm")
+        >>> editor.reset()
+        >>> editor.go_to("warm")
+        """
+        name = _checked_name(name)
+        with self._lock:
+            kept = list(self._versions)
+            at = next((i for i, v in enumerate(kept) if v["name"] == name), len(kept))
+            version = {"name": name, "recipe": self.edit.to_dict()}
+            if at == VERSIONS:
+                raise EditError(f"{VERSIONS} versions are kept already. Forget one of them first.")
+            if at < len(kept) and not overwrite and self.versions[name] != self.edit:
+                raise EditError(
+                    f"Another edit is kept as {name!r}. Choose another name, or pass "
+                    "overwrite=True."
+                )
+            self._versions = [*kept[:at], version, *kept[at + 1 :]]
+
+    def go_to(self, name: str) -> None:
+        """Set everything as it was when ``name`` was kept, as one step.
+
+        Raises
+        ------
+        EditError
+            When there is no such version; the nearest name is suggested.
+        """
+        with self._lock:
+            self._step(Edit.from_dict(self._version(name)["recipe"]))
+
+    def forget(self, name: str) -> None:
+        """Keep a version no longer; raises EditError when there is none of that name."""
+        with self._lock:
+            version = self._version(name)
+            self._versions = [v for v in self._versions if v is not version]
+
+    def _set_aside(self) -> dict[str, Any]:
+        """Return edit, history and versions, to be taken up again with ``_take_up``."""
+        return {
+            "edit": self.edit,
+            "_history": self._history,
+            "_versions": self._versions,
+        }
+
+    def _take_up(self, edit: Edit, **state: Any) -> None:
+        """Go on with an edit and its history instead of the present ones."""
+        with self._lock, self.hold_sync():
+            self._history = state.get("_history", {"past": [], "future": []})
+            self._versions = state.get("_versions", [])
+            self._apply(edit)
+
+    def _version(self, name: str) -> dict[str, Any]:
+        names = [v["name"] for v in self._versions]
+        if name not in names:
+            near = difflib.get_close_matches(str(name), names, n=1, cutoff=0.4)
+            hint = f"Did you mean {near[0]!r}?" if near else "editor.keep(name) keeps one."
+            raise EditError(f"No version is named {str(name)[:80]!r}. {hint}")
+        version: dict[str, Any] = self._versions[names.index(name)]
+        return version
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
         """Take over what the browser sent; a value that is refused is answered, not raised."""
@@ -142,6 +228,13 @@ def edit_of(recipe: Edit | Recipe | None) -> Edit:
     if recipe is None:
         return Edit()
     return recipe if isinstance(recipe, Edit) else Edit.from_dict(recipe)
+
+
+def _checked_name(name: Any) -> str:
+    text = name.strip() if isinstance(name, str) else ""
+    if not 0 < len(text) <= NAME_LENGTH:
+        raise EditError(f"A version's name is a text of 1 to {NAME_LENGTH} characters.")
+    return text
 
 
 def newest(steps: list[Recipe]) -> list[Recipe]:

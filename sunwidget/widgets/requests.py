@@ -1,9 +1,11 @@
 """Answer the browser's requests. The browser's twin is ``js/src/channel.js``.
 
 Every request has an id and gets exactly one response, errors included; progress may come
-before it. Work runs on a thread of its own, so that a long export blocks no slider.
+before it. Work runs on a thread of its own, so that a long export blocks no slider. Cancelled
+work ends where it tells its progress next.
 
 browser → kernel  ``{type: "request", id, action, …}``
+                  ``{type: "cancel", id}``
 kernel → browser  ``{type: "progress", id, fraction, message}``
                   ``{type: "response", id, result, error}`` with buffers
 """
@@ -17,6 +19,10 @@ from typing import Any
 Progress = Callable[[float, str], None]
 Answer = tuple[dict[str, Any], list[bytes]]
 Action = Callable[[dict[str, Any], Progress], Answer]
+
+
+class Cancelled(Exception):  # noqa: N818 - a person's wish, no error
+    """The work was cancelled: raised in it where it tells its progress."""
 
 
 class Requests:
@@ -33,18 +39,41 @@ class Requests:
     def __init__(self, send: Callable[..., None], actions: dict[str, Action]) -> None:
         self._send = send
         self._actions = actions
+        self._lock = threading.Lock()
+        self._running: dict[Any, threading.Event] = {}  # set: to be cancelled
 
-    def __call__(self, _widget: Any, content: Any, _buffers: Any) -> None:
-        """Take a custom message; anything but a request is somebody else's."""
-        if not isinstance(content, dict) or content.get("type") != "request":
+    def __call__(self, _widget: Any, content: Any, buffers: Any) -> None:
+        """Take a custom message; anything but a request is somebody else's.
+
+        An action finds the message's buffers in its content.
+        """
+        if not isinstance(content, dict):
             return
-        thread = threading.Thread(target=self._answer, args=(content,), daemon=True)
+        if content.get("type") == "cancel":
+            self.cancel(content.get("id"))
+        if content.get("type") != "request":
+            return
+        thread = threading.Thread(
+            target=self._answer, args=({**content, "buffers": buffers},), daemon=True
+        )
         thread.start()
+
+    def cancel(self, key: Any = None) -> None:
+        """Cancel the request with this id, or all that are under way."""
+        with self._lock:
+            for own, wish in self._running.items():
+                if key is None or own == key:
+                    wish.set()
 
     def _answer(self, content: dict[str, Any]) -> None:
         key, name = content.get("id"), content.get("action")
+        wish = threading.Event()
+        with self._lock:
+            self._running[key] = wish
 
         def progress(fraction: float, message: str) -> None:
+            if wish.is_set():
+                raise Cancelled(f"{str(name).capitalize()} was cancelled.")
             self._send({"type": "progress", "id": key, "fraction": fraction, "message": message})
 
         result: dict[str, Any] | None = None
@@ -56,4 +85,7 @@ class Requests:
             result, buffers = self._actions[name](content, progress)
         except Exception as caught:  # noqa: BLE001 - whatever it is, the person must read it
             error = str(caught) or type(caught).__name__
+        finally:
+            with self._lock:
+                self._running.pop(key, None)
         self._send({"type": "response", "id": key, "result": result, "error": error}, buffers)

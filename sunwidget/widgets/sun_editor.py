@@ -11,6 +11,7 @@ import base64
 import inspect
 import os
 import tempfile
+import uuid
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ from sunwidget.edit import PARAMETERS, Edit, unknown_name_message
 from sunwidget.files import target
 from sunwidget.photo import Photo, open_photo
 from sunwidget.widgets.analyst import Analyst
-from sunwidget.widgets.history import NAMES, EditHistory, edit_of
+from sunwidget.widgets.history import NAMES, edit_of
 from sunwidget.widgets.payload import (
     encode_map,
     encode_maps,
@@ -33,8 +34,10 @@ from sunwidget.widgets.payload import (
     scene_json,
     thumbnail,
 )
+from sunwidget.widgets.place_clock import PlaceClock
 from sunwidget.widgets.requests import Action, Answer, Progress, Requests
 from sunwidget.widgets.standalone import editor_page, embedded_state, still_of, write_page
+from sunwidget.widgets.uploads import Uploads, fingerprint
 
 _STATIC = Path(__file__).parents[1] / "static"
 _CORRECTIONS = frozenset(p.name for p in PARAMETERS if p.analysis)
@@ -44,6 +47,7 @@ _ANALYSIS = tuple(
     for name, p in inspect.signature(analyze).parameters.items()
     if p.kind is p.KEYWORD_ONLY and name not in (*NAMES, "progress")
 )
+_OPENING = {"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"}
 _SUFFIXES = {"JPEG": ".jpg", "PNG": ".png", "TIFF": ".tif", "WEBP": ".webp"}
 _TYPES = {
     ".jpg": "image/jpeg",
@@ -59,7 +63,7 @@ if not (_STATIC / "sun_editor.js").is_file():
     )
 
 
-class SunEditor(EditHistory):
+class SunEditor(PlaceClock):
     """Drag the sun in a photo.
 
     Every parameter of ``Edit`` is a trait of the same name, both ways: setting one moves the
@@ -103,6 +107,8 @@ class SunEditor(EditHistory):
     _clear_sky = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _scene = traitlets.Dict().tag(sync=True, echo_update=False)
     _status = traitlets.Dict().tag(sync=True, echo_update=False)
+    # Which photo it is: its name, a fingerprint of its pixels, and a key of this editor.
+    _source = traitlets.Dict().tag(sync=True, echo_update=False)
 
     def __init__(
         self,
@@ -111,30 +117,21 @@ class SunEditor(EditHistory):
         recipe: Edit | dict[str, Any] | None = None,
         **options: Any,
     ) -> None:
-        for name in options:
-            if name not in NAMES and name not in _ANALYSIS:
-                raise TypeError(f"SunEditor: {unknown_name_message(name, _ANALYSIS)}")
-        analysis = {name: options.pop(name) for name in _ANALYSIS if name in options}
+        source, analysis = _opened(source, options)
         start = edit_of(recipe).replace(**options)
-        scene = source if isinstance(source, Scene) else None
-        if scene is not None and analysis:
-            raise TypeError(
-                f"SunEditor takes {next(iter(analysis))}= with a photo; this scene is analysed "
-                "already. Pass the photo, or analyze(photo, ...) with the option."
-            )
-        self.photo: Photo = scene.photo if scene is not None else open_photo(source)
+        self.photo: Photo = source.photo if isinstance(source, Scene) else source
+        self._set_asides: dict[str, dict[str, Any]] = {}  # edits of other photos, by fingerprint
         self._revision = 0
         self._shown: Scene | None = None  # the scene that the browser has
         self._thumbnail: bytes | None = None
         super().__init__(
             start,
             _photo=encode_preview(self.photo),
-            _status={"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"},
+            _source=self._source_json(uuid.uuid4().hex),
+            _status=_OPENING,
         )
         self.on_msg(Requests(self.send, self._actions()))
-        self._analyst = Analyst(
-            self.photo if scene is None else scene, analysis, self._deliver, self._report
-        )
+        self._analyst = self._analyst_of(source, analysis)
         self.observe(lambda _: self._analyst.ask(self.edit), list(_CORRECTIONS))
         self._analyst.ask(start)
 
@@ -145,6 +142,40 @@ class SunEditor(EditHistory):
     @traitlets.default("_maps")
     def _default_maps(self) -> list[dict[str, Any]]:
         return map_json()
+
+    def open(
+        self, source: Any = None, *, recipe: Edit | dict[str, Any] | None = None, **options: Any
+    ) -> None:
+        """Take another photo into this editor, which then begins anew.
+
+        The edit of the photo before, its history and its versions are set aside; they are back
+        when that photo is opened again, and a recipe that is given is then a step on top of them.
+        Parameters and errors as for the class.
+
+        Examples
+        --------
+        >>> editor.open("mountains.jpg")
+        """
+        if source is None:  # ipywidgets' own method of this name, which connects to the browser
+            super().open()
+            return
+        source, analysis = _opened(source, options)
+        given = recipe is not None or bool(options)
+        start = edit_of(recipe).replace(**options)
+        photo = source.photo if isinstance(source, Scene) else source
+        preview = encode_preview(photo)
+        with self._lock, self.hold_sync():
+            self._set_asides[self._source["fingerprint"]] = self._set_aside()
+            self.photo, self._shown, self._thumbnail = photo, None, None
+            self._analyst = self._analyst_of(source, analysis)
+            self._photo, self._status, self._scene = preview, _OPENING, {}
+            self._layers = self._surface = self._backdrop = self._clear_sky = b""
+            self._source = self._source_json(self._source["session"])
+            aside = self._set_asides.pop(self._source["fingerprint"], None)
+            self._take_up(**(aside or {"edit": start}))
+            if aside and given:
+                self._step(start)
+            self._analyst.ask(self.edit)
 
     @property
     def scene(self) -> Scene:
@@ -223,9 +254,27 @@ class SunEditor(EditHistory):
         assert base is not None
         return base
 
+    def _source_json(self, session: str) -> dict[str, str]:
+        return {
+            "name": self.photo.name,
+            "fingerprint": fingerprint(self.photo),
+            "session": session,
+        }
+
+    def _analyst_of(self, source: Photo | Scene, options: dict[str, Any]) -> Analyst:
+        def report(stage: str, fraction: float, message: str) -> None:
+            # Work on a photo that is no longer shown may still be under way.
+            if analyst is self._analyst:
+                self._report(stage, fraction, message)
+
+        analyst = Analyst(source, options, self._deliver, report)
+        return analyst
+
     def _deliver(self, scene: Scene) -> None:
         maps = encode_maps(scene)
         with self._lock:
+            if scene.photo is not self.photo:
+                return
             self._revision += 1
             self._shown = scene
             described = scene_json(scene, self._revision)
@@ -252,6 +301,7 @@ class SunEditor(EditHistory):
         """Return what the browser can ask for, by name."""
         return {
             "save": self._save_for_browser,
+            "upload": Uploads(self.open),
             "map": lambda content, _: (
                 {},
                 [encode_map(self._shown_scene(), str(content.get("name")))],
@@ -275,3 +325,19 @@ class SunEditor(EditHistory):
         # GitHub, nbconvert and other viewers without widgets show this one.
         data["image/png"] = base64.b64encode(self._thumbnail).decode("ascii")
         return data, metadata
+
+
+def _opened(source: Any, options: dict[str, Any]) -> tuple[Photo | Scene, dict[str, Any]]:
+    """Open ``source`` and take the options of ``analyze`` out of ``options``."""
+    for name in options:
+        if name not in NAMES and name not in _ANALYSIS:
+            raise TypeError(f"SunEditor: {unknown_name_message(name, _ANALYSIS)}")
+    analysis = {name: options.pop(name) for name in _ANALYSIS if name in options}
+    if not isinstance(source, Scene):
+        return open_photo(source), analysis
+    if analysis:
+        raise TypeError(
+            f"SunEditor takes {next(iter(analysis))}= with a photo; this scene is analysed "
+            "already. Pass the photo, or analyze(photo, ...) with the option."
+        )
+    return source, analysis

@@ -15,7 +15,7 @@ from sunwidget.widgets.sun_editor import SunEditor
 class _Unseen(SunEditor):
     """An editor that opens no channel to a browser."""
 
-    def open(self) -> None:
+    def open(self, source: Any = None, **_options: Any) -> None:
         """Do nothing."""
 
 
