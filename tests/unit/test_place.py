@@ -23,6 +23,13 @@ def pvlib():
     return pytest.importorskip("pvlib")
 
 
+@pytest.fixture(scope="module")
+def scene():
+    """The coast, whose own file tells place, time and heading; small, and without its EXIF."""
+    photo = sw.sample("coast")
+    return sw.analyze(photo.preview(384), fov=photo.field_of_view.vertical)
+
+
 def taken(clock="2024:03:20 18:00:00", offset=None, gps=None, **tags):
     """Open a photo that was taken so."""
     shot = {} if clock is None else {0x9003: clock}
@@ -244,12 +251,122 @@ def test_an_elevation_that_the_day_does_not_reach_doubts_the_date(pvlib):
     assert "never stands at 60.0°: check date and place" in found.note
 
 
-def test_the_samples_heading_is_found_by_its_sun(pvlib):
-    photo = sw.sample("coast")
-    scene = sw.analyze(photo.preview(512), fov=photo.field_of_view.vertical)
-    told = from_photo(photo)
+def test_the_samples_heading_is_found_by_its_sun(pvlib, scene):
+    told = from_photo(sw.sample("coast"))
     found = heading_by_sun(scene, told.place.replace(heading=None))
     turn = (found.place.heading - told.heading + 180) % 360 - 180
     assert abs(turn) < 2
     assert found.agrees
     assert found.seen
+
+
+# --- in the editor -----------------------------------------------------------------------
+
+
+def editor_of(scene, **options):
+    return sw.SunEditor(scene, **options).wait()
+
+
+def test_the_clock_moves_the_sun_and_the_place_in_one_step(pvlib, scene):
+    editor = editor_of(scene, place=PRAGUE)
+    picture = editor.render(size=(96, 64))
+    editor.time = 16.0
+    expected = sun_at(PRAGUE.replace(time=16.0))
+    assert editor.place == PRAGUE.replace(time=16.0)
+    assert editor.sun_azimuth == pytest.approx(expected.azimuth, abs=1e-4)
+    assert editor.sun_elevation == pytest.approx(expected.elevation, abs=1e-4)
+    assert editor.edit == sw.Edit(place=PRAGUE).at(editor.place)
+    editor.undo()
+    assert editor.edit == sw.Edit(place=PRAGUE)
+    assert np.array_equal(editor.render(size=(96, 64)), picture)
+    editor.redo()
+    assert editor.time == 16.0
+
+
+def test_a_place_alone_changes_no_pixel(scene):
+    assert np.array_equal(
+        sw.render(scene, sw.Edit(place=PRAGUE), size=(96, 64)),
+        sw.render(scene, sw.Edit(), size=(96, 64)),
+    )
+
+
+def test_without_a_heading_the_clock_moves_the_elevation_alone(pvlib, scene):
+    editor = editor_of(scene, place=PRAGUE.replace(heading=None))
+    editor.time = 12.0
+    assert editor.sun_azimuth is None
+    assert editor.sun_elevation == pytest.approx(sun_at(PRAGUE.replace(time=12.0)).elevation)
+
+
+def test_the_night_stays_within_what_an_edit_takes(pvlib):
+    assert sw.Edit().at(PRAGUE.replace(time=0.0)).sun_elevation == -12
+
+
+def test_the_browser_gets_the_day_of_the_place(pvlib, scene):
+    editor = editor_of(scene)
+    assert editor._day == {}
+    editor.place = SYDNEY
+    assert editor._day["key"] == [-33.87, 151.21, "2024-06-21"]
+    assert editor._day["path"] == day_table(SYDNEY).tolist()
+    # The clock alone, also over UTC's midnight, needs no other path.
+    before = editor._day
+    editor.time = 0.5
+    editor.place = editor.place.replace(date="2024-06-20", time=23.0)
+    assert editor._day is before
+    editor.undo()
+    editor.place = None
+    assert editor._day == {}
+
+
+def test_without_pvlib_there_is_a_place_but_no_clock(scene, monkeypatch):
+    editor = editor_of(scene)
+    monkeypatch.setitem(__import__("sys").modules, "pvlib", None)
+    editor.place = PRAGUE.replace(latitude=12.3456)  # a path that is not remembered
+    assert "pip install 'sunwidget[solar]'" in editor._day["error"]
+    assert "path" not in editor._day
+    with pytest.raises(ImportError, match="solar"):
+        editor.time = 12
+    assert editor.edit == sw.Edit(place=PRAGUE.replace(latitude=12.3456))
+
+
+def test_a_place_is_completed_by_the_photos_file(pvlib):
+    photo = taken(gps=fix(time=(17, 0, 0), heading=262.5))
+    editor = sw.SunEditor(photo)
+    assert editor._photo_place["heading"] == 262.5
+    assert editor.place is None  # told, not set: an edit that names nothing moves nothing
+    editor.set_place()
+    assert editor.place == Place(50.09, 14.42, "2024-03-20", 17.0, 262.5)
+    editor.set_place(heading=270)
+    assert editor.place.heading == 270
+    assert editor.place.time == 17.0
+    editor.time = 17.5
+    assert editor.sun_azimuth == pytest.approx(sun_at(editor.place).azimuth, abs=1e-4)
+
+
+def test_what_neither_file_nor_person_says_is_asked_for(scene):
+    editor = editor_of(scene)
+    with pytest.raises(EditError, match="latitude and longitude and date and time"):
+        editor.set_place()
+    with pytest.raises(EditError, match="date and time"):
+        editor.set_place(50, 14)
+    with pytest.raises(EditError, match="latitude must be a number"):
+        editor.set_place(500, 14, "2024-03-20", 17, 0)
+    editor.set_place(50, 14, "2024-03-20", 17, 0)
+    with pytest.raises(EditError, match="time must be a number from 0 to 24"):
+        editor.time = 25
+
+
+def test_the_heading_that_is_missing_is_found_by_the_sun(pvlib, scene):
+    editor = editor_of(scene)
+    told = from_photo(sw.sample("coast")).place
+    editor.set_place(told.latitude, told.longitude, told.date, told.time)
+    assert editor.place.heading == pytest.approx(told.heading, abs=2.5)
+    # The photo's own sun is where the clock puts it at the photo's own time.
+    editor.time = told.time
+    assert editor.sun_azimuth == pytest.approx(scene.automatic["sun_azimuth"], abs=1e-3)
+    # An hour's error of the clock is found and can be mended.
+    editor.set_place(time=told.time - 1, heading=0)
+    found = editor.heading_by_sun()
+    assert not found.agrees
+    assert "1 h later" in found.note
+    editor.place = found.agreeing[0]
+    assert editor.place.heading == pytest.approx(told.heading, abs=3.5)
