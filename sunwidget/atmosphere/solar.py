@@ -110,7 +110,7 @@ def sun_on_path(path: ArrayLike, hours: float) -> tuple[float, float]:
     """Return azimuth (-180 to 180) and apparent elevation at a time of ``day_path``.
 
     The two neighbouring rows are mixed as unit vectors, so that neither the step from 360° to 0°
-    nor a sun that passes the zenith needs care. The browser does the same (``explorer/values.js``).
+    nor a sun that passes the zenith needs care. The browser does the same (``day.js``).
     """
     table = np.asarray(path, float)
     last = len(table) - 2

@@ -20,7 +20,7 @@ from sunwidget.widgets.sky_explorer import SkyExplorer
 SCRIPT = """
 import { readFileSync } from "node:fs";
 import { effectiveValues } from "./src/explorer/values.js";
-import { sunAt, trueElevation } from "./src/explorer/day.js";
+import { sunAt, trueElevation } from "./src/day.js";
 import * as haze from "./src/explorer/haze.js";
 const asked = JSON.parse(readFileSync(0, "utf-8"));
 console.log(JSON.stringify({

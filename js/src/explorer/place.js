@@ -4,7 +4,7 @@ import { button } from "../controls/button.js";
 import { element } from "../controls/element.js";
 import { icon } from "../controls/icons.js";
 import { slider } from "../controls/slider.js";
-import { clock, sunAt } from "./day.js";
+import { clock, sunAt } from "../day.js";
 import { degrees } from "./readout.js";
 
 const HOURS_A_SECOND = 1; // while the day plays

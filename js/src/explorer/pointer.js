@@ -1,7 +1,7 @@
 /** The pointer on the sky: it drags the sun, turns the view, and reads what lies under it. */
 
+import { turned } from "../day.js";
 import { GRAB } from "../sun_shape.js";
-import { turned } from "./day.js";
 
 /**
  * @typedef {import("../types.js").Point} Point

@@ -1,8 +1,8 @@
 /** The line under the sky: the sun's place, and what lies under the pointer. */
 
 import { element } from "../controls/element.js";
+import { trueElevation, turned } from "../day.js";
 import { cssColor } from "./color.js";
-import { trueElevation, turned } from "./day.js";
 import { luminanceText } from "./sky_probe.js";
 
 /** Degrees with a proper minus. @type {(value: number, digits?: number) => string} */

@@ -1,7 +1,7 @@
 /** The sun's handle on the sky: drag it, also below the horizon, or move it with the arrow keys. */
 
+import { turned } from "../day.js";
 import { EDGE, keyStep, SunShape, spotOnStage } from "../sun_shape.js";
-import { turned } from "./day.js";
 
 // Round the dome there is room for all of twilight.
 const DOME_EDGE = 12;

@@ -3,8 +3,8 @@
 import { button, radioButtons } from "../controls/button.js";
 import { element } from "../controls/element.js";
 import { historyButtons } from "../controls/history.js";
+import { turned } from "../day.js";
 import { pythonCode } from "./code.js";
-import { turned } from "./day.js";
 
 /** @type {{ value: string, icon: import("../controls/icons.js").IconName, label: string, title: string }[]} */
 const PROJECTIONS = [

@@ -7,10 +7,10 @@
 
 import { Channel } from "../channel.js";
 import { element } from "../controls/element.js";
+import { angleBetween, sunAt, turned } from "../day.js";
 import { FrameLoop } from "../frame_loop.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
-import { angleBetween, sunAt, turned } from "./day.js";
 import { Guides } from "./guides.js";
 import { MOST_SAMPLES } from "./limits.js";
 import { Measured } from "./measured.js";
@@ -180,7 +180,7 @@ export class View {
     });
   }
 
-  /** The kernel's table of the sun's path. @returns {import("./day.js").DayRow[]} */
+  /** The kernel's table of the sun's path. @returns {import("../day.js").DayRow[]} */
   day() {
     return this.model.get("_day") ?? [];
   }

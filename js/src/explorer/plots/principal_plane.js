@@ -2,7 +2,7 @@
 
 import { element } from "../../controls/element.js";
 import { channel, onPrincipalPlane, PLANE_ANGLES, planeDirection } from "../curves.js";
-import { turned } from "../day.js";
+import { turned } from "../../day.js";
 import { Chart, short } from "./chart.js";
 
 const BANDS = ["nm640", "nm580", "nm510", "nm440"];

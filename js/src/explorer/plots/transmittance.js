@@ -2,7 +2,7 @@
 
 import { wavelengthColor } from "../color.js";
 import { channel, WAVELENGTHS } from "../curves.js";
-import { horizonElevation } from "../day.js";
+import { horizonElevation } from "../../day.js";
 import { degrees } from "../readout.js";
 import { Chart } from "./chart.js";
 

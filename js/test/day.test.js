@@ -7,7 +7,7 @@ import {
   sunAt,
   trueElevation,
   turned,
-} from "../src/explorer/day.js";
+} from "../src/day.js";
 
 const near = (actual, expected, tolerance = 1e-6) =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected}`);
