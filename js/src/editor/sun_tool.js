@@ -10,10 +10,14 @@ import { GRAB, keyStep, SunShape, spotOnStage } from "../sun_shape.js";
 /**
  * @typedef {import("../types.js").Point} Point
  * @typedef {import("./view.js").View} View
+ * @typedef {Pick<View, "camera" | "scene" | "value" | "parameter"> & {
+ *   stage: Pick<View["stage"], "rectangle">,
+ *   state: Pick<View["state"], "begin" | "commit" | "cancel" | "set">,
+ * }} SunHost what the handle needs of a view
  */
 
 export class SunTool {
-  /** @param {View} view */
+  /** @param {SunHost} view */
   constructor(view) {
     this.view = view;
     /** @type {Point} offset of the grip from the sun, in fractions of the picture */
