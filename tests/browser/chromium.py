@@ -84,6 +84,26 @@ def live_contexts(page):
     return page.evaluate("contexts.filter((gl) => !gl.isContextLost()).length")
 
 
+def drag_sun(page, i=0, by=(-60, 20)):
+    """Drag the sun of the page's ``i``-th editor and wait until its picture is another."""
+    editor = page.locator(".sunwidget").nth(i)
+    ring = editor.locator(".sw-sun-ring")
+    ring.scroll_into_view_if_needed()
+    box = ring.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    canvas = editor.locator(".sw-canvas")
+    before = canvas.evaluate("canvas => canvas.toDataURL()")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + by[0], y + by[1], steps=3)
+    page.mouse.up()
+    for _ in range(PATIENCE // 100):
+        if canvas.evaluate("canvas => canvas.toDataURL()") != before:
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError("the drag moved nothing")
+
+
 def widget_state(widget):
     """The widget's traits as the browser gets them, bytes as base64."""
     state = {}

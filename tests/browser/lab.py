@@ -1,98 +1,64 @@
-"""A real JupyterLab on a free port of this machine, with a home of its own."""
+"""A real JupyterLab or Notebook 7, and what a person does there."""
 
 import json
-import os
 import secrets
-import signal
-import socket
-import subprocess
 import sys
-import time
-import urllib.request
 from contextlib import contextmanager
 
 import nbformat
-from chromium import PATIENCE
+from chromium import PATIENCE, picture_of
+from server import serving
 
-_PATIENCE = 120  # s
+_SETTINGS = {
+    "@jupyterlab/apputils-extension:notification": {
+        "fetchNews": "false",
+        "checkForUpdates": False,
+    },
+}
 
 
 @contextmanager
-def jupyterlab(folder, root):
-    """Start JupyterLab over the files of ``folder``; yields ``url(path)``; ends its kernels too."""
+def jupyterlab(folder, root, *, app="lab"):
+    """Start JupyterLab over the files of ``folder``; yields ``url(path)``; ends its kernels too.
+
+    ``app="notebook"`` starts Notebook 7, whose cells answer to the same names.
+    """
     home = folder / ".home"
-    overrides = home / "config" / "labconfig" / "default_setting_overrides.json"
-    overrides.parent.mkdir(parents=True)
-    overrides.write_text(
-        json.dumps(
-            {
-                "@jupyterlab/apputils-extension:notification": {
-                    "fetchNews": "false",
-                    "checkForUpdates": False,
-                },
-            }
-        )
-    )
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
+    for name in ("labconfig", "nbconfig"):
+        overrides = home / "config" / name / "default_setting_overrides.json"
+        overrides.parent.mkdir(parents=True, exist_ok=True)
+        overrides.write_text(json.dumps(_SETTINGS))
     token = secrets.token_hex(16)
-    environment = {
-        **os.environ,
-        "HOME": str(home),
+    module, tree = {"lab": ("jupyterlab", "lab/tree"), "notebook": ("notebook", "notebooks")}[app]
+
+    def command(port):
+        return [
+            sys.executable,
+            "-m",
+            module,
+            "--no-browser",
+            "--allow-root",
+            "--ip=127.0.0.1",
+            f"--port={port}",
+            "--ServerApp.port_retries=0",
+            f"--IdentityProvider.token={token}",
+            f"--ServerApp.root_dir={folder}",
+            "--LabApp.extension_manager=readonly",
+        ]
+
+    settings = {
         "JUPYTER_CONFIG_DIR": str(home / "config"),
         "JUPYTER_DATA_DIR": str(home / "data"),
         "JUPYTER_RUNTIME_DIR": str(home / "runtime"),
-        "IPYTHONDIR": str(home / "ipython"),
-        "PYTHONPATH": os.pathsep.join([str(root), os.environ.get("PYTHONPATH", "")]).rstrip(":"),
     }
-    command = [
-        sys.executable,
-        "-m",
-        "jupyterlab",
-        "--no-browser",
-        "--allow-root",
-        "--ip=127.0.0.1",
-        f"--port={port}",
-        "--ServerApp.port_retries=0",
-        f"--IdentityProvider.token={token}",
-        f"--ServerApp.root_dir={folder}",
-        "--LabApp.extension_manager=readonly",
-    ]
-    log = (folder / "lab.log").open("wb")
-    # A session of its own, so that its kernels end with it.
-    process = subprocess.Popen(
-        command, cwd=folder, env=environment, stdout=log, stderr=log, start_new_session=True
-    )
-    address = f"http://127.0.0.1:{port}"
-    try:
-        _wait_until_up(process, f"{address}/api/status?token={token}", folder / "lab.log")
-        yield lambda path: f"{address}/lab/tree/{path}?token={token}"
-    finally:
-        for ending in (signal.SIGTERM, signal.SIGKILL):
-            try:
-                os.killpg(process.pid, ending)
-            except ProcessLookupError:
-                break
-            try:
-                process.wait(20)
-            except subprocess.TimeoutExpired:
-                continue
-        process.wait(20)
-        log.close()
+    status = f"/api/status?token={token}"
+    with serving(command, folder, root, status=status, settings=settings) as address:
+        yield lambda path: f"{address}/{tree}/{path}?token={token}"
 
 
-def _wait_until_up(process, status, log):
-    until = time.monotonic() + _PATIENCE
-    while time.monotonic() < until:
-        if process.poll() is not None:
-            break
-        try:
-            with urllib.request.urlopen(status, timeout=5):
-                return
-        except OSError:
-            time.sleep(0.5)
-    raise RuntimeError(f"JupyterLab did not start:\n{log.read_text()[-4000:]}")
+def notebook(folder, root):
+    """Start Notebook 7 likewise."""
+    return jupyterlab(folder, root, app="notebook")
 
 
 def lab_page(context):
@@ -116,10 +82,42 @@ def lab_page(context):
 
 def write_notebook(path, cells):
     """Write a notebook that names its kernel: without one JupyterLab asks for it first."""
-    notebook = nbformat.v4.new_notebook(
+    written = nbformat.v4.new_notebook(
         cells=[nbformat.v4.new_code_cell(source) for source in cells],
         metadata={
             "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}
         },
     )
-    nbformat.write(notebook, path)
+    nbformat.write(written, path)
+
+
+def run_cell(page, number):
+    """Run a cell; again if the kernel was not yet listening and the cell stays unnumbered."""
+    cell = page.locator(".jp-Notebook .jp-CodeCell").nth(number)
+    for _ in range(10):
+        cell.locator(".cm-content").click()
+        page.keyboard.press("Shift+Enter")
+        for _ in range(20):
+            if cell.locator(".jp-InputPrompt").first.text_content().strip() != "[ ]:":
+                return
+            page.wait_for_timeout(250)
+    raise AssertionError(f"cell {number} did not start")
+
+
+def run_cell_that_writes(page, number, file):
+    """Run a cell and wait until it has written ``file``; returns its text."""
+    run_cell(page, number)
+    for _ in range(PATIENCE // 250):
+        if file.is_file() and file.stat().st_size:
+            return file.read_text()
+        page.wait_for_timeout(250)
+    raise AssertionError(f"the cell wrote no {file}")
+
+
+def canvas_of(page):
+    """What the first editor of the page shows, (H, W, 3) uint8."""
+    return picture_of(
+        page.evaluate(
+            "document.querySelector('.sunwidget .sw-canvas').toDataURL('image/png').split(',')[1]"
+        )
+    )

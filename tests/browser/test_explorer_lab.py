@@ -5,9 +5,8 @@ import json
 import numpy as np
 import pytest
 from chromium import picture_of
-from lab import jupyterlab, lab_page, write_notebook
+from lab import jupyterlab, lab_page, run_cell, run_cell_that_writes, write_notebook
 from PIL import Image
-from test_jupyterlab import run_cell, run_cell_that_writes
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(600)]
 

@@ -4,8 +4,14 @@ import json
 
 import numpy as np
 import pytest
-from chromium import PATIENCE, picture_of
-from lab import jupyterlab, lab_page, write_notebook
+from lab import (
+    canvas_of,
+    jupyterlab,
+    lab_page,
+    run_cell,
+    run_cell_that_writes,
+    write_notebook,
+)
 from PIL import Image
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(600)]
@@ -27,37 +33,6 @@ except Exception as error:
 Path("refused.txt").write_text(f"{editor.sun_elevation} {refused}")""",
     'Path("stroked.json").write_text(json.dumps(editor.edit.to_dict()))',
 ]
-
-
-def run_cell(page, number):
-    """Run a cell; again if the kernel was not yet listening and the cell stays unnumbered."""
-    cell = page.locator(".jp-Notebook .jp-CodeCell").nth(number)
-    for _ in range(10):
-        cell.locator(".cm-content").click()
-        page.keyboard.press("Shift+Enter")
-        for _ in range(20):
-            if cell.locator(".jp-InputPrompt").first.text_content().strip() != "[ ]:":
-                return
-            page.wait_for_timeout(250)
-    raise AssertionError(f"cell {number} did not start")
-
-
-def run_cell_that_writes(page, number, file):
-    """Run a cell and wait until it has written ``file``; returns its text."""
-    run_cell(page, number)
-    for _ in range(PATIENCE // 250):
-        if file.is_file() and file.stat().st_size:
-            return file.read_text()
-        page.wait_for_timeout(250)
-    raise AssertionError(f"the cell wrote no {file}")
-
-
-def canvas_of(page):
-    return picture_of(
-        page.evaluate(
-            "document.querySelector('.sunwidget .sw-canvas').toDataURL('image/png').split(',')[1]"
-        )
-    )
 
 
 def test_dragging_the_sun_in_jupyterlab_shows_what_the_kernel_exports(

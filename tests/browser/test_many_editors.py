@@ -1,7 +1,7 @@
 """Many editors in one page, as in a long notebook: all show their picture, few hold a context."""
 
 import pytest
-from chromium import count_contexts, live_contexts, widget_state
+from chromium import count_contexts, drag_sun, live_contexts, widget_state
 
 import sunwidget as sw
 from sunwidget.widgets import SunEditor
@@ -25,23 +25,6 @@ SPREAD = """i => {
 @pytest.fixture(scope="module")
 def state():
     return widget_state(SunEditor(sw.analyze(sw.sample("coast").preview(192))).wait())
-
-
-def drag_sun(page, i):
-    """Drag the sun of the i-th editor and wait until its picture is another."""
-    ring = page.locator(".sunwidget").nth(i).locator(".sw-sun-ring")
-    ring.scroll_into_view_if_needed()
-    box = ring.bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    before = page.evaluate(f"document.querySelectorAll('.sw-canvas')[{i}].toDataURL()")
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x - 60, y + 20)
-    page.mouse.up()
-    page.wait_for_function(
-        "([i, before]) => document.querySelectorAll('.sw-canvas')[i].toDataURL() !== before",
-        arg=[i, before],
-    )
 
 
 def test_twenty_editors_in_one_page(page, state):
