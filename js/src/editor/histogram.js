@@ -12,6 +12,10 @@ import { ceiling, countLevels, hill } from "./levels.js";
 
 const EDGE = 256; // pixels of the longer side that are counted
 const EVERY_MS = 150;
+// Reading the canvas waits for the frame under way. Where that takes long, it is read at rest.
+const DEAR_MS = 6;
+const RESTED_MS = 600;
+const FORGETS = 0.7; // of the cost, with each reading
 const WIDTH = 240;
 const HEIGHT = 56;
 const CHANNELS = /** @type {const} */ (["red", "green", "blue"]);
@@ -59,6 +63,7 @@ export function histogram(view, signal) {
   /** @type {Levels | null} */
   let own = null; // of the photo
   let counted = 0; // when, ms
+  let cost = 0; // of reading, ms
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
   let forget = () => {};
@@ -80,9 +85,11 @@ export function histogram(view, signal) {
   };
 
   const show = () => {
-    counted = performance.now();
+    if (view.state.before !== null && cost > DEAR_MS) return; // its end draws again
     own ??= read(view.stage.photo);
+    counted = performance.now();
     const now = read(view.stage.canvas);
+    cost = Math.max(performance.now() - counted, FORGETS * cost);
     if (!now) return;
     const most = ceiling([now.red, now.green, now.blue, now.luminance]);
     CHANNELS.forEach((name, i) => {
@@ -103,14 +110,16 @@ export function histogram(view, signal) {
     svg.setAttribute("aria-label", `Histogram. ${text.textContent || "Nothing is clipped"}.`);
   };
   const wake = () => {
-    if (body.hidden || timer || signal.aborted) return;
+    const dear = cost > DEAR_MS;
+    if (body.hidden || signal.aborted || (timer && !dear)) return;
+    clearTimeout(timer);
     timer = setTimeout(
       () => {
         timer = undefined;
         forget();
         forget = whenIdle(show);
       },
-      Math.max(0, counted + EVERY_MS - performance.now()),
+      dear ? RESTED_MS : Math.max(0, counted + EVERY_MS - performance.now()),
     );
   };
   signal.addEventListener("abort", () => {

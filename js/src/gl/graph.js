@@ -300,10 +300,12 @@ export function passSize(size, frame, sizes = {}) {
 }
 
 /**
+ * Whether two keys of a pass are equal.
+ *
  * @param {(number | string)[]} a
  * @param {(number | string)[]} b
  */
-function same(a, b) {
+export function same(a, b) {
   // Object.is: a NaN must not draw its pass for ever.
   return a.length === b.length && a.every((value, i) => Object.is(value, b[i]));
 }

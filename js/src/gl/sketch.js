@@ -5,43 +5,88 @@
  * of their own: what the surface has drawn stays drawn, so that its next frame costs no more.
  */
 
-import { Graph } from "./graph.js";
+import { Graph, same } from "./graph.js";
 
-/** @typedef {import("./surface.js").Surface} Surface */
+/**
+ * @typedef {import("./graph.js").Frame} Frame
+ * @typedef {import("./surface.js").Surface} Surface
+ * @typedef {import("./target.js").Target} Target
+ */
+
+/** A graph that reads what another has drawn, where it would draw just the same. */
+class Borrower extends Graph {
+  /** @param {Graph} lender */
+  constructor(lender) {
+    super(lender.gl, lender.description, lender.files);
+    this.lender = lender;
+    this.programs = lender.programs;
+    this.textures = lender.textures;
+    /** @type {Map<string, Target>} of the present run: the lender may draw between two */
+    this.lent = new Map();
+    // The lender counts in whole numbers: a version of one is never one of the other.
+    this.versions = 0.5;
+  }
+
+  /**
+   * @param {Frame} frame
+   * @param {string} [until]
+   */
+  run(frame, until) {
+    this.lent.clear();
+    super.run(frame, until);
+  }
+
+  /**
+   * @param {string} name
+   * @param {[number, number]} size
+   * @param {(number | string)[]} key
+   * @param {number} frame
+   */
+  target(name, size, key, frame) {
+    const lent = this.lender.targets.get(name);
+    const { width, height } = lent?.texture ?? {};
+    if (lent?.key && width === size[0] && height === size[1] && same(lent.key, key)) {
+      this.lent.set(name, lent);
+      return lent;
+    }
+    return super.target(name, size, key, frame);
+  }
+
+  /**
+   * @param {import("./graph.js").Pass} pass
+   * @param {string} name
+   */
+  input(pass, name) {
+    return this.lent.get(name)?.texture ?? super.input(pass, name);
+  }
+}
 
 export class Sketch {
   /** @param {Surface} surface */
   constructor(surface) {
     this.surface = surface;
-    /** @type {Graph | null} */
-    this.own = null;
-    /** @type {Graph | null} the surface's graph that `own` borrows from */
-    this.lender = null;
+    /** @type {Borrower | null} */
+    this.graph = null;
   }
 
   /**
    * Draw onto a canvas, which takes all of the frame. Returns false while the surface has no
    * living context: making one for a small picture would take it from a large one.
    *
-   * @param {import("./graph.js").Frame} frame
+   * @param {Frame} frame
    * @param {HTMLCanvasElement} canvas
    */
   draw(frame, canvas) {
     const lender = this.surface.graph;
     const context = canvas.getContext("2d", { alpha: false });
     if (!lender || !context || lender.gl.isContextLost()) return false;
-    if (lender !== this.lender || !this.own) {
-      this.lender = lender;
-      this.own = new Graph(lender.gl, lender.description, lender.files);
-      this.own.programs = lender.programs;
-      this.own.textures = lender.textures;
-    }
+    if (this.graph?.lender !== lender) this.graph = new Borrower(lender);
     const { gl } = lender;
     const [width, height] = frame.size;
     // The surface gives its canvas a size again before it draws.
     if (gl.canvas.width < width) gl.canvas.width = width;
     if (gl.canvas.height < height) gl.canvas.height = height;
-    this.own.run(frame);
+    this.graph.run(frame);
     if (gl.isContextLost()) return false;
     context.imageSmoothingQuality = "high";
     const bottom = gl.canvas.height - height; // rows count from below
@@ -51,7 +96,7 @@ export class Sketch {
 
   /** Free the targets; the next drawing makes them again. */
   rest() {
-    if (this.own && this.lender === this.surface.graph) this.own.deleteTargets();
-    this.own = this.lender = null;
+    if (this.graph && this.graph.lender === this.surface.graph) this.graph.deleteTargets();
+    this.graph = null;
   }
 }
