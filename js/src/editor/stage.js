@@ -190,15 +190,15 @@ export class Stage extends PictureStage {
       pixelRatio,
     });
     const { style } = this.picture;
-    if (zoom.fits) style.inset = style.width = style.height = "";
+    if (zoom.fits) style.width = style.height = style.transform = "";
     else {
-      const { x, y, width, height } = zoom.box();
-      // On whole pixels of the screen: half-way between two a picture at 100 % would be soft.
-      const whole = (/** @type {number} */ at, /** @type {number} */ origin) =>
-        Math.round((origin + at) * pixelRatio) / pixelRatio - origin;
-      style.inset = `${whole(y, stage.top) - y0}px auto auto ${whole(x, stage.left) - x0}px`;
-      style.width = `${width}px`;
-      style.height = `${height}px`;
+      // Browsers put boxes on whole pixels, of CSS at worst, and leave transforms as they are: one
+      // by whole pixels of the screen keeps 100 % sharp.
+      const { x, y, width } = zoom.box();
+      const [left, top] = [x, y].map((at) => Math.round(at * pixelRatio) / pixelRatio);
+      style.width = `${zoom.size[0]}px`;
+      style.height = `${zoom.size[1]}px`;
+      style.transform = `translate(${left}px, ${top}px) scale(${width / zoom.size[0]})`;
     }
     this.node.classList.toggle("sw-zoomed", !zoom.fits);
     this.showPixels();
