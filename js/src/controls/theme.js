@@ -16,6 +16,8 @@ export function readTheme(root, names, theme) {
   // A custom property reads as it was written; only a property that uses it has the colour.
   const probe = root.ownerDocument.createElement("span");
   probe.hidden = true;
+  // Lines that differ by their colour alone keep it under the system's few.
+  probe.style.setProperty("forced-color-adjust", "none");
   root.append(probe);
   const style = getComputedStyle(probe);
   let changed = false;

@@ -95,23 +95,38 @@ export class Plots {
       },
       icon("help"),
     );
-    ask.addEventListener("click", (event) => {
-      event.preventDefault();
+    ask.addEventListener("click", () => {
       help.hidden = !help.hidden;
       ask.setAttribute("aria-expanded", String(!help.hidden));
     });
-    const heading = element(
-      "summary",
-      {},
+    // Not `details`: buttons inside its summary are hidden from assistive technology.
+    const fold = element(
+      "button",
+      { type: "button", class: "sw-card-fold", "aria-expanded": "true" },
       icon("chevron"),
       element("span", {}, plot.title),
+    );
+    const head = element(
+      "div",
+      { class: "sw-card-head" },
+      fold,
       told,
       ...(plot.extra ? [plot.extra] : []),
       ask,
     );
     const body = element("div", { class: "sw-card-body" }, plot.node);
-    const node = element("details", { class: "sw-card", open: true }, heading, help, body);
-    node.addEventListener("toggle", () => this.request());
+    const node = element(
+      "div",
+      { class: "sw-card", role: "group", "aria-label": plot.title },
+      head,
+      help,
+      body,
+    );
+    fold.addEventListener("click", () => {
+      body.hidden = !body.hidden;
+      fold.setAttribute("aria-expanded", String(!body.hidden));
+      this.request();
+    });
     return { plot, node, body, told };
   }
 
@@ -152,8 +167,8 @@ export class Plots {
       scatteringAngle: this.angle,
     };
     try {
-      for (const { plot, node, told } of this.cards) {
-        if (!node.open) continue;
+      for (const { plot, body, told } of this.cards) {
+        if (body.hidden) continue;
         plot.update(context);
         told.textContent = plot.tell?.() ?? "";
       }
@@ -168,8 +183,8 @@ export class Plots {
   hover(angle) {
     if (angle === this.angle) return;
     this.angle = angle;
-    for (const { plot, node, told } of this.cards) {
-      if (!plot.hover || !node.open) continue;
+    for (const { plot, body, told } of this.cards) {
+      if (!plot.hover || body.hidden) continue;
       plot.hover(angle);
       told.textContent = plot.tell?.() ?? "";
     }
