@@ -12,9 +12,12 @@
  * @typedef {import("./types.js").History} History
  * @typedef {import("./types.js").Model} Model
  * @typedef {import("./types.js").Parameter} Parameter
+ * @typedef {import("./types.js").Version} Version
+ * @typedef {import("./types.js").Kept} Kept
  */
 
 const THROTTLE_MS = 100;
+const HISTORY = ["_history", "_versions"];
 export const HISTORY_LENGTH = 100;
 // Every step repeats all strokes, and a message of 10 MiB would break the connection.
 export const HISTORY_BYTES = 2_000_000;
@@ -39,19 +42,24 @@ export class EditState {
     this.unsent = new Set();
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
-    /** Whether the photo's maps can follow: corrections stay as they are until they can. */
-    this.correctable = () => true;
+    /**
+     * When the photo's maps can follow a correction: until then nobody makes new ones, and where
+     * it is never, undo leaves them as they are too.
+     *
+     * @type {() => "now" | "later" | "never"}
+     */
+    this.follow = () => "now";
     /** @type {() => void} called when something was sent that the photo's maps follow */
     this.onCorrection = () => {};
 
     const onTrait = () => this.pull();
     for (const { name } of parameters) model.on(`change:${name}`, onTrait);
     const onHistory = () => this.notify();
-    model.on("change:_history", onHistory);
+    for (const name of HISTORY) model.on(`change:${name}`, onHistory);
     signal.addEventListener("abort", () => {
       clearTimeout(this.timer);
       for (const { name } of parameters) model.off(`change:${name}`, onTrait);
-      model.off("change:_history", onHistory);
+      for (const name of HISTORY) model.off(`change:${name}`, onHistory);
       this.listeners.clear();
     });
   }
@@ -87,7 +95,8 @@ export class EditState {
     const single = this.before === null;
     if (single) this.begin();
     for (const [name, value] of Object.entries(changes)) {
-      if (equal(this.values[name], value) || this.fixed(name)) continue;
+      if (equal(this.values[name], value)) continue;
+      if (this.follow() !== "now" && this.isCorrection(name)) continue;
       this.values[name] = value;
       this.unsent.add(name);
     }
@@ -96,9 +105,9 @@ export class EditState {
     else this.timer ??= setTimeout(() => this.push(), THROTTLE_MS);
   }
 
-  /** Whether a value stays as it is, since the maps could not follow. @param {string} name */
-  fixed(name) {
-    return !this.correctable() && this.parameters.some((p) => p.name === name && p.analysis);
+  /** @param {string} name */
+  isCorrection(name) {
+    return this.parameters.some((p) => p.name === name && p.analysis);
   }
 
   /** Start a gesture: all changes until `commit` are one step of the history. */
@@ -134,7 +143,9 @@ export class EditState {
     for (const name of names) this.model.set(name, this.values[name]);
     this.unsent.clear();
     this.model.save_changes();
-    if (this.parameters.some((p) => p.analysis && names.includes(p.name))) this.onCorrection();
+    if (this.follow() === "now" && names.some((name) => this.isCorrection(name))) {
+      this.onCorrection();
+    }
   }
 
   /** Values that differ from their defaults, by name. */
@@ -153,14 +164,20 @@ export class EditState {
    * @param {Edit} recipe
    */
   apply(recipe) {
+    this.assign(recipe);
+    this.push();
+    this.notify();
+  }
+
+  /** The same without sending it. @param {Edit} recipe */
+  assign(recipe) {
     for (const p of this.parameters) {
       const value = p.name in recipe ? recipe[p.name] : p.default;
-      if (equal(this.values[p.name], value) || this.fixed(p.name)) continue;
+      if (equal(this.values[p.name], value)) continue;
+      if (this.follow() === "never" && p.analysis) continue;
       this.values[p.name] = value;
       this.unsent.add(p.name);
     }
-    this.push();
-    this.notify();
   }
 
   /** @returns {History} */
@@ -175,6 +192,10 @@ export class EditState {
   }
 
   undo() {
+    if (this.before) {
+      this.cancel();
+      return;
+    }
     const { past, future } = this.history();
     const recipe = past.at(-1);
     if (!recipe) return;
@@ -185,21 +206,76 @@ export class EditState {
   redo() {
     const { past, future } = this.history();
     const recipe = future[0];
-    if (!recipe) return;
+    if (!recipe || this.before) return;
     this.writeHistory({ past: [...past, this.recipe()], future: future.slice(1) });
     this.apply(recipe);
   }
 
   /** Every parameter to its default, as one step. */
   reset() {
-    this.begin();
-    this.set(Object.fromEntries(this.parameters.map((p) => [p.name, p.default])));
+    this.replace({});
+  }
+
+  /** Take over a whole recipe, as one step. @param {Edit} recipe */
+  replace(recipe) {
     this.commit();
+    const before = this.recipe();
+    this.assign(recipe);
+    if (sameRecipe(before, this.recipe())) return;
+    this.writeHistory({ past: newest([...this.history().past, before]), future: [] });
+    this.push();
+    this.notify();
+  }
+
+  /** @returns {Version[]} kept by name, oldest first */
+  versions() {
+    return this.model.get("_versions") ?? [];
+  }
+
+  /** @param {Version[]} versions */
+  writeVersions(versions) {
+    this.model.set("_versions", versions);
+    this.model.save_changes();
+  }
+
+  /** All that is to be kept: as if the gesture under way ended now. @returns {Kept} */
+  kept() {
+    const { past, future } = this.history();
+    const recipe = this.recipe();
+    const moved = this.before && !sameRecipe(this.before, recipe);
+    return {
+      recipe,
+      past: moved ? newest([...past, /** @type {Edit} */ (this.before)]) : past,
+      future: moved ? [] : future,
+      versions: this.versions(),
+    };
+  }
+
+  /**
+   * Go on from what was kept elsewhere. What is shown now is not lost: it becomes a step.
+   *
+   * @param {Kept} kept
+   */
+  takeUp(kept) {
+    this.commit();
+    const now = this.kept();
+    const fresh = now.past.length === 0 && Object.keys(now.recipe).length === 0;
+    this.assign(kept.recipe);
+    this.writeHistory(
+      fresh
+        ? { past: kept.past, future: kept.future }
+        : { past: newest([...kept.past, ...now.past, now.recipe]), future: [] },
+    );
+    const names = new Set(now.versions.map(({ name }) => name));
+    const others = kept.versions.filter(({ name }) => !names.has(name));
+    this.model.set("_versions", [...now.versions, ...others]);
+    this.push();
+    this.notify();
   }
 }
 
 /** The last steps, as many as may be kept. @param {Edit[]} steps */
-function newest(steps) {
+export function newest(steps) {
   let bytes = 0;
   const kept = steps.slice(-HISTORY_LENGTH).reverse();
   const end = kept.findIndex((recipe, i) => {
@@ -212,4 +288,16 @@ function newest(steps) {
 /** @type {(a: unknown, b: unknown) => boolean} */
 export function equal(a, b) {
   return a === b || JSON.stringify(a) === JSON.stringify(b);
+}
+
+/**
+ * Whether two recipes set the same: the kernel writes a version into each, the browser does not.
+ *
+ * @param {Edit} a
+ * @param {Edit} b
+ */
+export function sameRecipe(a, b) {
+  const names = new Set([...Object.keys(a), ...Object.keys(b)]);
+  names.delete("version");
+  return [...names].every((name) => equal(a[name], b[name]));
 }

@@ -76,6 +76,27 @@ export interface History {
   future: Edit[];
 }
 
+/** An edit that was kept by name (trait `_versions`). */
+export interface Version {
+  name: string;
+  recipe: Edit;
+}
+
+/** An edit with all that belongs to it, as it outlives page and kernel. */
+export interface Kept extends History {
+  recipe: Edit;
+  versions: Version[];
+}
+
+/** Which photo it is (trait `_source`). */
+export interface Source {
+  name: string;
+  /** Of the photo's pixels. */
+  fingerprint: string;
+  /** Of the widget: another one after the cell has run again. */
+  session: string;
+}
+
 /** The part of anywidget's model that is used. */
 export interface Model {
   get(name: string): any;

@@ -17,6 +17,7 @@ beforeEach(() => {
     exposure: 0,
     strokes: [],
     _history: { past: [], future: [] },
+    _versions: [],
   });
   state = new EditState(model, parameters, new AbortController().signal);
 });
@@ -134,4 +135,92 @@ test("a closed view hears no more", () => {
   controller.abort();
   model.set("exposure", 2);
   assert.equal(closed.values.exposure, 0);
+});
+
+const strokes = [{ label: "sky", points: [[0, 0]], radius: 0.01 }];
+
+function following(when) {
+  const marked = parameters.map((p) => ({ ...p, analysis: p.name === "strokes" }));
+  const other = new EditState(model, marked, new AbortController().signal);
+  other.follow = () => when;
+  return other;
+}
+
+test("without a kernel nobody corrects the maps; what was kept comes back whole all the same", () => {
+  const lost = following("later");
+  lost.set({ strokes, exposure: 1 });
+  assert.deepEqual(lost.recipe(), { exposure: 1 });
+  lost.takeUp({ recipe: { strokes }, past: [], future: [], versions: [] });
+  assert.deepEqual(lost.recipe(), { strokes });
+  const page = following("never");
+  page.apply({ exposure: 2 });
+  assert.deepEqual(page.recipe(), { exposure: 2, strokes }, "the page's maps stay as they are");
+});
+
+test("a replaced recipe is one step, and none when it changes nothing", () => {
+  state.replace({ exposure: 1, sun_elevation: 3 });
+  state.replace({ exposure: 1, sun_elevation: 3 });
+  assert.deepEqual(model.get("_history").past, [{}]);
+  state.undo();
+  assert.deepEqual(state.recipe(), {});
+});
+
+test("undo in the middle of a drag gives the drag up, and no step more", () => {
+  state.set({ exposure: 1 });
+  state.begin();
+  state.set({ exposure: 2 });
+  state.undo();
+  assert.deepEqual(state.recipe(), { exposure: 1 });
+  assert.deepEqual(model.get("_history").past, [{}]);
+});
+
+test("what is kept in the middle of a drag can be undone later", () => {
+  state.set({ exposure: 1 });
+  state.begin();
+  state.set({ exposure: 2 });
+  assert.deepEqual(state.kept(), {
+    recipe: { exposure: 2 },
+    past: [{}, { exposure: 1 }],
+    future: [],
+    versions: [],
+  });
+  assert.deepEqual(model.get("_history").past, [{}], "the drag itself goes on");
+});
+
+test("what was kept comes back as it was over an untouched photo", () => {
+  const kept = {
+    recipe: { exposure: 2 },
+    past: [{}, { exposure: 1 }],
+    future: [{ exposure: 3 }],
+    versions: [{ name: "warm", recipe: { exposure: 1 } }],
+  };
+  state.takeUp(kept);
+  assert.deepEqual(state.kept(), kept);
+  state.redo();
+  assert.deepEqual(state.recipe(), { exposure: 3 });
+});
+
+test("what was kept never wipes out what is there", () => {
+  model.set("_versions", [{ name: "warm", recipe: { exposure: 9 } }]);
+  state.set({ exposure: 5 });
+  state.set({ exposure: 6 });
+  const versions = [
+    { name: "warm", recipe: {} },
+    { name: "cold", recipe: {} },
+  ];
+  state.takeUp({ recipe: { exposure: 2 }, past: [{ exposure: 1 }], future: [], versions });
+  assert.deepEqual(state.recipe(), { exposure: 2 });
+  assert.deepEqual(
+    state.history().past.map(({ exposure = 0 }) => exposure),
+    [1, 0, 5, 6],
+  );
+  assert.deepEqual(
+    state.versions().map(({ name, recipe }) => [name, recipe.exposure]),
+    [
+      ["warm", 9],
+      ["cold", undefined],
+    ],
+  );
+  state.undo();
+  assert.deepEqual(state.recipe(), { exposure: 6 });
 });

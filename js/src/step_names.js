@@ -1,0 +1,60 @@
+/** What a step of the history did, in words, read off the recipes on either side of it. */
+
+import { equal, sameRecipe } from "./state.js";
+
+/**
+ * @typedef {import("./types.js").Edit} Edit
+ * @typedef {import("./types.js").Parameter} Parameter
+ * @typedef {import("./types.js").Version} Version
+ */
+
+const SUN = ["sun_azimuth", "sun_elevation"];
+
+/**
+ * @param {Edit} from
+ * @param {Edit} to
+ * @param {{ parameters: Parameter[], versions?: Version[],
+ *   presets?: import("./controls/chips.js").Preset[] }} known
+ */
+export function stepName(from, to, { parameters, versions = [], presets = [] }) {
+  const changed = parameters.filter(({ name }) => !equal(from[name], to[name]));
+  const names = changed.map(({ name }) => name);
+  if (changed.length === 0) return "Nothing";
+  if (
+    names.includes("sun_azimuth") &&
+    names.every((name) => SUN.includes(name) || name === "place")
+  )
+    return "Sun moved";
+  if (changed.length === 1) return names[0] === "strokes" ? strokes(from, to) : named(changed[0]);
+  const preset = presets.find(({ values }) => isSet(values, to));
+  if (preset) return preset.label;
+  if (names.length > 2 && sameRecipe(to, {})) return "Reset";
+  const version = versions.find(({ recipe }) => sameRecipe(recipe, to));
+  if (version) return `“${version.name}”`;
+  if (changed.length === 2) return `${named(changed[0])} and ${named(changed[1]).toLowerCase()}`;
+  const sections = new Set(changed.map(({ section }) => section));
+  return sections.size === 1
+    ? `${title(changed[0].section)}, ${changed.length} values`
+    : `${changed.length} values`;
+}
+
+/** @param {Record<string, unknown>} values @param {Edit} recipe */
+function isSet(values, recipe) {
+  const entries = Object.entries(values);
+  return entries.length > 1 && entries.every(([name, value]) => equal(recipe[name], value));
+}
+
+/** @param {Edit} from @param {Edit} to */
+function strokes(from, to) {
+  const [before, after] = [from, to].map(({ strokes: s }) => (Array.isArray(s) ? s.length : 0));
+  return after > before ? "Stroke" : before - after > 1 ? "Strokes erased" : "Stroke erased";
+}
+
+/** Its section tells "Opacity" from "Opacity". @param {Parameter} parameter */
+function named({ section, label, kind }) {
+  if (kind === "data" || label.toLowerCase().startsWith(section)) return label;
+  return `${title(section)} ${label.charAt(0).toLowerCase()}${label.slice(1)}`;
+}
+
+/** @param {string} text */
+const title = (text) => text.charAt(0).toUpperCase() + text.slice(1);
