@@ -38,6 +38,10 @@ export class FakeModel {
     Object.assign(this.state, state);
     for (const name of Object.keys(state)) this.fire(`change:${name}`);
   }
+  // The same in marimo, which tells after each value.
+  receiveOneByOne(state) {
+    for (const [name, value] of Object.entries(state)) this.receive({ [name]: value });
+  }
 }
 
 export function bytes(base64) {

@@ -75,7 +75,7 @@ def test_the_photo_is_shown_before_the_analysis(page, state):
     )
     assert page.locator(".sunwidget.sw-live").count() == 0
     late = {name: state[name] for name in ("_scene", "_layers", "_status")}
-    page.evaluate("(state) => model.receive(decoded(state))", late)
+    page.evaluate("(state) => model.receiveOneByOne(decoded(state))", late)
     page.locator(".sunwidget.sw-live").wait_for()
     assert page.locator(".sw-progress.sw-shown").count() == 0
     assert page.errors == []

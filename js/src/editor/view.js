@@ -14,6 +14,7 @@ import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
+import { onTraits } from "../traits.js";
 import { paintBrushMask, SUBJECTS } from "./brush_mask.js";
 import { BrushTool, EraseTool } from "./brush_tool.js";
 import { HorizonTool } from "./horizon_tool.js";
@@ -45,6 +46,7 @@ import { toolbar } from "./toolbar.js";
  *   reset?: () => void,
  *   refresh?: () => void,
  *   focus?: () => void,
+ *   stays?: boolean,
  *   fine?: boolean,
  * }} Tool
  */
@@ -159,13 +161,9 @@ export class View {
       this.root.dataset.stage = "analysing";
       stage.setProgress(0.04, "Waiting for the kernel …");
     };
-    /** @type {Record<string, () => void>} */
-    const handlers = {
-      "change:_photo": () => void this.loadPhoto(),
-      "change:_scene": () => void this.loadScene(),
-      "change:_status": () => this.showStatus(),
-    };
-    for (const [event, handler] of Object.entries(handlers)) model.on(event, handler);
+    onTraits(model, ["_photo"], () => void this.loadPhoto(), signal);
+    onTraits(model, ["_scene"], () => void this.loadScene(), signal);
+    onTraits(model, ["_status"], () => this.showStatus(), signal);
     /** @type {(message: any) => void} */
     const onMessage = (message) => {
       if (message?.type === "error") this.showError(message.error);
@@ -175,7 +173,6 @@ export class View {
     this.root.addEventListener("keydown", (event) => onShortcut(this, event), { signal });
     signal.addEventListener("abort", () => {
       this.loads += 1; // pictures that are being decoded come too late
-      for (const [event, handler] of Object.entries(handlers)) model.off(event, handler);
       model.off("msg:custom", onMessage);
       this.frame.dispose();
     });
@@ -231,6 +228,7 @@ export class View {
         this.frame.setPicture(name, bitmaps[i]);
       });
     } catch (error) {
+      if (load !== this.loads) return;
       this.showError(`The maps of the analysis cannot be shown: ${message(error)}`);
       return;
     }
