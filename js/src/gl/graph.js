@@ -6,7 +6,7 @@
 
 import { createLightTexture } from "./decode.js";
 import { resolveIncludes } from "./include.js";
-import { createProgram, setUniform } from "./program.js";
+import { beginProgram, setUniform } from "./program.js";
 import { createTarget, deleteTarget, missingFeature, turn } from "./target.js";
 import { createPictureTexture } from "./texture.js";
 import { uniformValue } from "./values.js";
@@ -49,6 +49,8 @@ export class Graph {
     this.files = files;
     /** @type {Map<string, Program>} */
     this.programs = new Map();
+    /** @type {Map<string, () => Program>} those under way */
+    this.compiling = new Map();
     /** @type {Map<string, Target>} */
     this.targets = new Map();
     /**
@@ -103,7 +105,9 @@ export class Graph {
     if (!last) {
       throw new Error(`The frame graph has no pass "${until}" for ${frame.methods.join(" and ")}.`);
     }
-    for (const pass of this.ancestors(rows, last)) this.runPass(pass, frame, host);
+    const passes = this.ancestors(rows, last);
+    for (const pass of passes) this.begin(pass);
+    for (const pass of passes) this.runPass(pass, frame, host);
   }
 
   /**
@@ -215,13 +219,22 @@ export class Graph {
     return texels;
   }
 
+  /** Begin to compile a pass that is not compiled yet. @param {Pass} pass */
+  begin({ shader, constants }) {
+    if (this.programs.has(shader) || this.compiling.has(shader)) return;
+    const text = (/** @type {string} */ name) => resolveIncludes(this.files, `${name}.glsl`);
+    const wait = beginProgram(this.gl, shader, text(shader), constants && text(constants));
+    this.compiling.set(shader, wait);
+  }
+
   /** @param {Pass} pass */
-  program({ shader, constants }) {
-    let program = this.programs.get(shader);
+  program(pass) {
+    let program = this.programs.get(pass.shader);
     if (!program) {
-      const text = (/** @type {string} */ name) => resolveIncludes(this.files, `${name}.glsl`);
-      program = createProgram(this.gl, shader, text(shader), constants && text(constants));
-      this.programs.set(shader, program);
+      this.begin(pass);
+      program = /** @type {() => Program} */ (this.compiling.get(pass.shader))();
+      this.compiling.delete(pass.shader);
+      this.programs.set(pass.shader, program);
     }
     return program;
   }
@@ -280,6 +293,7 @@ export class Graph {
     for (const program of this.programs.values()) gl.deleteProgram(program.handle);
     this.textures.clear();
     this.programs.clear();
+    this.compiling.clear();
   }
 }
 

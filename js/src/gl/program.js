@@ -23,41 +23,57 @@ void main() {
  * @param {WebGL2RenderingContext} gl
  * @param {string} name for error messages
  * @param {string} text fragment shader with its includes expanded
- * @param {string} constants what is the same for all pixels, computed once a corner
+ * @param {string} [constants] what is the same for all pixels, computed once a corner
  * @returns {Program}
  */
-export function createProgram(gl, name, text, constants = "void SetConstants() {}\n") {
+export const createProgram = (gl, name, text, constants) =>
+  beginProgram(gl, name, text, constants)();
+
+/**
+ * Begin to compile and link a pass, and return how to wait for it. The driver works on several at
+ * once as long as nobody asks how one came out.
+ *
+ * @param {WebGL2RenderingContext} gl
+ * @param {string} name for error messages
+ * @param {string} text fragment shader with its includes expanded
+ * @param {string} constants what is the same for all pixels, computed once a corner
+ * @returns {() => Program}
+ */
+export function beginProgram(gl, name, text, constants = "void SetConstants() {}\n") {
   const handle = gl.createProgram();
-  const stages = [
-    compile(gl, name, gl.VERTEX_SHADER, HEADER + PRECISION + constants + TRIANGLE),
-    compile(gl, name, gl.FRAGMENT_SHADER, HEADER + PRECISION + text),
+  const texts = [
+    { kind: gl.VERTEX_SHADER, text: HEADER + PRECISION + constants + TRIANGLE },
+    { kind: gl.FRAGMENT_SHADER, text: HEADER + PRECISION + text },
   ];
-  for (const stage of stages) gl.attachShader(handle, stage);
+  const stages = texts.map(({ kind, text: source }) => {
+    const shader = gl.createShader(kind);
+    if (!shader) throw new Error(`Shader "${name}" cannot be made: the WebGL context is lost.`);
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    gl.attachShader(handle, shader);
+    return { shader, source };
+  });
   gl.linkProgram(handle);
-  for (const stage of stages) gl.deleteShader(stage);
-  if (!gl.getProgramParameter(handle, gl.LINK_STATUS) && !gl.isContextLost()) {
-    throw new Error(`Shader "${name}" does not link: ${gl.getProgramInfoLog(handle)}`);
-  }
-  return { handle, uniforms: reflect(gl, handle) };
+  return () => {
+    if (!gl.getProgramParameter(handle, gl.LINK_STATUS) && !gl.isContextLost()) {
+      for (const { shader, source } of stages) checkStage(gl, name, shader, source);
+      throw new Error(`Shader "${name}" does not link: ${gl.getProgramInfoLog(handle)}`);
+    }
+    for (const { shader } of stages) gl.deleteShader(shader);
+    return { handle, uniforms: reflect(gl, handle) };
+  };
 }
 
 /**
  * @param {WebGL2RenderingContext} gl
  * @param {string} name
- * @param {number} kind
+ * @param {WebGLShader} shader
  * @param {string} text
  */
-function compile(gl, name, kind, text) {
-  const shader = gl.createShader(kind);
-  if (!shader) throw new Error(`Shader "${name}" cannot be made: the WebGL context is lost.`);
-  gl.shaderSource(shader, text);
-  gl.compileShader(shader);
-  if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost()) {
-    const log = gl.getShaderInfoLog(shader) ?? "";
-    gl.deleteShader(shader);
-    throw new Error(`Shader "${name}" does not compile:\n${explain(log, text)}`);
-  }
-  return shader;
+function checkStage(gl, name, shader, text) {
+  if (gl.getShaderParameter(shader, gl.COMPILE_STATUS)) return;
+  const log = gl.getShaderInfoLog(shader) ?? "";
+  throw new Error(`Shader "${name}" does not compile:\n${explain(log, text)}`);
 }
 
 /**
