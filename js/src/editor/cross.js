@@ -1,11 +1,13 @@
 /**
- * The keyboard's pointer: a cross on the picture while the stage has the focus.
+ * The keyboard's pointer: a cross on the picture while the stage has the focus by the keyboard.
  *
- * Arrow keys move it and the zoomed picture follows, so that they pan, too. Enter is the button:
- * pressed it uses the tool at the cross, held it drags with the arrow keys.
+ * Arrow keys move it and the zoomed picture follows, so that they pan, too. Enter and space are the
+ * button: pressed they use the tool at the cross, held they drag with the arrow keys. A brush stays
+ * down after one press until the next, as few can hold a key and press others.
  */
 
 import { setAttributes, shape } from "../controls/element.js";
+import { BRUSHES } from "./strokes.js";
 
 /** @typedef {import("../types.js").Point} Point */
 
@@ -25,12 +27,29 @@ export function cross(view, signal) {
   stage.overlay.append(node);
   /** @type {Point} */
   let place = [0.5, 0.5];
+  let shown = false;
   let pressed = false;
+  let moved = false; // since the press
   const tool = () => view.tools[view.tool];
   // What tools read of a pointer's event.
   const as = (/** @type {KeyboardEvent} */ event) => /** @type {any} */ (event);
 
-  const tell = () => view.point(place);
+  const come = () => {
+    // Where the eye is: the middle of what is in sight.
+    if (!shown) place = stage.zoom.placeAt(stage.zoom.middle());
+    shown = true;
+    stage.node.classList.add("sw-crossing");
+    view.drawOverlay();
+    view.point(place);
+  };
+  const go = () => {
+    release();
+    if (!shown) return;
+    shown = false;
+    stage.node.classList.remove("sw-crossing");
+    tool().hover?.(null);
+    view.point(null);
+  };
   const release = () => {
     if (!pressed) return;
     pressed = false;
@@ -43,55 +62,55 @@ export function cross(view, signal) {
     const box = stage.rectangle();
     const held = (/** @type {number} */ at) => Math.min(1, Math.max(0, at));
     place = [held(place[0] + (dx * step) / box.width), held(place[1] + (dy * step) / box.height)];
+    moved = true;
     if (pressed) tool().move(place, as(event));
     else tool().hover?.(place);
     stage.bring(place);
     view.drawOverlay();
-    tell();
+    view.point(place);
+  };
+
+  /** Space is the hand of somebody with a mouse, who has no cross. @param {KeyboardEvent} event */
+  const isPress = ({ key }) => key === "Enter" || (key === " " && shown);
+
+  /** @param {KeyboardEvent} event */
+  const press = (event) => {
+    if (pressed) return release();
+    if (!view.scene || view.pointer !== null) return;
+    pressed = true;
+    moved = false;
+    tool().begin(place, as(event));
   };
 
   /** @param {KeyboardEvent} event */
   const onKey = (event) => {
     if (event.target !== stage.node || event.ctrlKey || event.metaKey) return;
     const way = WAYS[event.key];
-    if (way) walk(way, event);
-    else if (event.key === "Enter") {
-      if (!event.repeat && view.scene && view.pointer === null) {
-        pressed = true;
-        tool().begin(place, as(event));
-      }
+    if (way) {
+      come();
+      walk(way, event);
+    } else if (isPress(event)) {
+      come();
+      if (!event.repeat) press(event);
+    } else if (event.key === "Escape" && pressed) {
+      pressed = false;
+      tool().cancel();
     } else return;
     event.preventDefault();
     event.stopPropagation();
   };
 
-  stage.node.addEventListener("keydown", onKey, { signal });
-  stage.node.addEventListener(
-    "keyup",
-    (event) => {
-      if (event.key === "Enter") release();
-    },
-    { signal },
-  );
-  stage.node.addEventListener(
-    "focus",
-    () => {
-      // Where the eye is: the middle of what is in sight.
-      if (!stage.zoom.fits) place = stage.zoom.placeAt(stage.zoom.middle());
-      view.drawOverlay();
-      if (stage.node.matches(":focus-visible")) tell();
-    },
-    { signal },
-  );
-  stage.node.addEventListener(
-    "blur",
-    () => {
-      release();
-      tool().hover?.(null);
-      view.point(null);
-    },
-    { signal },
-  );
+  /** @type {(name: string, listener: (event: any) => void) => void} */
+  const on = (name, listener) => stage.node.addEventListener(name, listener, { signal });
+  on("keydown", onKey);
+  on("keyup", (event) => {
+    if (isPress(event) && (moved || !BRUSHES.includes(view.tool))) release();
+  });
+  on("focus", () => {
+    if (!stage.focusing) come();
+  });
+  on("blur", go);
+  on("pointerdown", go);
 
   return {
     draw() {

@@ -59,8 +59,7 @@ export function listenToPointer(view, signal) {
     view.pointer = event.pointerId;
     overlay.setPointerCapture(view.pointer);
     event.preventDefault();
-    // So that keys reach the editor from now on.
-    stage.node.focus({ preventScroll: true });
+    stage.focus();
     last = at(event);
     if (panning) return;
     waiting = event;

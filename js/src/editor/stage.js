@@ -44,6 +44,7 @@ export class Stage extends PictureStage {
     this.canvas = canvas;
     this.mask = mask;
     this.zoom = new Zoom();
+    this.focusing = false; // while a pointer gives it the focus
     this.full = true; // whether the canvas holds the frame at its full size
     this.url = "";
     signal.addEventListener("abort", () => URL.revokeObjectURL(this.url));
@@ -95,13 +96,13 @@ export class Stage extends PictureStage {
 
   /**
    * Plain wheel scrolls the page; with Ctrl or Cmd it zooms about the pointer, and so it does where
-   * nothing else can be meant: in full screen, or while the picture has the keyboard's focus.
+   * nothing else can be meant: in full screen, and while the keyboard's cross is on the picture.
    *
    * @param {WheelEvent} event
    */
   onWheel(event) {
-    const meant = event.ctrlKey || event.metaKey || this.node.closest(".sw-full");
-    if (!meant && !this.node.matches(":focus-visible")) return;
+    const alone = this.node.matches(".sw-crossing, .sw-full *");
+    if (!alone && !event.ctrlKey && !event.metaKey) return;
     event.preventDefault();
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : LINE);
     const pinch = event.ctrlKey && Math.abs(pixels) < WHEEL_NOTCH;
@@ -158,6 +159,13 @@ export class Stage extends PictureStage {
   pointOf(event) {
     const { left, top } = this.node.getBoundingClientRect();
     return [event.clientX - left, event.clientY - top];
+  }
+
+  /** Keys reach the editor from now on; the keyboard's cross stays away. */
+  focus() {
+    this.focusing = true;
+    this.node.focus({ preventScroll: true });
+    this.focusing = false;
   }
 
   resized() {
