@@ -45,8 +45,7 @@ class PhotoPlace(NamedTuple):
         if self.latitude is None or self.longitude is None or self.moment is None:
             return None
         date, time = date_and_hours(self.moment)
-        latitude, longitude = round(self.latitude, 6), round(self.longitude, 6)
-        return Place(latitude, longitude, date, time, self.heading)
+        return Place(self.latitude, self.longitude, date, time, self.heading)
 
 
 def from_photo(photo: Photo, longitude: float | None = None) -> PhotoPlace:
@@ -84,8 +83,8 @@ def from_photo(photo: Photo, longitude: float | None = None) -> PhotoPlace:
             "The photo's heading is from magnetic north, which may be some degrees off true north."
         )
     return PhotoPlace(
-        facts.latitude,
-        facts.longitude,
+        None if facts.latitude is None else round(facts.latitude, 6),
+        None if facts.longitude is None else round(facts.longitude, 6),
         moment.astimezone(dt.UTC) if moment is not None else None,
         facts.clock,
         facts.heading,

@@ -6,7 +6,7 @@ import { setAttributes, shape } from "./controls/element.js";
 
 export const GRAB = 26; // CSS pixels round the sun that take hold of it without a jump
 export const EDGE = 26; // CSS pixels from the stage's edge at which an outside sun's handle waits
-const KEY_STEP = 0.5; // degrees
+export const KEY_STEP = 0.5; // degrees
 /** @type {Record<string, import("./types.js").Point>} */
 const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 

@@ -194,14 +194,14 @@ class PlaceClock(EditHistory):
 def _told(photo: Photo) -> dict[str, Any]:
     """Return what a photo's file tells, for the browser."""
     told = from_photo(photo)
-    place = told.place
+    date, time = (None, None) if told.moment is None else date_and_hours(told.moment)
     return {
         "latitude": told.latitude,
         "longitude": told.longitude,
         "heading": told.heading,
-        "date": place.date if place else None,
-        "time": place.time if place else None,
-        # Without a zone: the browser guesses it once a longitude is said.
+        "date": date,
+        "time": time,
+        # Where no zone is known, the browser guesses one once a longitude is said.
         "clock": told.clock.isoformat() if told.clock is not None else None,
         "notes": list(told.notes),
     }

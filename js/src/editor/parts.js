@@ -17,6 +17,7 @@ import { help } from "./help.js";
 import { histogram } from "./histogram.js";
 import { hover } from "./hover.js";
 import { needsKernel } from "./needs_kernel.js";
+import { placeSection } from "./place_section.js";
 import { presetThumbnails } from "./preset_thumbnails.js";
 import { recipe } from "./recipe.js";
 import { split } from "./split.js";
@@ -43,6 +44,7 @@ const PARTS = [
   fullScreen,
   presetThumbnails,
   histogram,
+  placeSection,
   recipe,
   help,
   needsKernel,

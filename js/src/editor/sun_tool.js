@@ -14,6 +14,11 @@ import { GRAB, keyStep, SunShape, spotOnStage } from "../sun_shape.js";
  *   stage: Pick<View["stage"], "rectangle">,
  *   state: Pick<View["state"], "begin" | "commit" | "cancel" | "set">,
  * }} SunHost what the handle needs of a view
+ * @typedef {{
+ *   takes: (place: Point, onSun: boolean) => boolean,
+ *   follow: (place: Point) => void,
+ *   step: (step: Point) => boolean,
+ * }} SunTrack a path that a drag follows where it `takes` it; `step` answers an arrow key
  */
 
 export class SunTool {
@@ -22,6 +27,9 @@ export class SunTool {
     this.view = view;
     /** @type {Point} offset of the grip from the sun, in fractions of the picture */
     this.offset = [0, 0];
+    /** @type {SunTrack | null} */
+    this.track = null;
+    this.tracked = false; // whether the drag follows it
     this.shape = new SunShape(shape("circle", { class: "sw-sun-core", r: 3 }));
     this.handle = this.shape.node;
     this.origin = shape(
@@ -43,11 +51,13 @@ export class SunTool {
     const sun = this.place();
     const box = this.view.stage.rectangle();
     this.offset = [0, 0];
+    let near = false;
     if (sun) {
       const [dx, dy] = [place[0] - sun[0], place[1] - sun[1]];
-      const near = Math.hypot(dx * box.width, dy * box.height) < GRAB;
+      near = Math.hypot(dx * box.width, dy * box.height) < GRAB;
       if (near) this.offset = [dx, dy];
     }
+    this.tracked = this.track?.takes(place, near) ?? false;
     this.focus();
     this.move(place, event);
   }
@@ -58,6 +68,10 @@ export class SunTool {
     if (!camera) return;
     // Losing the focus ends a gesture; a drag that goes on is the next one.
     this.view.state.begin();
+    if (this.tracked) {
+      this.track?.follow([place[0] - this.offset[0], place[1] - this.offset[1]]);
+      return;
+    }
     const [azimuth, elevation] = camera.angles(
       (place[0] - this.offset[0]) * camera.width,
       (place[1] - this.offset[1]) * camera.height,
@@ -102,6 +116,7 @@ export class SunTool {
     const step = keyStep(event);
     if (!step) return;
     this.view.state.begin();
+    if (this.track?.step(step)) return;
     this.moveTo(
       this.view.value("sun_azimuth") + step[0],
       this.view.value("sun_elevation") + step[1],

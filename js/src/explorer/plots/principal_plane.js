@@ -1,8 +1,8 @@
 /** Radiance along the great circle through sun and zenith, at the four wavelengths. */
 
 import { element } from "../../controls/element.js";
-import { channel, onPrincipalPlane, PLANE_ANGLES, planeDirection } from "../curves.js";
 import { turned } from "../../day.js";
+import { channel, onPrincipalPlane, PLANE_ANGLES, planeDirection } from "../curves.js";
 import { Chart, short } from "./chart.js";
 
 const BANDS = ["nm640", "nm580", "nm510", "nm440"];

@@ -1,8 +1,8 @@
 /** What is left of the sun's light, by wavelength, and who took the rest. */
 
+import { horizonElevation } from "../../day.js";
 import { wavelengthColor } from "../color.js";
 import { channel, WAVELENGTHS } from "../curves.js";
-import { horizonElevation } from "../../day.js";
 import { degrees } from "../readout.js";
 import { Chart } from "./chart.js";
 
