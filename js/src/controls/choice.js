@@ -40,15 +40,12 @@ export function choice({ parameter: p, onChange, names = {} }) {
   );
   return {
     node,
-    /** @param {string} value @param {string} [idle] why it cannot be used now */
-    show(value, idle = "") {
+    /** @param {string} value */
+    show(value) {
       const isDefault = value === p.default;
       select.value = value;
-      select.disabled = back.disabled = idle !== "";
       back.hidden = isDefault;
-      node.title = idle || p.help;
       node.classList.toggle("sw-default", isDefault);
-      node.classList.toggle("sw-idle", idle !== "");
     },
   };
 }

@@ -5,7 +5,7 @@ import { element, setAttributes } from "./element.js";
 /**
  * @typedef {{
  *   node: HTMLElement,
- *   show: (value: number | null, automatic: number | undefined, idle?: string) => void,
+ *   show: (value: number | null, automatic: number | undefined) => void,
  * }} Slider
  */
 
@@ -116,18 +116,14 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
 
   return {
     node,
-    /** `idle` says why the slider cannot be used now. */
-    show(value, foundValue, idle = "") {
+    show(value, foundValue) {
       const effective = value ?? foundValue;
       const known = effective !== undefined && effective !== null;
       const isDefault = value === p.default;
       node.classList.toggle("sw-default", isDefault);
-      node.classList.toggle("sw-idle", idle !== "");
-      node.title = idle || p.help;
       found.hidden = !isDefault || !known;
       back.hidden = isDefault;
-      range.disabled = !known || idle !== "";
-      field.disabled = back.disabled = idle !== "";
+      range.disabled = !known;
       shown = known ? effective.toFixed(decimals) : "";
       if (field !== field.ownerDocument.activeElement || field.value !== shown) field.value = shown;
       if (!known) return;

@@ -102,6 +102,8 @@ export function panel(view) {
   );
   return {
     node,
+    /** Go to the filter. */
+    find: filter.focus,
     /** Above the sections: presets, histogram. */
     top,
     isOpen,
@@ -129,15 +131,9 @@ export function panel(view) {
 /** One control of the table. @param {View} view @param {Parameter} p @returns {Row} */
 function makeRow(view, p) {
   const { state } = view;
-  const idle = () => {
-    if (!p.analysis || view.kernel.answers) return "";
-    return view.kernel.state === "none"
-      ? `${p.label} asks the analysis, which a page without a kernel does not have.`
-      : `${p.label} asks the analysis: run the cell again to connect the kernel.`;
-  };
   if (p.kind === "choice") {
     const control = choice({ parameter: p, onChange: (value) => state.set({ [p.name]: value }) });
-    const show = () => control.show(String(state.values[p.name] ?? p.default), idle());
+    const show = () => control.show(String(state.values[p.name] ?? p.default));
     return { parameter: p, node: control.node, show };
   }
   const control = slider({
@@ -148,7 +144,7 @@ function makeRow(view, p) {
   });
   const show = () => {
     const value = /** @type {number | null} */ (state.values[p.name]);
-    control.show(value, view.scene?.automatic[p.name], idle());
+    control.show(value, view.scene?.automatic[p.name]);
   };
   return { parameter: p, node: control.node, show };
 }

@@ -126,6 +126,7 @@ export function panelFilter(view, sections, { isChanged, isOpen }) {
     node,
     none,
     active,
+    focus: () => input.focus(),
     show() {
       showCount();
       // A row that passes its default on the way stays under the hand.
