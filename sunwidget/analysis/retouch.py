@@ -27,7 +27,7 @@ from sunwidget.analysis.refine import (
     guided_coefficients,
     stretched,
 )
-from sunwidget.analysis.stages import Steps, complete
+from sunwidget.analysis.stages import Progress, Steps, complete
 from sunwidget.analysis.strokes import Painting, set_strokes
 from sunwidget.analysis.water_strokes import LABELS as WATER
 from sunwidget.analysis.water_strokes import with_water
@@ -51,27 +51,29 @@ class _Tile(NamedTuple):
     full: Box
 
 
-def stroked(base: Scene, strokes: tuple[Stroke, ...]) -> Scene:
+def stroked(base: Scene, strokes: tuple[Stroke, ...], progress: Progress | None = None) -> Scene:
     """Return a scene that has no strokes after ``strokes``; without any the very same."""
     of_sky = tuple(stroke for stroke in strokes if stroke.label not in WATER)
-    scene = base if not of_sky else base.memory.scene(of_sky, lambda: _draw(base, of_sky))
+    scene = base if not of_sky else base.memory.scene(of_sky, lambda: _draw(base, of_sky, progress))
     if of_sky == strokes:
         return scene
     return base.memory.scene(strokes, lambda: with_water(base, scene, strokes))
 
 
-def _draw(base: Scene, strokes: tuple[Stroke, ...]) -> Scene:
-    painting = _painting(base, strokes)
+def _draw(base: Scene, strokes: tuple[Stroke, ...], progress: Progress | None) -> Scene:
+    step = Steps(progress)
+    step("strokes", 0.1, "Following the strokes")
+    painting = _painting(base, strokes, step)
     if painting.fits < len(strokes):
-        source = stroked(base, strokes[: painting.fits])
-        return _retouch(base, source, painting, strokes, base.memory.scenes.get(strokes[:-1]))
+        source = stroked(base, strokes[: painting.fits], progress)
+        return _retouch(base, source, painting, strokes, base.memory.scenes.get(strokes[:-1]), step)
     decision = painting.on(base.shown)
     hints = dataclasses.replace(base.hints, strokes=strokes)
-    scene = complete(base, hints, matte=_matte_after(base, decision, strokes))
+    scene = complete(base, hints, step, _matte_after(base, decision, strokes))
     return dataclasses.replace(scene, decision=decision, unstroked=base)
 
 
-def _painting(base: Scene, strokes: tuple[Stroke, ...]) -> Painting:
+def _painting(base: Scene, strokes: tuple[Stroke, ...], step: Steps) -> Painting:
     """Replay strokes on the small copy, from as many as have been replayed before."""
     memory = base.memory
     count = len(strokes)
@@ -84,6 +86,7 @@ def _painting(base: Scene, strokes: tuple[Stroke, ...]) -> Painting:
         count += 1
         painting = painting.stroke(stroke, base.working)
         memory.painting(strokes[:count], painting)
+        step.within(0.1 + 0.4 * count / len(strokes))
     return painting
 
 
@@ -92,7 +95,8 @@ def _retouch(
     source: Scene,
     painting: Painting,
     strokes: tuple[Stroke, ...],
-    previous: Scene | None = None,
+    previous: Scene | None,
+    step: Steps,
 ) -> Scene:
     """Return the scene after strokes.
 
@@ -109,8 +113,9 @@ def _retouch(
         All of them, from the base on.
     previous : Scene, optional
         The scene after all strokes but the last, when it is at hand: saves time only.
+    step : Steps
+        Whom to tell how far it is.
     """
-    step = Steps(None)
     photo, working = base.photo, base.working
     step("matte", 0.5, "Cutting out the sky")
     decision = painting.on(base.shown)

@@ -282,11 +282,12 @@ class Scene:
             axis=-1,
         )
 
-    def corrected(self, edit: Edit) -> Scene:
+    def corrected(self, edit: Edit, progress: Progress | None = None) -> Scene:
         """Return the scene with the edit's strokes, hints and choice of clouds applied.
 
         The same edit always gives the same maps, to the bit; an edit that corrects nothing
         gives this very object. Thresholds correct nothing when clouds are un-mixed.
+        ``progress`` as for ``analyze``: what it raises cancels, and nothing has changed then.
 
         Raises
         ------
@@ -301,11 +302,13 @@ class Scene:
         base = self.unstroked or self
         if hints != (None, None, None):
             bare = base
-            base = bare.memory.scene(hints, lambda: complete(bare, self._with_hints(edit)))
+            base = bare.memory.scene(
+                hints, lambda: complete(bare, self._with_hints(edit), Steps(progress))
+            )
         if clouds is not None:
             plain = base
             base = plain.memory.scene(clouds, lambda: find_clouds_again(plain, *clouds))
-        return stroked(base, self.hints.strokes + edit.strokes)
+        return stroked(base, self.hints.strokes + edit.strokes, progress)
 
     def _cloud_choice(self, edit: Edit) -> tuple[str, tuple[float, float]] | None:
         """Return method and thresholds of the clouds where they differ from the analysis'."""

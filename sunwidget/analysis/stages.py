@@ -68,6 +68,7 @@ class Steps:
         self.progress = progress
         self.timings: dict[str, float] = {}
         self._stage: str | None = None
+        self._message = ""
         self._since = 0.0
 
     def __call__(self, stage: str | None, fraction: float, message: str) -> None:
@@ -75,9 +76,14 @@ class Steps:
         now = time.perf_counter()
         if self._stage is not None:
             self.timings[self._stage] = now - self._since
-        self._stage, self._since = stage, now
+        self._stage, self._message, self._since = stage, message, now
         if self.progress is not None:
             self.progress(fraction, message)
+
+    def within(self, fraction: float) -> None:
+        """Tell how far a long stage is, so that the caller may cancel it there."""
+        if self.progress is not None:
+            self.progress(fraction, self._message)
 
 
 def complete(
@@ -93,7 +99,7 @@ def complete(
     step("matte", 0.5, "Cutting out the sky")
     ours = matte is None
     if matte is None:
-        sky, matte = _cut_out(base)
+        sky, matte = _cut_out(base, step)
     else:
         sky = resize(matte, working.width, working.height)
     camera = Camera(*photo.size, hints.fov or photo.field_of_view.vertical)
@@ -131,7 +137,9 @@ def complete(
     covers = _by_colour(working, sky, hints, None if blot is None else blot.mask)
 
     step("fit", 0.82, "Fitting the atmosphere")
-    fitted, behind, (cover, everywhere) = _atmosphere(working, sky, covers, camera, light, hints)
+    fitted, behind, (cover, everywhere) = _atmosphere(
+        working, sky, covers, camera, light, hints, step
+    )
 
     step("water", 0.95, "Looking for water")
     water = _water(working, sky, horizon.scaled(1 / zoom_x, 1 / zoom_y), hints)
@@ -168,10 +176,11 @@ def complete(
     return scene
 
 
-def _cut_out(base: Scene) -> tuple[np.ndarray, np.ndarray]:
+def _cut_out(base: Scene, step: Steps) -> tuple[np.ndarray, np.ndarray]:
     """Return the sky at working size and the matte at the photo's size."""
     photo, working = base.photo, base.working
     matte = refine.matte(photo, working, base.decision)
+    step.within(0.6)
     sky = resize(matte, working.width, working.height)
     coarse = resize(base.sky_coarse, working.width, working.height)
     bound = fill_islands(sky, coarse)
@@ -226,6 +235,7 @@ def _atmosphere(
     camera: Camera,
     sun: SunObservation | None,
     hints: Hints,
+    step: Steps,
 ) -> tuple[SkyFit, Backdrop, tuple[Clouds, Clouds]]:
     """Fit the sky, look behind the sun, and un-mix the clouds from the fitted sky.
 
@@ -240,11 +250,14 @@ def _atmosphere(
     opacity = resize(covers[0].opacity, small.width, small.height)
     assumed = sun_angles or sun_stage.assume(small, small_sky, camera)
     fitted = fit_sky(small, small_sky, opacity, camera, sun_angles, assumed)
+    step.within(0.86)
     if unmixed:
         # The colour of the clear sky tells the clouds, and without them it is known better.
         veil = cloud_stage.veil(small, small_sky, camera, fitted, sun_seen=visible)[0]
         fitted = fit_sky(small, small_sky, veil.opacity, camera, fitted.sun, assumed)
+        step.within(0.89)
     fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
+    step.within(0.92)
     if unmixed:
         covers = _unmixed(working, sky, camera, fitted, behind.glare, covers, sun_seen=visible)
     return fitted, behind, covers

@@ -9,10 +9,15 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.edit import Edit
 
 Report = Callable[[str, float, str], None]
+
+
+class AnalysisCancelled(AnalysisError):  # noqa: N818 - a person's wish
+    """The analysis was cancelled."""
 
 
 class Analyst:
@@ -27,7 +32,8 @@ class Analyst:
     deliver : callable
         ``deliver(scene)``, called on the thread with every new scene.
     report : callable
-        ``report(stage, fraction, message)`` with stage "analysing", "ready" or "error".
+        ``report(stage, fraction, message)`` with stage "analysing", "ready", "cancelled" or
+        "error".
     """
 
     def __init__(
@@ -45,6 +51,7 @@ class Analyst:
         self._changed = threading.Condition()
         self._wanted: Edit | None = None
         self._busy = False
+        self._cancelled = False
         self._scene: Scene | None = None
         self._delivered: Scene | None = None
         self._error: Exception | None = None
@@ -63,6 +70,22 @@ class Analyst:
             self._busy = True
         threading.Thread(target=self._work, name="sunwidget-analysis", daemon=True).start()
 
+    def cancel(self) -> None:
+        """End the work under way where it tells its progress next; without any do nothing.
+
+        What was corrected before stays. ``ask`` starts again.
+        """
+        with self._changed:
+            if self._busy:
+                self._cancelled = True
+                self._wanted = None
+
+    @property
+    def ready(self) -> bool:
+        """Whether the scene is up to date: ``wait`` would return at once."""
+        with self._changed:
+            return not self._busy and self._error is None and self._scene is not None
+
     def wait(self, timeout: float | None = None) -> Scene:
         """Block until the scene is up to date and return it.
 
@@ -71,7 +94,7 @@ class Analyst:
         TimeoutError
             After ``timeout`` seconds.
         AnalysisError, PhotoError
-            What the analysis raised.
+            What the analysis raised; AnalysisCancelled after ``cancel``.
         """
         with self._changed:
             if not self._changed.wait_for(lambda: not self._busy, timeout):
@@ -85,12 +108,17 @@ class Analyst:
         while True:
             with self._changed:
                 edit, self._wanted = self._wanted, None
+                self._cancelled = False  # said of what was under way, which has ended
                 if edit is None:
                     self._busy = False
                     self._changed.notify_all()
                     return
             try:
                 self._update(edit)
+            except AnalysisCancelled as error:
+                with self._changed:
+                    self._error = error
+                self._report("cancelled", 1.0, "The analysis was cancelled.")
             except Exception as error:  # noqa: BLE001 - shown to the person, raised by wait()
                 with self._changed:
                     self._error = error
@@ -98,6 +126,9 @@ class Analyst:
 
     def _update(self, edit: Edit) -> None:
         def progress(fraction: float, message: str) -> None:
+            with self._changed:
+                if self._cancelled:
+                    raise AnalysisCancelled("The analysis was cancelled. retry() starts it again.")
             self._report("analysing", fraction, f"{message} …")
 
         if self._base is None:
@@ -105,7 +136,8 @@ class Analyst:
             self._base = analyze(self._photo, progress=progress, **self._options)
         else:
             progress(0.5, "Applying the correction")
-        scene = self._base.corrected(edit)
+        scene = self._base.corrected(edit, progress)
+        progress(1.0, "Preparing the picture")
         with self._changed:
             self._error = None
             newest = self._wanted is None

@@ -27,7 +27,7 @@ from sunwidget.renderer.shader_source import frame_graph
 
 PREVIEW_EDGE = 2048
 MAP_EDGE = 1024  # of an inspected map
-_THUMBNAIL_EDGE = 480
+THUMBNAIL_EDGE = 480
 # Above this many bytes a lossless preview costs more than it shows.
 _LOSSLESS_BYTES = 4_000_000
 _JPEG_QUALITY = 95
@@ -72,7 +72,7 @@ def preview_size(photo: Photo) -> tuple[int, int]:
 
 def thumbnail(photo: Photo) -> bytes:
     """Return a small PNG for viewers that run no widgets."""
-    return encode_png(photo.preview(_THUMBNAIL_EDGE))
+    return encode_png(photo.preview(THUMBNAIL_EDGE))
 
 
 def encode_maps(scene: Scene) -> dict[str, bytes]:

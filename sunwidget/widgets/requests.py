@@ -40,7 +40,7 @@ class Requests:
         self._send = send
         self._actions = actions
         self._lock = threading.Lock()
-        self._running: dict[Any, threading.Event] = {}  # set: to be cancelled
+        self._running: dict[str, threading.Event] = {}  # set: to be cancelled
 
     def __call__(self, _widget: Any, content: Any, buffers: Any) -> None:
         """Take a custom message; anything but a request is somebody else's.
@@ -50,26 +50,29 @@ class Requests:
         if not isinstance(content, dict):
             return
         if content.get("type") == "cancel":
-            self.cancel(content.get("id"))
+            self.cancel(str(content.get("id")))
         if content.get("type") != "request":
             return
+        self._wish(content)  # so that it can be cancelled from now on
         thread = threading.Thread(
             target=self._answer, args=({**content, "buffers": buffers},), daemon=True
         )
         thread.start()
 
-    def cancel(self, key: Any = None) -> None:
+    def cancel(self, key: str | None = None) -> None:
         """Cancel the request with this id, or all that are under way."""
         with self._lock:
             for own, wish in self._running.items():
-                if key is None or own == key:
+                if key in {None, own}:
                     wish.set()
+
+    def _wish(self, content: dict[str, Any]) -> threading.Event:
+        with self._lock:
+            return self._running.setdefault(str(content.get("id")), threading.Event())
 
     def _answer(self, content: dict[str, Any]) -> None:
         key, name = content.get("id"), content.get("action")
-        wish = threading.Event()
-        with self._lock:
-            self._running[key] = wish
+        wish = self._wish(content)
 
         def progress(fraction: float, message: str) -> None:
             if wish.is_set():
@@ -87,5 +90,5 @@ class Requests:
             error = str(caught) or type(caught).__name__
         finally:
             with self._lock:
-                self._running.pop(key, None)
+                self._running.pop(str(key), None)
         self._send({"type": "response", "id": key, "result": result, "error": error}, buffers)

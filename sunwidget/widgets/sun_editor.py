@@ -7,12 +7,9 @@ sends messages to kernel subshells.
 
 from __future__ import annotations
 
-import base64
 import inspect
-import os
-import tempfile
 import uuid
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
 import traitlets
@@ -20,9 +17,9 @@ import traitlets
 from sunwidget import presets
 from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.edit import PARAMETERS, Edit, unknown_name_message
-from sunwidget.files import target
 from sunwidget.photo import Photo, open_photo
 from sunwidget.widgets.analyst import Analyst
+from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.history import NAMES, edit_of
 from sunwidget.widgets.payload import (
     encode_map,
@@ -32,14 +29,12 @@ from sunwidget.widgets.payload import (
     other_horizons,
     parameter_json,
     scene_json,
-    thumbnail,
 )
+from sunwidget.widgets.pictures import Pictures
 from sunwidget.widgets.place_clock import PlaceClock
 from sunwidget.widgets.requests import Action, Answer, Progress, Requests
-from sunwidget.widgets.standalone import editor_page, embedded_state, still_of, write_page
 from sunwidget.widgets.uploads import Uploads, fingerprint
 
-_STATIC = Path(__file__).parents[1] / "static"
 _CORRECTIONS = frozenset(p.name for p in PARAMETERS if p.analysis)
 # Strokes are a parameter of the edit, and progress has its own line on the stage.
 _ANALYSIS = tuple(
@@ -48,22 +43,9 @@ _ANALYSIS = tuple(
     if p.kind is p.KEYWORD_ONLY and name not in (*NAMES, "progress")
 )
 _OPENING = {"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"}
-_SUFFIXES = {"JPEG": ".jpg", "PNG": ".png", "TIFF": ".tif", "WEBP": ".webp"}
-_TYPES = {
-    ".jpg": "image/jpeg",
-    ".png": "image/png",
-    ".tif": "image/tiff",
-    ".webp": "image/webp",
-}
-
-if not (_STATIC / "sun_editor.js").is_file():
-    raise ImportError(
-        "sunwidget's front end is not built, so there is no SunEditor. In a checkout run "
-        "`make build` (Node 20 or newer); an installed package brings it along."
-    )
 
 
-class SunEditor(PlaceClock):
+class SunEditor(PlaceClock, Pictures):
     """Drag the sun in a photo.
 
     Every parameter of ``Edit`` is a trait of the same name, both ways: setting one moves the
@@ -95,8 +77,7 @@ class SunEditor(PlaceClock):
     >>> editor.save("evening.jpg")
     """
 
-    _esm = _STATIC / "sun_editor.js"
-    _css = _STATIC / "sun_editor.css"
+    _esm, _css = front_end("sun_editor", "SunEditor")
 
     _parameters: traitlets.List = traitlets.List(read_only=True).tag(sync=True)
     _maps: traitlets.List = traitlets.List(read_only=True).tag(sync=True)
@@ -123,14 +104,14 @@ class SunEditor(PlaceClock):
         self._set_asides: dict[str, dict[str, Any]] = {}  # edits of other photos, by fingerprint
         self._revision = 0
         self._shown: Scene | None = None  # the scene that the browser has
-        self._thumbnail: bytes | None = None
         super().__init__(
             start,
             _photo=encode_preview(self.photo),
             _source=self._source_json(uuid.uuid4().hex),
             _status=_OPENING,
         )
-        self.on_msg(Requests(self.send, self._actions()))
+        self._requests = Requests(self.send, self._actions())
+        self.on_msg(self._requests)
         self._analyst = self._analyst_of(source, analysis)
         self.observe(lambda _: self._analyst.ask(self.edit), list(_CORRECTIONS))
         self._analyst.ask(start)
@@ -166,7 +147,8 @@ class SunEditor(PlaceClock):
         preview = encode_preview(photo)
         with self._lock, self.hold_sync():
             self._set_asides[self._source["fingerprint"]] = self._set_aside()
-            self.photo, self._shown, self._thumbnail = photo, None, None
+            self._analyst.cancel()
+            self.photo, self._shown = photo, None
             self._analyst = self._analyst_of(source, analysis)
             self._photo, self._status, self._scene = preview, _OPENING, {}
             self._layers = self._surface = self._backdrop = self._clear_sky = b""
@@ -193,37 +175,21 @@ class SunEditor(PlaceClock):
         self._analyst.wait(timeout)
         return self
 
-    def render(self, **options: Any) -> Any:
-        """Return the picture as it is now; ``options`` as in ``sunwidget.render``."""
-        from sunwidget.renderer.render import render
+    def cancel(self) -> None:
+        """Stop the analysis, and what was asked for in the browser, at their next step.
 
-        return render(self._base_scene(), self.edit, **options)
-
-    def save(self, path: Any, **options: Any) -> Path:
-        """Write the picture at full size; ``options`` as in ``sunwidget.save``."""
-        from sunwidget.export.stills import save
-
-        return save((self._base_scene(), self.edit), path, **options)
-
-    def to_html(
-        self,
-        path: str | os.PathLike[str] | None = None,
-        *,
-        title: str | None = None,
-        overwrite: bool = False,
-    ) -> Path | str:
-        """Write a page in which the sun can be moved: one file, no kernel, no network.
-
-        Waits for the analysis. Parameters and errors as for ``sunwidget.to_html``; without a
-        ``path`` the page is returned as text.
+        What was found before stays, and so does the edit. Corrections, and ``retry``, start the
+        analysis again; until then ``scene`` and ``render`` raise ``AnalysisError``.
         """
-        place = None if path is None else target(path, overwrite=overwrite)
-        self._analyst.wait()
-        still = still_of(self.photo, self.render)
-        with self._lock:
-            embedded = embedded_state(self)
-        text = editor_page(embedded, still, self.photo, title=title)
-        return text if place is None else write_page(text, place, overwrite=overwrite)
+        self._cancel_analysis()
+        self._requests.cancel()
+
+    def _cancel_analysis(self) -> None:
+        self._analyst.cancel()
+
+    def retry(self) -> None:
+        """Start the analysis again that was cancelled, or went wrong."""
+        self._analyst.ask(self.edit)
 
     def apply_preset(self, name: str) -> None:
         """Set the time of day to a preset of ``sunwidget.presets``, in one step.
@@ -246,13 +212,6 @@ class SunEditor(PlaceClock):
         """
         presets.find(name)
         self._step(self.edit.replace(**presets.values(name, self.scene)))
-
-    def _base_scene(self) -> Scene:
-        # The edit's corrections are applied by the renderer, from the scene without them.
-        self._analyst.wait()
-        base = self._analyst.base
-        assert base is not None
-        return base
 
     def _source_json(self, session: str) -> dict[str, str]:
         return {
@@ -288,19 +247,12 @@ class SunEditor(PlaceClock):
         with self._lock:
             self._status = {"stage": stage, "fraction": fraction, "message": message}
 
-    def _save_for_browser(self, _content: dict[str, Any], progress: Progress) -> Answer:
-        progress(0.02, "Rendering at full size …")
-        suffix = _SUFFIXES.get(self.photo.format or "", ".png")
-        name = f"{Path(self.photo.name).stem}-sun{suffix}"
-        with tempfile.TemporaryDirectory() as folder:
-            path = self.save(Path(folder) / f"picture{suffix}", progress=progress)
-            data = path.read_bytes()
-        return {"name": name, "type": _TYPES[suffix]}, [data]
-
     def _actions(self) -> dict[str, Action]:
         """Return what the browser can ask for, by name."""
         return {
             "save": self._save_for_browser,
+            "cancel": _silently(self._cancel_analysis),
+            "retry": _silently(self.retry),
             "upload": Uploads(self.open),
             "map": lambda content, _: (
                 {},
@@ -315,16 +267,15 @@ class SunEditor(PlaceClock):
                 raise ValueError("The photo is not analysed yet.")
             return self._shown
 
-    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        bundle = super()._repr_mimebundle_(**kwargs)
-        if bundle is None:
-            return None
-        if self._thumbnail is None:
-            self._thumbnail = thumbnail(self.photo)
-        data, metadata = bundle
-        # GitHub, nbconvert and other viewers without widgets show this one.
-        data["image/png"] = base64.b64encode(self._thumbnail).decode("ascii")
-        return data, metadata
+
+def _silently(work: Callable[[], None]) -> Action:
+    """Return an action that has nothing to answer."""
+
+    def action(_content: dict[str, Any], _progress: Progress) -> Answer:
+        work()
+        return {}, []
+
+    return action
 
 
 def _opened(source: Any, options: dict[str, Any]) -> tuple[Photo | Scene, dict[str, Any]]:

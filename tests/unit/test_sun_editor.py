@@ -240,11 +240,11 @@ def test_strokes_made_while_one_is_worked_in_are_all_kept(editor, monkeypatch):
     started, go_on = threading.Event(), threading.Event()
     seen = []
 
-    def slow(scene, edit):
+    def slow(scene, edit, progress=None):
         seen.append(len(edit.strokes))
         started.set()
         assert go_on.wait(60)
-        return corrected(scene, edit)
+        return corrected(scene, edit, progress)
 
     monkeypatch.setattr(type(editor.scene), "corrected", slow)
     strokes = [
