@@ -1,0 +1,134 @@
+"""What an editor hands out: pictures, files, pages, and what static viewers see of it."""
+
+from __future__ import annotations
+
+import base64
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from sunwidget.analysis.scene import Scene
+from sunwidget.files import target
+from sunwidget.photo import Photo
+from sunwidget.widgets.analyst import Analyst
+from sunwidget.widgets.history import EditHistory
+from sunwidget.widgets.payload import THUMBNAIL_EDGE, encode_png, thumbnail
+from sunwidget.widgets.requests import Answer, Progress
+from sunwidget.widgets.snapshot import SNAPSHOT_EDGE, Snapshot
+from sunwidget.widgets.standalone import editor_page, embedded_state, still_of, write_page
+
+_SUFFIXES = {"JPEG": ".jpg", "PNG": ".png", "TIFF": ".tif", "WEBP": ".webp"}
+_TYPES = {
+    ".jpg": "image/jpeg",
+    ".png": "image/png",
+    ".tif": "image/tiff",
+    ".webp": "image/webp",
+}
+
+
+class Pictures(EditHistory):
+    """A widget that renders its edit of a photo."""
+
+    photo: Photo
+    _analyst: Analyst
+
+    def render(self, **options: Any) -> Any:
+        """Return the picture as it is now; ``options`` as in ``sunwidget.render``."""
+        from sunwidget.renderer.render import render
+
+        return render(self._base_scene(), self.edit, **options)
+
+    def save(self, path: Any, **options: Any) -> Path:
+        """Write the picture at full size; ``options`` as in ``sunwidget.save``."""
+        from sunwidget.export.stills import save
+
+        return save((self._base_scene(), self.edit), path, **options)
+
+    def snapshot(self, long_edge: int = SNAPSHOT_EDGE) -> Snapshot:
+        """Return the picture as it is now, as the output of a cell: it stays when the edit goes on.
+
+        Waits for the analysis.
+
+        Parameters
+        ----------
+        long_edge : int, default 1024
+            Pixels of the longer side, at most the photo's.
+
+        Raises
+        ------
+        ValueError
+            For a ``long_edge`` that is no whole number above 0.
+
+        Examples
+        --------
+        >>> editor.snapshot()
+        """
+        if isinstance(long_edge, bool) or not isinstance(long_edge, int) or long_edge < 1:
+            raise ValueError(f"long_edge must be a whole number above 0, not {long_edge!r:.40}.")
+        edit = self.edit
+        pixels = self.render(size=_fitting(self.photo, long_edge))
+        return Snapshot(pixels, edit, self.photo)
+
+    def to_html(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        title: str | None = None,
+        overwrite: bool = False,
+    ) -> Path | str:
+        """Write a page in which the sun can be moved: one file, no kernel, no network.
+
+        Waits for the analysis. Parameters and errors as for ``sunwidget.to_html``; without a
+        ``path`` the page is returned as text.
+        """
+        place = None if path is None else target(path, overwrite=overwrite)
+        self._analyst.wait()
+        still = still_of(self.photo, self.render)
+        with self._lock:
+            embedded = embedded_state(self)
+        text = editor_page(embedded, still, self.photo, title=title)
+        return text if place is None else write_page(text, place, overwrite=overwrite)
+
+    def _base_scene(self) -> Scene:
+        # The edit's corrections are applied by the renderer, from the scene without them.
+        self._analyst.wait()
+        base = self._analyst.base
+        assert base is not None
+        return base
+
+    def _save_for_browser(self, _content: dict[str, Any], progress: Progress) -> Answer:
+        progress(0.02, "Rendering at full size …")
+        suffix = _SUFFIXES.get(self.photo.format or "", ".png")
+        name = f"{Path(self.photo.name).stem}-sun{suffix}"
+        with tempfile.TemporaryDirectory() as folder:
+            path = self.save(Path(folder) / f"picture{suffix}", progress=progress)
+            progress(1.0, "Sending the picture …")
+            data = path.read_bytes()
+        return {"name": name, "type": _TYPES[suffix]}, [data]
+
+    def _thumbnail(self) -> bytes:
+        """Return a small PNG: the edit where it can be had at once, else the photo."""
+        from sunwidget.renderer.gl_thread import RendererError
+
+        if self._analyst.ready:
+            try:
+                return encode_png(self.render(size=_fitting(self.photo, THUMBNAIL_EDGE)))
+            except RendererError:
+                pass
+        return thumbnail(self.photo)
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        bundle = super()._repr_mimebundle_(**kwargs)
+        if bundle is None:
+            return None
+        data, metadata = bundle
+        # GitHub, nbconvert and other viewers without widgets show this one.
+        data["image/png"] = base64.b64encode(self._thumbnail()).decode("ascii")
+        return data, metadata
+
+
+def _fitting(photo: Photo, long_edge: int) -> tuple[int, int]:
+    scale = min(1.0, long_edge / max(photo.size))
+    width, height = (max(1, round(n * scale)) for n in photo.size)
+    return width, height
