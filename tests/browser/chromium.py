@@ -85,23 +85,28 @@ def live_contexts(page):
 
 
 def drag_sun(page, i=0, by=(-60, 20)):
-    """Drag the sun of the page's ``i``-th editor and wait until its picture is another."""
+    """Drag the sun of the page's ``i``-th editor and wait until its picture has followed."""
     editor = page.locator(".sunwidget").nth(i)
     ring = editor.locator(".sw-sun-ring")
-    ring.scroll_into_view_if_needed()
-    box = ring.bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     canvas = editor.locator(".sw-canvas")
+    ring.scroll_into_view_if_needed()
+    # What loads last, notes and pictures, moves the page.
+    box = None
+    while box != (box := ring.bounding_box()):
+        page.wait_for_timeout(200)
     before = canvas.evaluate("canvas => canvas.toDataURL()")
+    said = editor.locator(".sw-readout").text_content()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + by[0], y + by[1], steps=3)
     page.mouse.up()
+    assert editor.locator(".sw-readout").text_content() != said, "the drag missed the sun"
     for _ in range(PATIENCE // 100):
         if canvas.evaluate("canvas => canvas.toDataURL()") != before:
             return
         page.wait_for_timeout(100)
-    raise AssertionError("the drag moved nothing")
+    raise AssertionError("the picture did not follow the sun")
 
 
 def widget_state(widget):
