@@ -1,18 +1,22 @@
 /**
- * Shows one map of the analysis over the picture, with its legend and the value under the
- * pointer. A map travels when it is asked for, and again when the scene changes meanwhile.
+ * Shows one map of the analysis over the picture, with its legend, how its values are spread, and
+ * the value under the pointer. A map travels when it is asked for, once for each scene.
  */
 
 import { button } from "../controls/button.js";
-import { element } from "../controls/element.js";
+import { element, setAttributes, shape } from "../controls/element.js";
 import { decodePicture } from "../gl/texture.js";
+import { ceiling, hill, spreadOf } from "./levels.js";
 import { colours, gradient, textAt } from "./ramp.js";
 
 /**
  * @typedef {import("../types.js").Point} Point
  * @typedef {import("../types.js").SceneMap} SceneMap
  * @typedef {import("./view.js").View} View
+ * @typedef {{ levels: Uint8Array, width: number, height: number }} MapLevels
  */
+
+const [SPREAD_WIDTH, SPREAD_HEIGHT] = [256, 20];
 
 export class Inspector {
   /** @param {View} view */
@@ -22,10 +26,14 @@ export class Inspector {
     this.maps = view.model.get("_maps") ?? [];
     /** @type {SceneMap | null} the map that is shown */
     this.map = null;
-    /** @type {{ levels: Uint8Array, width: number, height: number } | null} */
+    /** @type {MapLevels | null} */
     this.data = null;
     /** @type {unknown} the scene that `data` belongs to */
     this.scene = null;
+    /** @type {Map<string, MapLevels>} by name, of the scene at hand */
+    this.known = new Map();
+    /** @type {unknown} */
+    this.knownScene = null;
     this.asked = 0;
     /** @type {Point | null} */
     this.place = null;
@@ -45,7 +53,18 @@ export class Inspector {
     this.title = element("b");
     this.help = element("span", { class: "sw-legend-help" });
     this.marker = element("span", { class: "sw-legend-marker" });
+    this.spread = shape("path");
     this.bar = element("span", { class: "sw-legend-bar" }, this.marker);
+    const over = shape(
+      "svg",
+      {
+        class: "sw-legend-spread",
+        viewBox: `0 0 ${SPREAD_WIDTH} ${SPREAD_HEIGHT}`,
+        preserveAspectRatio: "none",
+        "aria-hidden": "true",
+      },
+      this.spread,
+    );
     this.low = element("span");
     this.high = element("span");
     // Not read out by itself: it changes with every move of the pointer.
@@ -65,7 +84,26 @@ export class Inspector {
       title: "Opacity of the map",
     });
     this.opacity.addEventListener("input", () => this.setOpacity());
-    this.scale = element("span", { class: "sw-legend-scale" }, this.low, this.bar, this.high);
+    const ramp = element("span", { class: "sw-legend-ramp" }, over, this.bar);
+    this.scale = element("span", { class: "sw-legend-scale" }, this.low, ramp, this.high);
+    this.position = element("span", { class: "sw-legend-position" });
+    const steps = element(
+      "span",
+      { class: "sw-legend-steps" },
+      button({
+        icon: "chevron",
+        label: "Map before",
+        title: "Map before (Shift+M)",
+        onClick: () => this.step(-1),
+      }),
+      this.position,
+      button({
+        icon: "chevron",
+        label: "Next map",
+        title: "Next map (M)",
+        onClick: () => this.step(1),
+      }),
+    );
     const close = button({
       icon: "close",
       label: "Close the map",
@@ -78,6 +116,7 @@ export class Inspector {
       element("span", { class: "sw-legend-name" }, this.title, this.value),
       this.scale,
       this.opacity,
+      steps,
       close,
       this.help,
     );
@@ -102,6 +141,8 @@ export class Inspector {
     if (!this.map) return;
     const { title, help, ramp } = this.map;
     this.title.textContent = title;
+    this.position.textContent = `${this.maps.indexOf(this.map) + 1} / ${this.maps.length}`;
+    setAttributes(this.spread, { d: "" });
     this.help.textContent = help;
     this.low.textContent = textAt(this.map, 0);
     this.high.textContent = textAt(this.map, 1);
@@ -125,12 +166,21 @@ export class Inspector {
     this.scene = scene;
     this.asked += 1;
     const { asked } = this;
+    if (this.knownScene !== scene) this.known.clear();
+    this.knownScene = scene;
+    const known = this.known.get(map.name);
+    if (known) {
+      this.node.classList.remove("sw-waiting"); // for another map, given up
+      return this.paint(map, known);
+    }
     this.node.classList.add("sw-waiting");
     try {
       const { buffers } = await view.channel.request("map", { name: map.name });
       const bitmap = await decodePicture(buffers[0]);
-      if (asked === this.asked && map === this.map) this.paint(map, bitmap);
+      const data = levelsOf(bitmap);
       bitmap.close();
+      if (data && this.knownScene === scene) this.known.set(map.name, data);
+      if (data && asked === this.asked && map === this.map) this.paint(map, data);
     } catch (error) {
       if (asked !== this.asked) return;
       this.data = null;
@@ -143,27 +193,21 @@ export class Inspector {
     }
   }
 
-  /**
-   * @param {SceneMap} map
-   * @param {ImageBitmap} bitmap grey levels
-   */
-  paint(map, bitmap) {
+  /** @param {SceneMap} map @param {MapLevels} data */
+  paint(map, data) {
     const { canvas } = this;
-    const { width, height } = bitmap;
+    const { levels, width, height } = data;
     [canvas.width, canvas.height] = [width, height];
-    const context = canvas.getContext("2d", { willReadFrequently: true });
-    if (!context) return;
-    context.drawImage(bitmap, 0, 0);
-    const image = context.getImageData(0, 0, width, height);
+    const image = new ImageData(width, height);
     const pixels = new Uint32Array(image.data.buffer);
     const table = new Uint32Array(colours(map.ramp).buffer);
-    const levels = new Uint8Array(pixels.length);
-    for (let i = 0; i < pixels.length; i++) {
-      levels[i] = image.data[4 * i];
-      pixels[i] = table[levels[i]];
-    }
-    context.putImageData(image, 0, 0);
-    this.data = { levels, width, height };
+    for (let i = 0; i < pixels.length; i++) pixels[i] = table[levels[i]];
+    canvas.getContext("2d")?.putImageData(image, 0, 0);
+    const spread = spreadOf(levels);
+    setAttributes(this.spread, {
+      d: hill(spread, ceiling([spread]), SPREAD_WIDTH, SPREAD_HEIGHT),
+    });
+    this.data = data;
     this.help.textContent = map.help;
     this.readValue();
   }
@@ -185,4 +229,20 @@ export class Inspector {
     this.value.textContent = map && share !== null ? textAt(map, share) : "";
     if (share !== null) this.marker.style.left = `${100 * share}%`;
   }
+}
+
+/** @param {ImageBitmap} bitmap grey levels @returns {MapLevels | null} */
+function levelsOf(bitmap) {
+  const { width, height } = bitmap;
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [width, height];
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  if (!context) return null;
+  context.drawImage(bitmap, 0, 0);
+  const { data } = context.getImageData(0, 0, width, height);
+  return {
+    levels: Uint8Array.from({ length: width * height }, (_, i) => data[4 * i]),
+    width,
+    height,
+  };
 }

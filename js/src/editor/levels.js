@@ -51,6 +51,18 @@ export function countLevels(pixels) {
 }
 
 /**
+ * Shares of single levels, by bin.
+ *
+ * @param {Uint8Array} levels
+ * @returns {number[]}
+ */
+export function spreadOf(levels) {
+  const bins = new Array(BINS).fill(0);
+  for (const level of levels) bins[Math.floor(level / PER_BIN)] += 1;
+  return bins.map((n) => n / (levels.length || 1));
+}
+
+/**
  * A height that shows nearly all of several histograms: a peak of the sky's flat blue, or of
  * clipped white, would press everything else to the ground.
  *
