@@ -4,6 +4,7 @@
  * `sunwidget/widgets/requests.py`.
  *
  * browser → kernel  { type: "request", id, action, … }
+ *                   { type: "cancel", id }
  * kernel → browser  { type: "progress", id, fraction, message }
  *                   { type: "response", id, result, error } with buffers
  */
@@ -16,6 +17,9 @@
 
 // A kernel that says nothing for so long was restarted or is gone.
 const SILENCE_MS = 180_000;
+
+/** The person wants the answer no more. */
+export class Cancelled extends Error {}
 
 export class Channel {
   /**
@@ -43,15 +47,29 @@ export class Channel {
    * @param {string} action
    * @param {Record<string, unknown>} [content]
    * @param {OnProgress} [onProgress]
+   * @param {ArrayBuffer[]} [buffers]
+   * @param {AbortSignal} [signal] cancels: the kernel stops at its next step, the promise rejects
+   *   with `Cancelled` at once
    * @returns {Promise<Answer>}
    */
-  request(action, content = {}, onProgress = undefined) {
+  request(action, content = {}, onProgress = undefined, buffers = [], signal = undefined) {
     const id = crypto.randomUUID?.() ?? String(Math.random());
     return new Promise((resolve, reject) => {
       this.open.set(id, { resolve, reject, onProgress });
       this.watch(id);
-      this.model.send({ ...content, type: "request", id, action });
+      this.model.send({ ...content, type: "request", id, action }, undefined, buffers);
+      signal?.addEventListener("abort", () => this.cancel(id), { once: true });
     });
+  }
+
+  /** @param {string} id */
+  cancel(id) {
+    const pending = this.open.get(id);
+    if (!pending) return;
+    this.open.delete(id);
+    clearTimeout(pending.timer);
+    pending.reject(new Cancelled("Cancelled."));
+    this.model.send({ type: "cancel", id });
   }
 
   /** Give up a request about which nothing is heard any more. @param {string} id */

@@ -57,6 +57,7 @@ export class EditState {
     const onHistory = () => this.notify();
     for (const name of HISTORY) model.on(`change:${name}`, onHistory);
     signal.addEventListener("abort", () => {
+      this.commit(); // a view that is closed in the middle of a drag ends it
       clearTimeout(this.timer);
       for (const { name } of parameters) model.off(`change:${name}`, onTrait);
       for (const name of HISTORY) model.off(`change:${name}`, onHistory);
@@ -249,6 +250,21 @@ export class EditState {
       future: moved ? [] : future,
       versions: this.versions(),
     };
+  }
+
+  /** The same recipe with more of its history. @param {Kept} kept */
+  takeUpHistory({ past, future }) {
+    this.writeHistory({ past, future });
+    this.model.save_changes();
+  }
+
+  /** The model holds another photo's edit: what was begun or not yet sent belongs to the last. */
+  abandon() {
+    clearTimeout(this.timer);
+    this.timer = undefined;
+    this.before = null;
+    this.unsent.clear();
+    this.pull();
   }
 
   /**

@@ -1,10 +1,17 @@
 /** Undo, redo and back to the start. */
 
+import { stepName } from "../step_names.js";
 import { button } from "./button.js";
 import { element } from "./element.js";
 
-/** @param {import("../state.js").EditState} state @param {string} resets what Reset does */
-export function historyButtons(state, resets) {
+/** @typedef {import("../types.js").Edit} Edit */
+
+/**
+ * @param {import("../state.js").EditState} state
+ * @param {string} resets what Reset does
+ * @param {() => import("./chips.js").Preset[]} [presets] by which steps are called
+ */
+export function historyButtons(state, resets, presets = () => []) {
   const undo = button({
     icon: "undo",
     label: "Undo",
@@ -29,7 +36,19 @@ export function historyButtons(state, resets) {
       const { past, future } = state.history();
       undo.disabled = past.length === 0;
       redo.disabled = future.length === 0;
-      reset.disabled = Object.keys(state.recipe()).length === 0;
+      const recipe = state.recipe();
+      reset.disabled = Object.keys(recipe).length === 0;
+      if (state.before) return; // names are for when the hand rests
+      const known = {
+        parameters: state.parameters,
+        versions: state.versions(),
+        presets: presets(),
+      };
+      /** @type {(word: string, from?: Edit, to?: Edit) => string} */
+      const title = (word, from, to) =>
+        from && to ? `${word}: ${stepName(from, to, known)}` : word;
+      undo.title = `${title("Undo", past.at(-1), recipe)} (Ctrl+Z)`;
+      redo.title = `${title("Redo", recipe, future[0])} (Ctrl+Shift+Z)`;
     },
   };
 }

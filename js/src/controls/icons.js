@@ -32,6 +32,8 @@ const PATHS = {
   plus: "M10 4.5v11M4.5 10h11",
   minus: "M4.5 10h11",
   search: "M8.5 3a5.5 5.5 0 1 0 0 11 5.5 5.5 0 0 0 0-11ZM12.6 12.6 17 17",
+  versions: "M6 3h8v14l-4-3.4L6 17Z",
+  rename: "M12.5 4.5 15.5 7.5 7.5 15.5 4 16l.5-3.5ZM10.8 6.2l3 3",
   menu: "M3.5 5.5h13M3.5 10h13M3.5 14.5h13",
   columns: "M2.5 4.5h6.3v11H2.5ZM11.2 4.5h6.3v11h-6.3Z",
   difference: "M10 4 17 16H3Z",

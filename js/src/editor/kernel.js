@@ -18,6 +18,7 @@ export class Kernel {
    * @param {AbortSignal} signal
    */
   constructor(model, root, signal) {
+    this.model = model;
     /** @type {KernelState} */
     this.state = model.get("_standalone") ? "none" : "live";
     /** @type {Set<() => void>} */
@@ -55,6 +56,16 @@ export class Kernel {
   /** The kernel was asked, and is silent or gone. */
   lose() {
     this.become("lost");
+  }
+
+  /** Find out whether there is a way to the kernel; one that crashed does not say goodbye. */
+  check() {
+    if (this.state !== "live") return;
+    try {
+      this.model.send({ type: "still here" });
+    } catch {
+      this.lose();
+    }
   }
 
   /** @param {KernelState} state */

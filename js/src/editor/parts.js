@@ -10,7 +10,9 @@
  */
 
 import { announcements } from "./announcements.js";
+import { autosave } from "./autosave.js";
 import { cross } from "./cross.js";
+import { drop } from "./drop.js";
 import { fullScreen } from "./full_screen.js";
 import { heldKeys } from "./held_keys.js";
 import { help } from "./help.js";
@@ -19,8 +21,10 @@ import { hover } from "./hover.js";
 import { needsKernel } from "./needs_kernel.js";
 import { placeSection } from "./place_section.js";
 import { presetThumbnails } from "./preset_thumbnails.js";
+import { progress } from "./progress.js";
 import { recipe } from "./recipe.js";
 import { split } from "./split.js";
+import { versions } from "./versions.js";
 import { zoomControl } from "./zoom_control.js";
 
 /**
@@ -45,8 +49,12 @@ const PARTS = [
   presetThumbnails,
   histogram,
   placeSection,
+  versions,
+  drop,
   recipe,
+  autosave,
   help,
+  progress,
   needsKernel,
   announcements,
 ];

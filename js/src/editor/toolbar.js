@@ -60,7 +60,8 @@ export function toolbar(view) {
     value: view.tool,
     onChange: (tool) => view.setTool(tool),
   });
-  const history = historyButtons(state, "Everything back to the photo");
+  const presets = () => view.scene?.presets ?? [];
+  const history = historyButtons(state, "Everything back to the photo", presets);
   const before = holdButton({
     icon: "before",
     label: "Before",
@@ -109,6 +110,7 @@ export function toolbar(view) {
   return {
     node,
     end,
+    history: history.node,
     menu,
     before,
     save,
@@ -120,7 +122,7 @@ export function toolbar(view) {
     show() {
       tools.show(view.tool);
       history.show();
-      save.disabled = !view.scene || view.saving;
+      save.disabled = !view.scene || view.work !== null;
       for (const { value, label, title } of PAINTS) {
         tools.rename(value, label.replace("sky", view.subject), title.replace("sky", view.subject));
       }

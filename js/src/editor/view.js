@@ -21,11 +21,12 @@ import { HorizonTool } from "./horizon_tool.js";
 import { Inspector } from "./inspector.js";
 import { Kernel } from "./kernel.js";
 import { Notes } from "./notes.js";
+import { Notices } from "./notices.js";
 import { panel } from "./panel.js";
 import { makeParts } from "./parts.js";
 import { PickTool } from "./pick_tool.js";
 import { listenToPointer } from "./pointer.js";
-import { saveFullSize, savePreview } from "./save.js";
+import { save } from "./save.js";
 import { onShortcut } from "./shortcuts.js";
 import { Stage } from "./stage.js";
 import { BRUSHES, StrokesLayer } from "./strokes.js";
@@ -78,7 +79,8 @@ export class View {
     this.tool = "sun";
     this.brushRadius = 0.015;
     this.subject = "sky"; // what brush strokes are about
-    this.saving = false;
+    /** @type {AbortController | null} cancels the picture that is being saved */
+    this.work = null;
     /** @type {[number, number]} size of the full preview in pixels */
     this.size = [0, 0];
     this.loads = 0;
@@ -114,6 +116,7 @@ export class View {
     });
     this.announcer = new Announcer(signal);
     this.notes = new Notes();
+    this.notices = new Notices(signal);
     this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
     this.foot = element("div", { class: "sw-foot" }, this.readout, this.sureness, this.notes.node);
     /** @type {import("./split.js").Split | null} */
@@ -147,7 +150,7 @@ export class View {
       this.foot,
     );
     const body = element("div", { class: "sw-body" }, main, this.panel.node);
-    this.root.append(this.toolbar.node, body, this.announcer.node);
+    this.root.append(this.toolbar.node, this.notices.node, body, this.announcer.node);
     this.setTool("sun");
   }
 
@@ -211,6 +214,7 @@ export class View {
     /** @type {Scene | null} */
     const scene = this.model.get("_scene");
     const photo = this.model.get("_photo");
+    if (!scene?.uniforms) this.forgetScene();
     if (!scene?.uniforms || !photo?.byteLength) return;
     this.loads += 1;
     const load = this.loads;
@@ -242,6 +246,18 @@ export class View {
     void this.inspector.refresh();
     this.tools[this.tool].refresh?.();
     for (const part of this.parts) part.loaded?.(scene);
+    this.show();
+  }
+
+  /** Another photo is on its way: nothing of the last one is true of it. */
+  forgetScene() {
+    if (!this.scene) return;
+    this.loads += 1;
+    this.scene = null;
+    this.camera = null;
+    this.root.classList.remove("sw-live");
+    this.notes.show([]);
+    this.sureness.textContent = "";
     this.show();
   }
 
@@ -356,21 +372,9 @@ export class View {
       `${this.value("sun_elevation").toFixed(1)}° elevation`;
   }
 
-  /** Hand the picture to the person, of full size where the kernel answers. */
-  async save() {
-    if (this.saving) return;
-    this.saving = true;
-    this.state.push();
-    this.toolbar.show();
-    try {
-      await (this.kernel.answers ? saveFullSize(this) : savePreview(this));
-    } catch (error) {
-      this.showError(`Saving failed: ${message(error)}`);
-    } finally {
-      this.saving = false;
-      this.stage.setProgress(null, "");
-      this.toolbar.show();
-    }
+  /** Hand the picture to the person as a file. */
+  save() {
+    return save(this);
   }
 }
 

@@ -1,6 +1,7 @@
 /** How the sky is shown, history, and the way out: code. */
 
 import { button, radioButtons } from "../controls/button.js";
+import { copied } from "../controls/clipboard.js";
 import { element } from "../controls/element.js";
 import { historyButtons } from "../controls/history.js";
 import { turned } from "../day.js";
@@ -94,27 +95,4 @@ async function codeOf(view) {
     () => own,
   );
   return `import sunwidget as sw\n\n${await Promise.race([asked, late])}`;
-}
-
-/**
- * Put text on the clipboard; returns whether it got there. A page that came without encryption has
- * no clipboard of its own, but may copy what is selected.
- *
- * @param {string} text
- */
-async function copied(text) {
-  try {
-    await navigator.clipboard.writeText(text);
-    return true;
-  } catch {
-    const field = element("textarea", { "aria-hidden": "true", class: "sw-away" });
-    field.value = text;
-    const focused = /** @type {HTMLElement | null} */ (document.activeElement);
-    document.body.append(field);
-    field.select();
-    const done = document.execCommand("copy");
-    field.remove();
-    focused?.focus();
-    return done;
-  }
 }

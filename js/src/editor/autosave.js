@@ -1,0 +1,223 @@
+/**
+ * Nothing that was done is lost. The widget's state holds the edit, its history and its versions,
+ * so a page that is loaded again has them from the kernel; for when the kernel is gone the browser
+ * keeps them too, by the photo's fingerprint, and offers them the next time the photo is shown.
+ * A recipe that is given in code is never replaced unasked.
+ */
+
+import { KeptEdits } from "../kept_edits.js";
+import { checkRecipe } from "../recipe/check.js";
+import { sameRecipe } from "../state.js";
+import { onTraits } from "../traits.js";
+
+/**
+ * @typedef {import("../types.js").Edit} Edit
+ * @typedef {import("../types.js").Kept} Kept
+ * @typedef {import("../types.js").Source} Source
+ * @typedef {import("../kept_edits.js").Entry} Entry
+ */
+
+const PAUSE_MS = 500;
+const SESSIONS = Symbol.for("sunwidget.sessions");
+
+/**
+ * Sessions in this page that have a kernel, with how many views each has: what they do needs no
+ * restoring. Every widget runs a copy of this module of its own, so they meet at the window.
+ *
+ * @returns {Map<string, number>}
+ */
+function living() {
+  const page = /** @type {any} */ (window);
+  page[SESSIONS] ??= new Map();
+  return page[SESSIONS];
+}
+
+/** @type {import("./parts.js").MakePart} */
+export function autosave(view, signal) {
+  const { model, state, kernel, notices } = view;
+  const store = new KeptEdits();
+  const alive = living();
+  /** @type {Source | null} */
+  let source = null;
+  /** @type {Edit} what this photo began with here */
+  let start = {};
+  let counted = false; // among the living
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+
+  const save = () => {
+    clearTimeout(timer);
+    timer = undefined;
+    if (!source) return;
+    kernel.check();
+    const kept = state.kept();
+    const { session, fingerprint } = source;
+    const untouched = sameRecipe(kept.recipe, start) && !kept.past.length && !kept.versions.length;
+    if (!untouched) store.put(fingerprint, { ...kept, session, saved: Date.now() });
+  };
+
+  /** The newest edit of this photo that cannot be reached from here. @returns {Entry | undefined} */
+  const lost = () => {
+    if (!source) return undefined;
+    const { fingerprint, session } = source;
+    const kept = state.kept();
+    return store
+      .of(fingerprint)
+      .filter((entry) => entry.session !== session && !alive.has(entry.session))
+      .map((entry) => readable(view.parameters, entry))
+      .find((entry) => isLost(entry, kept));
+  };
+
+  const offer = () => {
+    const entry = lost();
+    if (!entry || entry.dismissed) {
+      notices.hide("restore");
+      return;
+    }
+    const given = Object.keys(start).length > 0;
+    notices.show("restore", {
+      text: `Your last edit of this photo, ${ago(entry.saved)}, is kept${
+        given ? ", and differs from the one that was given" : ""
+      }.`,
+      actions: [{ label: "Restore", run: restore }],
+      onClose: () => source && store.dismiss(source.fingerprint),
+    });
+  };
+
+  const restore = () => {
+    const entry = lost();
+    if (entry) state.takeUp(entry);
+    offer();
+  };
+
+  const leave = () => {
+    if (!counted || !source) return;
+    counted = false;
+    const left = (alive.get(source.session) ?? 1) - 1;
+    if (left > 0) alive.set(source.session, left);
+    else alive.delete(source.session);
+  };
+
+  /** With another photo, or the first one. */
+  const begin = () => {
+    clearTimeout(timer);
+    timer = undefined;
+    leave();
+    source = model.get("_source") ?? null;
+    if (!source?.fingerprint) return;
+    start = state.recipe();
+    const { fingerprint, session } = source;
+    const own = store.of(fingerprint).find((entry) => entry.session === session);
+    const kept = state.kept();
+    const first = !alive.has(session);
+    if (kernel.answers) {
+      alive.set(session, (alive.get(session) ?? 0) + 1);
+      counted = true;
+    }
+    // Another view of it, which is at work, writes this entry.
+    if (!own || !first) offer();
+    else if (isLost(own, kept)) store.setAside(fingerprint, session);
+    else if (sameRecipe(own.recipe, kept.recipe) && own.past.length > kept.past.length) {
+      // The page was left before the end of a drag had arrived at the kernel.
+      state.takeUpHistory(own);
+    }
+    offer();
+  };
+
+  const onSource = () => {
+    state.abandon();
+    view.cancelGesture();
+    begin();
+  };
+  const onChange = () => {
+    timer ??= setTimeout(save, PAUSE_MS);
+  };
+  state.subscribe(onChange);
+  onTraits(model, ["_source"], onSource, signal);
+  const onLeave = () => {
+    state.commit();
+    save();
+  };
+  window.addEventListener("pagehide", onLeave, { signal });
+  document.addEventListener("visibilitychange", save, { signal });
+  kernel.onChange(() => {
+    if (!kernel.answers) leave();
+    showKernel(view);
+    view.show();
+  });
+  signal.addEventListener("abort", () => {
+    if (timer !== undefined) save();
+    leave();
+  });
+  view.toolbar.menu.add({
+    group: "photo",
+    label: "Restore last edit",
+    title: "What this browser has kept of this photo",
+    shown: () => lost() !== undefined,
+    run: restore,
+  });
+  begin();
+  showKernel(view);
+  return {};
+}
+
+/** @param {import("./view.js").View} view */
+function showKernel({ kernel, notices }) {
+  if (kernel.state !== "lost") {
+    notices.hide("kernel");
+    return;
+  }
+  notices.show("kernel", {
+    text:
+      "The kernel of this editor is gone. All that is drawn here stays live and your edit is kept; " +
+      "run the cell again for strokes, maps and the full size.",
+  });
+}
+
+/**
+ * Whether something of an entry cannot be reached from what is there by undo or by a version.
+ *
+ * @param {Kept} entry
+ * @param {Kept} here
+ */
+function isLost(entry, here) {
+  const reachable = [
+    here.recipe,
+    ...here.past,
+    ...here.future,
+    ...here.versions.map(({ recipe }) => recipe),
+  ];
+  const last = Object.keys(entry.recipe).length ? entry.recipe : (entry.past.at(-1) ?? {});
+  return [last, ...entry.versions.map(({ recipe }) => recipe)].some(
+    (recipe) => !sameRecipe(recipe, {}) && !reachable.some((known) => sameRecipe(recipe, known)),
+  );
+}
+
+/**
+ * An entry without values that the table does not take: another version may have written it.
+ *
+ * @param {import("../types.js").Parameter[]} parameters
+ * @param {Entry} entry
+ * @returns {Entry}
+ */
+function readable(parameters, entry) {
+  /** @param {Edit} recipe */
+  const values = (recipe) => checkRecipe(parameters, recipe).values;
+  return {
+    ...entry,
+    recipe: values(entry.recipe),
+    past: entry.past.map(values),
+    future: entry.future.map(values),
+    versions: entry.versions.map(({ name, recipe }) => ({ name, recipe: values(recipe) })),
+  };
+}
+
+/** @param {number} time milliseconds since 1970 */
+function ago(time) {
+  const minutes = Math.round((Date.now() - time) / 60_000);
+  const format = new Intl.RelativeTimeFormat("en", { numeric: "auto" });
+  if (minutes < 1) return "a moment ago";
+  if (minutes < 60) return format.format(-minutes, "minute");
+  if (minutes < 48 * 60) return format.format(-Math.round(minutes / 60), "hour");
+  return format.format(-Math.round(minutes / (24 * 60)), "day");
+}
