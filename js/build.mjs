@@ -109,6 +109,8 @@ async function main() {
       { in: join(here, "src", "editor", "style.css"), out: "sun_editor" },
       { in: join(here, "src", "explorer", "index.js"), out: "sky_explorer" },
       { in: join(here, "src", "explorer", "style.css"), out: "sky_explorer" },
+      { in: join(here, "src", "compare", "index.js"), out: "compare" },
+      { in: join(here, "src", "compare", "style.css"), out: "compare" },
       { in: join(here, "src", "study", "index.js"), out: "study" },
       { in: join(here, "src", "study", "style.css"), out: "study" },
       { in: join(here, "src", "standalone", "index.js"), out: "standalone" },
@@ -124,6 +126,7 @@ async function main() {
       shaderPlugin,
       packPlugin(join(out, "sun_editor.js"), ["Frame"]),
       packPlugin(join(out, "sky_explorer.js"), ["Projection", "SkyFrame"], licence("uplot")),
+      packPlugin(join(out, "compare.js"), []),
       packPlugin(join(out, "study.js"), []),
     ],
   });

@@ -30,9 +30,10 @@ if TYPE_CHECKING:
     from sunwidget.renderer.gl_thread import RendererError
     from sunwidget.renderer.render import render
     from sunwidget.samples import sample
+    from sunwidget.study import StudyError
     from sunwidget.transfer.look import transfer_look
     from sunwidget.transfer.sky_replacement import replace_sky
-    from sunwidget.widgets import SkyExplorer, SunEditor
+    from sunwidget.widgets import Compare, SkyExplorer, Study, SunEditor
     from sunwidget.widgets.unseen import to_html
 
 __version__ = "0.1.0"
@@ -43,6 +44,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "PARAMETERS": ("sunwidget.edit", "PARAMETERS"),
     "PRESETS": ("sunwidget.presets", "PRESETS"),
     "Camera": ("sunwidget.camera", "Camera"),
+    "Compare": ("sunwidget.widgets", "Compare"),
     "Edit": ("sunwidget.edit", "Edit"),
     "EditError": ("sunwidget.edit", "EditError"),
     "Photo": ("sunwidget.photo", "Photo"),
@@ -54,6 +56,8 @@ _HOMES: dict[str, tuple[str, str]] = {
     "SkyExplorer": ("sunwidget.widgets", "SkyExplorer"),
     "SkyNetwork": ("sunwidget.analysis.sky_network", "SkyNetwork"),
     "Stroke": ("sunwidget.edit", "Stroke"),
+    "Study": ("sunwidget.widgets", "Study"),
+    "StudyError": ("sunwidget.study", "StudyError"),
     "SunEditor": ("sunwidget.widgets", "SunEditor"),
     "analyze": ("sunwidget.analysis.scene", "analyze"),
     "open": ("sunwidget.photo", "open_photo"),
@@ -72,6 +76,7 @@ __all__ = [
     "PRESETS",
     "AnalysisError",
     "Camera",
+    "Compare",
     "Edit",
     "EditError",
     "Photo",
@@ -83,6 +88,8 @@ __all__ = [
     "SkyExplorer",
     "SkyNetwork",
     "Stroke",
+    "Study",
+    "StudyError",
     "SunEditor",
     "__version__",
     "analyze",

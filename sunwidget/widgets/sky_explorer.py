@@ -13,7 +13,6 @@ import datetime as dt
 import math
 import threading
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import anywidget
@@ -34,23 +33,17 @@ from sunwidget.explorer.table import EXPLORER_PARAMETERS
 from sunwidget.explorer.values import effective_values
 from sunwidget.widgets.edit_traits import edit_traits
 from sunwidget.widgets.explorer_answers import actions, bruneton_slice, scans
+from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.payload import encode_png, parameter_json
 from sunwidget.widgets.requests import Action, Progress, Requests
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-_STATIC = Path(__file__).parents[1] / "static"
 _NAMES = tuple(p.name for p in EXPLORER_PARAMETERS)
 _ALIASES = ("turbidity", "visibility")
 _SUN = ("sun_azimuth", "sun_elevation")
 _SAME_PLACE = 0.01  # degrees; the browser's arithmetic is not to the bit the kernel's
 _PICTURE_SIZE = (480, 320)  # of the static picture
-
-if not (_STATIC / "sky_explorer.js").is_file():
-    raise ImportError(
-        "sunwidget's front end is not built, so there is no SkyExplorer. In a checkout run "
-        "`make build` (Node 20 or newer); an installed package brings it along."
-    )
 
 
 class SkyExplorer(anywidget.AnyWidget):
@@ -89,8 +82,7 @@ class SkyExplorer(anywidget.AnyWidget):
     >>> explorer.render(size=(640, 400))
     """
 
-    _esm = _STATIC / "sky_explorer.js"
-    _css = _STATIC / "sky_explorer.css"
+    _esm, _css = front_end("sky_explorer", "SkyExplorer")
 
     _parameters: traitlets.List = traitlets.List(read_only=True).tag(sync=True)
     _aliases: traitlets.Dict = traitlets.Dict(read_only=True).tag(sync=True)

@@ -21,9 +21,9 @@ from sunwidget.study import (
     write_csv,
 )
 from sunwidget.study.bradley_terry import PRIOR
+from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.payload import encode_preview
 
-_STATIC = Path(__file__).parents[1] / "static"
 _MOST_REPEATS = 100
 
 
@@ -63,8 +63,7 @@ class Study(anywidget.AnyWidget):
     >>> study.results()
     """
 
-    _esm = _STATIC / "study.js"
-    _css = _STATIC / "study.css"
+    _esm, _css = front_end("study", "Study")
 
     rater = traitlets.Unicode("", help="Who answers.").tag(sync=True)
     _pictures: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)

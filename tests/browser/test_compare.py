@@ -4,9 +4,11 @@ import base64
 
 import numpy as np
 import pytest
-from chromium import open_page
+from chromium import open_page, picture_of
+from skimage.color import deltaE_ciede2000, rgb2lab
 
 import sunwidget.study
+from sunwidget.widgets.compare import Compare
 from sunwidget.widgets.study import Study
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
@@ -33,6 +35,7 @@ def state_of(widget):
 def page(browser):
     context = browser.new_context(viewport={"width": 1180, "height": 860}, accept_downloads=True)
     page = open_page(context, "compare.html")
+    page.set_default_timeout(40_000)
     yield page
     assert page.errors == []
     context.close()
@@ -99,3 +102,119 @@ def test_a_study_from_start_to_strengths(page, tmp_path, screenshots):
     page.get_by_role("button", name="Start").click()
     page.get_by_text("1 of 6").wait_for()
     assert len(page.evaluate("model.get('_answers')")) == 6
+
+
+@pytest.fixture(scope="module")
+def methods(coast):
+    return Compare(coast, ["photo", "ratio", "thesis"], sun_azimuth=-6, sun_elevation=5).wait()
+
+
+@pytest.fixture
+def comparison(page, methods):
+    page.evaluate(
+        """() => {
+          window.contexts = [];
+          const original = HTMLCanvasElement.prototype.getContext;
+          HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+            const context = original.call(this, kind, ...rest);
+            if (kind === "webgl2") window.contexts.push(context);
+            return context;
+          };
+        }"""
+    )
+    page.evaluate("(state) => show('compare', state)", state_of(methods))
+    page.locator(".sunwidget.sw-live").wait_for()
+    return page
+
+
+def pictures(page):
+    """What the canvases in sight hold, once they are drawn in full."""
+    page.locator('.sw-compare-grid[aria-busy="false"]').wait_for()
+    found = page.evaluate(
+        """() => [...document.querySelectorAll(".sw-compare-cell:not([hidden]) canvas")]
+                   .map((canvas) => canvas.toDataURL("image/png").split(",")[1])"""
+    )
+    return [picture_of(picture) for picture in found]
+
+
+def test_all_pictures_follow_one_sun_and_are_the_kernels(comparison, methods, screenshots):
+    page = comparison
+    page.get_by_role("button", name="Difference").click()
+    page.get_by_role("button", name="Zoom: ").click()  # a pixel for a pixel
+    before = pictures(page)
+    for found, kernel in zip(before, methods.render().values(), strict=True):
+        assert found.shape == kernel.shape
+        assert np.abs(found.astype(int) - kernel).max() <= 1
+    assert len(page.evaluate("contexts.filter((gl) => !gl.isContextLost())")) == 1
+
+    # The read-out against another implementation of CIEDE2000, on the whole pictures.
+    page.locator(".sw-compare-difference:visible").nth(1).wait_for()
+    said = page.locator(".sw-compare-difference:visible").all_inner_texts()
+    first, *others = (rgb2lab(picture) for picture in before)
+    for text, other in zip(said, others, strict=True):
+        assert float(text.split()[1]) == pytest.approx(
+            deltaE_ciede2000(first, other).mean(), abs=0.4
+        )
+
+    # A drag in the last picture moves the sun of all; the photo stays.
+    page.keyboard.press("0")
+    fitted = pictures(page)
+    cells = page.locator(".sw-compare-cell")
+    box = cells.nth(2).bounding_box()
+    page.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.3 * box["height"])
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.75 * box["width"], box["y"] + 0.35 * box["height"], steps=3)
+    page.mouse.up()
+    after = pictures(page)
+    page.screenshot(path=screenshots / "compare.png")
+    assert np.array_equal(after[0], fitted[0])
+    for one, other in zip(after[1:], fitted[1:], strict=True):
+        assert np.abs(one.astype(int) - other).mean() > 1
+    x = 0.75 * methods.scene.width
+    expected = methods.scene.camera.angles(x, 0.35 * methods.scene.height)
+    sun = page.evaluate("[model.get('sun_azimuth'), model.get('sun_elevation')]")
+    assert sun == pytest.approx(expected, abs=0.2)
+    suns = page.locator(".sw-sun").evaluate_all("(all) => all.map((s) => s.ariaValueText)")
+    assert len(set(suns)) == 1
+
+    # One step of the history.
+    page.get_by_role("button", name="Undo").click()
+    assert page.evaluate("model.get('sun_elevation')") == 5
+    for one, other in zip(pictures(page), fitted, strict=True):
+        assert np.array_equal(one, other)
+
+
+def test_two_pictures_and_a_divider(comparison):
+    page = comparison
+    page.get_by_role("radio", name="Wipe").click()
+    page.get_by_label("Right picture").select_option("thesis")
+    pictures(page)
+    divider = page.get_by_role("slider", name="Divider")
+    assert "photo" in divider.get_attribute("aria-valuetext")
+    over = page.locator(".sw-over canvas")
+    assert over.get_attribute("aria-label") == "thesis"
+    assert "50%" in over.evaluate("(canvas) => canvas.style.clipPath")
+    divider.focus()
+    page.keyboard.press("Shift+ArrowRight")
+    assert "60%" in over.evaluate("(canvas) => canvas.style.clipPath")
+    page.keyboard.press("w")
+    assert page.evaluate("model.get('arrangement')") == "side_by_side"
+    assert over.count() == 0
+    page.evaluate("closeView()")
+    assert page.evaluate("contexts.every((gl) => gl.isContextLost())")
+    assert page.locator(".sunwidget").count() == 0
+
+
+def test_own_suns_give_way_to_the_one_that_is_dragged(page, coast):
+    recipes = {"<i>low</i>": {"sun_elevation": 2}, "high": {"sun_elevation": 30}}
+    page.evaluate("(state) => show('compare', state)", state_of(Compare(coast, recipes).wait()))
+    page.locator(".sunwidget.sw-live").wait_for()
+    own = page.get_by_role("button", name="Own suns")
+    assert own.get_attribute("aria-pressed") == "true"
+    page.get_by_role("slider", name="Sun in <i>low</i>").focus()
+    page.keyboard.press("ArrowUp")
+    page.keyboard.press("Tab")
+    assert own.get_attribute("aria-pressed") == "false"
+    assert page.evaluate("[model.get('one_sun'), model.get('sun_elevation')]") == [True, 2.5]
+    own.click()
+    assert page.evaluate("model.get('one_sun')") is False

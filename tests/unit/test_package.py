@@ -186,8 +186,8 @@ def wheel(root, tmp_path_factory):
 
 def test_the_wheel_holds_the_built_front_end(wheel):
     names = wheel.namelist()
-    assert "sunwidget/static/sun_editor.js" in names
-    assert "sunwidget/static/sky_explorer.js" in names
+    for bundle in ("sun_editor", "sky_explorer", "compare", "study"):
+        assert {f"sunwidget/static/{bundle}.js", f"sunwidget/static/{bundle}.css"} <= set(names)
     assert not [name for name in names if name.startswith(("js/", "tests/"))]
 
 

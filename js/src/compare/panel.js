@@ -1,0 +1,135 @@
+/** One picture of a comparison: its canvas, its label, and the sun's handle on it. */
+
+import { element, setAttributes } from "../controls/element.js";
+import { SunTool } from "../editor/sun_tool.js";
+import { PictureStage } from "../stage.js";
+import { equal } from "../state.js";
+
+/**
+ * @typedef {import("../types.js").Edit} Edit
+ * @typedef {import("../types.js").Point} Point
+ * @typedef {import("./view.js").View} View
+ * @typedef {{ label: string, recipe?: Edit, scene?: number, photo?: boolean }} Variant as the
+ *   kernel sends it; the label alone as long as the photo is not analysed
+ */
+
+export class Panel extends PictureStage {
+  /**
+   * @param {View} view
+   * @param {number} index of its variant
+   * @param {AbortSignal} signal
+   */
+  constructor(view, index, signal) {
+    const canvas = element("canvas", { class: "sw-compare-canvas", role: "img" });
+    const picture = element("div", { class: "sw-compare-picture" }, canvas);
+    super(picture, { className: "sw-compare-cell", signal });
+    const context = canvas.getContext("2d", { alpha: false });
+    if (!context) throw new Error("This browser offers no 2-D canvas.");
+    this.view = view;
+    this.index = index;
+    this.canvas = canvas;
+    this.context = context;
+    this.label = element("span", { class: "sw-compare-label" });
+    this.difference = element("span", { class: "sw-compare-difference", hidden: true });
+    this.plate = element("div", { class: "sw-compare-plate" }, this.label, this.difference);
+    this.node.append(this.plate);
+    this.drawn = ""; // what the canvas shows
+    const panel = this;
+    this.sun = new SunTool({
+      stage: panel,
+      state: {
+        begin: () => view.state.begin(),
+        commit: () => view.state.commit(),
+        cancel: () => view.state.cancel(),
+        set: (changes) => view.state.set({ ...changes, one_sun: true }),
+      },
+      parameter: (name) => view.parameter(name),
+      value: (name) => panel.value(name),
+      get camera() {
+        return view.cameras[panel.variant.scene ?? 0] ?? null;
+      },
+      get scene() {
+        return panel.scene;
+      },
+    });
+    this.overlay.append(this.sun.node);
+  }
+
+  /** @returns {Variant} */
+  get variant() {
+    return this.view.variants()[this.index];
+  }
+
+  get scene() {
+    return this.view.scenes[this.variant.scene ?? 0] ?? null;
+  }
+
+  /** What is drawn: the recipe, under the common sun if there is one. @returns {Edit} */
+  edit() {
+    const { recipe = {}, photo } = this.variant;
+    const { sun_azimuth, sun_elevation, one_sun } = this.view.state.values;
+    return one_sun && !photo ? { ...recipe, sun_azimuth, sun_elevation } : recipe;
+  }
+
+  /** Where the handle stands: on the photo, too, at the common sun. @param {string} name */
+  value(name) {
+    const { values } = this.view.state;
+    const own = values.one_sun ? values[name] : this.variant.recipe?.[name];
+    return Number(own ?? this.scene?.automatic[name] ?? 0);
+  }
+
+  /** The photo as it is, until its analysis is there. @param {ImageBitmap} photo */
+  showPhoto(photo) {
+    this.fit(photo.width, photo.height);
+    this.context.drawImage(photo, 0, 0);
+    this.drawn = "";
+  }
+
+  /**
+   * @param {[number, number]} size in pixels
+   * @returns {boolean} whether the canvas shows what it should; false when the context was lost
+   */
+  drawPicture(size) {
+    const { scene } = this;
+    const frame = this.view.frames[this.variant.scene ?? 0];
+    if (!scene || !frame) return false;
+    const edit = this.edit();
+    const key = JSON.stringify([edit, size, scene.revision]);
+    if (key === this.drawn) return true;
+    if (!frame.draw(edit, size)) return false;
+    this.fit(...size);
+    this.context.drawImage(frame.canvas, 0, 0);
+    this.drawn = key;
+    return true;
+  }
+
+  /** @param {number} width @param {number} height */
+  fit(width, height) {
+    if (equal([this.canvas.width, this.canvas.height], [width, height])) return;
+    this.canvas.width = width;
+    this.canvas.height = height;
+  }
+
+  /** Label and handle. */
+  drawMarks() {
+    const { label } = this.variant;
+    if (this.label.textContent !== label) {
+      this.label.textContent = label;
+      setAttributes(this.canvas, { "aria-label": label });
+      setAttributes(this.sun.handle, { "aria-label": `Sun in ${label}` });
+    }
+    this.sun.draw();
+  }
+
+  /** Place on the picture of a pointer, also outside it. @param {{ clientX: number, clientY: number }} event @returns {Point} */
+  placeOf(event) {
+    const box = this.picture.getBoundingClientRect();
+    return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+  }
+
+  /** A pointer's point on the stage in CSS pixels. @param {{ clientX: number, clientY: number }} event @returns {Point} */
+  pointOf(event) {
+    const { left, top } = this.node.getBoundingClientRect();
+    return [event.clientX - left, event.clientY - top];
+  }
+}

@@ -1,0 +1,77 @@
+/** Every key of a comparison; the sun's arrow keys and the divider's belong to these. */
+
+import { openHelp } from "../controls/help_dialog.js";
+import { isTaken, runShortcut } from "../controls/keys.js";
+
+/** @typedef {import("./view.js").View} View */
+
+/** @type {import("../controls/keys.js").Shortcut<View>[]} */
+const SHORTCUTS = [
+  {
+    section: "Pictures",
+    keys: ["W"],
+    label: "Beside each other, or two with a divider",
+    run: (view) => view.setArrangement(view.wipes ? "side_by_side" : "wipe"),
+  },
+  {
+    section: "Pictures",
+    keys: ["D"],
+    label: "Difference from the first",
+    run: (view) => view.setDifference(!view.model.get("difference")),
+  },
+  { section: "Pictures", keys: ["+", "="], label: "Zoom in", run: (view) => view.stepZoom(1) },
+  { section: "Pictures", keys: ["-"], label: "Zoom out", run: (view) => view.stepZoom(-1) },
+  { section: "Pictures", keys: ["0", "Mod+0"], label: "All of the picture", run: (v) => v.fit() },
+  {
+    section: "Pictures",
+    keys: ["Z"],
+    label: "100 %, or all of the picture",
+    run: (view) => view.toggleZoom(),
+  },
+  { section: "Pictures", keys: ["Space"], label: "Held: drag the pictures themselves" },
+  {
+    section: "Sun, when it has the focus",
+    keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
+    label: "Move it in all pictures; with Shift ten times as far",
+  },
+  { section: "Sun, when it has the focus", keys: ["Home"], label: "Back to the photo's own" },
+  {
+    section: "Divider, when it has the focus",
+    keys: ["ArrowLeft", "ArrowRight"],
+    label: "Move it; with Shift five times as far",
+  },
+  { section: "History", keys: ["Mod+Z"], label: "Undo", run: (view) => view.state.undo() },
+  {
+    section: "History",
+    keys: ["Mod+Shift+Z", "Mod+Y"],
+    label: "Redo",
+    run: (view) => view.state.redo(),
+  },
+  {
+    section: "Help",
+    keys: ["?"],
+    label: "These keys",
+    run: (view) => openHelp(view.root, "Keys of the comparison", SHORTCUTS),
+  },
+];
+
+/**
+ * @param {View} view
+ * @param {AbortSignal} signal
+ */
+export function listenToKeys(view, signal) {
+  const { root } = view;
+  const hand = (/** @type {boolean} */ on) => root.classList.toggle("sw-hand", on);
+  root.addEventListener(
+    "keydown",
+    (event) => {
+      if (event.key === " " && !isTaken(event)) {
+        hand(true);
+        event.preventDefault();
+      } else runShortcut(SHORTCUTS, view, event);
+    },
+    { signal },
+  );
+  root.addEventListener("keyup", ({ key }) => key === " " && hand(false), { signal });
+  root.addEventListener("focusout", () => hand(false), { signal });
+}

@@ -1,0 +1,120 @@
+/** How the pictures stand, the history, and how large they are. */
+
+import { button, radioButtons } from "../controls/button.js";
+import { element } from "../controls/element.js";
+import { historyButtons } from "../controls/history.js";
+import { equal } from "../state.js";
+
+/** @typedef {import("./view.js").View} View */
+
+/** @param {View} view */
+export function toolbar(view) {
+  const arrangement = radioButtons({
+    label: "Arrangement",
+    choices: [
+      {
+        value: "side_by_side",
+        icon: "columns",
+        label: "Side by side",
+        title: "All beside each other (W)",
+      },
+      { value: "wipe", icon: "split", label: "Wipe", title: "Two with a divider (W)" },
+    ],
+    value: view.model.get("arrangement"),
+    onChange: (value) => view.setArrangement(value),
+  });
+  const selects = ["Left", "Right"].map((side, i) => {
+    const select = element("select", { class: "sw-select", "aria-label": `${side} picture` });
+    select.addEventListener("change", () => view.setPair(i, Number(select.value)));
+    return select;
+  });
+  const pair = element("div", { class: "sw-group sw-compare-pair" }, ...selects);
+  const history = historyButtons(view.state, "Back to the sun that it began with");
+  const own = button({
+    icon: "sun",
+    label: "Own suns",
+    title: "Each picture under the sun of its own recipe",
+    caption: true,
+    onClick: () => view.state.set({ one_sun: !view.state.values.one_sun }),
+  });
+  const difference = button({
+    icon: "difference",
+    label: "Difference",
+    title: "How much each picture differs from the first (D)",
+    caption: true,
+    onClick: () => view.setDifference(!view.model.get("difference")),
+  });
+  const smaller = button({
+    icon: "minus",
+    label: "Zoom out",
+    title: "Zoom out (−)",
+    onClick: () => view.stepZoom(-1),
+  });
+  const larger = button({
+    icon: "plus",
+    label: "Zoom in",
+    title: "Zoom in (+)",
+    onClick: () => view.stepZoom(1),
+  });
+  const percent = element("button", {
+    type: "button",
+    class: "sw-button sw-compare-percent",
+    title: "100 %, or all of the picture (Z)",
+  });
+  percent.addEventListener("click", () => view.toggleZoom());
+  const zoom = element(
+    "div",
+    { class: "sw-group", role: "group", "aria-label": "Zoom" },
+    smaller,
+    percent,
+    larger,
+  );
+  const end = element("div", { class: "sw-group sw-end" }, own, difference, zoom);
+  const node = element(
+    "div",
+    { class: "sw-toolbar", role: "toolbar", "aria-label": "Comparison" },
+    arrangement.node,
+    pair,
+    history.node,
+    end,
+  );
+  return {
+    node,
+    show() {
+      const { state, wipes } = view;
+      const all = view.variants();
+      arrangement.show(wipes ? "wipe" : "side_by_side");
+      pair.hidden = !wipes || all.length < 3;
+      selects.forEach((select, i) => {
+        const labels = all.map(({ label }) => label);
+        if (
+          !equal(
+            labels,
+            [...select.options].map(({ text }) => text),
+          )
+        ) {
+          select.replaceChildren(
+            ...labels.map((label, value) => element("option", { value }, label)),
+          );
+        }
+        select.value = String(view.pair[i]);
+      });
+      history.show();
+      own.hidden = !view.hasOwnSuns();
+      own.setAttribute("aria-pressed", String(!state.values.one_sun));
+      difference.setAttribute("aria-pressed", String(Boolean(view.model.get("difference"))));
+    },
+    showZoom() {
+      const { zoom: shown } = view;
+      const [least, most] = shown.bounds;
+      const text = `${Math.round(100 * shown.scale)} %`;
+      percent.textContent = text;
+      percent.setAttribute(
+        "aria-label",
+        `Zoom: ${text}${shown.fits ? ", all of the picture" : ""}`,
+      );
+      smaller.disabled = shown.scale <= least;
+      larger.disabled = shown.scale >= most;
+    },
+  };
+}

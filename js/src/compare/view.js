@@ -1,0 +1,387 @@
+/**
+ * One view of a comparison. All pictures are drawn by one frame graph in turn, on one WebGL
+ * context (recipes with strokes or hints of their own have maps and a graph of their own), and
+ * share sun, zoom and pan.
+ */
+
+import { Camera } from "../camera.js";
+import { Divider } from "../controls/divider.js";
+import { element } from "../controls/element.js";
+import { Zoom } from "../editor/zoom.js";
+import { Frame } from "../frame.js";
+import { FrameLoop } from "../frame_loop.js";
+import { decodePicture } from "../gl/texture.js";
+import { watchSight } from "../sight.js";
+import { EditState } from "../state.js";
+import { columns } from "./columns.js";
+import { Differences } from "./differences.js";
+import { Panel } from "./panel.js";
+import { listenToPointer } from "./pointer.js";
+import { listenToKeys } from "./shortcuts.js";
+import { toolbar } from "./toolbar.js";
+
+/**
+ * @typedef {import("../types.js").Model} Model
+ * @typedef {import("../types.js").Parameter} Parameter
+ * @typedef {import("../types.js").Scene & { revision: number }} Scene
+ * @typedef {import("../types.js").Status} Status
+ */
+
+const TALLEST = 680; // CSS pixels of all pictures together
+const MAPS = ["layers", "surface", "backdrop", "clear_sky"];
+// Shares of the preview's size that are drawn. Few: each draws all of the picture's passes anew.
+const SHARES = [0.25, 0.375, 0.5, 0.75, 1];
+
+// The row of the switch, which is in no table of the kernel's.
+const ONE_SUN = { kind: "switch", label: "One sun", section: "sun", analysis: false };
+
+export class View {
+  /**
+   * @param {Model} model
+   * @param {HTMLElement} root
+   * @param {AbortSignal} signal ends the view
+   */
+  constructor(model, root, signal) {
+    this.model = model;
+    this.root = root;
+    this.signal = signal;
+    /** @type {Parameter[]} */
+    this.parameters = model.get("_parameters");
+    this.state = new EditState(model, this.rows(), signal);
+    /** @type {Frame[]} by scene */
+    this.frames = [];
+    /** @type {Scene[]} */
+    this.scenes = [];
+    /** @type {Camera[]} by scene */
+    this.cameras = [];
+    this.zoom = new Zoom();
+    this.pair = [0, 1]; // of the wipe
+    this.loads = 0;
+    this.loop = new FrameLoop(
+      (scale) => this.draw(scale),
+      () => this.state.before !== null,
+      signal,
+    );
+    this.loop.setSight(false); // until the page is laid out
+    watchSight(root, signal, (inSight) => this.loop.setSight(inSight));
+    this.panels = this.variants().map((_, index) => new Panel(this, index, signal));
+    this.grid = element("div", { class: "sw-compare-grid" }, ...this.panels.map((p) => p.node));
+    this.divider = new Divider({ label: "Divider", onMove: () => this.placeDivider() });
+    this.readout = element("div", { class: "sw-readout" });
+    this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
+    this.toolbar = toolbar(this);
+    this.differences = new Differences(this);
+    root.append(
+      this.toolbar.node,
+      element(
+        "div",
+        { class: "sw-main" },
+        this.grid,
+        this.message,
+        element("div", { class: "sw-foot" }, this.readout),
+      ),
+    );
+    for (const panel of this.panels) listenToPointer(this, panel, signal);
+    listenToKeys(this, signal);
+    this.listen(signal);
+    this.showStatus();
+    void this.loadPhoto();
+    void this.loadScenes();
+    this.show();
+  }
+
+  /** The sun's rows of the kernel's table and the switch, with what the widget began with. */
+  rows() {
+    /** @type {{ name: string, default: unknown }[]} */
+    const rows = this.model.get("_rows");
+    return rows.map((row) => {
+      const found = this.parameters.find(({ name }) => name === row.name);
+      return /** @type {Parameter} */ ({ ...ONE_SUN, ...found, ...row });
+    });
+  }
+
+  /** @param {AbortSignal} signal */
+  listen(signal) {
+    const { model } = this;
+    /** @type {Record<string, () => void>} */
+    const handlers = {
+      "change:_photo": () => void this.loadPhoto(),
+      "change:_scenes": () => void this.loadScenes(),
+      "change:_variants": () => this.show(),
+      "change:_status": () => this.showStatus(),
+      "change:arrangement": () => this.show(),
+      "change:difference": () => this.show(),
+    };
+    for (const [event, handler] of Object.entries(handlers)) model.on(event, handler);
+    /** @type {(message: any) => void} */
+    const onMessage = (content) => {
+      if (content?.type === "error") this.showError(content.error);
+    };
+    model.on("msg:custom", onMessage);
+    this.state.subscribe(() => this.show());
+    const observer = new ResizeObserver(() => this.layOut());
+    observer.observe(this.grid);
+    signal.addEventListener("abort", () => {
+      observer.disconnect();
+      for (const [event, handler] of Object.entries(handlers)) model.off(event, handler);
+      model.off("msg:custom", onMessage);
+      for (const frame of this.frames) frame.dispose();
+      this.loads += 1;
+    });
+  }
+
+  /** @returns {import("./panel.js").Variant[]} */
+  variants() {
+    return this.model.get("_variants");
+  }
+
+  get wipes() {
+    return this.model.get("arrangement") === "wipe";
+  }
+
+  /** Those in sight. */
+  shown() {
+    return this.wipes ? this.pair.map((index) => this.panels[index]) : this.panels;
+  }
+
+  /** Whether the recipes ask for different suns. */
+  hasOwnSuns() {
+    const suns = this.variants()
+      .filter(({ photo }) => !photo)
+      .map(({ recipe = {} }) => JSON.stringify([recipe.sun_azimuth, recipe.sun_elevation]));
+    return new Set(suns).size > 1;
+  }
+
+  /** @param {string} name */
+  parameter(name) {
+    const found = this.parameters.find((p) => p.name === name);
+    if (!found) throw new Error(`The kernel's table has no parameter "${name}".`);
+    return found;
+  }
+
+  async loadPhoto() {
+    const bytes = this.model.get("_photo");
+    if (!bytes?.byteLength) return;
+    try {
+      const photo = await decodePicture(bytes);
+      if (!this.signal.aborted) {
+        this.zoom.size = [photo.width, photo.height];
+        for (const panel of this.panels) if (!panel.drawn) panel.showPhoto(photo);
+        this.layOut();
+      }
+      photo.close();
+    } catch {
+      this.showError("The browser cannot decode the preview that the kernel sent.");
+    }
+  }
+
+  /** Take over what the analysis found: decode all maps, then swap all at once. */
+  async loadScenes() {
+    /** @type {Record<string, any>[]} */
+    const given = this.model.get("_scenes");
+    if (!given?.length) return;
+    this.loads += 1;
+    const load = this.loads;
+    const names = ["photo", ...MAPS];
+    try {
+      const bitmaps = await Promise.all(
+        given.map((row) =>
+          Promise.all(
+            names.map((name) =>
+              decodePicture(name === "photo" ? this.model.get("_photo") : row[`_${name}`]),
+            ),
+          ),
+        ),
+      );
+      if (load !== this.loads) {
+        for (const bitmap of bitmaps.flat()) bitmap.close();
+        return;
+      }
+      for (const frame of this.frames.slice(given.length)) frame.dispose();
+      this.frames = given.map(({ scene }, i) => {
+        const frame = this.frames[i] ?? new Frame(element("canvas"), this.parameters);
+        names.forEach((name, n) => {
+          frame.setPicture(name, bitmaps[i][n]);
+        });
+        frame.setScene(scene);
+        return frame;
+      });
+    } catch (error) {
+      this.showError(`The maps of the analysis cannot be shown: ${message(error)}`);
+      return;
+    }
+    this.scenes = given.map(({ scene }) => scene);
+    this.cameras = this.scenes.map(({ width, height, camera }) => {
+      return new Camera(width, height, camera.fov_vertical_deg, camera.pitch, camera.roll);
+    });
+    this.show();
+  }
+
+  showStatus() {
+    /** @type {Status | null} */
+    const status = this.model.get("_status");
+    if (!status) return;
+    const working = status.stage === "opening" || status.stage === "analysing";
+    this.panels[0].setProgress(working ? status.fraction : null, status.message);
+    this.showError(status.stage === "error" ? status.message : "");
+  }
+
+  /** Text is shown as text: a file name may hold HTML. @param {string} text */
+  showError(text) {
+    this.message.hidden = !text;
+    this.message.textContent = text;
+  }
+
+  /** Everything that follows from the state: marks at once, the pictures with the next refresh. */
+  show() {
+    this.toolbar.show();
+    this.layOut();
+    this.request();
+  }
+
+  /** Draw with the next refresh of the screen. */
+  request() {
+    this.grid.setAttribute("aria-busy", "true");
+    this.loop.request();
+  }
+
+  /** @param {string} arrangement */
+  setArrangement(arrangement) {
+    this.model.set("arrangement", arrangement);
+    this.model.save_changes();
+  }
+
+  /** @param {boolean} on */
+  setDifference(on) {
+    this.model.set("difference", on);
+    this.model.save_changes();
+  }
+
+  /** @param {number} side of the wipe @param {number} index of a variant */
+  setPair(side, index) {
+    const other = 1 - side;
+    // Nothing is compared with itself: the other side takes what stood here.
+    if (this.pair[other] === index) this.pair[other] = this.pair[side];
+    this.pair[side] = index;
+    this.show();
+  }
+
+  /** @param {1 | -1} way */
+  stepZoom(way) {
+    this.zoom.step(way);
+    this.rezoomed();
+  }
+
+  toggleZoom() {
+    this.zoom.toggle();
+    this.rezoomed();
+  }
+
+  fit() {
+    this.zoom.fit();
+    this.rezoomed();
+  }
+
+  rezoomed() {
+    this.layOut();
+    this.request();
+  }
+
+  /** Put every picture where it belongs. */
+  layOut() {
+    const room = this.grid.clientWidth;
+    if (!room) return;
+    const aspect = this.zoom.size[0] / this.zoom.size[1];
+    const shown = this.shown();
+    const found = columns(this.wipes ? 1 : shown.length, room, TALLEST, aspect);
+    const [width, height] = [Math.floor(found.width), Math.round(found.width / aspect)];
+    this.grid.style.gridTemplateColumns = `repeat(${found.columns}, ${width}px)`;
+    this.grid.style.gridAutoRows = `${height}px`;
+    this.zoom.setRoom({
+      width,
+      height,
+      fit: { x: 0, y: 0, width, height },
+      pixelRatio: window.devicePixelRatio || 1,
+    });
+    const box = this.zoom.box();
+    for (const panel of this.panels) {
+      const { node, picture } = panel;
+      node.hidden = !shown.includes(panel);
+      node.classList.toggle("sw-under", this.wipes && panel === shown[0]);
+      node.classList.toggle("sw-over", this.wipes && panel === shown[1]);
+      Object.assign(picture.style, {
+        left: `${box.x}px`,
+        top: `${box.y}px`,
+        width: `${box.width}px`,
+        height: `${box.height}px`,
+      });
+    }
+    this.root.classList.toggle("sw-pixels", this.zoom.scale >= 2);
+    this.placeDivider();
+    this.toolbar.showZoom();
+    this.drawMarks();
+  }
+
+  placeDivider() {
+    for (const { canvas } of this.panels) canvas.style.clipPath = "";
+    if (!this.wipes) {
+      this.divider.node.remove();
+      return;
+    }
+    const [under, over] = this.shown();
+    if (this.divider.node.parentElement !== over.node) over.node.append(this.divider.node);
+    const box = this.zoom.box();
+    const { width, height } = this.zoom.room;
+    const x = this.divider.place(
+      {
+        left: Math.max(0, box.x),
+        right: Math.min(width, box.x + box.width),
+        top: Math.max(0, box.y),
+        bottom: Math.min(height, box.y + box.height),
+      },
+      [under.variant.label, over.variant.label],
+    );
+    over.canvas.style.clipPath = `inset(0 0 0 ${(100 * (x - box.x)) / box.width}%)`;
+  }
+
+  /** Pixels to draw: as many as the screen shows. @param {number} scale @returns {[number, number]} */
+  drawSize(scale) {
+    const seen = Math.min(1, this.zoom.scale);
+    const share = (SHARES.find((each) => each >= 0.98 * seen) ?? 1) * scale;
+    const [width, height] = this.zoom.size;
+    return [Math.max(1, Math.round(width * share)), Math.max(1, Math.round(height * share))];
+  }
+
+  /** @param {number} scale of what the screen shows */
+  draw(scale) {
+    this.drawMarks();
+    if (!this.scenes.length) return;
+    const size = this.drawSize(scale);
+    try {
+      const drawn = this.shown().map((panel) => panel.drawPicture(size));
+      if (!drawn.every(Boolean)) return;
+      this.root.classList.add("sw-live");
+      if (scale < 1) return;
+      this.grid.setAttribute("aria-busy", "false");
+      this.differences.request();
+    } catch (error) {
+      this.showError(message(error));
+    }
+  }
+
+  drawMarks() {
+    for (const panel of this.shown()) panel.drawMarks();
+    if (!this.scenes.length) return;
+    this.readout.textContent = this.state.values.one_sun
+      ? sunText(this.panels[0].value("sun_azimuth"), this.panels[0].value("sun_elevation"))
+      : "Each picture under its own sun; drag one for a common sun";
+  }
+}
+
+/** @param {number} azimuth @param {number} elevation */
+const sunText = (azimuth, elevation) =>
+  `Sun ${Math.abs(azimuth).toFixed(1)}° ${azimuth < 0 ? "left" : "right"} · ` +
+  `${elevation.toFixed(1)}° elevation`;
+
+/** @param {unknown} error */
+const message = (error) => (error instanceof Error ? error.message : String(error));

@@ -1,0 +1,238 @@
+"""Compare: methods or recipes side by side on one photo, under one sun.
+
+The browser draws all pictures with one frame graph in turn; the kernel analyses the photo once,
+and once more for every recipe with other strokes or hints.
+"""
+
+from __future__ import annotations
+
+import base64
+import inspect
+import threading
+from typing import Any
+
+import anywidget
+import traitlets
+
+from sunwidget.analysis.scene import Scene, analyze
+from sunwidget.edit import PARAMETERS, Edit, parameter, unknown_name_message
+from sunwidget.photo import Photo, open_photo
+from sunwidget.widgets.analyst import Analyst
+from sunwidget.widgets.edit_traits import edit_traits
+from sunwidget.widgets.front_end import front_end
+from sunwidget.widgets.payload import (
+    encode_maps,
+    encode_preview,
+    parameter_json,
+    scene_json,
+    thumbnail,
+)
+from sunwidget.widgets.variants import common_sun, corrections, variants
+
+_NAMES = tuple(p.name for p in PARAMETERS)
+_SUN = ("sun_azimuth", "sun_elevation")
+_ANALYSIS = tuple(
+    name
+    for name, p in inspect.signature(analyze).parameters.items()
+    if p.kind is p.KEYWORD_ONLY and name not in (*_NAMES, "progress")
+)
+LAYOUTS = ("side_by_side", "wipe")
+
+
+class Compare(anywidget.AnyWidget):
+    """Show methods or recipes side by side on one photo.
+
+    Dragging the sun in one picture moves it in all; zooming one zooms all.
+
+    Parameters
+    ----------
+    source : path, bytes, file object, PIL image, array, Photo or Scene
+        The picture; see ``sunwidget.open``.
+    what : list or mapping
+        2 to 9 of: an ``Edit`` or a recipe; the name of a method ("ratio", "thesis",
+        "thesis_literal") or of a preset ("sunset" …); "photo", the photo as it was. A mapping
+        gives them labels: ``{"mine": edit, "thesis": "thesis"}``.
+    recipe : Edit or dict, optional
+        What each of them is laid over.
+    **options
+        Any parameter of ``Edit``, which wins over ``recipe``, and any option of
+        ``sunwidget.analyze``.
+
+    Attributes
+    ----------
+    sun_azimuth, sun_elevation : float or None
+        The sun of all pictures, in degrees; None is the photo's own.
+    one_sun : bool
+        Whether there is one: at first, unless what is shown asks for different suns. While it is
+        off each picture has its own; moving the sun turns it on.
+    arrangement : {"side_by_side", "wipe"}
+        All beside each other, or two over each other with a divider.
+    difference : bool
+        Whether each picture says how much it differs from the first (CIEDE2000).
+
+    Raises
+    ------
+    EditError
+        For an unknown name or a value out of range; the nearest spelling is suggested.
+    TypeError
+        For an unknown keyword, or an option of ``analyze`` beside a Scene.
+    PhotoError
+        For a picture that cannot be opened.
+
+    Examples
+    --------
+    >>> compare = sw.Compare("beach.jpg", ["photo", "ratio", "thesis"], sun_elevation=3)
+    >>> pictures = compare.render(size=(1200, 800))
+    """
+
+    _esm, _css = front_end("compare", "Compare")
+
+    _parameters: traitlets.List = traitlets.List().tag(sync=True)
+    # The rows that this widget itself sets, their defaults being what it began with.
+    _rows: traitlets.List = traitlets.List().tag(sync=True)
+    _photo = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
+    _scenes: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
+    _variants: traitlets.List = traitlets.List().tag(sync=True)
+    _status = traitlets.Dict().tag(sync=True, echo_update=False)
+    _history = traitlets.Dict().tag(sync=True)
+
+    one_sun = traitlets.Bool(True, help="Whether all pictures have one sun.").tag(sync=True)
+    arrangement = traitlets.Enum(
+        LAYOUTS, LAYOUTS[0], help="All beside each other, or two with a divider."
+    ).tag(sync=True)
+    difference = traitlets.Bool(
+        False, help="Whether each picture says how much it differs from the first (CIEDE2000)."
+    ).tag(sync=True)
+
+    locals().update(edit_traits(parameter(name) for name in _SUN))
+
+    def __init__(
+        self,
+        source: Any,
+        what: Any,
+        *,
+        recipe: Edit | dict[str, Any] | None = None,
+        **options: Any,
+    ) -> None:
+        for name in options:
+            if name not in _NAMES and name not in _ANALYSIS:
+                raise TypeError(f"Compare: {unknown_name_message(name, _ANALYSIS)}")
+        analysis = {name: options.pop(name) for name in _ANALYSIS if name in options}
+        if isinstance(source, Scene) and analysis:
+            raise TypeError(
+                f"Compare takes {next(iter(analysis))}= with a photo; this scene is analysed "
+                "already. Pass the photo, or analyze(photo, ...) with the option."
+            )
+        base = recipe if isinstance(recipe, Edit) else Edit.from_dict(recipe or {})
+        self._shown = variants(what, base.replace(**options))
+        self.photo: Photo = source.photo if isinstance(source, Scene) else open_photo(source)
+        self._lock = threading.RLock()
+        self._revision = 0
+        self._edits: dict[str, Edit] = {}  # as they were given, once the photo is analysed
+        sun = common_sun(self._shown)
+        start = {
+            "sun_azimuth": None if sun is None else sun[0],
+            "sun_elevation": None if sun is None else sun[1],
+            "one_sun": sun is not None,
+        }
+        super().__init__(
+            _parameters=parameter_json(),
+            _rows=[{"name": name, "default": value} for name, value in start.items()],
+            _photo=encode_preview(self.photo),
+            _variants=[{"label": variant.label} for variant in self._shown],
+            _status={"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"},
+            _history={"past": [], "future": []},
+            **start,
+        )
+        self._analyst = Analyst(
+            source if isinstance(source, Scene) else self.photo,
+            analysis,
+            self._deliver,
+            self._report,
+        )
+        self._analyst.ask(Edit())
+
+    @property
+    def scene(self) -> Scene:
+        """The analysed photo, without any recipe's strokes and hints; waits for the analysis."""
+        return self._analyst.wait()
+
+    def wait(self, timeout: float | None = None) -> Compare:
+        """Block until the photo is analysed; raises what the analysis raised.
+
+        Parameters
+        ----------
+        timeout : float, optional
+            Seconds after which to raise ``TimeoutError``. Default: none.
+        """
+        self._analyst.wait(timeout)
+        return self
+
+    @property
+    def edits(self) -> dict[str, Edit]:
+        """What is shown, by label, under the sun as it is now; waits for the analysis."""
+        self._analyst.wait()
+        sun = {name: getattr(self, name) for name in _SUN}
+        photos = {variant.label for variant in self._shown if variant.is_photo}
+        return {
+            label: edit.replace(**sun) if self.one_sun and label not in photos else edit
+            for label, edit in self._edits.items()
+        }
+
+    def render(self, **options: Any) -> dict[str, Any]:
+        """Return the pictures by label; ``options`` as in ``sunwidget.render``.
+
+        Examples
+        --------
+        >>> study = sw.Study(compare.render(size=(1200, 800)))
+        """
+        from sunwidget.renderer.render import render
+
+        scene = self.scene
+        return {label: render(scene, edit, **options) for label, edit in self.edits.items()}
+
+    def set_state(self, sync_data: dict[str, Any]) -> None:
+        """Take over what the browser sent; a value that is refused is answered, not raised."""
+        try:
+            super().set_state(sync_data)
+        except traitlets.TraitError as error:
+            self.send({"type": "error", "error": str(error)})
+            self.send_state([name for name in sync_data if name in self.keys])
+
+    def _deliver(self, scene: Scene) -> None:
+        edits = {variant.label: variant.edit(scene) for variant in self._shown}
+        # Maps are made once for all recipes that correct the photo alike.
+        places: dict[tuple[Any, ...], int] = {}
+        scenes: list[dict[str, Any]] = []
+        for edit in edits.values():
+            if corrections(edit) in places:
+                continue
+            places[corrections(edit)] = len(scenes)
+            corrected = scene.corrected(edit)
+            self._revision += 1
+            scenes.append({"scene": scene_json(corrected, self._revision)} | encode_maps(corrected))
+        with self._lock, self.hold_sync():
+            self._edits = edits
+            self._scenes = scenes
+            self._variants = [
+                {
+                    "label": variant.label,
+                    "recipe": edits[variant.label].to_dict(),
+                    "scene": places[corrections(edits[variant.label])],
+                    "photo": variant.is_photo,
+                }
+                for variant in self._shown
+            ]
+
+    def _report(self, stage: str, fraction: float, message: str) -> None:
+        with self._lock:
+            self._status = {"stage": stage, "fraction": fraction, "message": message}
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        bundle = super()._repr_mimebundle_(**kwargs)
+        if bundle is None:
+            return None
+        data, metadata = bundle
+        # GitHub, nbconvert and other viewers without widgets show this one.
+        data["image/png"] = base64.b64encode(thumbnail(self.photo)).decode("ascii")
+        return data, metadata
