@@ -66,7 +66,7 @@ export interface SceneMap {
 
 /** Where the kernel's work stands (trait `_status`). */
 export interface Status {
-  stage: "opening" | "analysing" | "ready" | "error";
+  stage: "opening" | "analysing" | "ready" | "cancelled" | "error";
   fraction: number;
   message: string;
 }
