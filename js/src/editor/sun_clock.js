@@ -4,7 +4,7 @@
  */
 
 import { angleBetween, sunAt } from "../day.js";
-import { atHours, editAt, hoursOfDay, matchHeading, orderly, solarDay } from "../place.js";
+import { editAt, hoursOfDay, matchHeading, orderly, solarDay } from "../place.js";
 
 /**
  * @typedef {import("../place.js").Place} Place
@@ -14,6 +14,8 @@ import { atHours, editAt, hoursOfDay, matchHeading, orderly, solarDay } from "..
  *   the photo's file says
  */
 
+const HOUR = 3_600_000; // milliseconds
+const DAY = 24 * HOUR;
 const SAME_PLACE = 0.02; // degrees between the sun and its path that count as none
 
 export class SunClock {
@@ -101,27 +103,44 @@ export class SunClock {
   take(latitude, longitude) {
     const { told } = this;
     // Without a zone the clock's is guessed by the longitude, as `photo_place.py` does.
-    const zone = 3_600_000 * Math.round(longitude / 15);
-    const noon = Math.floor(Date.now() / 86_400_000) * 86_400_000 + 43_200_000;
+    const zone = HOUR * Math.round(longitude / 15);
+    const noon = Math.floor(Date.now() / DAY) * DAY + DAY / 2;
     const guess = (told.clock ? Date.parse(`${told.clock}Z`) : noon) - zone;
     const moment = new Date(guess).toISOString();
     const date = told.date ?? moment.slice(0, 10);
-    const time = told.time ?? (guess - Date.parse(date)) / 3_600_000;
+    const time = told.time ?? (guess - Date.parse(date)) / HOUR;
     const place = { latitude, longitude, date, time, heading: told.heading ?? null };
     this.view.state.set({ place: orderly({ ...place, time: Math.round(time * 1e4) / 1e4 }) });
   }
 
-  /** Set the heading by the photo's own sun, taken at the clock's time. */
+  /** Take place, time and heading from the photo's file, as a step. */
+  takeFromFile() {
+    const { latitude, longitude } = this.told;
+    if (latitude != null && longitude != null) this.take(latitude, longitude);
+  }
+
+  /**
+   * Turn the clock to a date and time in UTC: the sun follows where the path is known.
+   *
+   * @param {string} date
+   * @param {number} time
+   */
+  moveToMoment(date, time) {
+    const { place, path } = this;
+    if (!place) return;
+    const days = (Date.parse(date) - Date.parse(place.date)) / DAY;
+    const hours = this.hours + 24 * days + time - place.time;
+    const known = path.length > 0 && hours >= path[0][0] && hours < path[path.length - 1][0];
+    if (known) this.moveTo(hours);
+    else this.setPlace({ date, time });
+  }
+
+  /** The heading by the photo's own sun, taken at the clock's time. */
   match() {
     const { place, path } = this;
     const { scene } = this.view;
     if (!place || !path.length || !scene) return null;
     const { sun_azimuth, sun_elevation } = scene.automatic;
     return matchHeading(place, path, [sun_azimuth, sun_elevation]);
-  }
-
-  /** The place at another hour of its path. @param {number} hours */
-  at(hours) {
-    return this.place ? atHours(this.place, hours) : null;
   }
 }
