@@ -24,4 +24,6 @@ printf '\033[1m==> pytest\033[0m\n'
 if ((${#failed[@]})); then
   trap 'printf "Failed before pytest: %s\n" "$(IFS=,; echo "${failed[*]}")"; exit 1' EXIT
 fi
-.venv/bin/python -m pytest "$@"
+# Two at a time, a file on one worker, since its fixtures are dear; in the order of collection,
+# which has the long files first and many short ones at the end.
+.venv/bin/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder "$@"
