@@ -24,8 +24,8 @@ export function choice({ parameter: p, onChange, names = {} }) {
   );
   const reset = () => onChange(String(p.default));
   back.addEventListener("click", () => {
+    select.focus(); // the button goes with the change, the keyboard stays in the row
     reset();
-    select.focus();
   });
   const label = element("span", { class: "sw-label" }, p.label);
   label.addEventListener("dblclick", () => {

@@ -40,8 +40,8 @@ export function countedSection({ title, open, onFold, onReset }, ...children) {
     icon: "reset",
     label: `Reset ${title}`,
     onClick: () => {
-      onReset?.();
       fold.focus();
+      onReset?.();
     },
   });
   reset.hidden = true;

@@ -67,9 +67,8 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
     onCommit();
   };
   back.addEventListener("click", () => {
+    range.focus(); // the button goes with the change, the keyboard stays in the row
     reset();
-    // The button goes with the change: the keyboard stays in the row.
-    range.focus();
   });
   node.addEventListener("dblclick", (event) => {
     if (event.target !== field && !range.disabled) reset();
