@@ -18,7 +18,7 @@ _SETTINGS = {
 
 
 @contextmanager
-def jupyterlab(folder, root, *, app="lab"):
+def jupyterlab(folder, root, *, app="lab", theme="JupyterLab Light"):
     """Start JupyterLab over the files of ``folder``; yields ``url(path)``; ends its kernels too.
 
     ``app="notebook"`` starts Notebook 7, whose cells answer to the same names.
@@ -27,7 +27,8 @@ def jupyterlab(folder, root, *, app="lab"):
     for name in ("labconfig", "nbconfig"):
         overrides = home / "config" / name / "default_setting_overrides.json"
         overrides.parent.mkdir(parents=True, exist_ok=True)
-        overrides.write_text(json.dumps(_SETTINGS))
+        themes = {"@jupyterlab/apputils-extension:themes": {"theme": theme}}
+        overrides.write_text(json.dumps(_SETTINGS | themes))
     token = secrets.token_hex(16)
     module, tree = {"lab": ("jupyterlab", "lab/tree"), "notebook": ("notebook", "notebooks")}[app]
 
