@@ -55,6 +55,8 @@ export class BrushTool extends Brush {
    */
   constructor(view, tool) {
     super(view, tool);
+    /** A key puts it down, and the next press lifts it. */
+    this.stays = true;
     /** @type {Point[]} */
     this.points = [];
     this.path = line(tool);

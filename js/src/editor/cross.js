@@ -7,7 +7,6 @@
  */
 
 import { setAttributes, shape } from "../controls/element.js";
-import { BRUSHES } from "./strokes.js";
 
 /** @typedef {import("../types.js").Point} Point */
 
@@ -104,7 +103,9 @@ export function cross(view, signal) {
   const on = (name, listener) => stage.node.addEventListener(name, listener, { signal });
   on("keydown", onKey);
   on("keyup", (event) => {
-    if (isPress(event) && (moved || !BRUSHES.includes(view.tool))) release();
+    if (!pressed || !isPress(event)) return;
+    if (moved || !tool().stays) release();
+    else view.announcer.say("Brush down: arrow keys paint, Enter lifts it", "strokes");
   });
   on("focus", () => {
     if (!stage.focusing) come();

@@ -105,8 +105,8 @@ export const SHORTCUTS = [
   },
   {
     section: "Picture, when it has the focus",
-    keys: ["Enter"],
-    label: "Use the tool at the cross; held, drag with the arrow keys",
+    keys: ["Enter", "Space"],
+    label: "Use the tool at the cross; a brush stays down until the next press",
   },
   {
     section: "View",

@@ -363,13 +363,14 @@ export class View {
   drawOverlay() {
     this.strokes.draw();
     for (const tool of Object.values(this.tools)) tool.draw();
+    if (this.scene) {
+      const azimuth = this.value("sun_azimuth");
+      const side = azimuth < 0 ? "left" : "right";
+      this.readout.textContent =
+        `Sun ${Math.abs(azimuth).toFixed(1)}° ${side} · ` +
+        `${this.value("sun_elevation").toFixed(1)}° elevation`;
+    }
     for (const part of this.parts) part.draw?.();
-    if (!this.scene) return;
-    const azimuth = this.value("sun_azimuth");
-    const side = azimuth < 0 ? "left" : "right";
-    this.readout.textContent =
-      `Sun ${Math.abs(azimuth).toFixed(1)}° ${side} · ` +
-      `${this.value("sun_elevation").toFixed(1)}° elevation`;
   }
 
   /** Hand the picture to the person as a file. */
