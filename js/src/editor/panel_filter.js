@@ -100,8 +100,6 @@ export function panelFilter(view, sections, { isChanged, isOpen }) {
       input.value = "";
       setOnly(false);
       event.stopPropagation();
-    } else if (event.key.length === 1) {
-      event.stopPropagation(); // letters are words here, no shortcuts
     }
   });
   /** @param {boolean} on */

@@ -71,6 +71,7 @@ export const SHORTCUTS = [
     run: (view) => view.setSubject(view.subject === "sky" ? "water" : "sky"),
   },
 
+  { section: "View", keys: ["/"], label: "Find a parameter", run: (view) => view.panel.find() },
   {
     section: "View",
     keys: ["B"],
