@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from sunwidget.analysis.maps import MAPS, SceneMap, ramp_colours, shares_of
+from sunwidget.export import lettering
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -19,8 +20,6 @@ _LONG_EDGE = 420  # of a small picture, in pixels
 _MARGIN, _GAP = 28, 24
 _LINE = 19  # height of a line of small text
 _BACK, _TEXT, _QUIET, _WARN = (24, 25, 27), (236, 237, 239), (160, 164, 170), (240, 184, 110)
-# The bundled font has no such signs.
-_SIGNS = str.maketrans({"×": "x", "–": "-", "—": "-", "≤": "<", "≥": ">", "−": "-", "→": ">"})
 
 
 def overview(scene: Scene) -> Image.Image:
@@ -59,25 +58,27 @@ def overview(scene: Scene) -> Image.Image:
     notes = [f"! {text}" for text in scene.warnings]
     if absent:
         notes.append(f"Not in this photo: {', '.join(absent)}.")
-    lines = [line for note in notes for line in _wrapped(note, sheet_width - 2 * _MARGIN, 15)]
+    lines = [
+        line for note in notes for line in lettering.wrapped(note, sheet_width - 2 * _MARGIN, 15)
+    ]
     sheet_height = 2 * _MARGIN + rows * cell_height + len(lines) * 22
     sheet = Image.new("RGB", (sheet_width, sheet_height), _BACK)
     draw = ImageDraw.Draw(sheet)
     for i, (title, text, image, described) in enumerate(tiles):
         x = _MARGIN + i % columns * (cell_width + _GAP)
         y = _MARGIN + i // columns * cell_height
-        _write(draw, (x, y), _cut(title, cell_width, 18), 18, _TEXT)
+        lettering.write(draw, (x, y), lettering.cut(title, cell_width, 18), 18, _TEXT)
         sheet.paste(image, (x, y + 28))
         below = y + 28 + height + 6
         if described is not None:
             _legend(sheet, (x, below), width, described)
             below += 22
-        for line in _wrapped(text, cell_width, 14)[: 2 if described else 3]:
-            _write(draw, (x, below), line, 14, _QUIET)
+        for line in lettering.wrapped(text, cell_width, 14)[: 2 if described else 3]:
+            lettering.write(draw, (x, below), line, 14, _QUIET)
             below += _LINE
     y = _MARGIN + rows * cell_height
     for line in lines:
-        _write(draw, (_MARGIN, y), line, 15, _WARN)
+        lettering.write(draw, (_MARGIN, y), line, 15, _WARN)
         y += 22
     return sheet
 
@@ -159,41 +160,7 @@ def _legend(sheet: Image.Image, at: tuple[int, int], width: int, entry: SceneMap
     draw = ImageDraw.Draw(sheet)
     x, y = at
     low, high = (f"{v:g} {entry.unit}".strip() for v in (entry.low, entry.high))
-    _write(draw, (x, y), low, 13, _QUIET)
-    x += _width(low, 13) + 6
+    lettering.write(draw, (x, y), low, 13, _QUIET)
+    x += lettering.width(low, 13) + 6
     sheet.paste(Image.fromarray(bar), (x, y + 4))
-    _write(draw, (x + 166, y), high, 13, _QUIET)
-
-
-def _font(size: int) -> Any:
-    from PIL import ImageFont
-
-    return ImageFont.load_default(size)
-
-
-def _width(text: str, size: int) -> int:
-    return math.ceil(_font(size).getlength(text.translate(_SIGNS)))
-
-
-def _write(draw: Any, at: tuple[int, int], text: str, size: int, colour: Any) -> None:
-    draw.text(at, text.translate(_SIGNS), font=_font(size), fill=colour)
-
-
-def _cut(text: str, width: int, size: int) -> str:
-    if _width(text, size) <= width:
-        return text
-    while text and _width(text + "…", size) > width:
-        text = text[:-1]
-    return text + "…"
-
-
-def _wrapped(text: str, width: int, size: int) -> list[str]:
-    """Break a text into lines at its blanks."""
-    lines, line = [], ""
-    for word in text.split():
-        longer = f"{line} {word}".strip()
-        if line and _width(longer, size) > width:
-            lines.append(line)
-            longer = word
-        line = longer
-    return [*lines, _cut(line, width, size)] if line else lines
+    lettering.write(draw, (x + 166, y), high, 13, _QUIET)

@@ -8,26 +8,35 @@ from __future__ import annotations
 
 import base64
 import inspect
+import os
 import threading
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import anywidget
+import numpy as np
 import traitlets
 
 from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.edit import PARAMETERS, Edit, parameter, unknown_name_message
+from sunwidget.files import target
 from sunwidget.photo import Photo, open_photo
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.edit_traits import edit_traits
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.payload import (
     encode_maps,
+    encode_png,
     encode_preview,
     parameter_json,
     scene_json,
     thumbnail,
 )
+from sunwidget.widgets.standalone import embedded_state, write_page
 from sunwidget.widgets.variants import common_sun, corrections, variants
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 _NAMES = tuple(p.name for p in PARAMETERS)
 _SUN = ("sun_azimuth", "sun_elevation")
@@ -36,6 +45,8 @@ _ANALYSIS = tuple(
     for name, p in inspect.signature(analyze).parameters.items()
     if p.kind is p.KEYWORD_ONLY and name not in (*_NAMES, "progress")
 )
+_SMALL_EDGE = 480  # of each picture of the static one
+_NOTES = ("Drag the sun in any picture: everything happens in this file, and nothing leaves it.",)
 LAYOUTS = ("side_by_side", "wipe")
 
 
@@ -191,6 +202,56 @@ class Compare(anywidget.AnyWidget):
         scene = self.scene
         return {label: render(scene, edit, **options) for label, edit in self.edits.items()}
 
+    def sheet(self, long_edge: int = 640) -> Image.Image:
+        """Return all pictures beside each other under their labels, as one picture.
+
+        Parameters
+        ----------
+        long_edge : int, default 640
+            Pixels of each picture's longer side, at most the photo's.
+
+        Returns
+        -------
+        PIL.Image.Image
+
+        Examples
+        --------
+        >>> compare.sheet().save("methods.png")
+        """
+        from sunwidget.export.sheet import sheet
+
+        scale = min(1.0, long_edge / max(self.photo.size))
+        width, height = (max(1, round(n * scale)) for n in self.photo.size)
+        return sheet(self.render(size=(width, height)))
+
+    def to_html(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        title: str | None = None,
+        overwrite: bool = False,
+    ) -> Path | str:
+        """Write a page in which the pictures can be compared: one file, no kernel, no network.
+
+        Waits for the analysis. Without a ``path`` the page is returned as text.
+
+        Raises
+        ------
+        FileExistsError
+            When ``path`` exists and ``overwrite`` is false.
+        """
+        from sunwidget.export.html import Still, page
+
+        place = None if path is None else target(path, overwrite=overwrite)
+        self.wait()
+        picture = self._static_picture()
+        size = open_photo(picture).size
+        still = Still(picture, size, f"{self.photo.name}: {', '.join(self._edits)}")
+        with self._lock:
+            embedded = embedded_state(self)
+        text = page(embedded, still, title=title or self.photo.name, notes=_NOTES)
+        return text if place is None else write_page(text, place, overwrite=overwrite)
+
     def set_state(self, sync_data: dict[str, Any]) -> None:
         """Take over what the browser sent; a value that is refused is answered, not raised."""
         try:
@@ -228,11 +289,22 @@ class Compare(anywidget.AnyWidget):
         with self._lock:
             self._status = {"stage": stage, "fraction": fraction, "message": message}
 
+    def _static_picture(self) -> bytes:
+        """Return a small PNG: all pictures where they can be had at once, else the photo."""
+        from sunwidget.renderer.gl_thread import RendererError
+
+        if self._analyst.ready:
+            try:
+                return encode_png(np.asarray(self.sheet(_SMALL_EDGE)))
+            except RendererError:
+                pass
+        return thumbnail(self.photo)
+
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         bundle = super()._repr_mimebundle_(**kwargs)
         if bundle is None:
             return None
         data, metadata = bundle
         # GitHub, nbconvert and other viewers without widgets show this one.
-        data["image/png"] = base64.b64encode(thumbnail(self.photo)).decode("ascii")
+        data["image/png"] = base64.b64encode(self._static_picture()).decode("ascii")
         return data, metadata

@@ -10,6 +10,7 @@ from typing import Any
 import anywidget
 import traitlets
 
+from sunwidget.files import target
 from sunwidget.photo import open_photo
 from sunwidget.study import (
     Answer,
@@ -23,8 +24,10 @@ from sunwidget.study import (
 from sunwidget.study.bradley_terry import PRIOR
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.payload import encode_preview
+from sunwidget.widgets.standalone import embedded_state, write_page
 
 _MOST_REPEATS = 100
+_NOTES = ("Save your answers at the end: they stay in this window, and nothing leaves it.",)
 
 
 class Study(anywidget.AnyWidget):
@@ -111,6 +114,33 @@ class Study(anywidget.AnyWidget):
             When ``path`` exists and ``overwrite`` is false.
         """
         return write_csv(self.answers, path, overwrite=overwrite)
+
+    def to_html(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        title: str = "Study",
+        overwrite: bool = False,
+    ) -> Path | str:
+        """Write a page for raters elsewhere: one file, no kernel, no network.
+
+        It begins without answers. Raters save theirs as a file when they are done, and
+        ``read_csv`` pools these. Without a ``path`` the page is returned as text.
+
+        Raises
+        ------
+        FileExistsError
+            When ``path`` exists and ``overwrite`` is false.
+        """
+        from sunwidget.export.html import Still, page
+
+        place = None if path is None else target(path, overwrite=overwrite)
+        embedded = embedded_state(self)
+        embedded["state"] |= {"_answers": [], "rater": ""}
+        first = self._pictures[0]
+        still = Still(first, open_photo(first).size, self._question)
+        text = page(embedded, still, title=title, notes=_NOTES)
+        return text if place is None else write_page(text, place, overwrite=overwrite)
 
     @staticmethod
     def read_csv(*paths: str | os.PathLike[str]) -> list[Answer]:

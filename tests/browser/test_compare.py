@@ -7,6 +7,7 @@ import pytest
 from chromium import open_page, picture_of
 from skimage.color import deltaE_ciede2000, rgb2lab
 
+import sunwidget as sw
 import sunwidget.study
 from sunwidget.widgets.compare import Compare
 from sunwidget.widgets.study import Study
@@ -218,3 +219,29 @@ def test_own_suns_give_way_to_the_one_that_is_dragged(page, coast):
     assert page.evaluate("[model.get('one_sun'), model.get('sun_elevation')]") == [True, 2.5]
     own.click()
     assert page.evaluate("model.get('one_sun')") is False
+
+
+def test_pages_need_no_kernel_and_no_network(browser, methods, tmp_path):
+    context = browser.new_context(viewport={"width": 900, "height": 700}, accept_downloads=True)
+    context.set_offline(True)
+    page = context.new_page()
+    page.set_default_timeout(40_000)
+    page.goto(methods.to_html(tmp_path / "compare.html").as_uri())
+    page.locator(".sunwidget.sw-live").wait_for()
+    page.get_by_role("slider", name="Sun in thesis").focus()
+    page.keyboard.press("Shift+ArrowUp")
+    page.get_by_role("button", name="Zoom: ").click()
+    found = pictures(page)[1]
+    edit = methods.edits["ratio"].replace(sun_elevation=methods.sun_elevation + 5)
+    kernel = sw.render(methods.scene, edit)
+    assert np.abs(found.astype(int) - kernel).max() <= 1
+
+    study = Study({"a": plain(40), "b": plain(220)})
+    page.goto(study.to_html(tmp_path / "study.html").as_uri())
+    page.get_by_role("button", name="Start").click()
+    page.locator(".sw-study-picture").nth(1).click()
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save answers").click()
+    download.value.save_as(tmp_path / "answers.csv")
+    assert [row.choice for row in sunwidget.study.read_csv(tmp_path / "answers.csv")] == ["right"]
+    context.close()

@@ -1,5 +1,7 @@
 """Compare and Study without a browser: what they take, what they say, what they hand on."""
 
+import base64
+
 import numpy as np
 import pytest
 from relight_scenes import sample_scene
@@ -150,3 +152,36 @@ def test_answers_that_no_study_writes_are_refused():
     study.set_state({"_answers": [{"rater": "eve", "choice": "both"}]})
     with pytest.raises(StudyError, match="lacks"):
         _ = study.answers
+
+
+def test_a_sheet_shows_all_pictures_under_their_labels(methods):
+    picture = np.asarray(methods.sheet(96))
+    shown = methods.render(size=(96, 64))
+    # Three in a row, each below a band for its label.
+    for i, expected in enumerate(shown.values()):
+        x = i * (picture.shape[1] + 4) // 3
+        assert np.array_equal(picture[-64:, x : x + 96], expected)
+        assert picture[:-64, x : x + 96].max() > 150
+    assert picture.shape == (64 + 26, 3 * 96 + 2 * 4, 3)
+
+
+def test_viewers_without_widgets_see_the_sheet(methods):
+    data, _ = methods._repr_mimebundle_()
+    seen = sw.open(base64.b64decode(data["image/png"])).encoded
+    assert np.array_equal(seen, np.asarray(methods.sheet(480)))
+
+
+def test_pages_hold_what_they_show_and_no_text_of_a_person_as_html(scene, tmp_path):
+    compare = Compare(scene, {"<script>alert(1)</script>": "ratio", "b": "thesis"}).wait()
+    path = compare.to_html(tmp_path / "page.html")
+    text = path.read_text("utf-8")
+    assert "<script>alert" not in text
+    assert text == compare.to_html()
+    with pytest.raises(FileExistsError):
+        compare.to_html(path)
+    study = Study({"a": plain(0), "b": plain(1)}, question="<b>Which?</b>", rater="anna")
+    study.set_state({"_answers": [{"rater": "anna"}]})
+    page = study.to_html()
+    assert "<b>Which" not in page
+    # A page begins anew.
+    assert "anna" not in page

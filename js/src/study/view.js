@@ -35,6 +35,7 @@ export class View {
     this.shown = null;
     this.since = 0; // when it appeared, ms
     this.loads = 0;
+    this.saved = 0; // how many answers a file holds
 
     this.progress = element("span", { class: "sw-study-progress", role: "status" });
     this.undo = button({
@@ -66,6 +67,11 @@ export class View {
       this.running = false;
       this.show();
     };
+    // In a page without a kernel the answers are gone with the window.
+    const onLeave = (/** @type {Event} */ event) => {
+      if (model.get("_standalone") && this.answers().length > this.saved) event.preventDefault();
+    };
+    window.addEventListener("beforeunload", onLeave, { signal });
     model.on("change:_answers", onAnswers);
     model.on("change:rater", onRater);
     signal.addEventListener("abort", () => {
@@ -294,6 +300,7 @@ export class View {
     const day = new Date().toISOString().slice(0, 10);
     const link = element("a", { href: URL.createObjectURL(blob), download: `study-${day}.csv` });
     link.click();
+    this.saved = this.answers().length;
     setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
   }
 }
