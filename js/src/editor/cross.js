@@ -112,6 +112,10 @@ export function cross(view, signal) {
   });
   on("blur", go);
   on("pointerdown", go);
+  on("pointermove", (event) => {
+    // A mouse that rests is told of a move, too, when the picture moves under it.
+    if (event.movementX || event.movementY) go();
+  });
 
   return {
     draw() {

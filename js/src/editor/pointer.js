@@ -4,6 +4,7 @@
  */
 
 /**
+ * @typedef {import("../types.js").Point} Point
  * @typedef {import("./view.js").View} View
  * @typedef {{ clientX: number, clientY: number }} Spot
  */
@@ -22,6 +23,8 @@ export function listenToPointer(view, signal) {
   /** @type {Map<number, Spot>} */
   const fingers = new Map();
   let pinching = false; // until the last finger is lifted
+  /** @type {{ place: Point, size: number, scale: number }} what the fingers hold */
+  let grip = { place: [0, 0], size: 0, scale: 1 };
   let panning = false;
   /** @type {Spot} where a pointer that pans was last */
   let last = { clientX: 0, clientY: 0 };
@@ -35,6 +38,11 @@ export function listenToPointer(view, signal) {
     const event = waiting;
     waiting = null;
     if (event) tool().begin(stage.placeOf(event), event);
+  };
+
+  const hold = () => {
+    const { size, ...middle } = span([...fingers.values()]);
+    grip = { place: stage.placeOf(middle), size, scale: stage.zoom.scale };
   };
 
   /** A second finger: what the first began was not meant. */
@@ -52,7 +60,10 @@ export function listenToPointer(view, signal) {
     const touch = event.pointerType === "touch";
     if (touch) fingers.set(event.pointerId, at(event));
     if (touch && fingers.size === 2) pinch();
-    if (pinching) overlay.setPointerCapture(event.pointerId);
+    if (pinching) {
+      overlay.setPointerCapture(event.pointerId);
+      hold();
+    }
     if (pinching || view.pointer !== null || event.button > 1) return;
     panning = event.button === 1 || view.root.classList.contains("sw-hand");
     if (!panning && !view.scene) return;
@@ -90,11 +101,9 @@ export function listenToPointer(view, signal) {
   /** @param {PointerEvent} event */
   const stretch = (event) => {
     if (!fingers.has(event.pointerId)) return;
-    const before = span([...fingers.values()]);
     fingers.set(event.pointerId, at(event));
-    const now = span([...fingers.values()]);
-    stage.pan(now.clientX - before.clientX, now.clientY - before.clientY);
-    if (before.size && now.size) stage.zoomTo((stage.zoom.scale * now.size) / before.size, now);
+    const { size, ...middle } = span([...fingers.values()]);
+    stage.hold(grip.place, middle, grip.scale * (grip.size ? size / grip.size : 1));
   };
 
   // The end of capture is the one end of a drag, whatever ended it.
@@ -102,6 +111,7 @@ export function listenToPointer(view, signal) {
   const lost = (event) => {
     fingers.delete(event.pointerId);
     if (!fingers.size) pinching = false;
+    else if (pinching) hold();
     if (event.pointerId !== view.pointer) return;
     begin();
     view.pointer = null;

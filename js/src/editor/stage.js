@@ -121,6 +121,19 @@ export class Stage extends PictureStage {
     this.layOut();
   }
 
+  /**
+   * Zoom and shift the picture so that a place of it is where two fingers hold it.
+   *
+   * @param {Point} place
+   * @param {{ clientX: number, clientY: number }} at
+   * @param {number} scale
+   */
+  hold(place, at, scale) {
+    if (scale !== this.zoom.scale) this.zoom.zoomTo(scale);
+    this.zoom.bring(place, this.pointOf(at));
+    this.layOut();
+  }
+
   /** @param {1 | -1} way */
   stepZoom(way) {
     this.zoom.step(way);
