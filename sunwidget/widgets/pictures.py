@@ -107,6 +107,12 @@ class Pictures(EditHistory):
             data = path.read_bytes()
         return {"name": name, "type": _TYPES[suffix]}, [data]
 
+    def _page_for_browser(self, _content: dict[str, Any], progress: Progress) -> Answer:
+        progress(0.05, "Writing the page …")
+        data = str(self.to_html()).encode("utf-8")
+        progress(1.0, "Sending the page …")
+        return {"name": f"{Path(self.photo.name).stem}-sun.html", "type": "text/html"}, [data]
+
     def _thumbnail(self) -> bytes:
         """Return a small PNG: the edit where it can be had at once, else the photo."""
         from sunwidget.renderer.gl_thread import RendererError

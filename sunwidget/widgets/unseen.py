@@ -46,7 +46,7 @@ def to_html(
     -------
     Path or str
         Where the page is, or the page. It holds the photo's preview (at most 2048 pixels a
-        side), its maps and the front end: 4 to 9 MB. In it everything that a shader draws is
+        side), its maps and the front end: 2 to 8 MB. In it everything that a shader draws is
         live; strokes, hints and the full size are not there, and it says so.
 
     Raises

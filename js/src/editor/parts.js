@@ -23,6 +23,7 @@ import { placeSection } from "./place_section.js";
 import { presetThumbnails } from "./preset_thumbnails.js";
 import { progress } from "./progress.js";
 import { recipe } from "./recipe.js";
+import { webPage } from "./save.js";
 import { split } from "./split.js";
 import { versions } from "./versions.js";
 import { zoomControl } from "./zoom_control.js";
@@ -52,6 +53,7 @@ const PARTS = [
   versions,
   drop,
   recipe,
+  webPage,
   autosave,
   help,
   progress,

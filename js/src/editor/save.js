@@ -6,23 +6,27 @@ import { download } from "./download.js";
 /** @typedef {import("./view.js").View} View */
 
 /**
- * Hand the picture to the person. `view.work` cancels it while it is made.
+ * Make something that the person keeps; one at a time. `view.work` cancels it meanwhile.
  *
  * @param {View} view
+ * @param {string} what as the person calls it
+ * @param {(signal: AbortSignal) => Promise<void>} make
  */
-export async function save(view) {
+async function work(view, what, make) {
   if (view.work) return;
-  const work = new AbortController();
-  view.work = work;
+  const controller = new AbortController();
+  view.work = controller;
   view.state.push();
   view.toolbar.show();
   try {
-    await (view.kernel.answers ? saveFullSize(view, work.signal) : savePreview(view));
+    await make(controller.signal);
     view.notices.hide("save");
   } catch (error) {
     const why = error instanceof Error ? error.message : String(error);
-    const text = error instanceof Cancelled ? "Saving was cancelled." : `Saving failed: ${why}`;
-    view.notices.show("save", { text, actions: [{ label: "Try again", run: () => save(view) }] });
+    view.notices.show("save", {
+      text: error instanceof Cancelled ? `${what} was cancelled.` : `${what} failed: ${why}`,
+      actions: [{ label: "Try again", run: () => work(view, what, make) }],
+    });
   } finally {
     view.work = null;
     view.stage.setProgress(null, "");
@@ -31,18 +35,42 @@ export async function save(view) {
 }
 
 /**
- * The frame at full size, in the photo's own format.
+ * Hand the picture to the person as a file.
  *
  * @param {View} view
+ */
+export const save = (view) =>
+  work(view, "Saving", (signal) =>
+    view.kernel.answers ? fromKernel(view, "save", signal) : savePreview(view),
+  );
+
+/** The editor itself as a file. @type {import("./parts.js").MakePart} */
+export function webPage(view) {
+  view.toolbar.menu.add({
+    group: "picture",
+    label: "Save as a web page",
+    title: "One file in which the sun can be moved, without a notebook and without network",
+    enabled: () => view.kernel.answers && view.scene !== null,
+    shown: () => view.kernel.state !== "none",
+    run: () => work(view, "Saving the page", (signal) => fromKernel(view, "page", signal)),
+  });
+  return {};
+}
+
+/**
+ * A file that the kernel makes: the frame at full size, or a page.
+ *
+ * @param {View} view
+ * @param {"save" | "page"} action
  * @param {AbortSignal} signal
  */
-async function saveFullSize({ channel, stage }, signal) {
+async function fromKernel({ channel, stage }, action, signal) {
   /** @type {import("../channel.js").OnProgress} */
   const onProgress = (fraction, text) => {
     if (!signal.aborted) stage.setProgress(fraction, text);
   };
   onProgress(0, "Asking the kernel …");
-  const { result, buffers } = await channel.request("save", {}, onProgress, [], signal);
+  const { result, buffers } = await channel.request(action, {}, onProgress, [], signal);
   download(new Blob([/** @type {BlobPart} */ (buffers[0])], { type: result.type }), result.name);
 }
 
