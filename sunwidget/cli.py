@@ -24,6 +24,7 @@ from sunwidget.cli_photo import (
     refuse_existing,
     scene_of,
 )
+from sunwidget.cli_place import add_place, is_placed, placed, places_of_day
 from sunwidget.cli_transfer import add_transfer
 from sunwidget.edit import NUMBERS, PARAMETERS, Edit, EditError, Parameter
 
@@ -74,6 +75,7 @@ def _parser() -> argparse.ArgumentParser:
     add_photo(render)
     render.add_argument("-o", "--output", type=Path, required=True, help=".png, .jpg, .tif …")
     render.add_argument("--size", type=_size, metavar="WxH", help="pixels (default: the photo's)")
+    add_place(render)
     _add_edit(render)
     render.set_defaults(run=_render)
 
@@ -87,6 +89,7 @@ def _parser() -> argparse.ArgumentParser:
     sweep.add_argument("--size", type=_size, metavar="WxH", help="pixels (default: ≤ 1920 a side)")
     sweep.add_argument("--fps", type=float, default=24, help="frames a second (default 24)")
     sweep.add_argument("--frames", type=int, help="number of frames (default: 5 seconds)")
+    add_place(sweep, end=True)
     _add_edit(sweep)
     end = sweep.add_argument_group("end of the film")
     for p in NUMBERS:
@@ -177,6 +180,8 @@ def _render(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     if options.preset is not None:
         edit = _edit(options, start=presets.edit(options.preset, scene, _recipe(options)))
+    if is_placed(options):
+        edit = _edit(options, start=placed(options, scene, edit))
     begin = time.perf_counter()
     if options.size is None:
         sw.save((scene, edit), options.output, overwrite=options.overwrite)
@@ -191,19 +196,25 @@ def _sweep(options: argparse.Namespace) -> int:
     import sunwidget as sw
 
     start = _edit(options)
-    if start == _edit(options, "to_", start) and options.preset is None:
+    moves = options.preset is not None or options.to_time is not None
+    if start == _edit(options, "to_", start) and not moves:
         raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
     refuse_existing(options.output, options.overwrite)
     scene = scene_of(options)
     if options.preset is not None:
         start = _edit(options, start=presets.edit(options.preset, scene, _recipe(options)))
+    if is_placed(options):
+        start = _edit(options, start=placed(options, scene, start))
     end = _edit(options, "to_", start)
-    if start == end:
+    edits = [start, end]
+    if options.to_time is not None:
+        edits = _day(options, scene, start, end)
+    elif start == end:
         raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
     with Progress("film") as progress:
         sw.sweep(
             scene,
-            [start, end],
+            edits,
             options.output,
             fps=options.fps,
             frames=options.frames,
@@ -213,6 +224,18 @@ def _sweep(options: argparse.Namespace) -> int:
         )
     print(options.output)
     return 0
+
+
+def _day(options: argparse.Namespace, scene: Any, start: Edit, end: Edit) -> list[Edit]:
+    """Return an edit a frame: the sun on its path, all else on the straight way to the end."""
+    from sunwidget.export.sweep import DEFAULT_SECONDS, between
+
+    count = options.frames or max(3, round(DEFAULT_SECONDS * options.fps))
+    row = []
+    for i, place in enumerate(places_of_day(options, scene, start, count)):
+        edit = between(start, end, i / (count - 1), scene.automatic)
+        row.append(_edit(options, start=edit.at(place)))
+    return row
 
 
 def _analyze(options: argparse.Namespace) -> int:

@@ -6,8 +6,11 @@ import json
 import numpy as np
 import photo_corpus as corpus
 import pytest
+from PIL import Image
 
 import sunwidget as sw
+from sunwidget.cli import _day, _parser, main
+from sunwidget.cli_place import placed
 from sunwidget.edit import EditError
 from sunwidget.heading import heading_by_sun, match
 from sunwidget.photo_place import date_and_hours, from_photo, zone_name
@@ -370,3 +373,70 @@ def test_the_heading_that_is_missing_is_found_by_the_sun(pvlib, scene):
     assert "1 h later" in found.note
     editor.place = found.agreeing[0]
     assert editor.place.heading == pytest.approx(told.heading, abs=3.5)
+
+
+# --- on the command line -----------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    """A small copy of the coast with its EXIF."""
+    photo = sw.sample("coast")
+    path = tmp_path_factory.mktemp("photo") / "coast.png"
+    Image.fromarray(photo.preview(240)).save(path, exif=photo.exif)
+    return path
+
+
+def test_a_time_on_the_command_line_puts_the_sun_there(pvlib, file, tmp_path):
+    output = tmp_path / "evening.png"
+    assert main(["render", str(file), "--time", "17:45", "-o", str(output)]) == 0
+    scene = sw.analyze(sw.open(file))
+    place = from_photo(scene.photo).place.replace(time=17.75)
+    expected = sw.render(scene, sw.Edit().at(place))
+    assert np.array_equal(np.asarray(Image.open(output)), expected)
+    assert sw.open(output).recipe["place"]["time"] == 17.75
+    # Elsewhere the sun is elsewhere, at the photo's own time.
+    flags = ["--place", "-33.9,18.4", "--date", "2024-12-21", "--heading", "200"]
+    options = _parser().parse_args(["render", str(file), *flags, "-o", "x.png"])
+    there = Place(-33.9, 18.4, "2024-12-21", 16.6975, 200.0)
+    assert placed(options, scene, sw.Edit()) == sw.Edit().at(there)
+
+
+def test_a_film_of_the_day_keeps_the_sun_on_its_path(pvlib, file):
+    options = _parser().parse_args(
+        [
+            "sweep",
+            str(file),
+            "--time",
+            "15:00",
+            "--to-time",
+            "19:00",
+            "--frames",
+            "5",
+            "-o",
+            "x.gif",
+        ]
+    )
+    scene = sw.analyze(sw.open(file))
+    start = placed(options, scene, sw.Edit())
+    edits = _day(options, scene, start, start.replace(exposure=1.0))
+    assert [edit.place.time for edit in edits] == [15, 16, 17, 18, 19]
+    assert [edit.exposure for edit in edits] == [0, 0.25, 0.5, 0.75, 1]
+    for edit in edits:
+        assert edit.sun_azimuth == pytest.approx(sun_at(edit.place).azimuth, abs=1e-4)
+
+
+def test_the_command_line_says_what_is_missing(pvlib, tmp_path, capsys, scene):
+    plain = tmp_path / "plain.png"
+    Image.fromarray(scene.photo.preview(96)).save(plain)
+    output = ["-o", str(tmp_path / "x.png")]
+    assert main(["render", str(plain), "--time", "12:00", *output]) == 2
+    assert "give --date and --place" in capsys.readouterr().err
+    known = ["--place", "50,14", "--date", "2024-06-21", "--time", "12:00"]
+    assert main(["render", str(plain), *known, *output]) == 2
+    assert "Give --heading" in capsys.readouterr().err
+    assert not (tmp_path / "x.png").exists()
+    for wrong in (["--time", "25:10"], ["--place", "95,3"], ["--heading", "x"], ["--date", "1.2."]):
+        with pytest.raises(SystemExit):
+            main(["render", str(plain), *wrong, *output])
+        assert f"argument {wrong[0]}" in capsys.readouterr().err

@@ -1,0 +1,156 @@
+"""The command line's clock: flags of place and time, and the edit that they make."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from typing import TYPE_CHECKING, Any
+
+from sunwidget.edit import Edit
+from sunwidget.place import Place, at_hours, hours_of_day
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+
+_TIME = re.compile(r"(\d{1,2})(?::([0-5]\d))?$")
+
+
+def add_place(parser: argparse.ArgumentParser, *, end: bool = False) -> None:
+    """Add the flags of place and time; with ``end`` also the time at which a film ends."""
+    group = parser.add_argument_group(
+        "time and place (what is not given comes from the recipe or the photo's file)"
+    )
+    group.add_argument(
+        "--place",
+        dest="coordinates",
+        type=_coordinates,
+        metavar="LAT,LON",
+        help="degrees, north and east positive",
+    )
+    group.add_argument("--date", type=_date, metavar="YYYY-MM-DD", help="day in UTC")
+    group.add_argument("--time", type=_time, metavar="HH:MM", help="UTC; the sun goes where it is")
+    group.add_argument(
+        "--heading",
+        type=_heading,
+        metavar="DEG",
+        help="where the camera looks, clockwise from north (default: by the photo's own sun)",
+    )
+    if end:
+        group.add_argument("--to-time", type=_time, metavar="HH:MM", help="time of the last frame")
+
+
+def is_placed(options: argparse.Namespace) -> bool:
+    """Whether a flag of place or time was given."""
+    names = ("coordinates", "date", "time", "heading", "to_time")
+    return any(getattr(options, name, None) is not None for name in names)
+
+
+def placed(options: argparse.Namespace, scene: Scene, edit: Edit) -> Edit:
+    """Return ``edit`` with the sun where the flags of place and time put it.
+
+    Raises
+    ------
+    ValueError
+        When place, date or time are neither given nor known, or the heading cannot be found.
+    ImportError
+        Without pvlib; the message names the extra that brings it.
+    """
+    return edit.at(_place(options, scene, edit))
+
+
+def places_of_day(
+    options: argparse.Namespace, scene: Scene, edit: Edit, frames: int
+) -> list[Place]:
+    """Return the places of the frames of a film from the time to ``--to-time``."""
+    start = _place(options, scene, edit)
+    first = hours_of_day(start)
+    last = first + (options.to_time - start.time) % 24
+    if last == first:
+        raise ValueError("The film ends when it begins: give --to-time another time than --time.")
+    step = (last - first) / (frames - 1)
+    return [at_hours(start, first + i * step) for i in range(frames)]
+
+
+def _place(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
+    from sunwidget.photo_place import date_and_hours, from_photo
+
+    latitude, longitude = options.coordinates or (None, None)
+    told = from_photo(scene.photo, longitude)
+    values: dict[str, Any] = {
+        "latitude": told.latitude,
+        "longitude": told.longitude,
+        "heading": told.heading,
+    }
+    if told.moment is not None:
+        values["date"], values["time"] = date_and_hours(told.moment)
+    own = (values.get("date"), values.get("time"))
+    given = {
+        "latitude": latitude,
+        "longitude": longitude,
+        "date": options.date,
+        "time": options.time,
+        "heading": options.heading,
+    }
+    known = vars(edit.place) if edit.place is not None else {}
+    for source in (known, given):
+        values |= {name: value for name, value in source.items() if value is not None}
+    flags = {"latitude": "--place", "longitude": "--place", "date": "--date", "time": "--time"}
+    missing = sorted({flag for name, flag in flags.items() if values.get(name) is None})
+    if missing:
+        raise ValueError(f"The photo's file does not tell it: give {' and '.join(missing)}.")
+    if values["heading"] is None or options.time is None:
+        for note in told.notes:
+            print(f"sunwidget: {note}", file=sys.stderr)
+    place = Place(**values)
+    return place if place.heading is not None else _facing(scene, place, *own)
+
+
+def _facing(scene: Scene, place: Place, date: str | None, time: float | None) -> Place:
+    """Return the place with the heading that the photo's sun gives at the photo's own time."""
+    from sunwidget.heading import heading_by_sun
+
+    if date is None or time is None:
+        raise ValueError(
+            "Which way the camera looks is found by the photo's sun at the photo's own time, "
+            "which its file does not tell. Give --heading, degrees from north."
+        )
+    found = heading_by_sun(scene, place.replace(date=date, time=time))
+    print(f"sunwidget: Heading {found.place.heading:.1f}°. {found.note}", file=sys.stderr)
+    return place.replace(heading=found.place.heading)
+
+
+def _coordinates(text: str) -> tuple[float, float]:
+    try:
+        latitude, longitude = (float(part) for part in text.split(","))
+        Place(latitude, longitude, "2000-01-01", 0)
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not latitude,longitude in degrees, as 50.09,14.42"
+        ) from None
+    return latitude, longitude
+
+
+def _date(text: str) -> str:
+    try:
+        return Place(0, 0, text, 0).date
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a day as 2024-06-21") from None
+
+
+def _time(text: str) -> float:
+    found = _TIME.match(text)
+    hours = int(found[1]) + int(found[2] or 0) / 60 if found else -1.0
+    if not 0 <= hours <= 24:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a time of day in UTC as 17:30")
+    return hours
+
+
+def _heading(text: str) -> float:
+    try:
+        heading = Place(0, 0, "2000-01-01", 0, float(text)).heading
+    except ValueError:
+        heading = None
+    if heading is None:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a heading from 0 to 360 degrees")
+    return heading
