@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 from collections.abc import Callable
 from pathlib import Path
@@ -17,10 +18,10 @@ FILM_SIZE = (960, 640)
 def demo(
     folder: Path, progress: Callable[[float, str], object] | None = None
 ) -> list[tuple[Path, str]]:
-    """Analyse the sample, write its maps, a still, a recipe and a sunset film.
+    """Analyse the sample, write its maps, a still, a recipe, a page and a sunset film.
 
     Returns (path, what it is) in the order of making. Its own files are replaced. Without
-    the ``video`` extra the film is a WebP.
+    the ``video`` extra the film is a WebP; without the built front end there is no page.
     """
     import sunwidget as sw
     from sunwidget.export.maps import save_maps
@@ -37,6 +38,12 @@ def demo(
     recipe = folder / "recipe.json"
     recipe.write_text(STILL.to_json() + "\n", "utf-8")
     made.append((recipe, f"its recipe: sunwidget render sample:{SAMPLE} --recipe {recipe} -o …"))
+
+    # A checkout without Node has no front end, and is told so where it is built.
+    with contextlib.suppress(ImportError):
+        page = folder / "page.html"
+        sw.to_html(scene, STILL, page, title="Move the sun over the coast", overwrite=True)
+        made.append((page, "a page in which the sun can be moved: open it in a browser"))
 
     suffix = ".mp4" if importlib.util.find_spec("imageio_ffmpeg") else ".webp"
     ends = [Edit(sun_elevation=elevation) for elevation in SUNSET]

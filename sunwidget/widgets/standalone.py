@@ -29,8 +29,12 @@ def editor_page(
     embedded: dict[str, Any], still: Still, photo: Photo, *, title: str | None = None
 ) -> str:
     """Return the page of an editor from its ``embedded_state``."""
-    # The steps back are the maker's own, and a stroke taken back would need the kernel.
-    state = embedded["state"] | {"_history": {"past": [], "future": []}}
+    state = embedded["state"] | {
+        # The steps back are the maker's own, and a stroke taken back would need the kernel.
+        "_history": {"past": [], "future": []},
+        # Pages are passed on: where a photo was taken is in none that its maker did not put there.
+        "_photo_place": {},
+    }
     name = photo.name if title is None else title
     return page({**embedded, "state": state}, still, title=name, notes=_NOTES)
 

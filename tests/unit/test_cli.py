@@ -263,7 +263,7 @@ def test_demo_writes_what_it_names(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("sunwidget.export.sweep.DEFAULT_SECONDS", 0.5)
     assert main(["demo", "-o", str(tmp_path)]) == 0
     said = capsys.readouterr().out
-    for name in ("maps", "still.png", "recipe.json", "sunset.mp4"):
+    for name in ("maps", "still.png", "recipe.json", "page.html", "sunset.mp4"):
         assert (tmp_path / name).exists()
         assert f"{tmp_path / name}  " in said
     assert np.asarray(Image.open(tmp_path / "still.png")).shape == (1024, 1536, 3)

@@ -134,6 +134,7 @@ def test_the_file_is_whole_or_absent(scene, tmp_path, monkeypatch):
 
 def test_an_editor_writes_what_it_shows(scene):
     editor = SunEditor(scene, sun_azimuth=5)
+    editor._photo_place = {"latitude": 47.123456}
     editor.exposure = 0.5
     text = editor.to_html(title="Evening")
     assert parsed(text).find("head/title").text == "Evening"
@@ -141,6 +142,8 @@ def test_an_editor_writes_what_it_shows(scene):
     assert (state["sun_azimuth"], state["exposure"]) == (5, 0.5)
     # The maker's own history stays where it is.
     assert len(editor._history["past"]) == 1
+    # Nor does a page tell where the photo was taken, unless a place was set.
+    assert "47.123456" not in text
 
 
 def test_binary_traits_are_where_they_were(scene):
