@@ -50,7 +50,9 @@ export function presetChips(state, read, lead = () => "") {
         const chosen = Object.entries(values).every(([name, value]) =>
           equal(state.values[name], value),
         );
-        node.children[i].setAttribute("aria-pressed", String(chosen));
+        const pressed = String(chosen);
+        if (node.children[i].getAttribute("aria-pressed") === pressed) continue;
+        node.children[i].setAttribute("aria-pressed", pressed);
       }
     },
   };

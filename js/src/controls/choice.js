@@ -33,7 +33,7 @@ export function choice({ parameter: p, onChange, names = {} }) {
   });
   const node = element(
     "div",
-    { class: "sw-choice", title: p.help, "data-parameter": p.name },
+    { class: "sw-choice", title: p.help, "data-parameter": p.name || null },
     label,
     back,
     select,
@@ -42,6 +42,8 @@ export function choice({ parameter: p, onChange, names = {} }) {
     node,
     /** @param {string} value */
     show(value) {
+      if (select.value === value && node.dataset.value === value) return;
+      node.dataset.value = value;
       const isDefault = value === p.default;
       select.value = value;
       back.hidden = isDefault;

@@ -57,6 +57,7 @@ export function countedSection({ title, open, onFold, onReset }, ...children) {
     fold.setAttribute("aria-expanded", String(on));
     body.hidden = !on;
   };
+  let said = "";
   setOpen(open);
   fold.addEventListener("click", () => {
     const on = body.hidden !== false;
@@ -70,10 +71,12 @@ export function countedSection({ title, open, onFold, onReset }, ...children) {
     setOpen,
     /** @param {string[]} labels of the values that are changed */
     setChanged(labels) {
+      const text = labels.join(", ");
+      if (text === said) return;
+      said = text;
       const some = labels.length > 0;
       count.hidden = reset.hidden = !some;
       if (!some) return;
-      const text = labels.join(", ");
       count.textContent = String(labels.length);
       setAttributes(count, {
         role: "img",

@@ -52,7 +52,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
   );
   const node = element(
     "div",
-    { class: "sw-slider", title: p.help, "data-parameter": p.name },
+    { class: "sw-slider", title: p.help, "data-parameter": p.name || null },
     element("span", { class: "sw-label" }, p.label),
     automatic ? found : "",
     back,
@@ -61,6 +61,8 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
   );
 
   let shown = "";
+  /** @type {unknown[]} what the row was drawn for: a drag shows the whole panel at each step */
+  let drawn = [];
   const reset = () => {
     onBegin();
     onInput(/** @type {number | null} */ (p.default));
@@ -106,6 +108,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
     onBegin();
     onInput(Math.min(p.maximum, Math.max(p.minimum, value)));
     onCommit();
+    field.value = shown; // also where a value out of range has changed nothing
   }
 
   /** Where a value stands on the track, 0–1. @param {number} value */
@@ -116,6 +119,8 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
   return {
     node,
     show(value, foundValue) {
+      if (drawn.length && drawn[0] === value && drawn[1] === foundValue) return;
+      drawn = [value, foundValue];
       const effective = value ?? foundValue;
       const known = effective !== undefined && effective !== null;
       const isDefault = value === p.default;

@@ -19,7 +19,7 @@ export function toggle({ parameter: p, onChange, color }) {
   const label = element("span", { class: "sw-label" }, p.label);
   const node = element(
     "div",
-    { class: "sw-toggle", title: p.help, "data-parameter": p.name },
+    { class: "sw-toggle", title: p.help, "data-parameter": p.name || null },
     label,
     button,
   );

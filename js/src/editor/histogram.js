@@ -88,7 +88,8 @@ export function histogram(view, signal) {
     if (view.state.before !== null && cost > DEAR_MS) return; // its end draws again
     own ??= read(view.stage.photo);
     counted = performance.now();
-    const now = read(view.stage.canvas);
+    // Until there is a frame, the photo stands where it will be.
+    const now = view.root.classList.contains("sw-live") ? read(view.stage.canvas) : own;
     cost = Math.max(performance.now() - counted, FORGETS * cost);
     if (!now) return;
     const most = ceiling([now.red, now.green, now.blue, now.luminance]);
@@ -128,6 +129,7 @@ export function histogram(view, signal) {
   });
   view.stage.photo.addEventListener("load", () => {
     own = null;
+    wake();
   });
   return { drawn: wake };
 }

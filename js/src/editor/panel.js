@@ -121,7 +121,8 @@ export function panel(view) {
         const changed = rows.filter(({ parameter }) => isChanged(parameter));
         setChanged(changed.map(({ parameter }) => parameter.label));
         const within = changed.filter(({ node: row }) => more?.contains(row)).length;
-        inMore.textContent = within ? `· ${within} changed` : "";
+        const text = within ? `· ${within} changed` : "";
+        if (inMore.textContent !== text) inMore.textContent = text;
       }
       filter.show();
     },

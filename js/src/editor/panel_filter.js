@@ -111,9 +111,12 @@ export function panelFilter(view, sections, { isChanged, isOpen }) {
   };
   changed.addEventListener("click", () => setOnly(!only));
 
+  let counted = "";
   const showCount = () => {
     const rows = sections.flatMap((section) => section.rows);
     const some = rows.filter(({ parameter }) => isChanged(parameter)).length;
+    if (counted === `${some} ${only}`) return;
+    counted = `${some} ${only}`;
     count.textContent = some ? String(some) : "";
     count.hidden = !some;
     changed.disabled = !some && !only;
