@@ -9,7 +9,7 @@ from sunwidget.widgets import SunEditor
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 
 EDITORS = 20
-MOST_CONTEXTS = 6  # js/src/gl/pool.js
+MOST_CONTEXTS = 4  # js/src/gl/pool.js
 SPREAD = """i => {
   const canvas = document.querySelectorAll(".sw-canvas")[i];
   const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);

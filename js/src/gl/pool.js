@@ -9,7 +9,7 @@
 
 const KEY = Symbol.for("sunwidget.contexts");
 
-export const MOST_CONTEXTS = 6;
+export const MOST_CONTEXTS = 4;
 
 /**
  * Ways to give a context back; a set keeps the order in which they were added.
