@@ -112,6 +112,10 @@ export function cross(view, signal) {
   });
   on("blur", go);
   on("pointerdown", go);
+  // Two cursors are one too many.
+  on("pointermove", (event) => {
+    if (event.movementX || event.movementY) go();
+  });
   on("pointermove", (event) => {
     // A mouse that rests is told of a move, too, when the picture moves under it.
     if (event.movementX || event.movementY) go();
@@ -121,6 +125,8 @@ export function cross(view, signal) {
     draw() {
       const [x, y] = stage.onOverlay(place);
       setAttributes(node, { transform: `translate(${x} ${y})` });
+      // A tool that was chosen in the meantime stands here, too.
+      if (shown && !pressed) tool().hover?.(place);
     },
   };
 }
