@@ -112,10 +112,6 @@ export function cross(view, signal) {
   });
   on("blur", go);
   on("pointerdown", go);
-  // Two cursors are one too many.
-  on("pointermove", (event) => {
-    if (event.movementX || event.movementY) go();
-  });
   on("pointermove", (event) => {
     // A mouse that rests is told of a move, too, when the picture moves under it.
     if (event.movementX || event.movementY) go();

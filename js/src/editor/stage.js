@@ -22,13 +22,19 @@ export class Stage extends PictureStage {
   /** @param {AbortSignal} signal */
   constructor(signal) {
     const photo = element("img", { class: "sw-photo", alt: "The photo as it was taken" });
+    const original = element("canvas", {
+      class: "sw-original",
+      width: 0,
+      height: 0,
+      "aria-hidden": "true",
+    });
     const canvas = element("canvas", {
       class: "sw-canvas",
       role: "img",
       "aria-label": "The photo with the sun moved",
     });
     const mask = element("canvas", { class: "sw-mask", "aria-hidden": "true" });
-    const picture = element("div", { class: "sw-picture" }, photo, canvas, mask);
+    const picture = element("div", { class: "sw-picture" }, photo, original, canvas, mask);
     const room = element("div", { class: "sw-window" }, picture);
     super(picture, { content: room, className: "sw-photo-stage", signal });
     setAttributes(this.node, {
@@ -41,6 +47,7 @@ export class Stage extends PictureStage {
     this.node.style.setProperty("--sw-tallest", `${Math.round(tallest)}px`);
     this.window = room;
     this.photo = photo;
+    this.original = original;
     this.canvas = canvas;
     this.mask = mask;
     this.zoom = new Zoom();
@@ -69,7 +76,25 @@ export class Stage extends PictureStage {
     this.zoom.size = [width, height];
     this.node.style.setProperty("--sw-aspect", String(width / height));
     this.node.classList.add("sw-has-photo");
+    if (this.original.width) {
+      this.setOriginal(false);
+      this.setOriginal(true);
+    }
     this.layOut();
+  }
+
+  /**
+   * The photo is compared with the frame: it is drawn as that is, on a canvas, since browsers make
+   * images smaller by other means, and the one would look softer than the other.
+   *
+   * @param {boolean} on
+   */
+  setOriginal(on) {
+    const { original, photo } = this;
+    if (on === original.width > 0) return;
+    original.width = on ? photo.naturalWidth : 0;
+    original.height = on ? photo.naturalHeight : 0;
+    original.getContext("2d", { alpha: false })?.drawImage(photo, 0, 0);
   }
 
   /**

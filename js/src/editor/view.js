@@ -310,6 +310,7 @@ export class View {
 
   /** @param {boolean} on */
   setBefore(on) {
+    this.stage.setOriginal(on || this.split?.on === true);
     this.root.classList.toggle("sw-before", on);
   }
 
