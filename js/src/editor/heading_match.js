@@ -3,7 +3,7 @@
 import { chip } from "../controls/chips.js";
 import { element } from "../controls/element.js";
 import { clock as clockText } from "../day.js";
-import { AGREES } from "../place.js";
+import { AGREES, hoursOfDay } from "../place.js";
 
 /** @typedef {import("../place.js").Place} Place */
 
@@ -28,15 +28,19 @@ export function headingMatch(view, clock) {
     note.textContent = text;
     note.hidden = !text;
     offers.hidden = !places.length;
-    offers.replaceChildren(...places.map(offer));
+    offers.replaceChildren(...places.map((place) => offer(place, clock.hours)));
   }
 
-  /** @param {Place} place */
-  const offer = (place) =>
-    chip(`${clockText(place.time)} UTC`, "Take this for the photo's time, with its heading", () => {
-      view.state.set({ place });
-      say("");
-    });
+  /** @param {Place} place @param {number} now the clock's hours */
+  const offer = (place, now) =>
+    chip(
+      `${clockText(place.time)} UTC${shift(hoursOfDay(place) - now)}`,
+      "Take this for the photo's time, with its heading",
+      () => {
+        view.state.set({ place });
+        say("");
+      },
+    );
 
   function match() {
     const found = clock.match();
@@ -73,6 +77,13 @@ export function headingMatch(view, clock) {
       if (about !== key(clock.place)) say("");
     },
   };
+}
+
+/** Whether a difference is one of time zones, which come in whole hours. @param {number} hours */
+function shift(hours) {
+  const whole = Math.round(hours);
+  if (whole === 0 || Math.abs(hours - whole) > 0.2) return "";
+  return `, ${Math.abs(whole)} h ${whole > 0 ? "later" : "earlier"}`;
 }
 
 /** What a place is but for its time. @param {Place | null} place */
