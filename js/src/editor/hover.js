@@ -18,9 +18,9 @@ export function hover(view, signal) {
     after.node,
   );
   view.readout.after(node);
-  // Stays on the graphics card: one pixel comes back.
+  // In main memory: a canvas of the graphics card takes the whole photo up there for one pixel.
   const pixel = element("canvas", { width: 1, height: 1 });
-  const sample = pixel.getContext("2d", { alpha: false, willReadFrequently: false });
+  const sample = pixel.getContext("2d", { alpha: false, willReadFrequently: true });
   /** @type {Point | null} */
   let place = null;
   let pending = 0;
