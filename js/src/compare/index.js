@@ -1,5 +1,6 @@
 /** The anywidget module of Compare. */
 
+import { keepKeys } from "../host_keys.js";
 import { View } from "./view.js";
 
 // Nothing slow belongs here: `initialize` must settle within two seconds.
@@ -8,7 +9,7 @@ function render({ model, el }) {
   const controller = new AbortController();
   const root = document.createElement("div");
   root.className = "sunwidget sw-compare";
-  root.dataset.lmSuppressShortcuts = "true";
+  keepKeys(root, controller.signal);
   root.setAttribute("role", "group");
   root.setAttribute("aria-label", "Comparison");
   el.append(root);

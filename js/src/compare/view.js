@@ -197,6 +197,8 @@ export class View {
         for (const bitmap of bitmaps.flat()) bitmap.close();
         return;
       }
+      const [[photo]] = bitmaps; // perhaps before it is shown by itself
+      this.zoom.size = [photo.width, photo.height];
       for (const frame of this.frames.slice(given.length)) frame.dispose();
       this.frames = given.map(({ scene }, i) => {
         const frame = this.frames[i] ?? new Frame(element("canvas"), this.parameters);
