@@ -1,4 +1,4 @@
-"""The command line: ``sunwidget render | sweep | analyze | replace-sky | transfer-look | …``.
+"""The command line: ``sunwidget render | sweep | html | analyze | replace-sky | …``.
 
 Every parameter flag comes from the one table in ``edit.py``. Errors are one line on
 stderr and exit status 2, without a traceback (``--debug`` shows it).
@@ -96,6 +96,16 @@ def _parser() -> argparse.ArgumentParser:
         _add_number(end, p, "to_")
     sweep.set_defaults(run=_sweep)
 
+    page = commands.add_parser(
+        "html", help="write a page in which the sun can be moved, without kernel or network"
+    )
+    add_photo(page)
+    page.add_argument("-o", "--output", type=Path, required=True, help=".html")
+    page.add_argument("--title", help="of the page (default: the photo's name)")
+    add_place(page)
+    _add_edit(page)
+    page.set_defaults(run=_html)
+
     analyze = commands.add_parser("analyze", help="write every map of a photo and scene.json")
     add_photo(analyze)
     analyze.add_argument("-o", "--output", type=Path, required=True, help="folder for the maps")
@@ -178,10 +188,7 @@ def _render(options: argparse.Namespace) -> int:
     edit = _edit(options)  # what is wrong with it shows before the work
     refuse_existing(options.output, options.overwrite)
     scene = scene_of(options)
-    if options.preset is not None:
-        edit = _edit(options, start=presets.edit(options.preset, scene, _recipe(options)))
-    if is_placed(options):
-        edit = _edit(options, start=placed(options, scene, edit))
+    edit = _edit_of_scene(options, scene, edit)
     begin = time.perf_counter()
     if options.size is None:
         sw.save((scene, edit), options.output, overwrite=options.overwrite)
@@ -190,6 +197,27 @@ def _render(options: argparse.Namespace) -> int:
         sw.save(picture, options.output, like=scene, overwrite=options.overwrite)
     print(f"{options.output}  ({time.perf_counter() - begin:.1f} s)")
     return 0
+
+
+def _html(options: argparse.Namespace) -> int:
+    import sunwidget as sw
+
+    edit = _edit(options)
+    refuse_existing(options.output, options.overwrite)
+    scene = scene_of(options)
+    edit = _edit_of_scene(options, scene, edit)
+    sw.to_html(scene, edit, options.output, title=options.title, overwrite=options.overwrite)
+    print(f"{options.output}  ({options.output.stat().st_size / 1e6:.1f} MB)")
+    return 0
+
+
+def _edit_of_scene(options: argparse.Namespace, scene: Any, edit: Edit) -> Edit:
+    """Return ``edit`` with a preset or a clock, which look at the photo; the flags win."""
+    if options.preset is not None:
+        edit = _edit(options, start=presets.edit(options.preset, scene, _recipe(options)))
+    if is_placed(options):
+        edit = _edit(options, start=placed(options, scene, edit))
+    return edit
 
 
 def _sweep(options: argparse.Namespace) -> int:
@@ -201,10 +229,7 @@ def _sweep(options: argparse.Namespace) -> int:
         raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
     refuse_existing(options.output, options.overwrite)
     scene = scene_of(options)
-    if options.preset is not None:
-        start = _edit(options, start=presets.edit(options.preset, scene, _recipe(options)))
-    if is_placed(options):
-        start = _edit(options, start=placed(options, scene, start))
+    start = _edit_of_scene(options, scene, start)
     end = _edit(options, "to_", start)
     edits = [start, end]
     if options.to_time is not None:

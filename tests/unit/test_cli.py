@@ -135,6 +135,18 @@ def test_render_writes_the_moved_picture(photo, tmp_path):
     assert np.abs(after - before).mean() > 3
 
 
+def test_html_writes_a_page_with_the_edit_and_keeps_what_exists(photo, tmp_path, capsys):
+    out = tmp_path / "evening.html"
+    wanted = ["html", photo, "--sun-elevation", "3", "--title", "Evening <1>", "-o", str(out)]
+    assert main(wanted) == 0
+    assert re.search(r"evening\.html  \(\d\.\d MB\)", capsys.readouterr().out)
+    text = out.read_text("utf-8")
+    assert "<title>Evening &lt;1&gt;</title>" in text
+    assert '"sun_elevation":3.0' in text
+    assert "--overwrite" in fails(capsys, *wanted)
+    assert out.read_text("utf-8") == text
+
+
 def test_render_of_an_unmoved_sun_changes_no_pixel(photo, tmp_path):
     output = tmp_path / "out.png"
     assert main(["render", photo, "-o", str(output)]) == 0
