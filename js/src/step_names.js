@@ -8,7 +8,7 @@ import { equal, sameRecipe } from "./state.js";
  * @typedef {import("./types.js").Version} Version
  */
 
-const SUN = ["sun_azimuth", "sun_elevation"];
+const SUN = ["sun_azimuth", "sun_elevation", "place"];
 
 /**
  * @param {Edit} from
@@ -20,12 +20,8 @@ export function stepName(from, to, { parameters, versions = [], presets = [] }) 
   const changed = parameters.filter(({ name }) => !equal(from[name], to[name]));
   const names = changed.map(({ name }) => name);
   if (changed.length === 0) return "Nothing";
-  if (
-    names.includes("sun_azimuth") &&
-    names.every((name) => SUN.includes(name) || name === "place")
-  )
-    return "Sun moved";
   if (changed.length === 1) return names[0] === "strokes" ? strokes(from, to) : named(changed[0]);
+  if (names.every((name) => SUN.includes(name))) return "Sun moved";
   const preset = presets.find(({ values }) => isSet(values, to));
   if (preset) return preset.label;
   if (names.length > 2 && sameRecipe(to, {})) return "Reset";

@@ -1,6 +1,7 @@
 /** The anywidget module of SunEditor. */
 
 import { Frame } from "../frame.js";
+import { keepKeys } from "../host_keys.js";
 import { View } from "./view.js";
 
 // Nothing slow belongs here: `initialize` must settle within two seconds.
@@ -9,7 +10,7 @@ function render({ model, el }) {
   const controller = new AbortController();
   const root = document.createElement("div");
   root.className = "sunwidget";
-  root.dataset.lmSuppressShortcuts = "true";
+  keepKeys(root, controller.signal);
   root.setAttribute("role", "group");
   root.setAttribute("aria-label", "Sun editor");
   el.append(root);

@@ -1,5 +1,6 @@
 /** The anywidget module of SkyExplorer. */
 
+import { keepKeys } from "../host_keys.js";
 import { Projection } from "./projection.js";
 import { SkyFrame } from "./sky_frame.js";
 import { View } from "./view.js";
@@ -10,7 +11,7 @@ function render({ model, el }) {
   const controller = new AbortController();
   const root = document.createElement("div");
   root.className = "sunwidget sw-explorer";
-  root.dataset.lmSuppressShortcuts = "true";
+  keepKeys(root, controller.signal);
   root.setAttribute("role", "group");
   root.setAttribute("aria-label", "Sky explorer");
   el.append(root);

@@ -1,5 +1,6 @@
 /** The anywidget module of Study. */
 
+import { keepKeys } from "../host_keys.js";
 import { View } from "./view.js";
 
 // Nothing slow belongs here: `initialize` must settle within two seconds.
@@ -9,7 +10,7 @@ function render({ model, el }) {
   const root = document.createElement("div");
   root.className = "sunwidget sw-study";
   root.tabIndex = -1; // keys work wherever in it the focus is
-  root.dataset.lmSuppressShortcuts = "true";
+  keepKeys(root, controller.signal);
   root.setAttribute("role", "group");
   root.setAttribute("aria-label", "Study");
   el.append(root);
