@@ -106,6 +106,12 @@ def test_axe_finds_nothing_in_the_explorer(browser, axe, scheme):
     page.locator(".sunwidget.sw-live").wait_for()
     unfold(page)
     assert violations(page, axe, only_colors=scheme == "dark") == []
+    page.locator(".sw-sun").focus()
+    press(page, "2", "]")
+    assert (trait(page, "projection"), trait(page, "view_azimuth")) == ("panorama", 15)
+    press(page, "?")
+    assert "Turn to the right" in page.get_by_role("dialog").inner_text()
+    assert page.errors == []
     context.close()
 
 

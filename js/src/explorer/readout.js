@@ -9,7 +9,9 @@ import { luminanceText } from "./sky_probe.js";
 export const degrees = (value, digits = 1) => `${value.toFixed(digits).replace("-", "−")}°`;
 
 export class Readout {
-  constructor() {
+  /** @param {(text: string) => void} say tells of a sun that has moved */
+  constructor(say) {
+    this.say = say;
     this.sun = element("span", { class: "sw-readout" });
     this.swatch = element("span", { class: "sw-swatch" });
     this.text = element("span", {});
@@ -20,9 +22,11 @@ export class Readout {
 
   /** @param {[number, number]} sun azimuth and apparent elevation */
   showSun([azimuth, elevation]) {
-    this.sun.textContent =
+    const text =
       `Sun: azimuth ${degrees(turned(azimuth))} · elevation ${degrees(elevation)} as seen, ` +
       `${degrees(trueElevation(elevation))} without refraction`;
+    if (this.sun.textContent && this.sun.textContent !== text) this.say(text);
+    this.sun.textContent = text;
   }
 
   /** What is being computed, or what to know about it. @param {string} text */

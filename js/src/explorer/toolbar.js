@@ -6,6 +6,7 @@ import { element } from "../controls/element.js";
 import { historyButtons } from "../controls/history.js";
 import { turned } from "../day.js";
 import { pythonCode } from "./code.js";
+import { showKeys } from "./shortcuts.js";
 
 /** @type {{ value: string, icon: import("../controls/icons.js").IconName, label: string, title: string }[]} */
 const PROJECTIONS = [
@@ -50,6 +51,12 @@ export function toolbar(view) {
     title: "Copy Python that makes this sky again",
     caption: true,
   });
+  const help = button({
+    icon: "help",
+    label: "Keys",
+    title: "Keys of the explorer (?)",
+    onClick: () => showKeys(view),
+  });
   const said = element("span", { class: "sw-said", role: "status" });
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let silence;
@@ -68,7 +75,7 @@ export function toolbar(view) {
     { class: "sw-toolbar", role: "toolbar", "aria-label": "Sky explorer" },
     projections.node,
     history.node,
-    element("div", { class: "sw-group sw-end" }, said, copy),
+    element("div", { class: "sw-group sw-end" }, said, copy, help),
   );
   return {
     node,

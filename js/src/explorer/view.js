@@ -6,7 +6,9 @@
  */
 
 import { Channel } from "../channel.js";
+import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
+import { runShortcut } from "../controls/keys.js";
 import { angleBetween, sunAt, turned } from "../day.js";
 import { FrameLoop } from "../frame_loop.js";
 import { watchSight } from "../sight.js";
@@ -19,6 +21,7 @@ import { Plots } from "./plots/plots.js";
 import { listenToPointer } from "./pointer.js";
 import { Projection } from "./projection.js";
 import { Readout } from "./readout.js";
+import { SHORTCUTS } from "./shortcuts.js";
 import { SkyFrame } from "./sky_frame.js";
 import { reading } from "./sky_probe.js";
 import { SkyStage } from "./stage.js";
@@ -55,7 +58,8 @@ export class View {
     this.guides = new Guides(this);
     this.handle = new SunHandle(this);
     this.measured = new Measured(this);
-    this.readout = new Readout();
+    this.announcer = new Announcer(signal);
+    this.readout = new Readout((text) => this.say(text));
     this.plots = new Plots(this, signal);
     this.panel = panel(this, signal);
     this.toolbar = toolbar(this);
@@ -96,7 +100,14 @@ export class View {
       this.toolbar.node,
       element("div", { class: "sw-body" }, main, this.panel.node),
       this.plots.node,
+      this.announcer.node,
     );
+  }
+
+  /** Say where the sun is, unless what moves it says so. @param {string} text */
+  say(text) {
+    const { activeElement } = /** @type {Document | ShadowRoot} */ (this.root.getRootNode());
+    if (!activeElement?.matches(".sw-sun, input")) this.announcer.say(text);
   }
 
   /** @param {AbortSignal} signal */
@@ -120,26 +131,15 @@ export class View {
     };
     model.on("msg:custom", onMessage);
     listenToPointer(this, signal);
-    this.root.addEventListener("keydown", (event) => this.onKey(event), { signal });
+    this.root.addEventListener("keydown", (event) => runShortcut(SHORTCUTS, this, event), {
+      signal,
+    });
     signal.addEventListener("abort", () => {
       for (const name of names) model.off(`change:${name}`, onData);
       model.off("msg:custom", onMessage);
       clearTimeout(this.tracing);
       this.frame.dispose();
     });
-  }
-
-  /** @param {KeyboardEvent} event */
-  onKey(event) {
-    const target = /** @type {HTMLElement} */ (event.target);
-    if (target instanceof HTMLInputElement && target.type !== "range") return;
-    if (!event.ctrlKey && !event.metaKey) return;
-    const key = event.key.toLowerCase();
-    if (key === "z" && !event.shiftKey) this.state.undo();
-    else if (key === "y" || (key === "z" && event.shiftKey)) this.state.redo();
-    else return;
-    event.preventDefault();
-    event.stopPropagation();
   }
 
   /** @param {string} name */

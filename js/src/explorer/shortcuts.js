@@ -1,0 +1,53 @@
+/** Every key of the explorer, in one table: the key handler runs it and the help shows it. */
+
+import { openHelp } from "../controls/help_dialog.js";
+import { turned } from "../day.js";
+
+/** @typedef {import("./view.js").View} View */
+
+const TURN = 15; // degrees
+
+/** @type {(projection: string) => (view: View) => void} */
+const take = (projection) => (view) => view.state.set({ projection });
+
+/** @type {(degrees: number) => (view: View) => void} */
+const turn = (degrees) => (view) =>
+  view.state.set({ view_azimuth: turned(view.number("view_azimuth") + degrees) });
+
+/** @type {import("../controls/keys.js").Shortcut<View>[]} */
+export const SHORTCUTS = [
+  { section: "View", keys: ["1"], label: "Dome", run: take("dome") },
+  { section: "View", keys: ["2"], label: "Panorama", run: take("panorama") },
+  { section: "View", keys: ["3"], label: "Camera", run: take("camera") },
+  { section: "View", keys: ["["], label: "Turn to the left", run: turn(-TURN) },
+  { section: "View", keys: ["]"], label: "Turn to the right", run: turn(TURN) },
+
+  {
+    section: "Sun, when it has the focus",
+    keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
+    label: "Move it by half a degree",
+  },
+  {
+    section: "Sun, when it has the focus",
+    keys: ["Shift+ArrowLeft", "Shift+ArrowRight"],
+    label: "Ten times as far",
+  },
+
+  { section: "History", keys: ["Mod+Z"], label: "Undo", run: (view) => view.state.undo() },
+  {
+    section: "History",
+    keys: ["Mod+Shift+Z", "Mod+Y"],
+    label: "Redo",
+    run: (view) => view.state.redo(),
+  },
+
+  {
+    section: "Help",
+    keys: ["?"],
+    label: "These keys",
+    run: (view) => showKeys(view),
+  },
+];
+
+/** @param {View} view */
+export const showKeys = (view) => openHelp(view.root, "Keys of the sky explorer", SHORTCUTS);
