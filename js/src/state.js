@@ -40,6 +40,8 @@ export class EditState {
     this.before = null;
     /** @type {Set<string>} names not yet sent */
     this.unsent = new Set();
+    /** @type {Set<string>} names that the gesture under way has changed */
+    this.held = new Set();
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
     /**
@@ -74,11 +76,14 @@ export class EditState {
     for (const listener of this.listeners) listener();
   }
 
-  /** Take what the model holds, except what this view has changed and not yet sent. */
+  /**
+   * Take what the model holds, except what this view has changed and not yet sent, and what the
+   * hand holds: an older value that arrives late must not pull the sun out of it.
+   */
   pull() {
     let moved = false;
     for (const { name } of this.parameters) {
-      if (this.unsent.has(name)) continue;
+      if (this.unsent.has(name) || this.held.has(name)) continue;
       const value = this.model.get(name);
       if (equal(value, this.values[name])) continue;
       this.values[name] = value;
@@ -100,6 +105,7 @@ export class EditState {
       if (this.follow() !== "now" && this.isCorrection(name)) continue;
       this.values[name] = value;
       this.unsent.add(name);
+      this.held.add(name);
     }
     this.notify();
     if (single) this.commit();
@@ -120,6 +126,10 @@ export class EditState {
   commit() {
     const before = this.before;
     this.before = null;
+    for (const name of this.held) {
+      if (!equal(this.model.get(name), this.values[name])) this.unsent.add(name);
+    }
+    this.held.clear();
     if (before && !equal(before, this.recipe())) {
       const { past } = this.history();
       this.writeHistory({ past: newest([...past, before]), future: [] });
@@ -132,6 +142,7 @@ export class EditState {
     if (!this.before) return;
     const before = this.before;
     this.before = null;
+    this.held.clear();
     this.apply(before);
   }
 

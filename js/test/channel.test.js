@@ -36,6 +36,20 @@ test("progress arrives before the answer", async () => {
   assert.deepEqual(seen, [0.5]);
 });
 
+test("what comes after the answer, twice or for nobody is left alone", async () => {
+  const { model, channel } = open();
+  const seen = [];
+  const request = channel.request("save", {}, (fraction) => seen.push(fraction));
+  const { id } = model.sent[0];
+  const answer = (result) => model.fire("msg:custom", { type: "response", id, result }, []);
+  answer(1);
+  answer(2);
+  model.fire("msg:custom", { type: "progress", id, fraction: 0.9, message: "" });
+  model.fire("msg:custom", { type: "response", id: "another", result: 3 }, []);
+  assert.equal((await request).result, 1);
+  assert.deepEqual(seen, []);
+});
+
 test("closing the view ends what is open", async () => {
   const { controller, channel } = open();
   const request = channel.request("save");

@@ -88,6 +88,20 @@ test("what Python sets is taken over, but not over an unfinished drag", () => {
   assert.equal(state.values.exposure, 1);
 });
 
+test("what comes late does not pull a value out of the hand, and the hand's is sent at the end", () => {
+  state.begin();
+  state.set({ exposure: 1 });
+  state.push();
+  model.set("exposure", 0.3); // an older move, from another view or a slow host
+  model.set("sun_elevation", 5);
+  assert.equal(state.values.exposure, 1);
+  assert.equal(state.values.sun_elevation, 5);
+  state.commit();
+  assert.equal(model.get("exposure"), 1);
+  model.set("exposure", 0.6);
+  assert.equal(state.values.exposure, 0.6);
+});
+
 test("cancel returns to where the gesture began and leaves no step", () => {
   state.begin();
   state.set({ exposure: 1 });

@@ -93,7 +93,7 @@ def drag_sun(page, i=0, by=(-60, 20)):
     # What loads last, notes and pictures, moves the page.
     box = None
     while box != (box := ring.bounding_box()):
-        page.wait_for_timeout(200)
+        page.wait_for_timeout(60)
     before = canvas.evaluate("canvas => canvas.toDataURL()")
     said = editor.locator(".sw-readout").text_content()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

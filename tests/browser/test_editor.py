@@ -272,6 +272,15 @@ def test_two_views_of_one_editor_follow_each_other(editor):
     editor.get_by_label("Elevation, value").first.fill("7")
     editor.keyboard.press("Enter")
     assert editor.get_by_label("Elevation, value").nth(1).input_value() == "7.0"
+    # The history is one, the chosen tool is each view's own.
+    editor.get_by_role("radio", name="Set the horizon").first.click()
+    tools = editor.locator(".sunwidget").evaluate_all("views => views.map((v) => v.dataset.tool)")
+    assert tools == ["horizon", "sun"]
+    editor.get_by_role("button", name="Undo").nth(1).click()
+    assert trait(editor, "sun_elevation") is None
+    shown = editor.locator(".sw-readout").all_text_contents()
+    assert shown[0] == shown[1]
+    assert editor.get_by_role("button", name="Undo").first.is_disabled()
 
 
 def test_a_closed_view_leaves_no_listener(editor):

@@ -52,3 +52,40 @@ def test_twenty_editors_in_one_page(page, state):
     page.evaluate("closeAll()")
     assert live_contexts(page) == 0
     assert page.errors == []
+
+
+def test_a_context_may_be_lost_at_any_moment_of_a_frame(page, state):
+    page.evaluate("async state => makeFrame(state)", state)
+    whole = page.evaluate("drawn({ sun_elevation: 4 })")
+    # Lost within that call, counted over a frame from nothing to the canvas.
+    for call, count in (
+        ("compileShader", 3),
+        ("linkProgram", 9),
+        ("getActiveUniform", 20),
+        ("texImage2D", 2),
+        ("texStorage2D", 6),
+        ("drawArrays", 1),
+        ("drawArrays", 24),
+    ):
+        answer = page.evaluate(
+            """([call, count]) => {
+              frame.giveBack();
+              const prototype = WebGL2RenderingContext.prototype;
+              const original = prototype[call];
+              prototype[call] = function (...rest) {
+                count -= 1;
+                if (count === 0) this.getExtension("WEBGL_lose_context").loseContext();
+                return original.apply(this, rest);
+              };
+              try {
+                return [frame.draw({ sun_elevation: 4 }, frame.size), count <= 0];
+              } catch (error) {
+                return error.message;
+              } finally {
+                prototype[call] = original;
+              }
+            }""",
+            [call, count],
+        )
+        assert answer == [False, True], f"lost in {call} {count}: {answer}"
+        assert page.evaluate("drawn({ sun_elevation: 4 })") == whole
