@@ -84,7 +84,7 @@ def test_axe_finds_nothing_in_the_editor(open_editor, axe, scheme):
     only_colors = scheme == "dark"  # all else is the same in both
     unfold(page)
     page.locator(".sw-sun").focus()
-    press(page, "4")
+    press(page, "ArrowUp", "4")
     page.evaluate(
         "model.fire('msg:custom', { type: 'error', error: 'The file is gone. Open another.' })"
     )

@@ -46,7 +46,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
       title: automatic
         ? "Return to what was found in the photo (double-click)"
         : "Return to the default (double-click)",
-      "aria-label": `Reset ${p.label}`,
+      "aria-label": automatic ? `Reset ${p.label} to auto` : `Reset ${p.label}`,
     },
     automatic ? "auto" : "↺",
   );
