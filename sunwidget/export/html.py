@@ -60,7 +60,9 @@ class Still:
     description: str
 
 
-def page(embedded: dict[str, Any], still: Still, *, title: str, notes: tuple[str, ...] = ()) -> str:
+def page(
+    embedded: dict[str, Any], still: Still | None, *, title: str, notes: tuple[str, ...] = ()
+) -> str:
     """Return an HTML page that shows a widget and needs nothing but itself.
 
     Parameters
@@ -69,7 +71,7 @@ def page(embedded: dict[str, Any], still: Still, *, title: str, notes: tuple[str
         ``state``: the traits by name, with the front end in ``_esm`` and ``_css``;
         ``buffers``: the binary ones as ``{path, encoding: "base64", data}``, as Jupyter embeds
         widgets.
-    still : Still
+    still : Still or None
         Shown until the widget runs, and where it cannot.
     title : str
         Of the page; plain text.
@@ -109,8 +111,7 @@ def page(embedded: dict[str, Any], still: Still, *, title: str, notes: tuple[str
         ]
     )
     content = {"state": state, "buffers": embedded.get("buffers", [])}
-    name, description = _text(title), _text(still.description)
-    width, height = still.size
+    name = _text(title)
     paragraphs = "".join(f"\n<p>{_text(note)}</p>" for note in notes)
     return f"""<!DOCTYPE html>
 <html lang="en">
@@ -128,8 +129,7 @@ def page(embedded: dict[str, Any], still: Still, *, title: str, notes: tuple[str
 <header><h1>{name}</h1></header>
 <main>
 <div id="widget"></div>
-<figure id="still">
-<img src="{_data_url(still.data)}" width="{width}" height="{height}" alt="{description}">
+<figure id="still">{"" if still is None else _image(still)}
 <figcaption id="problem" role="alert" hidden></figcaption>
 </figure>
 <noscript><p>The picture can be edited here once JavaScript is allowed for this file.</p></noscript>
@@ -141,6 +141,11 @@ def page(embedded: dict[str, Any], still: Still, *, title: str, notes: tuple[str
 </body>
 </html>
 """
+
+
+def _image(still: Still) -> str:
+    (width, height), text = still.size, _text(still.description)
+    return f'<img src="{_data_url(still.data)}" width="{width}" height="{height}" alt="{text}">'
 
 
 def _text(value: str) -> str:

@@ -11,8 +11,10 @@ import base64
 import contextlib
 import datetime as dt
 import math
+import os
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import anywidget
@@ -31,11 +33,13 @@ from sunwidget.atmosphere.presets import PRESETS
 from sunwidget.explorer import table
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
 from sunwidget.explorer.values import effective_values
+from sunwidget.files import target
 from sunwidget.widgets.edit_traits import edit_traits
 from sunwidget.widgets.explorer_answers import actions, bruneton_slice, scans
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.payload import encode_png, parameter_json
 from sunwidget.widgets.requests import Action, Progress, Requests
+from sunwidget.widgets.standalone import explorer_page, write_page
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -258,6 +262,35 @@ class SkyExplorer(anywidget.AnyWidget):
         if "bruneton" in (self.model, self.compare):
             bruneton = bruneton_slice(self.values()["edit"], progress)
         return draw(self.parameters(), size, bruneton=bruneton, samples=samples, progress=progress)
+
+    def to_html(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        title: str = "Sky explorer",
+        overwrite: bool = False,
+    ) -> Path | str:
+        """Write a page with the explorer as it stands: one file, no kernel, no network.
+
+        Parameters
+        ----------
+        path : path, optional
+            Where to write it. Default: nowhere, and the page is returned as text.
+        title : str
+            Of the page.
+        overwrite : bool
+            Replace an existing file.
+
+        Raises
+        ------
+        FileExistsError
+            When ``path`` exists and ``overwrite`` is false.
+        OSError
+            When the folder is missing or the disk full; no half-written file is left.
+        """
+        place = None if path is None else target(path, overwrite=overwrite)
+        text = explorer_page(self, title=title)
+        return text if place is None else write_page(text, place, overwrite=overwrite)
 
     def curve(self, name: str) -> NDArray[np.float32]:
         """Return one of the curves beside the picture, shape (n, 4).

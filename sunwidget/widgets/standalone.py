@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,11 @@ from sunwidget.photo import Photo
 _STILL_EDGE = 1024
 _STILL_QUALITY = 90
 _PNG_LEVEL = 6
+_EXPLORER_STILL = (960, 640)
+_EXPLORER_NOTES = (
+    "Everything happens in this file, and nothing leaves it.",
+    "Bruneton's table, measured skies and other places and days need the notebook.",
+)
 # What places a widget in a notebook means nothing in a page.
 _HOST = ("layout", "tabbable", "tooltip", "_anywidget_id", "_dom_classes")
 _HOST_PREFIXES = ("_model_", "_view_")
@@ -37,6 +43,17 @@ def editor_page(
     }
     name = photo.name if title is None else title
     return page({**embedded, "state": state}, still, title=name, notes=_NOTES)
+
+
+def explorer_page(widget: Any, *, title: str) -> str:
+    """Return the page of a SkyExplorer as it stands."""
+    from sunwidget.renderer.gl_thread import RendererError
+
+    still = None
+    with contextlib.suppress(RendererError):
+        picture = widget.render(_EXPLORER_STILL)
+        still = Still(_jpeg(picture), _EXPLORER_STILL, "The sky as the page was made")
+    return page(embedded_state(widget), still, title=title, notes=_EXPLORER_NOTES)
 
 
 def embedded_state(widget: Any) -> dict[str, Any]:

@@ -44,23 +44,27 @@ def opened(browser, path, **options):
     return page
 
 
+def quiet(page, path):
+    """Nothing has left the page, and the policy had nothing to refuse."""
+    assert {url.split(":")[0] for url in page.requests} <= {"file", "blob", "data"}
+    assert [url for url in page.requests if url.startswith("file:")] == [path.as_uri()]
+    assert page.complaints == []
+    page.context.close()
+    return True
+
+
 @pytest.fixture
 def page(browser, path):
     page = opened(browser, path, accept_downloads=True)
     page.locator(".sunwidget.sw-live").wait_for()
     page.wait_for_timeout(400)
     yield page
-    # Nothing leaves the page, and the policy has nothing to refuse.
-    assert {url.split(":")[0] for url in page.requests} == {"file", "blob"}
-    assert [url for url in page.requests if url.startswith("file:")] == [path.as_uri()]
-    assert page.complaints == []
-    page.context.close()
+    assert quiet(page, path)
 
 
-def canvas_of(page):
-    return picture_of(
-        page.evaluate("document.querySelector('.sw-canvas').toDataURL('image/png').split(',')[1]")
-    )
+def canvas_of(page, selector=".sw-canvas"):
+    script = "(s) => document.querySelector(s).toDataURL('image/png').split(',')[1]"
+    return picture_of(page.evaluate(script, selector))
 
 
 def drawn_like(page, picture, tolerance):
@@ -150,3 +154,29 @@ def test_where_it_cannot_run_the_picture_stays(browser, path, options, lack, sai
     assert still.is_visible()
     assert still.bounding_box()["width"] == SIZE[0]
     context.close()
+
+
+def test_an_explorer_runs_in_its_page(browser, tmp_path, screenshots):
+    path = sw.SkyExplorer(sun_elevation=3).to_html(tmp_path / "sky.html")
+    page = opened(browser, path)
+    page.locator(".sw-sky-canvas").wait_for()
+
+    def sky():
+        return canvas_of(page, ".sw-sky-canvas").astype(int)
+
+    for _ in range(80):
+        if sky().std() > 10:
+            break
+        page.wait_for_timeout(250)
+    before = sky()
+    assert before.std() > 10
+    page.get_by_label("Elevation, value", exact=True).fill("60")
+    page.keyboard.press("Enter")
+    for _ in range(80):
+        now = sky()
+        if now.shape == before.shape and np.abs(now - before).mean() > 2:
+            break
+        page.wait_for_timeout(250)
+    assert np.abs(sky() - before).mean() > 2
+    page.screenshot(path=screenshots / "standalone-explorer.png")
+    assert quiet(page, path)

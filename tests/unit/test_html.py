@@ -15,7 +15,7 @@ import sunwidget as sw
 from sunwidget.export import html as module
 from sunwidget.export.html import Still, page
 from sunwidget.renderer.gl_thread import RendererError
-from sunwidget.widgets import SunEditor
+from sunwidget.widgets import SkyExplorer, SunEditor
 from sunwidget.widgets import standalone as parts
 
 HOSTILE = "</script><script>alert(1)</script>\"'<!--<script>&amp;\u2028\u2029\x00\udcff\r\n.jpg"
@@ -156,6 +156,30 @@ def test_binary_traits_are_where_they_were(scene):
         assert len(data) <= len(sent)
         same = [np.asarray(Image.open(io.BytesIO(picture))) for picture in (data, sent)]
         assert np.array_equal(*same)
+
+
+def test_an_explorer_writes_what_it_shows(tmp_path):
+    explorer = SkyExplorer(sun_elevation=7)
+    text = explorer.to_html(title="Dusk & dawn")
+    tree = parsed(text)
+    assert tree.find("head/title").text == "Dusk & dawn"
+    assert tree.find(".//figure/img").get("width") == "960"
+    assert content(text)["state"]["sun_elevation"] == 7
+    path = explorer.to_html(tmp_path / "sky.html")
+    assert parsed(path.read_text("utf-8")).find("head/title").text == "Sky explorer"
+    with pytest.raises(FileExistsError):
+        explorer.to_html(path)
+
+
+def test_an_explorer_needs_no_renderer_for_a_page(monkeypatch):
+    def broken(*_):
+        raise RendererError("no EGL")
+
+    explorer = SkyExplorer()
+    monkeypatch.setattr(explorer, "render", broken)
+    tree = parsed(explorer.to_html())
+    assert tree.find(".//figure/img") is None
+    assert tree.find(".//figure/figcaption") is not None
 
 
 def test_without_a_renderer_the_still_is_the_photo(scene):

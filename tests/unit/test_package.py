@@ -188,6 +188,7 @@ def test_the_wheel_holds_the_built_front_end(wheel):
     names = wheel.namelist()
     for bundle in ("sun_editor", "sky_explorer", "compare", "study"):
         assert {f"sunwidget/static/{bundle}.js", f"sunwidget/static/{bundle}.css"} <= set(names)
+    assert "sunwidget/static/standalone.js" in names
     assert not [name for name in names if name.startswith(("js/", "tests/"))]
 
 
