@@ -32,7 +32,9 @@ class PlaceClock(EditHistory):
     photo: Photo
 
     def __init__(self, start: Edit, **state: Any) -> None:
+        self._made = False
         super().__init__(start, _photo_place=_told(self.photo), **state)
+        self._made = True
         self.observe(self._on_place, "place")
         self.observe(self._on_source, "_source")
         if start.place is not None:
@@ -165,6 +167,12 @@ class PlaceClock(EditHistory):
         if told.moment is not None:
             values["date"], values["time"] = date_and_hours(told.moment)
         return values
+
+    def get_state(self, key: Any = None, drop_defaults: bool = False) -> Any:
+        """Return the traits as they travel; all of them with the path of the place's day."""
+        if self._made and key is None and self.place is not None and not self._day:
+            self._refresh_day()
+        return super().get_state(key, drop_defaults)
 
     def _on_place(self, change: Any) -> None:
         if change.new is None or self._day_key(change.new) != self._day.get("key"):

@@ -18,6 +18,7 @@ from sunwidget.place import Place, at_hours, day_table, hours_of_day, solar_day,
 
 ITHACA = Place(42.4434, -76.482, "2024-06-21", 16.0, 180.0)
 PRAGUE = Place(50.09, 14.42, "2024-03-20", 17.0, 270.0)
+WHEN = {"date": "2024-06-21", "time": 2.0, "heading": None}
 SYDNEY = Place(-33.87, 151.21, "2024-06-21", 2.0, 0.0)
 
 
@@ -318,6 +319,26 @@ def test_the_browser_gets_the_day_of_the_place(pvlib, scene):
     editor.undo()
     editor.place = None
     assert editor._day == {}
+
+
+def test_a_place_from_the_browser_is_answered_with_its_day(pvlib, scene, monkeypatch):
+    editor = editor_of(scene)
+    sent = []
+    monkeypatch.setattr(editor, "send_state", lambda key=None: sent.append(key))
+    editor.set_state({"place": {"latitude": -33.87, "longitude": 151.21, **WHEN}})
+    assert editor.place == Place(-33.87, 151.21, "2024-06-21", 2.0)
+    assert editor._day["path"] == day_table(SYDNEY).tolist()
+    assert any("_day" in keys for keys in sent)
+    # What is no place is answered, and the place stays.
+    said = []
+    monkeypatch.setattr(editor, "send", lambda content, buffers=None: said.append(content))
+    editor.set_state({"place": {"latitude": 500, "longitude": 151.21, **WHEN}})
+    assert "latitude must be a number" in said[0]["error"]
+    assert editor.place.latitude == -33.87
+
+
+def test_a_page_that_is_made_at_once_has_the_path(pvlib, scene):
+    assert editor_of(scene, place=SYDNEY).get_state()["_day"]["path"] == day_table(SYDNEY).tolist()
 
 
 def test_without_pvlib_there_is_a_place_but_no_clock(scene, monkeypatch):
