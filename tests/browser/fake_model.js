@@ -21,7 +21,8 @@ export class FakeModel {
     this.dirty = {};
   }
   send(content) {
-    this.sent.push(content);
+    if (content.action === "alive") this.fire("msg:custom", { type: "response", id: content.id });
+    else this.sent.push(content);
   }
   on(event, callback) {
     if (!this.listeners.has(event)) this.listeners.set(event, new Set());

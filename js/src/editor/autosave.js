@@ -163,6 +163,14 @@ export function autosave(view, signal) {
 
 /** @param {import("./view.js").View} view */
 function showKernel({ kernel, notices }) {
+  if (kernel.state === "live" && kernel.silent) {
+    notices.show("kernel", {
+      text:
+        "The kernel does not answer. It is busy, or it was restarted: then run the cell again. " +
+        "Your edit is kept.",
+    });
+    return;
+  }
   if (kernel.state !== "lost") {
     notices.hide("kernel");
     return;

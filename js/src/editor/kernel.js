@@ -3,37 +3,49 @@
  * stand-alone page. Whatever needs the kernel asks here first.
  */
 
-/** @typedef {"live" | "lost" | "none"} KernelState */
+/**
+ * @typedef {import("../types.js").Model} Model
+ * @typedef {"live" | "lost" | "none"} KernelState
+ */
 
-// ipywidgets marks views so while their model has no connection, and says when that changes.
-const DISCONNECTED = ".jupyter-widgets-disconnected";
+// What ipywidgets fires when a model has lost its connection, or got one.
 const CONNECTION = "comm_live_update";
+const PROBE = "_connection";
+const PATIENCE_MS = 15_000; // a kernel that works on something else may take its time
 // Only the kernel sets these.
 const SIGNS = ["change:_status", "change:_scene", "msg:custom"];
 
 export class Kernel {
   /**
-   * @param {import("../types.js").Model} model
-   * @param {HTMLElement} root
+   * @param {Model} model
    * @param {AbortSignal} signal
    */
-  constructor(model, root, signal) {
+  constructor(model, signal) {
     this.model = model;
     /** @type {KernelState} */
     this.state = model.get("_standalone") ? "none" : "live";
+    /** Whether it was asked and said nothing: it is busy, or was restarted behind the host's back. */
+    this.silent = false;
+    this.asked = false;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.timer = undefined;
     /** @type {Set<() => void>} */
     this.listeners = new Set();
     if (this.state === "none") return;
-    const look = () => this.become(root.closest(DISCONNECTED) ? "lost" : "live");
-    look();
-    // The host's own view may hear of it after this one.
-    const onConnection = () => setTimeout(() => signal.aborted || look());
-    const onSign = () => this.become("live");
+    const onConnection = () => this.become(isConnected(model) ? "live" : "lost");
+    onConnection();
+    const onSign = () => {
+      this.asked = false;
+      clearTimeout(this.timer);
+      this.setSilent(false);
+      this.become("live");
+    };
     model.on(CONNECTION, onConnection);
     for (const event of SIGNS) model.on(event, onSign);
     signal.addEventListener("abort", () => {
       model.off(CONNECTION, onConnection);
       for (const event of SIGNS) model.off(event, onSign);
+      clearTimeout(this.timer);
       this.listeners.clear();
     });
   }
@@ -53,25 +65,56 @@ export class Kernel {
     this.listeners.add(listener);
   }
 
-  /** The kernel was asked, and is silent or gone. */
-  lose() {
-    this.become("lost");
+  /** Ask for a sign of life: a kernel that crashed does not say goodbye. */
+  check() {
+    if (this.state !== "live" || this.asked) return;
+    this.asked = true;
+    this.timer = setTimeout(() => this.setSilent(true), PATIENCE_MS);
+    try {
+      this.model.send({ type: "request", id: "alive", action: "alive" });
+    } catch {
+      this.become("lost");
+    }
   }
 
-  /** Find out whether there is a way to the kernel; one that crashed does not say goodbye. */
-  check() {
-    if (this.state !== "live") return;
-    try {
-      this.model.send({ type: "still here" });
-    } catch {
-      this.lose();
-    }
+  /** @param {boolean} silent */
+  setSilent(silent) {
+    if (silent === this.silent) return;
+    this.silent = silent;
+    this.tell();
   }
 
   /** @param {KernelState} state */
   become(state) {
     if (state === this.state || this.state === "none") return;
     this.state = state;
+    if (state === "lost") clearTimeout(this.timer);
+    this.tell();
+  }
+
+  tell() {
     for (const listener of this.listeners) listener();
   }
+}
+
+/**
+ * Whether a model has a way to a kernel. A page that was saved with its widgets shows them without
+ * one. anywidget hands on no property of ipywidgets' model, but its events name the model itself;
+ * other hosts do not say, and are believed.
+ *
+ * @param {Model} model
+ */
+function isConnected(model) {
+  if (!model.widget_manager) return true;
+  let connected = true;
+  /** @param {any} own */
+  const listen = (own) => {
+    connected = own?.comm_live !== false;
+  };
+  // A name that is no trait: the kernel passes over it.
+  model.on(`change:${PROBE}`, listen);
+  model.set(PROBE, {});
+  model.set(PROBE, null);
+  model.off(`change:${PROBE}`, listen);
+  return connected;
 }

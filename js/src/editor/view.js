@@ -68,7 +68,7 @@ export class View {
     this.parameters = model.get("_parameters");
     this.state = new EditState(model, this.parameters, signal);
     this.channel = new Channel(model, signal);
-    this.kernel = new Kernel(model, root, signal);
+    this.kernel = new Kernel(model, signal);
     this.state.follow = () => this.kernel.follow;
     this.stage = new Stage(signal);
     this.frame = new Frame(this.stage.canvas, this.parameters);
