@@ -18,7 +18,12 @@ export function openHelp(root, title, shortcuts) {
       "section",
       { class: "sw-keys", "aria-label": name },
       element("h3", {}, name),
-      element("dl", {}, ...shortcuts.filter(({ section }) => section === name).map(row)),
+      // No `dl`: notebooks lay that out as they like.
+      element(
+        "div",
+        { role: "list" },
+        ...shortcuts.filter(({ section }) => section === name).map(row),
+      ),
     ),
   );
   const dialog = element(
@@ -43,19 +48,16 @@ export function openHelp(root, title, shortcuts) {
 
 /** @template V @param {import("./keys.js").Shortcut<V>} shortcut */
 function row({ keys, label }) {
+  const key = (/** @type {string} */ name) => element("kbd", { class: "sw-key" }, name);
   /** @type {(Node | string)[]} */
-  const names = keys.flatMap((key, i) => [
+  const combinations = keys.flatMap((each, i) => [
     ...(i ? [" "] : []),
-    element(
-      "span",
-      { class: "sw-combination" },
-      ...keyNames(key).map((name) => element("kbd", {}, name)),
-    ),
+    element("span", {}, ...keyNames(each).map(key)),
   ]);
   return element(
     "div",
-    { class: "sw-keys-row" },
-    element("dt", {}, label),
-    element("dd", {}, ...names),
+    { class: "sw-keys-row", role: "listitem" },
+    element("span", {}, label),
+    element("span", { class: "sw-combinations" }, ...combinations),
   );
 }
