@@ -1,8 +1,7 @@
 /** The button that opens the help. */
 
 import { button } from "../controls/button.js";
-import { openHelp } from "../controls/help_dialog.js";
-import { SHORTCUTS } from "./shortcuts.js";
+import { showKeys } from "./shortcuts.js";
 
 /** @type {import("./parts.js").MakePart} */
 export function help(view) {
@@ -10,7 +9,7 @@ export function help(view) {
     icon: "help",
     label: "Keys",
     title: "Keys of the editor (?)",
-    onClick: () => openHelp(view.root, "Keys of the sun editor", SHORTCUTS),
+    onClick: () => showKeys(view),
   });
   view.toolbar.end.append(node);
   return {};

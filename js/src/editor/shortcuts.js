@@ -134,9 +134,12 @@ export const SHORTCUTS = [
     section: "Help",
     keys: ["?"],
     label: "These keys",
-    run: (view) => openHelp(view.root, "Keys of the sun editor", SHORTCUTS),
+    run: (view) => showKeys(view),
   },
 ];
+
+/** @param {View} view */
+export const showKeys = (view) => openHelp(view.root, "Keys of the sun editor", SHORTCUTS);
 
 /**
  * @param {View} view
