@@ -92,7 +92,9 @@ def thumbnails(page, fresh=False):
         page.wait_for_function(
             "pictures.filter((name) => name.includes('sw-thumbnail')).length >= 6"
         )
-    urls = page.locator(".sw-thumbnail").evaluate_all("(all) => all.map((c) => c.toDataURL())")
+    urls = page.locator(".sw-thumbnail.sw-drawn").evaluate_all(
+        "(all) => all.map((c) => c.toDataURL())"
+    )
     return [picture_of(url.split(",")[1]) for url in urls]
 
 
@@ -239,8 +241,10 @@ def test_the_histogram_follows_the_canvas_and_marks_what_is_clipped(panel):
         return np.array([float(point.split()[1]) for point in path.split("L")[1:-1]])
 
     receive(panel, exposure=2.5)
+    panel.wait_for_function(
+        "parseFloat(document.querySelector('.sw-levels-text').textContent.slice(11)) > 5"
+    )
     panel.locator(".sw-clipped-white.sw-on").wait_for()
-    panel.wait_for_timeout(1500)
     light = 56 - heights("luminance")
     assert light @ np.arange(64) / light.sum() > 32
     assert "Highlights clipped" in panel.locator(".sw-clipped-white").get_attribute("title")

@@ -54,7 +54,10 @@ export function histogram(view, signal) {
     },
     element("div", { class: "sw-levels-box" }, svg, marks.black, marks.white),
   );
-  const text = element("span", { class: "sw-levels-text" });
+  const text = element("span", {
+    class: "sw-levels-text",
+    title: "How much of the picture is clipped",
+  });
   head.append(text);
   panel.top.append(node);
 

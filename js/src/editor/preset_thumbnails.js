@@ -15,6 +15,7 @@ const SHRINK = 3;
 const DENSE = 2; // device pixels to a CSS pixel that the thumbnails are made for
 const QUIET_MS = 400; // after the last change
 const PAUSE_MS = 60; // between two of them
+const PLACES = 6;
 
 /** @type {import("./parts.js").MakePart} */
 export function presetThumbnails(view, signal) {
@@ -37,7 +38,14 @@ export function presetThumbnails(view, signal) {
       return canvas;
     },
   );
-  view.panel.top.append(chips.node);
+  // Holds the place until the analysis has found what each preset sets.
+  const places = Array.from({ length: PLACES }, () =>
+    element("span", { class: "sw-chip" }, "\u00a0"),
+  );
+  for (const place of places) place.prepend(element("canvas", { class: "sw-thumbnail" }));
+  const waiting = element("div", { class: "sw-presets sw-preset-places", "aria-hidden": "true" });
+  waiting.append(...places);
+  view.panel.top.append(chips.node, waiting);
 
   /** What a thumbnail shows; a sun that is moved by hand changes none. @param {Preset} preset */
   const keyOf = (preset) => {
@@ -99,6 +107,7 @@ export function presetThumbnails(view, signal) {
     },
     show() {
       chips.show();
+      waiting.hidden = !chips.node.hidden;
       wake(QUIET_MS);
     },
     drawn() {
