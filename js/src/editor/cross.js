@@ -7,6 +7,7 @@
  */
 
 import { setAttributes, shape } from "../controls/element.js";
+import { directionText } from "./hover.js";
 
 /** @typedef {import("../types.js").Point} Point */
 
@@ -67,6 +68,14 @@ export function cross(view, signal) {
     stage.bring(place);
     view.drawOverlay();
     view.point(place);
+    tell();
+  };
+
+  const tell = () => {
+    const { camera } = view;
+    if (!camera) return;
+    const [x, y] = [place[0] * camera.width, place[1] * camera.height];
+    view.announcer.say(`Cross at ${directionText(...camera.angles(x, y))}`, "cross");
   };
 
   /** Space is the hand of somebody with a mouse, who has no cross. @param {KeyboardEvent} event */

@@ -55,7 +55,18 @@ export class Stage extends PictureStage {
     this.full = true; // whether the canvas holds the frame at its full size
     this.url = "";
     signal.addEventListener("abort", () => URL.revokeObjectURL(this.url));
+    this.watchScreen(signal);
     this.node.addEventListener("wheel", (event) => this.onWheel(event), { passive: false, signal });
+  }
+
+  /** The window may come to a screen with denser or coarser pixels. @param {AbortSignal} signal */
+  watchScreen(signal) {
+    const same = window.matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
+    const changed = () => {
+      this.layOut();
+      this.watchScreen(signal);
+    };
+    same.addEventListener("change", changed, { once: true, signal });
   }
 
   /**
