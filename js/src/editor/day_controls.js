@@ -70,6 +70,8 @@ export function dayControls(view, clock, path, signal) {
   let frame = 0;
   let last = 0;
   const tick = (/** @type {number} */ now) => {
+    // A hand on the picture goes first.
+    if (view.pointer !== null) return stop();
     const passed = Math.min(0.2, (now - last) / 1000);
     last = now;
     // Another gesture ends a step of the history; the playing goes on in the next.
