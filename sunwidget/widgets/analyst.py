@@ -12,6 +12,7 @@ from typing import Any
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.edit import Edit
+from sunwidget.widgets.known_scenes import remember
 
 Report = Callable[[str, float, str], None]
 
@@ -134,6 +135,7 @@ class Analyst:
         if self._base is None:
             progress(0.0, "Analysing the photo")
             self._base = analyze(self._photo, progress=progress, **self._options)
+            remember(self._base, self._options)
         else:
             progress(0.5, "Applying the correction")
         scene = self._base.corrected(edit, progress)

@@ -1,12 +1,15 @@
-"""Where a widget's built front end lies."""
+"""A widget's built front end."""
 
 from pathlib import Path
 
 _STATIC = Path(__file__).parents[1] / "static"
 
 
-def front_end(name: str, widget: str) -> tuple[Path, Path]:
-    """Return the script and the style sheet of a widget.
+def front_end(name: str, widget: str) -> tuple[str, str]:
+    """Return the texts of the script and the style sheet of a widget.
+
+    The texts, not the paths: anywidget watches a file for every widget made with it, and so keeps
+    each of them, scene and all, for ever.
 
     Parameters
     ----------
@@ -26,4 +29,4 @@ def front_end(name: str, widget: str) -> tuple[Path, Path]:
             f"sunwidget's front end is not built, so there is no {widget}. In a checkout run "
             "`make build` (Node 20 or newer); an installed package brings it along."
         )
-    return script, script.with_suffix(".css")
+    return script.read_text("utf-8"), script.with_suffix(".css").read_text("utf-8")

@@ -21,6 +21,7 @@ from sunwidget.photo import Photo, open_photo
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.history import NAMES, edit_of
+from sunwidget.widgets.known_scenes import recall
 from sunwidget.widgets.payload import (
     encode_map,
     encode_maps,
@@ -287,7 +288,9 @@ def _opened(source: Any, options: dict[str, Any]) -> tuple[Photo | Scene, dict[s
             raise TypeError(f"SunEditor: {unknown_name_message(name, _ANALYSIS)}")
     analysis = {name: options.pop(name) for name in _ANALYSIS if name in options}
     if not isinstance(source, Scene):
-        return open_photo(source), analysis
+        photo = open_photo(source)
+        known = recall(photo, analysis)
+        return (photo, analysis) if known is None else (known, {})
     if analysis:
         raise TypeError(
             f"SunEditor takes {next(iter(analysis))}= with a photo; this scene is analysed "
