@@ -4,13 +4,14 @@ import base64
 
 import numpy as np
 import pytest
-from chromium import open_page, picture_of
+from chromium import open_page, picture_of, widget_state
 from skimage.color import deltaE_ciede2000, rgb2lab
 
 import sunwidget as sw
 import sunwidget.study
 from sunwidget.widgets.compare import Compare
 from sunwidget.widgets.study import Study
+from sunwidget.widgets.sun_editor import SunEditor
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 
@@ -82,7 +83,7 @@ def test_a_study_from_start_to_strengths(page, tmp_path, screenshots):
     assert answer(True) == sides[2]
     for _ in range(3):
         answer(True)
-    page.get_by_text("All 6 pairs are answered").wait_for()
+    page.get_by_text("That was all: 6 pairs").wait_for()
     with page.expect_download() as download:
         page.get_by_role("button", name="Save answers").click()
     path = tmp_path / "answers.csv"
@@ -120,6 +121,14 @@ def comparison(page, methods):
             const context = original.call(this, kind, ...rest);
             if (kind === "webgl2") window.contexts.push(context);
             return context;
+          };
+          // The photo by itself is decoded last.
+          const decode = window.createImageBitmap;
+          let calls = 0;
+          window.createImageBitmap = async (...options) => {
+            const late = calls++ === 0;
+            if (late) await new Promise((resolve) => setTimeout(resolve, 1000));
+            return decode(...options);
           };
         }"""
     )
@@ -245,3 +254,27 @@ def test_pages_need_no_kernel_and_no_network(browser, methods, tmp_path):
     download.value.save_as(tmp_path / "answers.csv")
     assert [row.choice for row in sunwidget.study.read_csv(tmp_path / "answers.csv")] == ["right"]
     context.close()
+
+
+def test_edits_in_turn_make_their_tables_once(browser, coast):
+    """Two airs side by side: a sun's drag must not make the air anew for every picture."""
+    context = browser.new_context()
+    page = open_page(context)
+    page.evaluate("(state) => makeFrame(state)", widget_state(SunEditor(coast).wait()))
+    counts = page.evaluate(
+        """() => [1, 2].map((turns) => {
+             frame.turns = turns;
+             frame.giveBack();
+             const draw = (sun) => ["a", "b"].map((_, i) => drawn(
+               { aerosol_optical_depth: 0.1 + 0.2 * i, sun_elevation: sun }, [96, 64]));
+             const first = draw(20);
+             draw(12);
+             const again = draw(20);
+             const { runs } = frame.graph;
+             return [runs.multiple_scattering_edit, runs.sky_view_edit, String(first) === String(again)];
+           })"""
+    )
+    context.close()
+    (alone, views, same), (kept, *rest) = counts
+    assert (alone, kept) == (6, 2)
+    assert rest == [views, same] == [6, True]

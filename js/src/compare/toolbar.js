@@ -72,7 +72,7 @@ export function toolbar(view) {
   const end = element("div", { class: "sw-group sw-end" }, own, difference, zoom);
   const node = element(
     "div",
-    { class: "sw-toolbar", role: "toolbar", "aria-label": "Comparison" },
+    { class: "sw-toolbar", role: "group", "aria-label": "Comparison" },
     arrangement.node,
     pair,
     history.node,

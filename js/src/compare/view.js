@@ -206,6 +206,7 @@ export class View {
           frame.setPicture(name, bitmaps[i][n]);
         });
         frame.setScene(scene);
+        frame.turns = this.panels.length;
         return frame;
       });
     } catch (error) {

@@ -56,9 +56,11 @@ export class Graph {
     /**
      * What passes drew at another size: a drag draws smaller, and what follows it is there already.
      *
-     * @type {Map<string, Target>}
+     * @type {Map<string, Target[]>}
      */
     this.spares = new Map();
+    /** How many edits are drawn in turn: so many are kept of each table that has a size of its own. */
+    this.turns = 1;
     /** @type {Map<string, Texture>} */
     this.textures = new Map();
     /** @type {Record<string, number>} how often each pass was drawn */
@@ -168,7 +170,7 @@ export class Graph {
       }
     }
 
-    const target = output ? null : this.target(pass.name, [width, height], key, frame.size[0]);
+    const target = output ? null : this.target(pass, [width, height], key, frame.size[0]);
     const unchanged = target?.key && same(target.key, key);
     if (target && pass.history) {
       if (!unchanged) target.samples = 0;
@@ -242,24 +244,28 @@ export class Graph {
   /**
    * Where a pass draws, or has drawn just this: what it drew for another size of the frame stays.
    *
-   * @param {string} name
+   * @param {Pass} pass
    * @param {[number, number]} size
    * @param {(number | string)[]} key what the pass is drawn from
    * @param {number} frame width of the frame
    */
-  target(name, size, key, frame) {
+  target({ name, size: asked }, size, key, frame) {
+    const table = this.turns > 1 && typeof asked[0] === "number";
+    // The one that was used last comes first.
     const made = [this.targets.get(name), this.spares.get(name)].flatMap((t) => t ?? []);
     const fitting = made.filter(({ texture: t }) => t.width === size[0] && t.height === size[1]);
     const target =
       fitting.find((t) => t.key && same(t.key, key)) ??
-      fitting.find((t) => t.frame === frame) ??
+      (table ? fitting[this.turns - 1] : fitting.find((t) => t.frame === frame)) ??
       createTarget(this.gl, name, ...size);
     target.frame = frame;
     this.targets.set(name, target);
+    const others = made.filter((t) => t !== target);
     // Of many sizes the picture in full is kept: it is the dearest.
-    const others = made.filter((t) => t !== target).sort((a, b) => b.frame - a.frame);
-    if (others.length) this.spares.set(name, others[0]);
-    for (const other of others.slice(1)) deleteTarget(this.gl, other);
+    if (!table) others.sort((a, b) => b.frame - a.frame);
+    const kept = table ? this.turns - 1 : 1;
+    this.spares.set(name, others.slice(0, kept));
+    for (const other of others.slice(kept)) deleteTarget(this.gl, other);
     return target;
   }
 
@@ -278,7 +284,7 @@ export class Graph {
 
   /** Free what the passes drew into. */
   deleteTargets() {
-    for (const target of [...this.targets.values(), ...this.spares.values()]) {
+    for (const target of [...this.targets.values(), ...[...this.spares.values()].flat()]) {
       deleteTarget(this.gl, target);
     }
     this.targets.clear();

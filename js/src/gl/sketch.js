@@ -37,19 +37,19 @@ class Borrower extends Graph {
   }
 
   /**
-   * @param {string} name
+   * @param {import("./graph.js").Pass} pass
    * @param {[number, number]} size
    * @param {(number | string)[]} key
    * @param {number} frame
    */
-  target(name, size, key, frame) {
-    const lent = this.lender.targets.get(name);
+  target(pass, size, key, frame) {
+    const lent = this.lender.targets.get(pass.name);
     const { width, height } = lent?.texture ?? {};
     if (lent?.key && width === size[0] && height === size[1] && same(lent.key, key)) {
-      this.lent.set(name, lent);
+      this.lent.set(pass.name, lent);
       return lent;
     }
-    return super.target(name, size, key, frame);
+    return super.target(pass, size, key, frame);
   }
 
   /**

@@ -39,6 +39,7 @@ export class Surface {
     this.pictures = new Map();
     /** @type {Graph | null} */
     this.graph = null;
+    this.turns = 1; // how many edits are drawn in turn (gl/graph.js)
     this.release = () => this.giveBack();
   }
 
@@ -122,6 +123,7 @@ export class Surface {
     try {
       if (!gl) throw new Error(NO_WEBGL);
       const graph = new Graph(gl, this.description, this.files);
+      graph.turns = this.turns;
       for (const [name, pixels] of this.pictures) graph.setTexture(name, pixels);
       this.graph = graph;
       return graph;

@@ -267,7 +267,7 @@ export class View {
       element(
         "p",
         {},
-        `You will see ${all} pairs of pictures. Click the one, or press the left or right ` +
+        `You will see ${pairs(all)} of pictures. Click the one, or press the left or right ` +
           `arrow key.${keys} Backspace takes the last answer back. There is no wrong answer.`,
       ),
       ...(done ? [element("p", {}, `${done} of ${all} are answered.`)] : []),
@@ -290,7 +290,7 @@ export class View {
     return element(
       "div",
       { class: "sw-study-text" },
-      element("p", {}, `Thank you. All ${all} pairs are answered.`),
+      element("p", {}, `Thank you. That was all: ${pairs(all)}.`),
       element("div", { class: "sw-study-form" }, save, next),
     );
   }
@@ -304,3 +304,6 @@ export class View {
     setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
   }
 }
+
+/** @param {number} count */
+const pairs = (count) => (count === 1 ? "one pair" : `${count} pairs`);
