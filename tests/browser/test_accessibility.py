@@ -28,10 +28,10 @@ def open_editor(browser, state):
     """Open the editor in a browser of its own: ``open_editor(width, color_scheme=…)``."""
     contexts = []
 
-    def opened(width=1180, **options):
+    def opened(width=1180, traits=None, **options):
         contexts.append(browser.new_context(viewport={"width": width, "height": 860}, **options))
         page = open_page(contexts[-1])
-        page.evaluate("(state) => showEditor(state)", state)
+        page.evaluate("(state) => showEditor(state)", {**state, **(traits or {})})
         page.locator(".sunwidget.sw-live").wait_for()
         return page
 
@@ -213,6 +213,18 @@ def test_changes_out_of_the_focus_are_said_once_they_rest(open_editor):
     said.get_by_text("Brush: water", exact=True).wait_for(state="attached")
     page.evaluate("model.set('sun_azimuth', -20); model.set('sun_elevation', 4)")
     said.get_by_text("Sun 20.0° left · 4.0° elevation").wait_for(state="attached")
+
+
+def test_keys_of_what_needs_a_kernel_say_so_where_there_is_none(open_editor):
+    page = open_editor(traits={"_standalone": True})
+    page.locator(".sw-sun").focus()
+    press(page, "2", "m")
+    page.locator(".sw-spoken").get_by_text("Needs a kernel").wait_for(state="attached")
+    assert page.locator(".sunwidget").get_attribute("data-tool") == "sun"
+    page.get_by_role("radio", name="Move the sun").focus()
+    press(page, "ArrowRight")
+    assert page.locator(".sunwidget").get_attribute("data-tool") == "sun"
+    assert page.errors == []
 
 
 def test_it_has_room_in_every_width_and_targets_for_a_finger(open_editor):

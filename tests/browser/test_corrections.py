@@ -119,7 +119,7 @@ def test_a_brush_paints_water_when_told_so_and_the_eraser_takes_it_away(editor):
     choose(editor, "Brush: sky")
     editor.keyboard.press("w")
     assert (
-        editor.get_by_role("toolbar")
+        editor.locator(".sw-toolbar")
         .get_by_role("button", name="Water")
         .get_attribute("aria-pressed")
         == "true"
@@ -127,7 +127,7 @@ def test_a_brush_paints_water_when_told_so_and_the_eraser_takes_it_away(editor):
     drag(editor, (0.3, 0.8), (0.5, 0.8))
     choose(editor, "Brush: not water")
     drag(editor, (0.3, 0.3), (0.5, 0.3))
-    editor.get_by_role("toolbar").get_by_role("button", name="Water").click()
+    editor.locator(".sw-toolbar").get_by_role("button", name="Water").click()
     choose(editor, "Brush: not sky")
     drag(editor, (0.3, 0.5), (0.5, 0.5))
     said = [stroke["label"] for stroke in trait(editor, "strokes")]

@@ -47,11 +47,12 @@ export function radioButtons({ label, choices, value, onChange }) {
   };
   group.addEventListener("keydown", (event) => {
     const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
-    const at = buttons.findIndex(({ node }) => node === event.target);
+    const open = buttons.filter(({ node }) => !node.disabled);
+    const at = open.findIndex(({ node }) => node === event.target);
     if (!step || at < 0) return;
     event.preventDefault();
     event.stopPropagation();
-    const next = buttons[(at + step + buttons.length) % buttons.length];
+    const next = open[(at + step + open.length) % open.length];
     next.node.focus();
     onChange(next.value);
   });

@@ -10,10 +10,21 @@ import { runShortcut } from "../controls/keys.js";
 
 /** Choose a tool and go to its handle, or else to the picture. @type {(tool: string) => (view: View) => void} */
 const take = (tool) => (view) => {
+  const node = view.toolbar.tools.find(({ value }) => value === tool)?.node;
+  if (node?.matches(":disabled")) {
+    view.announcer.say(node.title);
+    return;
+  }
   view.setTool(tool);
   if (view.tools[tool].focus) view.tools[tool].focus();
   else view.stage.node.focus({ preventScroll: true });
 };
+
+/** @param {View} view @param {1 | -1} way */
+function stepMap({ inspector, announcer }, way) {
+  if (inspector.choice.disabled) announcer.say(inspector.choice.title);
+  else inspector.step(way);
+}
 
 /** @param {View} view */
 function stepBack(view) {
@@ -113,13 +124,13 @@ export const SHORTCUTS = [
     section: "View",
     keys: ["M"],
     label: "Next map of the analysis",
-    run: (view) => view.inspector.step(1),
+    run: (view) => stepMap(view, 1),
   },
   {
     section: "View",
     keys: ["Shift+M"],
     label: "Map before",
-    run: (view) => view.inspector.step(-1),
+    run: (view) => stepMap(view, -1),
   },
 
   { section: "History", keys: ["Mod+Z"], label: "Undo", run: (view) => view.state.undo() },

@@ -97,7 +97,7 @@ export function toolbar(view) {
     title: "Menu: photos, recipes, and what there is beside",
     groups: ["photo", "recipe", "picture", "help"],
   });
-  const node = element("div", { class: "sw-toolbar", role: "toolbar", "aria-label": "Sun editor" });
+  const node = element("div", { class: "sw-toolbar", role: "group", "aria-label": "Sun editor" });
   const end = element(
     "div",
     { class: "sw-group sw-end" },

@@ -72,7 +72,7 @@ export function toolbar(view) {
   });
   const node = element(
     "div",
-    { class: "sw-toolbar", role: "toolbar", "aria-label": "Sky explorer" },
+    { class: "sw-toolbar", role: "group", "aria-label": "Sky explorer" },
     projections.node,
     history.node,
     element("div", { class: "sw-group sw-end" }, said, copy, help),
