@@ -1,7 +1,7 @@
 # Every target does its own set-up, once: what is there already is left alone.
 SHELL := bash
 .DEFAULT_GOAL := help
-.PHONY: help demo lab test bench validate build wheel clean gl chromium
+.PHONY: help demo lab test bench validate tour build wheel clean gl chromium
 
 PYTHON ?=
 export PYTHON
@@ -21,6 +21,7 @@ help:
 	@echo 'make test    every check: lint, types, JavaScript, Python, browser, notebooks'
 	@echo 'make bench   measure speed; table and build/bench.json'
 	@echo 'make validate  the sky against measurements and other models; table and build/validation.json'
+	@echo 'make tour    pictures of a walk through the editor in JupyterLab, in build/tour'
 	@echo 'make build   build the front end into sunwidget/static'
 	@echo 'make wheel   a wheel in dist/, front end inside'
 	@echo 'make clean   remove everything that was built (not .venv, not node_modules)'
@@ -43,6 +44,9 @@ bench: $(TEST) $(STATIC) gl chromium
 
 validate: $(TEST) $(STATIC) gl chromium
 	@$(PY) bench/validate.py $(VALIDATE)
+
+tour: $(TEST) $(STATIC) gl chromium
+	@$(PY) scripts/tour.py $(TOUR)
 
 build: $(STATIC)
 
