@@ -40,6 +40,8 @@ def editor_page(
         "_history": {"past": [], "future": []},
         # Pages are passed on: where a photo was taken is in none that its maker did not put there.
         "_photo_place": {},
+        # Notes tell the maker what to correct; in a page nothing can be.
+        "_scene": embedded["state"]["_scene"] | {"warnings": []},
     }
     name = photo.name if title is None else title
     return page({**embedded, "state": state}, still, title=name, notes=_NOTES)
