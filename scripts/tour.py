@@ -36,7 +36,7 @@ def cells(photo: str | None) -> list[str]:
         "editor.save('evening.png', overwrite=True)",
         "exec(CODE)\nedit == editor.edit",
         "sw.Compare(editor.scene, ['ratio', 'thesis', 'thesis_literal'])",
-        f"editor.set_place(**{PLACE}, time=16)\neditor.time = 16.6",
+        f"editor.set_place(**{PLACE}, time=17.2)\neditor.time = 17.9",
     ]
 
 
