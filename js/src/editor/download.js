@@ -7,6 +7,10 @@ const KEPT_MS = 60_000; // the browser reads the file while it asks where to put
 /** @param {Blob} blob @param {string} name */
 export function download(blob, name) {
   const link = element("a", { href: URL.createObjectURL(blob), download: name });
+  // In the page: VS Code hands on the clicks that reach its document, and no others.
+  link.hidden = true;
+  document.body.append(link);
   link.click();
+  link.remove();
   setTimeout(() => URL.revokeObjectURL(link.href), KEPT_MS);
 }

@@ -127,9 +127,9 @@ export function placeControls(view, signal) {
     nodes: [element("div", { class: "sw-chips" }, ...chips), fields, row, said],
     show() {
       const { values } = state;
-      if (date !== document.activeElement) date.value = String(values.date ?? "");
+      if (!date.matches(":focus")) date.value = String(values.date ?? "");
       for (const { name, input } of numbers) {
-        if (input !== document.activeElement) input.value = String(values[name] ?? "");
+        if (!input.matches(":focus")) input.value = String(values[name] ?? "");
       }
       const day = view.day();
       row.hidden = day.length === 0;
