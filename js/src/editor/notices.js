@@ -9,11 +9,18 @@ import { element } from "../controls/element.js";
  *   goes by itself
  */
 
+const PAUSE_MS = 200;
+
 export class Notices {
-  /** @param {AbortSignal} signal */
-  constructor(signal) {
+  /**
+   * @param {() => boolean} busy whether the hand is at work: what comes now would move the picture
+   *   under it
+   * @param {AbortSignal} signal
+   */
+  constructor(busy, signal) {
+    this.busy = busy;
     this.node = element("div", { class: "sw-notices", role: "status" });
-    /** @type {Map<string, { node: HTMLElement, timer?: ReturnType<typeof setTimeout> }>} */
+    /** @type {Map<string, { node?: HTMLElement, timer?: ReturnType<typeof setTimeout> }>} */
     this.shown = new Map();
     signal.addEventListener("abort", () => {
       for (const key of [...this.shown.keys()]) this.hide(key);
@@ -21,13 +28,20 @@ export class Notices {
   }
 
   /**
-   * Show a notice in place of the one of that key.
+   * Show a notice in place of the one of that key, as soon as the hand rests.
    *
    * @param {string} key
    * @param {Notice} notice
    */
-  show(key, { text, actions = [], onClose, seconds }) {
+  show(key, notice) {
+    this.hide(key);
+    if (this.busy()) {
+      this.shown.set(key, { timer: setTimeout(() => this.show(key, notice), PAUSE_MS) });
+      return;
+    }
+    const { text, actions = [], onClose, seconds } = notice;
     const node = element("div", { class: "sw-notice" }, element("span", {}, text));
+    node.classList.toggle("sw-passing", seconds !== undefined);
     for (const { label, run } of actions) {
       const act = element("button", { type: "button", class: "sw-notice-action" }, label);
       act.addEventListener("click", () => {
@@ -46,7 +60,6 @@ export class Notices {
         },
       }),
     );
-    this.hide(key);
     const timer = seconds ? setTimeout(() => this.hide(key), 1000 * seconds) : undefined;
     this.shown.set(key, { node, timer });
     this.node.append(node);
@@ -56,7 +69,7 @@ export class Notices {
   hide(key) {
     const shown = this.shown.get(key);
     clearTimeout(shown?.timer);
-    shown?.node.remove();
+    shown?.node?.remove();
     this.shown.delete(key);
   }
 }

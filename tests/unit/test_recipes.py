@@ -1,0 +1,111 @@
+"""Recipes cross from Python to the browser and back; the browser's Python is executed here."""
+
+import json
+import shutil
+import subprocess
+
+import pytest
+
+import sunwidget as sw
+from sunwidget.edit import PARAMETERS, RECIPE_VERSION, plain
+from sunwidget.widgets.history import HISTORY_BYTES, HISTORY_LENGTH, NAME_LENGTH, VERSIONS
+from sunwidget.widgets.payload import parameter_json
+
+pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="needs Node")
+
+STROKES = (
+    sw.Stroke("sky", ((0.1, 0.2), (0.30000000000000004, -1.0)), radius=0.02),
+    sw.Stroke("not_water", ((1e-7, 0.5),)),
+)
+EDITS = {
+    "empty": sw.Edit(),
+    "sun": sw.Edit(sun_azimuth=-4.0, sun_elevation=2.5),
+    "every row": sw.Edit(
+        **{p.name: p.maximum for p in PARAMETERS if p.kind == "number"},
+        **{p.name: p.choices[-1] for p in PARAMETERS if p.kind == "choice"},
+        strokes=STROKES,
+        sun_hint=(0.5, 0.25),
+        horizon_hint=((0.0, 0.5), (1.0, 0.4)),
+        fov_hint=38.0,
+        place=sw.Place(latitude=41.0, longitude=29.0, date="2024-06-21", time=17.5, heading=280.0),
+    ),
+    "half known place": sw.Edit(place=sw.Place(-33.9, 151.2, "2024-12-21", 9)),
+}
+SCRIPT = """
+import { checkRecipe } from "./js/src/recipe/check.js";
+import { readRecipe } from "./js/src/recipe/read.js";
+import { toJson, toPython } from "./js/src/recipe/write.js";
+let text = "";
+for await (const part of process.stdin) text += part;
+const { parameters, recipes } = JSON.parse(text);
+const answers = recipes.map((recipe) => {
+  const { values, problems } = checkRecipe(parameters, readRecipe(recipe));
+  return { json: toJson(values), python: toPython(values), problems };
+});
+console.log(JSON.stringify(answers));
+"""
+
+
+@pytest.fixture(scope="module")
+def browser(root):
+    """``browser(texts)`` reads recipes as the front end does and writes them again."""
+
+    def ask(texts):
+        done = subprocess.run(
+            ["node", "--input-type=module", "--eval", SCRIPT],
+            cwd=root,
+            input=json.dumps({"parameters": parameter_json(), "recipes": texts}),
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        return json.loads(done.stdout)
+
+    return ask
+
+
+@pytest.mark.parametrize("write", [sw.Edit.to_json, sw.Edit.to_code])
+def test_what_python_writes_comes_back_from_the_browser_in_both_forms(browser, write):
+    answers = browser([write(edit) for edit in EDITS.values()])
+    for (name, edit), answer in zip(EDITS.items(), answers, strict=True):
+        assert answer["problems"] == [], name
+        assert sw.Edit.from_json(answer["json"]) == edit, name
+        space = {}
+        exec(answer["python"], space)
+        assert space["edit"] == edit, name
+
+
+def test_copied_python_names_only_what_differs(browser):
+    (answer,) = browser(['{"version": 1, "exposure": 0.5}'])
+    assert answer["python"] == "import sunwidget as sw\n\nedit = sw.Edit(\n    exposure=0.5,\n)\n"
+
+
+def test_every_row_is_checked_in_the_browser_as_in_python(browser):
+    wrong = {"number": [1e9, "1", [], True], "choice": ["magic", 1], "data": [3.5e9, "x"]}
+    refused = [json.dumps({p.name: value}) for p in PARAMETERS for value in wrong[p.kind]]
+    numbers = [p for p in PARAMETERS if p.kind == "number"]
+    taken = [json.dumps({p.name: edge}) for p in numbers for edge in (p.minimum, p.maximum)]
+    answers = browser([*refused, *taken])
+    for text, answer in zip([*refused, *taken], answers, strict=True):
+        assert bool(answer["problems"]) == (text in refused), text
+    for text in refused:
+        with pytest.raises(sw.EditError):
+            sw.Edit.from_json(text)
+
+
+def test_a_value_in_the_browser_is_pythons(browser):
+    edit = EDITS["every row"]
+    (answer,) = browser([edit.to_json()])
+    values = json.loads(answer["json"])
+    assert values == {"version": RECIPE_VERSION} | {
+        name: plain(value) for name, value in edit.changed().items()
+    }
+
+
+def test_both_sides_keep_as_much(root):
+    state = (root / "js/src/state.js").read_text("utf-8")
+    versions = (root / "js/src/editor/versions.js").read_text("utf-8")
+    assert f"HISTORY_LENGTH = {HISTORY_LENGTH};" in state
+    assert f"HISTORY_BYTES = {HISTORY_BYTES:_};" in state
+    assert f"MOST = {VERSIONS};" in versions
+    assert f"NAME_LENGTH = {NAME_LENGTH};" in versions
