@@ -108,6 +108,9 @@ def page(
             "img-src data: blob:",
             "base-uri 'none'",
             "form-action 'none'",
+            # Nothing in the page may read text as HTML or as code, the front end included.
+            "require-trusted-types-for 'script'",
+            "trusted-types 'none'",
         ]
     )
     content = {"state": state, "buffers": embedded.get("buffers", [])}

@@ -80,6 +80,8 @@ def test_the_policy_lets_only_the_pages_own_code_run(text):
     assert rules["script-src"] == f"'sha256-{digest(starter)}' blob:"
     (style,) = tree.iter("style")
     assert rules["style-src-elem"] == f"'sha256-{digest(style.text)}'"
+    assert rules["require-trusted-types-for"] == "'script'"
+    assert rules["trusted-types"] == "'none'"
     assert "unsafe-inline" not in rules["script-src"] + rules["style-src-elem"]
 
 
