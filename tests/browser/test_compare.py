@@ -270,8 +270,9 @@ def test_edits_in_turn_make_their_tables_once(browser, coast):
              const first = draw(20);
              draw(12);
              const again = draw(20);
-             const { runs } = frame.graph;
-             return [runs.multiple_scattering_edit, runs.sky_view_edit, String(first) === String(again)];
+             const { multiple_scattering_edit, sky_view_edit } = frame.graph.runs;
+             const same = String(first) === String(again);
+             return [multiple_scattering_edit, sky_view_edit, same];
            })"""
     )
     context.close()
