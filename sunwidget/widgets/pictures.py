@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from sunwidget.analysis.scene import Scene
+from sunwidget.edit import Edit
 from sunwidget.files import target
 from sunwidget.photo import Photo
 from sunwidget.widgets.analyst import Analyst
@@ -117,7 +118,8 @@ class Pictures(EditHistory):
         """Return a small PNG: the edit where it can be had at once, else the photo."""
         from sunwidget.renderer.gl_thread import RendererError
 
-        if self._analyst.ready:
+        # The first frame of a session takes a second, which an untouched photo is not worth.
+        if self._analyst.ready and self.edit != Edit():
             try:
                 return encode_png(self.render(size=_fitting(self.photo, THUMBNAIL_EDGE)))
             except RendererError:
