@@ -130,9 +130,8 @@ def _note(
     start = f"The photo's sun stands {abs(mismatch):.1f}° {way} than at {at}. "
     if not agreeing:
         return f"{start}On this day it never stands at {level:.1f}°: check date and place."
-    times = " and ".join(
-        f"{clock(p.time)} UTC{_shift(h)}" for p, h in zip(agreeing, apart, strict=True)
-    )
+    times = " and ".join(f"{clock(p.time)} UTC" for p in agreeing)
+    times = times.replace(" UTC", f" UTC{_shift(apart[0])}", 1)
     return f"{start}Is the clock or its time zone wrong? The elevations agree at {times}."
 
 

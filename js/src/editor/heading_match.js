@@ -28,13 +28,13 @@ export function headingMatch(view, clock) {
     note.textContent = text;
     note.hidden = !text;
     offers.hidden = !places.length;
-    offers.replaceChildren(...places.map((place) => offer(place, clock.hours)));
+    offers.replaceChildren(...places.map((place, i) => offer(place, i === 0 ? clock.hours : null)));
   }
 
-  /** @param {Place} place @param {number} now the clock's hours */
+  /** @param {Place} place @param {number | null} now the clock's hours, for the nearest of them */
   const offer = (place, now) =>
     chip(
-      `${clockText(place.time)} UTC${shift(hoursOfDay(place) - now)}`,
+      `${clockText(place.time)} UTC${now === null ? "" : shift(hoursOfDay(place) - now)}`,
       "Take this for the photo's time, with its heading",
       () => {
         view.state.set({ place });
