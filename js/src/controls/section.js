@@ -14,8 +14,6 @@ export function section({ title, open = true, className = "sw-section" }, ...chi
   return element("details", { class: className, open }, heading, body);
 }
 
-let sections = 0;
-
 /**
  * A section that says how many of its values are changed, and resets them. Not `details`: a
  * button inside its summary is hidden from assistive technology.
@@ -25,13 +23,11 @@ let sections = 0;
  * @param {Node[]} children
  */
 export function countedSection({ title, open, onFold, onReset }, ...children) {
-  sections += 1;
-  const id = `sw-section-${sections}`;
-  const body = element("div", { class: "sw-section-body", id }, ...children);
+  const body = element("div", { class: "sw-section-body" }, ...children);
   const count = element("span", { class: "sw-count", hidden: true });
   const fold = element(
     "button",
-    { type: "button", class: "sw-fold", "aria-controls": id },
+    { type: "button", class: "sw-fold" },
     icon("chevron"),
     element("span", { class: "sw-fold-title" }, title),
     count,

@@ -16,6 +16,7 @@ const DENSE = 2; // device pixels to a CSS pixel that the thumbnails are made fo
 const QUIET_MS = 400; // after the last change
 const PAUSE_MS = 60; // between two of them
 const PLACES = 6;
+const WIDTH = 150; // of the photo in a thumbnail's place, pixels
 
 /** @type {import("./parts.js").MakePart} */
 export function presetThumbnails(view, signal) {
@@ -28,11 +29,20 @@ export function presetThumbnails(view, signal) {
   let timer;
   let forget = () => {};
 
+  /** What stands there until the thumbnail is drawn. @param {HTMLCanvasElement} canvas */
+  const placePhoto = (canvas) => {
+    const { photo } = view.stage;
+    if (!photo.naturalWidth) return;
+    canvas.width = WIDTH;
+    canvas.height = Math.round((WIDTH * photo.naturalHeight) / photo.naturalWidth);
+    canvas.getContext("2d")?.drawImage(photo, 0, 0, canvas.width, canvas.height);
+  };
   const chips = presetChips(
     view.state,
     () => view.scene?.presets ?? [],
     (preset) => {
       const canvas = element("canvas", { class: "sw-thumbnail", "aria-hidden": "true" });
+      placePhoto(canvas);
       all = all.filter((one) => one.preset.label !== preset.label);
       all.push({ preset, canvas, key: "" });
       return canvas;
