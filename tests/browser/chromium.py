@@ -60,7 +60,7 @@ def open_page(context, name="page.html"):
     page.on("pageerror", lambda error: page.errors.append(str(error)))
 
     def serve(route):
-        path = route.request.url.removeprefix(ORIGIN).lstrip("/")
+        path = route.request.url.removeprefix(ORIGIN).lstrip("/").split("?")[0]
         for folder in (HERE, STATIC):
             file = folder / path
             if file.is_file():
@@ -125,6 +125,8 @@ def connect(page, widget):
     """Let a real widget answer what the page's editor sends; see ``showConnected``."""
     from sunwidget.widgets.requests import Requests
 
+    actions = widget._actions()
+
     def answer(sent):
         if "changes" in sent:
             widget.set_state(sent["changes"])
@@ -136,7 +138,8 @@ def connect(page, widget):
         def send(content, buffers=()):
             messages.append([content, [base64.b64encode(b).decode("ascii") for b in buffers]])
 
-        Requests(send, widget._actions())._answer(sent["content"])
+        content = {**sent["content"], "buffers": [bytes(b) for b in sent["content"]["buffers"]]}
+        Requests(send, actions)._answer(content)
         return messages
 
     page.expose_function("toKernel", answer)
