@@ -14,7 +14,7 @@ export class FakeModel {
     if (this.state[name] === value) return;
     this.state[name] = value;
     this.dirty[name] = value;
-    this.fire(`change:${name}`);
+    this.fire(`change:${name}`, this); // as ipywidgets' models name themselves
   }
   save_changes() {
     if (Object.keys(this.dirty).length) this.saved.push(this.dirty);

@@ -23,22 +23,31 @@ export function popup({ anchor, attributes, onOpen, onOpened, onClosed }) {
     if (!node.contains(/** @type {Node} */ (event.target))) node.hidePopover();
   };
   node.addEventListener("beforetoggle", (event) => {
+    anchor.setAttribute("aria-expanded", String(event.newState === "open"));
     if (event.newState !== "open") return;
     place(node, anchor.getBoundingClientRect());
     onOpen?.();
   });
   node.addEventListener("toggle", (event) => {
     const open = event.newState === "open";
-    anchor.setAttribute("aria-expanded", String(open));
     const listen = open ? "addEventListener" : "removeEventListener";
     window[listen]("scroll", /** @type {EventListener} */ (onScroll), true);
-    if (open) onOpened?.();
-    else onClosed?.();
+    if (!open) onClosed?.();
+  });
+  const open = () => {
+    node.showPopover();
+    onOpened?.(); // at once, not with the event: the next key may be pressed already
+  };
+  // That the button belongs to the box keeps a click on it from closing the box beforehand.
+  anchor.addEventListener("click", (event) => {
+    event.preventDefault();
+    if (node.matches(":popover-open")) node.hidePopover();
+    else open();
   });
   node.addEventListener("keydown", (event) => event.stopPropagation());
   return {
     node,
-    open: () => node.showPopover(),
+    open,
     close: () => node.hidePopover(),
     get isOpen() {
       return node.matches(":popover-open");

@@ -13,11 +13,13 @@ const PAUSE_MS = 200;
 
 export class Notices {
   /**
+   * @param {HTMLElement} root of the editor
    * @param {() => boolean} busy whether the hand is at work: what comes now would move the picture
    *   under it
    * @param {AbortSignal} signal
    */
-  constructor(busy, signal) {
+  constructor(root, busy, signal) {
+    this.root = root;
     this.busy = busy;
     this.node = element("div", { class: "sw-notices", role: "status" });
     /** @type {Map<string, { node?: HTMLElement, timer?: ReturnType<typeof setTimeout> }>} */
@@ -69,7 +71,11 @@ export class Notices {
   hide(key) {
     const shown = this.shown.get(key);
     clearTimeout(shown?.timer);
-    shown?.node?.remove();
     this.shown.delete(key);
+    if (!shown?.node) return;
+    const focused = shown.node.matches(":focus-within");
+    shown.node.remove();
+    // The keys stay in the editor.
+    if (focused) /** @type {HTMLElement | null} */ (this.root.querySelector(".sw-sun"))?.focus();
   }
 }

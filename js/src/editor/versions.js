@@ -93,21 +93,21 @@ export function versions(view) {
         "aria-label": `New name of “${version.name}”`,
       });
       field.value = version.name;
-      field.addEventListener("keydown", (event) => {
-        if (event.key === "Escape") {
-          event.preventDefault(); // the list stays open
-          show();
-          name.focus();
-        }
-        if (event.key !== "Enter") return;
-        const wrong = renameVersion(state, version, field.value);
-        say(wrong);
-        if (!wrong) name.focus();
-      });
-      field.addEventListener("blur", () => {
-        if (field.isConnected) say(renameVersion(state, version, field.value));
+      let done = false;
+      const finish = () => {
+        if (done) return;
+        done = true; // before the list is drawn anew, which takes the focus from the field
+        say(renameVersion(state, version, field.value));
         show();
+      };
+      field.addEventListener("keydown", (event) => {
+        if (event.key !== "Escape" && event.key !== "Enter") return;
+        event.preventDefault(); // neither closes the list nor keeps another version
+        if (event.key === "Escape") field.value = version.name;
+        finish();
+        name.focus();
       });
+      field.addEventListener("blur", finish);
       go.replaceWith(field);
       field.select();
     };

@@ -1,0 +1,270 @@
+"""Recipes, named versions, dropped photos, and edits that outlive kernel and page."""
+
+import json
+
+import numpy as np
+import pytest
+from chromium import ORIGIN, connect, open_page, picture_of, widget_state
+from PIL import Image
+
+import sunwidget as sw
+from sunwidget.widgets import SunEditor
+
+pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
+
+
+@pytest.fixture(scope="module")
+def state(coast):
+    return widget_state(SunEditor(coast).wait())
+
+
+@pytest.fixture
+def context(browser):
+    context = browser.new_context(viewport={"width": 1180, "height": 860})
+    yield context
+    context.close()
+
+
+def show(page, state, session="first", **changes):
+    """Show the editor as the cell does when it is run: in a session of its own."""
+    source = {**state["_source"], "session": session}
+    page.evaluate("(state) => showEditor(state)", {**state, "_source": source, **changes})
+    page.locator(".sunwidget.sw-live").wait_for()
+
+
+def trait(page, name):
+    return page.evaluate("(name) => model.get(name)", name)
+
+
+def choose(page, entry):
+    page.get_by_role("button", name="Menu").click()
+    page.get_by_role("menuitem", name=entry).click()
+
+
+def paste(page, text):
+    page.evaluate(
+        """(text) => {
+          const clipboardData = new DataTransfer();
+          clipboardData.setData("text/plain", text);
+          const options = { clipboardData, bubbles: true, cancelable: true };
+          const event = new ClipboardEvent("paste", options);
+          document.querySelector(".sw-sun").dispatchEvent(event);
+        }""",
+        text,
+    )
+
+
+def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(
+    context, state, screenshots
+):
+    page = open_page(context)
+    show(page, state)
+    page.get_by_role("slider", name="Azimuth").focus()
+    page.keyboard.press("ArrowRight")
+    paste(page, '{"exposure": 0.5}')
+    page.get_by_role("button", name="Versions").click()
+    page.keyboard.type("warm")
+    page.keyboard.press("Enter")
+    page.keyboard.press("Escape")
+    before = trait(page, "_history")
+    assert before["past"] == [{}, {"sun_azimuth": 9.9}]
+    page.reload()  # the page is left at once: what was done last is kept all the same
+    page.wait_for_function("window.ready")
+
+    # Another photo, and an editor that is alive beside this one, are not asked about.
+    show(page, state, "other", _source={"name": "", "session": "x", "fingerprint": "0" * 32})
+    assert page.get_by_role("button", name="Restore").count() == 0
+    page.evaluate("close_view()")
+
+    show(page, state, "second", sun_elevation=5)
+    notice = page.locator(".sw-notice")
+    assert "a moment ago" in notice.text_content()
+    assert "differs from the one that was given" in notice.text_content()
+    assert trait(page, "exposure") == 0, "a recipe that code gives is not replaced unasked"
+    page.screenshot(path=screenshots / "restore-light.png")
+    page.get_by_role("button", name="Restore").click()
+    assert trait(page, "exposure") == 0.5
+    assert trait(page, "sun_elevation") is None
+    assert [version["name"] for version in trait(page, "_versions")] == ["warm"]
+    assert page.get_by_role("button", name="Restore").count() == 0
+    page.keyboard.press("Control+z")
+    assert trait(page, "sun_elevation") == 5, "what was given is a step, not lost"
+    page.evaluate("close_view()")
+
+    # Put away, it is not offered again, but can still be had.
+    show(page, state, "third")
+    page.get_by_role("button", name="Put this away").click()
+    page.evaluate("close_view()")
+    show(page, state, "fourth")
+    assert page.get_by_role("button", name="Restore").count() == 0
+    choose(page, "Restore last edit")
+    assert page.evaluate("model.get('_history').past.length") > 0
+    assert page.errors == []
+
+
+def test_a_page_without_kernel_goes_on_and_keeps_what_is_done(context, state, screenshots):
+    page = open_page(context)
+    page.evaluate(
+        """(state) => {
+          const make = window.makeModel;
+          const lost = { widget_manager: {}, comm_live: false };
+          window.makeModel = (state) => Object.assign(make(state), lost);
+          showEditor(state);
+        }""",
+        state,
+    )
+    page.locator(".sunwidget.sw-live").wait_for()
+    assert "The kernel of this editor is gone" in page.locator(".sw-notice").text_content()
+    assert page.get_by_role("radio", name="Brush: sky").is_disabled()
+    page.get_by_role("slider", name="Azimuth").focus()
+    page.keyboard.press("ArrowRight")
+    page.emulate_media(color_scheme="dark")
+    page.screenshot(path=screenshots / "kernel-gone-dark.png")
+    page.wait_for_timeout(700)
+    page.goto(f"{ORIGIN}/page.html")
+    page.wait_for_function("window.ready")
+    show(page, state, "next")
+    page.get_by_role("button", name="Restore").click()
+    assert trait(page, "sun_azimuth") == pytest.approx(9.9)
+    assert page.errors == []
+
+
+def test_a_browser_without_storage_edits_as_ever(context, state):
+    context.add_init_script(
+        "Object.defineProperty(window, 'localStorage', { get() { throw new Error('no'); } });"
+    )
+    page = open_page(context)
+    show(page, state)
+    paste(page, "sw.Edit(exposure=1)")
+    page.wait_for_timeout(700)
+    assert trait(page, "exposure") == 1
+    page.evaluate("close_view()")
+    assert page.errors == []
+
+
+def test_versions_are_kept_renamed_gone_to_and_deleted(context, state, screenshots):
+    page = open_page(context)
+    show(page, state)
+    for number, exposure in enumerate((0.5, 1), 1):
+        paste(page, json.dumps({"exposure": exposure}))
+        page.get_by_role("button", name="Versions").click()
+        field = page.get_by_label("Name of the version")
+        assert field.input_value() == f"Version {number}"
+        page.keyboard.press("Enter")
+        page.keyboard.press("Escape")
+    page.get_by_role("button", name="Versions").click()
+    field.fill("Version 1")
+    page.keyboard.press("Enter")
+    assert page.locator(".sw-versions [role=alert]").text_content() == (
+        "“Version 1” is kept already. Choose another name."
+    )
+    page.get_by_role("button", name="Rename “Version 1”").click()
+    page.keyboard.type("<b>dim</b>")
+    page.keyboard.press("Enter")
+    page.screenshot(path=screenshots / "versions-light.png")
+    page.get_by_role("button", name="<b>dim</b>", exact=True).click()
+    assert trait(page, "exposure") == 0.5
+    page.get_by_role("button", name="Delete “<b>dim</b>”").click()
+    page.keyboard.press("Escape")
+    assert [version["name"] for version in trait(page, "_versions")] == ["Version 2"]
+    page.get_by_role("button", name="Keep it").click()
+    kept = [version["name"] for version in trait(page, "_versions")]
+    assert kept == ["<b>dim</b>", "Version 2"]
+    undo = page.get_by_role("button", name="Undo", exact=True)
+    assert undo.get_attribute("title") == "Undo: Camera exposure (Ctrl+Z)"
+    undo.click()
+    assert trait(page, "exposure") == 1, "going to a version is one step"
+    assert page.errors == []
+
+
+def test_recipes_are_pasted_copied_and_saved_by_the_menus_keys(context, state):
+    page = open_page(context)
+    show(page, state)
+    paste(page, "import sunwidget as sw\nedit = sw.Edit(sun_elevation=3, exposure=-0.5)")
+    assert (trait(page, "sun_elevation"), trait(page, "exposure")) == (3, -0.5)
+    page.get_by_role("button", name="Take it back").click()
+    assert trait(page, "exposure") == 0
+    page.keyboard.press("Control+y")
+    for text, said in [
+        ("sw.Edit(exposure=9)", "exposure is a number from -4 to 4 EV, not 9."),
+        ("sw.Edit(exposure=__import__('os'))", "a plain value is expected"),
+        ("<img src=x onerror=alert(1)>", "There is no recipe in it"),
+    ]:
+        paste(page, text)
+        assert said in page.get_by_role("alert").first.text_content()
+        assert trait(page, "exposure") == -0.5
+    menu = page.get_by_role("button", name="Menu")
+    menu.focus()
+    page.keyboard.press("ArrowDown")
+    assert menu.get_attribute("aria-expanded") == "true"
+    page.keyboard.press("s")
+    assert page.evaluate("document.activeElement.textContent") == "Save recipe"
+    with page.expect_download() as download:
+        page.keyboard.press("Enter")
+    assert menu.get_attribute("aria-expanded") == "false"
+    assert page.evaluate("document.activeElement.getAttribute('aria-label')") == "Menu"
+    saved = download.value.path().read_text("utf-8")
+    assert sw.Edit.from_json(saved) == sw.Edit(sun_elevation=3, exposure=-0.5)
+    # The test's page has no encryption and so no clipboard of its own: what is selected is copied.
+    page.evaluate(
+        "addEventListener('copy', () => { window.copied = document.activeElement.value; })"
+    )
+    choose(page, "Copy as Python")
+    space = {}
+    page.wait_for_function("window.copied")
+    exec(page.evaluate("copied"), space)
+    assert space["edit"] == sw.Edit.from_json(saved)
+    assert page.errors == []
+
+
+DROP = """([name, bytes]) => {
+  const dataTransfer = new DataTransfer();
+  dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+  for (const type of ["dragenter", "dragover", "drop"]) {
+    const event = new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true });
+    document.querySelector(".sw-stage").dispatchEvent(event);
+  }
+}"""
+
+
+def test_a_dropped_photo_takes_the_place_of_the_last_whose_edit_is_back_with_it(
+    page, coast, tmp_path
+):
+    editor = SunEditor(coast).wait(120)
+    connect(page, editor)
+    page.evaluate(DROP, ["warm.json", list(b'{"version": 1, "exposure": 1}')])
+    page.wait_for_function("model.get('exposure') === 1")
+    page.wait_for_timeout(700)
+    page.evaluate(DROP, ["broken.png", list(b"no picture")])
+    page.locator(".sw-message:not([hidden])").wait_for()
+    assert "broken.png was not opened" in page.locator(".sw-message").text_content()
+    assert editor.edit == sw.Edit(exposure=1)
+
+    small = sw.sample("coast").preview(200)
+    Image.fromarray(small[:, ::-1]).save(tmp_path / "turned.png")
+    page.evaluate(DROP, ["turned.png", list((tmp_path / "turned.png").read_bytes())])
+    for _ in range(200):
+        page.wait_for_timeout(100)
+        if editor.photo is not coast.photo:
+            break
+    assert editor.photo.name == "turned.png"
+    assert np.array_equal(editor.photo.encoded, small[:, ::-1])
+    assert editor.edit == sw.Edit()
+    page.evaluate("(state) => model.receive(decoded(state))", widget_state(editor.wait(120)))
+    page.wait_for_function(
+        "n => document.querySelector('.sunwidget.sw-live .sw-canvas')?.width === n",
+        arg=small.shape[1],
+    )
+    page.wait_for_timeout(500)
+    data = page.evaluate("document.querySelector('.sw-canvas').toDataURL().split(',')[1]")
+    assert np.abs(picture_of(data).astype(int) - small[:, ::-1]).max() <= 2
+    assert trait(page, "exposure") == 0
+    assert page.evaluate("model.get('_history').past.length") == 0
+
+    editor.open(coast)
+    assert editor.edit == sw.Edit(exposure=1)
+    page.evaluate("(state) => model.receive(decoded(state))", widget_state(editor.wait(120)))
+    page.wait_for_function("document.querySelector('.sw-canvas').width === 768")
+    assert trait(page, "exposure") == 1
+    assert page.get_by_role("button", name="Restore").count() == 0
+    assert page.errors == []
