@@ -57,6 +57,8 @@ class Answer(NamedTuple):
         StudyError
             When a column is missing, or a value is none that a study writes.
         """
+        if not isinstance(row, Mapping):
+            raise StudyError(f"An answer has named columns; a {type(row).__name__} has none.")
         lacking = [name for name in cls._fields if row.get(name) is None]
         if lacking:
             raise StudyError(f"An answer has columns {', '.join(cls._fields)}; {lacking[0]} lacks.")

@@ -11,6 +11,7 @@ import sunwidget as sw
 from sunwidget.edit import Edit, EditError
 from sunwidget.study import StudyError
 from sunwidget.widgets.compare import Compare
+from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.study import Study
 
 SMALL = (96, 64)
@@ -147,11 +148,20 @@ def test_a_study_tells_its_strengths_and_writes_its_file(tmp_path):
     assert Study.read_csv(study.to_csv(tmp_path / "answers.csv")) == study.answers
 
 
-def test_answers_that_no_study_writes_are_refused():
+@pytest.mark.parametrize(
+    ("row", "says"), [({"rater": "eve", "choice": "both"}, "lacks"), (7, "int has none")]
+)
+def test_answers_that_no_study_writes_are_refused(row, says):
     study = Study({"a": plain(0), "b": plain(1)})
-    study.set_state({"_answers": [{"rater": "eve", "choice": "both"}]})
-    with pytest.raises(StudyError, match="lacks"):
+    study.set_state({"_answers": [row]})
+    with pytest.raises(StudyError, match=says):
         _ = study.answers
+
+
+@pytest.mark.parametrize("name", ["compare", "study"])
+def test_a_notebook_saves_little_more_than_the_state(name):
+    script, style = front_end(name, name)
+    assert len(script.encode()) + len(style.encode()) < 120_000
 
 
 def test_a_sheet_shows_all_pictures_under_their_labels(methods):

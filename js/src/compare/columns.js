@@ -1,7 +1,7 @@
 /** How many pictures stand beside each other: as many as leave them largest. */
 
 const GAP = 2; // CSS pixels between pictures
-const HOLE = 0.25; // what an empty place in the last row takes from a layout's worth
+const HOLE = 0.35; // what an empty place in the last row takes from a layout's worth
 
 /**
  * @param {number} count pictures

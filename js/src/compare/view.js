@@ -144,12 +144,9 @@ export class View {
     return this.wipes ? this.pair.map((index) => this.panels[index]) : this.panels;
   }
 
-  /** Whether the recipes ask for different suns. */
+  /** Whether the recipes ask for suns of their own: it began without a common one. */
   hasOwnSuns() {
-    const suns = this.variants()
-      .filter(({ photo }) => !photo)
-      .map(({ recipe = {} }) => JSON.stringify([recipe.sun_azimuth, recipe.sun_elevation]));
-    return new Set(suns).size > 1;
+    return this.state.parameters.some((p) => p.name === "one_sun" && !p.default);
   }
 
   /** @param {string} name */
