@@ -124,7 +124,7 @@ async function main() {
     legalComments: "none",
     plugins: [
       shaderPlugin,
-      packPlugin(join(out, "sun_editor.js"), ["Frame"]),
+      packPlugin(join(out, "sun_editor.js"), ["Frame", "Sketch"]),
       packPlugin(join(out, "sky_explorer.js"), ["Projection", "SkyFrame"], licence("uplot")),
       packPlugin(join(out, "compare.js"), []),
       packPlugin(join(out, "study.js"), []),

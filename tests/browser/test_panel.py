@@ -208,19 +208,8 @@ def test_presets_show_what_they_make_of_the_photo(panel, coast, state):
         assert not np.array_equal(old, new)
 
 
-def test_preset_pictures_wait_for_the_hand_and_cost_the_next_frame_nothing(panel):
-    def passes_of(exposure):
-        panel.wait_for_timeout(600)
-        panel.evaluate("window.passes = 0; window.pictures.length = 0")
-        receive(panel, exposure=exposure)
-        panel.wait_for_function("pictures.includes('sw-canvas')")
-        return panel.evaluate("passes")
-
-    panel.evaluate("window.pictures.length = 0")
-    receive(panel, cloud_pattern=7.0)
-    thumbnails(panel, fresh=True)
-    alone = passes_of(0.1)
-    # Other air: all pictures are drawn anew, and none while a drag lasts.
+def test_preset_pictures_wait_for_the_hand(panel):
+    thumbnails(panel)
     box = panel.locator(".sw-sun-ring").bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     panel.mouse.move(x, y)
@@ -232,7 +221,44 @@ def test_preset_pictures_wait_for_the_hand_and_cost_the_next_frame_nothing(panel
     assert drawn_thumbnails(panel) == 0
     panel.mouse.up()
     thumbnails(panel, fresh=True)
-    assert passes_of(0.2) == alone
+
+
+def test_a_small_picture_costs_the_next_frames_nothing(panel, state):
+    counts = panel.evaluate(
+        """async (state) => {
+          const { Sketch } = await import("/sun_editor.js");
+          await makeFrame(state);
+          const [full, half] = [[768, 512], [384, 256]];
+          const passes = (draw) => {
+            window.passes = 0;
+            if (!draw()) throw new Error("nothing was drawn");
+            return window.passes;
+          };
+          // As a drag does and its end: two sizes in turn, of an edit that few passes follow.
+          const drag = (from) =>
+            [half, full, half].map((size, i) =>
+              passes(() => frame.draw({ exposure: (from + i) / 10 }, size)),
+            );
+          const first = passes(() => frame.draw({}, full));
+          drag(1);
+          const before = drag(4);
+          const canvas = document.createElement("canvas");
+          const sketch = new Sketch(frame);
+          const small = passes(() =>
+            sketch.draw(frame.describe({ sun_elevation: 4 }, [300, 200]), canvas),
+          );
+          const after = drag(7);
+          sketch.rest();
+          const rested = drag(10);
+          frame.dispose();
+          frame.canvas.remove();
+          return { first, before, small, after, rested };
+        }""",
+        state,
+    )
+    assert counts["before"] == counts["after"] == counts["rested"]
+    # The air's tables are the frame's own.
+    assert 5 < counts["small"] < counts["first"] - 10
 
 
 def test_the_histogram_follows_the_canvas_and_marks_what_is_clipped(panel):

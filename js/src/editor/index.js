@@ -1,6 +1,7 @@
 /** The anywidget module of SunEditor. */
 
 import { Frame } from "../frame.js";
+import { Sketch } from "../gl/sketch.js";
 import { keepKeys } from "../host_keys.js";
 import { View } from "./view.js";
 
@@ -27,4 +28,4 @@ function render({ model, el }) {
 
 export default { render };
 // For tests and for pages without a kernel.
-export { Frame };
+export { Frame, Sketch };
