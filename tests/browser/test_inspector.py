@@ -86,6 +86,31 @@ def test_m_goes_through_the_maps_and_escape_closes(editor):
     assert editor.locator(".sunwidget").get_attribute("data-tool") == "sun"
 
 
+def test_a_map_travels_once_and_its_legend_leads_to_the_next(editor):
+    editor.evaluate(
+        """() => {
+          window.asked = [];
+          const { send } = model;
+          model.send = (content, ...rest) => {
+            if (content.action === "map") window.asked.push(content.name);
+            return send(content, ...rest);
+          };
+        }"""
+    )
+    show(editor, MAPS[0].name)
+    first = painted(editor)
+    spread = editor.locator(".sw-legend-spread path").get_attribute("d")
+    assert spread.startswith("M0 20L")
+    editor.get_by_role("button", name="Next map").click()
+    editor.locator(".sw-legend:not(.sw-waiting)").wait_for()
+    assert editor.locator(".sw-legend b").text_content() == MAPS[1].title
+    assert editor.locator(".sw-legend-position").text_content() == f"2 / {len(MAPS)}"
+    assert editor.locator(".sw-legend-spread path").get_attribute("d") != spread
+    editor.get_by_role("button", name="Map before").click()
+    assert np.array_equal(painted(editor), first)
+    assert editor.evaluate("asked") == [MAPS[0].name, MAPS[1].name]
+
+
 def test_opacity_and_closing(editor):
     show(editor, "sky")
     editor.get_by_label("Opacity of the map").fill("0.4")
