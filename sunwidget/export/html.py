@@ -37,6 +37,7 @@ figure img { display: block; max-width: 100%; height: auto; margin: 0 auto; bord
 figcaption, #problem { padding: 8px 0; }
 #problem { font-weight: 600; }
 [hidden] { display: none !important; }
+@media (max-width: 600px) { body { padding: 10px 8px 16px; } }
 @media print { body { padding: 0; background: none; } footer { display: none; } }
 """
 
@@ -137,7 +138,7 @@ def page(
 </figure>
 <noscript><p>The picture can be edited here once JavaScript is allowed for this file.</p></noscript>
 </main>
-<footer>{paragraphs}
+<footer id="notes">{paragraphs}
 </footer>
 <script type="application/json" id="content">{_json(content)}</script>
 <script type="module">{starter}</script>

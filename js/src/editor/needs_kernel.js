@@ -38,7 +38,7 @@ export function needsKernel(view) {
   return {
     show() {
       const reason = kernel.state === "live" ? "" : REASONS[kernel.state];
-      root.classList.toggle("sw-without-kernel", reason !== "");
+      root.dataset.kernel = kernel.state;
       if (!reason && !titles.size) return;
       for (const node of controls()) mark(node, reason);
       if (reason && view.tool !== "sun") view.setTool("sun");

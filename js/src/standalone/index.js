@@ -35,4 +35,5 @@ start().catch((error) => {
   const problem = part("problem");
   problem.textContent = error instanceof Error ? error.message : String(error);
   problem.hidden = false;
+  part("notes").hidden = true; // they tell what could be done
 });
