@@ -62,7 +62,7 @@ def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(
     page.get_by_role("slider", name="Azimuth").focus()
     page.keyboard.press("ArrowRight")
     paste(page, '{"exposure": 0.5}')
-    page.get_by_role("button", name="Versions").click()
+    page.keyboard.press("v")
     page.keyboard.type("warm")
     page.keyboard.press("Enter")
     page.keyboard.press("Escape")

@@ -54,6 +54,8 @@ export function autosave(view, signal) {
     const { session, fingerprint } = source;
     const untouched = sameRecipe(kept.recipe, start) && !kept.past.length && !kept.versions.length;
     if (!untouched) store.put(fingerprint, { ...kept, session, saved: Date.now() });
+    // Another view of this editor may have restored it.
+    if (notices.has("restore") && !lost()) notices.hide("restore");
   };
 
   /** The newest edit of this photo that cannot be reached from here. @returns {Entry | undefined} */

@@ -68,6 +68,11 @@ export class Notices {
   }
 
   /** @param {string} key */
+  has(key) {
+    return this.shown.has(key);
+  }
+
+  /** @param {string} key */
   hide(key) {
     const shown = this.shown.get(key);
     clearTimeout(shown?.timer);

@@ -140,6 +140,13 @@ export const SHORTCUTS = [
     label: "Redo",
     run: (view) => view.state.redo(),
   },
+  {
+    section: "History",
+    keys: ["V"],
+    label: "Versions: keep this edit, go to another",
+    run: (view) => view.toolbar.versions?.click(),
+  },
+  { section: "History", keys: ["Mod+V"], label: "Paste a recipe or a photo" },
 
   {
     section: "Help",

@@ -111,6 +111,8 @@ export function toolbar(view) {
     node,
     end,
     history: history.node,
+    /** @type {HTMLButtonElement | null} opens the list of versions */
+    versions: null,
     menu,
     before,
     save,

@@ -17,8 +17,9 @@ export function versions(view) {
   const trigger = button({
     icon: "versions",
     label: "Versions",
-    title: "Versions: edits kept by name",
+    title: "Versions: edits kept by name (V)",
   });
+  view.toolbar.versions = trigger;
   const name = element("input", {
     type: "text",
     class: "sw-versions-name",
@@ -120,8 +121,8 @@ export function versions(view) {
     list.replaceChildren(...kept.map(row).reverse());
     empty.hidden = kept.length > 0;
     trigger.title = kept.length
-      ? `Versions: ${kept.length} ${kept.length === 1 ? "edit" : "edits"} kept by name`
-      : "Versions: keep this edit by name";
+      ? `Versions: ${kept.length} ${kept.length === 1 ? "edit" : "edits"} kept by name (V)`
+      : "Versions: keep this edit by name (V)";
   };
   view.toolbar.history.append(element("div", { class: "sw-menu-anchor" }, trigger, box.node));
   show();
