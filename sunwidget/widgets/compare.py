@@ -7,7 +7,6 @@ and once more for every recipe with other strokes or hints.
 from __future__ import annotations
 
 import base64
-import inspect
 import os
 import threading
 from pathlib import Path
@@ -17,13 +16,14 @@ import anywidget
 import numpy as np
 import traitlets
 
-from sunwidget.analysis.scene import Scene, analyze
-from sunwidget.edit import PARAMETERS, Edit, parameter, unknown_name_message
+from sunwidget.analysis.scene import Scene
+from sunwidget.edit import Edit, parameter
 from sunwidget.files import target
 from sunwidget.photo import Photo, open_photo
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.edit_traits import edit_traits
 from sunwidget.widgets.front_end import front_end
+from sunwidget.widgets.history import edit_of
 from sunwidget.widgets.payload import (
     encode_maps,
     encode_png,
@@ -32,19 +32,14 @@ from sunwidget.widgets.payload import (
     scene_json,
     thumbnail,
 )
+from sunwidget.widgets.sources import opened
 from sunwidget.widgets.standalone import embedded_state, write_page
 from sunwidget.widgets.variants import common_sun, corrections, variants
 
 if TYPE_CHECKING:
     from PIL import Image
 
-_NAMES = tuple(p.name for p in PARAMETERS)
 _SUN = ("sun_azimuth", "sun_elevation")
-_ANALYSIS = tuple(
-    name
-    for name, p in inspect.signature(analyze).parameters.items()
-    if p.kind is p.KEYWORD_ONLY and name not in (*_NAMES, "progress")
-)
 _SMALL_EDGE = 480  # of each picture of the static one
 _NOTES = ("Drag the sun in any picture: everything happens in this file, and nothing leaves it.",)
 LAYOUTS = ("side_by_side", "wipe")
@@ -125,18 +120,9 @@ class Compare(anywidget.AnyWidget):
         recipe: Edit | dict[str, Any] | None = None,
         **options: Any,
     ) -> None:
-        for name in options:
-            if name not in _NAMES and name not in _ANALYSIS:
-                raise TypeError(f"Compare: {unknown_name_message(name, _ANALYSIS)}")
-        analysis = {name: options.pop(name) for name in _ANALYSIS if name in options}
-        if isinstance(source, Scene) and analysis:
-            raise TypeError(
-                f"Compare takes {next(iter(analysis))}= with a photo; this scene is analysed "
-                "already. Pass the photo, or analyze(photo, ...) with the option."
-            )
-        base = recipe if isinstance(recipe, Edit) else Edit.from_dict(recipe or {})
-        self._shown = variants(what, base.replace(**options))
-        self.photo: Photo = source.photo if isinstance(source, Scene) else open_photo(source)
+        source, analysis = opened(source, options, "Compare")
+        self._shown = variants(what, edit_of(recipe).replace(**options))
+        self.photo: Photo = source.photo if isinstance(source, Scene) else source
         self._lock = threading.RLock()
         self._revision = 0
         self._edits: dict[str, Edit] = {}  # as they were given, once the photo is analysed
@@ -155,12 +141,7 @@ class Compare(anywidget.AnyWidget):
             _history={"past": [], "future": []},
             **start,
         )
-        self._analyst = Analyst(
-            source if isinstance(source, Scene) else self.photo,
-            analysis,
-            self._deliver,
-            self._report,
-        )
+        self._analyst = Analyst(source, analysis, self._deliver, self._report)
         self._analyst.ask(Edit())
 
     @property

@@ -7,7 +7,6 @@ sends messages to kernel subshells.
 
 from __future__ import annotations
 
-import inspect
 import uuid
 from collections.abc import Callable
 from typing import Any
@@ -15,13 +14,12 @@ from typing import Any
 import traitlets
 
 from sunwidget import presets
-from sunwidget.analysis.scene import Scene, analyze
-from sunwidget.edit import PARAMETERS, Edit, unknown_name_message
-from sunwidget.photo import Photo, open_photo
+from sunwidget.analysis.scene import Scene
+from sunwidget.edit import PARAMETERS, Edit
+from sunwidget.photo import Photo
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.front_end import front_end
-from sunwidget.widgets.history import NAMES, edit_of
-from sunwidget.widgets.known_scenes import recall
+from sunwidget.widgets.history import edit_of
 from sunwidget.widgets.payload import (
     encode_map,
     encode_maps,
@@ -34,15 +32,10 @@ from sunwidget.widgets.payload import (
 from sunwidget.widgets.pictures import Pictures
 from sunwidget.widgets.place_clock import PlaceClock
 from sunwidget.widgets.requests import Action, Answer, Progress, Requests
+from sunwidget.widgets.sources import opened
 from sunwidget.widgets.uploads import Uploads, fingerprint
 
 _CORRECTIONS = frozenset(p.name for p in PARAMETERS if p.analysis)
-# Strokes are a parameter of the edit, and progress has its own line on the stage.
-_ANALYSIS = tuple(
-    name
-    for name, p in inspect.signature(analyze).parameters.items()
-    if p.kind is p.KEYWORD_ONLY and name not in (*NAMES, "progress")
-)
 _OPENING = {"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"}
 
 
@@ -99,7 +92,7 @@ class SunEditor(PlaceClock, Pictures):
         recipe: Edit | dict[str, Any] | None = None,
         **options: Any,
     ) -> None:
-        source, analysis = _opened(source, options)
+        source, analysis = opened(source, options, "SunEditor")
         start = edit_of(recipe).replace(**options)
         self.photo: Photo = source.photo if isinstance(source, Scene) else source
         self._set_asides: dict[str, dict[str, Any]] = {}  # edits of other photos, by fingerprint
@@ -141,7 +134,7 @@ class SunEditor(PlaceClock, Pictures):
         if source is None:  # ipywidgets' own method of this name, which connects to the browser
             super().open()
             return
-        source, analysis = _opened(source, options)
+        source, analysis = opened(source, options, "SunEditor")
         given = recipe is not None or bool(options)
         start = edit_of(recipe).replace(**options)
         photo = source.photo if isinstance(source, Scene) else source
@@ -279,21 +272,3 @@ def _silently(work: Callable[[], None]) -> Action:
         return {}, []
 
     return action
-
-
-def _opened(source: Any, options: dict[str, Any]) -> tuple[Photo | Scene, dict[str, Any]]:
-    """Open ``source`` and take the options of ``analyze`` out of ``options``."""
-    for name in options:
-        if name not in NAMES and name not in _ANALYSIS:
-            raise TypeError(f"SunEditor: {unknown_name_message(name, _ANALYSIS)}")
-    analysis = {name: options.pop(name) for name in _ANALYSIS if name in options}
-    if not isinstance(source, Scene):
-        photo = open_photo(source)
-        known = recall(photo, analysis)
-        return (photo, analysis) if known is None else (known, {})
-    if analysis:
-        raise TypeError(
-            f"SunEditor takes {next(iter(analysis))}= with a photo; this scene is analysed "
-            "already. Pass the photo, or analyze(photo, ...) with the option."
-        )
-    return source, analysis

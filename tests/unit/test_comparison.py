@@ -70,6 +70,13 @@ def test_recipes_that_correct_the_photo_alike_share_their_maps(scene):
     assert set(compare._scenes[0]) == {"scene", "_layers", "_surface", "_backdrop", "_clear_sky"}
 
 
+def test_a_photo_that_is_analysed_already_is_not_analysed_again(monkeypatch):
+    picture = sw.sample("meadow").preview(96)
+    editor = sw.SunEditor(picture).wait()
+    monkeypatch.setattr("sunwidget.widgets.analyst.analyze", None)
+    assert Compare(picture.copy(), ["photo", "ratio"]).scene is editor.scene
+
+
 @pytest.mark.parametrize(
     ("what", "says"),
     [
