@@ -47,8 +47,13 @@ def test_dragging_the_sun_in_marimo(browser, tmp_path, root, screenshots):
                 page.screenshot(path=screenshots / f"marimo-{i + 1}.png")
             # The cell that reads the editor has run again, with the last value.
             said = views.first.locator(".sw-readout").text_content()
-            edit = json.loads((tmp_path / "edit.json").read_text())
-            assert f"{edit['sun_elevation']:.1f}° elevation" in said
+            for _ in range(PATIENCE // 250):
+                edit = json.loads((tmp_path / "edit.json").read_text())
+                if f"{edit.get('sun_elevation', 0):.1f}° elevation" in said:
+                    break
+                page.wait_for_timeout(250)
+            else:
+                raise AssertionError(f"the cell has {edit}, the editor {said}")
             # Running the cells again leaves nothing of the first editors.
             views.first.evaluate("view => { view.dataset.run = 'first'; }")
             page.locator(".cm-content").nth(1).click()

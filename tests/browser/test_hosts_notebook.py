@@ -11,8 +11,13 @@ pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 
 CELLS = [
     "import sunwidget as sw\neditor = sw.SunEditor(sw.sample('coast').preview(384))\neditor",
-    """import json
+    # What the drag has sent is taken in by another thread than the one that runs cells.
+    """import json, time
 from pathlib import Path
+until = time.monotonic() + 60
+while editor.sun_elevation is None and time.monotonic() < until:
+    time.sleep(0.1)
+time.sleep(0.1)
 Path("edit.json").write_text(json.dumps(editor.edit.to_dict()))""",
 ]
 
