@@ -18,6 +18,7 @@ import { onTraits } from "../traits.js";
  */
 
 const PAUSE_MS = 500;
+const LEAVING_MS = 1500;
 const SESSIONS = Symbol.for("sunwidget.sessions");
 
 /**
@@ -160,6 +161,9 @@ export function autosave(view, signal) {
   });
   begin();
   showKernel(view);
+  // When a cell runs again, its last editor may go after this one has come.
+  const late = setTimeout(() => notices.has("restore") || offer(), LEAVING_MS);
+  signal.addEventListener("abort", () => clearTimeout(late));
   return {};
 }
 
