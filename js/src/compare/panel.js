@@ -46,7 +46,7 @@ export class Panel extends PictureStage {
       parameter: (name) => view.parameter(name),
       value: (name) => panel.value(name),
       get camera() {
-        return view.cameras[panel.variant.scene ?? 0] ?? null;
+        return view.scenes.cameras[panel.variant.scene ?? 0] ?? null;
       },
       get scene() {
         return panel.scene;
@@ -61,7 +61,7 @@ export class Panel extends PictureStage {
   }
 
   get scene() {
-    return this.view.scenes[this.variant.scene ?? 0] ?? null;
+    return this.view.scenes.found[this.variant.scene ?? 0] ?? null;
   }
 
   /** What is drawn: the recipe, under the common sun if there is one. @returns {Edit} */
@@ -91,7 +91,7 @@ export class Panel extends PictureStage {
    */
   drawPicture(size) {
     const { scene } = this;
-    const frame = this.view.frames[this.variant.scene ?? 0];
+    const frame = this.view.scenes.frames[this.variant.scene ?? 0];
     if (!scene || !frame) return false;
     const edit = this.edit();
     const key = JSON.stringify([edit, size, scene.revision]);

@@ -4,11 +4,9 @@
  * share sun, zoom and pan.
  */
 
-import { Camera } from "../camera.js";
 import { Divider } from "../controls/divider.js";
 import { element } from "../controls/element.js";
 import { Zoom } from "../editor/zoom.js";
-import { Frame } from "../frame.js";
 import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
 import { watchSight } from "../sight.js";
@@ -17,18 +15,17 @@ import { columns } from "./columns.js";
 import { Differences } from "./differences.js";
 import { Panel } from "./panel.js";
 import { listenToPointer } from "./pointer.js";
+import { Scenes } from "./scenes.js";
 import { listenToKeys } from "./shortcuts.js";
 import { toolbar } from "./toolbar.js";
 
 /**
  * @typedef {import("../types.js").Model} Model
  * @typedef {import("../types.js").Parameter} Parameter
- * @typedef {import("../types.js").Scene & { revision: number }} Scene
  * @typedef {import("../types.js").Status} Status
  */
 
 const TALLEST = 680; // CSS pixels of all pictures together
-const MAPS = ["layers", "surface", "backdrop", "clear_sky"];
 // Shares of the preview's size that are drawn. Few: each draws all of the picture's passes anew.
 const SHARES = [0.25, 0.375, 0.5, 0.75, 1];
 
@@ -48,15 +45,9 @@ export class View {
     /** @type {Parameter[]} */
     this.parameters = model.get("_parameters");
     this.state = new EditState(model, this.rows(), signal);
-    /** @type {Frame[]} by scene */
-    this.frames = [];
-    /** @type {Scene[]} */
-    this.scenes = [];
-    /** @type {Camera[]} by scene */
-    this.cameras = [];
+    this.scenes = new Scenes(model, this.variants().length, signal);
     this.zoom = new Zoom();
     this.pair = [0, 1]; // of the wipe
-    this.loads = 0;
     this.loop = new FrameLoop(
       (scale) => this.draw(scale),
       () => this.state.before !== null,
@@ -125,8 +116,6 @@ export class View {
       observer.disconnect();
       for (const [event, handler] of Object.entries(handlers)) model.off(event, handler);
       model.off("msg:custom", onMessage);
-      for (const frame of this.frames) frame.dispose();
-      this.loads += 1;
     });
   }
 
@@ -172,49 +161,15 @@ export class View {
     }
   }
 
-  /** Take over what the analysis found: decode all maps, then swap all at once. */
   async loadScenes() {
-    /** @type {Record<string, any>[]} */
-    const given = this.model.get("_scenes");
-    if (!given?.length) return;
-    this.loads += 1;
-    const load = this.loads;
-    const names = ["photo", ...MAPS];
     try {
-      const bitmaps = await Promise.all(
-        given.map((row) =>
-          Promise.all(
-            names.map((name) =>
-              decodePicture(name === "photo" ? this.model.get("_photo") : row[`_${name}`]),
-            ),
-          ),
-        ),
-      );
-      if (load !== this.loads) {
-        for (const bitmap of bitmaps.flat()) bitmap.close();
-        return;
-      }
-      const [[photo]] = bitmaps; // perhaps before it is shown by itself
-      this.zoom.size = [photo.width, photo.height];
-      for (const frame of this.frames.slice(given.length)) frame.dispose();
-      this.frames = given.map(({ scene }, i) => {
-        const frame = this.frames[i] ?? new Frame(element("canvas"), this.parameters);
-        names.forEach((name, n) => {
-          frame.setPicture(name, bitmaps[i][n]);
-        });
-        frame.setScene(scene);
-        frame.turns = this.panels.length;
-        return frame;
-      });
+      const size = await this.scenes.load();
+      if (!size) return;
+      this.zoom.size = size; // perhaps before the photo is shown by itself
+      this.show();
     } catch (error) {
       this.showError(`The maps of the analysis cannot be shown: ${message(error)}`);
-      return;
     }
-    this.scenes = given.map(({ scene }) => scene);
-    this.cameras = this.scenes.map(({ width, height, camera }) => {
-      return new Camera(width, height, camera.fov_vertical_deg, camera.pitch, camera.roll);
-    });
-    this.show();
   }
 
   showStatus() {
@@ -355,7 +310,7 @@ export class View {
   /** @param {number} scale of what the screen shows */
   draw(scale) {
     this.drawMarks();
-    if (!this.scenes.length) return;
+    if (!this.scenes.found.length) return;
     const size = this.drawSize(scale);
     try {
       const drawn = this.shown().map((panel) => panel.drawPicture(size));
@@ -371,7 +326,7 @@ export class View {
 
   drawMarks() {
     for (const panel of this.shown()) panel.drawMarks();
-    if (!this.scenes.length) return;
+    if (!this.scenes.found.length) return;
     this.readout.textContent = this.state.values.one_sun
       ? sunText(this.panels[0].value("sun_azimuth"), this.panels[0].value("sun_elevation"))
       : "Each picture under its own sun; drag one for a common sun";

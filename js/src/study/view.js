@@ -5,8 +5,10 @@
 
 import { button } from "../controls/button.js";
 import { element } from "../controls/element.js";
+import { download } from "../editor/download.js";
 import { csv } from "./csv.js";
 import { Pictures } from "./pictures.js";
+import { endScreen, startScreen } from "./screens.js";
 import { trials } from "./trials.js";
 
 /**
@@ -117,7 +119,19 @@ export class View {
       this.shown = null;
       this.choices.replaceChildren();
       this.stage.replaceChildren(
-        this.running && over ? this.thanks(all.length) : this.start(done, all.length),
+        this.running && over
+          ? endScreen({
+              all: all.length,
+              onSave: () => this.save(),
+              onNext: () => this.nextRater(),
+            })
+          : startScreen({
+              rater: this.rater,
+              done,
+              all: all.length,
+              ties: this.ties,
+              onStart: (rater) => this.begin(rater),
+            }),
       );
     }
   }
@@ -230,80 +244,29 @@ export class View {
     event.stopPropagation();
   }
 
-  /**
-   * What to do, and who does it.
-   *
-   * @param {number} done
-   * @param {number} all
-   */
-  start(done, all) {
-    const name = element("input", {
-      type: "text",
-      class: "sw-study-rater",
-      value: this.rater,
-      maxlength: 80,
-      placeholder: "Name or number",
-      "aria-label": "Your name or number",
-    });
-    const begin = element(
-      "button",
-      { type: "submit", class: "sw-chip sw-primary" },
-      done ? "Go on" : "Start",
-    );
-    const form = element("form", { class: "sw-study-form" }, name, begin);
-    form.addEventListener("submit", (event) => {
-      event.preventDefault();
-      this.rater = name.value.trim();
-      this.model.set("rater", this.rater);
-      this.model.save_changes();
-      this.running = true;
-      this.show();
-      this.root.focus({ preventScroll: true });
-    });
-    const keys = this.ties ? " Down arrow: you cannot decide." : "";
-    return element(
-      "div",
-      { class: "sw-study-text" },
-      element(
-        "p",
-        {},
-        `You will see ${pairs(all)} of pictures. Click the one, or press the left or right ` +
-          `arrow key.${keys} Backspace takes the last answer back. There is no wrong answer.`,
-      ),
-      ...(done ? [element("p", {}, `${done} of ${all} are answered.`)] : []),
-      form,
-    );
+  /** @param {string} rater */
+  begin(rater) {
+    this.rater = rater;
+    this.running = true;
+    this.model.set("rater", rater);
+    this.model.save_changes();
+    this.show();
+    this.root.focus({ preventScroll: true });
   }
 
-  /** @param {number} all */
-  thanks(all) {
-    const chip = (/** @type {string} */ label, /** @type {string} */ title) =>
-      element("button", { type: "button", class: "sw-chip", title }, label);
-    const save = chip("Save answers", "All answers of this study as a CSV file");
-    save.classList.add("sw-primary");
-    save.addEventListener("click", () => this.save());
-    const next = chip("Next rater", "Somebody else answers; what there is stays");
-    next.addEventListener("click", () => {
-      this.model.set("rater", "");
-      this.model.save_changes();
-    });
-    return element(
-      "div",
-      { class: "sw-study-text" },
-      element("p", {}, `Thank you. That was all: ${pairs(all)}.`),
-      element("div", { class: "sw-study-form" }, save, next),
-    );
+  /** Somebody else answers; what there is stays. */
+  nextRater() {
+    this.rater = "";
+    this.running = false;
+    this.model.set("rater", "");
+    this.model.save_changes();
+    this.show();
   }
 
   save() {
     const blob = new Blob([csv(this.answers())], { type: "text/csv" });
     const day = new Date().toISOString().slice(0, 10);
-    const link = element("a", { href: URL.createObjectURL(blob), download: `study-${day}.csv` });
-    link.click();
+    download(blob, `study-${day}.csv`);
     this.saved = this.answers().length;
-    setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
   }
 }
-
-/** @param {number} count */
-const pairs = (count) => (count === 1 ? "one pair" : `${count} pairs`);

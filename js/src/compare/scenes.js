@@ -1,0 +1,75 @@
+/**
+ * What the analysis found, ready to be drawn: a frame for each set of maps. Recipes share theirs
+ * unless they have strokes or hints of their own, so there is one as a rule.
+ */
+
+import { Camera } from "../camera.js";
+import { element } from "../controls/element.js";
+import { Frame } from "../frame.js";
+import { decodePicture } from "../gl/texture.js";
+
+/** @typedef {import("../types.js").Scene & { revision: number }} Scene */
+
+const MAPS = ["layers", "surface", "backdrop", "clear_sky"];
+
+export class Scenes {
+  /**
+   * @param {import("../types.js").Model} model
+   * @param {number} turns how many pictures each frame draws in turn
+   * @param {AbortSignal} signal frees all
+   */
+  constructor(model, turns, signal) {
+    this.model = model;
+    this.turns = turns;
+    /** @type {Frame[]} */
+    this.frames = [];
+    /** @type {Scene[]} */
+    this.found = [];
+    /** @type {Camera[]} */
+    this.cameras = [];
+    this.loads = 0;
+    signal.addEventListener("abort", () => {
+      this.loads += 1;
+      for (const frame of this.frames) frame.dispose();
+    });
+  }
+
+  /**
+   * Decode all maps that the kernel sent, then swap all at once.
+   *
+   * @returns {Promise<[number, number] | null>} the preview's size in pixels; null while there are
+   *   no maps, and when others came meanwhile
+   */
+  async load() {
+    /** @type {Record<string, any>[]} */
+    const given = this.model.get("_scenes");
+    if (!given?.length) return null;
+    this.loads += 1;
+    const load = this.loads;
+    const photo = this.model.get("_photo");
+    const bitmaps = await Promise.all(
+      given.map((row) =>
+        Promise.all([photo, ...MAPS.map((name) => row[`_${name}`])].map(decodePicture)),
+      ),
+    );
+    if (load !== this.loads) {
+      for (const bitmap of bitmaps.flat()) bitmap.close();
+      return null;
+    }
+    for (const frame of this.frames.slice(given.length)) frame.dispose();
+    this.frames = given.map(({ scene }, i) => {
+      const frame = this.frames[i] ?? new Frame(element("canvas"), this.model.get("_parameters"));
+      ["photo", ...MAPS].forEach((name, n) => {
+        frame.setPicture(name, bitmaps[i][n]);
+      });
+      frame.setScene(scene);
+      frame.turns = this.turns;
+      return frame;
+    });
+    this.found = given.map(({ scene }) => scene);
+    this.cameras = this.found.map(({ width, height, camera }) => {
+      return new Camera(width, height, camera.fov_vertical_deg, camera.pitch, camera.roll);
+    });
+    return [bitmaps[0][0].width, bitmaps[0][0].height];
+  }
+}

@@ -1,0 +1,72 @@
+/** What a rater sees before the first pair and after the last one. */
+
+import { element } from "../controls/element.js";
+
+/** @param {number} count */
+const pairs = (count) => (count === 1 ? "one pair" : `${count} pairs`);
+
+/**
+ * What to do, and who does it.
+ *
+ * @param {{ rater: string, done: number, all: number, ties: boolean,
+ *   onStart: (rater: string) => void }} options
+ */
+export function startScreen({ rater, done, all, ties, onStart }) {
+  const name = element("input", {
+    type: "text",
+    class: "sw-study-rater",
+    value: rater,
+    maxlength: 80,
+    placeholder: "Name or number",
+    "aria-label": "Your name or number",
+  });
+  const begin = element(
+    "button",
+    { type: "submit", class: "sw-chip sw-primary" },
+    done ? "Go on" : "Start",
+  );
+  const form = element("form", { class: "sw-study-form" }, name, begin);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    onStart(name.value.trim());
+  });
+  const keys = ties ? " Down arrow: you cannot decide." : "";
+  return element(
+    "div",
+    { class: "sw-study-text" },
+    element(
+      "p",
+      {},
+      `You will see ${pairs(all)} of pictures. Click the one, or press the left or right ` +
+        `arrow key.${keys} Backspace takes the last answer back. There is no wrong answer.`,
+    ),
+    ...(done ? [element("p", {}, `${done} of ${all} are answered.`)] : []),
+    form,
+  );
+}
+
+/** @param {{ all: number, onSave: () => void, onNext: () => void }} options */
+export function endScreen({ all, onSave, onNext }) {
+  const save = element(
+    "button",
+    {
+      type: "button",
+      class: "sw-chip sw-primary",
+      title: "All answers of this study as a CSV file",
+    },
+    "Save answers",
+  );
+  const next = element(
+    "button",
+    { type: "button", class: "sw-chip", title: "Somebody else answers; what there is stays" },
+    "Next rater",
+  );
+  save.addEventListener("click", onSave);
+  next.addEventListener("click", onNext);
+  return element(
+    "div",
+    { class: "sw-study-text" },
+    element("p", {}, `Thank you. That was all: ${pairs(all)}.`),
+    element("div", { class: "sw-study-form" }, save, next),
+  );
+}
