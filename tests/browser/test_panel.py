@@ -244,19 +244,28 @@ def test_a_small_picture_costs_the_next_frames_nothing(panel, state):
           const before = drag(4);
           const canvas = document.createElement("canvas");
           const sketch = new Sketch(frame);
+          let waits = 0; // for all that is under way
+          const { prototype } = WebGL2RenderingContext;
+          const { checkFramebufferStatus } = prototype;
+          prototype.checkFramebufferStatus = function (...rest) {
+            waits += 1;
+            return checkFramebufferStatus.apply(this, rest);
+          };
           const small = passes(() =>
             sketch.draw(frame.describe({ sun_elevation: 4 }, [300, 200]), canvas),
           );
+          prototype.checkFramebufferStatus = checkFramebufferStatus;
           const after = drag(7);
           sketch.rest();
           const rested = drag(10);
           frame.dispose();
           frame.canvas.remove();
-          return { first, before, small, after, rested };
+          return { first, before, small, waits, after, rested };
         }""",
         state,
     )
     assert counts["before"] == counts["after"] == counts["rested"]
+    assert counts["waits"] == 0
     # The air's tables are the frame's own.
     assert 5 < counts["small"] < counts["first"] - 10
 

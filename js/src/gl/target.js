@@ -29,6 +29,14 @@ export function missingFeature(gl) {
 }
 
 /**
+ * The sides of the largest target that a context is known to take. Asking waits for all that it
+ * has been told to draw, so a smaller one, as for a drag or a thumbnail, is not asked about.
+ *
+ * @type {WeakMap<WebGL2RenderingContext, [number, number]>}
+ */
+const taken = new WeakMap();
+
+/**
  * @param {WebGL2RenderingContext} gl
  * @param {string} pass for error messages
  * @param {number} width
@@ -40,9 +48,14 @@ export function createTarget(gl, pass, width, height) {
   const framebuffer = gl.createFramebuffer();
   gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
   gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture.handle, 0);
-  const status = gl.checkFramebufferStatus(gl.FRAMEBUFFER);
-  if (status !== gl.FRAMEBUFFER_COMPLETE && !gl.isContextLost()) {
-    throw new Error(`The target of pass "${pass}" (${width}×${height}) is incomplete (${status}).`);
+  const [widest, highest] = taken.get(gl) ?? [0, 0];
+  if (width > widest || height > highest) {
+    const status = gl.checkFramebufferStatus(gl.FRAMEBUFFER);
+    if (status !== gl.FRAMEBUFFER_COMPLETE && !gl.isContextLost()) {
+      const size = `${width}×${height}`;
+      throw new Error(`The target of pass "${pass}" (${size}) is incomplete (${status}).`);
+    }
+    taken.set(gl, [Math.max(widest, width), Math.max(highest, height)]);
   }
   return { texture, framebuffer, key: null, samples: 0, frame: 0, previous: null };
 }
