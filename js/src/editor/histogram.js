@@ -5,6 +5,7 @@
 
 import { element, setAttributes, shape } from "../controls/element.js";
 import { countedSection } from "../controls/section.js";
+import { Fence } from "../gl/fence.js";
 import { whenIdle } from "../idle.js";
 import { ceiling, countLevels, hill } from "./levels.js";
 
@@ -15,6 +16,7 @@ const EVERY_MS = 150;
 // Reading the canvas waits for the frame under way. Where that takes long, it is read at rest.
 const DEAR_MS = 6;
 const RESTED_MS = 600;
+const PAUSE_MS = 60;
 const FORGETS = 0.7; // of the cost, with each reading
 const WIDTH = 240;
 const HEIGHT = 56;
@@ -70,6 +72,7 @@ export function histogram(view, signal) {
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
   let forget = () => {};
+  const fence = new Fence(view.frame);
 
   /** @param {HTMLCanvasElement | HTMLImageElement} source @returns {Levels | null} */
   const read = (source) => {
@@ -89,6 +92,11 @@ export function histogram(view, signal) {
 
   const show = () => {
     if (view.state.before !== null && cost > DEAR_MS) return; // its end draws again
+    if (!fence.passed()) {
+      clearTimeout(timer);
+      timer = setTimeout(idle, PAUSE_MS);
+      return;
+    }
     own ??= read(view.stage.photo);
     counted = performance.now();
     // Until there is a frame, the photo stands where it will be.
@@ -113,16 +121,17 @@ export function histogram(view, signal) {
     text.textContent = said.filter(Boolean).join(" · ");
     svg.setAttribute("aria-label", `Histogram. ${text.textContent || "Nothing is clipped"}.`);
   };
+  const idle = () => {
+    timer = undefined;
+    forget();
+    forget = whenIdle(show);
+  };
   const wake = () => {
     const dear = cost > DEAR_MS;
     if (body.hidden || signal.aborted || (timer && !dear)) return;
     clearTimeout(timer);
     timer = setTimeout(
-      () => {
-        timer = undefined;
-        forget();
-        forget = whenIdle(show);
-      },
+      idle,
       dear ? RESTED_MS : Math.max(0, counted + EVERY_MS - performance.now()),
     );
   };

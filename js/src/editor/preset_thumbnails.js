@@ -5,6 +5,7 @@
 
 import { presetChips } from "../controls/chips.js";
 import { element } from "../controls/element.js";
+import { Fence } from "../gl/fence.js";
 import { Sketch } from "../gl/sketch.js";
 import { whenIdle } from "../idle.js";
 
@@ -21,6 +22,7 @@ const WIDTH = 150; // of the photo in a thumbnail's place, pixels
 /** @type {import("./parts.js").MakePart} */
 export function presetThumbnails(view, signal) {
   const sketch = new Sketch(view.frame);
+  const fence = new Fence(view.frame);
   /** @type {{ preset: Preset, canvas: HTMLCanvasElement, key: string }[]} */
   let all = [];
   let generation = 0; // of the scene
@@ -82,6 +84,8 @@ export function presetThumbnails(view, signal) {
     if (busy()) return wake(QUIET_MS);
     const next = stale();
     if (!next) return sketch.rest();
+    // None waits in a row behind others, where the next drag's frames would have to wait, too.
+    if (!fence.passed()) return wake(PAUSE_MS);
     const [width, height] = view.size;
     const scale = Math.min(1, Math.sqrt(AREA / (width * height)));
     /** @type {[number, number]} */
