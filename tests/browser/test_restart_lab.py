@@ -57,7 +57,7 @@ def test_no_edit_is_lost_when_the_kernel_restarts_and_the_page_is_loaded_again(
             page.mouse.down()
             page.mouse.move(x - 60, y + 20, steps=3)
             page.evaluate(RESTART)
-            page.locator(".sunwidget.sw-without-kernel").wait_for()
+            page.locator(".sunwidget[data-kernel='lost']").wait_for()
             page.mouse.move(x - 120, y + 40, steps=3)
             page.mouse.up()
             editor.get_by_text("The kernel of this editor is gone").wait_for()

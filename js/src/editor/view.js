@@ -116,7 +116,8 @@ export class View {
     });
     this.announcer = new Announcer(signal);
     this.notes = new Notes();
-    this.notices = new Notices(root, () => this.state.before !== null, signal);
+    const busy = () => this.pointer !== null || this.state.before !== null;
+    this.notices = new Notices(root, busy, signal);
     this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
     this.foot = element("div", { class: "sw-foot" }, this.readout, this.sureness, this.notes.node);
     /** @type {import("./split.js").Split | null} */
