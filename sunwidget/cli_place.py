@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from sunwidget.edit import Edit
 from sunwidget.place import Place, at_hours, hours_of_day
@@ -73,18 +73,12 @@ def places_of_day(
 
 
 def _place(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
-    from sunwidget.photo_place import date_and_hours, from_photo
+    from sunwidget.photo_place import from_photo
 
     latitude, longitude = options.coordinates or (None, None)
     told = from_photo(scene.photo, longitude)
-    values: dict[str, Any] = {
-        "latitude": told.latitude,
-        "longitude": told.longitude,
-        "heading": told.heading,
-    }
-    if told.moment is not None:
-        values["date"], values["time"] = date_and_hours(told.moment)
-    own = (values.get("date"), values.get("time"))
+    values = told.values()
+    own = values["date"], values["time"]
     given = {
         "latitude": latitude,
         "longitude": longitude,
@@ -96,7 +90,7 @@ def _place(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
     for source in (known, given):
         values |= {name: value for name, value in source.items() if value is not None}
     flags = {"latitude": "--place", "longitude": "--place", "date": "--date", "time": "--time"}
-    missing = sorted({flag for name, flag in flags.items() if values.get(name) is None})
+    missing = sorted({flag for name, flag in flags.items() if values[name] is None})
     if missing:
         raise ValueError(f"The photo's file does not tell it: give {' and '.join(missing)}.")
     if values["heading"] is None or options.time is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sunwidget.place import Place
 
@@ -44,8 +44,18 @@ class PhotoPlace(NamedTuple):
         """The Place, when the file tells position and time."""
         if self.latitude is None or self.longitude is None or self.moment is None:
             return None
-        date, time = date_and_hours(self.moment)
-        return Place(self.latitude, self.longitude, date, time, self.heading)
+        return Place(**self.values())
+
+    def values(self) -> dict[str, Any]:
+        """Return what is told by the names of a Place's fields; what is not told is None."""
+        date, hours = (None, None) if self.moment is None else date_and_hours(self.moment)
+        return {
+            "latitude": self.latitude,
+            "longitude": self.longitude,
+            "heading": self.heading,
+            "date": date,
+            "time": hours,
+        }
 
 
 def from_photo(photo: Photo, longitude: float | None = None) -> PhotoPlace:

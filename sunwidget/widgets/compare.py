@@ -6,7 +6,6 @@ and once more for every recipe with other strokes or hints.
 
 from __future__ import annotations
 
-import base64
 import os
 import threading
 from pathlib import Path
@@ -31,6 +30,7 @@ from sunwidget.widgets.payload import (
     parameter_json,
     scene_json,
     thumbnail,
+    with_picture,
 )
 from sunwidget.widgets.sources import opened
 from sunwidget.widgets.standalone import embedded_state, write_page
@@ -282,10 +282,4 @@ class Compare(anywidget.AnyWidget):
         return thumbnail(self.photo)
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        bundle = super()._repr_mimebundle_(**kwargs)
-        if bundle is None:
-            return None
-        data, metadata = bundle
-        # GitHub, nbconvert and other viewers without widgets show this one.
-        data["image/png"] = base64.b64encode(self._static_picture()).decode("ascii")
-        return data, metadata
+        return with_picture(super()._repr_mimebundle_(**kwargs), self._static_picture)

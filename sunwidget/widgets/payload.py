@@ -5,6 +5,7 @@ The kernel keeps the full resolution; a preview's long edge has at most ``PREVIE
 
 from __future__ import annotations
 
+import base64
 import math
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
@@ -73,6 +74,15 @@ def preview_size(photo: Photo) -> tuple[int, int]:
 def thumbnail(photo: Photo) -> bytes:
     """Return a small PNG for viewers that run no widgets."""
     return encode_png(photo.preview(THUMBNAIL_EDGE))
+
+
+def with_picture(bundle: Any, picture: Callable[[], bytes]) -> Any:
+    """Return a display bundle with the PNG that viewers without widgets show, as GitHub does."""
+    if bundle is None:
+        return None
+    data, metadata = bundle
+    data["image/png"] = base64.b64encode(picture()).decode("ascii")
+    return data, metadata
 
 
 def encode_maps(scene: Scene) -> dict[str, bytes]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import os
 import tempfile
 from pathlib import Path
@@ -14,7 +13,7 @@ from sunwidget.files import target
 from sunwidget.photo import Photo
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.history import EditHistory
-from sunwidget.widgets.payload import THUMBNAIL_EDGE, encode_png, thumbnail
+from sunwidget.widgets.payload import THUMBNAIL_EDGE, encode_png, thumbnail, with_picture
 from sunwidget.widgets.requests import Answer, Progress
 from sunwidget.widgets.snapshot import SNAPSHOT_EDGE, Snapshot
 from sunwidget.widgets.standalone import editor_page, embedded_state, still_of, write_page
@@ -127,13 +126,7 @@ class Pictures(EditHistory):
         return thumbnail(self.photo)
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        bundle = super()._repr_mimebundle_(**kwargs)
-        if bundle is None:
-            return None
-        data, metadata = bundle
-        # GitHub, nbconvert and other viewers without widgets show this one.
-        data["image/png"] = base64.b64encode(self._thumbnail()).decode("ascii")
-        return data, metadata
+        return with_picture(super()._repr_mimebundle_(**kwargs), self._thumbnail)
 
 
 def _fitting(photo: Photo, long_edge: int) -> tuple[int, int]:

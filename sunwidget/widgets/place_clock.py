@@ -15,7 +15,7 @@ from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, EditError
 from sunwidget.heading import HeadingMatch, heading_by_sun
 from sunwidget.photo import Photo
-from sunwidget.photo_place import PhotoPlace, date_and_hours, from_photo
+from sunwidget.photo_place import PhotoPlace, from_photo
 from sunwidget.place import Place, day_table, solar_day
 from sunwidget.widgets.history import EditHistory
 
@@ -138,7 +138,7 @@ class PlaceClock(EditHistory):
     def _found_place(self, given: dict[str, Any] | None = None, *, match: bool = True) -> Place:
         """Return the place of what is given, else set, else told by the file."""
         values = {name: value for name, value in (given or {}).items() if value is not None}
-        known = self._known(values.get("longitude"))
+        known = from_photo(self.photo, values.get("longitude")).values()
         if self.place is not None:
             known |= vars(self.place)
         values = {**known, **values}
@@ -155,18 +155,6 @@ class PlaceClock(EditHistory):
         except ValueError as error:
             raise EditError(str(error)) from None
         return place
-
-    def _known(self, longitude: float | None) -> dict[str, Any]:
-        """Return what the file tells, by the names of a Place."""
-        told = from_photo(self.photo, longitude)
-        values: dict[str, Any] = {
-            "latitude": told.latitude,
-            "longitude": told.longitude,
-            "heading": told.heading,
-        }
-        if told.moment is not None:
-            values["date"], values["time"] = date_and_hours(told.moment)
-        return values
 
     def get_state(self, key: Any = None, drop_defaults: bool = False) -> Any:
         """Return the traits as they travel; all of them with the path of the place's day."""
@@ -202,13 +190,7 @@ class PlaceClock(EditHistory):
 def _told(photo: Photo) -> dict[str, Any]:
     """Return what a photo's file tells, for the browser."""
     told = from_photo(photo)
-    date, time = (None, None) if told.moment is None else date_and_hours(told.moment)
-    return {
-        "latitude": told.latitude,
-        "longitude": told.longitude,
-        "heading": told.heading,
-        "date": date,
-        "time": time,
+    return told.values() | {
         # Where no zone is known, the browser guesses one once a longitude is said.
         "clock": told.clock.isoformat() if told.clock is not None else None,
         "notes": list(told.notes),

@@ -1,7 +1,7 @@
 /** Every key of a comparison; the sun's arrow keys and the divider's belong to these. */
 
 import { openHelp } from "../controls/help_dialog.js";
-import { isTaken, runShortcut } from "../controls/keys.js";
+import { HISTORY_KEYS, isTaken, runShortcut } from "../controls/keys.js";
 
 /** @typedef {import("./view.js").View} View */
 
@@ -40,13 +40,7 @@ const SHORTCUTS = [
     keys: ["ArrowLeft", "ArrowRight"],
     label: "Move it; with Shift five times as far",
   },
-  { section: "History", keys: ["Mod+Z"], label: "Undo", run: (view) => view.state.undo() },
-  {
-    section: "History",
-    keys: ["Mod+Shift+Z", "Mod+Y"],
-    label: "Redo",
-    run: (view) => view.state.redo(),
-  },
+  ...HISTORY_KEYS,
   {
     section: "Help",
     keys: ["?"],

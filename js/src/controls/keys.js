@@ -17,6 +17,21 @@
  *   "Space" or "Escape"; `run` may return false to leave the key to later rows and to the host
  */
 
+/**
+ * The keys of every widget with a history.
+ *
+ * @type {Shortcut<{ state: import("../state.js").EditState }>[]}
+ */
+export const HISTORY_KEYS = [
+  { section: "History", keys: ["Mod+Z"], label: "Undo", run: (view) => view.state.undo() },
+  {
+    section: "History",
+    keys: ["Mod+Shift+Z", "Mod+Y"],
+    label: "Redo",
+    run: (view) => view.state.redo(),
+  },
+];
+
 const MOVES = [
   ...["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
   ...["Home", "End", "PageUp", "PageDown"],

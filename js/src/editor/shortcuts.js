@@ -4,7 +4,7 @@
  */
 
 import { openHelp } from "../controls/help_dialog.js";
-import { runShortcut } from "../controls/keys.js";
+import { HISTORY_KEYS, runShortcut } from "../controls/keys.js";
 
 /** @typedef {import("./view.js").View} View */
 
@@ -133,13 +133,7 @@ export const SHORTCUTS = [
     run: (view) => stepMap(view, -1),
   },
 
-  { section: "History", keys: ["Mod+Z"], label: "Undo", run: (view) => view.state.undo() },
-  {
-    section: "History",
-    keys: ["Mod+Shift+Z", "Mod+Y"],
-    label: "Redo",
-    run: (view) => view.state.redo(),
-  },
+  ...HISTORY_KEYS,
   {
     section: "History",
     keys: ["V"],

@@ -1,6 +1,7 @@
 /** Every key of the explorer, in one table: the key handler runs it and the help shows it. */
 
 import { openHelp } from "../controls/help_dialog.js";
+import { HISTORY_KEYS } from "../controls/keys.js";
 import { turned } from "../day.js";
 
 /** @typedef {import("./view.js").View} View */
@@ -33,13 +34,7 @@ export const SHORTCUTS = [
     label: "Ten times as far",
   },
 
-  { section: "History", keys: ["Mod+Z"], label: "Undo", run: (view) => view.state.undo() },
-  {
-    section: "History",
-    keys: ["Mod+Shift+Z", "Mod+Y"],
-    label: "Redo",
-    run: (view) => view.state.redo(),
-  },
+  ...HISTORY_KEYS,
 
   {
     section: "Help",
