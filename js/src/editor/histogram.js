@@ -21,6 +21,8 @@ const FORGETS = 0.7; // of the cost, with each reading
 const WIDTH = 240;
 const HEIGHT = 56;
 const CHANNELS = /** @type {const} */ (["red", "green", "blue"]);
+// Until there is a picture to count.
+const UNKNOWN = { role: "img", "aria-label": "Not counted yet" };
 const WORTH_SAYING = 0.001; // share of the picture that is clipped
 
 /** @type {import("./parts.js").MakePart} */
@@ -34,15 +36,15 @@ export function histogram(view, signal) {
       class: "sw-levels",
       viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
       preserveAspectRatio: "none",
-      role: "img",
+      ...UNKNOWN,
     },
     ...hills,
     luminance,
     before,
   );
   const marks = {
-    black: element("span", { class: "sw-clipped sw-clipped-black", role: "img" }),
-    white: element("span", { class: "sw-clipped sw-clipped-white", role: "img" }),
+    black: element("span", { class: "sw-clipped sw-clipped-black", ...UNKNOWN }),
+    white: element("span", { class: "sw-clipped sw-clipped-white", ...UNKNOWN }),
   };
   const { panel } = view;
   const { node, head, body } = countedSection(
