@@ -417,6 +417,8 @@ def _table() -> tuple[Parameter, ...]:
 
 PARAMETERS: tuple[Parameter, ...] = _table()
 NUMBERS: tuple[Parameter, ...] = tuple(p for p in PARAMETERS if p.kind == "number")
+# Names of what the photo's maps follow.
+CORRECTIONS: tuple[str, ...] = tuple(p.name for p in PARAMETERS if p.analysis)
 _BY_NAME = {p.name: p for p in PARAMETERS}
 
 

@@ -156,14 +156,18 @@ class Photo:
         Averaged over areas in linear light; never enlarged; colours outside sRGB are
         clamped. An 8-bit sRGB photo that is small enough comes back as it is.
         """
-        width, height = self.size
-        scale = min(1.0, long_edge / max(width, height))
-        if scale == 1.0:
+        small = self.size_within(long_edge)
+        if small == self.size:
             if self.encoded.dtype == np.uint8 and self.profile.is_srgb:
                 return self.encoded
             return SRGB.encode(self.pixels)
-        small = (max(1, round(width * scale)), max(1, round(height * scale)))
         return SRGB.encode(self._shrunk(small))
+
+    def size_within(self, long_edge: int) -> tuple[int, int]:
+        """Return width and height, shrunk in proportion to at most ``long_edge`` pixels."""
+        scale = min(1.0, long_edge / max(self.size))
+        width, height = (max(1, round(n * scale)) for n in self.size)
+        return width, height
 
     def _shrunk(self, size: tuple[int, int]) -> NDArray[np.float32]:
         """Area average in linear light; strip by strip, so that 150 MP need no float copy."""

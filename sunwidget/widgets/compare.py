@@ -11,7 +11,6 @@ import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import anywidget
 import numpy as np
 import traitlets
 
@@ -19,8 +18,9 @@ from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, parameter
 from sunwidget.files import target
 from sunwidget.photo import Photo, open_photo
+from sunwidget.widgets.analysed import OPENING, Analysed
 from sunwidget.widgets.analyst import Analyst
-from sunwidget.widgets.edit_traits import edit_traits
+from sunwidget.widgets.edit_traits import AnswersRefusals, edit_traits
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.history import edit_of
 from sunwidget.widgets.payload import (
@@ -45,7 +45,7 @@ _NOTES = ("Drag the sun in any picture: everything happens in this file, and not
 LAYOUTS = ("side_by_side", "wipe")
 
 
-class Compare(anywidget.AnyWidget):
+class Compare(Analysed, AnswersRefusals):
     """Show methods or recipes side by side on one photo.
 
     Dragging the sun in one picture moves it in all; zooming one zooms all.
@@ -99,7 +99,6 @@ class Compare(anywidget.AnyWidget):
     _photo = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _scenes: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
     _variants: traitlets.List = traitlets.List().tag(sync=True)
-    _status = traitlets.Dict().tag(sync=True, echo_update=False)
     _history = traitlets.Dict().tag(sync=True)
 
     one_sun = traitlets.Bool(True, help="Whether all pictures have one sun.").tag(sync=True)
@@ -137,28 +136,12 @@ class Compare(anywidget.AnyWidget):
             _rows=[{"name": name, "default": value} for name, value in start.items()],
             _photo=encode_preview(self.photo),
             _variants=[{"label": variant.label} for variant in self._shown],
-            _status={"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"},
+            _status=OPENING,
             _history={"past": [], "future": []},
             **start,
         )
         self._analyst = Analyst(source, analysis, self._deliver, self._report)
         self._analyst.ask(Edit())
-
-    @property
-    def scene(self) -> Scene:
-        """The analysed photo, without any recipe's strokes and hints; waits for the analysis."""
-        return self._analyst.wait()
-
-    def wait(self, timeout: float | None = None) -> Compare:
-        """Block until the photo is analysed; raises what the analysis raised.
-
-        Parameters
-        ----------
-        timeout : float, optional
-            Seconds after which to raise ``TimeoutError``. Default: none.
-        """
-        self._analyst.wait(timeout)
-        return self
 
     @property
     def edits(self) -> dict[str, Edit]:
@@ -201,9 +184,7 @@ class Compare(anywidget.AnyWidget):
         """
         from sunwidget.export.sheet import sheet
 
-        scale = min(1.0, long_edge / max(self.photo.size))
-        width, height = (max(1, round(n * scale)) for n in self.photo.size)
-        return sheet(self.render(size=(width, height)))
+        return sheet(self.render(size=self.photo.size_within(long_edge)))
 
     def to_html(
         self,
@@ -233,14 +214,6 @@ class Compare(anywidget.AnyWidget):
         text = page(embedded, still, title=title or self.photo.name, notes=_NOTES)
         return text if place is None else write_page(text, place, overwrite=overwrite)
 
-    def set_state(self, sync_data: dict[str, Any]) -> None:
-        """Take over what the browser sent; a value that is refused is answered, not raised."""
-        try:
-            super().set_state(sync_data)
-        except traitlets.TraitError as error:
-            self.send({"type": "error", "error": str(error)})
-            self.send_state([name for name in sync_data if name in self.keys])
-
     def _deliver(self, scene: Scene) -> None:
         edits = {variant.label: variant.edit(scene) for variant in self._shown}
         # Maps are made once for all recipes that correct the photo alike.
@@ -265,10 +238,6 @@ class Compare(anywidget.AnyWidget):
                 }
                 for variant in self._shown
             ]
-
-    def _report(self, stage: str, fraction: float, message: str) -> None:
-        with self._lock:
-            self._status = {"stage": stage, "fraction": fraction, "message": message}
 
     def _static_picture(self) -> bytes:
         """Return a small PNG: all pictures where they can be had at once, else the photo."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
+import anywidget
 import traitlets
 
 from sunwidget.edit import PARAMETERS, EditError, Parameter, checked, plain
@@ -42,6 +43,20 @@ class EditTrait(traitlets.TraitType):
             return self.check(self.parameter, value)
         except EditError as error:
             raise traitlets.TraitError(str(error)) from None
+
+
+class AnswersRefusals(anywidget.AnyWidget):
+    """A widget that tells the browser when it does not take what that sent."""
+
+    _refusals: tuple[type[Exception], ...] = (traitlets.TraitError,)
+
+    def set_state(self, sync_data: dict[str, Any]) -> None:
+        """Take over what the browser sent; a value that is refused is answered, not raised."""
+        try:
+            super().set_state(sync_data)
+        except self._refusals as error:
+            self.send({"type": "error", "error": str(error)})
+            self.send_state([name for name in sync_data if name in self.keys])
 
 
 def edit_traits(

@@ -14,11 +14,10 @@ import threading
 from collections.abc import Iterator
 from typing import Any
 
-import anywidget
 import traitlets
 
 from sunwidget.edit import PARAMETERS, Edit, EditError
-from sunwidget.widgets.edit_traits import edit_traits
+from sunwidget.widgets.edit_traits import AnswersRefusals, edit_traits
 
 NAMES = tuple(p.name for p in PARAMETERS)
 HISTORY_LENGTH = 100
@@ -30,7 +29,7 @@ NAME_LENGTH = 80
 Recipe = dict[str, Any]
 
 
-class EditHistory(anywidget.AnyWidget):
+class EditHistory(AnswersRefusals):
     """A widget whose traits are the parameters of an ``Edit``.
 
     Parameters
@@ -172,9 +171,6 @@ class EditHistory(anywidget.AnyWidget):
             self._browser_thread = threading.get_ident()
             try:
                 super().set_state(sync_data)
-            except traitlets.TraitError as error:
-                self.send({"type": "error", "error": str(error)})
-                self.send_state([name for name in sync_data if name in self.keys])
             finally:
                 self._browser_thread = None
                 self._committed = self.edit

@@ -64,13 +64,6 @@ def encode_preview(photo: Photo) -> bytes:
     return bytes(cv2.imencode(".jpg", image[..., ::-1], options)[1])
 
 
-def preview_size(photo: Photo) -> tuple[int, int]:
-    """Return width and height of the preview, as ``Photo.preview`` makes it."""
-    scale = min(1.0, PREVIEW_EDGE / max(photo.size))
-    width, height = (max(1, round(n * scale)) for n in photo.size)
-    return width, height
-
-
 def thumbnail(photo: Photo) -> bytes:
     """Return a small PNG for viewers that run no widgets."""
     return encode_png(photo.preview(THUMBNAIL_EDGE))
@@ -87,7 +80,7 @@ def with_picture(bundle: Any, picture: Callable[[], bytes]) -> Any:
 
 def encode_maps(scene: Scene) -> dict[str, bytes]:
     """Return the scene textures but the photo, by trait name, as PNG at the preview's size."""
-    size = preview_size(scene.photo)
+    size = scene.photo.size_within(PREVIEW_EDGE)
 
     def encoded(read: Callable[[tuple[int, int]], NDArray[np.float32]]) -> bytes:
         return encode_png(quantise_map(read(size)))
@@ -111,9 +104,7 @@ def encode_map(scene: Scene, name: str) -> bytes:
         When there is no such map, or this photo has none.
     """
     entry = scene_map(name)
-    scale = min(1.0, MAP_EDGE / max(scene.photo.size))
-    width, height = (max(1, round(n * scale)) for n in scene.photo.size)
-    shares = shares_of(scene, entry, (width, height))
+    shares = shares_of(scene, entry, scene.photo.size_within(MAP_EDGE))
     if shares is None:
         raise ValueError(f"{entry.title}: this photo has none.")
     return encode_png(levels(shares))

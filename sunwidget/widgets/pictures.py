@@ -10,8 +10,7 @@ from typing import Any
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit
 from sunwidget.files import target
-from sunwidget.photo import Photo
-from sunwidget.widgets.analyst import Analyst
+from sunwidget.widgets.analysed import Analysed
 from sunwidget.widgets.history import EditHistory
 from sunwidget.widgets.payload import THUMBNAIL_EDGE, encode_png, thumbnail, with_picture
 from sunwidget.widgets.requests import Answer, Progress
@@ -27,11 +26,8 @@ _TYPES = {
 }
 
 
-class Pictures(EditHistory):
+class Pictures(EditHistory, Analysed):
     """A widget that renders its edit of a photo."""
-
-    photo: Photo
-    _analyst: Analyst
 
     def render(self, **options: Any) -> Any:
         """Return the picture as it is now; ``options`` as in ``sunwidget.render``."""
@@ -67,7 +63,7 @@ class Pictures(EditHistory):
         if isinstance(long_edge, bool) or not isinstance(long_edge, int) or long_edge < 1:
             raise ValueError(f"long_edge must be a whole number above 0, not {long_edge!r:.40}.")
         edit = self.edit
-        pixels = self.render(size=_fitting(self.photo, long_edge))
+        pixels = self.render(size=self.photo.size_within(long_edge))
         return Snapshot(pixels, edit, self.photo)
 
     def to_html(
@@ -120,16 +116,10 @@ class Pictures(EditHistory):
         # The first frame of a session takes a second, which an untouched photo is not worth.
         if self._analyst.ready and self.edit != Edit():
             try:
-                return encode_png(self.render(size=_fitting(self.photo, THUMBNAIL_EDGE)))
+                return encode_png(self.render(size=self.photo.size_within(THUMBNAIL_EDGE)))
             except RendererError:
                 pass
         return thumbnail(self.photo)
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         return with_picture(super()._repr_mimebundle_(**kwargs), self._thumbnail)
-
-
-def _fitting(photo: Photo, long_edge: int) -> tuple[int, int]:
-    scale = min(1.0, long_edge / max(photo.size))
-    width, height = (max(1, round(n * scale)) for n in photo.size)
-    return width, height

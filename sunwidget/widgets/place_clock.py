@@ -11,16 +11,16 @@ from typing import Any
 
 import traitlets
 
-from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, EditError
 from sunwidget.heading import HeadingMatch, heading_by_sun
 from sunwidget.photo import Photo
 from sunwidget.photo_place import PhotoPlace, from_photo
 from sunwidget.place import Place, day_table, solar_day
+from sunwidget.widgets.analysed import Analysed
 from sunwidget.widgets.history import EditHistory
 
 
-class PlaceClock(EditHistory):
+class PlaceClock(EditHistory, Analysed):
     """A widget of an edit whose sun follows a clock."""
 
     # What the browser needs of the day: its key and its path, or why there is none.
@@ -29,7 +29,6 @@ class PlaceClock(EditHistory):
     _photo_place = traitlets.Dict().tag(sync=True, echo_update=False)
 
     place: Place | None
-    photo: Photo
 
     def __init__(self, start: Edit, **state: Any) -> None:
         self._made = False
@@ -40,11 +39,6 @@ class PlaceClock(EditHistory):
         if start.place is not None:
             # pvlib takes a second to load, which the first picture shall not wait for.
             threading.Thread(target=self._refresh_day, daemon=True).start()
-
-    @property
-    def scene(self) -> Scene:
-        """The analysed photo."""
-        raise NotImplementedError
 
     @property
     def photo_place(self) -> PhotoPlace:

@@ -17,7 +17,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import anywidget
 import numpy as np
 import traitlets
 
@@ -34,7 +33,7 @@ from sunwidget.explorer import table
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
 from sunwidget.explorer.values import effective_values
 from sunwidget.files import target
-from sunwidget.widgets.edit_traits import edit_traits
+from sunwidget.widgets.edit_traits import AnswersRefusals, edit_traits
 from sunwidget.widgets.explorer_answers import actions, bruneton_slice, scans
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.payload import encode_png, parameter_json
@@ -50,7 +49,7 @@ _SAME_PLACE = 0.01  # degrees; the browser's arithmetic is not to the bit the ke
 _PICTURE_SIZE = (480, 320)  # of the static picture
 
 
-class SkyExplorer(anywidget.AnyWidget):
+class SkyExplorer(AnswersRefusals):
     """See how the clear sky comes about: sun, air, orders of scattering, models, measurements.
 
     Every row of ``sunwidget.explorer.table.EXPLORER_PARAMETERS`` is a trait of the same name,
@@ -87,6 +86,8 @@ class SkyExplorer(anywidget.AnyWidget):
     """
 
     _esm, _css = front_end("sky_explorer", "SkyExplorer")
+    # Without pvlib there is no sun of a place.
+    _refusals = (traitlets.TraitError, ImportError)
 
     _parameters: traitlets.List = traitlets.List(read_only=True).tag(sync=True)
     _aliases: traitlets.Dict = traitlets.Dict(read_only=True).tag(sync=True)
@@ -380,9 +381,6 @@ class SkyExplorer(anywidget.AnyWidget):
             self._browser_thread = threading.get_ident()
             try:
                 super().set_state(sync_data)
-            except (traitlets.TraitError, ImportError) as error:
-                self.send({"type": "error", "error": str(error)})
-                self.send_state([name for name in sync_data if name in self.keys])
             finally:
                 self._browser_thread = None
 

@@ -104,10 +104,8 @@ def still_of(photo: Photo, render: Callable[..., np.ndarray]) -> Still:
     """
     from sunwidget.renderer.gl_thread import RendererError
 
-    scale = min(1.0, _STILL_EDGE / max(photo.size))
-    width, height = (max(1, round(n * scale)) for n in photo.size)
     try:
-        picture = render(size=(width, height))
+        picture = render(size=photo.size_within(_STILL_EDGE))
         text = f"{photo.name}, its sun moved as the page was made"
     except RendererError:
         picture, text = photo.preview(_STILL_EDGE), f"{photo.name} as it was taken"

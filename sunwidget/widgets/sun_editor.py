@@ -15,8 +15,9 @@ import traitlets
 
 from sunwidget import presets
 from sunwidget.analysis.scene import Scene
-from sunwidget.edit import PARAMETERS, Edit
+from sunwidget.edit import CORRECTIONS, Edit
 from sunwidget.photo import Photo
+from sunwidget.widgets.analysed import OPENING
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.history import edit_of
@@ -34,9 +35,6 @@ from sunwidget.widgets.place_clock import PlaceClock
 from sunwidget.widgets.requests import Action, Answer, Progress, Requests
 from sunwidget.widgets.sources import opened
 from sunwidget.widgets.uploads import Uploads, fingerprint
-
-_CORRECTIONS = frozenset(p.name for p in PARAMETERS if p.analysis)
-_OPENING = {"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"}
 
 
 class SunEditor(PlaceClock, Pictures):
@@ -81,7 +79,6 @@ class SunEditor(PlaceClock, Pictures):
     _backdrop = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _clear_sky = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _scene = traitlets.Dict().tag(sync=True, echo_update=False)
-    _status = traitlets.Dict().tag(sync=True, echo_update=False)
     # Which photo it is: its name, a fingerprint of its pixels, and a key of this editor.
     _source = traitlets.Dict().tag(sync=True, echo_update=False)
 
@@ -102,12 +99,12 @@ class SunEditor(PlaceClock, Pictures):
             start,
             _photo=encode_preview(self.photo),
             _source=self._source_json(uuid.uuid4().hex),
-            _status=_OPENING,
+            _status=OPENING,
         )
         self._requests = Requests(self.send, self._actions())
         self.on_msg(self._requests)
         self._analyst = self._analyst_of(source, analysis)
-        self.observe(lambda _: self._analyst.ask(self.edit), list(_CORRECTIONS))
+        self.observe(lambda _: self._analyst.ask(self.edit), list(CORRECTIONS))
         self._analyst.ask(start)
 
     @traitlets.default("_parameters")
@@ -144,7 +141,7 @@ class SunEditor(PlaceClock, Pictures):
             self._analyst.cancel()
             self.photo, self._shown = photo, None
             self._analyst = self._analyst_of(source, analysis)
-            self._photo, self._status, self._scene = preview, _OPENING, {}
+            self._photo, self._status, self._scene = preview, OPENING, {}
             self._layers = self._surface = self._backdrop = self._clear_sky = b""
             self._source = self._source_json(self._source["session"])
             aside = self._set_asides.pop(self._source["fingerprint"], None)
@@ -152,22 +149,6 @@ class SunEditor(PlaceClock, Pictures):
             if aside and given:
                 self._step(start)
             self._analyst.ask(self.edit)
-
-    @property
-    def scene(self) -> Scene:
-        """The analysed photo, with strokes and hints applied; waits for the analysis."""
-        return self._analyst.wait()
-
-    def wait(self, timeout: float | None = None) -> SunEditor:
-        """Block until the photo is analysed; raises what the analysis raised.
-
-        Parameters
-        ----------
-        timeout : float, optional
-            Seconds after which to raise ``TimeoutError``. Default: none.
-        """
-        self._analyst.wait(timeout)
-        return self
 
     def cancel(self) -> None:
         """Stop the analysis, and what was asked for in the browser, at their next step.
@@ -236,10 +217,6 @@ class SunEditor(PlaceClock, Pictures):
                 for name, data in maps.items():
                     setattr(self, name, data)
                 self._scene = described
-
-    def _report(self, stage: str, fraction: float, message: str) -> None:
-        with self._lock:
-            self._status = {"stage": stage, "fraction": fraction, "message": message}
 
     def _actions(self) -> dict[str, Action]:
         """Return what the browser can ask for, by name."""

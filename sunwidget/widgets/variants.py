@@ -8,11 +8,10 @@ from typing import Any, NamedTuple
 
 from sunwidget import presets
 from sunwidget.analysis.scene import Scene
-from sunwidget.edit import METHODS, PARAMETERS, Edit, EditError
+from sunwidget.edit import CORRECTIONS, METHODS, Edit, EditError
 
 PHOTO = "photo"
 MOST = 9
-_CORRECTIONS = tuple(p.name for p in PARAMETERS if p.analysis)
 
 Sun = tuple[float | None, float | None]
 
@@ -51,7 +50,7 @@ class Variant(NamedTuple):
         if isinstance(self.what, Edit):
             return _over(self.base, self.what)
         if self.is_photo:
-            return Edit(**{name: getattr(self.base, name) for name in _CORRECTIONS})
+            return Edit(**{name: getattr(self.base, name) for name in CORRECTIONS})
         if self.what in METHODS:
             return self.base.replace(method=self.what)
         return presets.edit(self.what, scene, self.base)
@@ -103,7 +102,7 @@ def common_sun(found: Iterable[Variant]) -> Sun | None:
 
 def corrections(edit: Edit) -> tuple[Any, ...]:
     """Return what the photo's maps follow: edits that agree in it share their maps."""
-    return tuple(getattr(edit, name) for name in _CORRECTIONS)
+    return tuple(getattr(edit, name) for name in CORRECTIONS)
 
 
 def _over(base: Edit, edit: Edit) -> Edit:

@@ -19,7 +19,7 @@ from sunwidget.analysis.maps import MAPS, scene_map
 from sunwidget.edit import PARAMETERS, EditError
 from sunwidget.widgets import SunEditor
 from sunwidget.widgets import sun_editor as module
-from sunwidget.widgets.payload import PREVIEW_EDGE, preview_size, whiteness
+from sunwidget.widgets.payload import PREVIEW_EDGE, whiteness
 from sunwidget.widgets.requests import Requests
 
 
@@ -194,7 +194,7 @@ def test_preview_of_a_small_photo_is_the_photo(editor, scene):
 def test_maps_are_sized_as_the_preview_is(size):
     photo = sw.open(np.zeros((size[1], size[0], 3), np.uint8))
     height, width, _ = photo.preview(PREVIEW_EDGE).shape
-    assert preview_size(photo) == (width, height)
+    assert photo.size_within(PREVIEW_EDGE) == (width, height)
 
 
 def test_a_stroke_changes_the_maps_and_undo_brings_them_back(editor):

@@ -356,6 +356,8 @@ export class View {
       if (drawn) {
         this.root.classList.add("sw-live");
         for (const part of this.parts) part.drawn?.(scale);
+      } else {
+        this.loop.request(); // the context was lost meanwhile; the next frame makes another
       }
     } catch (error) {
       this.showError(message(error));

@@ -1,0 +1,45 @@
+"""A widget of an analysed photo: it waits for the scene and tells how the work stands."""
+
+from __future__ import annotations
+
+import threading
+from typing import Self
+
+import anywidget
+import traitlets
+
+from sunwidget.analysis.scene import Scene
+from sunwidget.photo import Photo
+from sunwidget.widgets.analyst import Analyst
+
+OPENING = {"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"}
+
+
+class Analysed(anywidget.AnyWidget):
+    """A widget that shows a photo at once, and its scene when an ``Analyst`` has it."""
+
+    _status = traitlets.Dict().tag(sync=True, echo_update=False)
+
+    photo: Photo
+    _analyst: Analyst
+    _lock: threading.RLock
+
+    @property
+    def scene(self) -> Scene:
+        """The analysed photo; waits for the analysis."""
+        return self._analyst.wait()
+
+    def wait(self, timeout: float | None = None) -> Self:
+        """Block until the photo is analysed; raises what the analysis raised.
+
+        Parameters
+        ----------
+        timeout : float, optional
+            Seconds after which to raise ``TimeoutError``. Default: none.
+        """
+        self._analyst.wait(timeout)
+        return self
+
+    def _report(self, stage: str, fraction: float, message: str) -> None:
+        with self._lock:
+            self._status = {"stage": stage, "fraction": fraction, "message": message}
