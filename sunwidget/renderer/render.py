@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import operator
 from collections import OrderedDict
@@ -16,7 +17,7 @@ from sunwidget.renderer.shader_source import frame_graph
 from sunwidget.renderer.values import states
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     import moderngl
     import numpy.typing as npt
@@ -125,17 +126,84 @@ def render(
     edit = Edit() if edit is None else edit
     if method is not None:
         edit = edit.replace(method=method)
-    if dtype not in ("uint8", "uint16", "float32"):
-        raise EditError(f"dtype must be 'uint8', 'uint16' or 'float32', not {dtype!r:.40}.")
     scene = scene.corrected(edit)
     own = (scene.photo.pixels.shape[1], scene.photo.pixels.shape[0])
-    size = own if size is None else checked_size(size)
+    width, height = own if size is None else checked_size(size)
+    out: npt.NDArray[Any] | None = None
+    for rows, pixels in strips_of(scene, edit, dtype, (width, height), progress):
+        if out is None:
+            out = np.empty((height, width, 3), pixels.dtype)
+        out[rows] = pixels
+    assert out is not None  # a picture has at least one row
+    return out
 
-    def task(context: moderngl.Context) -> npt.NDArray[Any]:
-        graph = _renderer(context).graph(scene, size)
-        return _draw(graph, scene, edit, size, dtype, progress)
 
-    return on_gl_thread(task)
+def strips_of(
+    scene: Scene,
+    edit: Edit | None = None,
+    dtype: str = "uint8",
+    size: tuple[int, int] | None = None,
+    progress: Callable[[float, str], Any] | None = None,
+) -> Iterator[tuple[slice, npt.NDArray[Any]]]:
+    """Draw ``scene`` with ``edit`` applied, some rows at a time.
+
+    The strips together are the picture that ``render`` returns; only one is in memory at a
+    time. Other pictures may be drawn between two strips.
+
+    Parameters
+    ----------
+    scene, edit, dtype, size, progress
+        As for ``render``.
+
+    Yields
+    ------
+    rows : slice
+        The rows of this strip, from the top downwards, without gap or overlap.
+    pixels : array, (rows, width, 3)
+
+    Raises
+    ------
+    EditError, RendererError
+        As ``render``, when the first strip is asked for.
+    """
+    if dtype not in ("uint8", "uint16", "float32"):
+        raise EditError(f"dtype must be 'uint8', 'uint16' or 'float32', not {dtype!r:.40}.")
+    edit = Edit() if edit is None else edit
+    scene = scene.corrected(edit)
+    own = (scene.photo.pixels.shape[1], scene.photo.pixels.shape[0])
+    width, height = size = own if size is None else checked_size(size)
+    count = math.ceil(height / max(1, math.ceil(width * height / _BAND_PIXELS)))
+    graph = on_gl_thread(lambda context: _renderer(context).graph(scene, size))
+    for top in range(0, height, count):
+        rows = slice(top, min(top + count, height))
+        task = functools.partial(draw_rows, graph, scene, edit, size, dtype, rows)
+        yield rows, on_gl_thread(lambda _, task=task: task())  # type: ignore[misc]
+        if progress is not None:
+            progress(rows.stop / height, "rendering")
+
+
+def draw_rows(
+    graph: FrameGraph,
+    scene: Scene,
+    edit: Edit,
+    size: tuple[int, int],
+    dtype: str,
+    rows: slice | None = None,
+) -> npt.NDArray[Any]:
+    """Draw some rows of the picture, all of them by default, on the GL thread."""
+    width, height = size
+    first, last, _ = (rows or slice(None)).indices(height)
+    values = states(edit, scene.automatic)
+    band = (0, first, width, last - first)
+    host = _host_values(size, dtype)
+    target = graph.run(values, _scene_values(scene), host, band, (edit.method,))
+    # Read as float and quantise here: the driver's own rounding differs between hosts.
+    data = np.frombuffer(target.framebuffer.read(components=3, dtype="f4"), np.float32)
+    pixels = data.reshape(last - first, width, 3)
+    if dtype == "float32":
+        return pixels
+    scale, kind = _OUTPUT[dtype]
+    return np.clip(pixels * scale + 0.5, 0, scale).astype(kind)
 
 
 def render_pass(
@@ -188,34 +256,12 @@ def _host_values(size: tuple[int, int], dtype: str) -> dict[str, Any]:
     }
 
 
-def _draw(
-    graph: FrameGraph,
-    scene: Scene,
-    edit: Edit,
-    size: tuple[int, int],
-    dtype: str,
-    progress: Callable[[float, str], Any] | None,
-) -> npt.NDArray[Any]:
-    width, height = size
-    bands = max(1, math.ceil(width * height / _BAND_PIXELS))
-    rows = math.ceil(height / bands)
-    out = np.empty((height, width, 3), np.dtype(dtype))
-    values = states(edit, scene.automatic)
-    scene_values, host_values = _scene_values(scene), _host_values(size, dtype)
-    for top in range(0, height, rows):
-        band = min(rows, height - top)
-        target = graph.run(values, scene_values, host_values, (0, top, width, band), (edit.method,))
-        # Read as float and quantise here: the driver's own rounding differs between hosts.
-        data = np.frombuffer(target.framebuffer.read(components=3, dtype="f4"), np.float32)
-        pixels = data.reshape(band, width, 3)
-        if dtype == "float32":
-            out[top : top + band] = pixels
-        else:
-            scale, kind = _OUTPUT[dtype]
-            out[top : top + band] = np.clip(pixels * scale + 0.5, 0, scale).astype(kind)
-        if progress is not None:
-            progress((top + band) / height, "rendering")
-    return out
-
-
-__all__ = ["METHODS", "checked_size", "quantise_map", "render", "render_pass", "scene_textures"]
+__all__ = [
+    "METHODS",
+    "checked_size",
+    "quantise_map",
+    "render",
+    "render_pass",
+    "scene_textures",
+    "strips_of",
+]
