@@ -12,6 +12,7 @@ from PIL import Image
 import sunwidget as sw
 from sunwidget import cli
 from sunwidget.cli import main
+from sunwidget.cli_edit import edit_of_flags
 from sunwidget.cli_photo import flag, methods_of_stages, scene_of
 from sunwidget.edit import NUMBERS, PARAMETERS, Edit
 
@@ -45,17 +46,17 @@ def test_every_parameter_has_a_flag():
     for p in PARAMETERS:
         if p.kind == "number":
             options = parse("render", "x.jpg", "-o", "y.png", flag(p.name), str(p.maximum))
-            assert getattr(cli._edit(options), p.name) == p.maximum
+            assert getattr(edit_of_flags(options), p.name) == p.maximum
         elif p.kind == "choice":
             for choice in p.choices:
                 options = parse("render", "x.jpg", "-o", "y.png", flag(p.name), choice)
-                assert getattr(cli._edit(options), p.name) == choice
+                assert getattr(edit_of_flags(options), p.name) == choice
 
 
 def test_every_number_has_an_end_in_a_sweep():
     for p in NUMBERS:
         options = parse("sweep", "x", "-o", "y.gif", flag("to_" + p.name), str(p.minimum))
-        assert getattr(cli._edit(options, "to_", Edit()), p.name) == p.minimum
+        assert getattr(edit_of_flags(options, "to_", Edit()), p.name) == p.minimum
 
 
 def test_help_names_every_parameter(capsys):
@@ -67,7 +68,7 @@ def test_help_names_every_parameter(capsys):
 
 
 def test_no_flag_is_an_unmoved_edit():
-    assert cli._edit(parse("render", "x.jpg", "-o", "y.png")) == Edit()
+    assert edit_of_flags(parse("render", "x.jpg", "-o", "y.png")) == Edit()
 
 
 def test_negative_values_need_no_equals_sign():
@@ -80,7 +81,7 @@ def test_flags_win_over_the_recipe(tmp_path):
     recipe = tmp_path / "recipe.json"
     recipe.write_text(Edit(sun_elevation=3, exposure=1).to_json())
     options = parse("render", "x", "-o", "y", "--recipe", str(recipe), "--exposure", "-1")
-    assert cli._edit(options) == Edit(sun_elevation=3, exposure=-1)
+    assert edit_of_flags(options) == Edit(sun_elevation=3, exposure=-1)
 
 
 @pytest.mark.parametrize(

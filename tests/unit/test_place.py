@@ -9,8 +9,9 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.cli import _day, _parser, main
+from sunwidget.cli import _parser, main
 from sunwidget.cli_place import placed
+from sunwidget.cli_sweep import _day
 from sunwidget.edit import EditError
 from sunwidget.heading import heading_by_sun, match
 from sunwidget.photo_place import date_and_hours, from_photo, zone_name
