@@ -8,6 +8,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Self
 
+from sunwidget.time_left import with_time_left
+
 _HINTS = ("sun", "horizon", "fov", "sky", "sky_label")
 
 
@@ -143,17 +145,24 @@ def _sky(text: str) -> Any:
 
 
 class Progress:
-    """A progress callback that keeps one line on a terminal, and is silent elsewhere."""
+    """A progress callback that keeps one line on a terminal, and is silent elsewhere.
+
+    The line tells the time that is left.
+    """
 
     def __init__(self, what: str) -> None:
         self.what = what
         self.shown = sys.stderr.isatty()
+        self._report = with_time_left(self._show)
 
     def __enter__(self) -> Self:
         return self
 
     def __call__(self, fraction: float, message: str) -> None:
         """Show how far it is."""
+        self._report(fraction, message)
+
+    def _show(self, fraction: float, message: str) -> None:
         if self.shown:
             print(f"\r\x1b[K{self.what} {fraction:4.0%} {message}", end="", file=sys.stderr)
 
