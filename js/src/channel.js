@@ -6,6 +6,7 @@
  * browser → kernel  { type: "request", id, action, … }
  *                   { type: "cancel", id }
  * kernel → browser  { type: "progress", id, fraction, message }
+ *                   { type: "piece", id } with a buffer that comes before the response's own
  *                   { type: "response", id, result, error } with buffers
  */
 
@@ -28,7 +29,7 @@ export class Channel {
    */
   constructor(model, signal) {
     this.model = model;
-    /** @type {Map<string, { resolve: (answer: Answer) => void, reject: (error: Error) => void, onProgress?: OnProgress, timer?: ReturnType<typeof setTimeout> }>} */
+    /** @type {Map<string, { resolve: (answer: Answer) => void, reject: (error: Error) => void, pieces: DataView[], onProgress?: OnProgress, timer?: ReturnType<typeof setTimeout> }>} */
     this.open = new Map();
     /** @type {(message: any, buffers: DataView[]) => void} */
     const receive = (message, buffers) => this.receive(message, buffers);
@@ -55,7 +56,7 @@ export class Channel {
   request(action, content = {}, onProgress = undefined, buffers = [], signal = undefined) {
     const id = crypto.randomUUID?.() ?? String(Math.random());
     return new Promise((resolve, reject) => {
-      this.open.set(id, { resolve, reject, onProgress });
+      this.open.set(id, { resolve, reject, pieces: [], onProgress });
       this.watch(id);
       this.model.send({ ...content, type: "request", id, action }, undefined, buffers);
       signal?.addEventListener("abort", () => this.cancel(id), { once: true });
@@ -97,10 +98,20 @@ export class Channel {
       pending.onProgress?.(message.fraction, message.message);
       return;
     }
+    if (message.type === "piece") {
+      this.watch(message.id);
+      pending.pieces.push(...buffers);
+      return;
+    }
     if (message.type !== "response") return;
     this.open.delete(message.id);
     clearTimeout(pending.timer);
     if (message.error) pending.reject(new Error(message.error));
-    else pending.resolve({ result: message.result, buffers: buffers ?? [] });
+    else {
+      pending.resolve({
+        result: message.result,
+        buffers: [...pending.pieces, ...(buffers ?? [])],
+      });
+    }
   }
 }

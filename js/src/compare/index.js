@@ -1,27 +1,6 @@
 /** The anywidget module of Compare. */
 
-import { keepKeys } from "../host_keys.js";
+import { widget } from "../mount.js";
 import { View } from "./view.js";
 
-// Nothing slow belongs here: `initialize` must settle within two seconds.
-/** @param {{ model: import("../types.js").Model, el: HTMLElement }} context */
-function render({ model, el }) {
-  const controller = new AbortController();
-  const root = document.createElement("div");
-  root.className = "sunwidget sw-compare";
-  keepKeys(root, controller.signal);
-  root.setAttribute("role", "group");
-  root.setAttribute("aria-label", "Comparison");
-  el.append(root);
-  try {
-    new View(model, root, controller.signal);
-  } catch (error) {
-    root.textContent = `Compare cannot start: ${error instanceof Error ? error.message : error}`;
-  }
-  return () => {
-    controller.abort();
-    root.remove();
-  };
-}
-
-export default { render };
+export default widget("Compare", "Comparison", "sw-compare", View);

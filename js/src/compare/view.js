@@ -7,6 +7,7 @@
 import { Divider } from "../controls/divider.js";
 import { element } from "../controls/element.js";
 import { Zoom } from "../editor/zoom.js";
+import { errorText } from "../error_text.js";
 import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
 import { watchSight } from "../sight.js";
@@ -168,7 +169,7 @@ export class View {
       this.zoom.size = size; // perhaps before the photo is shown by itself
       this.show();
     } catch (error) {
-      this.showError(`The maps of the analysis cannot be shown: ${message(error)}`);
+      this.showError(`The maps of the analysis cannot be shown: ${errorText(error)}`);
     }
   }
 
@@ -320,7 +321,7 @@ export class View {
       this.grid.setAttribute("aria-busy", "false");
       this.differences.request();
     } catch (error) {
-      this.showError(message(error));
+      this.showError(errorText(error));
     }
   }
 
@@ -337,6 +338,3 @@ export class View {
 const sunText = (azimuth, elevation) =>
   `Sun ${Math.abs(azimuth).toFixed(1)}° ${azimuth < 0 ? "left" : "right"} · ` +
   `${elevation.toFixed(1)}° elevation`;
-
-/** @param {unknown} error */
-const message = (error) => (error instanceof Error ? error.message : String(error));

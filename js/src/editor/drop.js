@@ -1,6 +1,7 @@
 /** A photo or a recipe comes into the editor: dropped, pasted or chosen. */
 
 import { element } from "../controls/element.js";
+import { errorText } from "../error_text.js";
 import { pickFile } from "./pick_file.js";
 import { loadRecipe } from "./recipe.js";
 
@@ -79,9 +80,7 @@ async function take(view, file) {
     if (RECIPE.test(file.name)) await loadRecipe(view, file);
     else await upload(view, file);
   } catch (error) {
-    view.showError(
-      `${file.name} was not opened: ${error instanceof Error ? error.message : error}`,
-    );
+    view.showError(`${file.name} was not opened: ${errorText(error)}`);
   }
 }
 

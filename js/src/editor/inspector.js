@@ -5,6 +5,7 @@
 
 import { button } from "../controls/button.js";
 import { element, setAttributes, shape } from "../controls/element.js";
+import { errorText } from "../error_text.js";
 import { decodePicture } from "../gl/texture.js";
 import { ceiling, hill, spreadOf } from "./levels.js";
 import { colours, gradient, textAt } from "./ramp.js";
@@ -186,7 +187,7 @@ export class Inspector {
       this.data = null;
       this.canvas.width = 0;
       // Most often the photo has no such thing, such as a sun.
-      this.help.textContent = error instanceof Error ? error.message : String(error);
+      this.help.textContent = errorText(error);
       this.readValue();
     } finally {
       if (asked === this.asked) this.node.classList.remove("sw-waiting");

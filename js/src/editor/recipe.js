@@ -1,6 +1,7 @@
 /** The edit as a recipe that leaves the editor and comes back: as a file and by the clipboard. */
 
 import { copied, pasted } from "../controls/clipboard.js";
+import { errorText } from "../error_text.js";
 import { checkRecipe } from "../recipe/check.js";
 import { readRecipe } from "../recipe/read.js";
 import { toJson, toPython } from "../recipe/write.js";
@@ -99,7 +100,7 @@ export function useRecipe(view, text) {
     const moved = state.history().past.length !== before;
     say(view, moved ? "Recipe taken over." : "This is the recipe already.", moved);
   } catch (error) {
-    view.showError(`Nothing was changed. ${error instanceof Error ? error.message : error}`);
+    view.showError(`Nothing was changed. ${errorText(error)}`);
   }
 }
 

@@ -9,6 +9,7 @@ import { Camera } from "../camera.js";
 import { Channel } from "../channel.js";
 import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
+import { errorText } from "../error_text.js";
 import { Frame } from "../frame.js";
 import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
@@ -234,7 +235,7 @@ export class View {
       });
     } catch (error) {
       if (load !== this.loads) return;
-      this.showError(`The maps of the analysis cannot be shown: ${message(error)}`);
+      this.showError(`The maps of the analysis cannot be shown: ${errorText(error)}`);
       return;
     }
     this.frame.setScene(scene);
@@ -305,7 +306,7 @@ export class View {
       const levels = this.frame.levels(SUBJECTS[this.subject].texture);
       if (levels) paintBrushMask(this.stage.mask, levels, this.subject);
     } catch (error) {
-      this.showError(message(error));
+      this.showError(errorText(error));
     }
   }
 
@@ -360,7 +361,7 @@ export class View {
         this.loop.request(); // the context was lost meanwhile; the next frame makes another
       }
     } catch (error) {
-      this.showError(message(error));
+      this.showError(errorText(error));
     }
   }
 
@@ -386,6 +387,3 @@ export class View {
 /** @param {number | null | undefined} sureness */
 const surenessText = (sureness) =>
   typeof sureness === "number" ? `Atmosphere: ${Math.round(100 * sureness)} % sure` : "";
-
-/** @param {unknown} error */
-const message = (error) => (error instanceof Error ? error.message : String(error));

@@ -1,31 +1,10 @@
 /** The anywidget module of SkyExplorer. */
 
-import { keepKeys } from "../host_keys.js";
+import { widget } from "../mount.js";
 import { Projection } from "./projection.js";
 import { SkyFrame } from "./sky_frame.js";
 import { View } from "./view.js";
 
-// Nothing slow belongs here: `initialize` must settle within two seconds.
-/** @param {{ model: import("../types.js").Model, el: HTMLElement }} context */
-function render({ model, el }) {
-  const controller = new AbortController();
-  const root = document.createElement("div");
-  root.className = "sunwidget sw-explorer";
-  keepKeys(root, controller.signal);
-  root.setAttribute("role", "group");
-  root.setAttribute("aria-label", "Sky explorer");
-  el.append(root);
-  try {
-    new View(model, root, controller.signal);
-  } catch (error) {
-    root.textContent = `SkyExplorer cannot start: ${error instanceof Error ? error.message : error}`;
-  }
-  return () => {
-    controller.abort();
-    root.remove();
-  };
-}
-
-export default { render };
+export default widget("SkyExplorer", "Sky explorer", "sw-explorer", View);
 // For tests and for pages without a kernel.
 export { Projection, SkyFrame };

@@ -1,6 +1,7 @@
 /** Measured skies: 81 directions over the dome, coloured by how far the model is from them. */
 
 import { element, shape } from "../controls/element.js";
+import { errorText } from "../error_text.js";
 import { MODEL_LABELS } from "./guides.js";
 import { degrees } from "./readout.js";
 import { ERROR_GRADIENT, errorColor, relativeError } from "./sky_probe.js";
@@ -154,7 +155,7 @@ export function measuredControls(view) {
         note.hidden = true;
       } catch (error) {
         note.hidden = false;
-        note.textContent = error instanceof Error ? error.message : String(error);
+        note.textContent = errorText(error);
       } finally {
         button.disabled = false;
       }

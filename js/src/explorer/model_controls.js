@@ -1,6 +1,7 @@
 /** What the models need beyond a choice: Bruneton's table, and patience for the reference. */
 
 import { element } from "../controls/element.js";
+import { errorText } from "../error_text.js";
 import { MOST_SAMPLES } from "./limits.js";
 import { SWITCHED_OFF } from "./values.js";
 
@@ -83,7 +84,7 @@ export function modelControls(view, signal) {
       computed = asked;
     } catch (error) {
       if (signal.aborted) return;
-      view.showError(`Bruneton's table: ${error instanceof Error ? error.message : error}`);
+      view.showError(`Bruneton's table: ${errorText(error)}`);
     } finally {
       busy = false;
       if (!signal.aborted) {

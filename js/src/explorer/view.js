@@ -10,6 +10,7 @@ import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
 import { runShortcut } from "../controls/keys.js";
 import { angleBetween, sunAt, turned } from "../day.js";
+import { errorText } from "../error_text.js";
 import { FrameLoop } from "../frame_loop.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
@@ -310,7 +311,7 @@ export class View {
       this.plots.request();
       if (this.usesReference() && !this.referenceRests()) this.traceOn();
     } catch (error) {
-      this.showError(error instanceof Error ? error.message : String(error));
+      this.showError(errorText(error));
     }
   }
 
@@ -373,7 +374,7 @@ export class View {
     try {
       return this.frame.radiances(directions);
     } catch (error) {
-      this.showError(error instanceof Error ? error.message : String(error));
+      this.showError(errorText(error));
       return null;
     }
   }

@@ -4,6 +4,7 @@
  * where the widget cannot run.
  */
 
+import { errorText } from "../error_text.js";
 import { StandaloneModel, stateOf } from "./model.js";
 
 /** @param {string} id */
@@ -33,7 +34,7 @@ async function start() {
 
 start().catch((error) => {
   const problem = part("problem");
-  problem.textContent = error instanceof Error ? error.message : String(error);
+  problem.textContent = errorText(error);
   problem.hidden = false;
   part("notes").hidden = true; // they tell what could be done
 });

@@ -8,6 +8,7 @@
 import { element } from "../../controls/element.js";
 import { icon } from "../../controls/icons.js";
 import { followTheme, readTheme } from "../../controls/theme.js";
+import { errorText } from "../../error_text.js";
 import { PhasePlot } from "./phase.js";
 import { PrincipalPlanePlot } from "./principal_plane.js";
 import { SunColorPlot } from "./sun_color.js";
@@ -173,7 +174,7 @@ export class Plots {
         told.textContent = plot.tell?.() ?? "";
       }
     } catch (error) {
-      this.view.showError(error instanceof Error ? error.message : String(error));
+      this.view.showError(errorText(error));
     }
     this.last = performance.now();
     this.cost = this.last - begin;

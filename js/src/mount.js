@@ -1,0 +1,37 @@
+/** The anywidget module of a widget: its view in an element of the host's, and how it goes. */
+
+import { errorText } from "./error_text.js";
+import { keepKeys } from "./host_keys.js";
+
+/** @typedef {import("./types.js").Model} Model */
+
+/**
+ * Shaders and pictures belong into `render`, never into an `initialize`, which must settle within
+ * two seconds or the widget hears of no update any more.
+ *
+ * @param {string} name of the widget in Python
+ * @param {string} label of the region, for those who hear the page
+ * @param {string} kind CSS class of its own, beside that of all
+ * @param {new (model: Model, root: HTMLElement, signal: AbortSignal) => unknown} View
+ */
+export const widget = (name, label, kind, View) => ({
+  /** @param {{ model: Model, el: HTMLElement }} context */
+  render({ model, el }) {
+    const controller = new AbortController();
+    const root = document.createElement("div");
+    root.className = `sunwidget ${kind}`;
+    keepKeys(root, controller.signal);
+    root.setAttribute("role", "group");
+    root.setAttribute("aria-label", label);
+    el.append(root);
+    try {
+      new View(model, root, controller.signal);
+    } catch (error) {
+      root.textContent = `${name} cannot start: ${errorText(error)}`;
+    }
+    return () => {
+      controller.abort();
+      root.remove();
+    };
+  },
+});
