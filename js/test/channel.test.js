@@ -36,6 +36,18 @@ test("progress arrives before the answer", async () => {
   assert.deepEqual(seen, [0.5]);
 });
 
+test("a large answer comes in pieces, in their order", async () => {
+  const { model, channel } = open();
+  const request = channel.request("film");
+  const { id } = model.sent[0];
+  const [a, b, c] = [1, 2, 3].map((byte) => new DataView(Uint8Array.of(byte).buffer));
+  model.fire("msg:custom", { type: "piece", id }, [a]);
+  model.fire("msg:custom", { type: "piece", id }, [b]);
+  model.fire("msg:custom", { type: "response", id, result: {} }, [c]);
+  const bytes = (await request).buffers.map((view) => view.getUint8(0));
+  assert.deepEqual(bytes, [1, 2, 3]);
+});
+
 test("what comes after the answer, twice or for nobody is left alone", async () => {
   const { model, channel } = open();
   const seen = [];

@@ -7,6 +7,7 @@ work ends where it tells its progress next.
 browser → kernel  ``{type: "request", id, action, …}``
                   ``{type: "cancel", id}``
 kernel → browser  ``{type: "progress", id, fraction, message}``
+                  ``{type: "piece", id}`` with a buffer that comes before the response's own
                   ``{type: "response", id, result, error}`` with buffers
 """
 
@@ -19,6 +20,9 @@ from typing import Any
 Progress = Callable[[float, str], None]
 Answer = tuple[dict[str, Any], list[bytes]]
 Action = Callable[[dict[str, Any], Progress], Answer]
+
+# Buffers beyond this travel in messages of their own: one very large message breaks connections.
+_MESSAGE_BYTES = 16_000_000
 
 
 class Cancelled(Exception):  # noqa: N818 - a person's wish, no error
@@ -91,4 +95,10 @@ class Requests:
         finally:
             with self._lock:
                 self._running.pop(str(key), None)
+        while len(buffers) > 1 and sum(map(len, buffers)) > _MESSAGE_BYTES:
+            if wish.is_set():  # nobody listens any more
+                buffers = []
+                break
+            self._send({"type": "piece", "id": key}, buffers[:1])
+            buffers = buffers[1:]
         self._send({"type": "response", "id": key, "result": result, "error": error}, buffers)
