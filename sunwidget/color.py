@@ -28,8 +28,46 @@ REC709_TO_D50 = np.array(
     ]
 )
 
+REC709_CHROMATICITIES = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)
+"""CIE x, y of Rec. 709's red, green, blue and white (D65)."""
+
 # Pixels handled at a time: temporaries of 3 MB stay in the cache.
 _STRIP_PIXELS = 1 << 18
+
+
+def primaries_to_xyz(chromaticities: tuple[float, ...]) -> NDArray[np.float64]:
+    """Return the matrix from linear RGB to XYZ of its own white, by CIE x, y of R, G, B and white.
+
+    SMPTE RP 177 (1993). Raises ``numpy.linalg.LinAlgError`` for primaries on one line.
+    """
+    xy = np.reshape(np.asarray(chromaticities, float), (4, 2))
+    x, y = xy.T
+    xyz = np.stack([x, y, 1 - x - y]) / np.maximum(y, 1e-6)
+    return np.asarray(xyz[:, :3] * np.linalg.solve(xyz[:, :3], xyz[:, 3]), float)
+
+
+REC709_TO_XYZ = primaries_to_xyz(REC709_CHROMATICITIES)
+_BRADFORD = np.array(
+    [[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]]
+)
+
+
+def primaries_to_rec709(chromaticities: tuple[float, ...]) -> NDArray[np.float64] | None:
+    """Return the matrix from linear RGB of other primaries to Rec. 709's; None where equal.
+
+    Another white is adapted by Bradford (Lindbloom 2017). Impossible primaries are taken for
+    Rec. 709's.
+    """
+    if len(chromaticities) != 8 or np.allclose(chromaticities, REC709_CHROMATICITIES, atol=2e-3):
+        return None
+    try:
+        to_xyz = primaries_to_xyz(chromaticities)
+        whites = [_BRADFORD @ matrix.sum(axis=1) for matrix in (REC709_TO_XYZ, to_xyz)]
+        adapt = np.linalg.solve(_BRADFORD, np.diag(whites[0] / whites[1]) @ _BRADFORD)
+        matrix = np.linalg.solve(REC709_TO_XYZ, adapt @ to_xyz)
+    except np.linalg.LinAlgError:
+        return None
+    return matrix if np.isfinite(matrix).all() and np.abs(matrix).max() < 100 else None
 
 
 @dataclass(frozen=True)

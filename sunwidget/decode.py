@@ -1,15 +1,17 @@
 """Picture files to code values: bytes in, :class:`Decoded` out, or a PhotoError that says why.
 
 Pillow reads everything it can read without loss; OpenCV reads colour at 16 bits a
-channel and float TIFF, which Pillow would cut to 8 bits or refuse.
+channel and float TIFF, which Pillow would cut to 8 bits or refuse. OpenEXR, Radiance HDR and
+camera raw have readers of their own.
 """
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import importlib
 import io
-import re
+import json
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -19,6 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget import decode_raw, openexr, radiance, xmp
 from sunwidget import exif as exif_tags
 from sunwidget.color import SRGB, ColorProfile
 from sunwidget.color_management import Coded, by_hints, by_profile, cmyk_to_srgb
@@ -26,7 +29,7 @@ from sunwidget.layout import PhotoError, check_light, check_size, split_alpha, u
 
 # Never EPS, WMF and the like: those formats can start other programs.
 _PLUGINS = ("Jpeg", "Mpo", "Png", "Tiff", "WebP", "Bmp", "Gif", "Avif")
-_READABLE = "JPEG, PNG, TIFF, WebP, AVIF, BMP or GIF"
+_READABLE = "JPEG, PNG, TIFF, WebP, AVIF, BMP, GIF, OpenEXR, Radiance HDR or camera raw"
 _FOREIGN = {
     b"%PDF": "a PDF",
     b"<svg": "an SVG drawing",
@@ -35,9 +38,8 @@ _FOREIGN = {
     b"<htm": "a web page",
     b"PK\x03\x04": "a ZIP archive",
     b"8BPS": "a Photoshop file",
-    b"v/1\x01": "an OpenEXR file",
-    b"#?RA": "a Radiance HDR file",
 }
+_TIFF = (b"II*\0", b"MM\0*")
 _bomb_lock = threading.Lock()
 
 
@@ -46,7 +48,8 @@ class Decoded:
     """A picture as its file stores it, turned upright.
 
     ``codes`` is (H, W, 3) uint8 or uint16 in ``profile``, or float32 linear Rec. 709.
-    ``exif`` is a Pillow Exif or None; ``notes`` are sentences for the person.
+    ``exif`` is a Pillow Exif or None; ``notes`` are sentences for the person; ``recipe`` is what
+    a format without EXIF tells of the edit that made the picture.
     """
 
     codes: NDArray[Any]
@@ -59,6 +62,7 @@ class Decoded:
     format: str | None = None
     turned: bool = False
     notes: list[str] = field(default_factory=list)
+    recipe: dict[str, Any] | None = None
 
 
 def decode_bytes(data: bytes, name: str) -> Decoded:
@@ -71,6 +75,13 @@ def decode_bytes(data: bytes, name: str) -> Decoded:
     """
     if not data:
         raise PhotoError(f"{name} is empty (0 bytes). Copy or download it again.")
+    if data.startswith((openexr.MAGIC, *radiance.MAGIC)):
+        return _decode_light(data, name)
+    tags = _tiff_tags(data) if data.startswith(_TIFF) else {}
+    if decode_raw.is_raw(data, name, tags):
+        codes, exif, turned = decode_raw.develop(data, name)
+        packet = xmp.upright(_bytes(tags.get(700)))
+        return Decoded(codes, exif=exif, xmp=packet, format="RAW", turned=turned)
     image = _open(data, name)
     if image is None:
         return _decode_odd_tiff(data, name)
@@ -128,10 +139,8 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
     elif icc is None:
         _take(result, by_hints(result.codes, metadata, image.info, name))
     _turn_upright(result, way if way is not None else exif_tags.orientation(metadata))
-    xmp = image.info.get("xmp")
-    result.xmp = xmp.encode() if isinstance(xmp, str) else xmp
-    if result.xmp:
-        result.xmp = re.sub(rb"""(tiff:Orientation(?:>|=["']))\d""", rb"\g<1>1", result.xmp)
+    packet = image.info.get("xmp")
+    result.xmp = xmp.upright(packet.encode() if isinstance(packet, str) else packet)
     result.dpi = _dpi(image)
     return result
 
@@ -148,7 +157,7 @@ def _open(data: bytes, name: str) -> Any:
             with exif_tags.quiet():
                 return Image.open(io.BytesIO(data), formats=formats)
         except UnidentifiedImageError as error:
-            if data[:4] in (b"II*\0", b"MM\0*"):
+            if data[:4] in _TIFF:
                 return None
             raise PhotoError(_unknown(data, name)) from error
         except Exception as error:  # header parsers fail in many ways
@@ -173,8 +182,8 @@ def _formats() -> tuple[str, ...]:
 
 def _unknown(data: bytes, name: str) -> str:
     what = next((text for head, text in _FOREIGN.items() if data.startswith(head)), None)
-    if data[4:8] == b"ftyp" and data[8:11] in (b"hei", b"hev", b"mif", b"crx"):
-        what = "a HEIC photo or camera raw file"
+    if data[4:8] == b"ftyp" and data[8:11] in (b"hei", b"hev", b"mif"):
+        what = "a HEIC photo"
     if what:
         return f"{name} is {what}. Export it as {_READABLE} and open that."
     known = (b"\xff\xd8", b"\x89PNG", b"RIFF", b"GIF8", b"BM")
@@ -244,6 +253,28 @@ def _quiet_opencv() -> Iterator[None]:
         home.setLogLevel(level)
 
 
+def _decode_light(data: bytes, name: str) -> Decoded:
+    """Decode OpenEXR or Radiance HDR; what :mod:`sunwidget.export.linear` noted comes back."""
+    if data.startswith(openexr.MAGIC):
+        exr = openexr.read(data, name)
+        light, alpha, notes, kind = exr.light, exr.alpha, exr.notes, "EXR"
+    else:
+        hdr = radiance.read(data, name)
+        light, alpha, notes, kind = hdr.light, None, hdr.notes, "HDR"
+    check_light(light, name)
+    result = Decoded(np.ascontiguousarray(light), alpha, format=kind)
+    with contextlib.suppress(ValueError, RecursionError):  # notes are anybody's text
+        recipe = json.loads(notes.get("recipe", "null"))
+        result.recipe = recipe if isinstance(recipe, dict) else None
+        result.xmp = base64.b64decode(notes.get("xmp", ""), validate=True) or None
+        result.exif = exif_tags.load(base64.b64decode(notes.get("exif", ""), validate=True) or b"?")
+    return result
+
+
+def _bytes(value: Any) -> bytes | None:
+    return value if isinstance(value, bytes) else None
+
+
 def _decode_odd_tiff(data: bytes, name: str) -> Decoded:
     """Decode a TIFF that Pillow does not know: RGB in float."""
     tags = _tiff_tags(data)
@@ -252,6 +283,7 @@ def _decode_odd_tiff(data: bytes, name: str) -> Decoded:
         check_size(width, height, name)
         found = _opencv(data) if tags.get(262) in (1, 2) and tags.get(284, 1) == 1 else None
         result = Decoded(np.empty(0), format="TIFF", exif=exif_tags.load(data))
+        result.xmp = xmp.upright(_bytes(tags.get(700)))
         result.turned = exif_tags.orientation(result.exif) >= 5
         upright_size = (width, height) if result.turned else (height, width)
         if found is not None and found.shape[:2] == upright_size:

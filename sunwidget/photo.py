@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget import exif as exif_tags
+from sunwidget import xmp as xmp_packet
 from sunwidget.color import SRGB, ColorProfile, strips
 from sunwidget.decode import Decoded, decode_bytes, decode_image
 from sunwidget.layout import PhotoError, PhotoWarning, check_light, check_size, split_alpha
@@ -48,7 +49,7 @@ class Photo:
     alpha : (H, W) float32 array in 0–1, or None
         Opacity that the file stores; it takes no part in the edit and is saved again.
     name, format : str
-        File name, or "array"; "JPEG", "PNG", "TIFF", "WEBP" … or None.
+        File name, or "array"; "JPEG", "PNG", "TIFF", "WEBP", "EXR", "HDR", "RAW" … or None.
     icc, exif, xmp : bytes or None
         Metadata to be written again; the orientation in ``exif`` is 1.
     dpi : (float, float) or None
@@ -246,7 +247,7 @@ def _photo(decoded: Decoded, name: str) -> Photo:
         dpi=decoded.dpi,
         facts=exif_tags.camera_facts(decoded.exif),
         turned=decoded.turned,
-        recipe=exif_tags.recipe(decoded.exif),
+        recipe=decoded.recipe or exif_tags.recipe(decoded.exif) or xmp_packet.recipe(decoded.xmp),
         notes=tuple(decoded.notes),
     )
 

@@ -355,7 +355,10 @@ def unreadable():
         "heic": (b"\0\0\0\x18ftypheic" + bytes(64), "HEIC"),
         "zip": (b"PK\x03\x04" + bytes(64), "ZIP"),
         "postscript": (b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n", "not a picture"),
-        "hdr": (hdr.tobytes(), "Radiance"),
+        "hdr": (hdr.tobytes()[:200], "damaged Radiance"),
+        "hdr_header": (hdr.tobytes()[:20], "Radiance HDR file that is damaged"),
+        "exr": (b"v/1\1" + bytes(40), "OpenEXR"),
+        "raw": (b"FUJIFILMCCD-RAW " + bytes(200), "camera raw file"),
         "tiff_16_planes": (
             tiff_file(np.moveaxis(deep, -1, 0), planarconfig="separate", photometric="rgb"),
             "separate planes",

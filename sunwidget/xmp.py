@@ -1,0 +1,157 @@
+"""XMP packets: the recipe of an edit recorded in them, and read back; all else in them stays.
+
+Adobe, "XMP Specification Part 1" (2012) and Part 2, 2.2 (xmpMM:History). No time is written: the
+same edit of the same photo makes the same file.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+from xml.dom import minidom
+
+_RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
+_XMP = "http://ns.adobe.com/xap/1.0/"
+_HISTORY = "http://ns.adobe.com/xap/1.0/mm/"
+_EVENT = "http://ns.adobe.com/xap/1.0/sType/ResourceEvent#"
+_OWN = "urn:sunwidget:edit:1:"
+_EMPTY = f'<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="{_RDF}"/></x:xmpmeta>'
+# A long recipe (thousands of points of strokes) stays in the EXIF alone: a JPEG holds 64 kB.
+_LONGEST_RECIPE = 32_000
+
+
+def record(
+    packet: bytes | None, recipe: dict[str, Any], software: str, *, before: str = ""
+) -> bytes | None:
+    """Return ``packet`` with an edit recorded.
+
+    Parameters
+    ----------
+    packet : bytes or None
+        The photo's own XMP; everything in it is kept. One that is no XML stays as it is.
+    recipe : dict
+        ``Edit.to_dict()``, kept as JSON in a namespace of our own.
+    software : str
+        Program and version, for the history.
+    before : str
+        Program that made the photo, for ``xmp:CreatorTool`` where the packet names none.
+    """
+    try:
+        document = _parsed(packet or _EMPTY.encode())
+        rdf = document.getElementsByTagNameNS(_RDF, "RDF")[0]
+        _forget(rdf)
+        _tell(document, rdf, recipe, before or software)
+        _continue_history(document, rdf, software)
+        body = document.documentElement.toxml()
+    except (_NotXmpError, IndexError, RecursionError):
+        return packet
+    begin = '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>'
+    return f'{begin}\n{body}\n<?xpacket end="w"?>'.encode()
+
+
+def recipe(packet: bytes | None) -> dict[str, Any] | None:
+    """Return the recipe that :func:`record` wrote, or None."""
+    if not packet or _OWN.encode() not in packet:
+        return None
+    try:
+        for description in _descriptions(_parsed(packet)):
+            text = description.getAttributeNS(_OWN, "recipe")
+            found = json.loads(text) if text else None
+            if isinstance(found, dict):
+                return found
+    except (_NotXmpError, ValueError, RecursionError):
+        pass
+    return None
+
+
+def upright(packet: bytes | None) -> bytes | None:
+    """Return the packet of a picture that was turned upright; None for an empty one."""
+    if not packet:
+        return None
+    return re.sub(rb"""(tiff:Orientation(?:>|=["']))\d""", rb"\g<1>1", packet)
+
+
+class _NotXmpError(Exception):
+    """The packet is no XML that we read."""
+
+
+def _parsed(packet: bytes) -> minidom.Document:
+    # Declarations of entities, which could blow up a small packet, have no place in XMP.
+    if re.search(rb"<!(DOCTYPE|ENTITY)", packet, re.IGNORECASE) or b"\0" in packet.rstrip(b"\0"):
+        raise _NotXmpError
+    try:
+        return minidom.parseString(packet.strip(b"\0 \t\r\n"))  # noqa: S318 - see above
+    except Exception as error:  # expat and minidom fail in many ways on untrusted text
+        raise _NotXmpError from error
+
+
+def _descriptions(node: minidom.Document | minidom.Element) -> list[minidom.Element]:
+    return list(node.getElementsByTagNameNS(_RDF, "Description"))
+
+
+def _forget(rdf: minidom.Element) -> None:
+    """Take away what is told anew: the recipe of an edit before."""
+    for description in _descriptions(rdf):
+        for attribute in list(description.attributes.values()):
+            if _OWN in (attribute.namespaceURI, attribute.value):
+                description.removeAttributeNode(attribute)
+        told = [a for a in description.attributes.values() if a.localName != "about"]
+        if not told and not description.childNodes:
+            description.parentNode.removeChild(description)
+
+
+def _tell(
+    document: minidom.Document, rdf: minidom.Element, recipe: dict[str, Any], tool: str
+) -> None:
+    own = document.createElementNS(_RDF, f"{_prefix(rdf)}:Description")
+    own.setAttributeNS(_RDF, f"{_prefix(rdf)}:about", _about(rdf))
+    text = json.dumps(recipe)
+    if len(text) <= _LONGEST_RECIPE:
+        own.setAttribute("xmlns:sunwidget", _OWN)
+        own.setAttributeNS(_OWN, "sunwidget:recipe", text)
+    if not _has(rdf, _XMP, "CreatorTool"):
+        own.setAttribute("xmlns:xmp", _XMP)
+        own.setAttributeNS(_XMP, "xmp:CreatorTool", tool)
+    rdf.appendChild(own)
+
+
+def _continue_history(document: minidom.Document, rdf: minidom.Element, software: str) -> None:
+    prefix = _prefix(rdf)
+    rows = [
+        row
+        for history in rdf.getElementsByTagNameNS(_HISTORY, "History")
+        for row in history.getElementsByTagNameNS(_RDF, "Seq")
+    ]
+    if rows:
+        row = rows[0]
+    else:
+        history = document.createElementNS(_HISTORY, "xmpMM:History")
+        history.setAttribute("xmlns:xmpMM", _HISTORY)
+        row = document.createElementNS(_RDF, f"{prefix}:Seq")
+        history.appendChild(row)
+        _descriptions(rdf)[-1].appendChild(history)
+    event = document.createElementNS(_RDF, f"{prefix}:li")
+    event.setAttribute("xmlns:stEvt", _EVENT)
+    for name, value in (
+        ("action", "edited"),
+        ("softwareAgent", software),
+        ("parameters", "sun moved; recipe in sunwidget:recipe"),
+    ):
+        event.setAttributeNS(_EVENT, f"stEvt:{name}", value)
+    row.appendChild(event)
+
+
+def _prefix(rdf: minidom.Element) -> str:
+    return rdf.prefix or "rdf"
+
+
+def _about(rdf: minidom.Element) -> str:
+    """Return what the packet is about: all of its descriptions must say the same."""
+    return next((d.getAttributeNS(_RDF, "about") for d in _descriptions(rdf)), "")
+
+
+def _has(rdf: minidom.Element, namespace: str, name: str) -> bool:
+    return bool(rdf.getElementsByTagNameNS(namespace, name)) or any(
+        d.hasAttributeNS(namespace, name) for d in _descriptions(rdf)
+    )
