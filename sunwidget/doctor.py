@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import importlib.metadata
+import os
 import platform
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from importlib.resources import files
 from typing import Any, NamedTuple
-
-_EGL_PACKAGES = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
 
 
 class Finding(NamedTuple):
@@ -60,9 +59,15 @@ def _python() -> Iterator[Finding]:
 
 
 def _graphics() -> Iterator[Finding]:
-    from sunwidget.renderer.gl_thread import on_gl_thread
+    from sunwidget.renderer.gl_thread import RendererError, on_gl_thread
+    from sunwidget.renderer.missing_gl import cause, remedy
 
-    info = on_gl_thread(lambda context: dict(context.info))
+    try:
+        info = on_gl_thread(lambda context: dict(context.info))
+    except RendererError as error:
+        why = error.__cause__ or error
+        yield Finding("EGL", False, True, cause(why), remedy(why))
+        return
     version = info["GL_VERSION"].split(" (")[0]
     yield Finding("EGL", True, True, f"{info['GL_RENDERER']}, OpenGL {version}")
     largest = info["GL_MAX_TEXTURE_SIZE"]
@@ -76,7 +81,7 @@ def _graphics() -> Iterator[Finding]:
 
 
 def _shaders() -> Iterator[Finding]:
-    from sunwidget.renderer.gl_thread import on_gl_thread
+    from sunwidget.renderer.gl_thread import RendererError, on_gl_thread
     from sunwidget.renderer.graph import Programs
     from sunwidget.renderer.shader_source import frame_graph
 
@@ -89,7 +94,11 @@ def _shaders() -> Iterator[Finding]:
         for shader in sorted(shaders):
             programs.get(shader)
 
-    on_gl_thread(compile_all)
+    try:
+        on_gl_thread(compile_all)
+    except RendererError:
+        yield Finding("shaders", False, True, "not looked at", "EGL must work first")
+        return
     yield Finding("shaders", True, True, f"{len(shaders)} compile")
 
 
@@ -145,6 +154,27 @@ def _films() -> Iterator[Finding]:
     yield Finding("MP4 films", "libx264" in encoders, False, detail, _REMEDIES["MP4 films"])
 
 
+def _raw_files() -> Iterator[Finding]:
+    import rawpy
+
+    libraw = ".".join(str(number) for number in rawpy.libraw_version)
+    detail = f"rawpy {importlib.metadata.version('rawpy')}, LibRaw {libraw}"
+    yield Finding("raw files", True, False, detail)
+
+
+def _open_exr() -> Iterator[Finding]:
+    import OpenEXR
+
+    yield Finding("OpenEXR", True, False, f"OpenEXR {OpenEXR.__version__}")
+
+
+def _many_photos() -> Iterator[Finding]:
+    import distributed  # noqa: F401 - brings dask; that both import is what is looked at
+
+    found = [f"{name} {importlib.metadata.version(name)}" for name in ("dask", "distributed")]
+    yield Finding("many photos", True, False, f"{', '.join(found)}, {os.cpu_count()} cores")
+
+
 def _front_end() -> Iterator[Finding]:
     bundles = [f for f in files("sunwidget").joinpath("static").iterdir() if f.name.endswith(".js")]
     sizes = [f"{f.name} {len(f.read_bytes()) / 1000:.0f} kB" for f in bundles]
@@ -178,13 +208,15 @@ def _measured_skies() -> Iterator[Finding]:
 
 
 _REMEDIES = {
-    "EGL": f"Debian or Ubuntu: apt-get install {_EGL_PACKAGES}",
     "OpenCV": "pip uninstall -y opencv-python opencv-python-headless opencv-contrib-python"
     " && pip install --force-reinstall opencv-contrib-python-headless",
-    "shaders": "EGL must work first; then pip install --force-reinstall sunwidget",
+    "shaders": "pip install --force-reinstall sunwidget",
     "sky network": "pip install --force-reinstall sunwidget",
     "photo files": "pip install --force-reinstall pillow",
     "MP4 films": "pip install 'sunwidget[video]' (GIF and WebP work without)",
+    "raw files": "pip install 'sunwidget[raw]'",
+    "OpenEXR": "pip install 'sunwidget[exr]' (linear light as Radiance .hdr works without)",
+    "many photos": "pip install 'sunwidget[batch]' (one after the other works without)",
     "front end": "in a checkout: make build (needs Node 20 or newer); stills work without",
     "notebook": "pip install 'sunwidget[lab]'",
     "sun's path": "pip install 'sunwidget[solar]' (SkyExplorer at a date and place)",
@@ -199,6 +231,9 @@ _CHECKS: tuple[tuple[str, bool, Callable[[], Iterator[Finding]]], ...] = (
     ("sky network", True, _sky_network),
     ("photo files", True, _pillow),
     ("MP4 films", False, _films),
+    ("raw files", False, _raw_files),
+    ("OpenEXR", False, _open_exr),
+    ("many photos", False, _many_photos),
     ("front end", False, _front_end),
     ("notebook", False, _notebook),
     ("sun's path", False, _sun_path),

@@ -8,21 +8,20 @@ from __future__ import annotations
 
 import atexit
 import os
+import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, TypeVar
+
+from sunwidget.renderer.missing_gl import explain
 
 if TYPE_CHECKING:
     import moderngl
 
 T = TypeVar("T")
 
-_EGL_HELP = (
-    "sunwidget renders exports with OpenGL through EGL, and no EGL context could be made: {why}\n"
-    "On Debian or Ubuntu: apt-get install libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri\n"
-    "`sunwidget doctor` shows what was found."
-)
+_MOST_DEVICES = 8
 
 
 class RendererError(RuntimeError):
@@ -40,16 +39,40 @@ class _Worker:
         self.thread = threading.get_ident()
         if self.context is None:
             try:
-                import moderngl
-
-                self.context = moderngl.create_context(standalone=True, backend="egl", require=330)
+                self.context = _new_context()
             except Exception as error:  # moderngl raises bare Exception here
-                raise RendererError(_EGL_HELP.format(why=error)) from error
+                raise RendererError(explain(error)) from error
             # Dropping a Python wrapper frees its GL object at the next ctx.gc() on this
             # thread; "auto" would call GL from whichever thread drops it.
             self.context.gc_mode = "context_gc"
         self.context.gc()
         return self.context
+
+
+def _new_context() -> moderngl.Context:
+    """Make a context on the first device that gives one.
+
+    Devices come with the graphics cards first and software drawing last. A card that may not
+    be used (a container without its driver, a person outside the group "render") must not
+    keep the others from working.
+    """
+    import moderngl
+
+    if not sys.platform.startswith("linux"):  # EGL is Linux's; elsewhere the system's own way
+        return moderngl.create_context(standalone=True, require=330)
+    first: Exception | None = None
+    # A device that a person chose stays chosen: glcontext takes it from the variable.
+    for device in range(1 if "GLCONTEXT_DEVICE_INDEX" in os.environ else _MOST_DEVICES):
+        try:
+            return moderngl.create_context(
+                standalone=True, backend="egl", require=330, device_index=device
+            )
+        except Exception as error:  # noqa: BLE001 - glcontext raises nothing finer
+            first = first or error
+            if not str(error).startswith("egl"):  # no such device, or no EGL at all
+                break
+    assert first is not None
+    raise first
 
 
 _worker: _Worker | None = None
