@@ -94,6 +94,8 @@ class Scene:
         The clouds at working size as if all of the picture were sky: for strokes that say so.
     unstroked : Scene or None
         The scene that the strokes of ``hints`` were drawn on; None without strokes.
+    known_depth : DepthField or None
+        The depth of the same view, found on other pictures of it (analysis/fixed_camera.py).
     """
 
     photo: Photo = field(repr=False)
@@ -121,6 +123,7 @@ class Scene:
     fitted: SkyFit | None = field(default=None, repr=False)
     everywhere: Clouds | None = field(default=None, repr=False)
     unstroked: Scene | None = field(default=None, repr=False)
+    known_depth: DepthField | None = field(default=None, repr=False)
     memory: Memory = field(default_factory=Memory, repr=False)
 
     @property
@@ -163,7 +166,7 @@ class Scene:
 
     @cached_property
     def _depth_field(self) -> DepthField:
-        return depth_of(self)
+        return self.known_depth or depth_of(self)
 
     def _log_depth(self, width: int, height: int) -> np.ndarray:
         """Return ln(metres), the sky as its nearest land: (height, width) float32."""

@@ -106,7 +106,7 @@ def complete(
 
     step("sun", 0.7, "Looking for the sun")
     seed = hints.sun and (hints.sun[0] / zoom_x, hints.sun[1] / zoom_y)
-    blot = _sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
+    blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
     if blot is not None and ours:
         # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
         disc = sun_stage.in_sky(blot, sky)
@@ -130,14 +130,14 @@ def complete(
     if moon is not None:
         # The light of a night is its moon: the fit looks round it as it does round a sun by day.
         seed = moon[0] * working.width, moon[1] * working.height
-        blot = _sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
+        blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
         light = sun_stage.observe(seed, blot, sky, camera, working)
 
     step("clouds", 0.81, "Finding clouds")
-    covers = _by_colour(working, sky, hints, None if blot is None else blot.mask)
+    covers = clouds_by_colour(working, sky, hints, None if blot is None else blot.mask)
 
     step("fit", 0.82, "Fitting the atmosphere")
-    fitted, behind, (cover, everywhere) = _atmosphere(
+    fitted, behind, (cover, everywhere) = fit_atmosphere(
         working, sky, covers, camera, light, hints, step
     )
 
@@ -191,7 +191,7 @@ def _cut_out(base: Scene, step: Steps) -> tuple[np.ndarray, np.ndarray]:
     return sky, matte
 
 
-def _sun_blot(
+def sun_blot(
     working: Working, sky: np.ndarray, seed: Point | None, focal: float, method: str
 ) -> Blot | None:
     """Grow the blot of the hinted or found sun; None when none is in the frame."""
@@ -217,7 +217,7 @@ def _water(working: Working, sky: np.ndarray, horizon: Horizon, hints: Hints) ->
     return np.asarray(found, np.float32)
 
 
-def _by_colour(
+def clouds_by_colour(
     working: Working, sky: np.ndarray, hints: Hints, sun_mask: np.ndarray | None
 ) -> tuple[Clouds, Clouds]:
     """Return the clouds of the sky, and of the whole picture as if it were sky; minus the sun."""
@@ -228,7 +228,7 @@ def _by_colour(
     return cloud_stage.within(everywhere, sky), everywhere
 
 
-def _atmosphere(
+def fit_atmosphere(
     working: Working,
     sky: np.ndarray,
     covers: tuple[Clouds, Clouds],
@@ -259,11 +259,11 @@ def _atmosphere(
     fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
     step.within(0.92)
     if unmixed:
-        covers = _unmixed(working, sky, camera, fitted, behind.glare, covers, sun_seen=visible)
+        covers = unmix_clouds(working, sky, camera, fitted, behind.glare, covers, sun_seen=visible)
     return fitted, behind, covers
 
 
-def _unmixed(
+def unmix_clouds(
     working: Working,
     sky: np.ndarray,
     camera: Camera,
@@ -307,10 +307,12 @@ def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> 
     methods = dict(base.hints.methods) | {"clouds": method}
     hints = dataclasses.replace(base.hints, methods=tuple(methods.items()), cloud_ratios=ratios)
     mask = None if sun is None else resize(sun.mask, working.width, working.height)
-    covers = _by_colour(working, sky, hints, mask)
+    covers = clouds_by_colour(working, sky, hints, mask)
     if method == "unmix" and base.fitted is not None:
         seen = sun is not None and sun.visible
-        covers = _unmixed(working, sky, base.camera, base.fitted, base.glare, covers, sun_seen=seen)
+        covers = unmix_clouds(
+            working, sky, base.camera, base.fitted, base.glare, covers, sun_seen=seen
+        )
     cover, everywhere = covers
     return dataclasses.replace(
         base,
