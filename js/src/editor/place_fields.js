@@ -1,6 +1,6 @@
 /** Latitude, longitude, date, time and heading, as fields to write into. */
 
-import { element } from "../controls/element.js";
+import { inputField } from "../controls/named_field.js";
 import { clock as clockText } from "../day.js";
 
 const TIME = /^\s*(\d{1,2})(?:[:.h ]?([0-5]\d))?\s*$/;
@@ -16,18 +16,18 @@ export function placeFields(view, clock) {
   ].map(({ name, limit, title }) => {
     const bounds = { min: -limit, max: limit, step: "any" };
     const label = name[0].toUpperCase() + name.slice(1);
-    const made = field(label, { type: "number", placeholder: "°", title, ...bounds });
+    const made = inputField(label, { type: "number", placeholder: "°", title, ...bounds });
     return { name: /** @type {"latitude" | "longitude"} */ (name), title, ...made };
   });
-  const date = field("Date, UTC", { type: "date" });
-  const time = field("Time, UTC", {
+  const date = inputField("Date, UTC", { type: "date" });
+  const time = inputField("Time, UTC", {
     type: "text",
     inputmode: "numeric",
     autocomplete: "off",
     spellcheck: "false",
     title: "Hours and minutes in UTC, as 17:30",
   });
-  const heading = field("Heading", {
+  const heading = inputField("Heading", {
     type: "number",
     min: 0,
     max: 360,
@@ -79,22 +79,6 @@ export function placeFields(view, clock) {
       time.input.disabled = heading.input.disabled = !place;
     },
   };
-}
-
-/** @param {string} label @param {Record<string, string | number>} attributes */
-function field(label, attributes) {
-  const input = element("input", { class: "sw-input", "aria-label": label, ...attributes });
-  const node = element(
-    "label",
-    { class: "sw-place-field" },
-    element("span", { class: "sw-label" }, label),
-    input,
-  );
-  input.addEventListener("keydown", (event) => {
-    if (event.key === "Enter") input.blur();
-    event.stopPropagation(); // letters are the field's, no shortcuts
-  });
-  return { node, input };
 }
 
 /** Show a value, except under a hand that writes. @param {HTMLInputElement} input @param {unknown} value */

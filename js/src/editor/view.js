@@ -82,6 +82,8 @@ export class View {
     this.subject = "sky"; // what brush strokes are about
     /** @type {AbortController | null} cancels the picture that is being saved */
     this.work = null;
+    /** @type {import("../types.js").Edit | null} what a film shows in place of the edit */
+    this.passing = null;
     /** @type {[number, number]} size of the full preview in pixels */
     this.size = [0, 0];
     this.loads = 0;
@@ -89,7 +91,7 @@ export class View {
     this.pointer = null;
     this.loop = new FrameLoop(
       (scale) => this.drawFrame(scale),
-      () => this.state.before !== null,
+      () => this.state.before !== null || this.passing !== null,
       signal,
     );
 
@@ -196,9 +198,14 @@ export class View {
     return found;
   }
 
+  /** What the picture shows: the edit, or a moment of a film. */
+  get shown() {
+    return this.passing ?? this.state.values;
+  }
+
   /** The number in effect: the person's, or what the analysis found. @param {string} name */
   value(name) {
-    return Number(this.state.values[name] ?? this.scene?.automatic[name] ?? 0);
+    return Number(this.shown[name] ?? this.scene?.automatic[name] ?? 0);
   }
 
   async loadPhoto() {
@@ -350,7 +357,7 @@ export class View {
     if (!this.scene) return;
     const [width, height] = this.size;
     try {
-      const drawn = this.frame.draw(this.state.values, [
+      const drawn = this.frame.draw(this.shown, [
         Math.max(1, Math.round(width * scale)),
         Math.max(1, Math.round(height * scale)),
       ]);

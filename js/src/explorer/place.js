@@ -58,7 +58,7 @@ export function placeControls(view, signal) {
   const field = (/** @type {string} */ label, /** @type {HTMLElement} */ input) =>
     element(
       "label",
-      { class: "sw-place-field" },
+      { class: "sw-named-field" },
       element("span", { class: "sw-label" }, label),
       input,
     );
