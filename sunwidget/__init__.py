@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from sunwidget.analysis.sky_network import SkyNetwork
     from sunwidget.camera import Camera
     from sunwidget.edit import PARAMETERS, Edit, EditError, Stroke
+    from sunwidget.export.batch.report import BatchReport
+    from sunwidget.export.batch.run import batch
     from sunwidget.export.stills import save
     from sunwidget.export.sweep import sweep
     from sunwidget.photo import Photo, PhotoError, PhotoWarning
@@ -43,6 +45,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "AnalysisError": ("sunwidget.analysis.errors", "AnalysisError"),
     "PARAMETERS": ("sunwidget.edit", "PARAMETERS"),
     "PRESETS": ("sunwidget.presets", "PRESETS"),
+    "BatchReport": ("sunwidget.export.batch.report", "BatchReport"),
     "Camera": ("sunwidget.camera", "Camera"),
     "Compare": ("sunwidget.widgets", "Compare"),
     "Edit": ("sunwidget.edit", "Edit"),
@@ -60,6 +63,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "StudyError": ("sunwidget.study", "StudyError"),
     "SunEditor": ("sunwidget.widgets", "SunEditor"),
     "analyze": ("sunwidget.analysis.scene", "analyze"),
+    "batch": ("sunwidget.export.batch.run", "batch"),
     "open": ("sunwidget.photo", "open_photo"),
     "preset": ("sunwidget.presets", "edit"),
     "replace_sky": ("sunwidget.transfer.sky_replacement", "replace_sky"),
@@ -75,6 +79,7 @@ __all__ = [
     "PARAMETERS",
     "PRESETS",
     "AnalysisError",
+    "BatchReport",
     "Camera",
     "Compare",
     "Edit",
@@ -93,6 +98,7 @@ __all__ = [
     "SunEditor",
     "__version__",
     "analyze",
+    "batch",
     "open",
     "preset",
     "render",

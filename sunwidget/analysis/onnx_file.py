@@ -174,6 +174,8 @@ class Opened:
 
 @lru_cache(maxsize=4)
 def _session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
+    import cv2
+
     try:
         import onnxruntime
     except ImportError as error:
@@ -182,7 +184,8 @@ def _session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
             f"Without it pass {INSTEAD[finds]}."
         ) from error
     options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads = 2
+    # Two gain as much as more; a batch's worker leaves OpenCV fewer, and so they share the cores.
+    options.intra_op_num_threads = max(1, min(2, cv2.getNumThreads()))
     options.inter_op_num_threads = 1
     options.log_severity_level = 4
     try:

@@ -1,0 +1,1 @@
+"""Many photos with one recipe, in this process or on Dask's workers."""

@@ -1,0 +1,96 @@
+"""What is wanted of every photo of a batch."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from sunwidget import presets
+from sunwidget.edit import Edit, EditError
+
+# What a recipe says about one photo only.
+_OF_ONE_PHOTO = ("strokes", "sun_hint", "horizon_hint", "fov_hint")
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What is wanted of every photo.
+
+    ``edit`` is the recipe; ``preset`` the name of a time of day that wins over it, and ``flags``
+    values that win over both; ``analysis`` are arguments of ``analyze``, ``options`` of ``save``;
+    ``long_edge`` limits the picture's longer side in pixels.
+    """
+
+    edit: Edit
+    preset: str | None = None
+    flags: dict[str, Any] = field(default_factory=dict)
+    analysis: dict[str, Any] = field(default_factory=dict)
+    options: dict[str, Any] = field(default_factory=dict)
+    long_edge: int | None = None
+
+    def edit_of(self, scene: Any) -> Edit:
+        """Return the edit of this photo: a preset looks at the photo."""
+        from sunwidget import presets
+
+        edit = self.edit
+        if self.preset is not None:
+            edit = presets.edit(self.preset, scene, edit)
+        return edit.replace(**self.flags)
+
+
+def wish_of(
+    edit: Any,
+    analysis: dict[str, Any] | None,
+    options: dict[str, Any],
+    long_edge: int | None,
+    *,
+    corrections: bool,
+) -> Wish:
+    """Return what ``batch`` was asked for, checked before any work is done.
+
+    Raises
+    ------
+    EditError, ValueError, TypeError
+        For an unusable recipe, size or option.
+    """
+    if long_edge is not None:
+        check_whole("long_edge", long_edge, 16)
+    refused = {"overwrite", "like", "progress"} & options.keys()
+    if refused:
+        raise TypeError(f"batch does not take {', '.join(sorted(refused))} of save.")
+    wish = edit if isinstance(edit, Wish) else Wish(_edit(edit), _preset(edit))
+    recipe = wish.edit
+    if not corrections:
+        recipe = recipe.replace(**dict.fromkeys(_OF_ONE_PHOTO[1:]), strokes=())
+    return Wish(recipe, wish.preset, wish.flags, dict(analysis or {}), options, long_edge)
+
+
+def _preset(edit: Any) -> str | None:
+    return presets.find(edit).name if isinstance(edit, str) and edit in presets.NAMES else None
+
+
+def _edit(edit: Any) -> Edit:
+    if isinstance(edit, Edit):
+        return edit
+    if isinstance(edit, dict):
+        return Edit.from_dict(edit)
+    if isinstance(edit, str) and edit in presets.NAMES:
+        return Edit()
+    if isinstance(edit, (str, os.PathLike)):
+        path = Path(edit).expanduser()
+        if not path.is_file():
+            raise EditError(
+                f"There is no recipe {path}; the presets are {', '.join(presets.NAMES)}."
+            )
+        return Edit.from_json(path.read_text("utf-8"))
+    raise EditError(f"A batch needs an Edit, a recipe or a preset, not {type(edit).__name__}.")
+
+
+def check_whole(name: str, value: Any, least: int) -> None:
+    """Raise ValueError unless a value is None or a whole number of at least ``least``."""
+    if value is None:
+        return
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise ValueError(f"{name} must be a whole number from {least} upwards, not {value!r:.40}.")
