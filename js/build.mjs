@@ -9,27 +9,13 @@ import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { context } from "esbuild";
+import { minify } from "./minify_glsl.mjs";
 import { packPlugin } from "./pack.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const shaders = join(here, "..", "sunwidget", "shaders");
 const out = join(here, "..", "sunwidget", "static");
-
-/** Drop comments and indentation but no line, so that a compiler's line numbers stay true. */
-export function stripComments(/** @type {string} */ text) {
-  return text
-    .replace(/\/\*[\s\S]*?\*\//g, (comment) => comment.replace(/[^\n]/g, ""))
-    .replace(/\/\/[^\n]*/g, "")
-    .replace(/^[ \t]+|[ \t]+$/gm, "");
-}
-
-/**
- * Drop the blanks round GLSL's signs. Not round + and -, where `a - -b` would become another
- * word, and not in a directive, where they tell a macro from its arguments.
- */
-export function tighten(/** @type {string} */ text) {
-  return text.replace(/^[^#\n].*$/gm, (line) => line.replace(/ *([=*/<>,;{}()?:&|!]) */g, "$1"));
-}
+const WATCHES = process.argv.includes("--watch");
 
 /** Text of every shader by its path relative to `shaders/`. */
 export function readShaders() {
@@ -81,13 +67,13 @@ export const shaderPlugin = {
       const name = /** @type {keyof typeof GRAPHS} */ (path.split("/")[1]);
       const graph = JSON.parse(readFileSync(join(shaders, GRAPHS[name]), "utf-8"));
       const files = readShaders();
-      const stripped = reachable(graph, files).map((file) => [
-        file,
-        tighten(stripComments(files[file])),
-      ]);
+      const reached = Object.fromEntries(
+        reachable(graph, files).map((path) => [path, files[path]]),
+      );
+      const texts = WATCHES ? reached : minify(reached); // who works on shaders reads them
       return {
         contents:
-          `export const files = ${JSON.stringify(Object.fromEntries(stripped))};\n` +
+          `export const files = ${JSON.stringify(texts)};\n` +
           `export const graph = ${JSON.stringify(graph)};\n`,
         loader: "js",
         watchDirs: [shaders, join(shaders, "lib")],
@@ -130,7 +116,7 @@ async function main() {
       packPlugin(join(out, "study.js"), []),
     ],
   });
-  if (process.argv.includes("--watch")) {
+  if (WATCHES) {
     await build.watch();
     return;
   }

@@ -1,20 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { reachable, stripComments, tighten } from "../build.mjs";
-
-test("comments go, lines stay, so that compilers' line numbers are true", () => {
-  const text = "a; // one\n/* two\n three */ b;\n  c;\n";
-  assert.equal(stripComments(text), "a;\n\nb;\nc;\n");
-});
-
-test("blanks go where they mean nothing, and only there", () => {
-  assert.equal(
-    tighten("float a = max(b, 1.0) * c;\nif (a < b) {\n"),
-    "float a=max(b,1.0)*c;\nif(a<b){\n",
-  );
-  assert.equal(tighten("a = b - -c + +d;"), "a=b - -c + +d;");
-  assert.equal(tighten("#define HALF (0.5)\n#if A == 1\n"), "#define HALF (0.5)\n#if A == 1\n");
-});
+import { reachable } from "../build.mjs";
 
 test("a bundle holds what its graph reaches, libraries of libraries too, and no more", () => {
   const files = {
