@@ -52,7 +52,7 @@ _BRADFORD = np.array(
 )
 
 
-def primaries_to_rec709(chromaticities: tuple[float, ...]) -> NDArray[np.float64] | None:
+def primaries_to_rec709(chromaticities: tuple[float, ...]) -> NDArray[Any] | None:
     """Return the matrix from linear RGB of other primaries to Rec. 709's; None where equal.
 
     Another white is adapted by Bradford (Lindbloom 2017). Impossible primaries are taken for

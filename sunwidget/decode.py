@@ -257,12 +257,12 @@ def _decode_light(data: bytes, name: str) -> Decoded:
     """Decode OpenEXR or Radiance HDR; what :mod:`sunwidget.export.linear` noted comes back."""
     if data.startswith(openexr.MAGIC):
         exr = openexr.read(data, name)
-        light, alpha, notes, kind = exr.light, exr.alpha, exr.notes, "EXR"
+        result, notes = Decoded(exr.light, exr.alpha, dpi=exr.dpi, format="EXR"), exr.notes
     else:
         hdr = radiance.read(data, name)
-        light, alpha, notes, kind = hdr.light, None, hdr.notes, "HDR"
-    check_light(light, name)
-    result = Decoded(np.ascontiguousarray(light), alpha, format=kind)
+        result, notes = Decoded(hdr.light, format="HDR"), hdr.notes
+    check_light(result.codes, name)
+    result.codes = np.ascontiguousarray(result.codes)
     with contextlib.suppress(ValueError, RecursionError):  # notes are anybody's text
         recipe = json.loads(notes.get("recipe", "null"))
         result.recipe = recipe if isinstance(recipe, dict) else None

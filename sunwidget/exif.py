@@ -20,6 +20,7 @@ from sunwidget import exif_place
 from sunwidget.exif_values import number, positive, text
 
 _ORIENTATION = 0x0112
+_SOFTWARE = 0x0131
 _EXIF_IFD = 0x8769
 _GPS_IFD = 0x8825
 _INTEROPERABILITY_IFD = 0xA005
@@ -127,11 +128,15 @@ def says_adobe_rgb(exif: Any) -> bool:
 
 
 def dump(
-    exif: Any, size: tuple[int, int] | None = None, recipe: dict[str, Any] | None = None
+    exif: Any,
+    size: tuple[int, int] | None = None,
+    recipe: dict[str, Any] | None = None,
+    software: str | None = None,
 ) -> bytes | None:
     """Serialise for an upright picture of ``size`` (width, height), without a stale thumbnail.
 
-    ``recipe`` is kept as JSON in the user comment. Returns None when nothing is left to say.
+    ``recipe`` is kept as JSON in the user comment, ``software`` as what made the picture. Returns
+    None when nothing is left to say.
     """
     from PIL import Image
 
@@ -142,6 +147,8 @@ def dump(
             kept[tag] = value
     if _ORIENTATION in kept:
         kept[_ORIENTATION] = 1
+    if software is not None:
+        kept[_SOFTWARE] = software
     for ifd in (_EXIF_IFD, _GPS_IFD):
         values = dict(exif.get_ifd(ifd)) if exif is not None else {}
         values.pop(_INTEROPERABILITY_IFD, None)  # an offset into the old file

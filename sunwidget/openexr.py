@@ -25,11 +25,12 @@ _MISSING = "OpenEXR files need the OpenEXR package: pip install 'sunwidget[exr]'
 
 @dataclass
 class Exr:
-    """What a file holds: (H, W, 3) float32 linear Rec. 709, straight alpha or None, and notes."""
+    """What a file holds: (H, W, 3) float32 linear Rec. 709, straight alpha or None, notes, dpi."""
 
     light: NDArray[np.float32]
     alpha: NDArray[np.float32] | None
     notes: dict[str, str]
+    dpi: tuple[float, float] | None = None
 
 
 def library() -> Any:
@@ -144,7 +145,8 @@ def read(data: bytes, name: str) -> Exr:
         for key, value in header.items()
         if key.startswith(_NOTE) and isinstance(value, str)
     }
-    return Exr(light, alpha, notes)
+    density = header.get("xDensity", 0.0)
+    return Exr(light, alpha, notes, (density, density) if 1 <= density <= 65535 else None)
 
 
 def _damaged(name: str) -> PhotoError:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,7 +101,7 @@ def _exposure(lines: list[str]) -> float:
     return product if 1e-20 < product < 1e20 else 1.0
 
 
-def _matrix(lines: list[str]) -> NDArray[np.float64] | None:
+def _matrix(lines: list[str]) -> NDArray[Any] | None:
     if any(line.startswith("FORMAT=32-bit_rle_xyze") for line in lines):
         return np.linalg.inv(REC709_TO_XYZ)
     for line in lines:

@@ -43,7 +43,7 @@ def record(
         _forget(rdf)
         _tell(document, rdf, recipe, before or software)
         _continue_history(document, rdf, software)
-        body = document.documentElement.toxml()
+        body = document.documentElement.toxml() if document.documentElement else ""
     except (_NotXmpError, IndexError, RecursionError):
         return packet
     begin = '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>'
@@ -97,7 +97,7 @@ def _forget(rdf: minidom.Element) -> None:
             if _OWN in (attribute.namespaceURI, attribute.value):
                 description.removeAttributeNode(attribute)
         told = [a for a in description.attributes.values() if a.localName != "about"]
-        if not told and not description.childNodes:
+        if not told and not description.childNodes and description.parentNode:
             description.parentNode.removeChild(description)
 
 

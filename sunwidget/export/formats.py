@@ -1,35 +1,35 @@
-"""Code values and metadata to the bytes of a JPEG, PNG, TIFF or WebP file."""
+"""Code values and metadata to the bytes of a picture file: the table of formats."""
 
 from __future__ import annotations
 
 import io
 import struct
-import warnings
 import zlib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget import exif as exif_tags
-from sunwidget.photo import PhotoError, PhotoWarning
+from sunwidget.export.linear import exr, hdr
+from sunwidget.export.lost import warn_lost
+from sunwidget.export.tiff import EFFORT, tiff
+from sunwidget.layout import PhotoError
 
 # A JPEG segment holds 65533 bytes, of which Pillow's EXIF head takes six.
 _SEGMENT = 65_500
-_STRIP_BYTES = 1 << 20
-# Deflate levels by bytes a channel: level 6 takes three times as long for 8 % (8 bits) or
-# 1 % (16 bits, whose low byte is noise) of the size.
-_EFFORT = {1: 4, 2: 1}
 
 
 @dataclass
 class Still:
     """A picture ready to be written.
 
-    ``codes`` is (H, W, 3) uint8 or uint16, ``alpha`` (H, W) in the same type or None;
-    ``exif`` is a block as Pillow makes it, with its six-byte head.
+    ``codes`` is (H, W, 3) uint8 or uint16, or float32 linear Rec. 709; ``alpha`` (H, W) in the
+    same type (floats: 0–1) or None; ``bits`` those of a channel in the file. ``exif`` is a block as
+    Pillow makes it, with its six-byte head. ``layers`` are (H, W, 1, 3 or 4) by name, in the type
+    of ``codes``, alpha straight; ``attributes`` go into an OpenEXR's header.
     """
 
     codes: NDArray[Any]
@@ -39,6 +39,10 @@ class Still:
     xmp: bytes | None = None
     dpi: tuple[float, float] | None = None
     quality: int = 95
+    bits: int = 8
+    recipe: dict[str, Any] | None = None
+    layers: dict[str, NDArray[Any]] = field(default_factory=dict)
+    attributes: dict[str, Any] = field(default_factory=dict)
 
     @property
     def samples(self) -> NDArray[Any]:
@@ -52,18 +56,20 @@ def jpeg(still: Still) -> bytes:
     """Encode as JPEG, 4:4:4 from quality 90 upwards. Alpha is lost."""
     _refuse_longer_than(still, 65_500, "JPEG")
     if still.alpha is not None:
-        _warn("JPEG has no transparency; it is left out. PNG, TIFF and WebP keep it.")
+        warn_lost("JPEG has no transparency; it is left out. PNG, TIFF and WebP keep it.")
     options: dict[str, Any] = {"subsampling": 0 if still.quality >= 90 else 2}
     if still.dpi:
         options["dpi"] = still.dpi
     block = still.exif
     if block and len(block) > _SEGMENT:
         block, missing = exif_tags.shortened(block, _SEGMENT)
-        _warn(f"The EXIF is too long for a JPEG: its {missing} is left out. PNG and TIFF keep it.")
+        warn_lost(
+            f"The EXIF is too long for a JPEG: its {missing} is left out. PNG and TIFF keep it."
+        )
     if block:
         options["exif"] = block
     if still.xmp and len(still.xmp) > _SEGMENT:
-        _warn("The XMP metadata is too long for a JPEG and is left out.")
+        warn_lost("The XMP metadata is too long for a JPEG and is left out.")
     elif still.xmp:
         options["xmp"] = still.xmp
     return _pillow(still, "JPEG", options)
@@ -97,7 +103,7 @@ def png(still: Still) -> bytes:
     done, packed = cv2.imencode(
         ".png",
         np.ascontiguousarray(samples[..., order]),
-        [cv2.IMWRITE_PNG_COMPRESSION, _EFFORT[samples.itemsize]],
+        [cv2.IMWRITE_PNG_COMPRESSION, EFFORT[samples.itemsize]],
     )
     if not done:
         raise PhotoError("OpenCV could not pack the picture as PNG.")
@@ -122,61 +128,6 @@ def _chunk(kind: bytes, body: bytes) -> bytes:
     return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
 
-def tiff(still: Still) -> bytes:
-    """Encode as TIFF 6.0 with 8 or 16 bits, deflate with horizontal differences."""
-    from PIL import Image, TiffImagePlugin
-
-    samples = still.samples
-    height, width, count = samples.shape
-    rows = max(1, _STRIP_BYTES // (width * count * samples.itemsize))
-    packed = [_pack_strip(samples[top : top + rows]) for top in range(0, height, rows)]
-    ends = np.cumsum([len(strip) for strip in packed])
-
-    directory = TiffImagePlugin.ImageFileDirectory_v2(prefix=b"II")
-    if still.exif:
-        exif = Image.Exif()
-        exif.load(still.exif)
-        for tag in exif:
-            # Camera and place are directories of their own: Pillow writes a dict as one.
-            directory[tag] = dict(exif.get_ifd(tag)) if tag in (0x8769, 0x8825) else exif[tag]
-    tags: dict[int, Any] = {
-        256: width,
-        257: height,
-        258: (samples.itemsize * 8,) * count,
-        259: 8,  # deflate
-        262: 2,  # RGB
-        # Relative to the end of the directory; Pillow adds where that is.
-        273: tuple(int(end) - len(strip) for end, strip in zip(ends, packed, strict=True)),
-        277: count,
-        278: rows,
-        279: tuple(len(strip) for strip in packed),
-        284: 1,  # channels interleaved
-        317: 2,  # horizontal differences
-    }
-    if still.dpi:
-        tags.update({282: still.dpi[0], 283: still.dpi[1], 296: 2})
-    if count == 4:
-        tags[338] = 2  # straight alpha
-    for tag, value in tags.items():
-        directory[tag] = value
-    for tag, block, kind in ((700, still.xmp, 1), (34675, still.icc, 7)):
-        if block:
-            directory.tagtype[tag] = kind
-            directory[tag] = block
-    out = io.BytesIO()
-    directory.save(out)
-    return b"".join([out.getvalue(), *packed])
-
-
-def _pack_strip(samples: NDArray[Any]) -> bytes:
-    differences = samples.copy()
-    differences[:, 1:] -= samples[:, :-1]  # wraps around, as TIFF 6.0 section 14 wants
-    return zlib.compress(
-        differences.astype(differences.dtype.newbyteorder("<")).tobytes(),
-        _EFFORT[differences.itemsize],
-    )
-
-
 def _refuse_longer_than(still: Still, limit: int, format_name: str) -> None:
     height, width = still.codes.shape[:2]
     if max(width, height) > limit:
@@ -186,18 +137,42 @@ def _refuse_longer_than(still: Still, limit: int, format_name: str) -> None:
         )
 
 
-def _warn(note: str) -> None:
-    warnings.warn(note, PhotoWarning, stacklevel=4)
-
-
 Encoder = Callable[[Still], bytes]
 
-FORMATS: dict[str, tuple[Encoder, int]] = {
-    ".png": (png, 16),
-    ".jpg": (jpeg, 8),
-    ".jpeg": (jpeg, 8),
-    ".tif": (tiff, 16),
-    ".tiff": (tiff, 16),
-    ".webp": (webp, 8),
+
+@dataclass(frozen=True)
+class Format:
+    """A kind of picture file.
+
+    Attributes
+    ----------
+    encode : callable
+        Still to bytes.
+    depths : tuple of int
+        Bits a channel that it holds, the usual one of the deepest pictures first.
+    linear : bool
+        It holds light, not code values.
+    layers : {"inside", "beside", ""}
+        Where layers go: into the file, into files beside it, or nowhere.
+    """
+
+    encode: Encoder
+    depths: tuple[int, ...]
+    linear: bool = False
+    layers: str = ""
+
+
+_JPEG, _TIFF = Format(jpeg, (8,)), Format(tiff, (16, 8, 32), layers="inside")
+
+FORMATS: dict[str, Format] = {
+    ".png": Format(png, (16, 8), layers="beside"),
+    ".jpg": _JPEG,
+    ".jpeg": _JPEG,
+    ".tif": _TIFF,
+    ".tiff": _TIFF,
+    ".webp": Format(webp, (8,), layers="beside"),
+    ".exr": Format(exr, (16, 32), linear=True, layers="inside"),
+    # Eight bits a channel and a common exponent: as deep as it is asked for.
+    ".hdr": Format(hdr, (32,), linear=True),
 }
-"""File name ending to encoder and the most bits a channel it holds."""
+"""File name ending to format."""

@@ -1,4 +1,4 @@
-"""Stills on disk: the picture in the photo's own encoding, with its metadata.
+"""Stills on disk: the picture in the photo's own encoding, or as light, with its metadata.
 
 What an edit did not touch keeps its code values exactly: an unmoved photo, saved again
 as PNG or TIFF, has the very pixels it was opened with, in 8 and 16 bits and in any
@@ -7,21 +7,26 @@ colour profile.
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget import exif as exif_tags
+from sunwidget import openexr
 from sunwidget.color import strips
 from sunwidget.edit import Edit
-from sunwidget.export.formats import FORMATS, Encoder, Still
+from sunwidget.export.formats import FORMATS, Format, Still
+from sunwidget.export.layers import LAYERS, layer_alone, layers_of
+from sunwidget.export.metadata import told
 from sunwidget.files import complete_or_absent, target
 from sunwidget.photo import Photo, PhotoError, open_photo
+
+Progress = Callable[[float, str], object]
 
 # Light that differs less than this from the photo's own is the photo's own: it is the
 # noise of float32 arithmetic, but near black a gamma of 2.2 would blow it up to dozens
@@ -38,26 +43,36 @@ def save(
     overwrite: bool = False,
     quality: int = 95,
     bit_depth: int | None = None,
-    progress: Callable[[float, str], object] | None = None,
+    size: tuple[int, int] | None = None,
+    layers: bool = False,
+    progress: Progress | None = None,
 ) -> Path:
-    """Write a picture as PNG, JPEG, TIFF or WebP, whole or not at all.
+    """Write a picture as PNG, JPEG, TIFF, WebP, OpenEXR or Radiance HDR, whole or not at all.
 
     Parameters
     ----------
     picture : (Scene, Edit), Scene, Photo or (H, W, 3) array
-        A scene and an edit are rendered at full size and written in the photo's own
-        profile and bit depth, with the recipe in the EXIF's user comment. uint8 and
-        uint16 arrays are sRGB, float arrays linear Rec. 709 light.
+        A scene and an edit are rendered at full size and written in the photo's own profile and
+        bit depth, with the recipe in EXIF and XMP. uint8 and uint16 arrays are sRGB, float arrays
+        linear Rec. 709 light.
     path : path
-        The ending chooses the format: .png, .jpg, .tif, .webp.
+        The ending chooses the format: .png, .jpg, .tif, .webp; .exr (half floats; needs the
+        ``exr`` extra) and .hdr hold linear Rec. 709 light, 1 = white.
     like : Photo or Scene, optional
         For arrays: whose profile and metadata (EXIF, ICC, XMP, resolution) to carry.
     overwrite : bool
         Replace an existing file.
     quality : int
         Of JPEG and WebP, 1–100. WebP is lossless at 100.
-    bit_depth : {8, 16}, optional
-        Bits a channel. Default: the photo's or the array's own; 16 for floats.
+    bit_depth : {8, 16, 32}, optional
+        Bits a channel. Default: the photo's or the array's own; 16 for floats. 32 are floats of
+        linear light, in .tif and .exr.
+    size : (width, height), optional
+        Of a rendered scene, in pixels. Default: the photo's own.
+    layers : bool
+        Also write the sky, the clouds, the land and the matte of a scene (``export.layers``): as
+        pages of a .tif, as ``sky.R`` … of an .exr, as files ``out.sky.png`` … beside a .png or
+        .webp.
     progress : callable, optional
         Called as ``progress(fraction, message)`` while a scene is rendered; what it raises
         cancels the export.
@@ -70,7 +85,7 @@ def save(
     Raises
     ------
     FileExistsError
-        When ``path`` exists and ``overwrite`` is false.
+        When ``path``, or a file for a layer, exists and ``overwrite`` is false.
     PhotoError
         For an unknown ending, or a picture that this format or this function cannot take.
     OSError
@@ -82,15 +97,24 @@ def save(
         When the format cannot keep something, such as transparency in a JPEG.
     """
     place = target(path, overwrite=overwrite)
-    encoder, bits = _encoder(place, bit_depth)
+    form = _format(place, bit_depth, layers=layers)
     if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
         raise PhotoError(f"quality must be a whole number from 1 to 100, not {quality!r:.40}.")
-    still = _still(picture, _photo_of(like), bits, exact=bit_depth is not None, progress=progress)
+    names = LAYERS if layers and form.layers == "beside" else ()
+    places = {name: place.with_suffix(f".{name}{place.suffix}") for name in names}
+    for beside in places.values():
+        target(beside, overwrite=overwrite)
+    wanted = _Wanted(form, bit_depth, size, layers, progress)
+    still = _still(picture, _photo_of(like), wanted)
     still.quality = quality
-    data = encoder(still)
+    files = {place: form.encode(still)}
+    for name, beside in places.items():
+        files[beside] = form.encode(layer_alone(still, name))
     try:
-        with complete_or_absent(place, overwrite=overwrite) as unfinished:
-            unfinished.write_bytes(data)
+        with contextlib.ExitStack() as stack:
+            for where, data in files.items():
+                unfinished = stack.enter_context(complete_or_absent(where, overwrite=overwrite))
+                unfinished.write_bytes(data)
     except FileExistsError:
         raise
     except OSError as error:
@@ -134,7 +158,27 @@ def encode_like(photo: Photo, light: NDArray[Any], *, bit_depth: int | None = No
     return codes
 
 
-def _encoder(place: Path, bit_depth: int | None) -> tuple[Encoder, int]:
+class _Wanted(NamedTuple):
+    """What was asked for besides the picture."""
+
+    form: Format
+    bit_depth: int | None
+    size: tuple[int, int] | None
+    layers: bool
+    progress: Progress | None
+
+    def bits(self, own: int) -> int:
+        """Bits a channel for a picture that has ``own``."""
+        if self.bit_depth is not None or self.form.linear:
+            return self.bit_depth or self.form.depths[0]
+        return min(16 if own > 8 else 8, self.form.depths[0])
+
+    def is_light(self, bits: int) -> bool:
+        """Tell whether the file holds linear light in floats."""
+        return self.form.linear or bits == 32
+
+
+def _format(place: Path, bit_depth: int | None, *, layers: bool) -> Format:
     suffix = place.suffix.lower()
     if suffix not in FORMATS:
         near = difflib.get_close_matches(suffix, FORMATS, n=1)
@@ -143,14 +187,23 @@ def _encoder(place: Path, bit_depth: int | None) -> tuple[Encoder, int]:
             f"{place.name} ends in {suffix or 'nothing'!r}; expected one of "
             f"{', '.join(FORMATS)}.{hint}"
         )
-    encoder, most = FORMATS[suffix]
-    if bit_depth is None:
-        return encoder, most
-    if bit_depth not in (8, 16):
-        raise PhotoError(f"bit_depth must be 8 or 16, not {bit_depth!r:.40}.")
-    if bit_depth > most:
-        raise PhotoError(f"{suffix} holds {most} bits a channel. Save 16 bits as .png or .tif.")
-    return encoder, bit_depth
+    form = FORMATS[suffix]
+    if bit_depth not in (None, 8, 16, 32) or isinstance(bit_depth, bool):
+        raise PhotoError(f"bit_depth must be 8, 16 or 32, not {bit_depth!r:.40}.")
+    if bit_depth is not None and bit_depth not in form.depths:
+        held = " or ".join(str(depth) for depth in sorted(form.depths))
+        others = [key for key, other in FORMATS.items() if bit_depth in other.depths]
+        raise PhotoError(
+            f"{suffix} holds {held} bits a channel. Save {bit_depth} bits as {' or '.join(others)}."
+        )
+    if layers and not form.layers:
+        raise PhotoError(
+            f"{suffix} holds no transparency, which layers need. Save them as .tif, .exr, .png "
+            "or .webp."
+        )
+    if suffix == ".exr":
+        openexr.library()  # what is missing shows before the work
+    return form
 
 
 def _photo_of(like: Any) -> Photo | None:
@@ -160,37 +213,44 @@ def _photo_of(like: Any) -> Photo | None:
     raise PhotoError(f"like must be a Photo or Scene, not {type(like).__name__}.")
 
 
-def _still(
-    picture: Any,
-    like: Photo | None,
-    bits: int,
-    *,
-    exact: bool,
-    progress: Callable[[float, str], object] | None,
-) -> Still:
-    """Bring whatever a person passed to codes and metadata. ``exact``: ``bits`` was asked for."""
-    if isinstance(picture, Photo):
-        own = _own_bits(picture.bit_depth, bits, exact=exact)
-        return _with_metadata(_own_codes(picture, own), picture)
+def _still(picture: Any, like: Photo | None, wanted: _Wanted) -> Still:
+    """Bring whatever a person passed to codes or light, and metadata."""
     if hasattr(picture, "photo"):
         picture = (picture, None)
     if isinstance(picture, tuple):
-        scene, edit = _scene_and_edit(picture)
-        photo: Photo = scene.photo
-        own = _own_bits(photo.bit_depth, bits, exact=exact)
-        codes = _rendered(scene, edit, own, progress)
-        return _with_metadata(codes, photo, edit.to_dict() if edit is not None else None)
+        return _of_scene(*_scene_and_edit(picture), wanted)
+    if wanted.size is not None or wanted.layers:
+        raise PhotoError("size and layers are of a rendered scene: save (scene, edit).")
     array = open_photo(picture)
-    own = _own_bits(array.bit_depth, bits, exact=exact)
-    if like is None:
-        return _with_metadata(_own_codes(array, own), array)
-    if like.profile.is_srgb:
-        codes = _own_codes(array, own)
+    bits = wanted.bits(array.bit_depth)
+    source = like or array
+    if wanted.is_light(bits):
+        codes: NDArray[Any] = array.pixels
+    elif like is None or like.profile.is_srgb:
+        codes = _own_codes(array, bits)
     else:
-        codes = encode_like(like, array.pixels, bit_depth=own)
-    still = _with_metadata(codes, like)
-    if array.alpha is not None:
-        still.alpha = _alpha_codes(array.alpha, codes)
+        codes = encode_like(like, array.pixels, bit_depth=bits)
+    alpha = array.alpha if array.alpha is not None else source.alpha
+    return _with_metadata(codes, source, alpha, bits)
+
+
+def _of_scene(scene: Any, edit: Edit | None, wanted: _Wanted) -> Still:
+    photo: Photo = scene.photo
+    bits = wanted.bits(photo.bit_depth)
+    is_light = wanted.is_light(bits)
+
+    def drawn(edit: Edit | None, share: float, done: float) -> NDArray[Any]:
+        def progress(fraction: float, message: str) -> None:
+            if wanted.progress is not None:
+                wanted.progress(done + share * fraction, message)
+
+        return _rendered(scene, edit, 32 if is_light else bits, wanted.size, progress)
+
+    codes = drawn(edit, 0.5 if wanted.layers else 1.0, 0.0)
+    recipe = edit.to_dict() if edit is not None else None
+    still = _with_metadata(codes, photo, photo.alpha, bits, recipe)
+    if wanted.layers:
+        still.layers = layers_of(scene, edit or Edit(), codes, lambda e: drawn(e, 0.5, 0.5))
     return still
 
 
@@ -212,43 +272,52 @@ def _own_codes(photo: Photo, bits: int) -> NDArray[Any]:
     return encode_like(photo, photo.pixels, bit_depth=bits)
 
 
-def _own_bits(depth: int, bits: int, *, exact: bool) -> int:
-    return bits if exact else min(16 if depth > 8 else 8, bits)
-
-
 def _rendered(
     scene: Any,
     edit: Edit | None,
     bits: int,
-    progress: Callable[[float, str], object] | None,
+    size: tuple[int, int] | None,
+    progress: Progress,
 ) -> NDArray[Any]:
+    """Draw the picture: code values in the photo's profile, or light for 32 bits."""
     from sunwidget.renderer.render import render
 
     photo: Photo = scene.photo
+    more: dict[str, Any] = {"progress": progress} | ({} if size is None else {"size": size})
     if bits == 8 and photo.bit_depth == 8 and photo.profile.is_srgb:
         # The same call as sw.render: the file is the very frame that the canvas shows.
-        return render(scene, edit, progress=progress)
-    light = render(scene, edit, dtype="float32", progress=progress)
-    return encode_like(photo, light, bit_depth=bits)
+        return render(scene, edit, **more)
+    light = render(scene, edit, dtype="float32", **more)
+    return light if bits == 32 else encode_like(photo, light, bit_depth=bits)
 
 
 def _with_metadata(
-    codes: NDArray[Any], photo: Photo, recipe: dict[str, Any] | None = None
+    codes: NDArray[Any],
+    photo: Photo,
+    alpha: NDArray[np.float32] | None,
+    bits: int,
+    recipe: dict[str, Any] | None = None,
 ) -> Still:
     height, width = codes.shape[:2]
-    read = exif_tags.load(photo.exif) if photo.exif else None
-    return Still(
-        codes,
-        alpha=None if photo.alpha is None else _alpha_codes(photo.alpha, codes),
-        icc=photo.icc,
-        exif=exif_tags.dump(read, (width, height), recipe or photo.recipe),
-        xmp=photo.xmp,
-        dpi=photo.dpi,
-    )
+    still = Still(codes, alpha=_alpha_codes(alpha, codes), bits=bits)
+    for name, value in told(photo, (width, height), recipe).items():
+        setattr(still, name, value)
+    if codes.dtype.kind == "f":
+        still.icc = None  # it is of the encoding that was undone
+    return still
 
 
-def _alpha_codes(alpha: NDArray[np.float32], codes: NDArray[Any]) -> NDArray[Any] | None:
-    """Alpha in the type of ``codes``; None when the picture's size is another."""
-    if alpha.shape != codes.shape[:2]:
+def _alpha_codes(alpha: NDArray[np.float32] | None, codes: NDArray[Any]) -> NDArray[Any] | None:
+    """Alpha in the type and size of ``codes``; None where the shape is another (a cut-out)."""
+    if alpha is None:
         return None
+    (height, width), own = codes.shape[:2], alpha.shape
+    if own != (height, width):
+        if abs(width * own[0] - height * own[1]) > max(own):
+            return None
+        import cv2
+
+        alpha = np.asarray(cv2.resize(alpha, (width, height), interpolation=cv2.INTER_AREA))
+    if codes.dtype.kind == "f":
+        return alpha
     return np.rint(alpha * np.float32(np.iinfo(codes.dtype).max)).astype(codes.dtype)
