@@ -3,6 +3,8 @@
  * pictures under D65.
  */
 
+import { LIGHT } from "../srgb.js";
+
 const DEGREE = Math.PI / 180;
 const FAR = 25 ** 7;
 // Columns of sRGB to XYZ over D65's own XYZ (IEC 61966-2-1).
@@ -11,11 +13,6 @@ const Y = [0.2126729, 0.7151522, 0.072175];
 const Z = [0.0193339 / 1.08883, 0.119192 / 1.08883, 0.9503041 / 1.08883];
 
 /** @typedef {[number, number, number]} Lab CIE L*, a*, b* */
-
-const LIGHT = Float64Array.from({ length: 256 }, (_, level) => {
-  const code = level / 255;
-  return code <= 0.04045 ? code / 12.92 : ((code + 0.055) / 1.055) ** 2.4;
-});
 
 /** @param {number} t */
 const compress = (t) => (t > 216 / 24389 ? Math.cbrt(t) : ((24389 / 27) * t + 16) / 116);

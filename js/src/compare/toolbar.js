@@ -3,6 +3,7 @@
 import { button, radioButtons } from "../controls/button.js";
 import { element } from "../controls/element.js";
 import { historyButtons } from "../controls/history.js";
+import { zoomButtons } from "../controls/zoom_buttons.js";
 import { equal } from "../state.js";
 
 /** @typedef {import("./view.js").View} View */
@@ -44,32 +45,8 @@ export function toolbar(view) {
     caption: true,
     onClick: () => view.setDifference(!view.model.get("difference")),
   });
-  const smaller = button({
-    icon: "minus",
-    label: "Zoom out",
-    title: "Zoom out (−)",
-    onClick: () => view.stepZoom(-1),
-  });
-  const larger = button({
-    icon: "plus",
-    label: "Zoom in",
-    title: "Zoom in (+)",
-    onClick: () => view.stepZoom(1),
-  });
-  const percent = element("button", {
-    type: "button",
-    class: "sw-button sw-compare-percent",
-    title: "100 %, or all of the picture (Z)",
-  });
-  percent.addEventListener("click", () => view.toggleZoom());
-  const zoom = element(
-    "div",
-    { class: "sw-group", role: "group", "aria-label": "Zoom" },
-    smaller,
-    percent,
-    larger,
-  );
-  const end = element("div", { class: "sw-group sw-end" }, own, difference, zoom);
+  const zoom = zoomButtons(view.zoom, view, "sw-group");
+  const end = element("div", { class: "sw-group sw-end" }, own, difference, zoom.node);
   const node = element(
     "div",
     { class: "sw-toolbar", role: "group", "aria-label": "Comparison" },
@@ -104,17 +81,6 @@ export function toolbar(view) {
       own.setAttribute("aria-pressed", String(!state.values.one_sun));
       difference.setAttribute("aria-pressed", String(Boolean(view.model.get("difference"))));
     },
-    showZoom() {
-      const { zoom: shown } = view;
-      const [least, most] = shown.bounds;
-      const text = `${Math.round(100 * shown.scale)} %`;
-      percent.textContent = text;
-      percent.setAttribute(
-        "aria-label",
-        `Zoom: ${text}${shown.fits ? ", all of the picture" : ""}`,
-      );
-      smaller.disabled = shown.scale <= least;
-      larger.disabled = shown.scale >= most;
-    },
+    showZoom: zoom.show,
   };
 }

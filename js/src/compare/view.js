@@ -4,14 +4,15 @@
  * share sun, zoom and pan.
  */
 
+import { sunText } from "../angle_text.js";
 import { Divider } from "../controls/divider.js";
 import { element } from "../controls/element.js";
-import { Zoom } from "../editor/zoom.js";
 import { errorText } from "../error_text.js";
 import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
+import { Zoom } from "../zoom.js";
 import { columns } from "./columns.js";
 import { Differences } from "./differences.js";
 import { Panel } from "./panel.js";
@@ -333,8 +334,3 @@ export class View {
       : "Each picture under its own sun; drag one for a common sun";
   }
 }
-
-/** @param {number} azimuth @param {number} elevation */
-const sunText = (azimuth, elevation) =>
-  `Sun ${Math.abs(azimuth).toFixed(1)}° ${azimuth < 0 ? "left" : "right"} · ` +
-  `${elevation.toFixed(1)}° elevation`;

@@ -6,8 +6,8 @@
  * down after one press until the next, as few can hold a key and press others.
  */
 
+import { directionText } from "../angle_text.js";
 import { setAttributes, shape } from "../controls/element.js";
-import { directionText } from "./hover.js";
 
 /** @typedef {import("../types.js").Point} Point */
 

@@ -1,8 +1,8 @@
 /** The day's strip with its clock, playing it, and what is said of the sun at its time. */
 
-import { button } from "../controls/button.js";
+import { aside, degrees } from "../angle_text.js";
 import { element } from "../controls/element.js";
-import { icon } from "../controls/icons.js";
+import { playButton } from "../controls/play_button.js";
 import { toggle } from "../controls/toggle.js";
 import { clock as clockText, sunAt, turned } from "../day.js";
 import { solarTime } from "../place.js";
@@ -26,12 +26,22 @@ export function dayControls(view, clock, path, signal) {
     onInput: (hours) => clock.moveTo(hours),
     onCommit: () => state.commit(),
   });
-  const play = button({
-    icon: "play",
-    label: "Play the day",
-    title: "Play the day, an hour a second; the night is passed over",
-    onClick: () => (frame ? stop() : start()),
-  });
+  const play = playButton(
+    {
+      label: "Play the day",
+      title: "Play the day, an hour a second; the night is passed over",
+      onStep: (seconds) => {
+        // A hand on the picture goes first.
+        if (view.pointer !== null) return false;
+        // Another gesture ends a step of the history; the playing goes on in the next.
+        state.begin();
+        clock.moveTo(awake(clock.hours + seconds * HOURS_A_SECOND));
+        return true;
+      },
+      onStop: () => state.commit(),
+    },
+    signal,
+  );
   const said = element("p", { class: "sw-hint" });
   /** @type {(label: string, help: string, on: boolean, onChange: (on: boolean) => void) => ReturnType<typeof toggle>} */
   const choice = (label, help, on, onChange) =>
@@ -61,24 +71,12 @@ export function dayControls(view, clock, path, signal) {
   const node = element(
     "div",
     { class: "sw-day" },
-    element("div", { class: "sw-day-row" }, play, strip.node),
+    element("div", { class: "sw-day-row" }, play.node, strip.node),
     said,
     shown.node,
     kept.node,
   );
 
-  let frame = 0;
-  let last = 0;
-  const tick = (/** @type {number} */ now) => {
-    // A hand on the picture goes first.
-    if (view.pointer !== null) return stop();
-    const passed = Math.min(0.2, (now - last) / 1000);
-    last = now;
-    // Another gesture ends a step of the history; the playing goes on in the next.
-    state.begin();
-    clock.moveTo(awake(clock.hours + passed * HOURS_A_SECOND));
-    frame = requestAnimationFrame(tick);
-  };
   /** The hour itself, or the end of the night that it is in. @param {number} hours */
   const awake = (hours) => {
     const row = clock.path;
@@ -89,25 +87,6 @@ export function dayControls(view, clock, path, signal) {
     const lit = row.filter(([, , up]) => up > NIGHT).map(([hour]) => hour);
     return lit.find((hour) => hour > at) ?? lit[0] ?? at;
   };
-  const start = () => {
-    last = performance.now();
-    frame = requestAnimationFrame(tick);
-    showPlay();
-  };
-  const stop = () => {
-    if (!frame) return;
-    cancelAnimationFrame(frame);
-    frame = 0;
-    state.commit();
-    showPlay();
-  };
-  const showPlay = () => {
-    play.setAttribute("aria-pressed", String(frame !== 0));
-    play.replaceChildren(icon(frame ? "pause" : "play"));
-  };
-  showPlay();
-  signal.addEventListener("abort", () => cancelAnimationFrame(frame));
-
   /** @param {Place} place */
   const describe = (place) => {
     const sun = clock.sun();
@@ -118,12 +97,10 @@ export function dayControls(view, clock, path, signal) {
       return `${lifted}. ${solar}. Without a heading the clock moves the elevation alone.`;
     }
     const north = (((sun.azimuth % 360) + 360) % 360).toFixed(1);
-    const aside = turned(sun.azimuth - place.heading);
-    const side = `${Math.abs(aside).toFixed(1)}° ${aside < 0 ? "left" : "right"}`;
     const off = clock.follows()
       ? ""
       : " The sun was moved elsewhere: turning the clock puts it back on its path.";
-    return `${lifted}, azimuth ${north}° (${side}). ${solar}.${off}`;
+    return `${lifted}, azimuth ${north}° (${aside(turned(sun.azimuth - place.heading))}). ${solar}.${off}`;
   };
 
   return {
@@ -132,7 +109,7 @@ export function dayControls(view, clock, path, signal) {
       const { place } = clock;
       const row = clock.path;
       node.hidden = !place || !row.length;
-      if (!place || !row.length) return stop();
+      if (!place || !row.length) return play.stop();
       strip.show(row, clock.hours);
       shown.show(path.shown);
       kept.show(path.kept);
@@ -144,5 +121,3 @@ export function dayControls(view, clock, path, signal) {
     },
   };
 }
-
-const degrees = (/** @type {number} */ value) => `${value.toFixed(1).replace("-", "−")}°`;

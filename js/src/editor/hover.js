@@ -1,5 +1,6 @@
 /** What is under the pointer or the cross: its direction, and its colour in the photo and now. */
 
+import { directionText } from "../angle_text.js";
 import { element } from "../controls/element.js";
 
 /** @typedef {import("../types.js").Point} Point */
@@ -83,10 +84,4 @@ function colour(label) {
       levels.textContent = rgb.join(" ");
     },
   };
-}
-
-/** @param {number} azimuth @param {number} elevation degrees */
-export function directionText(azimuth, elevation) {
-  const side = azimuth < 0 ? "left" : "right";
-  return `${Math.abs(azimuth).toFixed(1)}° ${side} · ${elevation.toFixed(1).replace("-", "−")}°`;
 }

@@ -1,5 +1,7 @@
 /** Counts of a picture's levels: red, green, blue and luminance, and what is clipped. */
 
+import { encode, LIGHT } from "../srgb.js";
+
 export const BINS = 64;
 const PER_BIN = 256 / BINS;
 
@@ -10,16 +12,8 @@ const PER_BIN = 256 / BINS;
  * }} Levels shares of the pixels by bin, dark to light; and of those at the end of a channel
  */
 
-/** Linear light of each sRGB level (IEC 61966-2-1). */
-const LIGHT = Float32Array.from({ length: 256 }, (_, level) => {
-  const v = level / 255;
-  return v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
-});
 /** The sRGB level of 4096 steps of linear light. */
-const LEVEL = Uint8Array.from({ length: 4096 }, (_, step) => {
-  const v = step / 4095;
-  return Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
-});
+const LEVEL = Uint8Array.from({ length: 4096 }, (_, step) => Math.round(255 * encode(step / 4095)));
 
 /**
  * Count the levels of RGBA bytes in sRGB. Luminance is Rec. 709's, of linear light, and then

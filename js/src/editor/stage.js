@@ -8,7 +8,7 @@
 
 import { element, setAttributes } from "../controls/element.js";
 import { PictureStage } from "../stage.js";
-import { Zoom } from "./zoom.js";
+import { Zoom } from "../zoom.js";
 
 /** @typedef {import("../types.js").Point} Point */
 

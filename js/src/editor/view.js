@@ -5,6 +5,7 @@
  * when the analysis (`_scene`, `_layers`, `_surface`, `_backdrop`, `_clear_sky`) has arrived.
  */
 
+import { sunText } from "../angle_text.js";
 import { Camera } from "../camera.js";
 import { Channel } from "../channel.js";
 import { Announcer } from "../controls/announcer.js";
@@ -376,11 +377,7 @@ export class View {
     this.strokes.draw();
     for (const tool of Object.values(this.tools)) tool.draw();
     if (this.scene) {
-      const azimuth = this.value("sun_azimuth");
-      const side = azimuth < 0 ? "left" : "right";
-      this.readout.textContent =
-        `Sun ${Math.abs(azimuth).toFixed(1)}° ${side} · ` +
-        `${this.value("sun_elevation").toFixed(1)}° elevation`;
+      this.readout.textContent = sunText(this.value("sun_azimuth"), this.value("sun_elevation"));
     }
     for (const part of this.parts) part.draw?.();
   }

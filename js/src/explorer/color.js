@@ -1,5 +1,6 @@
 /** From radiance at four wavelengths, or one wavelength, to colours on the screen. */
 
+import { encode } from "../srgb.js";
 import { SPECTRAL_TO_XYZ, XYZ_TO_REC709 } from "./matrices.js";
 
 /** @typedef {[number, number, number]} Triple */
@@ -29,10 +30,6 @@ export function chromaticity([X, Y, Z]) {
   const sum = X + Y + Z;
   return sum > 0 ? [X / sum, Y / sum] : null;
 }
-
-/** @param {number} linear 0–1 */
-const encode = (linear) =>
-  linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055;
 
 /**
  * A linear colour as CSS, scaled so that its largest channel is `peak`; what lies outside the

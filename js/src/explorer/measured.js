@@ -1,9 +1,9 @@
 /** Measured skies: 81 directions over the dome, coloured by how far the model is from them. */
 
+import { degrees } from "../angle_text.js";
 import { element, shape } from "../controls/element.js";
 import { errorText } from "../error_text.js";
 import { MODEL_LABELS } from "./guides.js";
-import { degrees } from "./readout.js";
 import { ERROR_GRADIENT, errorColor, relativeError } from "./sky_probe.js";
 
 /**

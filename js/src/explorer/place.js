@@ -1,11 +1,10 @@
 /** Where and when: date, place, and the clock that plays the day. */
 
-import { button } from "../controls/button.js";
+import { degrees } from "../angle_text.js";
 import { element } from "../controls/element.js";
-import { icon } from "../controls/icons.js";
+import { playButton } from "../controls/play_button.js";
 import { slider } from "../controls/slider.js";
 import { clock, sunAt } from "../day.js";
-import { degrees } from "./readout.js";
 
 const HOURS_A_SECOND = 1; // while the day plays
 
@@ -87,41 +86,22 @@ export function placeControls(view, signal) {
     onInput: (value) => view.moveTime(Number(value)),
     onCommit: () => state.commit(),
   });
-  const play = button({
-    icon: "play",
-    label: "Play the day",
-    title: "Play the day, an hour a second",
-    onClick: () => (frame ? stop() : start()),
-  });
+  const play = playButton(
+    {
+      label: "Play the day",
+      title: "Play the day, an hour a second",
+      onStep: (seconds) => {
+        // Another gesture ends a step of the history; the playing goes on in the next.
+        state.begin();
+        view.moveTime((view.number("time") + seconds * HOURS_A_SECOND) % 24);
+        return true;
+      },
+      onStop: () => state.commit(),
+    },
+    signal,
+  );
   const said = element("p", { class: "sw-hint" });
-  const row = element("div", { class: "sw-time" }, play, time.node);
-
-  let frame = 0;
-  let last = 0;
-  const step = (/** @type {number} */ now) => {
-    const passed = Math.min(0.2, (now - last) / 1000);
-    last = now;
-    // Another gesture ends a step of the history; the playing goes on in the next.
-    state.begin();
-    view.moveTime((view.number("time") + passed * HOURS_A_SECOND) % 24);
-    frame = requestAnimationFrame(step);
-  };
-  const start = () => {
-    last = performance.now();
-    frame = requestAnimationFrame(step);
-    showPlay();
-  };
-  const stop = () => {
-    cancelAnimationFrame(frame);
-    frame = 0;
-    state.commit();
-    showPlay();
-  };
-  const showPlay = () => {
-    play.setAttribute("aria-pressed", String(frame !== 0));
-    play.replaceChildren(icon(frame ? "pause" : "play"));
-  };
-  signal.addEventListener("abort", () => cancelAnimationFrame(frame));
+  const row = element("div", { class: "sw-time" }, play.node, time.node);
 
   return {
     nodes: [element("div", { class: "sw-chips" }, ...chips), fields, row, said],
@@ -134,7 +114,7 @@ export function placeControls(view, signal) {
       const day = view.day();
       row.hidden = day.length === 0;
       if (!day.length) {
-        if (frame) stop();
+        play.stop();
         said.textContent = "With a date and a place, the clock moves the sun along its path.";
         return;
       }

@@ -1,12 +1,10 @@
 /** The line under the sky: the sun's place, and what lies under the pointer. */
 
+import { degrees } from "../angle_text.js";
 import { element } from "../controls/element.js";
 import { trueElevation, turned } from "../day.js";
 import { cssColor } from "./color.js";
 import { luminanceText } from "./sky_probe.js";
-
-/** Degrees with a proper minus. @type {(value: number, digits?: number) => string} */
-export const degrees = (value, digits = 1) => `${value.toFixed(digits).replace("-", "−")}°`;
 
 export class Readout {
   /** @param {(text: string) => void} say tells of a sun that has moved */

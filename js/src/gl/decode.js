@@ -6,6 +6,7 @@
  * the same table.
  */
 
+import { LIGHT } from "../srgb.js";
 import { createProgram } from "./program.js";
 import { createTarget } from "./target.js";
 import { createFloatTexture, createPictureTexture } from "./texture.js";
@@ -21,13 +22,6 @@ void main() {
 }
 `;
 
-/** Linear light of each code value, IEC 61966-2-1. */
-export function srgbTable() {
-  const light = (/** @type {number} */ code) =>
-    code <= 0.04045 ? code / 12.92 : ((code + 0.055) / 1.055) ** 2.4;
-  return Float32Array.from({ length: 256 }, (_, i) => light(i / 255));
-}
-
 /**
  * Upload an sRGB picture as linear light.
  *
@@ -39,7 +33,7 @@ export function createLightTexture(gl, pixels) {
   const codes = createPictureTexture(gl, pixels);
   const table = createFloatTexture(gl, 256, 1);
   const texels = new Float32Array(4 * 256);
-  srgbTable().forEach((light, i) => {
+  LIGHT.forEach((light, i) => {
     texels[4 * i] = light;
   });
   gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 256, 1, gl.RGBA, gl.FLOAT, texels);

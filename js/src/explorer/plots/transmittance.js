@@ -1,9 +1,9 @@
 /** What is left of the sun's light, by wavelength, and who took the rest. */
 
+import { degrees } from "../../angle_text.js";
 import { horizonElevation } from "../../day.js";
 import { wavelengthColor } from "../color.js";
 import { channel, WAVELENGTHS } from "../curves.js";
-import { degrees } from "../readout.js";
 import { Chart } from "./chart.js";
 
 const STRIP = 12; // CSS pixels

@@ -6,7 +6,7 @@
  */
 
 /**
- * @typedef {import("../types.js").Point} Point
+ * @typedef {import("./types.js").Point} Point
  * @typedef {{ x: number, y: number, width: number, height: number }} Rectangle
  * @typedef {{ width: number, height: number, fit: Rectangle, pixelRatio: number }} Room the stage,
  *   where the picture fits in it, and the screen's pixels to a CSS pixel

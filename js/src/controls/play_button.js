@@ -1,0 +1,46 @@
+/** A button that plays something for as long as it is pressed. */
+
+import { button } from "./button.js";
+import { icon } from "./icons.js";
+
+const LONGEST = 0.2; // seconds between two steps: after a pause nothing leaps
+
+/**
+ * @param {{
+ *   label: string,
+ *   title: string,
+ *   onStep: (seconds: number) => boolean,
+ *   onStop: () => void,
+ * }} options `onStep` moves on by what has passed since the last one; false ends the playing
+ * @param {AbortSignal} signal
+ */
+export function playButton({ label, title, onStep, onStop }, signal) {
+  const node = button({ icon: "play", label, title, onClick: () => (frame ? stop() : start()) });
+  let frame = 0;
+  let last = 0;
+  const step = (/** @type {number} */ now) => {
+    const passed = Math.min(LONGEST, (now - last) / 1000);
+    last = now;
+    if (!onStep(passed)) stop();
+    else if (frame) frame = requestAnimationFrame(step);
+  };
+  const start = () => {
+    last = performance.now();
+    frame = requestAnimationFrame(step);
+    show();
+  };
+  const stop = () => {
+    if (!frame) return;
+    cancelAnimationFrame(frame);
+    frame = 0;
+    onStop();
+    show();
+  };
+  const show = () => {
+    node.setAttribute("aria-pressed", String(frame !== 0));
+    node.replaceChildren(icon(frame ? "pause" : "play"));
+  };
+  show();
+  signal.addEventListener("abort", () => cancelAnimationFrame(frame));
+  return { node, stop };
+}
