@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from sunwidget.edit import PARAMETERS, Edit, EditError, Stroke
     from sunwidget.export.batch.report import BatchReport
     from sunwidget.export.batch.run import batch
+    from sunwidget.export.contact_sheet import contact_sheet
+    from sunwidget.export.day import Day
     from sunwidget.export.stills import save
     from sunwidget.export.sweep import sweep
     from sunwidget.photo import Photo, PhotoError, PhotoWarning
@@ -48,6 +50,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "BatchReport": ("sunwidget.export.batch.report", "BatchReport"),
     "Camera": ("sunwidget.camera", "Camera"),
     "Compare": ("sunwidget.widgets", "Compare"),
+    "Day": ("sunwidget.export.day", "Day"),
     "Edit": ("sunwidget.edit", "Edit"),
     "EditError": ("sunwidget.edit", "EditError"),
     "Photo": ("sunwidget.photo", "Photo"),
@@ -64,6 +67,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "SunEditor": ("sunwidget.widgets", "SunEditor"),
     "analyze": ("sunwidget.analysis.scene", "analyze"),
     "batch": ("sunwidget.export.batch.run", "batch"),
+    "contact_sheet": ("sunwidget.export.contact_sheet", "contact_sheet"),
     "open": ("sunwidget.photo", "open_photo"),
     "preset": ("sunwidget.presets", "edit"),
     "replace_sky": ("sunwidget.transfer.sky_replacement", "replace_sky"),
@@ -82,6 +86,7 @@ __all__ = [
     "BatchReport",
     "Camera",
     "Compare",
+    "Day",
     "Edit",
     "EditError",
     "Photo",
@@ -99,6 +104,7 @@ __all__ = [
     "__version__",
     "analyze",
     "batch",
+    "contact_sheet",
     "open",
     "preset",
     "render",

@@ -8,7 +8,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from sunwidget.edit import Edit
-from sunwidget.place import Place, at_hours, hours_of_day
+from sunwidget.place import Place
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -29,7 +29,13 @@ def add_place(parser: argparse.ArgumentParser, *, end: bool = False) -> None:
         help="degrees, north and east positive",
     )
     group.add_argument("--date", type=_date, metavar="YYYY-MM-DD", help="day in UTC")
-    group.add_argument("--time", type=_time, metavar="HH:MM", help="UTC; the sun goes where it is")
+    group.add_argument(
+        *("--time", "--start-time")[: 2 if end else 1],
+        dest="time",
+        type=_time,
+        metavar="HH:MM",
+        help="UTC; the sun goes where it is",
+    )
     group.add_argument(
         "--heading",
         type=_heading,
@@ -37,7 +43,14 @@ def add_place(parser: argparse.ArgumentParser, *, end: bool = False) -> None:
         help="where the camera looks, clockwise from north (default: by the photo's own sun)",
     )
     if end:
-        group.add_argument("--to-time", type=_time, metavar="HH:MM", help="time of the last frame")
+        group.add_argument(
+            "--to-time",
+            "--end-time",
+            dest="to_time",
+            type=_time,
+            metavar="HH:MM",
+            help="time of the last frame",
+        )
 
 
 def is_placed(options: argparse.Namespace) -> bool:
@@ -56,23 +69,17 @@ def placed(options: argparse.Namespace, scene: Scene, edit: Edit) -> Edit:
     ImportError
         Without pvlib; the message names the extra that brings it.
     """
-    return edit.at(_place(options, scene, edit))
+    return edit.at(place_of(options, scene, edit))
 
 
-def places_of_day(
-    options: argparse.Namespace, scene: Scene, edit: Edit, frames: int
-) -> list[Place]:
-    """Return the places of the frames of a film from the time to ``--to-time``."""
-    start = _place(options, scene, edit)
-    first = hours_of_day(start)
-    last = first + (options.to_time - start.time) % 24
-    if last == first:
-        raise ValueError("The film ends when it begins: give --to-time another time than --time.")
-    step = (last - first) / (frames - 1)
-    return [at_hours(start, first + i * step) for i in range(frames)]
+def place_of(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
+    """Return the place of the flags, completed by the edit and the photo's file.
 
-
-def _place(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
+    Raises
+    ------
+    ValueError
+        When place, date or time are neither given nor known, or the heading cannot be found.
+    """
     from sunwidget.photo_place import from_photo
 
     latitude, longitude = options.coordinates or (None, None)
@@ -89,6 +96,8 @@ def _place(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
     known = vars(edit.place) if edit.place is not None else {}
     for source in (known, given):
         values |= {name: value for name, value in source.items() if value is not None}
+    if values["time"] is None and values["longitude"] is not None and _whole_day(options):
+        values["time"] = (12 - values["longitude"] / 15) % 24  # any hour while the sun is up
     flags = {"latitude": "--place", "longitude": "--place", "date": "--date", "time": "--time"}
     missing = sorted({flag for name, flag in flags.items() if values[name] is None})
     if missing:
@@ -98,6 +107,10 @@ def _place(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
             print(f"sunwidget: {note}", file=sys.stderr)
     place = Place(**values)
     return place if place.heading is not None else _facing(scene, place, *own)
+
+
+def _whole_day(options: argparse.Namespace) -> bool:
+    return bool(getattr(options, "day", False))
 
 
 def _facing(scene: Scene, place: Place, date: str | None, time: float | None) -> Place:

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sunwidget.cli_edit import add_edit, add_number, edit_of_flags, edit_of_scene, size
 from sunwidget.cli_photo import Progress, add_photo, refuse_existing, scene_of
-from sunwidget.cli_place import add_place, places_of_day
-from sunwidget.edit import NUMBERS, Edit
+from sunwidget.cli_place import add_place, is_placed, place_of
+from sunwidget.edit import NUMBERS, Edit, EditError, parameter
+from sunwidget.export.film import LOOPS, is_sequence, sequence_target
+from sunwidget.export.film import writer as check_film
+from sunwidget.export.sun_path import EASINGS, Day, SunPath, step
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
 
 
 def add_sweep(commands: Any) -> None:
@@ -17,13 +23,49 @@ def add_sweep(commands: Any) -> None:
     sweep = commands.add_parser(
         "sweep",
         help="write a film of the sun moving",
-        description="The parameter flags set the first frame, the --to-… flags the last.",
+        description="The parameter flags set the first frame, the --to-… flags the last. Instead "
+        "of --to-…: --steps, --key-frame, --to-time or --day.",
     )
     add_photo(sweep)
-    sweep.add_argument("-o", "--output", type=Path, required=True, help=".mp4, .gif or .webp")
-    sweep.add_argument("--size", type=size, metavar="WxH", help="pixels (default: ≤ 1920 a side)")
+    sweep.add_argument(
+        "-o", "--output", type=Path, help=".mp4, .gif, .webp, or frames/%%04d.png for pictures"
+    )
+    sweep.add_argument(
+        "--sheet", type=Path, metavar="FILE", help="also, or only, twelve frames on one picture"
+    )
+    sweep.add_argument(
+        "--size", type=size, metavar="WxH", help="pixels (default: ≤ 1920 a side, GIF ≤ 720)"
+    )
     sweep.add_argument("--fps", type=float, default=24, help="frames a second (default 24)")
-    sweep.add_argument("--frames", type=int, help="number of frames (default: 5 seconds)")
+    length = sweep.add_mutually_exclusive_group()
+    length.add_argument("--frames", type=int, help="number of frames")
+    length.add_argument(
+        "--seconds", type=float, help="length (default: the last key frame's, else 5)"
+    )
+    sweep.add_argument(
+        "--easing", choices=tuple(EASINGS), default="linear", help="how it starts and stops"
+    )
+    sweep.add_argument("--loop", choices=LOOPS, default="forever", help="of GIF and WebP")
+    sweep.add_argument(
+        "--quality", type=int, default=85, help="of MP4 and WebP, 1 to 100 (default 85)"
+    )
+    way = sweep.add_mutually_exclusive_group()
+    way.add_argument(
+        "--steps",
+        "--recipes",
+        nargs="+",
+        metavar="STEP",
+        help="recipe files or presets that the film passes through",
+    )
+    way.add_argument(
+        "--key-frame",
+        type=_key_frame,
+        action="append",
+        metavar="SECONDS:NAME=N,…",
+        help="where the parameters are at that second, as 2.5:sun_elevation=3,exposure=1, "
+        "or a preset, as 4:sunset; once for each",
+    )
+    way.add_argument("--day", action="store_true", help="from civil dawn to civil dusk")
     add_place(sweep, end=True)
     add_edit(sweep)
     end = sweep.add_argument_group("end of the film")
@@ -36,40 +78,107 @@ def _sweep(options: argparse.Namespace) -> int:
     import sunwidget as sw
 
     start = edit_of_flags(options)
-    moves = options.preset is not None or options.to_time is not None
-    if start == edit_of_flags(options, "to_", start) and not moves:
-        raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
-    refuse_existing(options.output, options.overwrite)
+    _check(options, start)
     scene = scene_of(options)
-    start = edit_of_scene(options, scene, start)
-    end = edit_of_flags(options, "to_", start)
-    edits = [start, end]
-    if options.to_time is not None:
-        edits = _day(options, scene, start, end)
-    elif start == end:
-        raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
-    with Progress("film") as progress:
-        sw.sweep(
-            scene,
-            edits,
-            options.output,
-            fps=options.fps,
-            frames=options.frames,
-            size=options.size,
-            overwrite=options.overwrite,
-            progress=progress,
-        )
-    print(options.output)
+    path = _path(options, scene, edit_of_scene(options, scene, start))
+    if options.output is not None:
+        with Progress("film") as progress:
+            made = sw.sweep(
+                scene,
+                path,
+                options.output,
+                fps=options.fps,
+                frames=options.frames,
+                seconds=options.seconds,
+                size=options.size,
+                easing=options.easing,
+                loop=options.loop,
+                quality=options.quality,
+                overwrite=options.overwrite,
+                progress=progress,
+            )
+        print(made)
+    if options.sheet is not None:
+        with Progress("sheet") as progress:
+            sw.contact_sheet(
+                scene,
+                path,
+                options.sheet,
+                easing=options.easing,
+                overwrite=options.overwrite,
+                progress=progress,
+            )
+        print(options.sheet)
     return 0
 
 
-def _day(options: argparse.Namespace, scene: Any, start: Edit, end: Edit) -> list[Edit]:
-    """Return an edit a frame: the sun on its path, all else on the straight way to the end."""
-    from sunwidget.export.sweep import DEFAULT_SECONDS, between
+def _check(options: argparse.Namespace, start: Edit) -> None:
+    """Refuse what cannot be made before the photo is analysed."""
+    if options.output is None and options.sheet is None:
+        raise ValueError("Nothing to write: give -o FILE, --sheet FILE or both.")
+    if options.output is not None:
+        check_film(options.output)
+        if is_sequence(options.output):
+            sequence_target(options.output, overwrite=options.overwrite)
+        else:
+            refuse_existing(options.output, options.overwrite)
+    if options.sheet is not None:
+        refuse_existing(options.sheet, options.overwrite)
+    ends = [p.name for p in NUMBERS if getattr(options, f"to_{p.name}") is not None]
+    stations = bool(options.steps or options.key_frame)
+    if stations and (ends or options.to_time is not None):
+        way = "--steps" if options.steps else "--key-frame"
+        raise ValueError(f"{way} and --to-… both say where the film goes: leave one of them out.")
+    clock = options.day or options.to_time is not None
+    suns = ("sun_azimuth", "sun_elevation")
+    if clock and any(getattr(options, name) is not None or name in ends for name in suns):
+        raise ValueError("The clock moves the sun: leave --sun-… and --to-sun-… out.")
+    if not (stations or clock or options.preset is not None):
+        _refuse_equal(start, edit_of_flags(options, "to_", start))
 
-    count = options.frames or max(3, round(DEFAULT_SECONDS * options.fps))
-    row = []
-    for i, place in enumerate(places_of_day(options, scene, start, count)):
-        edit = between(start, end, i / (count - 1), scene.automatic)
-        row.append(edit_of_flags(options, start=edit.at(place)))
-    return row
+
+def _path(options: argparse.Namespace, scene: Scene, start: Edit) -> SunPath:
+    if options.steps:
+        steps = [step(scene, what, start) for what in options.steps]
+        return [(float(i), edit_of_flags(options, start=edit)) for i, edit in enumerate(steps)]
+    if options.key_frame:
+        return [(seconds, _key_edit(scene, what, start)) for seconds, what in options.key_frame]
+    end = edit_of_flags(options, "to_", start)
+    if options.day or options.to_time is not None:
+        place = start.place if is_placed(options) else place_of(options, scene, start)
+        assert place is not None
+        own = options.time if options.day else place.time
+        return Day(place, own, options.to_time, start, end)
+    _refuse_equal(start, end)
+    return [start, end]
+
+
+def _key_edit(scene: Scene, what: str | dict[str, float], start: Edit) -> Edit:
+    return start.replace(**what) if isinstance(what, dict) else step(scene, what, start)
+
+
+def _refuse_equal(start: Edit, end: Edit) -> None:
+    if start == end:
+        raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
+
+
+def _key_frame(text: str) -> tuple[float, str | dict[str, float]]:
+    seconds, _, what = text.partition(":")
+    try:
+        at = float(seconds)
+        if what and "=" not in what:
+            return at, what
+        values = {}
+        for pair in what.split(","):
+            name, _, value = pair.partition("=")
+            row = parameter(name.strip().lstrip("-").replace("-", "_"))
+            if row.kind != "number":
+                raise EditError(f"{row.name} is no number, so nothing lies between two of it.")
+            values[row.name] = float(value)
+    except EditError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not of the form 2.5:sun_elevation=3,exposure=1"
+        ) from None
+    return at, values

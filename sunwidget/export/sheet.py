@@ -18,23 +18,25 @@ _WIDEST = 5  # width over height
 _BACK, _TEXT = (32, 32, 32), (236, 236, 236)
 
 
-def sheet(pictures: Mapping[str, np.ndarray]) -> Image.Image:
+def sheet(pictures: Mapping[str, np.ndarray], columns: int | None = None) -> Image.Image:
     """Return pictures of one size in rows, each under its name.
 
     Parameters
     ----------
     pictures : mapping
         (H, W, 3) uint8 arrays, sRGB, by name; at least one.
+    columns : int, optional
+        Pictures in a row. Default: so that it is at most about five times as wide as high.
 
     Returns
     -------
     PIL.Image.Image
-        RGB, at most about five times as wide as high.
+        RGB.
     """
     from PIL import Image, ImageDraw
 
     height, width = next(iter(pictures.values())).shape[:2]
-    across = _across(len(pictures), width, height + _BAND)
+    across = columns or _across(len(pictures), width, height + _BAND)
     rows = math.ceil(len(pictures) / across)
     size = (across * (width + _GAP) - _GAP, rows * (height + _BAND + _GAP) - _GAP)
     whole = Image.new("RGB", size, _BACK)

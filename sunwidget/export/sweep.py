@@ -1,239 +1,197 @@
-"""Sweeps: a moving sun as a film (MP4, GIF or WebP)."""
+"""Sweeps: a moving sun as a film, as pictures one by one, or as a sheet."""
 
 from __future__ import annotations
 
+import contextlib
 import os
-import subprocess
-import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections import deque
+from collections.abc import Generator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from sunwidget.edit import NUMBERS, PARAMETERS, Edit, EditError
+from sunwidget.export.film import (
+    LOOPS,
+    Film,
+    Frames,
+    is_sequence,
+    sequence_target,
+    whole_sequence,
+    writer,
+)
+from sunwidget.export.sun_path import SunPath, film_edits
 from sunwidget.files import complete_or_absent, target
+from sunwidget.time_left import Progress, with_time_left
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
+    from sunwidget.edit import Edit
 
-Progress = Callable[[float, str], object]
-Frames = Iterator[np.ndarray]
-
-DEFAULT_SECONDS = 5
-# Beyond this, H.264 at 4:2:0 leaves the levels that phones and browsers decode.
-LONGEST_SIDE = 1920
+# Beyond this, H.264 at 4:2:0 leaves the levels that phones and browsers decode; a GIF of that
+# size has a hundred megabytes.
+LONGEST_SIDE = {".gif": 720}
+LONGEST_SIDE_ELSE = 1920
+# Frames that are waiting for the encoder, so that it and the renderer work at once.
+_AHEAD = 2
+# Frames kept for the way back; what does not fit is rendered again.
+_KEPT_BYTES = 400e6
 
 
 def sweep(
     scene: Scene,
-    edits: Sequence[Edit],
-    path: str | os.PathLike[str],
+    path: SunPath,
+    out: str | os.PathLike[str],
     *,
     fps: float = 24,
     frames: int | None = None,
+    seconds: float | None = None,
     size: tuple[int, int] | None = None,
+    easing: str = "linear",
+    loop: str = "forever",
+    quality: int = 85,
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> Path:
-    """Render a row of edits of one scene as a film.
+    """Render a scene along a path of edits as a film.
 
     Parameters
     ----------
     scene : Scene
         What ``analyze`` returned.
-    edits : sequence of Edit
-        Two edits are the ends of a move; more are one frame each, unless ``frames`` asks
-        for a smooth path through them.
-    path : path
-        ``.mp4`` (H.264, yuv420p, tagged BT.709; needs the ``video`` extra), ``.gif`` or
-        ``.webp``.
+    path : sequence or Day
+        Two steps are the ends of a move. A step is an Edit, a recipe (dict), a recipe's file
+        or the name of a preset. More than two are passed through at even distances; more than
+        two Edits are one frame each, unless ``frames`` or ``seconds`` ask for a path through
+        them. Key frames are pairs ``(seconds, step)``. A ``sunwidget.Day`` is a real day at a
+        place. Methods, strokes and hints must be the same in all.
+    out : path
+        ``.mp4`` (H.264, yuv420p, tagged BT.709; needs the ``video`` extra), ``.gif``,
+        ``.webp``, or a pattern as ``frames/%04d.png`` for frames one by one, from 1.
     fps : float
-        Frames a second, 1–120. GIF rounds a frame to whole hundredths of a second.
+        Frames a second, 1–120. A GIF shows at most 50.
     frames : int, optional
-        Number of frames, at least 2. Default: five seconds' worth for two edits, else
-        one for each edit.
+        Number of frames, at least 2.
+    seconds : float, optional
+        Length of the film, instead of ``frames``. Default: the last key frame's time, else 5.
+        Key frames are stretched to it.
     size : (width, height), optional
-        Pixels. Default: the photo's own size, at most 1920 on the longer side. MP4 rounds
-        both down to even numbers.
+        Pixels. Default: the photo's own size, at most 1920 on the longer side, 720 for a GIF.
+        MP4 rounds both down to even numbers.
+    easing : {"linear", "ease_in", "ease_out", "ease_in_out", "smooth"}
+        How the sun starts and stops at each step, as CSS means it. "smooth" passes through
+        the steps between without a stop, on a monotone cubic.
+    loop : {"forever", "once", "there_and_back"}
+        Whether a GIF or WebP repeats; an MP4 leaves that to the player. "there_and_back" adds
+        the way back, so that the film is nearly twice as long and repeats without a jump.
+    quality : int
+        Of MP4 and WebP, 1–100.
     overwrite : bool
         Replace an existing file.
     progress : callable, optional
-        Called as ``progress(fraction, message)`` after every frame. What it raises
-        cancels the export, and no half-written file is left.
+        Called as ``progress(fraction, message)`` after every frame, with the time that is
+        left. What it raises cancels the export, and no half-written file is left.
 
     Returns
     -------
     Path
-        Where the film is.
+        Where the film is; for frames one by one their folder.
 
     Raises
     ------
     FileExistsError
-        When ``path`` exists and ``overwrite`` is false.
+        When ``out`` exists and ``overwrite`` is false.
     ValueError
-        For an unknown file type, an impossible size or rate, or edits that no path joins.
+        For an unknown file type, an impossible size, length or rate, or edits that no path
+        joins.
     ModuleNotFoundError
         When MP4 is asked for without the ``video`` extra.
+
+    Examples
+    --------
+    >>> sw.sweep(scene, ["golden_hour", "sunset", "blue_hour"], "evening.mp4", seconds=8)
+    >>> sw.sweep(scene, [(0, sw.Edit()), (4, sw.Edit(sun_elevation=-4))], "frames/%04d.png")
     """
-    write = _writer(Path(path).suffix.lower())
-    if not 1 <= fps <= 120:
-        raise ValueError(f"fps = {fps!r} is outside 1 to 120 frames a second.")
-    path = target(path, overwrite=overwrite)
-    row = film_edits(edits, frames, fps, scene.automatic)
-    size = film_size((scene.camera.width, scene.camera.height), size)
-    if path.suffix.lower() == ".mp4":
+    place = Path(out)
+    write = writer(place)
+    if loop not in LOOPS:
+        raise ValueError(f"loop must be one of {', '.join(LOOPS)}, not {loop!r:.40}.")
+    if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
+        raise ValueError(f"quality must be a whole number from 1 to 100, not {quality!r:.40}.")
+    suffix = place.suffix.lower()
+    camera = scene.camera
+    size = film_size(
+        (camera.width, camera.height), size, LONGEST_SIDE.get(suffix, LONGEST_SIDE_ELSE)
+    )
+    if suffix == ".mp4":
         size = (size[0] - size[0] % 2, size[1] - size[1] % 2)
-    with complete_or_absent(path, overwrite=overwrite) as unfinished:
-        write(_render(scene, row, size, progress), unfinished, size, fps)
-    return path
+    one_by_one = is_sequence(place)
+    place = (sequence_target if one_by_one else target)(place, overwrite=overwrite)
+    row = film_edits(scene, path, fps=fps, frames=frames, seconds=seconds, easing=easing)
+    order = list(range(len(row)))
+    if loop == "there_and_back":
+        order += order[-2:0:-1]
+    film = Film(size, fps, len(order), loop, quality)
+    whole = (whole_sequence if one_by_one else complete_or_absent)(place, overwrite=overwrite)
+    with (
+        whole as unfinished,
+        contextlib.closing(_ahead(_rendered(scene, row, order, size))) as pictures,
+    ):
+        write(_told(pictures, len(order), with_time_left(progress)), unfinished, film)
+    return place.parent if one_by_one else place
 
 
-def film_edits(
-    edits: Sequence[Edit], frames: int | None, fps: float, automatic: dict[str, Any]
-) -> list[Edit]:
-    """Return one Edit a frame: the edits as given, or a path through them."""
-    edits = list(edits)
-    if len(edits) < 2 or not all(isinstance(edit, Edit) for edit in edits):
-        raise ValueError("A sweep needs two or more sunwidget.Edit objects.")
-    if frames is None and len(edits) > 2:
-        return edits
-    count = round(DEFAULT_SECONDS * fps) if frames is None else frames
-    if isinstance(count, bool) or not isinstance(count, int) or count < 2:
-        raise ValueError(f"frames must be a whole number from 2 upwards, not {frames!r}.")
-    row = []
-    for position in np.linspace(0, len(edits) - 1, count):
-        start = min(int(position), len(edits) - 2)
-        row.append(between(edits[start], edits[start + 1], float(position - start), automatic))
-    return row
-
-
-def between(start: Edit, end: Edit, fraction: float, automatic: dict[str, Any]) -> Edit:
-    """Return the Edit at ``fraction`` (0–1) of the straight way from ``start`` to ``end``.
-
-    An automatic parameter stands for what the analysis found (``automatic``); the azimuth
-    takes the shorter way round. Methods, strokes and hints cannot lie between two values,
-    so both ends must agree on them; the place, which moves nothing, stays the first one's.
-    """
-    for p in PARAMETERS:
-        if p.kind == "number" or p.name == "place":
-            continue
-        if getattr(start, p.name) != getattr(end, p.name):
-            raise EditError(f"Both ends of a sweep need the same {p.name}.")
-    changes: dict[str, float] = {}
-    for p in NUMBERS:
-        a, b = getattr(start, p.name), getattr(end, p.name)
-        if a == b:
-            continue
-        a = automatic[p.name] if a is None else a
-        b = automatic[p.name] if b is None else b
-        if p.name == "sun_azimuth":
-            b = a + (b - a + 180) % 360 - 180
-            value = (a + (b - a) * fraction + 180) % 360 - 180
-        else:
-            value = a + (b - a) * fraction
-        # What the analysis found may lie outside the slider's range.
-        changes[p.name] = min(max(value, p.minimum), p.maximum)
-    return start.replace(**changes)
-
-
-def film_size(photo: tuple[int, int], size: tuple[int, int] | None) -> tuple[int, int]:
-    """Return (width, height) of the film: ``size``, or the photo's, at most 1920 a side."""
+def film_size(
+    photo: tuple[int, int], size: tuple[int, int] | None, longest: int = LONGEST_SIDE_ELSE
+) -> tuple[int, int]:
+    """Return (width, height) of the film: ``size``, or the photo's within ``longest`` a side."""
     if size is None:
-        scale = min(1.0, LONGEST_SIDE / max(photo))
+        scale = min(1.0, longest / max(photo))
         size = (max(2, round(photo[0] * scale)), max(2, round(photo[1] * scale)))
-    width, height = size
+    try:
+        width, height = (int(n) for n in size)
+    except (TypeError, ValueError):
+        raise ValueError(f"size must be (width, height) in pixels, not {size!r:.40}.") from None
     if not (2 <= width <= 8192 and 2 <= height <= 8192):
         raise ValueError(f"A film of {width}×{height} is not possible; 2 to 8192 pixels a side.")
-    return int(width), int(height)
+    return width, height
 
 
-def _render(
-    scene: Scene, edits: list[Edit], size: tuple[int, int], progress: Progress | None
-) -> Frames:
+def _rendered(scene: Scene, row: list[Edit], order: list[int], size: tuple[int, int]) -> Frames:
+    """Render the edits of ``row`` in the ``order`` of their numbers, each but once if it fits."""
     from sunwidget.renderer.render import render
 
-    for done, edit in enumerate(edits, start=1):
-        yield render(scene, edit, size=size)
-        if progress is not None:
-            progress(done / len(edits), f"frame {done} of {len(edits)}")
+    kept: dict[int, NDArray[np.uint8]] = {}
+    room = _KEPT_BYTES
+    for i, number in enumerate(order):
+        frame = kept.pop(number, None)
+        if frame is None:
+            frame = render(scene, row[number], size=size)
+            if number in order[i + 1 :] and room >= frame.nbytes:
+                kept[number] = frame
+                room -= frame.nbytes
+        yield frame
 
 
-def _writer(suffix: str) -> Callable[[Frames, Path, tuple[int, int], float], None]:
-    writers = {".mp4": _write_mp4, ".gif": _write_gif, ".webp": _write_webp}
-    if suffix not in writers:
-        raise ValueError(f"A film ends in .mp4, .gif or .webp, not {suffix or 'nothing'!r}.")
-    if suffix == ".mp4":
-        try:
-            import imageio_ffmpeg  # noqa: F401 - fail before the first frame is rendered
-        except ImportError as error:
-            raise ModuleNotFoundError(
-                "MP4 needs imageio-ffmpeg: pip install 'sunwidget[video]'. GIF and WebP do not."
-            ) from error
-    return writers[suffix]
+def _told(frames: Frames, count: int, progress: Progress) -> Frames:
+    """Pass frames on and tell ``progress`` when each has been taken."""
+    for done, frame in enumerate(frames, start=1):
+        yield frame
+        progress(done / count, f"frame {done} of {count}")
 
 
-def _write_mp4(frames: Frames, path: Path, size: tuple[int, int], fps: float) -> None:
-    """Pipe frames into ffmpeg; unlike imageio's own writer, notice when ffmpeg fails."""
-    import imageio_ffmpeg
+def _ahead(frames: Frames) -> Generator[NDArray[np.uint8]]:
+    """Make the next frames on a thread while the present one is being used.
 
-    command = [
-        *(imageio_ffmpeg.get_ffmpeg_exe(), "-nostdin", "-v", "error", "-y"),
-        *("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}"),
-        *("-r", f"{fps:g}", "-i", "-", "-an"),
-        *("-vf", "scale=out_color_matrix=bt709:out_range=tv", "-pix_fmt", "yuv420p"),
-        *("-c:v", "libx264", "-crf", "18", "-preset", "veryfast"),
-        *("-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"),
-        *("-color_range", "tv", "-movflags", "+faststart", str(path)),
-    ]
-    with (
-        tempfile.TemporaryFile() as messages,
-        subprocess.Popen(  # noqa: S603 - no shell, and no word of it comes from a photo
-            command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=messages
-        ) as encoder,
-    ):
-        assert encoder.stdin is not None
-        try:
-            for frame in frames:
-                encoder.stdin.write(np.ascontiguousarray(frame).data)
-            encoder.stdin.close()
-        except BrokenPipeError:
-            pass  # ffmpeg has given up; its exit status and last words follow
-        except BaseException:
-            encoder.kill()
-            raise
-        if encoder.wait() != 0:
-            messages.seek(0)
-            words = messages.read().decode(errors="replace").strip().splitlines()
-            raise OSError(f"ffmpeg could not write the film: {words[-1] if words else 'no reason'}")
-
-
-def _write_gif(frames: Frames, path: Path, _size: tuple[int, int], fps: float) -> None:
-    from PIL import Image
-
-    def paletted(frame: np.ndarray) -> Image.Image:
-        # A palette for each frame: one for all would band the sky at one end of the sweep.
-        # Pillow dithers only onto a given palette, hence twice.
-        picture = Image.fromarray(frame)
-        return picture.quantize(palette=picture.quantize(256), dither=Image.Dither.FLOYDSTEINBERG)
-
-    pictures = map(paletted, frames)
-    first = next(pictures)
-    duration = max(2, round(100 / fps)) * 10
-    first.save(path, save_all=True, append_images=pictures, duration=duration, loop=0)
-
-
-def _write_webp(frames: Frames, path: Path, _size: tuple[int, int], fps: float) -> None:
-    from PIL import Image
-
-    pictures = (Image.fromarray(frame) for frame in frames)
-    first = next(pictures)
-    first.save(
-        path,
-        save_all=True,
-        append_images=pictures,
-        duration=round(1000 / fps),
-        loop=0,
-        quality=85,
-        method=2,
-    )
+    Closing it (or leaving it by an error) waits for the frame that is being made, no more.
+    """
+    pool = ThreadPoolExecutor(1, thread_name_prefix="sunwidget-film")
+    try:
+        waiting = deque(pool.submit(next, frames, None) for _ in range(_AHEAD))
+        while (frame := waiting.popleft().result()) is not None:
+            waiting.append(pool.submit(next, frames, None))
+            yield frame
+    finally:
+        pool.shutdown(cancel_futures=True)

@@ -273,7 +273,7 @@ def test_demo_writes_what_it_names(tmp_path, monkeypatch, capsys):
     import sunwidget.demo
 
     monkeypatch.setattr(sunwidget.demo, "FILM_SIZE", (96, 64))
-    monkeypatch.setattr("sunwidget.export.sweep.DEFAULT_SECONDS", 0.5)
+    monkeypatch.setattr("sunwidget.export.sun_path.DEFAULT_SECONDS", 0.5)
     assert main(["demo", "-o", str(tmp_path)]) == 0
     said = capsys.readouterr().out
     for name in ("maps", "still.png", "recipe.json", "page.html", "sunset.mp4"):

@@ -9,10 +9,11 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
+from sunwidget import cli_sweep
 from sunwidget.cli import _parser, main
 from sunwidget.cli_place import placed
-from sunwidget.cli_sweep import _day
 from sunwidget.edit import EditError
+from sunwidget.export.sun_path import film_edits
 from sunwidget.heading import heading_by_sun, match
 from sunwidget.photo_place import date_and_hours, from_photo, zone_name
 from sunwidget.place import Place, at_hours, day_table, hours_of_day, solar_day, sun_at
@@ -425,23 +426,11 @@ def test_a_time_on_the_command_line_puts_the_sun_there(pvlib, file, tmp_path):
 
 
 def test_a_film_of_the_day_keeps_the_sun_on_its_path(pvlib, file):
-    options = _parser().parse_args(
-        [
-            "sweep",
-            str(file),
-            "--time",
-            "15:00",
-            "--to-time",
-            "19:00",
-            "--frames",
-            "5",
-            "-o",
-            "x.gif",
-        ]
-    )
+    flags = ["--time", "15:00", "--to-time", "19:00", "--to-exposure", "1"]
+    options = _parser().parse_args(["sweep", str(file), *flags, "-o", "x.gif"])
     scene = sw.analyze(sw.open(file))
-    start = placed(options, scene, sw.Edit())
-    edits = _day(options, scene, start, start.replace(exposure=1.0))
+    path = cli_sweep._path(options, scene, placed(options, scene, sw.Edit()))
+    edits = film_edits(scene, path, frames=5)
     assert [edit.place.time for edit in edits] == [15, 16, 17, 18, 19]
     assert [edit.exposure for edit in edits] == [0, 0.25, 0.5, 0.75, 1]
     for edit in edits:

@@ -21,7 +21,7 @@ def blocks(text, language):
 
 def test_the_cells_run(readme, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("sunwidget.export.sweep.DEFAULT_SECONDS", 0.5)
+    monkeypatch.setattr("sunwidget.export.sun_path.DEFAULT_SECONDS", 0.5)
     small = Image.fromarray(sw.sample("coast").preview(long_edge=192))
     small.save("beach.jpg", quality=95)
     cells = blocks(readme, "python")

@@ -1,0 +1,319 @@
+"""The path of a film: what a person names, and the edit of each frame that it stands for."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sunwidget import presets
+from sunwidget.edit import NUMBERS, PARAMETERS, Edit, EditError
+from sunwidget.export.day import Day
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+
+Step = Edit | Mapping[str, Any] | str | os.PathLike[str]
+SunPath = Day | Sequence[Step] | Sequence[tuple[float, Step]]
+
+DEFAULT_SECONDS = 5
+# An hour at 24 frames a second: more is a slip of the keyboard.
+MOST_FRAMES = 86_400
+
+
+def _bezier(first: tuple[float, float], second: tuple[float, float]) -> Callable[[float], float]:
+    """Return the easing that CSS calls cubic-bezier(x1, y1, x2, y2)."""
+    (x1, y1), (x2, y2) = first, second
+
+    def at(a: float, b: float, s: float) -> float:
+        return 3 * (1 - s) ** 2 * s * a + 3 * (1 - s) * s**2 * b + s**3
+
+    def ease(fraction: float) -> float:
+        low, high = 0.0, 1.0
+        for _ in range(40):  # x grows with s, so halving finds it
+            s = (low + high) / 2
+            low, high = (s, high) if at(x1, x2, s) < fraction else (low, s)
+        return at(y1, y2, (low + high) / 2)
+
+    # Halving comes near the ends; a film's first and last frames are the ends.
+    return lambda fraction: fraction if fraction in (0.0, 1.0) else ease(fraction)
+
+
+EASINGS: dict[str, Callable[[float], float]] = {
+    "linear": lambda fraction: fraction,
+    "ease_in": _bezier((0.42, 0.0), (1.0, 1.0)),
+    "ease_out": _bezier((0.0, 0.0), (0.58, 1.0)),
+    "ease_in_out": _bezier((0.42, 0.0), (0.58, 1.0)),
+    # Through key frames without a stop: see _track.
+    "smooth": lambda fraction: fraction,
+}
+
+
+@dataclass(frozen=True)
+class _Stations:
+    """Edits and the share of the film (0–1, growing) at which each is reached."""
+
+    edits: list[Edit]
+    shares: list[float]
+    seconds: float
+    each: bool = False  # one frame each, nothing between them
+
+
+def film_edits(
+    scene: Scene,
+    path: SunPath,
+    *,
+    fps: float = 24,
+    frames: int | None = None,
+    seconds: float | None = None,
+    easing: str = "linear",
+) -> list[Edit]:
+    """Return the edit of each frame of a film.
+
+    Parameters
+    ----------
+    scene : Scene
+        Whose values stand for what the edits leave automatic.
+    path : sequence or Day
+        As ``sunwidget.sweep`` takes it.
+    fps : float
+        Frames a second, 1–120.
+    frames, seconds : int and float, optional
+        Length of the film, one of the two.
+    easing : str
+        A name in ``EASINGS``.
+
+    Raises
+    ------
+    ValueError
+        For what is no path, length or easing, or edits that no path joins (EditError).
+    """
+    if not (isinstance(fps, (int, float)) and 1 <= fps <= 120):
+        raise ValueError(f"fps = {fps!r:.40} is outside 1 to 120 frames a second.")
+    if easing not in EASINGS:
+        raise ValueError(f"easing must be one of {', '.join(EASINGS)}, not {easing!r:.40}.")
+    if isinstance(path, Day):
+        count = _count(fps, frames, seconds, DEFAULT_SECONDS)
+        ease = EASINGS[easing]
+        return path.edits(scene, [ease(i / (count - 1)) for i in range(count)], between)
+    stations = _stations(scene, path)
+    if stations.each and frames is None and seconds is None:
+        if easing != "linear":
+            raise ValueError(
+                "A row of edits is one frame each. Give frames or seconds for a path through "
+                f"them, which easing={easing!r} can then ease."
+            )
+        return stations.edits
+    count = _count(fps, frames, seconds, stations.seconds)
+    row = [i / (count - 1) for i in range(count)]
+    return _along(stations, row, easing, scene)
+
+
+def between(start: Edit, end: Edit, fraction: float, scene: Scene) -> Edit:
+    """Return the Edit at ``fraction`` (0–1) of the straight way from ``start`` to ``end``.
+
+    An automatic parameter stands for what the analysis found; the azimuth takes the shorter way
+    round. Methods, strokes and hints cannot lie between two values, so both ends must agree on
+    them; the place, which moves nothing, stays the first one's.
+
+    Raises
+    ------
+    EditError
+        When the ends differ in what cannot lie between two values.
+    """
+    return _along(_Stations([start, end], [0.0, 1.0], 1.0), [fraction], "linear", scene)[0]
+
+
+def step(scene: Scene, what: Step, base: Edit | None = None) -> Edit:
+    """Return the Edit that a step of a path names: an Edit, a recipe, its file or a preset.
+
+    A preset starts from ``base``.
+
+    Raises
+    ------
+    EditError
+        For anything else; the message says what is understood.
+    """
+    if isinstance(what, Edit):
+        return what
+    if isinstance(what, Mapping):
+        return Edit.from_dict(dict(what))
+    if isinstance(what, str) and what in presets.NAMES:
+        return presets.edit(what, scene, base)
+    if isinstance(what, (str, os.PathLike)):
+        file = Path(what).expanduser()
+        if file.is_file():
+            return Edit.from_json(file.read_text("utf-8", errors="replace"))
+        if file.suffix.lower() == ".json":
+            raise EditError(f"There is no recipe file {file}.")
+        raise EditError(
+            f"{os.fspath(what)[:80]!r} is neither a recipe file nor a preset "
+            f"({', '.join(presets.NAMES)})."
+        )
+    raise EditError(
+        "A step of a path is an Edit, a recipe, a recipe's file or the name of a preset, "
+        f"not {type(what).__name__}."
+    )
+
+
+def _stations(scene: Scene, path: Any) -> _Stations:
+    if isinstance(path, (str, bytes, Mapping, Edit)) or not hasattr(path, "__iter__"):
+        raise ValueError(
+            "A film's path is two or more edits, presets or recipes, key frames "
+            f"(seconds, edit), or a sunwidget.Day, not one {type(path).__name__}."
+        )
+    steps = list(path)
+    if len(steps) < 2:
+        raise ValueError("A film needs two or more edits, presets, recipes or key frames.")
+    timed = [_is_key_frame(item) for item in steps]
+    if all(timed):
+        times = [float(seconds) for seconds, _ in steps]
+        apart = all(b > a for a, b in itertools.pairwise(times))
+        if not (apart and times[0] >= 0 and math.isfinite(times[-1])):
+            raise ValueError(
+                f"Key frames are in the order of their seconds, from 0 upwards, not {times}."
+            )
+        edits = [step(scene, what) for _, what in steps]
+        if times[0] > 0:  # the film begins at 0 and holds the first one until then
+            times, edits = [0.0, *times], [edits[0], *edits]
+        return _Stations(edits, [t / times[-1] for t in times], times[-1])
+    if any(timed):
+        raise ValueError("Either every step is a key frame (seconds, edit) or none is.")
+    edits = [step(scene, what) for what in steps]
+    shares = [i / (len(edits) - 1) for i in range(len(edits))]
+    # Whoever made a row of Edits may have made each frame; a row of names is never that.
+    each = len(edits) > 2 and all(isinstance(what, Edit) for what in steps)
+    return _Stations(edits, shares, DEFAULT_SECONDS, each)
+
+
+def _is_key_frame(item: Any) -> bool:
+    return (
+        isinstance(item, (tuple, list))
+        and len(item) == 2
+        and isinstance(item[0], (int, float))
+        and not isinstance(item[0], bool)
+    )
+
+
+def _count(fps: float, frames: int | None, seconds: float | None, otherwise: float) -> int:
+    if frames is not None and seconds is not None:
+        raise ValueError("Give the length of a film in frames or in seconds, not in both.")
+    if frames is None:
+        length = otherwise if seconds is None else seconds
+        if not (isinstance(length, (int, float)) and 0 < length < MOST_FRAMES):
+            raise ValueError(f"seconds must be a number above 0, not {seconds!r:.40}.")
+        frames = max(2, round(length * fps))
+    if isinstance(frames, bool) or not isinstance(frames, int) or frames < 2:
+        raise ValueError(f"frames must be a whole number from 2 upwards, not {frames!r:.40}.")
+    if frames > MOST_FRAMES:
+        raise ValueError(f"A film of {frames} frames is not possible; at most {MOST_FRAMES}.")
+    return frames
+
+
+def _along(stations: _Stations, row: list[float], easing: str, scene: Scene) -> list[Edit]:
+    """Return the edits at the shares ``row`` (0–1) of the way through the stations."""
+    edits = _agreeing(stations.edits, "moon" if scene.lit_by_moon else "sun")
+    knots = np.array(stations.shares)
+    shares = np.array([_eased(share, knots, EASINGS[easing]) for share in row])
+    tracks = {
+        p.name: _track(p.name, edits, knots, shares, scene.automatic, smooth=easing == "smooth")
+        for p in NUMBERS
+        if any(getattr(edit, p.name) != getattr(edits[0], p.name) for edit in edits)
+    }
+    limits = {p.name: (p.minimum, p.maximum) for p in NUMBERS}
+    along = []
+    for i, share in enumerate(shares):
+        k = int(np.argmin(np.abs(knots - share)))
+        if abs(knots[k] - share) < 1e-9:  # at a station: exactly its edit
+            along.append(edits[k])
+            continue
+        j = int(np.searchsorted(knots, share)) - 1
+        changes = {}
+        for name, track in tracks.items():
+            a, b = getattr(edits[j], name), getattr(edits[j + 1], name)
+            low, high = limits[name]
+            changes[name] = a if a == b else min(max(float(track[i]), low), high)
+        along.append(edits[j].replace(**changes))
+    return along
+
+
+def _agreeing(edits: list[Edit], light: str) -> list[Edit]:
+    """Return the edits with one place; raise EditError when more than numbers differ."""
+    # "As in the photo" and that very light draw the same picture: presets name it, edits do not.
+    if any(edit.light_source != "automatic" for edit in edits):
+        edits = [
+            edit.replace(light_source=light) if edit.light_source == "automatic" else edit
+            for edit in edits
+        ]
+    first = edits[0]
+    for p in PARAMETERS:
+        if p.kind == "number" or p.name == "place":
+            continue
+        odd = next((e for e in edits if getattr(e, p.name) != getattr(first, p.name)), None)
+        if odd is not None:
+            shown = (
+                f", not {json.dumps(getattr(first, p.name))} and "
+                f"{json.dumps(getattr(odd, p.name))}: nothing lies between them"
+                if p.kind == "choice"
+                else ": nothing lies between two"
+            )
+            raise EditError(f"All edits of a film need the same {p.name}{shown}.")
+    return [edit.replace(place=first.place) for edit in edits]
+
+
+def _eased(share: float, knots: NDArray[np.float64], ease: Callable[[float], float]) -> float:
+    """Ease the way from each station to the next, as CSS does for key frames."""
+    j = min(max(int(np.searchsorted(knots, share, side="right")) - 1, 0), len(knots) - 2)
+    width = knots[j + 1] - knots[j]
+    fraction = min(max((share - knots[j]) / width, 0.0), 1.0)
+    return float(knots[j] + width * ease(fraction))
+
+
+def _track(
+    name: str,
+    edits: list[Edit],
+    knots: NDArray[np.float64],
+    shares: NDArray[np.float64],
+    automatic: Mapping[str, float],
+    *,
+    smooth: bool,
+) -> NDArray[np.float64]:
+    """Return a parameter's values at ``shares``, from station to station or smoothly through.
+
+    Smoothly is by the monotone cubic of Fritsch & Butland 1984 (SciPy's PCHIP): no value goes
+    beyond the two stations that it is between, so that a sun that rises never dips.
+    """
+    values = [
+        automatic[name] if value is None else value
+        for value in (getattr(edit, name) for edit in edits)
+    ]
+    if name == "sun_azimuth":
+        for i in range(1, len(values)):  # unrolled, each the shorter way round from the last
+            values[i] = values[i - 1] + (values[i] - values[i - 1] + 180) % 360 - 180
+    if smooth and len(knots) > 2:
+        from scipy.interpolate import PchipInterpolator
+
+        track = np.asarray(PchipInterpolator(knots, values)(shares), float)
+    else:
+        track = np.interp(shares, knots, values)
+    return (track + 180) % 360 - 180 if name == "sun_azimuth" else track
+
+
+__all__ = [
+    "DEFAULT_SECONDS",
+    "EASINGS",
+    "Day",
+    "Step",
+    "SunPath",
+    "between",
+    "film_edits",
+    "step",
+]
