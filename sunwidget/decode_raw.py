@@ -85,7 +85,7 @@ def develop(data: bytes, name: str) -> tuple[NDArray[np.uint16], Any, bool]:
             f"{name} is a camera raw file that LibRaw {version} cannot read ({reason}). Copy it "
             "again, or convert it to DNG or TIFF."
         ) from error
-    return codes, exif, turned
+    return np.asarray(codes, np.uint16), exif, turned
 
 
 def _exif(data: bytes, raw: Any) -> Any:

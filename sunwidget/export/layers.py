@@ -71,13 +71,13 @@ def layers_of(
         share = _sky_share(matte[rows])[..., None]
         behind, veiled, thick = around.at(rows)
         share_of_cloud = _edited(_own_opacity(opacity[rows], matte[rows]), edit)
-        sky = _levels(share * (clear[rows] / top) + (1 - share) * behind, codes.dtype)
-        seen = share * (codes[rows] / top) + (1 - share) * veiled
+        sky = _levels(share * _shares(clear[rows], top) + (1 - share) * behind, codes.dtype)
+        seen = share * _shares(codes[rows], top) + (1 - share) * veiled
         wanted = share[..., 0] * share_of_cloud + (1 - share[..., 0]) * thick
         made["sky"][rows] = sky
-        made["clouds"][rows] = _over(sky / top, seen, wanted, codes.dtype)
-        below = _composite(sky / top, made["clouds"][rows] / top)
-        made["land"][rows] = _over(below, codes[rows] / top, 1 - matte[rows], codes.dtype)
+        made["clouds"][rows] = _over(_shares(sky, top), seen, wanted, codes.dtype)
+        below = _composite(_shares(sky, top), _shares(made["clouds"][rows], top))
+        made["land"][rows] = _over(below, _shares(codes[rows], top), 1 - matte[rows], codes.dtype)
         made["matte"][rows] = _levels(matte[rows][..., None], codes.dtype)
     return made
 
@@ -158,6 +158,10 @@ def _over(below: Floats, wanted: Floats, opacity: Floats, dtype: Any) -> NDArray
 def _composite(below: Floats, layer: Floats) -> Floats:
     alpha = layer[..., 3:]
     return layer[..., :3] * alpha + below * (1 - alpha)
+
+
+def _shares(levels: NDArray[Any], top: np.float32) -> Floats:
+    return np.asarray(levels, np.float32) / top
 
 
 def _levels(values: Floats, dtype: Any) -> NDArray[Any]:

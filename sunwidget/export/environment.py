@@ -1,0 +1,177 @@
+"""The sky of an edit as an environment map: light for programs that render scenes.
+
+Equirectangular, also called latitude-longitude: the middle column looks where the camera's heading
+points, azimuth grows to the right by 360° over the width; the top row is the zenith, the bottom row
+the nadir. The lower half shows the model's ground, lit by sun and sky. Linear Rec. 709 in
+kcd m⁻²: times 1000 it is luminance.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sunwidget.color import LUMINANCE
+from sunwidget.files import complete_or_absent, target
+from sunwidget.photo import PhotoError
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+    from sunwidget.atmosphere.parameters import Atmosphere
+    from sunwidget.edit import Edit
+
+Floats = NDArray[np.float32]
+
+# Directions asked for at a time: one row of a texture.
+_AT_ONCE = 8192
+# Share of the luminance that each channel keeps where a spectrum leaves Rec. 709, as in the frame.
+_LEAST_CHANNEL = 0.02
+# Samples of the sun's disc along its radius and round it.
+_RINGS, _SPOKES = 48, 96
+# As lib/moonlight.glsl: full moon over sun, and the sky without either, kcd m⁻².
+_MOON_OVER_SUN = np.array([1.1, 1.0, 0.8]) / 402_000
+_NIGHT_SKY = np.array([2.6e-7, 2.5e-7, 2.3e-7])
+
+
+def environment_map(
+    scene: Scene,
+    edit: Edit | None,
+    path: str | os.PathLike[str],
+    *,
+    size: tuple[int, int] = (2048, 1024),
+    sun: bool = True,
+    overwrite: bool = False,
+) -> Path:
+    """Write the clear sky that was fitted to a photo, under an edit's sun, all the way round.
+
+    Parameters
+    ----------
+    scene : Scene
+        What ``analyze`` returned.
+    edit : Edit or None
+        Whose sun and air; None is the photo's own.
+    path : path
+        ``.hdr`` (Radiance) or ``.exr`` (32-bit floats: the sun is beyond half floats; needs the
+        ``exr`` extra).
+    size : (width, height)
+        In pixels, width twice the height.
+    sun : bool
+        Draw the disc. However few pixels it has, they give off the sun's light.
+    overwrite : bool
+        Replace an existing file.
+
+    Returns
+    -------
+    Path
+        Where the map is. The recipe is in it.
+
+    Raises
+    ------
+    FileExistsError
+        When ``path`` exists and ``overwrite`` is false.
+    PhotoError
+        For another ending or shape, or EXR without its extra.
+    RendererError
+        When this machine has no EGL.
+    """
+    from sunwidget import openexr, radiance
+    from sunwidget.edit import Edit
+    from sunwidget.export.metadata import software
+
+    place = target(path, overwrite=overwrite)
+    kind = place.suffix.lower()
+    if kind not in (".hdr", ".exr"):
+        raise PhotoError(f"An environment map ends in .hdr or .exr, not {kind or 'nothing'!r}.")
+    width, height = (int(n) for n in size)
+    if width != 2 * height or not 8 <= width <= 16384:
+        raise PhotoError(
+            f"An environment map is twice as wide as high, 8 to 16384 pixels, not {width}×{height}."
+        )
+    if kind == ".exr":
+        exr = openexr.library()  # what is missing shows before the work
+    edit = Edit() if edit is None else edit
+    light = environment(scene, edit, (width, height), sun=sun)
+    notes = {"recipe": json.dumps(edit.to_dict())}
+    with complete_or_absent(place, overwrite=overwrite) as unfinished:
+        if kind == ".hdr":
+            unfinished.write_bytes(radiance.pack(light, notes, software=software()))
+        else:
+            told = {"envmap": exr.ENVMAP_LATLONG, "whiteLuminance": 1000.0, "software": software()}
+            channels = {name: light[..., i] for i, name in enumerate("RGB")}
+            openexr.write(unfinished, channels, told, notes, bits=32)
+    return place
+
+
+def environment(scene: Scene, edit: Edit, size: tuple[int, int], *, sun: bool = True) -> Floats:
+    """Return the map, (height, width, 3) float32 linear Rec. 709 in kcd m⁻²."""
+    from sunwidget.atmosphere.color import spectral_to_rec709
+    from sunwidget.explorer.draw import radiance_at
+
+    scene = scene.corrected(edit)
+    values = _values(scene, edit)
+    width, height = size
+    azimuth = ((np.arange(width) + 0.5) / width - 0.5) * 360
+    elevation = (0.5 - (np.arange(height) + 0.5) / height) * 180
+    directions = np.stack(np.meshgrid(azimuth, elevation), axis=-1).reshape(-1, 2)
+    starts = range(0, len(directions), _AT_ONCE)
+    parts = [radiance_at(values, directions[start : start + _AT_ONCE]) for start in starts]
+    sky = spectral_to_rec709(np.concatenate(parts)).reshape(height, width, 3)
+    sky = np.maximum(sky, _LEAST_CHANNEL * (sky @ LUMINANCE)[..., None])
+    if sun:
+        sky += _disc(_air(values), values["sun_azimuth"], values["sun_elevation"], size)
+    if _lit_by_moon(scene, edit):
+        sky = sky * _MOON_OVER_SUN + _NIGHT_SKY
+    return np.asarray(sky, np.float32)
+
+
+def _values(scene: Scene, edit: Edit) -> dict[str, Any]:
+    """Return SkyExplorer's parameters that show the edit's sky: the two tables share their rows."""
+    from sunwidget.explorer.table import EXPLORER_PARAMETERS, GRIDS
+    from sunwidget.renderer.values import parameter_values
+
+    values: dict[str, Any] = {row.name: row.default for row in EXPLORER_PARAMETERS}
+    chosen = parameter_values(edit, scene.automatic)
+    values |= {name: chosen[name] for name in values if name in chosen and name != "exposure"}
+    return values | {"grid": GRIDS[-1]}
+
+
+def _air(values: dict[str, Any]) -> Atmosphere:
+    from sunwidget.atmosphere.parameters import RANGES, Atmosphere
+
+    return Atmosphere(**{name: values[name] for name in RANGES})
+
+
+def _lit_by_moon(scene: Scene, edit: Edit) -> bool:
+    return edit.light_source == "moon" or (edit.light_source == "automatic" and scene.lit_by_moon)
+
+
+def _disc(
+    atmosphere: Atmosphere, azimuth: float, elevation: float, size: tuple[int, int]
+) -> NDArray[np.float64]:
+    """Return the sun's disc: the light of equal parts of it, each in the pixel it falls into."""
+    from sunwidget.atmosphere.color import spectral_to_rec709
+    from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
+    from sunwidget.atmosphere.sun import disc_radiance
+
+    width, height = size
+    share = np.sqrt((np.arange(_RINGS) + 0.5) / _RINGS)  # rings of equal area
+    angle = (np.arange(_SPOKES) + 0.5) / _SPOKES * 2 * np.pi
+    distance, around = (a.ravel() for a in np.meshgrid(share * SUN_ANGULAR_RADIUS_DEG, angle))
+    up = elevation + distance * np.sin(around)
+    # Past the zenith a part of the disc stands on the other side.
+    level = np.cos(np.radians(np.clip(up, -89.9, 89.9)))
+    across = azimuth + distance * np.cos(around) / level
+    part = np.pi * np.radians(SUN_ANGULAR_RADIUS_DEG) ** 2 / len(up)  # steradians
+    light = np.maximum(spectral_to_rec709(disc_radiance(atmosphere, up, distance)), 0) * part
+    x = np.floor((across / 360 + 0.5) * width).astype(int) % width
+    y = np.clip(np.floor((0.5 - up / 180) * height).astype(int), 0, height - 1)
+    disc = np.zeros((height, width, 3))
+    np.add.at(disc, (y, x), light)
+    edges = np.sin(np.radians(90 - 180 * np.arange(height + 1) / height))
+    solid = (edges[:-1] - edges[1:]) * 2 * np.pi / width  # steradians of a row's pixels
+    return disc / solid[:, None, None]
