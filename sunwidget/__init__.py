@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from sunwidget.export.batch.run import batch
     from sunwidget.export.contact_sheet import contact_sheet
     from sunwidget.export.day import Day
+    from sunwidget.export.environment import environment_map
     from sunwidget.export.stills import save
     from sunwidget.export.sweep import sweep
     from sunwidget.photo import Photo, PhotoError, PhotoWarning
@@ -68,6 +69,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "analyze": ("sunwidget.analysis.scene", "analyze"),
     "batch": ("sunwidget.export.batch.run", "batch"),
     "contact_sheet": ("sunwidget.export.contact_sheet", "contact_sheet"),
+    "environment_map": ("sunwidget.export.environment", "environment_map"),
     "open": ("sunwidget.photo", "open_photo"),
     "preset": ("sunwidget.presets", "edit"),
     "replace_sky": ("sunwidget.transfer.sky_replacement", "replace_sky"),
@@ -105,6 +107,7 @@ __all__ = [
     "analyze",
     "batch",
     "contact_sheet",
+    "environment_map",
     "open",
     "preset",
     "render",
