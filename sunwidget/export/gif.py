@@ -99,9 +99,8 @@ class _Palette:
         height, width = frame.shape[:2]
         threshold = np.tile(_BAYER, (-(-height // 8), -(-width // 8)))[:height, :width]
         # Pairs are sought for colours of 6 bits; the rounding is dithered as well.
-        cells = (np.minimum(frame.astype(np.uint16) + (threshold // 16)[..., None], 255)) >> 2
-        code = (cells[..., 0] << 12).astype(np.int32)
-        code |= (cells[..., 1].astype(np.int32) << 6) | cells[..., 2]
+        rgb6 = np.minimum(frame.astype(np.int32) + (threshold // 16)[..., None], 255) >> 2
+        code = rgb6[..., 0] << 12 | rgb6[..., 1] << 6 | rgb6[..., 2]
         used = np.flatnonzero(np.bincount(code.ravel(), minlength=1 << 18))
         place = np.zeros(1 << 18, np.int32)
         place[used] = np.arange(len(used))

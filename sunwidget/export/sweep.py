@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections import deque
-from collections.abc import Generator
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.export.ahead import ahead
 from sunwidget.export.film import (
     LOOPS,
     Film,
@@ -34,8 +32,6 @@ if TYPE_CHECKING:
 # size has a hundred megabytes.
 LONGEST_SIDE = {".gif": 720}
 LONGEST_SIDE_ELSE = 1920
-# Frames that are waiting for the encoder, so that it and the renderer work at once.
-_AHEAD = 2
 # Frames kept for the way back; what does not fit is rendered again.
 _KEPT_BYTES = 400e6
 
@@ -137,7 +133,7 @@ def sweep(
     whole = (whole_sequence if one_by_one else complete_or_absent)(place, overwrite=overwrite)
     with (
         whole as unfinished,
-        contextlib.closing(_ahead(_rendered(scene, row, order, size))) as pictures,
+        contextlib.closing(ahead(_rendered(scene, row, order, size))) as pictures,
     ):
         write(_told(pictures, len(order), with_time_left(progress)), unfinished, film)
     return place.parent if one_by_one else place
@@ -180,18 +176,3 @@ def _told(frames: Frames, count: int, progress: Progress) -> Frames:
     for done, frame in enumerate(frames, start=1):
         yield frame
         progress(done / count, f"frame {done} of {count}")
-
-
-def _ahead(frames: Frames) -> Generator[NDArray[np.uint8]]:
-    """Make the next frames on a thread while the present one is being used.
-
-    Closing it (or leaving it by an error) waits for the frame that is being made, no more.
-    """
-    pool = ThreadPoolExecutor(1, thread_name_prefix="sunwidget-film")
-    try:
-        waiting = deque(pool.submit(next, frames, None) for _ in range(_AHEAD))
-        while (frame := waiting.popleft().result()) is not None:
-            waiting.append(pool.submit(next, frames, None))
-            yield frame
-    finally:
-        pool.shutdown(cancel_futures=True)
