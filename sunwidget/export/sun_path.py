@@ -117,6 +117,19 @@ def film_edits(
     return _along(stations, row, easing, scene)
 
 
+def edit_at(scene: Scene, path: SunPath, share: float, easing: str = "linear") -> Edit:
+    """Return the Edit at a share (0–1) of the way along a path.
+
+    For films in which every frame has a scene of its own. The rest as ``film_edits``, but that
+    a row of edits is always a path through them.
+    """
+    if easing not in EASINGS:
+        raise ValueError(f"easing must be one of {', '.join(EASINGS)}, not {easing!r:.40}.")
+    if isinstance(path, Day):
+        return path.edits(scene, [EASINGS[easing](share)], between)[0]
+    return _along(_stations(scene, path), [share], easing, scene)[0]
+
+
 def between(start: Edit, end: Edit, fraction: float, scene: Scene) -> Edit:
     """Return the Edit at ``fraction`` (0–1) of the straight way from ``start`` to ``end``.
 
@@ -220,6 +233,8 @@ def _count(fps: float, frames: int | None, seconds: float | None, otherwise: flo
 
 def _along(stations: _Stations, row: list[float], easing: str, scene: Scene) -> list[Edit]:
     """Return the edits at the shares ``row`` (0–1) of the way through the stations."""
+    # What is automatic follows the strokes and hints, which all stations share.
+    scene = scene.corrected(stations.edits[0])
     edits = _agreeing(stations.edits, "moon" if scene.lit_by_moon else "sun")
     knots = np.array(stations.shares)
     shares = np.array([_eased(share, knots, EASINGS[easing]) for share in row])

@@ -10,6 +10,10 @@ from sunwidget.edit import Edit, EditError, Stroke
 from sunwidget.export.sun_path import EASINGS, between, film_edits
 
 SCENE = SimpleNamespace(automatic={"sun_azimuth": 10.0, "sun_elevation": 20.0}, lit_by_moon=False)
+SCENE.corrected = lambda edit: CORRECTED if edit.sun_hint else SCENE
+CORRECTED = SimpleNamespace(
+    automatic={"sun_azimuth": -5.0, "sun_elevation": 2.0}, lit_by_moon=False
+)
 ENDS = [Edit(sun_elevation=60), Edit(sun_elevation=0)]
 CORNERS = [Edit(sun_elevation=10), Edit(sun_elevation=40), Edit(sun_elevation=0)]
 
@@ -147,3 +151,10 @@ def test_azimuth_takes_the_shorter_way_round_all_along():
 def test_ends_that_nothing_lies_between_are_refused(changes, message):
     with pytest.raises(EditError, match=message):
         between(Edit(), Edit(**changes), 0.5, SCENE)
+
+
+def test_what_is_automatic_follows_the_hints_of_the_edits():
+    hint = Edit(sun_hint=(0.4, 0.5))
+    middle = between(hint, hint.replace(sun_elevation=10), 0.5, SCENE)
+    assert middle.sun_elevation == pytest.approx(6.0)  # from 2, as the hint has it, not from 20
+    assert middle.sun_azimuth is None
