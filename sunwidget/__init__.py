@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from sunwidget.export.environment import environment_map
     from sunwidget.export.stills import save
     from sunwidget.export.sweep import sweep
+    from sunwidget.export.timelapse import timelapse
     from sunwidget.photo import Photo, PhotoError, PhotoWarning
     from sunwidget.photo import open_photo as open  # noqa: A004 - sw.open, as Image.open
     from sunwidget.place import Place
@@ -78,6 +79,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "save": ("sunwidget.export.stills", "save"),
     "transfer_look": ("sunwidget.transfer.look", "transfer_look"),
     "sweep": ("sunwidget.export.sweep", "sweep"),
+    "timelapse": ("sunwidget.export.timelapse", "timelapse"),
     "to_html": ("sunwidget.widgets.unseen", "to_html"),
 }
 
@@ -115,6 +117,7 @@ __all__ = [
     "sample",
     "save",
     "sweep",
+    "timelapse",
     "to_html",
     "transfer_look",
 ]

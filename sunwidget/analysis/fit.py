@@ -156,7 +156,7 @@ def fit_sky(
     clear = usable & (clouds < 0.2)
     chosen = clear if clear.sum() >= 200 else usable
     if chosen.sum() < 60:
-        return _without_sky(light, sky, sun or assumed)
+        return fit_without_sky(light, sky, sun or assumed)
     index = np.flatnonzero(chosen)
     # A regular stride, not a random draw: the same photo always gives the same fit.
     index = index[:: max(1, index.size // _SAMPLES)]
@@ -279,7 +279,7 @@ def _search_sun(
     return best, confidence_of_sun(best, errors)
 
 
-def _without_sky(light: np.ndarray, sky: np.ndarray, sun: tuple[float, float]) -> SkyFit:
+def fit_without_sky(light: np.ndarray, sky: np.ndarray, sun: tuple[float, float]) -> SkyFit:
     """Defaults, exposed so that grey land under this sun has the land's mean light."""
     response = Response()
     atmosphere = Atmosphere()

@@ -161,11 +161,12 @@ class Scene:
 
         1 / (1 + (2 σ)²) with the standard error σ of ln depth.
         """
-        found = resize(self._depth_field.confidence, self.width, self.height)
+        found = resize(self.depth_field.confidence, self.width, self.height)
         return np.where(self.sky > 0.5, np.float32(1), found)
 
     @cached_property
-    def _depth_field(self) -> DepthField:
+    def depth_field(self) -> DepthField:
+        """The depth at any size (analysis/depth_field.py); found when asked for."""
         return self.known_depth or depth_of(self)
 
     def _log_depth(self, width: int, height: int) -> np.ndarray:
@@ -173,7 +174,7 @@ class Scene:
         # Beyond a preview's size depth has nothing finer to show.
         scale = min(1.0, _DEPTH_EDGE / max(width, height))
         size = max(1, round(width * scale)), max(1, round(height * scale))
-        metres = self._depth_field.log_metres(*size, self.working)
+        metres = self.depth_field.log_metres(*size, self.working)
         land = resize(self.sky, *size) <= 0.5
         return resize(depth_level.fill_sky(metres, land), width, height)
 

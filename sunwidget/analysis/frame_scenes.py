@@ -1,0 +1,393 @@
+"""Scenes of the frames of one camera: what is shared, and what each frame adds.
+
+``FrameScenes.of`` looks at a few frames closely and at every frame briefly; iterating then opens
+each frame once more and yields its scene. Only a handful of frames is in memory at any time.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from sunwidget.analysis.backdrop import behind_sun
+from sunwidget.analysis.fit import SkyFit, fit_sky
+from sunwidget.analysis.fixed_camera import FixedCamera, Offset
+from sunwidget.analysis.frame_fits import Film, Meter, Reading, key_of, likeness, steady
+from sunwidget.analysis.frame_sun import (
+    Direction,
+    Sample,
+    SunTrack,
+    middle_direction,
+    observation,
+    seen_sun,
+    track_of,
+)
+from sunwidget.analysis.memory import Memory
+from sunwidget.analysis.scene import Scene
+from sunwidget.analysis.stages import clouds_by_colour, unmix_clouds
+from sunwidget.analysis.unmix import cloud_gain
+from sunwidget.analysis.working import Working, resize, smoothstep
+from sunwidget.edit import Edit
+from sunwidget.frames import Clock, name_of, read_frame
+from sunwidget.layout import PhotoError
+from sunwidget.photo import Photo
+from sunwidget.place import Place
+
+SAMPLES = 9
+_AROUND = 2  # frames before and after over which the old sun's mark is averaged
+
+Progress = Callable[[float, str], Any]
+
+
+class Trouble(NamedTuple):
+    """A frame that cannot be used, and why."""
+
+    number: int
+    name: str
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class FrameScenes:
+    """The scenes of a time-lapse.
+
+    Attributes
+    ----------
+    sources : list
+        What ``sunwidget.open`` takes, a frame each.
+    fixed : FixedCamera
+    track : SunTrack
+    fits : tuple of SkyFit or None
+        Of each frame; None where it cannot be used.
+    offsets : tuple of Offset
+    alike : (n, 17) float64
+        How far the eight frames before and after each belong to the same take.
+    daylight : tuple of float
+        How far the sun, and not lamps or the moon, lights each frame: 0 at night, 1 by day.
+    troubles : tuple of Trouble
+        Frames that cannot be used.
+    size : (width, height)
+        Pixels of every frame's scene.
+    """
+
+    sources: list[Any]
+    fixed: FixedCamera
+    track: SunTrack
+    fits: tuple[SkyFit | None, ...]
+    offsets: tuple[Offset, ...]
+    alike: np.ndarray
+    daylight: tuple[float, ...]
+    troubles: tuple[Trouble, ...]
+    size: tuple[int, int]
+
+    @classmethod
+    def of(
+        cls,
+        sources: Sequence[Any],
+        *,
+        long_edge: int | None,
+        corrections: Edit,
+        place: Place | None,
+        clock: Clock,
+        hints: dict[str, Any],
+        progress: Progress,
+    ) -> FrameScenes:
+        """Look at the frames.
+
+        Parameters
+        ----------
+        sources : sequence
+        long_edge : int or None
+            Frames are shrunk to it.
+        corrections : Edit
+            Its strokes and hints, in fractions of the picture, are every frame's.
+        place : Place or None
+            Where the camera stands; None asks the files.
+        clock : Clock
+        hints : dict
+            What ``analyze`` takes but the sun.
+        progress : callable
+            Called with (fraction, message); what it raises cancels.
+
+        Raises
+        ------
+        PhotoError
+            When fewer than two frames can be used, or the camera moved.
+        """
+        sources = list(sources)
+        samples, photos = _samples(sources, long_edge, clock, progress)
+        size = photos[0].size
+        place = _place_of(photos, place)
+        progress(0.2, "Finding what all frames share")
+        fixed = FixedCamera.of(photos, corrections, hints)
+        del photos
+        progress(0.45, "Following the sun")
+        shared = fixed.scene
+        sky = np.asarray(resize(shared.sky, *_size_of(samples[0].working)), np.float32)
+        samples = [
+            s._replace(seen=seen_sun(s.working, sky, shared.camera, shared.hints)) for s in samples
+        ]
+        told = shared.sun
+        track, film = _track_and_film(
+            samples,
+            fixed,
+            place,
+            None if told is None else (told.azimuth, told.elevation),
+            progress,
+        )
+        return cls._surveyed(sources, fixed, track, film, clock, size, progress)
+
+    @classmethod
+    def _surveyed(
+        cls,
+        sources: list[Any],
+        fixed: FixedCamera,
+        track: SunTrack,
+        film: Film,
+        clock: Clock,
+        size: tuple[int, int],
+        progress: Progress,
+    ) -> FrameScenes:
+        """Look at every frame briefly: its light, its time, and whether it lies where it should."""
+        meter = Meter(fixed.scene, film)
+        readings: list[Reading | None] = []
+        suns: list[Direction | None] = []
+        offsets: list[Offset] = []
+        troubles: list[Trouble] = []
+        for number, source in enumerate(sources):
+            progress(0.6 + 0.4 * number / len(sources), f"looking at frame {number + 1}")
+            try:
+                photo = read_frame(source, None, like=_within(size, 1024))
+            except PhotoError as error:
+                troubles.append(Trouble(number, name_of(source, number), str(error)))
+                offsets.append(Offset(0.0, 0.0, sure=False))
+                readings.append(None)
+                suns.append(None)
+                continue
+            moment = clock(number, source, photo)
+            suns.append(track.at(number, moment))
+            offsets.append(fixed.offset(photo))
+            if offsets[-1].far:
+                raise PhotoError(_moved_message(name_of(source, number), offsets[-1]))
+            readings.append(meter.read(Working.of(photo, 256), track.at(number, moment)))
+        _refuse_too_few(readings, troubles)
+        log_gain, exposure = steady(readings, suns)
+        fits = tuple(
+            None if sun is None or reading is None else film.fit(i, sun, log_gain[i])
+            for i, (sun, reading) in enumerate(zip(suns, readings, strict=True))
+        )
+        return cls(
+            sources,
+            fixed,
+            track,
+            fits,
+            tuple(offsets),
+            likeness(exposure, suns),
+            tuple(_daylight(track, *both) for both in zip(readings, suns, strict=True)),
+            tuple(troubles),
+            size,
+        )
+
+    def __len__(self) -> int:
+        return len(self.sources)
+
+    def __iter__(self) -> Iterator[Scene | Trouble]:
+        """Yield the scene of every frame in turn, or why it cannot be used."""
+        ahead: deque[tuple[int, Scene | Trouble]] = deque()
+        marks: dict[int, np.ndarray] = {}
+        following = iter(range(len(self.sources)))
+        for number in range(len(self.sources)):
+            while not ahead or ahead[-1][0] < min(number + _AROUND, len(self.sources) - 1):
+                i = next(following)
+                scene = self._scene(i)
+                ahead.append((i, scene))
+                if isinstance(scene, Scene):
+                    marks[i] = scene.glare
+            _, scene = ahead.popleft()
+            if isinstance(scene, Scene):
+                scene = dataclasses.replace(
+                    scene, glare=self._steady_mark(number, marks), memory=Memory()
+                )
+            marks.pop(number - _AROUND, None)
+            yield scene
+
+    def _steady_mark(self, number: int, marks: dict[int, np.ndarray]) -> np.ndarray:
+        """Average where the old sun hides the sky over frames of the same take."""
+        reach = self.alike.shape[1] // 2
+        total, mean = 0.0, np.zeros_like(marks[number])
+        for i, mark in marks.items():
+            step = i - number
+            if abs(step) > _AROUND:
+                continue
+            weight = float(self.alike[number, reach + step]) * np.exp(-0.5 * (step / 1.2) ** 2)
+            total += weight
+            mean += weight * mark
+        return np.asarray(mean / total, np.float32)
+
+    def _scene(self, number: int) -> Scene | Trouble:
+        fit = self.fits[number]
+        if fit is None:
+            return next(trouble for trouble in self.troubles if trouble.number == number)
+        photo = read_frame(self.sources[number], max(self.size), like=self.size)
+        return scene_of_frame(
+            photo, self.fixed.shifted(self.offsets[number]), fit, self.track.source
+        )
+
+
+def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Scene:
+    """Return the scene of a frame: the shared maps with its own clouds, sun and light.
+
+    Parameters
+    ----------
+    photo : Photo
+        Of the size of ``shared``.
+    shared : Scene
+        What the frames have in common.
+    fit : SkyFit
+        The frame's air, gain and sun.
+    source : str
+        How that sun is known (``SunTrack.source``).
+    """
+    working = Working.of(photo)
+    size = _size_of(working)
+    sky = np.asarray(resize(shared.sky, *size), np.float32)
+    seen = observation(fit.sun, working, sky, shared.camera, shared.hints, source)
+    covers = clouds_by_colour(working, sky, shared.hints, seen.mask if seen.visible else None)
+    fit, behind = behind_sun(working, sky, shared.camera, fit, visible=seen.visible, measure=False)
+    if shared.hints.method("clouds") == "unmix":
+        covers = unmix_clouds(
+            working, sky, shared.camera, fit, behind.glare, covers, sun_seen=seen.visible
+        )
+    cover, everywhere = covers
+    return dataclasses.replace(
+        shared,
+        photo=photo,
+        working=working,
+        # At the working size, since several scenes are in memory at once; whoever draws resizes.
+        clouds=cover.opacity,
+        cloud_softness=cover.softness,
+        shade=cover.shade,
+        everywhere=everywhere,
+        # A sun that nobody knows is no observation.
+        sun=None if source == "assumed" else seen,
+        moon=None,
+        assumed_sun=fit.sun,
+        atmosphere=fit.atmosphere,
+        fitted=fit,
+        response=shared.response
+        | {
+            "response_shoulder": fit.response.shoulder,
+            "response_contrast": fit.response.contrast,
+            "sky_gain": fit.gain,
+            "cloud_gain": cloud_gain(fit),
+            "glare_profile": fit.glare,
+            "sun_mask_share": min(1.0, float(seen.mask.sum()) / max(float(sky.sum()), 1.0)),
+        },
+        backdrop=behind.field,
+        glare=behind.glare,
+        memory=Memory(),
+    )
+
+
+def _samples(
+    sources: list[Any], long_edge: int | None, clock: Clock, progress: Progress
+) -> tuple[list[Sample], list[Photo]]:
+    """Open frames spread over the film; one that is broken gives its place to the next."""
+    wanted = np.unique(np.linspace(0, len(sources) - 1, min(SAMPLES, len(sources))).astype(int))
+    samples: list[Sample] = []
+    photos: list[Photo] = []
+    reason = ""
+    ends = [*wanted[1:], len(sources)]
+    for done, (first, end) in enumerate(zip(wanted, ends, strict=True)):
+        progress(0.2 * done / len(wanted), "opening frames")
+        for number in range(int(first), min(int(end), int(first) + 4)):
+            try:
+                like = photos[0].size if photos else None
+                photo = read_frame(sources[number], long_edge, like)
+            except PhotoError as error:
+                reason = f"{name_of(sources[number], number)}: {error}"
+                continue
+            moment = clock(number, sources[number], photo)
+            samples.append(Sample(number, Working.of(photo, 640), moment, None))
+            photos.append(photo)
+            break
+    if not photos:
+        raise PhotoError(f"No frame could be used. {reason}")
+    return samples, photos
+
+
+def _track_and_film(
+    samples: list[Sample],
+    fixed: FixedCamera,
+    place: Place | None,
+    told: Direction | None,
+    progress: Progress,
+) -> tuple[SunTrack, Film]:
+    shared = fixed.scene
+    lit = [s for s, ok in zip(samples, fixed.lit, strict=True) if ok] or samples
+    guess = shared.assumed_sun
+    track = track_of(samples, place, told, guess)
+    if track.source == "assumed":
+        searched = []
+        for s in lit[:: max(1, len(lit) // 4)]:
+            sky = np.asarray(resize(shared.sky, *_size_of(s.working)), np.float32)
+            small = s.working.shrunk(384)
+            size = _size_of(small)
+            cover = resize(clouds_by_colour(s.working, sky, shared.hints, None)[0].opacity, *size)
+            searched.append(fit_sky(small, resize(sky, *size), cover, shared.camera, None, guess))
+        suns = [fit.sun for fit in searched]
+        guess = middle_direction(suns, [0.1 + fit.sun_confidence for fit in searched])
+        track = track_of(samples, place, told, guess)
+    keys = []
+    for done, s in enumerate(lit):
+        progress(0.45 + 0.15 * done / len(lit), "fitting the air")
+        keys.append(key_of(s, shared, track.at(s.number, s.moment), track.source))
+    return track, Film.of(keys)
+
+
+def _daylight(track: SunTrack, reading: Reading | None, sun: Direction | None) -> float:
+    """Return how far the sun lights a frame: by the clock, or by how bright its sky is."""
+    if reading is None or sun is None:
+        return 0.0
+    if track.source == "clock":
+        return float(smoothstep(-11.0, -5.0, sun[1]))
+    return float(smoothstep(0.22, 0.38, reading.sky_light))
+
+
+def _place_of(photos: list[Photo], place: Place | None) -> Place | None:
+    from sunwidget.photo_place import from_photo
+
+    if place is not None:
+        return place
+    told = (from_photo(photo).place for photo in photos)
+    return next((found for found in told if found is not None), None)
+
+
+def _refuse_too_few(readings: list[Reading | None], troubles: list[Trouble]) -> None:
+    if sum(reading is not None for reading in readings) < 2:
+        worst = troubles[0]
+        raise PhotoError(
+            f"Fewer than two of {len(readings)} frames can be used; {worst.name}: {worst.reason}"
+        )
+
+
+def _moved_message(name: str, offset: Offset) -> str:
+    share = max(abs(offset.x), abs(offset.y))
+    return (
+        f"The camera has moved by {share:.0%} of the picture at {name}. A time-lapse needs one "
+        "view: make a film of the frames before it and another of those from it on."
+    )
+
+
+def _size_of(working: Working) -> tuple[int, int]:
+    return working.width, working.height
+
+
+def _within(size: tuple[int, int], long_edge: int) -> tuple[int, int]:
+    scale = min(1.0, long_edge / max(size))
+    return max(1, round(size[0] * scale)), max(1, round(size[1] * scale))

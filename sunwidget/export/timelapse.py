@@ -1,0 +1,290 @@
+"""Time-lapses: many frames of one camera, one edit or a path of edits, a film or many stills."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sunwidget.analysis.frame_scenes import FrameScenes, Trouble
+from sunwidget.analysis.scene import Scene
+from sunwidget.edit import CORRECTIONS, NUMBERS, Edit
+from sunwidget.export.ahead import ahead
+from sunwidget.export.film import Film, is_sequence, sequence_target, whole_sequence, writer
+from sunwidget.export.stills import save
+from sunwidget.export.sun_path import Step, SunPath, edit_at, step
+from sunwidget.export.sweep import LONGEST_SIDE, LONGEST_SIDE_ELSE, film_size
+from sunwidget.files import complete_or_absent, target
+from sunwidget.frames import Clock, Times, frame_sources, name_of
+from sunwidget.layout import PhotoError, PhotoWarning
+from sunwidget.place import Place
+from sunwidget.time_left import Progress, with_time_left
+
+BROKEN = ("hold", "skip", "stop")
+_LOOPS = ("forever", "once")
+_LOOKING = 0.3  # of the work: what is done before the first frame is drawn
+_NOT_CORRECTED = {name: getattr(Edit(), name) for name in CORRECTIONS}
+_UNMOVED = {p.name: p.default for p in NUMBERS}
+
+
+def timelapse(
+    frames: Any,
+    edit: Step | SunPath,
+    out: str | os.PathLike[str],
+    *,
+    fps: float = 24,
+    size: tuple[int, int] | None = None,
+    easing: str = "linear",
+    loop: str = "forever",
+    quality: int = 85,
+    format: str | None = None,  # noqa: A002 - the field's word, as everywhere else
+    place: Place | None = None,
+    times: Times = None,
+    broken: str = "hold",
+    overwrite: bool = False,
+    progress: Progress | None = None,
+    **hints: Any,
+) -> Path:
+    """Move the sun in every frame of a time-lapse of one fixed camera.
+
+    Skyline, horizon, camera, water and depth are found once, on several frames together; clouds,
+    exposure and the sun's own place are each frame's, steady in time, so that nothing flickers
+    that does not in the frames themselves. A camera that shakes by less than 4 % of the picture
+    is followed.
+
+    Parameters
+    ----------
+    frames : path or sequence
+        A folder, a glob such as ``"frames/*.jpg"`` (both in natural order), or a sequence of
+        what ``sunwidget.open`` takes. They are opened twice and never held all at once.
+    edit : Edit, recipe (dict), recipe file, preset name, or a path of them
+        One edit for every frame, or, as for ``sunwidget.sweep``, a path of edits from the first
+        frame to the last. Automatic values are each frame's own. Strokes and hints, in fractions
+        of the picture, hold for all frames.
+    out : path
+        ``.mp4``, ``.gif`` or ``.webp``; a pattern as ``"frames/%04d.png"``; or a folder, made
+        when it is not there, for stills with the frames' own names and metadata.
+    fps : float
+        Frames a second, 1–120.
+    size : (width, height), optional
+        Pixels. Default: the frames' own size; in a film at most 1920 on the longer side, 720 in
+        a GIF. MP4 rounds both down to even numbers. Stills keep their proportions within it.
+    easing : str
+        Along a path, as in ``sunwidget.sweep``.
+    loop : {"forever", "once"}
+        Whether a GIF or WebP repeats.
+    quality : int
+        1–100, of MP4, WebP and JPEG.
+    format : str, optional
+        Ending of stills, such as "png"; default each frame's own.
+    place : Place, optional
+        Where the camera stands; only latitude, longitude and heading are looked at. With times
+        the frames' own sun is where the clock says. Default: the files' GPS. Without a heading
+        that is found by the suns that frames show.
+    times : optional
+        When the frames were taken: a pattern of their names as for ``strptime``
+        ("%Y%m%d_%H%M%S"), ``(first, seconds between frames)``, or a datetime for each; UTC
+        unless they name a zone. Default: the files' EXIF. Without place or times the frames'
+        own sun is where frames show it, or one direction for all is fitted.
+    broken : {"hold", "skip", "stop"}
+        A frame that cannot be read: the one before it is shown again (stills: it is left out),
+        it is left out, or it is an error. What was held or left out is told by a PhotoWarning.
+    overwrite : bool
+        Replace existing files.
+    progress : callable, optional
+        Called as ``progress(fraction, message)``. What it raises cancels: of a film nothing is
+        left, of stills those that are whole.
+    **hints
+        ``sky``, ``horizon``, ``fov``, ``water``, ``depth`` and methods as for
+        ``sunwidget.analyze``, for all frames.
+
+    Returns
+    -------
+    Path
+        The film, or the folder of the stills.
+
+    Raises
+    ------
+    FileNotFoundError
+        When there are no frames.
+    FileExistsError
+        When what is to be written exists and ``overwrite`` is false.
+    PhotoError
+        When the camera moves, fewer than two frames can be used, or one cannot and ``broken``
+        is "stop".
+    ValueError
+        For options that are none.
+
+    Examples
+    --------
+    >>> sw.timelapse("frames/*.jpg", "sunset.json", "out.mp4")
+    >>> sw.timelapse("frames", [sw.Edit(sun_elevation=20), sw.Edit(sun_elevation=-4)], "stills")
+    """
+    _check(fps=fps, loop=loop, quality=quality, broken=broken)
+    sources = frame_sources(frames)
+    place_out = Path(out).expanduser()
+    film = is_sequence(place_out) or bool(place_out.suffix)
+    long_edge = None if size is None else max(film_size((2, 2), size))
+    if film:
+        write = writer(place_out)
+        suffix = place_out.suffix.lower()
+        check = sequence_target if is_sequence(place_out) else target
+        place_out = check(place_out, overwrite=overwrite)
+        long_edge = long_edge or LONGEST_SIDE.get(suffix, LONGEST_SIDE_ELSE)
+    else:
+        names = _still_names(sources, place_out, format, overwrite=overwrite)
+    steps = _Steps(edit, len(sources), easing)
+    told = with_time_left(progress)
+    scenes = FrameScenes.of(
+        sources,
+        long_edge=long_edge,
+        corrections=steps.corrections,
+        place=place,
+        clock=Clock(times, len(sources), None if place is None else place.longitude),
+        hints=hints,
+        progress=lambda fraction, message: told(_LOOKING * fraction, message),
+    )
+    _report(scenes.troubles, len(sources), broken, film=film)
+    if not film:
+        place_out.mkdir(exist_ok=True)
+        for number, scene in enumerate(scenes):
+            told(_LOOKING + (1 - _LOOKING) * number / len(sources), _frame_of(number, sources))
+            if isinstance(scene, Scene):
+                moved = steps.of(scene, number, scenes.daylight[number])
+                save((scene, moved), names[number], overwrite=overwrite, quality=quality)
+        told(1.0, f"{len(sources)} frames")
+        return place_out
+    count = len(sources) - (len(scenes.troubles) if broken == "skip" else 0)
+    size = scenes.size if size is None else film_size(scenes.size, size)
+    if suffix == ".mp4":
+        size = (size[0] - size[0] % 2, size[1] - size[1] % 2)
+    whole = whole_sequence if is_sequence(place_out) else complete_or_absent
+    with (
+        whole(place_out, overwrite=overwrite) as unfinished,
+        contextlib.closing(ahead(iter(scenes))) as prepared,
+        contextlib.closing(
+            ahead(_drawn(prepared, steps, scenes.daylight, size, broken))
+        ) as pictures,
+    ):
+        row = _told(pictures, count, told)
+        write(row, unfinished, Film(size, fps, count, loop, quality))
+    return place_out.parent if is_sequence(place_out) else place_out
+
+
+class _Steps:
+    """The edit of each frame."""
+
+    def __init__(self, edit: Any, count: int, easing: str) -> None:
+        self.one = isinstance(edit, (Edit, Mapping, str, os.PathLike))
+        self.edit, self.count, self.easing = edit, count, easing
+        first = edit if self.one else next(iter(edit), None) if isinstance(edit, Sequence) else None
+        if isinstance(first, (tuple, list)) and len(first) == 2:
+            first = first[1]
+        # Presets are times of day; they correct nothing.
+        known = isinstance(first, (Edit, Mapping)) or Path(str(first)).is_file()
+        self.corrections = step(None, first) if known else Edit()  # type: ignore[arg-type]
+
+    def of(self, scene: Scene, number: int, daylight: float) -> Edit:
+        """Return the edit of a frame; what corrects the maps is in the scene already.
+
+        As night falls the sun moves back to where it is: what lamps light no sun can relight.
+        """
+        if self.one:
+            edit = step(scene, self.edit)
+        else:
+            edit = edit_at(scene, self.edit, number / (self.count - 1), self.easing)
+        edit = edit.replace(**_NOT_CORRECTED)
+        if daylight == 1:
+            return edit
+        return edit_at(scene, [edit.replace(**_UNMOVED), edit], daylight)
+
+
+def _drawn(
+    scenes: Iterator[Scene | Trouble],
+    steps: _Steps,
+    daylight: Sequence[float],
+    size: tuple[int, int],
+    broken: str,
+) -> Iterator[np.ndarray]:
+    """Draw the frames; one that cannot be used shows the one before it, or the first that can."""
+    from sunwidget.renderer.render import render
+
+    last: np.ndarray | None = None
+    waiting = 0
+    for number, scene in enumerate(scenes):
+        if isinstance(scene, Scene):
+            last = render(scene, steps.of(scene, number, daylight[number]), size=size)
+            yield from [last] * (waiting + 1)
+            waiting = 0
+        elif broken == "hold" and last is None:
+            waiting += 1
+        elif broken == "hold" and last is not None:
+            yield last
+
+
+def _told(frames: Iterator[np.ndarray], count: int, progress: Progress) -> Iterator[np.ndarray]:
+    for done, frame in enumerate(frames, start=1):
+        yield frame
+        share = _LOOKING + (1 - _LOOKING) * done / count
+        progress(share, f"frame {done} of {count}")
+
+
+def _frame_of(number: int, sources: Sequence[Any]) -> str:
+    return f"frame {number + 1} of {len(sources)}"
+
+
+def _still_names(
+    sources: Sequence[Any], folder: Path, ending: str | None, *, overwrite: bool
+) -> list[Path]:
+    """Return where each still goes; raise before any work is spent when one cannot go there."""
+    if folder.exists() and not folder.is_dir():
+        raise NotADirectoryError(f"{folder} is a file. Name a folder, or a film ending in .mp4.")
+    if not folder.exists() and not folder.parent.is_dir():
+        raise FileNotFoundError(f"There is no folder {folder.parent} to make {folder.name} in.")
+    from sunwidget.export.formats import FORMATS
+
+    names = []
+    for number, source in enumerate(sources):
+        name = Path(name_of(source, number))
+        suffix = "." + ending.lstrip(".") if ending else name.suffix.lower()
+        # What cannot be written as it came, such as camera raw, keeps its depth in a TIFF.
+        names.append(folder / f"{name.stem}{suffix if suffix in FORMATS else '.tif'}")
+    if ending and "." + ending.lstrip(".") not in FORMATS:
+        raise ValueError(f"format= takes one of {', '.join(FORMATS)}, not {ending!r:.40}.")
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise ValueError(f"Two frames would be written as {twice.name}. Give them other names.")
+    taken = [name for name in names if name.exists()]
+    if taken and not overwrite:
+        raise FileExistsError(
+            f"{taken[0]} exists already. Pass overwrite=True to replace it, or another folder."
+        )
+    return names
+
+
+def _report(troubles: Sequence[Trouble], count: int, broken: str, *, film: bool) -> None:
+    if not troubles:
+        return
+    shown = "; ".join(f"{t.name}: {t.reason.rstrip('.')}" for t in troubles[:3])
+    more = f"; and {len(troubles) - 3} more" if len(troubles) > 3 else ""
+    told = f"{len(troubles)} of {count} frames cannot be used ({shown}{more})"
+    if broken == "stop":
+        raise PhotoError(f"{told}. Leave them out, or pass broken='hold' or broken='skip'.")
+    done = "the frame before each is shown again" if film and broken == "hold" else "left out"
+    warnings.warn(f"{told}; {done}.", PhotoWarning, stacklevel=3)
+
+
+def _check(*, fps: float, loop: str, quality: int, broken: str) -> None:
+    if not (isinstance(fps, (int, float)) and 1 <= fps <= 120):
+        raise ValueError(f"fps = {fps!r:.40} is outside 1 to 120 frames a second.")
+    if loop not in _LOOPS:
+        raise ValueError(f"loop must be one of {', '.join(_LOOPS)}, not {loop!r:.40}.")
+    if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
+        raise ValueError(f"quality must be a whole number from 1 to 100, not {quality!r:.40}.")
+    if broken not in BROKEN:
+        raise ValueError(f"broken must be one of {', '.join(BROKEN)}, not {broken!r:.40}.")
