@@ -57,11 +57,6 @@ def jupyterlab(folder, root, *, app="lab", theme="JupyterLab Light"):
         yield lambda path: f"{address}/{tree}/{path}?token={token}"
 
 
-def notebook(folder, root):
-    """Start Notebook 7 likewise."""
-    return jupyterlab(folder, root, app="notebook")
-
-
 def lab_page(context):
     """A page for JupyterLab that answers the questions Lab asks on a slow machine.
 
@@ -90,6 +85,47 @@ def write_notebook(path, cells):
         },
     )
     nbformat.write(written, path)
+
+
+@contextmanager
+def notebook_page(browser, folder, root, cells, *, failed, app="lab", script="", **context):
+    """Open a notebook of ``cells`` in a real JupyterLab, or Notebook 7, and run its first.
+
+    Parameters
+    ----------
+    browser : Browser
+        Playwright's.
+    folder, root : Path
+        Where the notebook is written, and the project.
+    cells : list of str
+        Their code.
+    failed : Path
+        Picture of the page to write when the test fails in it.
+    app : {"lab", "notebook"}
+    script : str
+        JavaScript to run before the page's own.
+    **context
+        Options of the browser's context: viewport, permissions.
+
+    Yields
+    ------
+    Page
+    """
+    write_notebook(folder / "cells.ipynb", cells)
+    with jupyterlab(folder, root, app=app) as url:
+        tab = browser.new_context(**context)
+        tab.add_init_script(script)
+        page = lab_page(tab)
+        try:
+            page.goto(url("cells.ipynb"))
+            page.locator(".jp-Notebook .jp-CodeCell").first.wait_for()
+            run_cell(page, 0)
+            yield page
+        except BaseException:
+            page.screenshot(path=failed)
+            raise
+        finally:
+            tab.close()
 
 
 def run_cell(page, number):
