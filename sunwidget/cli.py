@@ -9,15 +9,15 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-import time
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene, size
+from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene
 from sunwidget.cli_photo import Progress, add_methods, add_photo, refuse_existing, scene_of
 from sunwidget.cli_place import add_place
+from sunwidget.cli_render import add_render
 from sunwidget.cli_sweep import add_sweep
 from sunwidget.cli_transfer import add_transfer
 
@@ -64,14 +64,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=sunwidget.__version__)
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
 
-    render = commands.add_parser("render", help="write the photo with its sun moved")
-    add_photo(render)
-    render.add_argument("-o", "--output", type=Path, required=True, help=".png, .jpg, .tif …")
-    render.add_argument("--size", type=size, metavar="WxH", help="pixels (default: the photo's)")
-    add_place(render)
-    add_edit(render)
-    render.set_defaults(run=_render)
-
+    add_render(commands)
     add_sweep(commands)
 
     page = commands.add_parser(
@@ -99,23 +92,6 @@ def _parser() -> argparse.ArgumentParser:
     demo.add_argument("-o", "--output", type=Path, default=Path("sunwidget-demo"), help="folder")
     demo.set_defaults(run=_demo)
     return parser
-
-
-def _render(options: argparse.Namespace) -> int:
-    import sunwidget as sw
-
-    edit = edit_of_flags(options)  # what is wrong with it shows before the work
-    refuse_existing(options.output, options.overwrite)
-    scene = scene_of(options)
-    edit = edit_of_scene(options, scene, edit)
-    begin = time.perf_counter()
-    if options.size is None:
-        sw.save((scene, edit), options.output, overwrite=options.overwrite)
-    else:
-        picture = sw.render(scene, edit, size=options.size)
-        sw.save(picture, options.output, like=scene, overwrite=options.overwrite)
-    print(f"{options.output}  ({time.perf_counter() - begin:.1f} s)")
-    return 0
 
 
 def _html(options: argparse.Namespace) -> int:

@@ -84,27 +84,41 @@ def environment_map(
     from sunwidget.export.metadata import software
 
     place = target(path, overwrite=overwrite)
-    kind = place.suffix.lower()
-    if kind not in (".hdr", ".exr"):
-        raise PhotoError(f"An environment map ends in .hdr or .exr, not {kind or 'nothing'!r}.")
+    check_map(place)
     width, height = (int(n) for n in size)
     if width != 2 * height or not 8 <= width <= 16384:
         raise PhotoError(
             f"An environment map is twice as wide as high, 8 to 16384 pixels, not {width}×{height}."
         )
-    if kind == ".exr":
-        exr = openexr.library()  # what is missing shows before the work
     edit = Edit() if edit is None else edit
     light = environment(scene, edit, (width, height), sun=sun)
     notes = {"recipe": json.dumps(edit.to_dict())}
     with complete_or_absent(place, overwrite=overwrite) as unfinished:
-        if kind == ".hdr":
+        if place.suffix.lower() == ".hdr":
             unfinished.write_bytes(radiance.pack(light, notes, software=software()))
         else:
-            told = {"envmap": exr.ENVMAP_LATLONG, "whiteLuminance": 1000.0, "software": software()}
+            latitude_longitude = openexr.library().ENVMAP_LATLONG
+            told = {"envmap": latitude_longitude, "whiteLuminance": 1000.0, "software": software()}
             channels = {name: light[..., i] for i, name in enumerate("RGB")}
             openexr.write(unfinished, channels, told, notes, bits=32)
     return place
+
+
+def check_map(path: Path) -> None:
+    """Refuse a file that can hold no environment map, before any work is spent on it.
+
+    Raises
+    ------
+    PhotoError
+        For an ending other than .hdr and .exr, and for EXR without its extra.
+    """
+    from sunwidget import openexr
+
+    kind = path.suffix.lower()
+    if kind not in (".hdr", ".exr"):
+        raise PhotoError(f"An environment map ends in .hdr or .exr, not {kind or 'nothing'!r}.")
+    if kind == ".exr":
+        openexr.library()
 
 
 def environment(scene: Scene, edit: Edit, size: tuple[int, int], *, sun: bool = True) -> Floats:

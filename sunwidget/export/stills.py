@@ -97,7 +97,7 @@ def save(
         When the format cannot keep something, such as transparency in a JPEG.
     """
     place = target(path, overwrite=overwrite)
-    form = _format(place, bit_depth, layers=layers)
+    form = check_format(place, bit_depth, layers=layers)
     if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
         raise PhotoError(f"quality must be a whole number from 1 to 100, not {quality!r:.40}.")
     names = LAYERS if layers and form.layers == "beside" else ()
@@ -178,13 +178,20 @@ class _Wanted(NamedTuple):
         return self.form.linear or bits == 32
 
 
-def _format(place: Path, bit_depth: int | None, *, layers: bool) -> Format:
-    suffix = place.suffix.lower()
+def check_format(path: Path, bit_depth: int | None = None, *, layers: bool = False) -> Format:
+    """Return the format that a file's ending chooses, before any work is spent on it.
+
+    Raises
+    ------
+    PhotoError
+        For an unknown ending, a depth or layers that it cannot hold, and EXR without its extra.
+    """
+    suffix = path.suffix.lower()
     if suffix not in FORMATS:
         near = difflib.get_close_matches(suffix, FORMATS, n=1)
         hint = f" Did you mean {near[0]!r}?" if near else ""
         raise PhotoError(
-            f"{place.name} ends in {suffix or 'nothing'!r}; expected one of "
+            f"{path.name} ends in {suffix or 'nothing'!r}; expected one of "
             f"{', '.join(FORMATS)}.{hint}"
         )
     form = FORMATS[suffix]

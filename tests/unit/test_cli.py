@@ -161,6 +161,30 @@ def test_render_scales_to_the_asked_size(photo, tmp_path):
     assert Image.open(output).size == (90, 60)
 
 
+def test_render_writes_layers_and_the_sky_around(photo, tmp_path, capsys):
+    output, sky = tmp_path / "out.png", tmp_path / "sky.hdr"
+    flags = ["--layers", "--bit-depth", "16", "--environment", str(sky)]
+    assert main(["render", photo, "--sun-elevation", "3", *flags, "-o", str(output)]) == 0
+    said = capsys.readouterr().out
+    assert "out.png" in said
+    assert "sky.hdr" in said
+    assert {path.name for path in tmp_path.glob("out.*.png")} == {
+        f"out.{name}.png" for name in ("sky", "clouds", "land", "matte")
+    }
+    assert sw.open(output).bit_depth == 16
+    assert sw.open(sky).size == (2048, 1024)
+
+
+def test_render_says_what_a_format_cannot_hold_before_the_photo_is_read(tmp_path, capsys):
+    for flags, message in (
+        (["-o", str(tmp_path / "x.jpg"), "--layers"], "no transparency"),
+        (["-o", str(tmp_path / "x.webp"), "--bit-depth", "16"], "holds 8 bits"),
+        (["-o", str(tmp_path / "x.png"), "--environment", str(tmp_path / "x.jpg")], ".hdr or .exr"),
+        (["-o", str(tmp_path / "x.png"), "--quality", "101"], "invalid choice"),
+    ):
+        assert message in fails(capsys, "render", "no-such-photo.jpg", *flags)
+
+
 def test_analyze_writes_maps_and_facts_and_obeys_hints(photo, tmp_path, capsys):
     folder = tmp_path / "maps"
     hints = ["--horizon", "100", "--fov", "40", "--sun", "120,30"]
