@@ -19,6 +19,7 @@ from sunwidget.edit import CORRECTIONS, Edit
 from sunwidget.photo import Photo
 from sunwidget.widgets.analysed import OPENING
 from sunwidget.widgets.analyst import Analyst
+from sunwidget.widgets.exports import Exports
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.history import edit_of
 from sunwidget.widgets.payload import (
@@ -30,14 +31,13 @@ from sunwidget.widgets.payload import (
     parameter_json,
     scene_json,
 )
-from sunwidget.widgets.pictures import Pictures
 from sunwidget.widgets.place_clock import PlaceClock
 from sunwidget.widgets.requests import Action, Answer, Progress, Requests
 from sunwidget.widgets.sources import opened
 from sunwidget.widgets.uploads import Uploads, fingerprint
 
 
-class SunEditor(PlaceClock, Pictures):
+class SunEditor(PlaceClock, Exports):
     """Drag the sun in a photo.
 
     Every parameter of ``Edit`` is a trait of the same name, both ways: setting one moves the
@@ -222,6 +222,9 @@ class SunEditor(PlaceClock, Pictures):
         """Return what the browser can ask for, by name."""
         return {
             "save": self._save_for_browser,
+            "exports": self._describe_exports,
+            "still": self._export_still,
+            "film": self._export_film,
             "page": self._page_for_browser,
             "cancel": _silently(self._cancel_analysis),
             "retry": _silently(self.retry),

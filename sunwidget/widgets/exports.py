@@ -1,0 +1,171 @@
+"""What an editor exports: stills and films, from Python and from the panel in the browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from sunwidget import presets
+from sunwidget.edit import Edit, EditError
+from sunwidget.export.day import Day
+from sunwidget.export.formats import FORMATS
+from sunwidget.place import at_hours
+from sunwidget.time_left import with_time_left
+from sunwidget.widgets.export_files import FILMS, STILLS, kind_of, made
+from sunwidget.widgets.history import edit_of
+from sunwidget.widgets.key_frames import KeyFrames, along, key_frames_json
+from sunwidget.widgets.pictures import Pictures
+from sunwidget.widgets.requests import Answer, Progress
+
+
+class Exports(Pictures):
+    """A widget whose edit can be exported, as a still and as a film."""
+
+    key_frames = KeyFrames(
+        help="Edits at seconds, of which sweep() makes a film: ((0.0, Edit()), (4.0, Edit(…)))."
+    ).tag(sync=True, to_json=key_frames_json)
+
+    def sweep(
+        self,
+        path: Any,
+        *,
+        to: Edit | dict[str, Any] | str | None = None,
+        key_frames: Any = None,
+        **options: Any,
+    ) -> Path:
+        """Write a film of the photo; ``options`` as in ``sunwidget.sweep``.
+
+        Parameters
+        ----------
+        path : path
+            Where; the ending chooses the format: .mp4, .gif, .webp, or ``frames/%04d.png``.
+        to : Edit, recipe or a preset's name, optional
+            The film goes from the edit as it is to this one.
+        key_frames : optional
+            What the film goes along instead: pairs of seconds and an ``Edit``, or whatever else
+            ``sunwidget.sweep`` takes as a path, such as a ``Day``. Default: ``editor.key_frames``,
+            whose strokes, methods and hints are then those of the edit as it is. From a single
+            one, or without any from the photo as it was, the film goes to the edit as it is.
+
+        Returns
+        -------
+        Path
+            Where the film is.
+
+        Raises
+        ------
+        EditError
+            For both ``to`` and ``key_frames``, and when nothing moves. All else that
+            ``sunwidget.sweep`` raises.
+
+        Examples
+        --------
+        >>> editor.sweep("sunset.mp4", to="sunset", seconds=6, easing="ease_in_out")
+        >>> editor.key_frames = [(0, sw.Edit()), (4, sw.Edit(sun_elevation=2))]
+        >>> editor.sweep("evening.gif", size=(640, 427))
+        """
+        from sunwidget.export.sweep import sweep
+
+        if to is not None and key_frames is not None:
+            raise EditError("Give either to= or key_frames=, not both.")
+        way = self._way(to) if key_frames is None else key_frames
+        return sweep(self._base_scene(), way, path, **options)
+
+    def _way(self, to: Edit | dict[str, Any] | str | None) -> Any:
+        """Return the film's path: to an edit, along the key frames, or from the photo on."""
+        edit = self.edit
+        if to is not None:
+            end = presets.edit(to, self.scene, edit) if isinstance(to, str) else edit_of(to)
+            return [edit, end]
+        frames = along(self.key_frames or ((0.0, Edit()),), edit)
+        if len(frames) > 1:
+            return frames
+        ((_, start),) = frames
+        if start == edit:
+            raise EditError(
+                "Nothing moves: move the sun, pass to=, or set two key frames: "
+                "editor.key_frames = [(0, sw.Edit()), (4, sw.Edit(sun_elevation=2))]."
+            )
+        return [start, edit]
+
+    def _set_aside(self) -> dict[str, Any]:
+        return {**super()._set_aside(), "key_frames": self.key_frames}
+
+    def _take_up(self, edit: Edit, **state: Any) -> None:
+        with self._lock, self.hold_sync():
+            self.key_frames = state.get("key_frames", ())
+            super()._take_up(edit, **state)
+
+    def _describe_exports(self, _content: dict[str, Any], _progress: Progress) -> Answer:
+        """Answer what there is to choose from, and what suits this photo."""
+        photo = self.photo
+        own = Path(photo.name).suffix.lower()
+        known = {".jpeg": ".jpg", ".tiff": ".tif"}.get(own, own)
+        return {
+            "folder": str(Path.cwd()),
+            "name": f"{Path(photo.name).stem or 'picture'}-sun",
+            "suffix": known if known in {kind.suffix for kind in STILLS} else ".png",
+            "bits": 16 if photo.bit_depth > 8 else 8,
+            "size": list(photo.size),
+            "stills": [kind.described() | _holds(kind.suffix) for kind in STILLS],
+            "films": [kind.described() for kind in FILMS],
+        }, []
+
+    def _export_still(self, content: dict[str, Any], progress: Progress) -> Answer:
+        """Make a still: ``name``, ``suffix``, ``bits``, ``quality``, ``long_edge``, ``layers``."""
+        kind = kind_of(STILLS, content.get("suffix"))
+        holds = _holds(kind.suffix)
+        options = self._size_of(content)
+        if len(holds["bits"]) > 1 and content.get("bits"):
+            options["bit_depth"] = int(content["bits"])
+        if kind.quality and content.get("quality"):
+            options["quality"] = int(content["quality"])
+        if holds["layers"] and content.get("layers"):
+            options["layers"] = True
+        told = with_time_left(progress)
+
+        def make(path: Path) -> None:
+            told(0.0, "Rendering …")
+            self.save(path, progress=told, **options)
+
+        in_folder = bool(content.get("in_folder"))
+        return made(kind, content.get("name"), make, progress, in_folder=in_folder)
+
+    def _export_film(self, content: dict[str, Any], progress: Progress) -> Answer:
+        """Make a film: ``name``, ``suffix``, ``seconds``, ``fps``, ``easing``, ``loop``, ….
+
+        ``hours`` are the first and last of the place's day, else it goes along the key frames.
+        """
+        kind = kind_of(FILMS, content.get("suffix"))
+        options = self._size_of(content)
+        for name in ("fps", "seconds", "easing", "loop"):
+            if content.get(name) is not None:
+                options[name] = content[name]
+        if kind.quality and content.get("quality"):
+            options["quality"] = int(content["quality"])
+
+        def make(path: Path) -> None:
+            progress(0.0, "Rendering …")
+            way = self._film_day(*content["hours"]) if content.get("hours") else None
+            self.sweep(path, key_frames=way, progress=progress, **options)
+
+        in_folder = bool(content.get("in_folder"))
+        return made(kind, content.get("name"), make, progress, in_folder=in_folder)
+
+    def _size_of(self, content: dict[str, Any]) -> dict[str, Any]:
+        edge = content.get("long_edge")
+        return {"size": self.photo.size_within(int(edge))} if edge else {}
+
+    def _film_day(self, start: float, end: float) -> Day:
+        """Return the hours of the place's day, counted as its path counts them."""
+        edit = self.edit
+        if edit.place is None:
+            raise EditError("Say where the photo was taken first: Time and place, or set_place().")
+        place = at_hours(edit.place, start)
+        return Day(place, start=place.time, end=end % 24, edit=edit)
+
+
+def _holds(suffix: str) -> dict[str, Any]:
+    """Return what a kind of still holds: bits a channel to choose from, and layers."""
+    form = FORMATS[suffix]
+    return {"bits": sorted(form.depths), "layers": form.layers != ""}
