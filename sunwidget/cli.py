@@ -19,6 +19,7 @@ from sunwidget.cli_photo import Progress, add_methods, add_photo, refuse_existin
 from sunwidget.cli_place import add_place
 from sunwidget.cli_render import add_render
 from sunwidget.cli_sweep import add_sweep
+from sunwidget.cli_timelapse import add_timelapse
 from sunwidget.cli_transfer import add_transfer
 
 
@@ -66,6 +67,7 @@ def _parser() -> argparse.ArgumentParser:
 
     add_render(commands)
     add_sweep(commands)
+    add_timelapse(commands)
 
     page = commands.add_parser(
         "html", help="write a page in which the sun can be moved, without kernel or network"

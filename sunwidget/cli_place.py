@@ -24,7 +24,7 @@ def add_place(parser: argparse.ArgumentParser, *, end: bool = False) -> None:
     group.add_argument(
         "--place",
         dest="coordinates",
-        type=_coordinates,
+        type=coordinates,
         metavar="LAT,LON",
         help="degrees, north and east positive",
     )
@@ -127,7 +127,8 @@ def _facing(scene: Scene, place: Place, date: str | None, time: float | None) ->
     return place.replace(heading=found.place.heading)
 
 
-def _coordinates(text: str) -> tuple[float, float]:
+def coordinates(text: str) -> tuple[float, float]:
+    """Parse 50.09,14.42."""
     try:
         latitude, longitude = (float(part) for part in text.split(","))
         Place(latitude, longitude, "2000-01-01", 0)

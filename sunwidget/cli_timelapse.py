@@ -1,0 +1,161 @@
+"""The command line's time-lapses: ``sunwidget timelapse``."""
+
+from __future__ import annotations
+
+import argparse
+import datetime as dt
+from pathlib import Path
+from typing import Any
+
+from sunwidget.cli_edit import add_edit, edit_of_flags, size
+from sunwidget.cli_photo import Progress
+from sunwidget.cli_place import coordinates
+from sunwidget.edit import Edit
+from sunwidget.export.sun_path import EASINGS
+from sunwidget.place import Place
+
+
+def add_timelapse(commands: Any) -> None:
+    """Add the command ``timelapse`` to a parser's commands."""
+    command = commands.add_parser(
+        "timelapse",
+        help="move the sun in every frame of a fixed camera's time-lapse",
+        description="The frames are a folder, a glob in quotes, or two or more files; they are "
+        "taken in natural order (img2 before img10).",
+    )
+    command.add_argument("frames", nargs="+", help="folder, 'frames/*.jpg' or the files")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        help=".mp4, .gif, .webp, frames/%%04d.png, or a folder for stills with their metadata",
+    )
+    command.add_argument("--overwrite", action="store_true", help="replace existing files")
+    command.add_argument("--fps", type=float, default=24, help="frames a second (default 24)")
+    command.add_argument(
+        "--size", type=size, metavar="WxH", help="pixels (default: film ≤ 1920 a side, GIF ≤ 720)"
+    )
+    command.add_argument("--loop", choices=("forever", "once"), default="forever")
+    command.add_argument("--quality", type=int, default=85, help="1 to 100 (default 85)")
+    command.add_argument("--format", help="ending of stills (default: the frames' own)")
+    command.add_argument(
+        "--broken",
+        choices=("hold", "skip", "stop"),
+        default="hold",
+        help="a frame that cannot be read: show the one before it, leave it out, or stop",
+    )
+    command.add_argument(
+        "--steps",
+        "--recipes",
+        nargs="+",
+        metavar="STEP",
+        help="recipe files or presets that the film passes through, instead of one edit",
+    )
+    command.add_argument(
+        "--easing", choices=tuple(EASINGS), default="linear", help="between the steps"
+    )
+    camera = command.add_argument_group("camera (default: what the files tell or show)")
+    camera.add_argument(
+        "--place",
+        type=coordinates,
+        metavar="LAT,LON",
+        help="where it stands, degrees north and east",
+    )
+    camera.add_argument(
+        "--heading", type=float, metavar="DEG", help="where it looks, clockwise from north"
+    )
+    camera.add_argument(
+        "--times",
+        metavar="PATTERN",
+        help="when frames were taken, in UTC: a pattern of their names such as %%Y%%m%%d_%%H%%M%%S",
+    )
+    camera.add_argument(
+        "--start", type=_moment, metavar="TIME", help="of the first frame, 2024-06-21T17:30 in UTC"
+    )
+    camera.add_argument("--interval", type=float, metavar="SECONDS", help="between frames")
+    camera.add_argument("--sky", type=Path, help="mask picture, white = sky")
+    camera.add_argument("--horizon", type=float, metavar="ROW", help="row at the picture's centre")
+    camera.add_argument("--fov", type=float, metavar="DEG", help="vertical field of view")
+    add_edit(command)
+    command.set_defaults(run=_timelapse)
+
+
+def _timelapse(options: argparse.Namespace) -> int:
+    import sunwidget as sw
+
+    edit = _edit(options)
+    hints = {
+        name: getattr(options, name)
+        for name in ("sky", "horizon", "fov")
+        if getattr(options, name) is not None
+    }
+    with Progress("time-lapse") as progress:
+        made = sw.timelapse(
+            _frames(options.frames),
+            edit,
+            options.output,
+            fps=options.fps,
+            size=options.size,
+            easing=options.easing,
+            loop=options.loop,
+            quality=options.quality,
+            format=options.format,
+            place=_camera(options),
+            times=_times(options),
+            broken=options.broken,
+            overwrite=options.overwrite,
+            progress=progress,
+            **hints,
+        )
+    print(made)
+    return 0
+
+
+def _edit(options: argparse.Namespace) -> Any:
+    edit = edit_of_flags(options)
+    if options.steps:
+        if edit != Edit() or options.preset is not None:
+            raise ValueError("--steps say where the film goes: leave the other flags out.")
+        if len(options.steps) < 2:
+            raise ValueError("--steps needs two or more recipe files or presets.")
+        return options.steps
+    if options.preset is None:
+        return edit
+    if edit != Edit():
+        raise ValueError("--preset goes with no other parameter in a time-lapse; make a recipe.")
+    return options.preset
+
+
+def _frames(names: list[str]) -> Any:
+    """Return one folder or glob as it is; files that the shell has named in natural order."""
+    from sunwidget.frames import natural_key
+
+    return names[0] if len(names) == 1 else sorted(map(Path, names), key=natural_key)
+
+
+def _camera(options: argparse.Namespace) -> Place | None:
+    if options.place is None:
+        if options.heading is not None:
+            raise ValueError("--heading needs --place LAT,LON.")
+        return None
+    # The day is that of each frame; this one is not looked at.
+    latitude, longitude = options.place
+    return Place(latitude, longitude, "2000-01-01", 0, options.heading)
+
+
+def _times(options: argparse.Namespace) -> Any:
+    if (options.start is None) != (options.interval is None):
+        raise ValueError("--start and --interval go together.")
+    if options.start is None:
+        return options.times
+    if options.times is not None:
+        raise ValueError("--times and --start both say when frames were taken: leave one out.")
+    return options.start, options.interval
+
+
+def _moment(text: str) -> dt.datetime:
+    try:
+        return dt.datetime.fromisoformat(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a time as 2024-06-21T17:30") from None
