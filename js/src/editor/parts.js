@@ -13,6 +13,7 @@ import { announcements } from "./announcements.js";
 import { autosave } from "./autosave.js";
 import { cross } from "./cross.js";
 import { drop } from "./drop.js";
+import { exportPanel } from "./export_panel.js";
 import { fullScreen } from "./full_screen.js";
 import { heldKeys } from "./held_keys.js";
 import { help } from "./help.js";
@@ -54,6 +55,7 @@ const PARTS = [
   drop,
   recipe,
   webPage,
+  exportPanel,
   autosave,
   help,
   progress,

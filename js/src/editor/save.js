@@ -12,7 +12,7 @@ import { download } from "./download.js";
  * @param {string} what as the person calls it
  * @param {(signal: AbortSignal) => Promise<void>} make
  */
-async function work(view, what, make) {
+export async function work(view, what, make) {
   if (view.work) return;
   const controller = new AbortController();
   view.work = controller;

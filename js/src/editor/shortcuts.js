@@ -143,6 +143,13 @@ export const SHORTCUTS = [
   { section: "History", keys: ["Mod+V"], label: "Paste a recipe or a photo" },
 
   {
+    section: "Export",
+    keys: ["E"],
+    label: "Stills and films: format, size, key frames",
+    run: (view) => view.toolbar.export?.click(),
+  },
+
+  {
     section: "Help",
     keys: ["?"],
     label: "These keys",

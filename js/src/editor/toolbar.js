@@ -113,6 +113,8 @@ export function toolbar(view) {
     history: history.node,
     /** @type {HTMLButtonElement | null} opens the list of versions */
     versions: null,
+    /** @type {HTMLButtonElement | null} opens the export panel */
+    export: null,
     menu,
     before,
     save,
