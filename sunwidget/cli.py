@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
+from sunwidget.cli_batch import add_batch
 from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene
 from sunwidget.cli_photo import Progress, add_methods, add_photo, refuse_existing, scene_of
 from sunwidget.cli_place import add_place
@@ -68,6 +69,7 @@ def _parser() -> argparse.ArgumentParser:
     add_render(commands)
     add_sweep(commands)
     add_timelapse(commands)
+    add_batch(commands)
 
     page = commands.add_parser(
         "html", help="write a page in which the sun can be moved, without kernel or network"

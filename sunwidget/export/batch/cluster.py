@@ -15,6 +15,11 @@ from typing import Any
 
 from sunwidget.export.batch.workers import DaskWorkers
 
+# Dask has glibc give memory back whenever 64 kB are free: a picture's arrays are then mapped anew
+# for each operation, which doubles the time of a photo (measured). None unsets the variable.
+_ENVIRONMENT = {
+    "DASK_DISTRIBUTED__NANNY__PRE_SPAWN_ENVIRON": repr({"MALLOC_TRIM_THRESHOLD_": None})
+}
 # What a worker should have at least: a photo of 24 MP takes about 1.5 GB.
 _MEMORY_OF_ONE = 2 << 30
 
@@ -100,6 +105,7 @@ def _processes(
         stdin=subprocess.DEVNULL,
         stdout=words,
         stderr=subprocess.STDOUT,
+        env=os.environ | _ENVIRONMENT,
         start_new_session=True,
     )
     try:

@@ -143,15 +143,10 @@ def _save(
     wish = job.wish
     scene = sw.analyze(sw.open(photo), progress=_part(progress, 0.0, 0.6), **wish.analysis)
     edit = wish.edit_of(scene)
-    size = scene.photo.size
-    if wish.long_edge is not None:
-        size = scene.photo.size_within(wish.long_edge)
+    own = scene.photo.size
+    size = own if wish.long_edge is None else scene.photo.size_within(wish.long_edge)
     rest = _part(progress, 0.6, 1.0)
-    if size == scene.photo.size:
-        sw.save((scene, edit), path, progress=rest, **wish.options)
-    else:
-        picture = sw.render(scene, edit, size=size, progress=rest)
-        sw.save(picture, path, like=scene, **wish.options)
+    sw.save((scene, edit), path, size=None if size == own else size, progress=rest, **wish.options)
     return scene.warnings
 
 

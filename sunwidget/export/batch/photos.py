@@ -80,7 +80,7 @@ def names(photos: Sequence[Path], template: str, ending: str | None) -> list[str
         With ``{name}``, ``{folder}``, ``{number}`` and ``{ending}`` of the photo; a slash makes a
         folder.
     ending : str or None
-        ".png" …; None keeps the photo's own where it can be written, and takes .png elsewhere.
+        ".png" …; None keeps the photo's own where it can be written, and takes .tif elsewhere.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def names(photos: Sequence[Path], template: str, ending: str | None) -> list[str
             )
         except (ValueError, AttributeError, IndexError, KeyError) as error:
             raise ValueError(f"name = {template!r} cannot be filled in: {error}.") from error
-        name = stem + (ending or (own if own in FORMATS else ".png"))
+        name = stem + (ending or (own if own in FORMATS else ".tif"))
         parts = Path(name).parts
         if Path(name).is_absolute() or ".." in parts or not stem or stem.endswith("/"):
             raise ValueError(f"name = {template!r} makes {name!r}, which is no name of a file.")

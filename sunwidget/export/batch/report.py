@@ -151,7 +151,7 @@ class BatchReport:
         place = target(path, overwrite=overwrite)
         text = io.StringIO(newline="")
         writer = csv.writer(text)
-        writer.writerow(field.name for field in dataclasses.fields(BatchRow))
+        writer.writerow(_COLUMNS)
         for row in self.rows:
             seconds = f"{row.seconds:.3f}"
             output = "" if row.output is None else row.output
@@ -160,6 +160,18 @@ class BatchReport:
         with complete_or_absent(place, overwrite=overwrite) as unfinished:
             unfinished.write_text(text.getvalue(), "utf-8", newline="")
         return place
+
+
+_COLUMNS = tuple(field.name for field in dataclasses.fields(BatchRow))
+
+
+def is_table(path: Path) -> bool:
+    """Whether a file is the table of an earlier run, which the same command may replace."""
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            return file.readline().rstrip() == ",".join(_COLUMNS)
+    except (OSError, UnicodeDecodeError):
+        return False
 
 
 def _cells(row: BatchRow) -> tuple[str, ...]:

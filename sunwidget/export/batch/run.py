@@ -13,7 +13,7 @@ from sunwidget.export.batch import photos as finding
 from sunwidget.export.batch.develop import Job, Outcome, sentence
 from sunwidget.export.batch.record import Record, recipe_key
 from sunwidget.export.batch.report import BatchReport, BatchRow
-from sunwidget.export.batch.wish import Wish, check_whole, wish_of
+from sunwidget.export.batch.wish import Wish, check_endings, check_whole, wish_of
 from sunwidget.export.batch.workers import ThisProcess, Workers, has_dask, require_dask
 from sunwidget.files import complete_or_absent
 from sunwidget.time_left import with_time_left
@@ -55,7 +55,7 @@ def batch(
     analysis : dict, optional
         Arguments of ``analyze`` for every photo, such as ``{"fov": 38}``.
     format : str, optional
-        "png", "jpg", "tif" … Default: the photo's own; PNG where that cannot be written.
+        "png", "jpg", "tif" … Default: the photo's own; TIFF where that cannot be written.
     name : str
         Of a picture, without its ending, from ``{name}``, ``{folder}`` (name of the photo's
         folder), ``{number}`` (from 1; ``{number:04}`` pads it) and ``{ending}`` (of the photo).
@@ -110,6 +110,7 @@ def batch(
     record = Record(folder)
     found = [photo for photo in finding.find(photos) if not record.has_made(photo)]
     outputs = finding.names(found, name, format)
+    check_endings(outputs, wish)
     run = _Run(found, outputs, wish, record, overwrite, resume, progress)
     with contextlib.ExitStack() as stack:
         jobs = run.jobs()

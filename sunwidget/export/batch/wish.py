@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import difflib
+import inspect
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -55,11 +58,15 @@ def wish_of(
     EditError, ValueError, TypeError
         For an unusable recipe, size or option.
     """
+    from sunwidget.analysis.scene import analyze
+    from sunwidget.export.stills import save
+
     if long_edge is not None:
         check_whole("long_edge", long_edge, 16)
-    refused = {"overwrite", "like", "progress"} & options.keys()
-    if refused:
-        raise TypeError(f"batch does not take {', '.join(sorted(refused))} of save.")
+    _check_known(
+        "batch", options, save, {"picture", "path", "like", "overwrite", "size", "progress"}
+    )
+    _check_known("analysis", analysis or {}, analyze, {"photo", "progress"})
     wish = edit if isinstance(edit, Wish) else Wish(_edit(edit), _preset(edit))
     recipe = wish.edit
     if not corrections:
@@ -86,6 +93,25 @@ def _edit(edit: Any) -> Edit:
             )
         return Edit.from_json(path.read_text("utf-8"))
     raise EditError(f"A batch needs an Edit, a recipe or a preset, not {type(edit).__name__}.")
+
+
+def _check_known(what: str, given: dict[str, Any], function: Any, refused: set[str]) -> None:
+    """Raise TypeError for an argument that ``function`` lacks, or that the batch sets itself."""
+    known = [name for name in inspect.signature(function).parameters if name not in refused]
+    for name in given:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=1)
+            hint = f"Did you mean {near[0]!r}?" if near else f"There are {', '.join(known)}."
+            raise TypeError(f"{what} does not take {name!r}. {hint}")
+
+
+def check_endings(outputs: Iterable[str], wish: Wish) -> None:
+    """Raise PhotoError when one of the kinds of file cannot be what the options ask for."""
+    from sunwidget.export.stills import check_format
+
+    layers = bool(wish.options.get("layers"))
+    for suffix in sorted({Path(output).suffix for output in outputs}):
+        check_format(Path("picture" + suffix), wish.options.get("bit_depth"), layers=layers)
 
 
 def check_whole(name: str, value: Any, least: int) -> None:

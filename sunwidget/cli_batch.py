@@ -1,0 +1,118 @@
+"""The command line's many photos: ``sunwidget batch``."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from sunwidget.cli_edit import add_edit, recipe
+from sunwidget.cli_photo import Progress, add_methods, methods_of_stages
+from sunwidget.edit import PARAMETERS
+from sunwidget.export.batch.wish import Wish
+
+
+def add_batch(commands: Any) -> None:
+    """Add the command ``batch`` to a parser's commands."""
+    batch = commands.add_parser(
+        "batch",
+        help="many photos with one recipe, on all cores or on many machines",
+        description="A photo that fails is reported and the rest is done; exit status 1 then. The "
+        "same command goes on where an interrupted one stopped.",
+    )
+    batch.add_argument(
+        "photos", nargs="+", help="files, folders, or patterns in quotes: 'photos/**/*.jpg'"
+    )
+    batch.add_argument(
+        "-o", "--output", type=Path, required=True, help="folder for the pictures; made if missing"
+    )
+    batch.add_argument(
+        "--format", metavar="ENDING", help="png, jpg, tif … (default: the photo's own)"
+    )
+    batch.add_argument(
+        "--name",
+        default="{name}-sun",
+        metavar="TEMPLATE",
+        help="of a picture, from {name}, {folder}, {number}, {ending} (default {name}-sun)",
+    )
+    batch.add_argument("--long-edge", type=int, metavar="N", help="most pixels on the longer side")
+    batch.add_argument(
+        "--quality", type=int, metavar="N", help="of JPEG and WebP, 1 to 100 (default 95)"
+    )
+    batch.add_argument("--bit-depth", type=int, choices=(8, 16, 32), help="bits a channel")
+    batch.add_argument("--layers", action="store_true", help="also sky, clouds, land and matte")
+    batch.add_argument(
+        "--corrections",
+        action="store_true",
+        help="apply the recipe's strokes and hints too: for a series of one fixed camera",
+    )
+    batch.add_argument(
+        "--overwrite", action="store_true", help="replace files that this command did not make"
+    )
+    batch.add_argument(
+        "--no-resume", action="store_true", help="make pictures again that are there already"
+    )
+    batch.add_argument("--csv", type=Path, metavar="FILE", help="write the table there as well")
+    where = batch.add_argument_group("who does it (Dask: pip install 'sunwidget[batch]')")
+    where.add_argument(
+        "--workers",
+        type=int,
+        metavar="N",
+        help="processes on this machine; 0: one photo after another (default: one for each core)",
+    )
+    where.add_argument(
+        "--scheduler", metavar="ADDRESS", help="of a running Dask scheduler, as tcp://host:8786"
+    )
+    where.add_argument(
+        "--retries",
+        type=int,
+        default=2,
+        metavar="N",
+        help="how often a photo is tried again when its worker dies (default 2)",
+    )
+    batch.add_argument("--fov", type=float, metavar="DEG", help="vertical field of view of all")
+    add_methods(batch)
+    add_edit(batch)
+    batch.set_defaults(run=_batch)
+
+
+def _batch(options: argparse.Namespace) -> int:
+    import sunwidget as sw
+    from sunwidget.export.batch.report import is_table
+    from sunwidget.files import target
+
+    replaced = options.overwrite or (options.csv is not None and is_table(options.csv))
+    if options.csv is not None:
+        target(options.csv, overwrite=replaced)
+    flags = {p.name: getattr(options, p.name, None) for p in PARAMETERS}
+    wish = Wish(recipe(options), options.preset, _given(flags))
+    analysis = {name: getattr(options, name) for name in ("fov", *methods_of_stages())}
+    saving = {name: getattr(options, name) for name in ("quality", "bit_depth")}
+    if options.layers:
+        saving["layers"] = True
+    with Progress("batch") as progress:
+        report = sw.batch(
+            options.photos,
+            wish,
+            options.output,
+            scheduler=options.scheduler,
+            workers=options.workers,
+            analysis=_given(analysis),
+            format=options.format,
+            name=options.name,
+            long_edge=options.long_edge,
+            corrections=options.corrections,
+            overwrite=options.overwrite,
+            resume=not options.no_resume,
+            retries=options.retries,
+            progress=progress,
+            **_given(saving),
+        )
+    print(report)
+    if options.csv is not None:
+        report.to_csv(options.csv, overwrite=replaced)
+    return 1 if report.failed else 0
+
+
+def _given(values: dict[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in values.items() if value is not None}
