@@ -30,7 +30,7 @@ _SRGB_GAMMA = (2.4, 12.92)
 _SATURATED = 0.9
 # What of the first directory tells of the shot; the rest tells how the file is laid out, and in
 # some makers' files it is whole pictures.
-_TOLD = (270, 271, 272, 282, 283, 296, 305, 306, 315, 33432)
+_TOLD = (270, 271, 272, 274, 282, 283, 296, 305, 306, 315, 33432)
 _FIRST_PICTURE = 254
 _DNG_VERSION = 50706
 _SUB_IMAGES = 330
