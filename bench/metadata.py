@@ -42,7 +42,7 @@ _STORAGE = re.compile(
     r"Strip|^(Compression|BitsPerSample|SamplesPerPixel|PhotometricInterpretation|Predictor|"
     r"PlanarConfiguration|Image(Width|Height|Length)|XMPToolkit|JFIFVersion|ExifByteOrder|ExifOffset|"
     r"GPSInfo|InterColorProfile|CFA.*|DNG.*|BlackLevel|WhiteLevel|UniqueCameraModel|ColorMatrix1|"
-    r"AsShotNeutral|CalibrationIlluminant1|ExtraSamples|ApplicationNotes|SubfileType)$"
+    r"AsShotNeutral|CalibrationIlluminant1|ExtraSamples|ApplicationNotes|SubfileType|Tag 0xC6..)$"
 )
 _OF_THE_EDIT = ("Software", "UserComment", "CreatorTool", "HistoryAction", "HistorySoftwareAgent")
 _OF_TURNING = ("Orientation", "ExifImageWidth", "ExifImageLength", "ExifImageHeight")
