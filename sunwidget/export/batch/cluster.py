@@ -22,6 +22,7 @@ _ENVIRONMENT = {
 }
 # What a worker should have at least: a photo of 24 MP takes about 1.5 GB.
 _MEMORY_OF_ONE = 2 << 30
+_ANSWER = 10.0  # seconds in which a scheduler answers
 
 
 def default_workers(photos: int) -> int:
@@ -64,7 +65,7 @@ def local_workers(count: int, *, deaths: int) -> Iterator[DaskWorkers]:
                 n_workers=0,
                 processes=True,  # or the scheduler would listen to this process only
                 host="127.0.0.1",
-                dashboard_address=None,
+                dashboard_address="127.0.0.1:0",  # any port: 8787 may be somebody's
                 silence_logs=logging.CRITICAL,
                 scheduler_kwargs={"allowed_failures": deaths},
             )
@@ -134,7 +135,7 @@ def remote_workers(scheduler: Any) -> Iterator[DaskWorkers]:
         yield _ready(scheduler)
         return
     try:
-        client = Client(scheduler, timeout="10s", set_as_default=False)
+        client = Client(scheduler, timeout=_ANSWER, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise ConnectionError(
             f"No Dask scheduler answers at {scheduler}. Start one with: dask scheduler; and "

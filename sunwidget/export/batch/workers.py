@@ -191,9 +191,10 @@ class DaskWorkers:
 
         while True:
             try:
-                done: set[Any] = wait(
-                    list(pending), timeout=_BEAT, return_when="FIRST_COMPLETED"
-                ).done
+                with self.client.as_current():  # a person's own client stays the default one
+                    done: set[Any] = wait(
+                        list(pending), timeout=_BEAT, return_when="FIRST_COMPLETED"
+                    ).done
             except TimeoutError:
                 if self.client.status not in {"running", "connecting"}:
                     raise _lost(None) from None
