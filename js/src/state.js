@@ -7,6 +7,8 @@
  * view.
  */
 
+import { newest } from "./steps.js";
+
 /**
  * @typedef {import("./types.js").Edit} Edit
  * @typedef {import("./types.js").History} History
@@ -18,9 +20,6 @@
 
 const THROTTLE_MS = 100;
 const HISTORY = ["_history", "_versions"];
-export const HISTORY_LENGTH = 100;
-// Every step repeats all strokes, and a message of 10 MiB would break the connection.
-export const HISTORY_BYTES = 2_000_000;
 
 export class EditState {
   /**
@@ -299,17 +298,6 @@ export class EditState {
     this.push();
     this.notify();
   }
-}
-
-/** The last steps, as many as may be kept. @param {Edit[]} steps */
-export function newest(steps) {
-  let bytes = 0;
-  const kept = steps.slice(-HISTORY_LENGTH).reverse();
-  const end = kept.findIndex((recipe, i) => {
-    bytes += JSON.stringify(recipe).length;
-    return i > 0 && bytes > HISTORY_BYTES;
-  });
-  return kept.slice(0, end < 0 ? kept.length : end).reverse();
 }
 
 /** @type {(a: unknown, b: unknown) => boolean} */

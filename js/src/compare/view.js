@@ -13,8 +13,8 @@ import { decodePicture } from "../gl/texture.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { Zoom } from "../zoom.js";
-import { columns } from "./columns.js";
 import { Differences } from "./differences.js";
+import { layOut, placeDivider } from "./layout.js";
 import { Panel } from "./panel.js";
 import { listenToPointer } from "./pointer.js";
 import { Scenes } from "./scenes.js";
@@ -27,7 +27,6 @@ import { toolbar } from "./toolbar.js";
  * @typedef {import("../types.js").Status} Status
  */
 
-const TALLEST = 680; // CSS pixels of all pictures together
 // Shares of the preview's size that are drawn. Few: each draws all of the picture's passes anew.
 const SHARES = [0.25, 0.375, 0.5, 0.75, 1];
 
@@ -59,7 +58,7 @@ export class View {
     watchSight(root, signal, (inSight) => this.loop.setSight(inSight));
     this.panels = this.variants().map((_, index) => new Panel(this, index, signal));
     this.grid = element("div", { class: "sw-compare-grid" }, ...this.panels.map((p) => p.node));
-    this.divider = new Divider({ label: "Divider", onMove: () => this.placeDivider() });
+    this.divider = new Divider({ label: "Divider", onMove: () => placeDivider(this) });
     this.readout = element("div", { class: "sw-readout" });
     this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
     this.toolbar = toolbar(this);
@@ -244,61 +243,10 @@ export class View {
     this.request();
   }
 
-  /** Put every picture where it belongs. */
   layOut() {
-    const room = this.grid.clientWidth;
-    if (!room) return;
-    const aspect = this.zoom.size[0] / this.zoom.size[1];
-    const shown = this.shown();
-    const found = columns(this.wipes ? 1 : shown.length, room, TALLEST, aspect);
-    const [width, height] = [Math.floor(found.width), Math.round(found.width / aspect)];
-    this.grid.style.gridTemplateColumns = `repeat(${found.columns}, ${width}px)`;
-    this.grid.style.gridAutoRows = `${height}px`;
-    this.zoom.setRoom({
-      width,
-      height,
-      fit: { x: 0, y: 0, width, height },
-      pixelRatio: window.devicePixelRatio || 1,
-    });
-    const box = this.zoom.box();
-    for (const panel of this.panels) {
-      const { node, picture } = panel;
-      node.hidden = !shown.includes(panel);
-      node.classList.toggle("sw-under", this.wipes && panel === shown[0]);
-      node.classList.toggle("sw-over", this.wipes && panel === shown[1]);
-      Object.assign(picture.style, {
-        left: `${box.x}px`,
-        top: `${box.y}px`,
-        width: `${box.width}px`,
-        height: `${box.height}px`,
-      });
-    }
-    this.root.classList.toggle("sw-pixels", this.zoom.scale >= 2);
-    this.placeDivider();
+    if (!layOut(this)) return;
     this.toolbar.showZoom();
     this.drawMarks();
-  }
-
-  placeDivider() {
-    for (const { canvas } of this.panels) canvas.style.clipPath = "";
-    if (!this.wipes) {
-      this.divider.node.remove();
-      return;
-    }
-    const [under, over] = this.shown();
-    if (this.divider.node.parentElement !== over.node) over.node.append(this.divider.node);
-    const box = this.zoom.box();
-    const { width, height } = this.zoom.room;
-    const x = this.divider.place(
-      {
-        left: Math.max(0, box.x),
-        right: Math.min(width, box.x + box.width),
-        top: Math.max(0, box.y),
-        bottom: Math.min(height, box.y + box.height),
-      },
-      [under.variant.label, over.variant.label],
-    );
-    over.canvas.style.clipPath = `inset(0 0 0 ${(100 * (x - box.x)) / box.width}%)`;
   }
 
   /** Pixels to draw: as many as the screen shows. @param {number} scale @returns {[number, number]} */

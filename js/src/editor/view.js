@@ -6,14 +6,12 @@
  */
 
 import { sunText } from "../angle_text.js";
-import { Camera } from "../camera.js";
 import { Channel } from "../channel.js";
 import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
 import { errorText } from "../error_text.js";
 import { Frame } from "../frame.js";
 import { FrameLoop } from "../frame_loop.js";
-import { decodePicture } from "../gl/texture.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { onTraits } from "../traits.js";
@@ -22,6 +20,7 @@ import { BrushTool, EraseTool } from "./brush_tool.js";
 import { HorizonTool } from "./horizon_tool.js";
 import { Inspector } from "./inspector.js";
 import { Kernel } from "./kernel.js";
+import { Loading } from "./loading.js";
 import { Notes } from "./notes.js";
 import { Notices } from "./notices.js";
 import { panel } from "./panel.js";
@@ -36,6 +35,7 @@ import { SunTool } from "./sun_tool.js";
 import { toolbar } from "./toolbar.js";
 
 /**
+ * @typedef {import("../camera.js").Camera} Camera
  * @typedef {import("../types.js").Model} Model
  * @typedef {import("../types.js").Parameter} Parameter
  * @typedef {import("../types.js").Point} Point
@@ -55,7 +55,6 @@ import { toolbar } from "./toolbar.js";
  */
 
 const WORTHWHILE = 0.75; // a drag that shows less of the preview's size is drawn smaller
-const PICTURES = ["layers", "surface", "backdrop", "clear_sky"];
 
 export class View {
   /**
@@ -87,7 +86,6 @@ export class View {
     this.passing = null;
     /** @type {[number, number]} size of the full preview in pixels */
     this.size = [0, 0];
-    this.loads = 0;
     /** @type {number | null} the pointer that drags */
     this.pointer = null;
     this.loop = new FrameLoop(
@@ -134,8 +132,9 @@ export class View {
     this.parts = makeParts(this, signal);
     this.listen(signal);
     this.showStatus();
-    void this.loadPhoto();
-    void this.loadScene();
+    const loading = new Loading(this, signal);
+    void loading.photo();
+    void loading.scene();
     this.show();
   }
 
@@ -169,8 +168,6 @@ export class View {
       this.root.dataset.stage = "analysing";
       stage.setProgress(0.04, "Waiting for the kernel …");
     };
-    onTraits(model, ["_photo"], () => void this.loadPhoto(), signal);
-    onTraits(model, ["_scene"], () => void this.loadScene(), signal);
     onTraits(model, ["_status"], () => this.showStatus(), signal);
     /** @type {(message: any) => void} */
     const onMessage = (message) => {
@@ -180,7 +177,6 @@ export class View {
     listenToPointer(this, signal);
     this.root.addEventListener("keydown", (event) => onShortcut(this, event), { signal });
     signal.addEventListener("abort", () => {
-      this.loads += 1; // pictures that are being decoded come too late
       model.off("msg:custom", onMessage);
       this.frame.dispose();
     });
@@ -209,47 +205,11 @@ export class View {
     return Number(this.shown[name] ?? this.scene?.automatic[name] ?? 0);
   }
 
-  async loadPhoto() {
-    const bytes = this.model.get("_photo");
-    if (!bytes?.byteLength) return;
-    try {
-      await this.stage.setPhoto(bytes);
-    } catch {
-      this.showError("The browser cannot decode the preview that the kernel sent.");
-    }
-  }
-
-  /** Take over what the analysis found: decode its maps, then swap all at once. */
-  async loadScene() {
-    /** @type {Scene | null} */
-    const scene = this.model.get("_scene");
-    const photo = this.model.get("_photo");
-    if (!scene?.uniforms) this.forgetScene();
-    if (!scene?.uniforms || !photo?.byteLength) return;
-    this.loads += 1;
-    const load = this.loads;
-    try {
-      const names = ["photo", ...PICTURES];
-      const bitmaps = await Promise.all(
-        names.map((name) => decodePicture(this.model.get(`_${name}`))),
-      );
-      if (load !== this.loads) {
-        for (const bitmap of bitmaps) bitmap.close();
-        return;
-      }
-      this.size = [bitmaps[0].width, bitmaps[0].height];
-      names.forEach((name, i) => {
-        this.frame.setPicture(name, bitmaps[i]);
-      });
-    } catch (error) {
-      if (load !== this.loads) return;
-      this.showError(`The maps of the analysis cannot be shown: ${errorText(error)}`);
-      return;
-    }
+  /** Take over what the analysis found. @param {Scene} scene @param {Camera} camera */
+  takeScene(scene, camera) {
     this.frame.setScene(scene);
     this.scene = scene;
-    const { fov_vertical_deg, pitch, roll } = scene.camera;
-    this.camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
+    this.camera = camera;
     this.notes.show(scene.warnings);
     this.sureness.textContent = surenessText(scene.sureness);
     this.showMask();
@@ -259,10 +219,8 @@ export class View {
     this.show();
   }
 
-  /** Another photo is on its way: nothing of the last one is true of it. */
+  /** Nothing of the last photo is true of the next. */
   forgetScene() {
-    if (!this.scene) return;
-    this.loads += 1;
     this.scene = null;
     this.camera = null;
     this.root.classList.remove("sw-live");

@@ -96,7 +96,7 @@ export function modelControls(view, signal) {
 
   const pause = element("button", { type: "button", class: "sw-chip" }, "Pause");
   pause.addEventListener("click", () => {
-    view.paused = !view.paused;
+    view.tracer.paused = !view.tracer.paused;
     view.show();
   });
   const reference = element(
@@ -126,7 +126,7 @@ export function modelControls(view, signal) {
       : old
         ? "The air has changed since the table was computed; the picture still shows the old air."
         : "The table fits this air. The sun can be dragged; air and altitude need another table.";
-    pause.textContent = view.paused ? "Go on" : "Pause";
+    pause.textContent = view.tracer.paused ? "Go on" : "Pause";
   }
 
   return {
@@ -136,7 +136,7 @@ export function modelControls(view, signal) {
     note() {
       if (uses("reference")) {
         const samples = Math.min(view.frame.samples, MOST_SAMPLES);
-        return `${samples} of ${MOST_SAMPLES} paths a pixel${view.paused ? ", paused" : ""}`;
+        return `${samples} of ${MOST_SAMPLES} paths a pixel${view.tracer.paused ? ", paused" : ""}`;
       }
       if (uses("bruneton") && !computed) return "Bruneton's table is not computed yet";
       return "";

@@ -8,6 +8,8 @@
  * at the top left.
  */
 
+import { turned } from "../day.js";
+
 /** Diameter of the dome over the smaller side; the rest is room for names. */
 export const DOME_SHARE = 0.94;
 const PANORAMA_BOTTOM = -10;
@@ -21,11 +23,6 @@ export const ASPECTS = { dome: 1, panorama: 360 / PANORAMA_HEIGHT, camera: 1.5 }
 const RADIANS = Math.PI / 180;
 
 /** @typedef {{ view_azimuth: number, view_elevation: number, fov: number }} Look */
-
-/** An angle in −180..180. @param {number} degrees */
-export function wrap(degrees) {
-  return ((((degrees + 180) % 360) + 360) % 360) - 180;
-}
 
 export class Projection {
   /**
@@ -57,21 +54,37 @@ export class Projection {
     if (this.name === "dome") {
       const elevation = 90 * (1 - Math.hypot(right, up) / this.scale);
       if (elevation < LOWEST) return null;
-      return [wrap(view_azimuth + Math.atan2(-right, up) / RADIANS), elevation];
+      return [turned(view_azimuth + Math.atan2(-right, up) / RADIANS), elevation];
     }
     if (this.name === "panorama") {
       const turn = right / this.scale;
       const elevation = PANORAMA_BOTTOM + PANORAMA_HEIGHT / 2 + up / this.scale;
       if (Math.abs(turn) > 180 || elevation < LOWEST || elevation > 90) return null;
-      return [wrap(view_azimuth + turn), elevation];
+      return [turned(view_azimuth + turn), elevation];
     }
     const rise = view_elevation * RADIANS;
     const ahead = this.scale * Math.cos(rise) - up * Math.sin(rise);
     const above = this.scale * Math.sin(rise) + up * Math.cos(rise);
     return [
-      wrap(view_azimuth + Math.atan2(right, ahead) / RADIANS),
+      turned(view_azimuth + Math.atan2(right, ahead) / RADIANS),
       Math.atan2(above, Math.hypot(right, ahead)) / RADIANS,
     ];
+  }
+
+  /** The same, or the nearest direction towards the picture's middle. @param {number} x @param {number} y */
+  nearest(x, y) {
+    const [cx, cy] = this.size.map((side) => side / 2);
+    const along = (/** @type {number} */ share) =>
+      this.direction(cx + share * (x - cx), cy + share * (y - cy));
+    let found = along(1);
+    let [inside, outside] = [0, 1];
+    for (let i = 0; i < 12 && !(found && inside === 0); i++) {
+      const middle = (inside + outside) / 2;
+      const here = along(middle);
+      if (here) [found, inside] = [here, middle];
+      else outside = middle;
+    }
+    return found;
   }
 
   /**
@@ -82,7 +95,7 @@ export class Projection {
    * @returns {[number, number] | null} null behind the camera
    */
   pixel(azimuth, elevation) {
-    const turn = wrap(azimuth - this.look.view_azimuth);
+    const turn = turned(azimuth - this.look.view_azimuth);
     const side = turn * RADIANS;
     if (this.name === "dome") {
       const radius = this.scale * (1 - elevation / 90);

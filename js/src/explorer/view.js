@@ -15,7 +15,6 @@ import { FrameLoop } from "../frame_loop.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { Guides } from "./guides.js";
-import { MOST_SAMPLES } from "./limits.js";
 import { Measured } from "./measured.js";
 import { panel } from "./panel.js";
 import { Plots } from "./plots/plots.js";
@@ -28,6 +27,7 @@ import { reading } from "./sky_probe.js";
 import { SkyStage } from "./stage.js";
 import { SunHandle } from "./sun_handle.js";
 import { toolbar } from "./toolbar.js";
+import { Tracer } from "./tracer.js";
 
 /**
  * @typedef {import("../types.js").Model} Model
@@ -56,6 +56,7 @@ export class View {
     this.channel = new Channel(model, signal);
     this.stage = new SkyStage(signal);
     this.frame = new SkyFrame(this.stage.canvas, this.parameters);
+    this.tracer = new Tracer(this, signal);
     this.guides = new Guides(this);
     this.handle = new SunHandle(this);
     this.measured = new Measured(this);
@@ -69,7 +70,6 @@ export class View {
     this.pointed = null;
     /** @type {Point | null} direction that a plot points at */
     this.plotPoint = null;
-    this.paused = false;
     /** @type {string} what the picture shows */
     this.drawnKey = "";
     this.tables = 0; // how many tables the kernel has sent
@@ -78,8 +78,6 @@ export class View {
       () => this.state.before !== null,
       signal,
     );
-    /** @type {ReturnType<typeof setTimeout> | undefined} */
-    this.tracing = undefined;
     this.signal = signal;
     this.loop.setSight(false); // until the page is laid out
     this.build();
@@ -138,7 +136,6 @@ export class View {
     signal.addEventListener("abort", () => {
       for (const name of names) model.off(`change:${name}`, onData);
       model.off("msg:custom", onMessage);
-      clearTimeout(this.tracing);
       this.frame.dispose();
     });
   }
@@ -231,19 +228,7 @@ export class View {
 
   /** The same, or the nearest direction towards the picture's middle. @param {Point} place */
   nearestDirection([x, y]) {
-    const projection = this.projection();
-    const [cx, cy] = projection.size.map((side) => side / 2);
-    const along = (/** @type {number} */ share) =>
-      projection.direction(cx + share * (x - cx), cy + share * (y - cy));
-    let found = along(1);
-    let [inside, outside] = [0, 1];
-    for (let i = 0; i < 12 && !(found && inside === 0); i++) {
-      const middle = (inside + outside) / 2;
-      const here = along(middle);
-      if (here) [found, inside] = [here, middle];
-      else outside = middle;
-    }
-    return found;
+    return this.projection().nearest(x, y);
   }
 
   /** How far a pixel turns the view. */
@@ -301,48 +286,17 @@ export class View {
       [width, height].map((side) => Math.max(1, Math.round(side * dense * scale)))
     );
     const key = JSON.stringify([this.state.values, size, this.tables]);
-    const traces = this.usesReference() && !this.referenceRests();
     // A pointer that only reads changes no pixel.
-    if (key === this.drawnKey && !traces) return;
+    if (key === this.drawnKey && !this.tracer.works) return;
     try {
       if (!this.frame.draw(this.state.values, size)) return;
       this.drawnKey = key;
       this.root.classList.add("sw-live");
       this.plots.request();
-      if (this.usesReference() && !this.referenceRests()) this.traceOn();
+      if (this.tracer.works) this.tracer.goOn();
     } catch (error) {
       this.showError(errorText(error));
     }
-  }
-
-  /**
-   * Draw the next path once this one is done: a slow machine would else gather frames in a queue,
-   * and everything else would wait behind it.
-   */
-  traceOn() {
-    const gl = this.frame.graph?.gl;
-    const fence = gl?.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    if (!gl || !fence) return;
-    gl.flush();
-    clearTimeout(this.tracing);
-    const look = () => {
-      if (!gl.isContextLost() && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
-        this.tracing = setTimeout(look, 5);
-        return;
-      }
-      gl.deleteSync(fence);
-      if (this.usesReference() && !this.referenceRests()) this.requestFrame();
-    };
-    this.tracing = setTimeout(look, 5);
-  }
-
-  usesReference() {
-    const { model, compare } = this.state.values;
-    return model === "reference" || compare === "reference";
-  }
-
-  referenceRests() {
-    return this.paused || this.frame.samples >= MOST_SAMPLES;
   }
 
   drawOverlay() {

@@ -1,0 +1,66 @@
+/** Where the pictures of a comparison stand, how large, and where the divider between two is. */
+
+import { columns } from "./columns.js";
+
+/** @typedef {import("./view.js").View} View */
+
+const TALLEST = 680; // CSS pixels of all pictures together
+
+/** Put every picture where it belongs; false where there is no room yet. @param {View} view */
+export function layOut(view) {
+  const { grid, zoom, panels, wipes } = view;
+  const room = grid.clientWidth;
+  if (!room) return false;
+  const aspect = zoom.size[0] / zoom.size[1];
+  const shown = view.shown();
+  const found = columns(wipes ? 1 : shown.length, room, TALLEST, aspect);
+  const [width, height] = [Math.floor(found.width), Math.round(found.width / aspect)];
+  grid.style.gridTemplateColumns = `repeat(${found.columns}, ${width}px)`;
+  grid.style.gridAutoRows = `${height}px`;
+  zoom.setRoom({
+    width,
+    height,
+    fit: { x: 0, y: 0, width, height },
+    pixelRatio: window.devicePixelRatio || 1,
+  });
+  const box = zoom.box();
+  for (const panel of panels) {
+    const { node, picture } = panel;
+    node.hidden = !shown.includes(panel);
+    node.classList.toggle("sw-under", wipes && panel === shown[0]);
+    node.classList.toggle("sw-over", wipes && panel === shown[1]);
+    Object.assign(picture.style, {
+      left: `${box.x}px`,
+      top: `${box.y}px`,
+      width: `${box.width}px`,
+      height: `${box.height}px`,
+    });
+  }
+  view.root.classList.toggle("sw-pixels", zoom.scale >= 2);
+  placeDivider(view);
+  return true;
+}
+
+/** The picture over the other begins at the divider. @param {View} view */
+export function placeDivider(view) {
+  const { divider, panels, wipes, zoom } = view;
+  for (const { canvas } of panels) canvas.style.clipPath = "";
+  if (!wipes) {
+    divider.node.remove();
+    return;
+  }
+  const [under, over] = view.shown();
+  if (divider.node.parentElement !== over.node) over.node.append(divider.node);
+  const box = zoom.box();
+  const { width, height } = zoom.room;
+  const x = divider.place(
+    {
+      left: Math.max(0, box.x),
+      right: Math.min(width, box.x + box.width),
+      top: Math.max(0, box.y),
+      bottom: Math.min(height, box.y + box.height),
+    },
+    [under.variant.label, over.variant.label],
+  );
+  over.canvas.style.clipPath = `inset(0 0 0 ${(100 * (x - box.x)) / box.width}%)`;
+}

@@ -1,0 +1,76 @@
+/** What the kernel sends of a photo: the preview at once, later what the analysis found. */
+
+import { Camera } from "../camera.js";
+import { errorText } from "../error_text.js";
+import { decodePicture } from "../gl/texture.js";
+import { onTraits } from "../traits.js";
+
+/** @typedef {import("../types.js").Scene} Scene */
+
+const PICTURES = ["photo", "layers", "surface", "backdrop", "clear_sky"];
+
+export class Loading {
+  /**
+   * @param {import("./view.js").View} view
+   * @param {AbortSignal} signal
+   */
+  constructor(view, signal) {
+    this.view = view;
+    this.loads = 0;
+    onTraits(view.model, ["_photo"], () => void this.photo(), signal);
+    onTraits(view.model, ["_scene"], () => void this.scene(), signal);
+    signal.addEventListener("abort", () => {
+      this.loads += 1; // pictures that are being decoded come too late
+    });
+  }
+
+  async photo() {
+    const { model, stage } = this.view;
+    const bytes = model.get("_photo");
+    if (!bytes?.byteLength) return;
+    try {
+      await stage.setPhoto(bytes);
+    } catch {
+      this.view.showError("The browser cannot decode the preview that the kernel sent.");
+    }
+  }
+
+  /** Take over what the analysis found: decode its maps, then swap all at once. */
+  async scene() {
+    const { view } = this;
+    /** @type {Scene | null} */
+    const scene = view.model.get("_scene");
+    const photo = view.model.get("_photo");
+    if (!scene?.uniforms) this.forget();
+    if (!scene?.uniforms || !photo?.byteLength) return;
+    this.loads += 1;
+    const load = this.loads;
+    try {
+      const bitmaps = await Promise.all(
+        PICTURES.map((name) => decodePicture(view.model.get(`_${name}`))),
+      );
+      if (load !== this.loads) {
+        for (const bitmap of bitmaps) bitmap.close();
+        return;
+      }
+      view.size = [bitmaps[0].width, bitmaps[0].height];
+      PICTURES.forEach((name, i) => {
+        view.frame.setPicture(name, bitmaps[i]);
+      });
+    } catch (error) {
+      if (load !== this.loads) return;
+      view.showError(`The maps of the analysis cannot be shown: ${errorText(error)}`);
+      return;
+    }
+    const { fov_vertical_deg, pitch, roll } = scene.camera;
+    const camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
+    view.takeScene(scene, camera);
+  }
+
+  /** Another photo is on its way: nothing of the last one is true of it. */
+  forget() {
+    if (!this.view.scene) return;
+    this.loads += 1;
+    this.view.forgetScene();
+  }
+}
