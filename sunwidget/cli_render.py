@@ -58,7 +58,7 @@ def add_render(commands: Any) -> None:
 def _render(options: argparse.Namespace) -> int:
     import sunwidget as sw
     from sunwidget.export.environment import check_map
-    from sunwidget.export.stills import check_format
+    from sunwidget.export.formats import check_format
 
     edit = edit_of_flags(options)  # what is wrong with it shows before the work
     refuse_existing(options.output, options.overwrite)

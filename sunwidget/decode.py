@@ -13,7 +13,6 @@ import importlib
 import io
 import json
 import threading
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -25,6 +24,7 @@ from sunwidget import decode_raw, openexr, radiance, xmp
 from sunwidget import exif as exif_tags
 from sunwidget.color import SRGB, ColorProfile
 from sunwidget.color_management import Coded, by_hints, by_profile, cmyk_to_srgb
+from sunwidget.decode_deep import by_opencv, is_deep, tiff_tags
 from sunwidget.layout import PhotoError, check_light, check_size, split_alpha, upright
 
 # Never EPS, WMF and the like: those formats can start other programs.
@@ -77,7 +77,7 @@ def decode_bytes(data: bytes, name: str) -> Decoded:
         raise PhotoError(f"{name} is empty (0 bytes). Copy or download it again.")
     if data.startswith((openexr.MAGIC, *radiance.MAGIC)):
         return _decode_light(data, name)
-    tags = _tiff_tags(data) if data.startswith(_TIFF) else {}
+    tags = tiff_tags(data) if data.startswith(_TIFF) else {}
     if decode_raw.is_raw(data, name, tags):
         codes, exif, turned = decode_raw.develop(data, name)
         packet = xmp.upright(_bytes(tags.get(700)))
@@ -115,7 +115,7 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
     notes = []
     if getattr(image, "n_frames", 1) > 1 and image.format != "MPO":
         notes.append(f"{name} holds {image.n_frames} frames; only the first is used.")
-    deep = data is not None and _is_deep(image)
+    deep = data is not None and is_deep(image)
     # Loading turns a TIFF and makes it forget its orientation; a PNG tells it only then.
     way = image.getexif().get(274, 1) if image.format == "TIFF" else None
     image.load()
@@ -125,7 +125,7 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
         raise PhotoError(
             f"{name} is a TIFF with 16 bits in separate planes. Save it with interleaved channels."
         )
-    found = _opencv(data) if deep and data is not None else None
+    found = by_opencv(data) if deep and data is not None else None
     if deep and found is None:
         notes.append(f"The 16-bit channels of {name} could only be read with 8 bits.")
     icc = image.info.get("icc_profile") or None
@@ -210,49 +210,6 @@ def _exif_block(image: Any) -> bytes:
     return block if isinstance(block, bytes) else b""
 
 
-def _is_deep(image: Any) -> bool:
-    """Tell 16-bit colour, which Pillow would decode to 8 bits."""
-    if image.mode not in ("RGB", "RGBA", "LA"):
-        return False
-    if image.format == "TIFF":
-        return image.tag_v2.get(258, (8,))[0] == 16
-    return any(";16" in str(tile[3]) for tile in image.tile)
-
-
-def _opencv(data: bytes) -> NDArray[Any] | None:
-    """Decode with OpenCV to (H, W) or (H, W, 3 or 4) RGB order; None when it cannot."""
-    import cv2
-
-    try:
-        with _quiet_opencv():
-            found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
-    except cv2.error:
-        return None
-    if found is None or found.dtype not in (np.uint16, np.float32, np.float64):
-        return None
-    if found.dtype == np.float64:
-        found = found.astype(np.float32)
-    if found.ndim == 3 and found.shape[2] in (3, 4):
-        order = [2, 1, 0, 3][: found.shape[2]]
-        found = found[..., order]
-    return np.asarray(found)
-
-
-@contextlib.contextmanager
-def _quiet_opencv() -> Iterator[None]:
-    """Keep OpenCV from writing to stderr about bad files; a PhotoError says it better."""
-    import cv2
-
-    # Until OpenCV 4.10 the two functions lay elsewhere.
-    home = cv2.utils.logging if hasattr(cv2.utils, "logging") else cv2
-    level = home.getLogLevel()
-    home.setLogLevel(0)
-    try:
-        yield
-    finally:
-        home.setLogLevel(level)
-
-
 def _decode_light(data: bytes, name: str) -> Decoded:
     """Decode OpenEXR or Radiance HDR; what :mod:`sunwidget.export.linear` noted comes back."""
     if data.startswith(openexr.MAGIC):
@@ -277,11 +234,11 @@ def _bytes(value: Any) -> bytes | None:
 
 def _decode_odd_tiff(data: bytes, name: str) -> Decoded:
     """Decode a TIFF that Pillow does not know: RGB in float."""
-    tags = _tiff_tags(data)
+    tags = tiff_tags(data)
     width, height = tags.get(256, 0), tags.get(257, 0)
     if isinstance(width, int) and isinstance(height, int) and width and height:
         check_size(width, height, name)
-        found = _opencv(data) if tags.get(262) in (1, 2) and tags.get(284, 1) == 1 else None
+        found = by_opencv(data) if tags.get(262) in (1, 2) and tags.get(284, 1) == 1 else None
         result = Decoded(np.empty(0), format="TIFF", exif=exif_tags.load(data))
         result.xmp = xmp.upright(_bytes(tags.get(700)))
         result.turned = exif_tags.orientation(result.exif) >= 5
@@ -295,20 +252,6 @@ def _decode_odd_tiff(data: bytes, name: str) -> Decoded:
         f"{name} is a TIFF of an unusual or damaged kind. Save it with 8 or 16 bits a channel, "
         "RGB or grey, and open that."
     )
-
-
-def _tiff_tags(data: bytes) -> dict[int, Any]:
-    from PIL import TiffImagePlugin
-
-    try:
-        with exif_tags.quiet():
-            directory = TiffImagePlugin.ImageFileDirectory_v2(data[:8])
-            stream = io.BytesIO(data)
-            stream.seek(directory.next)
-            directory.load(stream)
-            return dict(directory)
-    except Exception:  # noqa: BLE001 - a damaged directory; the caller says so
-        return {}
 
 
 def _fill_from_array(result: Decoded, found: NDArray[Any], name: str) -> None:

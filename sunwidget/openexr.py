@@ -137,7 +137,7 @@ def read(data: bytes, name: str) -> Exr:
         alpha = np.clip(alpha.astype(np.float32), 0, 1)
         # OpenEXR's colours are multiplied by alpha ("Technical Introduction to OpenEXR").
         light /= np.maximum(alpha, 1e-6)[..., None]
-    matrix = primaries_to_rec709(header.get("chromaticities", REC709_CHROMATICITIES))
+    matrix = primaries_to_rec709(_numbers(header.get("chromaticities"), REC709_CHROMATICITIES))
     if matrix is not None:
         light = light @ matrix.T.astype(np.float32)
     notes = {
@@ -145,8 +145,17 @@ def read(data: bytes, name: str) -> Exr:
         for key, value in header.items()
         if key.startswith(_NOTE) and isinstance(value, str)
     }
-    density = header.get("xDensity", 0.0)
+    (density,) = _numbers((header.get("xDensity"),), (0.0,))
     return Exr(light, alpha, notes, (density, density) if 1 <= density <= 65535 else None)
+
+
+def _numbers(value: Any, otherwise: tuple[float, ...]) -> tuple[float, ...]:
+    """Return an attribute that should be as many numbers as ``otherwise``; that where it is not."""
+    try:
+        found = tuple(float(number) for number in value)
+    except (TypeError, ValueError):
+        return otherwise
+    return found if len(found) == len(otherwise) and np.isfinite(found).all() else otherwise
 
 
 def _damaged(name: str) -> PhotoError:

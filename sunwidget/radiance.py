@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.color import REC709_CHROMATICITIES, REC709_TO_XYZ, primaries_to_rec709
+from sunwidget.decode_deep import by_opencv
 from sunwidget.layout import PhotoError, check_size
 
 MAGIC = (b"#?RADIANCE", b"#?RGBE")
@@ -69,8 +70,6 @@ def read(data: bytes, name: str) -> Hdr:
     PhotoError
         For a damaged file, and for one that is turned or mirrored in an unusual way.
     """
-    import cv2
-
     end = data.find(b"\n\n")
     size = _RESOLUTION.match(data, end + 2) if end >= 0 else None
     if size is None:
@@ -82,13 +81,10 @@ def read(data: bytes, name: str) -> Hdr:
     check_size(width, height, name)
     lines = data[:end].decode("latin-1").splitlines()
     plain = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + data[end + 2 :]
-    try:
-        found = cv2.imdecode(np.frombuffer(plain, np.uint8), cv2.IMREAD_UNCHANGED)
-    except cv2.error:
-        found = None
+    found = by_opencv(plain)
     if found is None or found.shape != (height, width, 3):
         raise PhotoError(f"{name} is a damaged Radiance HDR file. Copy or download it again.")
-    light = found[..., ::-1] / np.float32(_exposure(lines))
+    light = found / np.float32(_exposure(lines))
     matrix = _matrix(lines)
     return Hdr(light if matrix is None else light @ matrix.T.astype(np.float32), _notes(lines))
 

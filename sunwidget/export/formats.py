@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import difflib
 import io
 import struct
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget import exif as exif_tags
+from sunwidget import openexr
 from sunwidget.export.linear import exr, hdr
 from sunwidget.export.lost import warn_lost
 from sunwidget.export.tiff import EFFORT, tiff
@@ -176,3 +179,38 @@ FORMATS: dict[str, Format] = {
     ".hdr": Format(hdr, (32,), linear=True),
 }
 """File name ending to format."""
+
+
+def check_format(path: Path, bit_depth: int | None = None, *, layers: bool = False) -> Format:
+    """Return the format that a file's ending chooses, before any work is spent on it.
+
+    Raises
+    ------
+    PhotoError
+        For an unknown ending, a depth or layers that it cannot hold, and EXR without its extra.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
+        near = difflib.get_close_matches(suffix, FORMATS, n=1)
+        hint = f" Did you mean {near[0]!r}?" if near else ""
+        raise PhotoError(
+            f"{path.name} ends in {suffix or 'nothing'!r}; expected one of "
+            f"{', '.join(FORMATS)}.{hint}"
+        )
+    form = FORMATS[suffix]
+    if bit_depth not in (None, 8, 16, 32) or isinstance(bit_depth, bool):
+        raise PhotoError(f"bit_depth must be 8, 16 or 32, not {bit_depth!r:.40}.")
+    if bit_depth is not None and bit_depth not in form.depths:
+        held = " or ".join(str(depth) for depth in sorted(form.depths))
+        others = [key for key, other in FORMATS.items() if bit_depth in other.depths]
+        raise PhotoError(
+            f"{suffix} holds {held} bits a channel. Save {bit_depth} bits as {' or '.join(others)}."
+        )
+    if layers and not form.layers:
+        raise PhotoError(
+            f"{suffix} holds no transparency, which layers need. Save them as .tif, .exr, .png "
+            "or .webp."
+        )
+    if suffix == ".exr":
+        openexr.library()  # what is missing shows before the work
+    return form

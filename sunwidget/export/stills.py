@@ -8,7 +8,6 @@ colour profile.
 from __future__ import annotations
 
 import contextlib
-import difflib
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -17,14 +16,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget import openexr
 from sunwidget.color import strips
 from sunwidget.edit import Edit
-from sunwidget.export.formats import FORMATS, Format, Still
+from sunwidget.export.formats import Format, Still, check_format
 from sunwidget.export.layers import LAYERS, layer_alone, layers_of
 from sunwidget.export.metadata import told
 from sunwidget.files import complete_or_absent, target
 from sunwidget.photo import Photo, PhotoError, open_photo
+
+__all__ = ["check_format", "encode_like", "save"]
 
 Progress = Callable[[float, str], object]
 
@@ -176,41 +176,6 @@ class _Wanted(NamedTuple):
     def is_light(self, bits: int) -> bool:
         """Tell whether the file holds linear light in floats."""
         return self.form.linear or bits == 32
-
-
-def check_format(path: Path, bit_depth: int | None = None, *, layers: bool = False) -> Format:
-    """Return the format that a file's ending chooses, before any work is spent on it.
-
-    Raises
-    ------
-    PhotoError
-        For an unknown ending, a depth or layers that it cannot hold, and EXR without its extra.
-    """
-    suffix = path.suffix.lower()
-    if suffix not in FORMATS:
-        near = difflib.get_close_matches(suffix, FORMATS, n=1)
-        hint = f" Did you mean {near[0]!r}?" if near else ""
-        raise PhotoError(
-            f"{path.name} ends in {suffix or 'nothing'!r}; expected one of "
-            f"{', '.join(FORMATS)}.{hint}"
-        )
-    form = FORMATS[suffix]
-    if bit_depth not in (None, 8, 16, 32) or isinstance(bit_depth, bool):
-        raise PhotoError(f"bit_depth must be 8, 16 or 32, not {bit_depth!r:.40}.")
-    if bit_depth is not None and bit_depth not in form.depths:
-        held = " or ".join(str(depth) for depth in sorted(form.depths))
-        others = [key for key, other in FORMATS.items() if bit_depth in other.depths]
-        raise PhotoError(
-            f"{suffix} holds {held} bits a channel. Save {bit_depth} bits as {' or '.join(others)}."
-        )
-    if layers and not form.layers:
-        raise PhotoError(
-            f"{suffix} holds no transparency, which layers need. Save them as .tif, .exr, .png "
-            "or .webp."
-        )
-    if suffix == ".exr":
-        openexr.library()  # what is missing shows before the work
-    return form
 
 
 def _photo_of(like: Any) -> Photo | None:
