@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 _COLOURS = 255
 _KEPT = 255  # the index of a pixel that stays as it was
-# A pixel whose new colour lies nearer to the shown one than this (CIELAB) is left alone.
-_UNSEEN = 1.5
+# A pixel whose new colour lies nearer to the shown one than this, in levels, is left alone.
+_UNSEEN = 3.5
 _SAMPLES = 8000
 # What a mixture of two colours costs for being grainy, against being off by the same amount.
-_GRAIN = 0.12
+_GRAIN = 0.4
 _NEAREST = 6  # entries of the palette that a mixture is sought among
 
 
@@ -57,14 +57,14 @@ def write_gif(
         else:
             palette.follow(frame)
         indices = palette.dithered(frame)
-        new = palette.lab[indices]
+        new = palette.colours[indices]
         if shown is not None:
             kept = ((new - shown) ** 2).sum(axis=-1) < _UNSEEN**2
             indices[kept] = _KEPT
             new[kept] = shown[kept]
         shown = new
         picture = Image.fromarray(indices)
-        picture.putpalette(palette.rgb.tobytes() + bytes(3))
+        picture.putpalette(palette.colours.astype(np.uint8).tobytes() + bytes(3))
         blocks = getdata(
             picture,
             transparency=_KEPT,
@@ -87,43 +87,43 @@ class _Palette:
         rgb = np.array(cut, np.uint8).reshape(-1, 3)[:_COLOURS]
         # A picture of few colours: the rest are found where they are missed.
         rgb = np.pad(rgb, ((0, _COLOURS - len(rgb)), (0, 0)), mode="edge")
-        self._set(_lab(rgb))
-        self._move(_lab(sample), rounds=6)
+        self.colours = rgb.astype(np.float32)
+        self._move(sample, rounds=6)
 
     def follow(self, frame: NDArray[np.uint8]) -> None:
         """Move on to the colours of the next frame."""
-        self._move(_lab(_sample(frame)), rounds=2)
+        self._move(_sample(frame), rounds=2)
 
     def dithered(self, frame: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """Return the index of each pixel, (H, W): two colours mixed by a still threshold."""
         height, width = frame.shape[:2]
         threshold = np.tile(_BAYER, (-(-height // 8), -(-width // 8)))[:height, :width]
-        # Pairs are sought for colours of 6 bits; the rounding is dithered as well.
-        rgb6 = np.minimum(frame.astype(np.int32) + (threshold // 16)[..., None], 255) >> 2
+        # Pairs are sought for colours of 6 bits; the rounding to them is dithered as well.
+        rgb6 = (frame * np.int32(63) + threshold[..., None] * np.int32(4)) // 255
         code = rgb6[..., 0] << 12 | rgb6[..., 1] << 6 | rgb6[..., 2]
         used = np.flatnonzero(np.bincount(code.ravel(), minlength=1 << 18))
         place = np.zeros(1 << 18, np.int32)
         place[used] = np.arange(len(used))
-        rgb = np.stack([used >> 12, used >> 6 & 63, used & 63], axis=-1).astype(np.uint8)
-        first, second, share = self._pairs(_lab(rgb * np.uint8(4) + np.uint8(2)))
+        rgb = np.stack([used >> 12, used >> 6 & 63, used & 63], axis=-1)
+        first, second, share = self._pairs(rgb * np.float32(255 / 63))
         at = place[code]
         return np.where(threshold < share[at] * 64, second[at], first[at])
 
     def _pairs(
-        self, lab: NDArray[np.float32]
+        self, rgb: NDArray[np.float32]
     ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.float32]]:
         """Return for each colour the two entries, and the second one's share, that mix to it."""
         from scipy.spatial import cKDTree
 
-        _, near = cKDTree(self.lab).query(lab, k=_NEAREST)
-        first = self.lab[near[:, :1]]
-        way = self.lab[near[:, 1:]] - first
+        _, near = cKDTree(self.colours).query(rgb, k=_NEAREST)
+        first = self.colours[near[:, :1]]
+        way = self.colours[near[:, 1:]] - first
         length = (way**2).sum(axis=-1)
-        share = ((lab[:, None] - first) * way).sum(axis=-1) / np.maximum(length, 1e-6)
+        share = ((rgb[:, None] - first) * way).sum(axis=-1) / np.maximum(length, 1e-6)
         share = np.clip(share, 0, 1)
-        miss = ((lab[:, None] - first - share[..., None] * way) ** 2).sum(axis=-1)
+        miss = ((rgb[:, None] - first - share[..., None] * way) ** 2).sum(axis=-1)
         best = np.argmin(miss + _GRAIN * share * (1 - share) * length, axis=1)
-        row = np.arange(len(lab))
+        row = np.arange(len(rgb))
         second = near[row, best + 1]
         return (
             near[:, 0].astype(np.uint8),
@@ -131,29 +131,23 @@ class _Palette:
             share[row, best].astype(np.float32),
         )
 
-    def _move(self, sample: NDArray[np.float32], rounds: int) -> None:
+    def _move(self, sample: NDArray[np.uint8], rounds: int) -> None:
         """Lloyd's iterations; entries that nothing is near to go where most is missed."""
         from scipy.spatial import cKDTree
 
-        lab = self.lab
+        colours = self.colours
         for _ in range(rounds):
-            miss, nearest = cKDTree(lab).query(sample)
+            miss, nearest = cKDTree(colours).query(sample)
             count = np.bincount(nearest, minlength=_COLOURS)
             sums = [np.bincount(nearest, sample[:, c], _COLOURS) for c in range(3)]
             moved = np.stack(sums, axis=-1) / np.maximum(count, 1)[:, None]
             idle = np.flatnonzero(count == 0)
             worst = np.argsort(-miss, kind="stable")[: 4 * len(idle) : 4]
-            moved[idle] = lab[idle]
+            moved[idle] = colours[idle]
             moved[idle[: len(worst)]] = sample[worst]
-            lab = moved.astype(np.float32)
-        self._set(lab)
-
-    def _set(self, lab: NDArray[np.float32]) -> None:
-        import cv2
-
-        rgb = cv2.cvtColor(lab[None].astype(np.float32), cv2.COLOR_Lab2RGB)[0]
-        self.rgb = np.rint(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
-        self.lab = _lab(self.rgb)
+            colours = moved.astype(np.float32)
+        # The file has whole levels; what is mixed is what is shown.
+        self.colours = np.rint(colours)
 
 
 def _sample(frame: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -161,14 +155,6 @@ def _sample(frame: NDArray[np.uint8]) -> NDArray[np.uint8]:
     height, width = frame.shape[:2]
     step = max(1, round((height * width / _SAMPLES) ** 0.5))
     return frame[step // 2 :: step, step // 2 :: step].reshape(-1, 3)
-
-
-def _lab(rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
-    import cv2
-
-    light = (np.ascontiguousarray(rgb) / np.float32(255)).reshape(1, -1, 3)
-    lab: NDArray[np.float32] = cv2.cvtColor(light, cv2.COLOR_RGB2Lab).reshape(-1, 3)
-    return lab
 
 
 def _bayer(order: int) -> NDArray[np.uint8]:

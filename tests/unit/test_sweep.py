@@ -27,12 +27,14 @@ def scene(monkeypatch):
 
     rendered = []
     monkeypatch.setattr(RENDERER, "render", flat)
-    return SimpleNamespace(
+    made = SimpleNamespace(
         automatic={"sun_azimuth": 10.0, "sun_elevation": 20.0},
         camera=SimpleNamespace(width=65, height=43),
         lit_by_moon=False,
+        corrected=lambda _edit: made,
         rendered=rendered,
     )
+    return made
 
 
 ENDS = [Edit(sun_elevation=60), Edit(sun_elevation=0)]
