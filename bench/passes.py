@@ -20,7 +20,7 @@ from typing import Any
 import sunwidget as sw
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs
-from sunwidget.renderer.render import draw_rows, scene_textures
+from sunwidget.renderer.render import draw_part, scene_textures
 
 
 class TimedGraph(FrameGraph):
@@ -46,12 +46,12 @@ def pass_times(scene: Any, edits: list[Any], size: tuple[int, int]) -> dict[str,
 
     def task(context: Any) -> dict[str, list[float]]:
         graph = TimedGraph(Programs(context), scene_textures(scene, size))
-        draw_rows(graph, scene, edits[0], size, "uint8")
+        draw_part(graph, scene, edits[0], size, "uint8")
         graph.times = {}
         whole = []
         for edit in edits[1:]:
             begin = time.process_time()
-            draw_rows(graph, scene, edit, size, "uint8")
+            draw_part(graph, scene, edit, size, "uint8")
             whole.append((time.process_time() - begin) * 1000)
         return {**graph.times, "all, with the read-back": whole}
 

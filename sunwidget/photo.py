@@ -27,6 +27,8 @@ from sunwidget.layout import PhotoError, PhotoWarning, check_light, check_size, 
 
 __all__ = ["FieldOfView", "Photo", "PhotoError", "PhotoWarning", "open_photo"]
 
+_DECODED_AT_ONCE = 1 << 25  # pixels: 400 MB of light
+
 
 class FieldOfView(NamedTuple):
     """Vertical field of view in degrees, and where it comes from: "exif" or "assumed"."""
@@ -115,13 +117,20 @@ class Photo:
     def pixels(self) -> NDArray[np.float32]:
         """Linear Rec. 709 light, (H, W, 3) float32, read-only, 1 = white.
 
-        Not clamped: colours of a wider gamut have channels below 0 or above 1.
+        Not clamped: colours of a wider gamut have channels below 0 or above 1. It is kept once
+        it was asked for, and takes four to two times the memory of the code values.
         """
-        if self.encoded.dtype.kind == "f":
-            return self.encoded
-        light = self.profile.decode(self.encoded)
+        light = self.light()
         light.flags.writeable = False
         return light
+
+    def light(self, rows: slice = slice(None)) -> NDArray[np.float32]:
+        """Return some rows of ``pixels``, (h, W, 3) float32, without keeping what is decoded."""
+        if self.encoded.dtype.kind == "f":
+            return np.asarray(self.encoded[rows])
+        if "pixels" in self.__dict__:
+            return np.asarray(self.pixels[rows])
+        return self.profile.decode(self.encoded[rows])
 
     @cached_property
     def field_of_view(self) -> FieldOfView:
@@ -161,7 +170,7 @@ class Photo:
         if small == self.size:
             if self.encoded.dtype == np.uint8 and self.profile.is_srgb:
                 return self.encoded
-            return SRGB.encode(self.pixels)
+            return SRGB.encode(self.light())
         return SRGB.encode(self._shrunk(small))
 
     def size_within(self, long_edge: int) -> tuple[int, int]:
@@ -170,14 +179,24 @@ class Photo:
         width, height = (max(1, round(n * scale)) for n in self.size)
         return width, height
 
+    def resized(self, size: tuple[int, int]) -> NDArray[np.float32]:
+        """Return ``pixels`` averaged over areas at ``size`` (width, height), kept nowhere."""
+        import cv2
+
+        if size == self.size:
+            return self.light()
+        smaller = size[0] <= self.width and size[1] <= self.height
+        if smaller and self.width * self.height > _DECODED_AT_ONCE:
+            return self._shrunk(size)
+        return np.asarray(cv2.resize(self.light(), size, interpolation=cv2.INTER_AREA), np.float32)
+
     def _shrunk(self, size: tuple[int, int]) -> NDArray[np.float32]:
         """Area average in linear light; strip by strip, so that 150 MP need no float copy."""
         import cv2
 
         narrow = np.empty((self.height, size[0], 3), np.float32)
         for rows in strips(self.encoded.shape):
-            part = self.encoded[rows]
-            light = part if part.dtype.kind == "f" else self.profile.decode(part)
+            light = self.light(rows)
             target = (size[0], light.shape[0])
             narrow[rows] = cv2.resize(light, target, interpolation=cv2.INTER_AREA)
         return np.asarray(cv2.resize(narrow, size, interpolation=cv2.INTER_AREA), np.float32)

@@ -50,15 +50,18 @@ def fill_sky(values: np.ndarray, land: np.ndarray) -> np.ndarray:
     return filled
 
 
-def dithered(level: np.ndarray) -> np.ndarray:
+def dithered(level: np.ndarray, first_row: int = 0) -> np.ndarray:
     """Add ± half an 8-bit level of noise, always the same: interleaved gradient noise.
+
+    ``level`` (h, w) float32 may be some rows of a picture, from ``first_row`` on.
 
     Its mean over any 3 × 3 pixels is nearly 0 (Jimenez, "Next generation post processing in
     Call of Duty: Advanced Warfare", SIGGRAPH 2014 course), so that small averages are exact.
     """
     height, width = level.shape
     slope = np.float32(0.06711056) * np.arange(width, dtype=np.float32)
-    rows = np.float32(0.00583715) * np.arange(height, dtype=np.float32)[:, None]
+    rows = np.arange(first_row, first_row + height, dtype=np.float32)[:, None]
+    rows *= np.float32(0.00583715)
     noise = slope + rows
     noise -= np.floor(noise)
     noise *= np.float32(52.9829189)

@@ -36,7 +36,7 @@ from sunwidget.analysis.stages import (
     find_clouds_again,
 )
 from sunwidget.analysis.sun import SunObservation
-from sunwidget.analysis.working import Working, resize
+from sunwidget.analysis.working import Working, resize, resize_rows
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.camera import Camera, Point
 from sunwidget.edit import PARAMETERS, Edit, Stroke, parameter
@@ -169,14 +169,33 @@ class Scene:
         """The depth at any size (analysis/depth_field.py); found when asked for."""
         return self.known_depth or depth_of(self)
 
-    def _log_depth(self, width: int, height: int) -> np.ndarray:
-        """Return ln(metres), the sky as its nearest land: (height, width) float32."""
+    def _log_depth(self, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
+        """Return ln(metres), the sky as its nearest land: (height, width) float32, or ``rows``."""
         # Beyond a preview's size depth has nothing finer to show.
         scale = min(1.0, _DEPTH_EDGE / max(width, height))
         size = max(1, round(width * scale)), max(1, round(height * scale))
-        metres = self.depth_field.log_metres(*size, self.working)
-        land = resize(self.sky, *size) <= 0.5
-        return resize(depth_level.fill_sky(metres, land), width, height)
+        if size not in self._log_depths:
+            metres = self.depth_field.log_metres(*size, self.working)
+            land = resize(self.sky, *size) <= 0.5
+            self._log_depths.clear()
+            self._log_depths[size] = depth_level.fill_sky(metres, land)
+        return resize_rows(self._log_depths[size], width, height, rows)
+
+    @cached_property
+    def _log_depths(self) -> dict[tuple[int, int], np.ndarray]:
+        return {}  # the last one by its size: strips of a large picture ask again and again
+
+    @cached_property
+    def _glitter(self) -> np.ndarray:
+        small = self.working
+        sky = resize(self.sky, small.width, small.height)
+        water = resize(self.water, small.width, small.height)
+        # Of a sun that the photo does not show, only a low one ahead would glint.
+        azimuth, elevation = self.assumed_sun
+        column = None if elevation > 15 else column_of(self.camera, azimuth)
+        if self.sun is not None:
+            column = column_of(self.camera, self.sun.azimuth)
+        return glitter(small, sky, water, column)
 
     @cached_property
     def shown(self) -> refine.Decision:
@@ -254,35 +273,31 @@ class Scene:
         water = resize(self.water, self.working.width, self.working.height)
         return roughness(self.working, water, self.camera, (self.sun.azimuth, self.sun.elevation))
 
-    def layers(self, size: tuple[int, int] | None = None) -> np.ndarray:
+    def layers(self, size: tuple[int, int] | None = None, rows: slice = slice(None)) -> np.ndarray:
         """(H, W, 3) float32 in [0, 1]: sky matte, cloud opacity, cloud softness.
 
-        ``size`` (width, height) asks for another size than the photo's.
+        ``size`` (width, height) asks for another size than the photo's, ``rows`` for some of
+        its rows alone.
         """
         width, height = size or (self.width, self.height)
         maps = (self.sky, self.clouds, self.cloud_softness)
-        return np.stack([resize(image, width, height) for image in maps], axis=-1)
+        return np.stack([resize_rows(image, width, height, rows) for image in maps], axis=-1)
 
-    def surface(self, size: tuple[int, int] | None = None) -> np.ndarray:
+    def surface(self, size: tuple[int, int] | None = None, rows: slice = slice(None)) -> np.ndarray:
         """(H, W, 4) float32 in [0, 1]: glare, water, glitter, log-depth of the land.
 
         Glare is where the photo says nothing about the sky behind: the old sun's clipped core
         and its halo, fading outwards. The log-depth (depth_level.py) is dithered; in the sky it
-        is that of the nearest land. ``size`` as for ``layers``.
+        is that of the nearest land. ``size`` and ``rows`` as for ``layers``.
         """
         width, height = size or (self.width, self.height)
-        small = self.working
-        sky = resize(self.sky, small.width, small.height)
-        water = resize(self.water, small.width, small.height)
-        # Of a sun that the photo does not show, only a low one ahead would glint.
-        azimuth, elevation = self.assumed_sun
-        column = None if elevation > 15 else column_of(self.camera, azimuth)
-        if self.sun is not None:
-            column = column_of(self.camera, self.sun.azimuth)
-        maps = (self.glare, self.water, glitter(small, sky, water, column))
-        level = depth_level.to_level(self._log_depth(width, height))
+        maps = (self.glare, self.water, self._glitter)
+        level = depth_level.to_level(self._log_depth(width, height, rows))
         return np.stack(
-            [*(resize(image, width, height) for image in maps), depth_level.dithered(level)],
+            [
+                *(resize_rows(image, width, height, rows) for image in maps),
+                depth_level.dithered(level, rows.indices(height)[0]),
+            ],
             axis=-1,
         )
 

@@ -151,7 +151,7 @@ def encode_like(photo: Photo, light: NDArray[Any], *, bit_depth: int | None = No
         # 257 takes each 8-bit level to its 16-bit one, and back after rounding.
         own = own * np.uint16(257) if bits == 16 else np.rint(own / 257).astype(np.uint8)
     for rows in strips(light.shape):
-        was = photo.pixels[rows]
+        was = photo.light(rows)
         same = np.abs(light[rows] - was) <= _SAME_LIGHT + _SAME_SHARE * np.abs(was)
         kept = same.all(axis=-1)
         codes[rows][kept] = own[rows][kept]

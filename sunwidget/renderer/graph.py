@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[Any]
 
+# Pixels on the longer side from which passes that are a part of the frame grow no more.
+LARGEST_FRAME = 4096
+
 
 @dataclass
 class Target:
@@ -100,6 +103,9 @@ class FrameGraph:
         self.context = programs.context
         self.targets: dict[str, Target] = {}
         self.scene: dict[str, moderngl.Texture] = {}
+        # Of the rows that are being drawn, for passes of the picture's size (tiles.py).
+        self.strip: dict[str, moderngl.Texture] = {}
+        self.picture_strip: tuple[float, ...] = (0.0,) * 4
         self.versions: dict[str, int] = {}
         self.runs: dict[str, int] = {}
         self.drawn: set[str] = set()
@@ -108,19 +114,40 @@ class FrameGraph:
 
     def set_texture(self, name: str, image: Array) -> None:
         """Upload one scene texture; whatever reads it is drawn again."""
+        self.scene[name] = self._uploaded(image, None)
+        self.versions[name] = self.versions.get(name, 0) + 1
+
+    def set_strip(self, textures: Mapping[str, Array], picture_strip: tuple[float, ...]) -> None:
+        """Upload what passes of the picture's size read from now on instead of the whole picture.
+
+        Parameters
+        ----------
+        textures : mapping of str to array
+            As of the graph itself, of some rows of the picture.
+        picture_strip : (first row, width, height, rows)
+            Which rows of a picture of which size; no row is longer than a texture can be
+            (``tiles.folded``).
+        """
+        self.strip = {
+            name: self._uploaded(image, self.strip.get(name)) for name, image in textures.items()
+        }
+        self.picture_strip = picture_strip
+        self.versions["strip"] = self.versions.get("strip", 0) + 1
+
+    def _uploaded(self, image: Array, into: moderngl.Texture | None) -> moderngl.Texture:
         image = np.ascontiguousarray(image)
         height, width, components = image.shape
-        limit = self.context.info["GL_MAX_TEXTURE_SIZE"]
+        limit = largest_texture(self.context)
         if max(height, width) > limit:
             raise ValueError(
                 f"A picture of {width}×{height} exceeds this renderer's limit of {limit} pixels "
                 "a side. Scale it down before opening it."
             )
+        if into is not None and into.size == (width, height):
+            into.write(image, alignment=1)
+            return into
         dtype = {"uint8": "f1", "uint16": "nu2", "float32": "f4"}[str(image.dtype)]
-        self.scene[name] = self.context.texture(
-            (width, height), components, image, alignment=1, dtype=dtype
-        )
-        self.versions[name] = self.versions.get(name, 0) + 1
+        return self.context.texture((width, height), components, image, alignment=1, dtype=dtype)
 
     def run(
         self,
@@ -140,6 +167,7 @@ class FrameGraph:
         """
         x, y, width, height = tile
         host = {**host_values, "tile_origin": (float(x), float(y))}
+        host["picture_strip"] = self.picture_strip
         rows = [row for row in self.passes if "when" not in row or set(row["when"]) & set(methods)]
         if until is None:
             until = next(row["name"] for row in rows if row["format"] == "output")
@@ -177,7 +205,9 @@ class FrameGraph:
         if isinstance(size, str):
             return sizes[size]
         if size[0] == "frame":
-            return math.ceil(frame[0] / size[1]), math.ceil(frame[1] / size[1])
+            # A part of a very large picture would be one as well.
+            shrink = size[1] * max(1.0, max(frame) / LARGEST_FRAME)
+            return math.ceil(frame[0] / shrink), math.ceil(frame[1] / shrink)
         return size[0], size[1]
 
     def _run_pass(
@@ -192,14 +222,15 @@ class FrameGraph:
         inputs = {uniform: self._source(names) for uniform, names in row["inputs"].items()}
         program = self.programs.get(shader, row.get("constants"))
         host = {**host, "pass_size": (float(size[0]), float(size[1]))}
-        if row["size"] != "frame":
+        framed = row["size"] == "frame"
+        if not framed:
             # Only frame-sized passes are drawn piece by piece; a table is drawn whole.
             host["tile_origin"] = (0.0, 0.0)
         values: dict[str, Any] = {}
         key: list[Any] = [size, shader]
         for uniform in self.programs.uniforms[shader]:
             if uniform in inputs:
-                key.append(self._version(inputs[uniform]))
+                key.append(self._version(inputs[uniform], framed))
             elif uniform not in ("history", "sample_index"):
                 values[uniform] = uniform_value(shader, uniform, state, scene, host)
                 key.append(values[uniform])
@@ -217,7 +248,8 @@ class FrameGraph:
             if uniform in values:
                 member.value = values[uniform]
                 continue
-            texture = self._texture(inputs[uniform]) if uniform in inputs else target.previous
+            of_inputs = uniform in inputs
+            texture = self._texture(inputs[uniform], framed) if of_inputs else target.previous
             if texture is None:
                 raise KeyError(f"Pass {name!r} reads its history and has none in the frame graph.")
             texture.use(unit)
@@ -244,10 +276,18 @@ class FrameGraph:
         target.texture, target.previous = target.previous, target.texture
         target.framebuffer = self.context.framebuffer([target.texture])
 
-    def _version(self, name: str) -> tuple[str, int]:
+    def _version(self, name: str, framed: bool) -> tuple[str, int]:
         if name in self.targets:
             return name, self.targets[name].version
-        return name, self.versions[name]
+        return name, self.versions["strip" if framed and name in self.strip else name]
 
-    def _texture(self, name: str) -> moderngl.Texture:
-        return self.targets[name].texture if name in self.targets else self.scene[name]
+    def _texture(self, name: str, framed: bool) -> moderngl.Texture:
+        """Return what a pass reads, one of the picture's size (``framed``) or another."""
+        if name in self.targets:
+            return self.targets[name].texture
+        return self.strip[name] if framed and name in self.strip else self.scene[name]
+
+
+def largest_texture(context: moderngl.Context) -> int:
+    """Return how many pixels a side of a texture can have."""
+    return int(context.info["GL_MAX_TEXTURE_SIZE"])

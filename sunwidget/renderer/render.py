@@ -3,17 +3,26 @@
 from __future__ import annotations
 
 import functools
-import math
 import operator
 from collections import OrderedDict
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sunwidget.edit import METHODS, Edit, EditError
 from sunwidget.renderer.gl_thread import on_gl_thread
-from sunwidget.renderer.graph import FrameGraph, Programs
+from sunwidget.renderer.graph import FrameGraph, Programs, largest_texture
 from sunwidget.renderer.shader_source import frame_graph
+from sunwidget.renderer.tiles import (
+    Strips,
+    copy_size,
+    folded,
+    is_resident,
+    pieces,
+    quantise_map,
+    scene_textures,
+)
 from sunwidget.renderer.values import states
 
 if TYPE_CHECKING:
@@ -31,24 +40,49 @@ _BAND_PIXELS = 2_100_000
 _OUTPUT = {"uint8": (255, np.uint8), "uint16": (65535, np.uint16)}
 
 
+@dataclass
+class _Drawing:
+    """A picture on the GL thread: its scene, its graph, and the strips of one that is large."""
+
+    scene: Scene
+    graph: FrameGraph
+    strips: Strips | None
+
+    def load(self, rows: slice, limit: int) -> None:
+        """Upload the strip of ``rows``."""
+        assert self.strips is not None
+        textures, strip = self.strips.textures(rows)
+        folds = {name: folded(image, limit) for name, image in textures.items()}
+        self.graph.set_strip(folds, strip)
+
+
 class _Renderer:
-    """Lives on the GL thread: the programs, and the graphs of the last scenes drawn."""
+    """Lives on the GL thread: the programs, and the last scenes drawn."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self.context = context
         self.programs = Programs(context)
-        self.graphs: OrderedDict[tuple[int, Any], tuple[Scene, FrameGraph]] = OrderedDict()
+        self.drawings: OrderedDict[tuple[int, Any], _Drawing] = OrderedDict()
+
+    def drawing(self, scene: Scene, size: tuple[int, int]) -> _Drawing:
+        """Return the graph that holds the textures of ``scene`` at ``size``, and its strips."""
+        key = (id(scene), size)
+        if key not in self.drawings:
+            limit = largest_texture(self.context)
+            # The entry keeps the scene alive, so that its id stays its own.
+            self.drawings[key] = _Drawing(
+                scene,
+                FrameGraph(self.programs, scene_textures(scene, copy_size(size, limit))),
+                None if is_resident(size, limit) else Strips(scene, size),
+            )
+            while len(self.drawings) > 2:
+                self.drawings.popitem(last=False)
+        self.drawings.move_to_end(key)
+        return self.drawings[key]
 
     def graph(self, scene: Scene, size: tuple[int, int]) -> FrameGraph:
-        """Return the graph that holds the textures of ``scene`` at ``size``."""
-        key = (id(scene), size)
-        if key not in self.graphs:
-            # The entry keeps the scene alive, so that its id stays its own.
-            self.graphs[key] = (scene, FrameGraph(self.programs, scene_textures(scene, size)))
-            while len(self.graphs) > 2:
-                self.graphs.popitem(last=False)
-        self.graphs.move_to_end(key)
-        return self.graphs[key][1]
+        """Return the graph of ``drawing``."""
+        return self.drawing(scene, size).graph
 
 
 _renderers: dict[int, _Renderer] = {}
@@ -58,32 +92,6 @@ def _renderer(context: moderngl.Context) -> _Renderer:
     if id(context) not in _renderers:
         _renderers[id(context)] = _Renderer(context)
     return _renderers[id(context)]
-
-
-def scene_textures(scene: Scene, size: tuple[int, int]) -> dict[str, npt.NDArray[Any]]:
-    """Return the scene textures of the frame graph at ``size`` (width, height)."""
-    import cv2
-
-    from sunwidget.analysis.clear_sky import clear_sky
-
-    photo = scene.photo.pixels
-    layers, surface = scene.layers(), scene.surface(size)
-    if (photo.shape[1], photo.shape[0]) != size:
-        photo = cv2.resize(photo, size, interpolation=cv2.INTER_AREA)
-        layers = cv2.resize(layers, size, interpolation=cv2.INTER_AREA)
-    return {
-        "photo": photo.astype(np.float32, copy=False),
-        "layers": quantise_map(layers),
-        "surface": quantise_map(surface),
-        "backdrop": quantise_map(scene.backdrop),
-        "clear_sky": quantise_map(clear_sky(scene)),
-    }
-
-
-def quantise_map(image: npt.NDArray[np.float32]) -> npt.NDArray[np.uint8]:
-    """Return a map in [0, 1] as the 8-bit levels that both hosts read."""
-    levels = np.clip(image * 255 + 0.5, 0, 255)
-    return levels.astype(np.uint8)
 
 
 def render(
@@ -127,8 +135,7 @@ def render(
     if method is not None:
         edit = edit.replace(method=method)
     scene = scene.corrected(edit)
-    own = (scene.photo.pixels.shape[1], scene.photo.pixels.shape[0])
-    width, height = own if size is None else checked_size(size)
+    width, height = scene.photo.size if size is None else checked_size(size)
     out: npt.NDArray[Any] | None = None
     for rows, pixels in strips_of(scene, edit, dtype, (width, height), progress):
         if out is None:
@@ -170,36 +177,44 @@ def strips_of(
         raise EditError(f"dtype must be 'uint8', 'uint16' or 'float32', not {dtype!r:.40}.")
     edit = Edit() if edit is None else edit
     scene = scene.corrected(edit)
-    own = (scene.photo.pixels.shape[1], scene.photo.pixels.shape[0])
-    width, height = size = own if size is None else checked_size(size)
-    count = math.ceil(height / max(1, math.ceil(width * height / _BAND_PIXELS)))
-    graph = on_gl_thread(lambda context: _renderer(context).graph(scene, size))
-    for top in range(0, height, count):
-        rows = slice(top, min(top + count, height))
-        task = functools.partial(draw_rows, graph, scene, edit, size, dtype, rows)
+    size = scene.photo.size if size is None else checked_size(size)
+    drawing, limit = on_gl_thread(
+        lambda context: (_renderer(context).drawing(scene, size), largest_texture(context))
+    )
+
+    def draw(rows: slice, columns: list[slice]) -> npt.NDArray[Any]:
+        if drawing.strips is not None:
+            # On this thread, so that no other picture's strip is drawn instead.
+            drawing.load(rows, limit)
+        parts = [draw_part(drawing.graph, scene, edit, size, dtype, rows, c) for c in columns]
+        return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+
+    for rows, columns in pieces(size, _BAND_PIXELS, limit):
+        task = functools.partial(draw, rows, columns)
         yield rows, on_gl_thread(lambda _, task=task: task())  # type: ignore[misc]
         if progress is not None:
-            progress(rows.stop / height, "rendering")
+            progress(rows.stop / size[1], "rendering")
 
 
-def draw_rows(
+def draw_part(
     graph: FrameGraph,
     scene: Scene,
     edit: Edit,
     size: tuple[int, int],
     dtype: str,
-    rows: slice | None = None,
+    rows: slice = slice(None),
+    columns: slice = slice(None),
 ) -> npt.NDArray[Any]:
-    """Draw some rows of the picture, all of them by default, on the GL thread."""
-    width, height = size
-    first, last, _ = (rows or slice(None)).indices(height)
+    """Draw a part of the picture, all of it by default, on the GL thread."""
+    top, bottom, _ = rows.indices(size[1])
+    left, right, _ = columns.indices(size[0])
     values = states(edit, scene.automatic)
-    band = (0, first, width, last - first)
+    tile = (left, top, right - left, bottom - top)
     host = _host_values(size, dtype)
-    target = graph.run(values, _scene_values(scene), host, band, (edit.method,))
+    target = graph.run(values, _scene_values(scene), host, tile, (edit.method,))
     # Read as float and quantise here: the driver's own rounding differs between hosts.
     data = np.frombuffer(target.framebuffer.read(components=3, dtype="f4"), np.float32)
-    pixels = data.reshape(last - first, width, 3)
+    pixels = data.reshape(bottom - top, right - left, 3)
     if dtype == "float32":
         return pixels
     scale, kind = _OUTPUT[dtype]
@@ -211,12 +226,13 @@ def render_pass(
 ) -> npt.NDArray[np.float32]:
     """Return what one pass of the frame graph draws, (h, w, 4) float32: for tests and lessons."""
     scene = scene.corrected(edit)
-    own = (scene.photo.pixels.shape[1], scene.photo.pixels.shape[0])
-    size = own if size is None else checked_size(size)
+    size = scene.photo.size if size is None else checked_size(size)
 
     def task(context: moderngl.Context) -> npt.NDArray[np.float32]:
-        graph = _renderer(context).graph(scene, size)
-        target = graph.run(
+        drawing = _renderer(context).drawing(scene, size)
+        if drawing.strips is not None:
+            drawing.load(slice(0, size[1]), largest_texture(context))
+        target = drawing.graph.run(
             states(edit, scene.automatic),
             _scene_values(scene),
             _host_values(size, "float32"),

@@ -78,7 +78,7 @@ void main() {
   float climb = kThickness * path * added_cloud_size / max(far - near, 1e-3);
 
   // A pixel's length along the layer, which grazing rays draw out.
-  float grazing = near / (camera_focal * frame_size.y) * near / added_cloud_height / added_cloud_size;
+  float grazing = near / (camera_focal * min(frame_size.y, 2.0 * pass_size.y)) * near / added_cloud_height / added_cloud_size;
   float footprint = max(grazing, 0.4 * stride);
   vec2 known = vec2(GetKnown(1.0, footprint), GetKnown(0.5, footprint));
   vec3 fine = vec3(GetKnown(0.5, footprint), GetKnown(0.22, footprint), GetKnown(0.1, footprint));

@@ -3,6 +3,7 @@
 // printed, for teaching. All colours here are display-linear, as the thesis has them.
 
 #include "lib/picture.glsl"
+#include "lib/strip.glsl"
 #include "lib/response.glsl"
 #include "lib/sky.glsl"
 #include "lib/daylight.glsl"
@@ -67,7 +68,7 @@ void main() {
   vec3 view = GetViewDirection(place);
   vec4 retouched_texel = texelFetch(retouched, texel, 0);
   vec3 color = retouched_texel.rgb;
-  vec4 layer = ReadPicture(layers, place);
+  vec4 layer = ReadPixel(layers, place);
   vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
   float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;
   float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;

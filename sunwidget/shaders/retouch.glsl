@@ -3,6 +3,7 @@
 // clouds as with the photo's own.
 
 #include "lib/picture.glsl"
+#include "lib/strip.glsl"
 #include "lib/cloud_edit.glsl"
 #include "lib/added_layer.glsl"
 #include "lib/response.glsl"
@@ -24,10 +25,9 @@ const float kCore = 0.03;  // radians round the sun
 
 // log of a pixel's light over that of its surroundings, where it is no more than grain.
 vec3 GetGrain(ivec2 texel, vec3 light) {
-  ivec2 last = textureSize(photo, 0) - 1;
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 9; ++i) {
-    sum += texelFetch(photo, clamp(texel + ivec2(i % 3, i / 3) - 1, ivec2(0), last), 0).rgb;
+    sum += FetchPixel(photo, texel + ivec2(i % 3, i / 3) - 1).rgb;
   }
   vec3 grain = log(max(light, vec3(1e-4)) / max(sum / 9.0, vec3(1e-4)));
   return grain / (1.0 + 30.0 * abs(grain));
@@ -35,8 +35,8 @@ vec3 GetGrain(ivec2 texel, vec3 light) {
 
 void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
-  vec3 display = ReadPicture(photo, place).rgb;
-  vec4 layer = ReadPicture(layers, place);
+  vec3 display = ReadPixel(photo, place).rgb;
+  vec4 layer = ReadPixel(layers, place);
   vec4 behind = ReadBilinear(clear_sky, place);
   vec4 added = ReadAddedLayer(place);
   float opacity = EditOpacity(layer.g, layer.r, behind.a);
@@ -52,12 +52,12 @@ void main() {
   vec3 light = mix(slow, scene, smoothstep(0.85, 1.0, layer.r));
   // Near the sun's core a burnt pixel is sun and not cloud.
   float from_sun = length(GetViewDirection(place) - GetSunDirection(source_sun_azimuth, source_sun_elevation));
-  float sure = 1.0 - ReadPicture(surface, place).r * (1.0 - smoothstep(kCore, 3.0 * kCore, from_sun));
+  float sure = 1.0 - ReadPixel(surface, place).r * (1.0 - smoothstep(kCore, 3.0 * kCore, from_sun));
   vec3 edited = GetEditedSky(light, clear, dissolved, layer, behind.a, sure, added);
 
   // What replaces the photo gets the photo's grain.
   vec3 kept = clamp(1.0 - abs(edited - light) / max(max(edited, light), vec3(1e-6)), 0.0, 1.0);
-  vec3 grain = GetGrain(ivec2(place * vec2(textureSize(photo, 0))), display);
+  vec3 grain = GetGrain(ivec2(place * vec2(GetPictureSize(photo))), display);
   edited *= exp((1.0 - kept) * smoothstep(0.85, 1.0, layer.r) * grain);
 
   vec3 change = layer.r * (edited - light);

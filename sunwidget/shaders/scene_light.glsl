@@ -2,6 +2,7 @@
 // carries what else the frame asks about the land of a pixel: water, glitter and log-depth.
 
 #include "lib/picture.glsl"
+#include "lib/strip.glsl"
 #include "lib/packed.glsl"
 #include "lib/response.glsl"
 
@@ -13,6 +14,6 @@ out vec4 result;
 
 void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
-  vec3 levels = ReadPicture(surface, place).gba;
+  vec3 levels = ReadPixel(surface, place).gba;
   result = vec4(GetSceneLight(texelFetch(retouched, ivec2(gl_FragCoord.xy), 0).rgb), PackLevels(levels));
 }

@@ -5,6 +5,7 @@
 // its waves make of glints instead of the glare (water_behind.glsl).
 
 #include "lib/picture.glsl"
+#include "lib/strip.glsl"
 #include "lib/packed.glsl"
 #include "lib/cloud_edit.glsl"
 #include "lib/added_layer.glsl"
@@ -23,8 +24,8 @@ void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
   ivec2 texel = ivec2(gl_FragCoord.xy);
   float opacity = texelFetch(retouched, texel, 0).a;
-  vec4 layer = ReadPicture(layers, place);
-  vec3 levels = vec3(layer.r, opacity, ReadPicture(surface, place).r);
+  vec4 layer = ReadPixel(layers, place);
+  vec3 levels = vec3(layer.r, opacity, ReadPixel(surface, place).r);
   vec3 model = texelFetch(sky_source, texel, 0).rgb;
   vec3 sky = model * DecodeResidual(ReadBilinear(backdrop, place).rgb);
   if (IsCloudEdited()) {
@@ -32,7 +33,7 @@ void main() {
     vec4 open = ReadBilinear(clear_sky, place);
     sky = GetEditedSky(sky, model * DecodeResidual(open.rgb), sky, layer, open.a, 1.0, ReadAddedLayer(place));
   }
-  float water = smoothstep(0.0, 0.2, ReadPicture(surface, place).g) * (1.0 - smoothstep(0.0, 0.2, levels.r));
+  float water = smoothstep(0.0, 0.2, ReadPixel(surface, place).g) * (1.0 - smoothstep(0.0, 0.2, levels.r));
   vec4 calm = texelFetch(water_behind, texel, 0);
   levels.b += water * (calm.a - levels.b);
   result = vec4(mix(sky, calm.rgb, water), PackLevels(levels));

@@ -3,6 +3,7 @@
 // (lib/waves.glsl), which lie on the waves that are there. Drawn once a photo.
 
 #include "lib/picture.glsl"
+#include "lib/strip.glsl"
 #include "lib/response.glsl"
 #include "lib/waves.glsl"
 
@@ -35,19 +36,19 @@ void main() {
     if (level.a <= 0.0) break;
     float shift = (i % 2 == 0 ? -0.13 : 0.17) + 0.19 * float(i / 2) * (i % 2 == 0 ? -1.0 : 1.0);
     vec2 at = vec2(Reflect(place.x + shift), place.y);
-    vec2 marks = ReadPicture(surface, at).gb;
+    vec2 marks = ReadPixel(surface, at).gb;
     float weight = smoothstep(0.5, 1.0, marks.x) * (1.0 - marks.y) * (1.0 - marks.y);
-    float wave = GetBrightness(GetSceneLight(ReadPicture(photo, at).rgb), ReadBilinear(water_level, at).rgb);
+    float wave = GetBrightness(GetSceneLight(ReadPixel(photo, at).rgb), ReadBilinear(water_level, at).rgb);
     sum += weight * clamp(wave, -kHighestWave, kHighestWave);
     squares += weight * weight;
   }
   // Waves of several places, as high as those of one.
   float wave = sum * inversesqrt(squares);
-  vec3 own = GetSceneLight(ReadPicture(photo, place).rgb);
+  vec3 own = GetSceneLight(ReadPixel(photo, place).rgb);
   // Where no water is without glints, nothing better is known than what is seen.
   vec3 water = mix(own, level.rgb * exp(wave), smoothstep(0.0, 0.01, level.a));
   float seen = clamp(GetBrightness(own, level.rgb), -kHighestWave, kHighestWave);
-  wave = mix(seen, wave, ReadPicture(surface, place).b);
+  wave = mix(seen, wave, ReadPixel(surface, place).b);
   float sparkle = GetLogSparkle(GetViewDirection(place), 0.5 + 0.5 * wave / kHighestWave);
   result = vec4(water, EncodeSparkle(sparkle));
 }

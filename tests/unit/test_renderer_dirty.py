@@ -144,7 +144,7 @@ def test_every_pass_of_a_method_runs_on_a_fresh_picture():
 
     def task(context):
         fresh = module._Renderer(context).graph(scene, (48, 32))
-        module.draw_rows(fresh, scene, Edit(method="thesis"), (48, 32), "uint8")
+        module.draw_part(fresh, scene, Edit(method="thesis"), (48, 32), "uint8")
         return fresh.runs
 
     rows = frame_graph()["passes"]

@@ -135,10 +135,15 @@ def test_a_pass_of_another_method_is_an_error_that_names_both():
         render_pass(known_scene(), Edit(method="thesis"), "meter_edit")
 
 
-def test_a_picture_beyond_the_texture_limit_is_an_error_that_names_the_limit():
+def test_a_texture_beyond_the_limit_is_an_error_that_names_the_limit():
     limit = on_gl_thread(lambda context: context.info["GL_MAX_TEXTURE_SIZE"])
+
+    def task(context):
+        image = np.zeros((1, limit + 1, 3), np.uint8)
+        graph_module.FrameGraph(graph_module.Programs(context), {"photo": image})
+
     with pytest.raises(ValueError, match=f"{limit + 1}×1 .* limit of {limit} pixels"):
-        render(known_scene(), size=(limit + 1, 1))
+        on_gl_thread(task)
 
 
 def test_a_shader_that_does_not_compile_is_named(monkeypatch):

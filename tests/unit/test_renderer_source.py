@@ -15,6 +15,7 @@ SCENE_TEXTURES = {"photo", "layers", "surface", "backdrop", "clear_sky"}
 HOST_UNIFORMS = {
     "frame_size",
     "tile_origin",
+    "picture_strip",
     "pass_size",
     "canvas_flip",
     "output_transfer",

@@ -99,6 +99,7 @@ export class Graph {
       ...frame.host,
       frame_size: [width, height],
       tile_origin: [0, 0],
+      picture_strip: [0, 0, 0, 0],
     };
     const rows = this.description.passes.filter(
       ({ when }) => !when || when.some((method) => frame.methods.includes(method)),

@@ -1,0 +1,127 @@
+"""Measure large stills: seconds, peak memory, seams and identity; a table on stdout.
+
+usage: python bench/large.py [--megapixels 12 24 100] [--limit TEXELS]
+
+The sample photo is enlarged, given noise and saved as a file of 8 and of 16 bits. Every size is
+opened, analysed and exported in a process of its own, whose peak memory is that of the whole
+process (``ru_maxrss``), interpreter and libraries included. Seams: the picture drawn in strips
+against the same picture drawn at once, where a texture can hold it. Identity: an unmoved sun.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+
+import sunwidget as sw
+
+MOVED = sw.Edit(sun_azimuth=14, sun_elevation=4)
+WHOLE = 30_000_000  # pixels: a larger picture is not drawn at once for comparison
+
+
+def enlarged(width: int, height: int, bits: int) -> np.ndarray:
+    """Return the sample photo at a size, with noise as a camera's: uint8 or uint16."""
+    small = sw.open(sw.sample("coast")).encoded
+    rng = np.random.default_rng(7)
+    kind, scale = (np.uint8, 1) if bits == 8 else (np.uint16, 257)
+    large = cv2.resize(small, (width, height), interpolation=cv2.INTER_CUBIC)
+    out = np.empty(large.shape, kind)
+    for top in range(0, height, 256):
+        part = large[top : top + 256].astype(np.float32)
+        part += 2 * rng.standard_normal(part.shape, np.float32)
+        out[top : top + 256] = np.clip(np.rint(part * scale), 0, 255 * scale)
+    return out
+
+
+def made(folder: Path, megapixels: float, bits: int) -> Path:
+    """Write a photo of about so many pixels, in the shape 3:2, and return its file."""
+    height = round((megapixels * 1e6 / 1.5) ** 0.5)
+    path = folder / f"photo-{megapixels:g}-{bits}.png"
+    ending = cv2.cvtColor(enlarged(round(1.5 * height), height, bits), cv2.COLOR_RGB2BGR)
+    cv2.imwrite(str(path), ending, [cv2.IMWRITE_PNG_COMPRESSION, 1])
+    return path
+
+
+def peak() -> float:
+    """Return the most memory that this process has held, in GB."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9
+
+
+def exported(photo: Path, out: Path, moved: bool) -> dict[str, Any]:
+    """Open, analyse and export one photo; seconds and peak memory after each step."""
+    row: dict[str, Any] = {"begin_gb": peak()}
+    begin = time.perf_counter()
+    picture = sw.open(photo)
+    row |= {"open_s": time.perf_counter() - begin, "open_gb": peak()}
+    begin = time.perf_counter()
+    scene = sw.analyze(picture)
+    row |= {"analyse_s": time.perf_counter() - begin, "analyse_gb": peak()}
+    module = importlib.import_module("sunwidget.renderer.render")
+    begin = time.perf_counter()
+    edit = MOVED if moved else sw.Edit()
+    changed = 0
+    for rows, pixels in module.strips_of(scene, edit):
+        if picture.bit_depth == 8:
+            changed += int(np.count_nonzero(pixels != picture.encoded[rows]))
+    row |= {"draw_s": time.perf_counter() - begin, "draw_gb": peak()}
+    begin = time.perf_counter()
+    sw.save((scene, edit), out)
+    row |= {"save_s": time.perf_counter() - begin, "save_gb": peak()}
+    if not moved:
+        row["drawn_values_changed"] = changed
+        saved = sw.open(out).encoded
+        row["saved_values_changed"] = int(np.count_nonzero(saved != picture.encoded))
+    elif picture.width * picture.height <= WHOLE:
+        strips = sw.render(scene, edit)
+        # Another value of the strip alone: all else of the way is the same.
+        vars(module)["_BAND_PIXELS"] = picture.width * picture.height
+        row["seam"] = int(np.abs(sw.render(scene, edit).astype(int) - strips).max())
+    return row
+
+
+def in_another_process(*arguments: str) -> dict[str, Any]:
+    run = subprocess.run(
+        [sys.executable, __file__, "--one", *arguments], check=True, stdout=subprocess.PIPE
+    )
+    found: dict[str, Any] = json.loads(run.stdout)
+    return found
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--megapixels", type=float, nargs="+", default=[12, 24, 100])
+    parser.add_argument("--one", nargs=3, metavar=("PHOTO", "OUT", "MOVED"), help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.one:
+        photo, out, moved = options.one
+        print(json.dumps(exported(Path(photo), Path(out), moved == "moved")))
+        return
+    print("MP bits edit        seconds: open analyse  draw  save   GB: open analyse  draw  save")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for megapixels in options.megapixels:
+            for bits, ending, move in ((8, "jpg", "moved"), (8, "png", "not"), (16, "png", "not")):
+                photo = made(folder, megapixels, bits)
+                row = in_another_process(str(photo), str(folder / f"out.{ending}"), move)
+                (folder / f"out.{ending}").unlink()
+                seconds = "".join(f"{row[k + '_s']:7.1f}" for k in STEPS)
+                memory = "".join(f"{row[k + '_gb']:7.2f}" for k in STEPS)
+                rest = {k: v for k, v in row.items() if not k.endswith(("_s", "_gb"))}
+                print(f"{megapixels:g} {bits:3} {move:6} {ending} {seconds}  {memory}  {rest}")
+
+
+STEPS = ("open", "analyse", "draw", "save")
+
+if __name__ == "__main__":
+    main()
