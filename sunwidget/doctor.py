@@ -117,8 +117,9 @@ def _opencv() -> Iterator[Finding]:
 
 
 def _sky_network() -> Iterator[Finding]:
-    import onnxruntime
+    from sunwidget.analysis.onnx_runtime import onnx_runtime
 
+    onnxruntime = onnx_runtime()
     model = files("sunwidget").joinpath("analysis", "models", "sky.onnx").read_bytes()
     session = onnxruntime.InferenceSession(model, providers=["CPUExecutionProvider"])
     sides = session.get_inputs()[0].shape

@@ -13,6 +13,7 @@ import numpy as np
 from sunwidget.analysis import network_output
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.network_output import Output
+from sunwidget.analysis.onnx_runtime import onnx_runtime
 from sunwidget.analysis.working import resize
 
 SIDE = 384  # of the picture for networks that take any size, as in the thesis
@@ -177,7 +178,7 @@ def _session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
     import cv2
 
     try:
-        import onnxruntime
+        onnxruntime = onnx_runtime()
     except ImportError as error:
         raise AnalysisError(
             f"A {finds} network needs onnxruntime (pip install onnxruntime). "
