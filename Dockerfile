@@ -29,9 +29,10 @@ FROM debian:trixie-slim
 RUN apt-get update && apt-get install -y --no-install-recommends \
       python3 libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri \
     && rm -rf /var/lib/apt/lists/* \
-    && useradd --create-home sunwidget && install -d -o sunwidget /photos
+    && useradd --no-create-home sunwidget && install -d -o sunwidget /photos
 COPY --from=packages /opt/sunwidget /opt/sunwidget
-ENV PATH=/opt/sunwidget/bin:$PATH
+# With --user anybody may come, and has no home: Mesa's cache of shaders goes where all may write.
+ENV PATH=/opt/sunwidget/bin:$PATH HOME=/tmp
 USER sunwidget
 WORKDIR /photos
 # `docker stop` as Ctrl-C: the command ends by itself and leaves no half-written file.
