@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import sunwidget
 from sunwidget.export.batch.workers import DaskWorkers
 
 # Dask has glibc give memory back whenever 64 kB are free: a picture's arrays are then mapped anew
@@ -84,7 +85,7 @@ def local_workers(count: int, *, deaths: int) -> Iterator[DaskWorkers]:
                     "the photos are done in this process."
                 )
 
-        client = stack.enter_context(Client(cluster))
+        client = stack.enter_context(Client(cluster, set_as_default=False))
         text = f"{count} worker processes" if count > 1 else "1 worker process"
         workers = DaskWorkers(client, text, max(1, CPU_COUNT // count), alive)
         workers.wait_for_one()
@@ -96,17 +97,22 @@ def _processes(
     address: str, count: int, memory: int, folder: Path, words: Any
 ) -> Iterator[subprocess.Popen[bytes]]:
     command = [
-        *(sys.executable, "-m", "distributed.cli.dask_worker", address),
+        # -P: a folder of photos is no place to import from.
+        *(sys.executable, "-P", "-m", "distributed.cli.dask_worker", address),
         *("--nworkers", str(count), "--nthreads", "1", "--memory-limit", str(memory)),
         *("--host", "127.0.0.1", "--no-dashboard", "--death-timeout", "60"),
         *("--local-directory", str(folder)),
     ]
+    # The very sunwidget that asks, also from a checkout that is not installed.
+    path = os.pathsep.join(
+        [str(Path(sunwidget.__file__).parents[1]), *filter(None, [os.environ.get("PYTHONPATH")])]
+    )
     process = subprocess.Popen(  # noqa: S603 - no shell, and no word of it comes from a photo
         command,
         stdin=subprocess.DEVNULL,
         stdout=words,
         stderr=subprocess.STDOUT,
-        env=os.environ | _ENVIRONMENT,
+        env=os.environ | _ENVIRONMENT | {"PYTHONPATH": path},
         start_new_session=True,
     )
     try:

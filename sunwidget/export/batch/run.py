@@ -160,8 +160,10 @@ class _Run:
             try:
                 job = self._job(number, photo, output)
             except OSError as error:
-                reason = error.strerror or str(error)
-                self._row(number, BatchRow(photo, None, "failed", error=f"{reason}: {photo}"))
+                reason = f"Cannot read {photo}: {error.strerror or error}."
+                if isinstance(error, FileNotFoundError):
+                    reason = f"There is no file {photo}."
+                self._row(number, BatchRow(photo, None, "failed", error=reason))
             else:
                 if job is not None:
                     yield job
