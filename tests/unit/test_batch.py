@@ -70,7 +70,9 @@ def test_a_batch_makes_what_a_loop_makes(tmp_path):
 
 def test_a_second_run_skips_what_is_there(folder, quick):
     assert [row.state for row in run(folder)] == ["done"] * 3
-    assert [row.state for row in run(folder)] == ["skipped"] * 3
+    again = run(folder)
+    assert [row.state for row in again] == ["skipped"] * 3
+    assert again.summary.startswith("3 photos: 0 done, 3 skipped, 0 failed in 0.")
     assert len(quick) == 3
     assert len(run(folder, resume=False).done) == 3
 

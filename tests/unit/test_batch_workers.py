@@ -14,6 +14,7 @@ from PIL import Image
 
 import sunwidget as sw
 from sunwidget.export.batch import cluster
+from sunwidget.export.batch import workers as hands
 
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="processes are killed as on Unix")
@@ -169,3 +170,15 @@ def test_a_scheduler_that_does_not_answer_is_named(tmp_path, monkeypatch):
     photos = photos_in(tmp_path / "photos", 1)
     with pytest.raises(ConnectionError, match="No Dask scheduler answers at tcp://127.0.0.1:1"):
         sw.batch(photos, LOW, tmp_path / "out", scheduler="tcp://127.0.0.1:1")
+
+
+def test_a_scheduler_without_workers_is_named(tmp_path, monkeypatch):
+    from distributed import LocalCluster
+
+    monkeypatch.setattr(hands, "PATIENCE", 0.5)
+    photos = photos_in(tmp_path / "photos", 1)
+    with (
+        LocalCluster(n_workers=0, processes=True, dashboard_address="127.0.0.1:0") as empty,
+        pytest.raises(TimeoutError, match=r"has had no worker .* dask worker tcp://"),
+    ):
+        sw.batch(photos, LOW, tmp_path / "out", scheduler=empty)

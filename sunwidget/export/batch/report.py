@@ -61,7 +61,7 @@ class BatchReport:
     seconds : float
         The whole batch took.
     where : str
-        Who did it: "2 worker processes", "this process" …
+        Who did it: "2 worker processes", "this process" …; empty when nothing was to be done.
     """
 
     rows: tuple[BatchRow, ...]
@@ -98,9 +98,10 @@ class BatchReport:
         parts = [f"{len(self.done)} done"]
         parts += [f"{len(self.skipped)} skipped"] if self.skipped else []
         parts += [f"{len(self.failed)} failed"]
+        where = f" ({self.where})" if self.where else ""
         return (
             f"{len(self)} {'photo' if len(self) == 1 else 'photos'}: {', '.join(parts)} in "
-            f"{_duration(self.seconds)} ({self.where})."
+            f"{_duration(self.seconds)}{where}."
         )
 
     def __str__(self) -> str:
