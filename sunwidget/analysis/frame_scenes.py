@@ -15,17 +15,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from sunwidget.analysis.backdrop import behind_sun
-from sunwidget.analysis.fit import SkyFit, fit_sky
+from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.fixed_camera import FixedCamera, Offset
-from sunwidget.analysis.frame_fits import Film, Meter, Reading, key_of, likeness, steady
+from sunwidget.analysis.frame_fits import Film, Meter, Reading, likeness, steady
+from sunwidget.analysis.frame_samples import open_samples, place_of, track_and_film
 from sunwidget.analysis.frame_sun import (
     Direction,
-    Sample,
     SunTrack,
-    middle_direction,
     observation,
-    seen_sun,
-    track_of,
 )
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.scene import Scene
@@ -62,6 +59,7 @@ class FrameScenes:
         What ``sunwidget.open`` takes, a frame each.
     fixed : FixedCamera
     track : SunTrack
+    film : Film
     fits : tuple of SkyFit or None
         Of each frame; None where it cannot be used.
     offsets : tuple of Offset
@@ -78,6 +76,7 @@ class FrameScenes:
     sources: list[Any]
     fixed: FixedCamera
     track: SunTrack
+    film: Film
     fits: tuple[SkyFit | None, ...]
     offsets: tuple[Offset, ...]
     alike: np.ndarray
@@ -120,30 +119,24 @@ class FrameScenes:
             When fewer than two frames can be used, or the camera moved.
         """
         sources = list(sources)
-        samples, photos = _samples(sources, long_edge, clock, progress)
+        samples, photos = open_samples(sources, SAMPLES, long_edge, clock, progress)
         size = photos[0].size
-        place = _place_of(photos, place)
+        place = place_of(photos, place)
         progress(0.2, "Finding what all frames share")
         fixed = FixedCamera.of(photos, corrections, hints)
         del photos
-        progress(0.45, "Following the sun")
-        shared = fixed.scene
-        sky = np.asarray(resize(shared.sky, *_size_of(samples[0].working)), np.float32)
-        samples = [
-            s._replace(seen=seen_sun(s.working, sky, shared.camera, shared.hints)) for s in samples
-        ]
-        told = shared.sun
-        track, film = _track_and_film(
+        told = fixed.scene.sun if fixed.scene.hints.sun is not None else None
+        track, film = track_and_film(
             samples,
             fixed,
             place,
             None if told is None else (told.azimuth, told.elevation),
             progress,
         )
-        return cls._surveyed(sources, fixed, track, film, clock, size, progress)
+        return cls.surveyed(sources, fixed, track, film, clock, size, progress)
 
     @classmethod
-    def _surveyed(
+    def surveyed(
         cls,
         sources: list[Any],
         fixed: FixedCamera,
@@ -185,6 +178,7 @@ class FrameScenes:
             sources,
             fixed,
             track,
+            film,
             fits,
             tuple(offsets),
             likeness(exposure, suns),
@@ -294,62 +288,6 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
     )
 
 
-def _samples(
-    sources: list[Any], long_edge: int | None, clock: Clock, progress: Progress
-) -> tuple[list[Sample], list[Photo]]:
-    """Open frames spread over the film; one that is broken gives its place to the next."""
-    wanted = np.unique(np.linspace(0, len(sources) - 1, min(SAMPLES, len(sources))).astype(int))
-    samples: list[Sample] = []
-    photos: list[Photo] = []
-    reason = ""
-    ends = [*wanted[1:], len(sources)]
-    for done, (first, end) in enumerate(zip(wanted, ends, strict=True)):
-        progress(0.2 * done / len(wanted), "opening frames")
-        for number in range(int(first), min(int(end), int(first) + 4)):
-            try:
-                like = photos[0].size if photos else None
-                photo = read_frame(sources[number], long_edge, like)
-            except PhotoError as error:
-                reason = f"{name_of(sources[number], number)}: {error}"
-                continue
-            moment = clock(number, sources[number], photo)
-            samples.append(Sample(number, Working.of(photo, 640), moment, None))
-            photos.append(photo)
-            break
-    if not photos:
-        raise PhotoError(f"No frame could be used. {reason}")
-    return samples, photos
-
-
-def _track_and_film(
-    samples: list[Sample],
-    fixed: FixedCamera,
-    place: Place | None,
-    told: Direction | None,
-    progress: Progress,
-) -> tuple[SunTrack, Film]:
-    shared = fixed.scene
-    lit = [s for s, ok in zip(samples, fixed.lit, strict=True) if ok] or samples
-    guess = shared.assumed_sun
-    track = track_of(samples, place, told, guess)
-    if track.source == "assumed":
-        searched = []
-        for s in lit[:: max(1, len(lit) // 4)]:
-            sky = np.asarray(resize(shared.sky, *_size_of(s.working)), np.float32)
-            small = s.working.shrunk(384)
-            size = _size_of(small)
-            cover = resize(clouds_by_colour(s.working, sky, shared.hints, None)[0].opacity, *size)
-            searched.append(fit_sky(small, resize(sky, *size), cover, shared.camera, None, guess))
-        suns = [fit.sun for fit in searched]
-        guess = middle_direction(suns, [0.1 + fit.sun_confidence for fit in searched])
-        track = track_of(samples, place, told, guess)
-    keys = []
-    for done, s in enumerate(lit):
-        progress(0.45 + 0.15 * done / len(lit), "fitting the air")
-        keys.append(key_of(s, shared, track.at(s.number, s.moment), track.source))
-    return track, Film.of(keys)
-
-
 def _daylight(track: SunTrack, reading: Reading | None, sun: Direction | None) -> float:
     """Return how far the sun lights a frame: by the clock, or by how bright its sky is."""
     if reading is None or sun is None:
@@ -357,15 +295,6 @@ def _daylight(track: SunTrack, reading: Reading | None, sun: Direction | None) -
     if track.source == "clock":
         return float(smoothstep(-11.0, -5.0, sun[1]))
     return float(smoothstep(0.22, 0.38, reading.sky_light))
-
-
-def _place_of(photos: list[Photo], place: Place | None) -> Place | None:
-    from sunwidget.photo_place import from_photo
-
-    if place is not None:
-        return place
-    told = (from_photo(photo).place for photo in photos)
-    return next((found for found in told if found is not None), None)
 
 
 def _refuse_too_few(readings: list[Reading | None], troubles: list[Trouble]) -> None:

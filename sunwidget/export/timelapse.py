@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +13,11 @@ import numpy as np
 
 from sunwidget.analysis.frame_scenes import FrameScenes, Trouble
 from sunwidget.analysis.scene import Scene
-from sunwidget.edit import CORRECTIONS, NUMBERS, Edit
 from sunwidget.export.ahead import ahead
 from sunwidget.export.film import Film, is_sequence, sequence_target, whole_sequence, writer
+from sunwidget.export.frame_edits import FrameEdits
 from sunwidget.export.stills import save
-from sunwidget.export.sun_path import Step, SunPath, edit_at, step
+from sunwidget.export.sun_path import Step, SunPath
 from sunwidget.export.sweep import LONGEST_SIDE, LONGEST_SIDE_ELSE, film_size
 from sunwidget.files import complete_or_absent, target
 from sunwidget.frames import Clock, Times, frame_sources, name_of
@@ -28,8 +28,6 @@ from sunwidget.time_left import Progress, with_time_left
 BROKEN = ("hold", "skip", "stop")
 _LOOPS = ("forever", "once")
 _LOOKING = 0.3  # of the work: what is done before the first frame is drawn
-_NOT_CORRECTED = {name: getattr(Edit(), name) for name in CORRECTIONS}
-_UNMOVED = {p.name: p.default for p in NUMBERS}
 
 
 def timelapse(
@@ -138,7 +136,7 @@ def timelapse(
         long_edge = long_edge or LONGEST_SIDE.get(suffix, LONGEST_SIDE_ELSE)
     else:
         names = _still_names(sources, place_out, format, overwrite=overwrite)
-    steps = _Steps(edit, len(sources), easing)
+    steps = FrameEdits(edit, len(sources), easing)
     told = with_time_left(progress)
     scenes = FrameScenes.of(
         sources,
@@ -176,37 +174,9 @@ def timelapse(
     return place_out.parent if is_sequence(place_out) else place_out
 
 
-class _Steps:
-    """The edit of each frame."""
-
-    def __init__(self, edit: Any, count: int, easing: str) -> None:
-        self.one = isinstance(edit, (Edit, Mapping, str, os.PathLike))
-        self.edit, self.count, self.easing = edit, count, easing
-        first = edit if self.one else next(iter(edit), None) if isinstance(edit, Sequence) else None
-        if isinstance(first, (tuple, list)) and len(first) == 2:
-            first = first[1]
-        # Presets are times of day; they correct nothing.
-        known = isinstance(first, (Edit, Mapping)) or Path(str(first)).is_file()
-        self.corrections = step(None, first) if known else Edit()  # type: ignore[arg-type]
-
-    def of(self, scene: Scene, number: int, daylight: float) -> Edit:
-        """Return the edit of a frame; what corrects the maps is in the scene already.
-
-        As night falls the sun moves back to where it is: what lamps light no sun can relight.
-        """
-        if self.one:
-            edit = step(scene, self.edit)
-        else:
-            edit = edit_at(scene, self.edit, number / (self.count - 1), self.easing)
-        edit = edit.replace(**_NOT_CORRECTED)
-        if daylight == 1:
-            return edit
-        return edit_at(scene, [edit.replace(**_UNMOVED), edit], daylight)
-
-
 def _drawn(
     scenes: Iterator[Scene | Trouble],
-    steps: _Steps,
+    steps: FrameEdits,
     daylight: Sequence[float],
     size: tuple[int, int],
     broken: str,

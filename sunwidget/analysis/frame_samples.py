@@ -1,0 +1,105 @@
+"""The few frames of a time-lapse that are looked at closely, and what they tell about all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from sunwidget.analysis.fit import fit_sky
+from sunwidget.analysis.fixed_camera import FixedCamera
+from sunwidget.analysis.frame_fits import Film, key_of
+from sunwidget.analysis.frame_sun import (
+    Direction,
+    Sample,
+    SunTrack,
+    middle_direction,
+    seen_sun,
+    track_of,
+)
+from sunwidget.analysis.stages import clouds_by_colour
+from sunwidget.analysis.working import Working, resize
+from sunwidget.frames import Clock, name_of, read_frame
+from sunwidget.layout import PhotoError
+from sunwidget.photo import Photo
+from sunwidget.photo_place import from_photo
+from sunwidget.place import Place
+
+_SIDE = 640  # pixels of the longer side at which they are looked at
+_SEARCH_SIDE = 384
+
+Progress = Callable[[float, str], Any]
+
+
+def open_samples(
+    sources: list[Any], wanted: int, long_edge: int | None, clock: Clock, progress: Progress
+) -> tuple[list[Sample], list[Photo]]:
+    """Open frames spread over the film; one that is broken gives its place to the next."""
+    chosen = np.unique(np.linspace(0, len(sources) - 1, min(wanted, len(sources))).astype(int))
+    samples: list[Sample] = []
+    photos: list[Photo] = []
+    reason = ""
+    ends = [*chosen[1:], len(sources)]
+    for done, (first, end) in enumerate(zip(chosen, ends, strict=True)):
+        progress(0.2 * done / len(chosen), "opening frames")
+        for number in range(int(first), min(int(end), int(first) + 4)):
+            try:
+                like = photos[0].size if photos else None
+                photo = read_frame(sources[number], long_edge, like)
+            except PhotoError as error:
+                reason = f"{name_of(sources[number], number)}: {error}"
+                continue
+            moment = clock(number, sources[number], photo)
+            samples.append(Sample(number, Working.of(photo, _SIDE), moment, None))
+            photos.append(photo)
+            break
+    if not photos:
+        raise PhotoError(f"No frame could be used. {reason}")
+    return samples, photos
+
+
+def track_and_film(
+    samples: list[Sample],
+    fixed: FixedCamera,
+    place: Place | None,
+    told: Direction | None,
+    progress: Progress,
+) -> tuple[SunTrack, Film]:
+    """Return the sun's way through the frames and what suits all of them together.
+
+    ``told`` is where a person says the sun is.
+    """
+    progress(0.45, "Following the sun")
+    shared = fixed.scene
+    size = samples[0].working.width, samples[0].working.height
+    sky = np.asarray(resize(shared.sky, *size), np.float32)
+    samples = [
+        s._replace(seen=seen_sun(s.working, sky, shared.camera, shared.hints)) for s in samples
+    ]
+    lit = [s for s, ok in zip(samples, fixed.lit, strict=True) if ok] or samples
+    guess = shared.assumed_sun
+    track = track_of(samples, place, told, guess)
+    if track.source == "assumed":
+        searched = []
+        for s in lit[:: max(1, len(lit) // 4)]:
+            small = s.working.shrunk(_SEARCH_SIDE)
+            size = small.width, small.height
+            cover = resize(clouds_by_colour(s.working, sky, shared.hints, None)[0].opacity, *size)
+            searched.append(fit_sky(small, resize(sky, *size), cover, shared.camera, None, guess))
+        suns = [fit.sun for fit in searched]
+        guess = middle_direction(suns, [0.1 + fit.sun_confidence for fit in searched])
+        track = track_of(samples, place, told, guess)
+    keys = []
+    for done, s in enumerate(lit):
+        progress(0.45 + 0.15 * done / len(lit), "fitting the air")
+        keys.append(key_of(s, shared, track.at(s.number, s.moment), track.source))
+    return track, Film.of(keys)
+
+
+def place_of(photos: list[Photo], place: Place | None) -> Place | None:
+    """Return the place that was given, else the first that a photo's file tells."""
+    if place is not None:
+        return place
+    told = (from_photo(photo).place for photo in photos)
+    return next((found for found in told if found is not None), None)
