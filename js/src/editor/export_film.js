@@ -223,7 +223,7 @@ export function exportFilm(view, job, signal) {
       const longest = Math.max(...found.size);
       const sides = [3840, 1920, 1280, 960, 640].filter((side) => side <= longest);
       size.setOptions([
-        ["", "As suits the format"],
+        ["", "Automatic"],
         ...sides.map((side) => /** @type {[string, string]} */ ([String(side), `${side} pixels`])),
       ]);
       target.take(found);
