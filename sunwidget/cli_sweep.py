@@ -170,7 +170,9 @@ def _key_frame(text: str) -> tuple[float, str | dict[str, float]]:
             return at, what
         values = {}
         for pair in what.split(","):
-            name, _, value = pair.partition("=")
+            name, equals, value = pair.partition("=")
+            if not equals:
+                raise ValueError
             row = parameter(name.strip().lstrip("-").replace("-", "_"))
             if row.kind != "number":
                 raise EditError(f"{row.name} is no number, so nothing lies between two of it.")
