@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.color import REC709_CHROMATICITIES, REC709_TO_XYZ, primaries_to_rec709
+from sunwidget.color import REC709_CHROMATICITIES, REC709_TO_XYZ, primaries_to_rec709, strips
 from sunwidget.decode_deep import by_opencv
 from sunwidget.layout import PhotoError, check_size
 
@@ -40,7 +40,10 @@ def pack(
     """
     import cv2
 
-    done, packed = cv2.imencode(".hdr", np.ascontiguousarray(_on_levels(light)[..., ::-1]))
+    levels = np.empty(light.shape, np.float32)
+    for rows in strips(light.shape):
+        levels[rows] = _on_levels(light[rows])[..., ::-1]
+    done, packed = cv2.imencode(".hdr", levels)
     if not done:
         raise PhotoError("OpenCV could not pack the picture as Radiance HDR.")
     data = packed.tobytes()
@@ -56,8 +59,9 @@ def pack(
 def _on_levels(light: NDArray[np.float32]) -> NDArray[np.float32]:
     """Round to the levels of RGBE, plus a quarter: OpenCV cuts where rounding is due."""
     light = np.clip(light, 0, 1e30, dtype=np.float32)
-    _, exponent = np.frexp(light.max(axis=-1))
-    carries = np.rint(np.ldexp(light.max(axis=-1), 8 - exponent)) > 255
+    largest = light.max(axis=-1)
+    _, exponent = np.frexp(largest)
+    carries = np.rint(np.ldexp(largest, 8 - exponent)) > 255
     step = np.ldexp(np.float32(1), exponent + carries - 8)[..., None]
     return np.where(light > 1e-30, (np.rint(light / step) + np.float32(0.25)) * step, 0)
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import io
+import os
 import struct
 import zlib
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -64,7 +66,9 @@ def _page(
 
     height, width, count = samples.shape
     rows = max(1, _STRIP_BYTES // (width * count * samples.itemsize))
-    packed = [_pack_strip(samples[top : top + rows]) for top in range(0, height, rows)]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:  # zlib leaves the interpreter to others
+        tops = range(0, height, rows)
+        packed = list(pool.map(lambda top: _pack_strip(samples[top : top + rows]), tops))
     ends = np.cumsum([len(strip) for strip in packed])
     directory = TiffImagePlugin.ImageFileDirectory_v2(prefix=b"II")
     if told is not None and told.exif:
