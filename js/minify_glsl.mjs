@@ -79,6 +79,7 @@ function aliases(texts) {
  */
 const linesOf = (text, alias) =>
   text.split("\n").map((line) => {
+    if (/^#.*\\$/.test(line)) throw new Error(`A directive must stand on one line: "${line}".`);
     if (!line.startsWith("#")) {
       return (line.match(TOKEN) ?? []).map((token) => ({ text: alias.get(token) ?? token }));
     }

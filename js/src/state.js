@@ -7,6 +7,7 @@
  * view.
  */
 
+import { equal, sameRecipe } from "./same.js";
 import { newest } from "./steps.js";
 
 /**
@@ -298,21 +299,4 @@ export class EditState {
     this.push();
     this.notify();
   }
-}
-
-/** @type {(a: unknown, b: unknown) => boolean} */
-export function equal(a, b) {
-  return a === b || JSON.stringify(a) === JSON.stringify(b);
-}
-
-/**
- * Whether two recipes set the same: the kernel writes a version into each, the browser does not.
- *
- * @param {Edit} a
- * @param {Edit} b
- */
-export function sameRecipe(a, b) {
-  const names = new Set([...Object.keys(a), ...Object.keys(b)]);
-  names.delete("version");
-  return [...names].every((name) => equal(a[name], b[name]));
 }

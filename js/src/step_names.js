@@ -1,6 +1,6 @@
 /** What a step of the history did, in words, read off the recipes on either side of it. */
 
-import { equal, sameRecipe } from "./state.js";
+import { equal, sameRecipe } from "./same.js";
 
 /**
  * @typedef {import("./types.js").Edit} Edit

@@ -17,6 +17,7 @@ test("blanks go where they mean nothing, and only there", () => {
     "float A(){\nif(a<b&&!c)return a- -b+ ++c;\n}",
   );
   assert.equal(one("return .5;"), "return .5;");
+  assert.throws(() => one("#define TWO(a) \\\n (2.0 * a)\n"), /on one line: "#define TWO/);
   assert.equal(one("#define HALF (0.5)\n#if A == 1\n"), "#define HALF (0.5)\n#if A == 1\n");
 });
 

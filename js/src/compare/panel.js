@@ -2,8 +2,8 @@
 
 import { element, setAttributes } from "../controls/element.js";
 import { SunTool } from "../editor/sun_tool.js";
+import { equal } from "../same.js";
 import { PictureStage } from "../stage.js";
-import { equal } from "../state.js";
 
 /**
  * @typedef {import("../types.js").Edit} Edit

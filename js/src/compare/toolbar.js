@@ -4,7 +4,7 @@ import { button, radioButtons } from "../controls/button.js";
 import { element } from "../controls/element.js";
 import { historyButtons } from "../controls/history.js";
 import { zoomButtons } from "../controls/zoom_buttons.js";
-import { equal } from "../state.js";
+import { equal } from "../same.js";
 
 /** @typedef {import("./view.js").View} View */
 

@@ -10,8 +10,10 @@ import { element } from "../controls/element.js";
 import { errorText } from "../error_text.js";
 import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
+import { onKernelError } from "../kernel_errors.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
+import { onTraits } from "../traits.js";
 import { Zoom } from "../zoom.js";
 import { Differences } from "./differences.js";
 import { layOut, placeDivider } from "./layout.js";
@@ -95,29 +97,15 @@ export class View {
   /** @param {AbortSignal} signal */
   listen(signal) {
     const { model } = this;
-    /** @type {Record<string, () => void>} */
-    const handlers = {
-      "change:_photo": () => void this.loadPhoto(),
-      "change:_scenes": () => void this.loadScenes(),
-      "change:_variants": () => this.show(),
-      "change:_status": () => this.showStatus(),
-      "change:arrangement": () => this.show(),
-      "change:difference": () => this.show(),
-    };
-    for (const [event, handler] of Object.entries(handlers)) model.on(event, handler);
-    /** @type {(message: any) => void} */
-    const onMessage = (content) => {
-      if (content?.type === "error") this.showError(content.error);
-    };
-    model.on("msg:custom", onMessage);
+    onTraits(model, ["_photo"], () => void this.loadPhoto(), signal);
+    onTraits(model, ["_scenes"], () => void this.loadScenes(), signal);
+    onTraits(model, ["_status"], () => this.showStatus(), signal);
+    onTraits(model, ["_variants", "arrangement", "difference"], () => this.show(), signal);
+    onKernelError(model, (text) => this.showError(text), signal);
     this.state.subscribe(() => this.show());
     const observer = new ResizeObserver(() => this.layOut());
     observer.observe(this.grid);
-    signal.addEventListener("abort", () => {
-      observer.disconnect();
-      for (const [event, handler] of Object.entries(handlers)) model.off(event, handler);
-      model.off("msg:custom", onMessage);
-    });
+    signal.addEventListener("abort", () => observer.disconnect());
   }
 
   /** @returns {import("./panel.js").Variant[]} */

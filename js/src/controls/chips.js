@@ -1,6 +1,6 @@
 /** Chips: small buttons in a row, of which each sets some parameters. */
 
-import { equal } from "../state.js";
+import { equal } from "../same.js";
 import { element } from "./element.js";
 
 /** @typedef {{ label: string, title: string, values: Record<string, unknown> }} Preset */

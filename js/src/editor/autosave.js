@@ -7,7 +7,7 @@
 
 import { KeptEdits } from "../kept_edits.js";
 import { checkRecipe } from "../recipe/check.js";
-import { sameRecipe } from "../state.js";
+import { sameRecipe } from "../same.js";
 import { onTraits } from "../traits.js";
 
 /**

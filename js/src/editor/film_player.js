@@ -3,7 +3,7 @@
 import { button } from "../controls/button.js";
 import { element } from "../controls/element.js";
 import { icon } from "../controls/icons.js";
-import { sameRecipe } from "../state.js";
+import { sameRecipe } from "../same.js";
 
 /**
  * @typedef {{ path: import("../film_path.js").FilmPath, seconds: number, loop: string }} Film

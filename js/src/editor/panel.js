@@ -7,7 +7,7 @@ import { choice } from "../controls/choice.js";
 import { element } from "../controls/element.js";
 import { countedSection, section } from "../controls/section.js";
 import { slider } from "../controls/slider.js";
-import { equal } from "../state.js";
+import { equal } from "../same.js";
 import { panelFilter } from "./panel_filter.js";
 import { Softness } from "./softness.js";
 

@@ -3,7 +3,7 @@
 import { button } from "../controls/button.js";
 import { element } from "../controls/element.js";
 import { popup } from "../controls/popup.js";
-import { sameRecipe } from "../state.js";
+import { sameRecipe } from "../same.js";
 
 /** @typedef {import("../state.js").EditState} EditState */
 

@@ -12,6 +12,7 @@ import { element } from "../controls/element.js";
 import { errorText } from "../error_text.js";
 import { Frame } from "../frame.js";
 import { FrameLoop } from "../frame_loop.js";
+import { onKernelError } from "../kernel_errors.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { onTraits } from "../traits.js";
@@ -169,15 +170,10 @@ export class View {
       stage.setProgress(0.04, "Waiting for the kernel …");
     };
     onTraits(model, ["_status"], () => this.showStatus(), signal);
-    /** @type {(message: any) => void} */
-    const onMessage = (message) => {
-      if (message?.type === "error") this.showError(message.error);
-    };
-    model.on("msg:custom", onMessage);
+    onKernelError(model, (text) => this.showError(text), signal);
     listenToPointer(this, signal);
     this.root.addEventListener("keydown", (event) => onShortcut(this, event), { signal });
     signal.addEventListener("abort", () => {
-      model.off("msg:custom", onMessage);
       this.frame.dispose();
     });
   }

@@ -12,8 +12,10 @@ import { runShortcut } from "../controls/keys.js";
 import { angleBetween, sunAt, turned } from "../day.js";
 import { errorText } from "../error_text.js";
 import { FrameLoop } from "../frame_loop.js";
+import { onKernelError } from "../kernel_errors.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
+import { onTraits } from "../traits.js";
 import { Guides } from "./guides.js";
 import { Measured } from "./measured.js";
 import { panel } from "./panel.js";
@@ -122,20 +124,13 @@ export class View {
       this.show();
       if (this.loop.inSight) this.plots.request();
     };
-    const names = ["_day", "_measured", "_scans", "_aliases", "_presets"];
-    for (const name of names) model.on(`change:${name}`, onData);
-    /** @type {(message: any) => void} */
-    const onMessage = (message) => {
-      if (message?.type === "error") this.showError(message.error);
-    };
-    model.on("msg:custom", onMessage);
+    onTraits(model, ["_day", "_measured", "_scans", "_aliases", "_presets"], onData, signal);
+    onKernelError(model, (text) => this.showError(text), signal);
     listenToPointer(this, signal);
     this.root.addEventListener("keydown", (event) => runShortcut(SHORTCUTS, this, event), {
       signal,
     });
     signal.addEventListener("abort", () => {
-      for (const name of names) model.off(`change:${name}`, onData);
-      model.off("msg:custom", onMessage);
       this.frame.dispose();
     });
   }
