@@ -294,7 +294,7 @@ def _daylight(track: SunTrack, reading: Reading | None, sun: Direction | None) -
         return 0.0
     if track.source == "clock":
         return float(smoothstep(-11.0, -5.0, sun[1]))
-    return float(smoothstep(0.22, 0.38, reading.sky_light))
+    return float(smoothstep(0.33, 0.5, reading.sky_light))
 
 
 def _refuse_too_few(readings: list[Reading | None], troubles: list[Trouble]) -> None:

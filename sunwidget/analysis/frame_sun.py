@@ -105,10 +105,26 @@ def track_of(
         return _by_clock(timed, place, guess)
     if told is not None:
         return SunTrack(((0, *told),), None, (0.0, 0.0), "told")
-    seen = tuple((s.number, *s.seen) for s in samples if s.seen is not None)
-    if seen:
-        return SunTrack(seen, None, (0.0, 0.0), "seen")
+    seen = _on_one_way([(s.number, *s.seen) for s in samples if s.seen is not None])
+    # A bright cloud is taken for the sun now and then, the sun itself in many frames.
+    if len(seen) >= max(2, math.ceil(len(samples) / 3)):
+        return SunTrack(tuple(seen), None, (0.0, 0.0), "seen")
     return SunTrack(((0, *guess),), None, (0.0, 0.0), "assumed")
+
+
+def _on_one_way(seen: list[tuple[int, float, float]]) -> list[tuple[int, float, float]]:
+    """Leave out what lies off the straight way that most of the seen suns are on."""
+    if len(seen) < 3:
+        return seen
+    numbers = np.array([number for number, _, _ in seen], float)
+    off = np.zeros(len(seen))
+    for values in (np.unwrap(np.radians([s[1] for s in seen])), np.radians([s[2] for s in seen])):
+        # The slope that half of the pairs lie below (Theil 1950, Sen 1968).
+        rise = np.subtract.outer(values, values)[np.triu_indices(len(seen), 1)]
+        run = np.subtract.outer(numbers, numbers)[np.triu_indices(len(seen), 1)]
+        rest = values - np.median(rise / run) * numbers
+        off = np.maximum(off, np.abs(np.degrees(rest - np.median(rest))))
+    return [s for s, degrees in zip(seen, off, strict=True) if degrees < _NEAR]
 
 
 def _by_clock(timed: Sequence[Sample], place: Place, guess: Direction) -> SunTrack:

@@ -163,6 +163,16 @@ def test_without_a_clock_seen_suns_are_joined_across_north():
     assert track.at(99, dt.datetime(2024, 1, 1, tzinfo=dt.UTC)) == pytest.approx((-170.0, 10.0))
 
 
+def test_a_cloud_that_looks_like_a_sun_does_not_lead_the_way():
+    sun = [(10.0 + i, 20.0 - i) for i in range(9)]
+    row = [Sample(10 * i, None, None, s) for i, s in enumerate(sun)]
+    row[4] = row[4]._replace(seen=(-25.0, 12.0))
+    track = track_of(row, None, None, (0.0, 0.0))
+    assert track.at(40, None) == pytest.approx((14.0, 16.0), abs=0.01)
+    only = [s._replace(seen=None) if i != 4 else s for i, s in enumerate(row)]
+    assert track_of(only, None, None, (3.0, 33.0)).source == "assumed"
+
+
 def test_the_direction_that_most_agree_on_wins_over_outliers():
     assert middle_direction([(10, 20), (12, 21), (150, 60), (11, 20)], [1, 1, 1, 1])[0] in (
         10,
