@@ -12,6 +12,7 @@ import sunwidget as sw
 from sunwidget.cli import main
 from sunwidget.export.batch import develop, photos, record
 from sunwidget.export.batch.report import BatchReport, BatchRow
+from sunwidget.export.batch.wish import Wish
 
 LOW = sw.Edit(sun_elevation=3)
 
@@ -118,6 +119,23 @@ def test_a_failed_photo_does_not_stop_the_rest(folder, quick, monkeypatch):
     assert report.failed[0].output is None
     # What failed is tried again, what is done is not.
     assert [row.state for row in run(folder)] == ["skipped", "failed"]
+
+
+def test_a_machine_that_cannot_render_ends_the_batch(folder, quick, monkeypatch):
+    def save(job, photo, path, progress):
+        quick.append(photo.name)
+        raise sw.RendererError("No EGL. Install it.")
+
+    monkeypatch.setattr(develop, "_save", save)
+    with pytest.raises(sw.RendererError, match="No EGL"):
+        run(folder)
+    assert quick == ["0.png"]
+
+
+def test_a_worker_of_another_version_says_so(folder, quick):
+    job = develop.Job(0, "0.png", "", "0-sun.png", Wish(LOW), version="0.0.1")
+    with pytest.raises(RuntimeError, match=r"the batch is run by 0\.0\.1"):
+        develop.develop(job)
 
 
 def test_a_missing_photo_is_a_row(folder, quick):

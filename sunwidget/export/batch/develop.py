@@ -61,7 +61,19 @@ class Outcome:
 
 
 def develop(job: Job, progress: Callable[[float, str], object] | None = None) -> Outcome:
-    """Open, analyse, render and encode one photo. What goes wrong becomes the outcome's error."""
+    """Open, analyse, render and encode one photo. What goes wrong becomes the outcome's error.
+
+    Raises
+    ------
+    RendererError
+        When nothing can be rendered on this machine: every other photo would fail as well.
+    RuntimeError
+        When the batch was started by another version of sunwidget.
+    """
+    from sunwidget.renderer.gl_thread import RendererError
+
+    if job.version != __version__:
+        raise RuntimeError(f"it has sunwidget {__version__}, the batch is run by {job.version}")
     with _one_at_a_time:
         begin = time.perf_counter()
         where = f"{socket.gethostname()}:{os.getpid()}"
@@ -72,6 +84,8 @@ def develop(job: Job, progress: Callable[[float, str], object] | None = None) ->
             return Outcome(job.number, unseen=True, worker=where)
         except _Stopped as stopped:
             raise stopped.reason from None
+        except RendererError:
+            raise
         except MemoryError:
             error = "There was not enough memory for this photo. Use fewer workers."
         except Exception as wrong:  # noqa: BLE001 - a failed photo is reported, and the rest is done
@@ -106,11 +120,6 @@ class _Stopped(BaseException):
 def _files(
     job: Job, notes: list[str], progress: Callable[[float, str], object] | None
 ) -> dict[str, bytes]:
-    if job.version != __version__:
-        raise RuntimeError(
-            f"This worker has sunwidget {__version__}, the batch was started by {job.version}. "
-            "Install the same version on every machine."
-        )
     limit_threads(job.threads)
     with tempfile.TemporaryDirectory(prefix="sunwidget-", dir=_scratch()) as folder:
         photo = _photo(job, Path(folder))

@@ -89,6 +89,8 @@ def batch(
         For an unusable recipe or argument; nothing has been done then.
     ModuleNotFoundError
         When workers are asked for without the ``batch`` extra.
+    RendererError, RuntimeError
+        When nothing can be rendered here or on a worker, or a worker has another version.
     ConnectionError, TimeoutError
         When the scheduler or all of its workers are lost. Like Ctrl-C it leaves whole pictures
         only, and the same call goes on where this one stopped.

@@ -130,6 +130,8 @@ class DaskWorkers:
     def _outcomes(self, jobs: Iterator[Job], condemn: Callable[[Job], object]) -> Iterator[Outcome]:
         from distributed import KilledWorker
 
+        from sunwidget.renderer.gl_thread import RendererError
+
         pending: dict[Any, Job] = {}
         try:
             while True:
@@ -143,6 +145,8 @@ class DaskWorkers:
                     except KilledWorker:
                         condemn(job)
                         continue
+                    except RendererError:
+                        raise
                     except (OSError, CancelledError) as error:
                         raise _lost(error) from error
                     except Exception as error:
