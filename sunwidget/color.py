@@ -178,18 +178,18 @@ class ColorProfile:
         return self._mixed(light)
 
     def encode(
-        self, light: NDArray[Any], dtype: Any = np.uint8, *, dither: bool = False
+        self, light: NDArray[Any], dtype: Any = np.uint8, *, dither: bool = False, seed: int = 0
     ) -> NDArray[Any]:
         """Linear Rec. 709 (H, W, 3) to rounded code values, uint8 or uint16.
 
         Colours outside the profile's gamut are clamped channel by channel. ``dither`` adds
-        triangular noise of half a level, the same on every call; a value that lies on a
-        level stays on it.
+        triangular noise of half a level, the same on every call with this ``seed``; a value
+        that lies on a level stays on it.
         """
         codes = np.empty(light.shape, dtype)
         top = np.float32(np.iinfo(codes.dtype).max)
         inverse = None if self.matrix is None else np.linalg.inv(self.matrix).astype(np.float32)
-        rng = np.random.default_rng(0)
+        rng = np.random.default_rng(seed)
         for rows in strips(light.shape):
             strip = np.asarray(light[rows], np.float32)
             if inverse is not None:

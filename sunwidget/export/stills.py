@@ -123,7 +123,13 @@ def save(
     return place
 
 
-def encode_like(photo: Photo, light: NDArray[Any], *, bit_depth: int | None = None) -> NDArray[Any]:
+def encode_like(
+    photo: Photo,
+    light: NDArray[Any],
+    *,
+    bit_depth: int | None = None,
+    rows: slice = slice(None),
+) -> NDArray[Any]:
     """Encode light in the profile of ``photo``; pixels that equal its own keep their codes.
 
     Parameters
@@ -134,6 +140,8 @@ def encode_like(photo: Photo, light: NDArray[Any], *, bit_depth: int | None = No
         Linear Rec. 709. Colours outside the profile's gamut are clamped.
     bit_depth : {8, 16}, optional
         Default: the photo's own, 16 for a float photo.
+    rows : slice, optional
+        Which rows of the photo ``light`` is. Default: all.
 
     Returns
     -------
@@ -143,18 +151,20 @@ def encode_like(photo: Photo, light: NDArray[Any], *, bit_depth: int | None = No
     """
     bits = bit_depth or min(photo.bit_depth, 16)
     dtype = np.dtype(np.uint8 if bits == 8 else np.uint16)
-    codes = photo.profile.encode(light, dtype, dither=dtype == np.uint8)
-    if photo.encoded.shape != light.shape or photo.encoded.dtype.kind == "f":
+    first = rows.indices(photo.height)[0]
+    # Strips must not repeat one another's noise.
+    codes = photo.profile.encode(light, dtype, dither=dtype == np.uint8, seed=first)
+    own = photo.encoded[rows]
+    if own.shape != light.shape or own.dtype.kind == "f":
         return codes
-    own = photo.encoded
     if own.dtype != dtype:
         # 257 takes each 8-bit level to its 16-bit one, and back after rounding.
         own = own * np.uint16(257) if bits == 16 else np.rint(own / 257).astype(np.uint8)
-    for rows in strips(light.shape):
-        was = photo.light(rows)
-        same = np.abs(light[rows] - was) <= _SAME_LIGHT + _SAME_SHARE * np.abs(was)
+    for part in strips(light.shape):
+        was = photo.light(slice(first + part.start, first + part.stop))
+        same = np.abs(light[part] - was) <= _SAME_LIGHT + _SAME_SHARE * np.abs(was)
         kept = same.all(axis=-1)
-        codes[rows][kept] = own[rows][kept]
+        codes[part][kept] = own[part][kept]
     return codes
 
 
@@ -241,7 +251,10 @@ def _scene_and_edit(pair: tuple[Any, ...]) -> tuple[Any, Edit | None]:
 def _own_codes(photo: Photo, bits: int) -> NDArray[Any]:
     if photo.bit_depth == bits:
         return photo.encoded
-    return encode_like(photo, photo.pixels, bit_depth=bits)
+    codes = np.empty(photo.encoded.shape, np.uint8 if bits == 8 else np.uint16)
+    for rows in strips(codes.shape):
+        codes[rows] = encode_like(photo, photo.light(rows), bit_depth=bits, rows=rows)
+    return codes
 
 
 def _rendered(
@@ -252,15 +265,20 @@ def _rendered(
     progress: Progress,
 ) -> NDArray[Any]:
     """Draw the picture: code values in the photo's profile, or light for 32 bits."""
-    from sunwidget.renderer.render import render
+    from sunwidget.renderer.render import render, strips_of
 
     photo: Photo = scene.photo
     more: dict[str, Any] = {"progress": progress} | ({} if size is None else {"size": size})
     if bits == 8 and photo.bit_depth == 8 and photo.profile.is_srgb:
         # The same call as sw.render: the file is the very frame that the canvas shows.
         return render(scene, edit, **more)
-    light = render(scene, edit, dtype="float32", **more)
-    return light if bits == 32 else encode_like(photo, light, bit_depth=bits)
+    if bits == 32:
+        return render(scene, edit, dtype="float32", **more)
+    width, height = size or photo.size
+    codes = np.empty((height, width, 3), np.uint8 if bits == 8 else np.uint16)
+    for rows, light in strips_of(scene, edit, "float32", **more):
+        codes[rows] = encode_like(photo, light, bit_depth=bits, rows=rows)
+    return codes
 
 
 def _with_metadata(

@@ -146,7 +146,7 @@ class Strips:
         strip = (float(held.start), float(width), float(height), float(held.stop - held.start))
         if self._resized is not None:
             return {name: image[held] for name, image in self._resized.items()}, strip
-        found = {
+        found: dict[str, Array] = {
             "photo": self.scene.photo.light(held),
             "layers": quantise_map(self.scene.layers(rows=held)),
             "surface": quantise_map(self.scene.surface(rows=held)),

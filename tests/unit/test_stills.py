@@ -13,7 +13,7 @@ import pytest
 import tifffile
 from PIL import Image, PngImagePlugin
 
-from sunwidget import exif
+from sunwidget import exif, xmp
 from sunwidget.color import linear_to_srgb
 from sunwidget.edit import Edit, Stroke
 from sunwidget.export import stills
@@ -69,7 +69,13 @@ def renderer(monkeypatch):
             return light
         return np.rint(linear_to_srgb(light) * 255).astype(np.uint8)
 
+    def strips_of(scene, edit=None, dtype="uint8", size=None, progress=None):
+        picture = render(scene, edit, dtype=dtype, progress=progress)
+        for rows in (slice(0, 7), slice(7, len(picture))):
+            yield rows, picture[rows]
+
     monkeypatch.setattr(module, "render", render)
+    monkeypatch.setattr(module, "strips_of", strips_of)
     return calls
 
 
@@ -319,6 +325,27 @@ def test_the_recipe_travels_with_the_picture(tmp_path, renderer, ending):
     edit = Edit(sun_elevation=3.5, sun_azimuth=-4)
     again = open_photo(save((FakeScene(rich_photo()), edit), tmp_path / f"out{ending}"))
     assert Edit.from_dict(again.recipe) == edit
+
+
+@pytest.mark.parametrize("ending", (*ALL, ".hdr"))
+def test_the_edit_is_told_in_exif_and_xmp_beside_what_was_there(tmp_path, renderer, ending):
+    edit = Edit(sun_elevation=3.5)
+    pair, paths = (FakeScene(rich_photo()), edit), [tmp_path / f"{n}{ending}" for n in "ab"]
+    if ending == ".hdr":  # the photo's colours are wider than it holds
+        with pytest.warns(PhotoWarning, match="outside Rec. 709"):
+            save(pair, paths[0])
+        again = open_photo(paths[0])
+    else:
+        again = open_photo(save(pair, paths[0]))
+        assert save(pair, paths[1]).read_bytes() == paths[0].read_bytes()  # no clock in it
+    read = exif.load(again.exif)
+    assert read[0x0131].startswith("sunwidget ")
+    assert read[0x0110] == "Größe"
+    assert Edit.from_dict(xmp.recipe(again.xmp)) == edit
+    assert b"softwareAgent" in again.xmp
+    assert again.facts == rich_photo().facts
+    twice = save((FakeScene(again), Edit(exposure=1)), tmp_path / "twice.png")
+    assert Edit.from_dict(open_photo(twice).recipe) == Edit(exposure=1)
 
 
 def test_a_scene_alone_is_the_unmoved_photo(tmp_path, renderer):
