@@ -24,6 +24,7 @@ LOOPS = ("once", "forever", "there_and_back")
 # %d, %4d or %04d, as ffmpeg and printf name files in a row.
 _NUMBER = re.compile(r"%(?:0?\d)?d(?![a-z])")
 _PNG_WORKERS = 2
+_BT709 = "colorspace=bt709:color_primaries=bt709:color_trc=bt709:range=tv"
 
 
 @dataclass(frozen=True)
@@ -91,10 +92,10 @@ def _write_mp4(frames: Frames, path: Path, film: Film) -> None:
         *(imageio_ffmpeg.get_ffmpeg_exe(), "-nostdin", "-v", "error", "-y"),
         *("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{film.size[0]}x{film.size[1]}"),
         *("-r", f"{film.fps:g}", "-i", "-", "-an"),
-        *("-vf", "scale=out_color_matrix=bt709:out_range=tv", "-pix_fmt", "yuv420p"),
-        *("-c:v", "libx264", "-crf", f"{crf}", "-preset", "veryfast"),
-        *("-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"),
-        *("-color_range", "tv", "-movflags", "+faststart", str(path)),
+        # Tags that are only asked of the encoder give way to those of the frames, which have none.
+        *("-vf", f"scale=out_color_matrix=bt709:out_range=tv,setparams={_BT709}"),
+        *("-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", f"{crf}", "-preset", "veryfast"),
+        *("-movflags", "+faststart", str(path)),
     ]
     with (
         tempfile.TemporaryFile() as messages,

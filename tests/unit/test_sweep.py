@@ -53,9 +53,26 @@ def test_mp4_is_h264_yuv420p_bt709_with_even_sides(scene, tmp_path):
     path = sweep(scene, ENDS, tmp_path / "film.mp4", frames=6, fps=12)
     words = probe(path)
     assert "Video: h264" in words
-    assert "yuv420p(tv, bt709" in words
+    assert "yuv420p(tv, bt709, progressive)" in words  # one name: matrix, primaries, transfer
     assert "64x42" in words
     assert "12 fps" in words
+
+
+def test_another_program_reads_the_same_of_an_mp4(scene, tmp_path):
+    media = pytest.importorskip("pymediainfo").MediaInfo
+    if not media.can_parse():
+        pytest.skip("MediaInfo's library is not on this machine")
+    path = sweep(scene, ENDS, tmp_path / "film.mp4", seconds=0.5)
+    track = media.parse(path).video_tracks[0]
+    assert (track.format, track.chroma_subsampling, track.bit_depth) == ("AVC", "4:2:0", 8)
+    assert (track.width, track.height, track.frame_count) == (64, 42, "12")
+    assert float(track.frame_rate) == 24
+    for tag in (track.matrix_coefficients, track.color_primaries, track.transfer_characteristics):
+        assert tag == "BT.709"
+    assert track.color_range == "Limited"
+    # Players begin before all of it is there: the index stands before the frames.
+    data = path.read_bytes()
+    assert data.index(b"moov") < data.index(b"mdat")
 
 
 def test_mp4_frames_keep_their_levels(scene, tmp_path):
