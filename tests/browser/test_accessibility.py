@@ -80,7 +80,8 @@ def press(page, *keys):
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_nothing_in_the_editor(open_editor, axe, scheme):
-    page = open_editor(color_scheme=scheme)
+    frames = [{"seconds": at, "recipe": {"sun_elevation": 5 - at}} for at in (0, 2)]
+    page = open_editor(color_scheme=scheme, traits={"key_frames": frames})
     only_colors = scheme == "dark"  # all else is the same in both
     unfold(page)
     page.locator(".sw-sun").focus()
@@ -89,7 +90,10 @@ def test_axe_finds_nothing_in_the_editor(open_editor, axe, scheme):
         "model.fire('msg:custom', { type: 'error', error: 'The file is gone. Open another.' })"
     )
     page.locator(".sw-message").wait_for()
+    press(page, "e", "ArrowRight")  # the export's films
+    page.locator(".sw-key-frame").first.wait_for()
     assert violations(page, axe, only_colors=only_colors) == []
+    press(page, "ArrowLeft")  # its stills
     page.set_viewport_size({"width": 360, "height": 860})
     if not only_colors:
         assert violations(page, axe) == []

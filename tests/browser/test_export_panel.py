@@ -219,7 +219,7 @@ def test_a_film_is_made_downloaded_and_shown(page, widget, coast):
     page.get_by_role("button", name="Export", exact=True).first.click()
     page.get_by_role("tab", name="Film").click()
     field(page, "Seconds").fill("0.5")
-    field(page, "Frames a second").select_option("12")
+    field(page, "Frame rate").select_option("12")
     field(page, "Longer side").select_option("640")
     field(page, "Name").fill("dusk")
     with page.expect_download() as download:

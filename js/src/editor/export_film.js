@@ -37,7 +37,7 @@ export function exportFilm(view, job, signal) {
 
   const way = selectField("Path", [
     ["keys", "Key frames"],
-    ["day", "The place's day"],
+    ["day", "The day"],
   ]);
   const [from, to] = ["From, UTC", "To, UTC"].map((label) =>
     inputField(label, { type: "text", inputmode: "numeric", autocomplete: "off" }),
@@ -55,7 +55,7 @@ export function exportFilm(view, job, signal) {
   ]);
   const format = selectField("Format");
   const fps = selectField(
-    "Frames a second",
+    "Frame rate",
     [24, 25, 30, 60, 12].map((rate) => [String(rate), String(rate)]),
   );
   const size = selectField("Longer side");

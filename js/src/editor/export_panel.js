@@ -19,6 +19,13 @@ export function exportPanel(view, signal) {
   trigger.classList.add("sw-export-trigger");
   toolbar.save.after(trigger);
   toolbar.export = trigger;
+  toolbar.menu.add({
+    group: "picture",
+    label: "Export …",
+    title: "A still of any format and size, or a film",
+    shown: () => kernel.state !== "none",
+    run: () => setOpen(true),
+  });
 
   const job = exportJob(view, () => node.hidden === false, signal);
   const film = exportFilm(view, job, signal);
@@ -75,7 +82,7 @@ export function exportPanel(view, signal) {
     trigger.setAttribute("aria-expanded", String(open));
     if (!open) {
       film.stop();
-      trigger.focus();
+      (trigger.offsetParent ? trigger : toolbar.menu.trigger).focus();
       return;
     }
     choose(chosen);
