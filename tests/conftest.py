@@ -7,6 +7,11 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 
+# Mesa keeps compiled shaders in the person's cache folder. Processes that a test gives another
+# home use the same, or each would compile them anew: ten seconds of a core.
+_CACHE = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+os.environ.setdefault("MESA_SHADER_CACHE_DIR", _CACHE)
+
 
 @pytest.fixture(scope="session")
 def root() -> Path:
