@@ -202,9 +202,11 @@ def _format(image: Any) -> str | None:
 
 def _exif_block(image: Any) -> bytes:
     try:
-        block = image.getexif().tobytes() if image.format == "TIFF" else image.info.get("exif")
+        block = image.info.get("exif") if image.format != "TIFF" else None
         if not block:
-            block = image.getexif().tobytes()
+            exif = image.getexif()
+            exif_tags.keep_texts(exif)
+            block = exif.tobytes()
     except Exception:  # noqa: BLE001 - damaged metadata must not cost the picture
         return b""
     return block if isinstance(block, bytes) else b""

@@ -86,9 +86,31 @@ def load(block: bytes) -> Any:
             for tag in list(exif):
                 if not _decodes(exif, tag):
                     del exif[tag]
+            keep_texts(exif)
     except Exception:  # noqa: BLE001 - a hostile block may fail anywhere inside Pillow's parser
         return None
     return exif
+
+
+class _Text(str):
+    """Text as Pillow reads it, Latin-1, which Pillow would write with "?" for each é and ©.
+
+    EXIF's texts are ASCII by the book and UTF-8 in many files; as Latin-1 their bytes stay.
+    """
+
+    __slots__ = ()
+
+    def encode(self, *_asked: Any, **_more: Any) -> bytes:
+        """Return the bytes that were read, whichever encoding is asked for."""
+        return super().encode("latin-1", "replace")
+
+
+def keep_texts(exif: Any) -> None:
+    """Make the texts of a Pillow Exif such that it writes them as they were read."""
+    for values in (exif, exif.get_ifd(_EXIF_IFD), exif.get_ifd(_GPS_IFD)):
+        for tag, value in list(values.items()):
+            if isinstance(value, str) and not value.isascii():
+                values[tag] = _Text(value)
 
 
 def _decodes(exif: Any, tag: int) -> bool:

@@ -89,8 +89,9 @@ def read(data: bytes, name: str) -> Hdr:
     if found is None or found.shape != (height, width, 3):
         raise PhotoError(f"{name} is a damaged Radiance HDR file. Copy or download it again.")
     light = found / np.float32(_exposure(lines))
-    matrix = _matrix(lines)
-    return Hdr(light if matrix is None else light @ matrix.T.astype(np.float32), _notes(lines))
+    if (matrix := _matrix(lines)) is not None:
+        light = light @ matrix.T
+    return Hdr(np.asarray(light, np.float32), _notes(lines))
 
 
 def _exposure(lines: list[str]) -> float:

@@ -41,7 +41,8 @@ def record(
         document = _parsed(packet or _EMPTY.encode())
         rdf = document.getElementsByTagNameNS(_RDF, "RDF")[0]
         _forget(rdf)
-        _tell(document, rdf, recipe, before or software)
+        tool = "".join(sign for sign in before if sign.isprintable())  # XML has no other signs
+        _tell(document, rdf, recipe, tool or software)
         _continue_history(document, rdf, software)
         body = document.documentElement.toxml() if document.documentElement else ""
     except (_NotXmpError, IndexError, RecursionError):

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget import exif as exif_tags
 from sunwidget.layout import PhotoError
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ def _page(
     dpi: tuple[float, float] | None,
 ) -> tuple[Any, list[bytes]]:
     """Return the directory of a page, which tells the metadata of ``told``, and its strips."""
-    from PIL import Image, TiffImagePlugin
+    from PIL import TiffImagePlugin
 
     height, width, count = samples.shape
     rows = max(1, _STRIP_BYTES // (width * count * samples.itemsize))
@@ -71,9 +72,8 @@ def _page(
         packed = list(pool.map(lambda top: _pack_strip(samples[top : top + rows]), tops))
     ends = np.cumsum([len(strip) for strip in packed])
     directory = TiffImagePlugin.ImageFileDirectory_v2(prefix=b"II")
-    if told is not None and told.exif:
-        exif = Image.Exif()
-        exif.load(told.exif)
+    exif = exif_tags.load(told.exif) if told is not None and told.exif else None
+    if exif is not None:
         for tag in exif:
             # Camera and place are directories of their own: Pillow writes a dict as one.
             directory[tag] = dict(exif.get_ifd(tag)) if tag in (0x8769, 0x8825) else exif[tag]
