@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import time
 from collections.abc import Callable
 
@@ -13,6 +14,7 @@ _SECONDS_BEFORE = 1.0
 _SHARE_BEFORE = 0.02
 # How far back the rate looks: about this share of the time that the work has taken so far.
 _MEMORY = 0.3
+_OF_A_PART = re.compile(r"( · |^)[^·]* left$")
 
 
 def with_time_left(
@@ -42,6 +44,8 @@ def with_time_left(
         left = rate.seconds_left(fraction, clock())
         if left is None:
             return progress(fraction, message)
+        # What a part of the work said of itself; the whole's own time is the later one.
+        message = _OF_A_PART.sub("", message)
         words = time_left_text(left)
         return progress(fraction, f"{message} · {words}" if message else words)
 

@@ -78,6 +78,14 @@ def test_another_piece_of_work_starts_its_own_count():
     assert seconds(work.at(13, 0.6)) <= 3
 
 
+def test_what_wraps_work_that_tells_its_time_tells_one_time():
+    whole = Work()
+    whole.at(0, 0.0, "frame 1 of 9")
+    said = whole.at(4, 0.2, "frame 5 of 9 · 2 s left")
+    assert said == "frame 5 of 9 · 16 s left"
+    assert whole.at(5, 0.25, "3 min left") == "15 s left"
+
+
 def test_many_reports_at_one_instant_divide_by_nothing():
     work = Work()
     for i in range(10):
