@@ -69,7 +69,7 @@ def loopback(folder):
         while not found.exists():
             time.sleep(0.05)
         with Client(scheduler_file=str(found)) as client:
-            client.wait_for_workers(2, timeout=60)
+            client.wait_for_workers(2, timeout=120)
             address = client.scheduler.address
         yield address, workers
 
@@ -94,6 +94,7 @@ def in_group(group):
     return found
 
 
+@pytest.mark.timeout(600)  # three processes that each compile the shaders, on a busy machine
 def test_every_photo_comes_out_once_though_a_worker_is_killed(tmp_path, monkeypatch):
     photos = photos_in(tmp_path / "photos", 5)
     # A path that leads elsewhere in each process: the workers are sent the photo's bytes.
