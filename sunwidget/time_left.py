@@ -55,7 +55,7 @@ def with_time_left(
 def time_left_text(seconds: float) -> str:
     """Return "12 s left", "3 min left" or "1 h 20 min left", no finer than it can be known."""
     if seconds < 20:
-        return f"{max(1, math.ceil(seconds))} s left"
+        return f"{max(1, math.ceil(seconds - 1e-6))} s left"
     if seconds < 90:
         return f"{math.ceil(seconds / 5) * 5} s left"
     minutes = round(seconds / 60)
