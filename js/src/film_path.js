@@ -41,6 +41,18 @@ export const EASINGS = {
 const isMoved = (p) => p.kind === "number" && !p.analysis;
 
 /**
+ * What a film moves of a recipe.
+ *
+ * @param {Parameter[]} parameters
+ * @param {Edit} recipe
+ * @returns {Edit}
+ */
+export const movedOf = (parameters, recipe) =>
+  Object.fromEntries(
+    parameters.filter((p) => isMoved(p) && p.name in recipe).map((p) => [p.name, recipe[p.name]]),
+  );
+
+/**
  * A key frame's edit: `edit` gives all that a film does not move.
  *
  * @param {Parameter[]} parameters

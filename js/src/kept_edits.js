@@ -144,12 +144,15 @@ const isEntry = (entry) => isRecipe(entry?.recipe) && typeof entry.session === "
 const isRecipe = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
 
 /** @param {any} entry @returns {Entry} */
-const whole = ({ past, future, versions, saved, ...entry }) => ({
+const whole = ({ past, future, versions, keyFrames, saved, ...entry }) => ({
   ...entry,
   saved: Number(saved) || 0,
   past: Array.isArray(past) ? past.filter(isRecipe) : [],
   future: Array.isArray(future) ? future.filter(isRecipe) : [],
   versions: Array.isArray(versions)
     ? versions.filter((v) => typeof v?.name === "string" && isRecipe(v.recipe))
+    : [],
+  keyFrames: Array.isArray(keyFrames)
+    ? keyFrames.filter((frame) => Number.isFinite(frame?.seconds) && isRecipe(frame.recipe))
     : [],
 });

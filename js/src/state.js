@@ -20,7 +20,7 @@ import { newest } from "./steps.js";
  */
 
 const THROTTLE_MS = 100;
-const HISTORY = ["_history", "_versions"];
+const HISTORY = ["_history", "_versions", "key_frames"];
 
 export class EditState {
   /**
@@ -244,6 +244,11 @@ export class EditState {
     return this.model.get("_versions") ?? [];
   }
 
+  /** @returns {import("./film_path.js").KeyFrame[]} of the film, sorted */
+  keyFrames() {
+    return this.model.get("key_frames") ?? [];
+  }
+
   /** @param {Version[]} versions */
   writeVersions(versions) {
     this.model.set("_versions", versions);
@@ -260,6 +265,7 @@ export class EditState {
       past: moved ? newest([...past, /** @type {Edit} */ (this.before)]) : past,
       future: moved ? [] : future,
       versions: this.versions(),
+      keyFrames: this.keyFrames(),
     };
   }
 
@@ -296,6 +302,7 @@ export class EditState {
     const names = new Set(now.versions.map(({ name }) => name));
     const others = kept.versions.filter(({ name }) => !names.has(name));
     this.model.set("_versions", [...now.versions, ...others]);
+    if (!now.keyFrames.length) this.model.set("key_frames", kept.keyFrames);
     this.push();
     this.notify();
   }

@@ -86,6 +86,7 @@ export interface Version {
 export interface Kept extends History {
   recipe: Edit;
   versions: Version[];
+  keyFrames: import("./film_path.js").KeyFrame[];
 }
 
 /** Which photo it is (trait `_source`). */

@@ -35,6 +35,7 @@ const entry = (session, saved, recipe = { exposure: saved }, past = [{}]) => ({
   past,
   future: [],
   versions: [],
+  keyFrames: [],
 });
 const keptIn = (storage) => new KeptEdits(() => storage);
 
@@ -121,8 +122,9 @@ test("no storage, no room at all and other versions' items are no errors", () =>
   }
   storage.setItem(
     "sunwidget:edits:a",
-    '[{"session": "s", "recipe": {}, "past": 3, "versions": [{}]}]',
+    '[{"session": "s", "recipe": {}, "past": 3, "versions": [{}], "keyFrames": [{}]}]',
   );
   const [whole] = keptIn(storage).of("a");
   assert.deepEqual([whole.past, whole.future, whole.versions, whole.saved], [[], [], [], 0]);
+  assert.deepEqual(whole.keyFrames, []);
 });

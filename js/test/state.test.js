@@ -165,7 +165,7 @@ test("without a kernel nobody corrects the maps; what was kept comes back whole 
   const lost = following("later");
   lost.set({ strokes, exposure: 1 });
   assert.deepEqual(lost.recipe(), { exposure: 1 });
-  lost.takeUp({ recipe: { strokes }, past: [], future: [], versions: [] });
+  lost.takeUp({ recipe: { strokes }, past: [], future: [], versions: [], keyFrames: [] });
   assert.deepEqual(lost.recipe(), { strokes });
   const page = following("never");
   page.apply({ exposure: 2 });
@@ -198,6 +198,7 @@ test("what is kept in the middle of a drag can be undone later", () => {
     past: [{}, { exposure: 1 }],
     future: [],
     versions: [],
+    keyFrames: [],
   });
   assert.deepEqual(model.get("_history").past, [{}], "the drag itself goes on");
 });
@@ -208,6 +209,7 @@ test("what was kept comes back as it was over an untouched photo", () => {
     past: [{}, { exposure: 1 }],
     future: [{ exposure: 3 }],
     versions: [{ name: "warm", recipe: { exposure: 1 } }],
+    keyFrames: [{ seconds: 2, recipe: { exposure: 3 } }],
   };
   state.takeUp(kept);
   assert.deepEqual(state.kept(), kept);
@@ -223,7 +225,12 @@ test("what was kept never wipes out what is there", () => {
     { name: "warm", recipe: {} },
     { name: "cold", recipe: {} },
   ];
-  state.takeUp({ recipe: { exposure: 2 }, past: [{ exposure: 1 }], future: [], versions });
+  const keyFrames = [{ seconds: 1, recipe: { exposure: 7 } }];
+  model.set("key_frames", keyFrames);
+  const other = [{ seconds: 9, recipe: {} }];
+  const past = [{ exposure: 1 }];
+  state.takeUp({ recipe: { exposure: 2 }, past, future: [], versions, keyFrames: other });
+  assert.deepEqual(state.keyFrames(), keyFrames);
   assert.deepEqual(state.recipe(), { exposure: 2 });
   assert.deepEqual(
     state.history().past.map(({ exposure = 0 }) => exposure),

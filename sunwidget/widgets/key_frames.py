@@ -24,7 +24,7 @@ class KeyFrames(traitlets.TraitType):
     """Edits at seconds, sorted: ``((0.0, Edit()), (2.5, Edit(sun_elevation=3)))``.
 
     Takes pairs of seconds and an ``Edit`` or a recipe, and what travels to the browser:
-    ``{"seconds": …, "recipe": …}``.
+    ``{"seconds": …, "recipe": …}``. Of each edit it keeps what a film moves.
     """
 
     default_value: Any = ()
@@ -70,6 +70,7 @@ def _key_frame(item: Any) -> KeyFrame:
     if not (math.isfinite(seconds) and 0 <= seconds <= LONGEST):
         raise ValueError(f"seconds go from 0 to {LONGEST:g}, not {seconds!r:.40}.")
     try:
-        return float(seconds), recipe if isinstance(recipe, Edit) else Edit.from_dict(recipe)
+        edit = recipe if isinstance(recipe, Edit) else Edit.from_dict(recipe)
     except EditError as error:
         raise ValueError(str(error)) from None
+    return float(seconds), Edit(**{name: getattr(edit, name) for name in MOVED})

@@ -66,6 +66,8 @@ def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(
     page.keyboard.type("warm")
     page.keyboard.press("Enter")
     page.keyboard.press("Escape")
+    frames = [{"seconds": at, "recipe": {"exposure": at}} for at in (0, 2)]
+    page.evaluate("(key_frames) => model.receive({ key_frames })", frames)
     before = trait(page, "_history")
     assert before["past"] == [{}, {"sun_azimuth": 9.9}]
     page.reload()  # the page is left at once: what was done last is kept all the same
@@ -86,6 +88,7 @@ def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(
     assert trait(page, "exposure") == 0.5
     assert trait(page, "sun_elevation") is None
     assert [version["name"] for version in trait(page, "_versions")] == ["warm"]
+    assert trait(page, "key_frames") == frames
     assert page.get_by_role("button", name="Restore").count() == 0
     page.keyboard.press("Control+z")
     assert trait(page, "sun_elevation") == 5, "what was given is a step, not lost"

@@ -50,7 +50,9 @@ def test_key_frames_are_sorted_and_the_same_from_python_and_browser(editor):
     assert editor.key_frames == ((0.0, sw.Edit(sun_azimuth=3)), (4.0, LOW))
     travels = json.loads(json.dumps(editor.get_state("key_frames")["key_frames"]))
     assert travels[1] == {"seconds": 4.0, "recipe": LOW.to_dict()}
-    editor.set_state({"key_frames": [{"seconds": 2.5, "recipe": {"exposure": 1}}, *travels]})
+    stroke = {"label": "sky", "points": [[0.5, 0.1], [0.6, 0.1]], "radius": 0.02}
+    recipe = {"exposure": 1, "strokes": [stroke], "method": "thesis"}  # not all of it moves
+    editor.set_state({"key_frames": [{"seconds": 2.5, "recipe": recipe}, *travels]})
     assert [seconds for seconds, _ in editor.key_frames] == [0.0, 2.5, 4.0]
     assert editor.key_frames[1][1] == sw.Edit(exposure=1)
 

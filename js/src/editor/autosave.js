@@ -1,6 +1,6 @@
 /**
- * Nothing that was done is lost. The widget's state holds the edit, its history and its versions,
- * so a page that is loaded again has them from the kernel; for when the kernel is gone the browser
+ * Nothing that was done is lost. The widget's state holds the edit, its history, versions and key
+ * frames, so a page that is loaded again has them from the kernel; for when that is gone the browser
  * keeps them too, by the photo's fingerprint, and offers them the next time the photo is shown.
  * A recipe that is given in code is never replaced unasked.
  */
@@ -53,7 +53,8 @@ export function autosave(view, signal) {
     kernel.check();
     const kept = state.kept();
     const { session, fingerprint } = source;
-    const untouched = sameRecipe(kept.recipe, start) && !kept.past.length && !kept.versions.length;
+    const made = [kept.past, kept.versions, kept.keyFrames].some((some) => some.length > 0);
+    const untouched = sameRecipe(kept.recipe, start) && !made;
     if (!untouched) store.put(fingerprint, { ...kept, session, saved: Date.now() });
     // Another view of this editor may have restored it.
     if (notices.has("restore") && !lost()) notices.hide("restore");
@@ -195,6 +196,7 @@ function showKernel({ kernel, notices }) {
  * @param {Kept} here
  */
 function isLost(entry, here) {
+  if (entry.keyFrames.length && !here.keyFrames.length) return true;
   const reachable = [
     here.recipe,
     ...here.past,
@@ -223,6 +225,7 @@ function readable(parameters, entry) {
     past: entry.past.map(values),
     future: entry.future.map(values),
     versions: entry.versions.map(({ name, recipe }) => ({ name, recipe: values(recipe) })),
+    keyFrames: entry.keyFrames.map(({ seconds, recipe }) => ({ seconds, recipe: values(recipe) })),
   };
 }
 

@@ -8,7 +8,7 @@ import { exportStill } from "./export_still.js";
 
 /** @type {import("./parts.js").MakePart} */
 export function exportPanel(view, signal) {
-  const { kernel, model, toolbar } = view;
+  const { kernel, toolbar } = view;
   const id = `sw-export-${Math.random().toString(36).slice(2)}`;
   const trigger = button({
     icon: "chevron",
@@ -110,8 +110,6 @@ export function exportPanel(view, signal) {
     trigger.hidden = kernel.state === "none";
     if (!node.hidden) pages[chosen].page.show();
   };
-  model.on("change:key_frames", show);
-  signal.addEventListener("abort", () => model.off("change:key_frames", show));
   choose(0);
 
   return {

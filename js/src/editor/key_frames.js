@@ -3,7 +3,7 @@
 import { button } from "../controls/button.js";
 import { chip } from "../controls/chips.js";
 import { element } from "../controls/element.js";
-import { alongEdit } from "../film_path.js";
+import { alongEdit, movedOf } from "../film_path.js";
 import { placePhoto, thumbnails } from "./thumbnails.js";
 
 /** @typedef {import("../film_path.js").KeyFrame} KeyFrame */
@@ -34,7 +34,7 @@ export function keyFrames(view, signal) {
     const apart = sorted.map(({ seconds, recipe }) => {
       const at = round(Math.max(seconds, least));
       least = at + CLOSEST;
-      return { seconds: at, recipe };
+      return { seconds: at, recipe: movedOf(view.parameters, recipe) };
     });
     model.set("key_frames", apart);
     model.save_changes();
