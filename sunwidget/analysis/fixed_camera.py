@@ -23,12 +23,10 @@ from sunwidget.analysis.noise import noise_level
 from sunwidget.analysis.plausible import plausible
 from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.analysis.working import LUMINANCE, Working, resize
-from sunwidget.color import SRGB
+from sunwidget.color import SRGB, strips
 from sunwidget.edit import CORRECTIONS, Edit
 from sunwidget.photo import Photo
 
-SAMPLE_SIDE = 640
-_MOST_BYTES = 400_000_000  # of the samples that a median picture is made from
 _DARK = 0.35  # of the samples' usual light: a night tells nothing about the skyline
 _SIDE = 512  # pixels of the longer side at which frames are laid on each other
 _SURE = 0.06  # response of a correlation that is worth believing, also of a night's lamps
@@ -70,31 +68,44 @@ class FixedCamera:
     @classmethod
     def of(
         cls,
-        samples: Sequence[Photo],
+        small: Sequence[Working],
+        photos: Sequence[Photo | None],
         corrections: Edit,
         hints: dict[str, Any],
         progress: Callable[[float, str], Any] | None = None,
     ) -> FixedCamera:
-        """Analyse what is the same in ``samples``, photos of one size.
+        """Analyse what is the same in several frames.
 
-        ``corrections`` are an edit's strokes and hints, ``hints`` what ``analyze`` takes.
+        Parameters
+        ----------
+        small : sequence of Working
+            Of each frame.
+        photos : sequence of Photo or None
+            The same frames, all of one size; None for those that memory is not spent on.
+        corrections : Edit
+            Its strokes and hints.
+        hints : dict
+            What ``analyze`` takes.
+        progress : callable, optional
+            As for ``analyze``.
         """
-        small = [Working.of(photo, SAMPLE_SIDE) for photo in samples]
         light = np.array([float(np.median(w.luminance)) for w in small])
         lit = light >= _DARK * float(np.median(light))
-        plate = _median_picture([p for p, ok in zip(samples, lit, strict=True) if ok])
+        kept = [photo for photo in photos if photo is not None]
+        bright = [p for p, ok in zip(photos, lit, strict=True) if ok and p is not None]
+        plate = _median_picture(bright or kept)
         hints = dict(hints)
         if hints.get("sky") is None:
             hints["sky"] = _common_sky(
                 [w for w, ok in zip(small, lit, strict=True) if ok],
-                Working.of(plate, SAMPLE_SIDE),
+                Working.of(plate, max(small[0].width, small[0].height)),
                 hints.get("refine", "grabcut_mask"),
             )
         scene = analyze(plate, **hints, progress=progress)
         scene = scene.corrected(
             Edit().replace(**{name: getattr(corrections, name) for name in CORRECTIONS})
         )
-        noise = [noise_level(photo, scene.sky) for photo in samples]
+        noise = [noise_level(photo, scene.sky) for photo in kept]
         # A median picture is less noisy than its frames.
         response = scene.response | {"noise_level": float(np.median(noise))}
         scene = dataclasses.replace(
@@ -146,15 +157,12 @@ class FixedCamera:
 
 
 def _median_picture(photos: Sequence[Photo]) -> Photo:
-    """Return the median of code values of as many photos as memory is worth, middle ones first."""
+    """Return the median of the photos' code values, strip by strip."""
     first = photos[0]
-    most = max(1, _MOST_BYTES // (3 * first.encoded.nbytes))
-    most = min(len(photos), most - (most + 1) % 2)
-    chosen = np.unique(np.linspace(0, len(photos) - 1, most + 2)[1:-1].round().astype(int))
-    if len(photos) <= most:
-        chosen = np.arange(len(photos))
-    stack = [photos[i].encoded for i in chosen]
-    middle = np.median(np.stack(stack), axis=0).astype(first.encoded.dtype)
+    middle = np.empty_like(first.encoded)
+    for rows in strips(first.encoded.shape):
+        part = np.stack([photo.encoded[rows] for photo in photos])
+        middle[rows] = np.median(part, axis=0)
     return dataclasses.replace(
         first, encoded=middle, name="median of frames", alpha=None, sun=None, recipe=None
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -28,31 +29,35 @@ from sunwidget.place import Place
 
 _SIDE = 640  # pixels of the longer side at which they are looked at
 _SEARCH_SIDE = 384
+_MOST_BYTES = 400_000_000  # of the whole photos that a median picture is made from
 
 Progress = Callable[[float, str], Any]
 
 
 def open_samples(
     sources: list[Any], wanted: int, long_edge: int | None, clock: Clock, progress: Progress
-) -> tuple[list[Sample], list[Photo]]:
+) -> tuple[list[Sample], list[Photo | None]]:
     """Open frames spread over the film; one that is broken gives its place to the next."""
     chosen = np.unique(np.linspace(0, len(sources) - 1, min(wanted, len(sources))).astype(int))
     samples: list[Sample] = []
-    photos: list[Photo] = []
+    photos: list[Photo | None] = []
+    size, every = None, 1
     reason = ""
     ends = [*chosen[1:], len(sources)]
     for done, (first, end) in enumerate(zip(chosen, ends, strict=True)):
         progress(0.2 * done / len(chosen), "opening frames")
         for number in range(int(first), min(int(end), int(first) + 4)):
             try:
-                like = photos[0].size if photos else None
-                photo = read_frame(sources[number], long_edge, like)
+                photo = read_frame(sources[number], long_edge, size)
             except PhotoError as error:
                 reason = f"{name_of(sources[number], number)}: {error}"
                 continue
             moment = clock(number, sources[number], photo)
             samples.append(Sample(number, Working.of(photo, _SIDE), moment, None))
-            photos.append(photo)
+            if size is None:
+                size = photo.size
+                every = math.ceil(len(chosen) * photo.encoded.nbytes / _MOST_BYTES)
+            photos.append(photo if done % every == 0 or not any(photos) else None)
             break
     if not photos:
         raise PhotoError(f"No frame could be used. {reason}")
@@ -97,9 +102,9 @@ def track_and_film(
     return track, Film.of(keys)
 
 
-def place_of(photos: list[Photo], place: Place | None) -> Place | None:
+def place_of(photos: list[Photo | None], place: Place | None) -> Place | None:
     """Return the place that was given, else the first that a photo's file tells."""
     if place is not None:
         return place
-    told = (from_photo(photo).place for photo in photos)
+    told = (from_photo(photo).place for photo in photos if photo is not None)
     return next((found for found in told if found is not None), None)

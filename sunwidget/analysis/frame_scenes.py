@@ -120,10 +120,10 @@ class FrameScenes:
         """
         sources = list(sources)
         samples, photos = open_samples(sources, SAMPLES, long_edge, clock, progress)
-        size = photos[0].size
+        size = next(photo.size for photo in photos if photo is not None)
         place = place_of(photos, place)
         progress(0.2, "Finding what all frames share")
-        fixed = FixedCamera.of(photos, corrections, hints)
+        fixed = FixedCamera.of([s.working for s in samples], photos, corrections, hints)
         del photos
         told = fixed.scene.sun if fixed.scene.hints.sun is not None else None
         track, film = track_and_film(
