@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import contextlib
+import difflib
+import inspect
 import os
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from sunwidget.analysis.frame_scenes import FrameScenes, Trouble
-from sunwidget.analysis.scene import Scene
+from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.export.ahead import ahead
 from sunwidget.export.film import Film, is_sequence, sequence_target, whole_sequence, writer
 from sunwidget.export.frame_edits import FrameEdits
@@ -27,6 +29,7 @@ from sunwidget.time_left import Progress, with_time_left
 
 BROKEN = ("hold", "skip", "stop")
 _LOOPS = ("forever", "once")
+_OPTIONS = ("fps", "size", "easing", "loop", "quality", "format", "place", "times", "broken")
 _LOOKING = 0.3  # of the work: what is done before the first frame is drawn
 
 
@@ -123,7 +126,7 @@ def timelapse(
     >>> sw.timelapse("frames/*.jpg", "sunset.json", "out.mp4")
     >>> sw.timelapse("frames", [sw.Edit(sun_elevation=20), sw.Edit(sun_elevation=-4)], "stills")
     """
-    _check(fps=fps, loop=loop, quality=quality, broken=broken)
+    _check(fps=fps, loop=loop, quality=quality, broken=broken, hints=hints)
     sources = frame_sources(frames)
     place_out = Path(out).expanduser()
     film = is_sequence(place_out) or bool(place_out.suffix)
@@ -249,7 +252,12 @@ def _report(troubles: Sequence[Trouble], count: int, broken: str, *, film: bool)
     warnings.warn(f"{told}; {done}.", PhotoWarning, stacklevel=3)
 
 
-def _check(*, fps: float, loop: str, quality: int, broken: str) -> None:
+def _check(*, fps: float, loop: str, quality: int, broken: str, hints: Mapping[str, Any]) -> None:
+    known = inspect.signature(analyze).parameters.keys() - {"photo", "progress"}
+    if unknown := sorted(hints.keys() - known):
+        near = difflib.get_close_matches(unknown[0], [*known, *_OPTIONS], n=1)
+        hint = f" Did you mean {near[0]!r}?" if near else ""
+        raise TypeError(f"timelapse() takes no {unknown[0]!r:.40}.{hint}")
     if not (isinstance(fps, (int, float)) and 1 <= fps <= 120):
         raise ValueError(f"fps = {fps!r:.40} is outside 1 to 120 frames a second.")
     if loop not in _LOOPS:

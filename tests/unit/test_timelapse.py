@@ -142,6 +142,11 @@ def test_what_cannot_be_is_refused_before_any_work(tmp_path, options, words):
     assert len(list(tmp_path.iterdir())) == 2
 
 
+def test_an_unknown_option_is_named_with_its_likeness(tmp_path):
+    with pytest.raises(TypeError, match="no 'horizn'. Did you mean 'horizon'"):
+        timelapse(tmp_path, MOVED, tmp_path / "a.gif", horizn=3)
+
+
 @pytest.mark.filterwarnings("default")  # as outside of the tests
 def test_the_command_line_makes_the_same_film(frames, tmp_path, capsys):
     from sunwidget.cli import main
