@@ -15,6 +15,7 @@ from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs, largest_texture
 from sunwidget.renderer.shader_source import frame_graph
 from sunwidget.renderer.tiles import (
+    STRIP_PIXELS,
     Strips,
     copy_size,
     folded,
@@ -151,6 +152,8 @@ def strips_of(
     dtype: str = "uint8",
     size: tuple[int, int] | None = None,
     progress: Callable[[float, str], Any] | None = None,
+    *,
+    within: slice | None = None,
 ) -> Iterator[tuple[slice, npt.NDArray[Any]]]:
     """Draw ``scene`` with ``edit`` applied, some rows at a time.
 
@@ -161,6 +164,8 @@ def strips_of(
     ----------
     scene, edit, dtype, size, progress
         As for ``render``.
+    within : slice, optional
+        Rows of which only the strips are drawn that hold some.
 
     Yields
     ------
@@ -189,7 +194,11 @@ def strips_of(
         parts = [draw_part(drawing.graph, scene, edit, size, dtype, rows, c) for c in columns]
         return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
 
-    for rows, columns in pieces(size, _BAND_PIXELS, limit):
+    first, end, _ = (within or slice(None)).indices(size[1])
+    pixels = _BAND_PIXELS if drawing.strips is None else min(STRIP_PIXELS, _BAND_PIXELS)
+    for rows, columns in pieces(size, pixels, limit):
+        if rows.stop <= first or rows.start >= end:
+            continue
         task = functools.partial(draw, rows, columns)
         yield rows, on_gl_thread(lambda _, task=task: task())  # type: ignore[misc]
         if progress is not None:

@@ -47,10 +47,14 @@ def encode_png(image: NDArray[np.uint8]) -> bytes:
 
 
 def encode_preview(photo: Photo) -> bytes:
-    """Return the photo's preview: PNG, or JPEG (quality 95, 4:4:4) where PNG would be large."""
+    """Return the photo's preview, encoded as ``encode_picture`` does."""
+    return encode_picture(photo.preview(PREVIEW_EDGE))
+
+
+def encode_picture(image: NDArray[np.uint8]) -> bytes:
+    """Return a picture (H, W, 3) as PNG, or JPEG (quality 95, 4:4:4) where PNG would be large."""
     import cv2
 
-    image = photo.preview(PREVIEW_EDGE)
     data = encode_png(image)
     if len(data) <= _LOSSLESS_BYTES:
         return data

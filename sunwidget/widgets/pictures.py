@@ -11,8 +11,15 @@ from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit
 from sunwidget.files import target
 from sunwidget.widgets.analysed import Analysed
+from sunwidget.widgets.detail import detail
 from sunwidget.widgets.history import EditHistory
-from sunwidget.widgets.payload import THUMBNAIL_EDGE, encode_png, thumbnail, with_picture
+from sunwidget.widgets.payload import (
+    THUMBNAIL_EDGE,
+    encode_picture,
+    encode_png,
+    thumbnail,
+    with_picture,
+)
 from sunwidget.widgets.requests import Answer, Progress
 from sunwidget.widgets.snapshot import SNAPSHOT_EDGE, Snapshot
 from sunwidget.widgets.standalone import editor_page, embedded_state, still_of, write_page
@@ -102,6 +109,12 @@ class Pictures(EditHistory, Analysed):
             progress(1.0, "Sending the picture …")
             data = path.read_bytes()
         return {"name": name, "type": _TYPES[suffix]}, [data]
+
+    def _detail_for_browser(self, content: dict[str, Any], progress: Progress) -> Answer:
+        box, pixels = detail(
+            self._base_scene(), self.edit, content.get("box"), content.get("size"), progress
+        )
+        return {"box": box}, [encode_picture(pixels)]
 
     def _page_for_browser(self, _content: dict[str, Any], progress: Progress) -> Answer:
         progress(0.05, "Writing the page …")

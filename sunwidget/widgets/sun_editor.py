@@ -226,6 +226,7 @@ class SunEditor(PlaceClock, Exports):
             "still": self._export_still,
             "film": self._export_film,
             "page": self._page_for_browser,
+            "detail": self._detail_for_browser,
             "cancel": _silently(self._cancel_analysis),
             "retry": _silently(self.retry),
             "upload": Uploads(self.open),

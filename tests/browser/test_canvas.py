@@ -5,10 +5,11 @@ from contextlib import contextmanager
 
 import numpy as np
 import pytest
-from chromium import open_page, picture_of, widget_state
+from chromium import connect, open_page, picture_of, widget_state
 from PIL import Image
 
-from sunwidget.widgets import SunEditor
+import sunwidget as sw
+from sunwidget.widgets import SunEditor, payload
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 
@@ -142,9 +143,11 @@ def test_a_zoomed_picture_is_dragged_in_full_size(editor):
     editor.wait_for_function(
         "document.querySelector('.sw-sun-ring').getBoundingClientRect().right < 420"
     )
-    # Every size that is drawn: on a slow machine none stays long enough to be asked for.
+    # Every size that is drawn: on a slow machine none stays long enough to be asked for. Its clock
+    # stands, so that no frame is late and made smaller for that.
     editor.evaluate(
         """() => {
+          performance.now = () => 0;
           const canvas = document.querySelector(".sw-canvas");
           window.widths = [];
           const note = () => window.widths.push(canvas.width);
@@ -167,6 +170,7 @@ def test_a_zoomed_picture_is_dragged_in_full_size(editor):
     assert min(dragged()) < 768
     zoom_in(editor, 0.5, 0.4)
     assert min(dragged(), default=768) == 768
+    editor.evaluate("void delete performance.now")
     editor.set_viewport_size({"width": 1180, "height": 860})
 
 
@@ -335,6 +339,42 @@ def test_full_screen_or_where_it_is_forbidden_the_window(editor):
     assert picture["y"] + picture["height"] <= stage["y"] + stage["height"]
     editor.keyboard.press("Escape")
     assert box(editor, ".sunwidget") == before
+
+
+def test_zoomed_past_the_preview_the_kernel_draws_what_is_in_sight(
+    browser, coast, monkeypatch, screenshots
+):
+    monkeypatch.setattr(payload, "PREVIEW_EDGE", 384)
+    widget = SunEditor(coast, sun_elevation=3).wait()
+    context = browser.new_context(viewport={"width": 1180, "height": 860})
+    page = open_page(context)
+    connect(page, widget)
+    zoom_in(page, 0.45, 0.5)
+    page.locator(".sw-detail:visible").wait_for()
+    page.screenshot(path=screenshots / "detail.png")
+    found = page.locator(".sw-detail").evaluate(
+        """canvas => {
+             const { left, top, width, height } = canvas.style;
+             const share = [left, top, width, height].map((text) => Number.parseFloat(text) / 100);
+             return [canvas.toDataURL().split(",")[1], ...share];
+           }"""
+    )
+    left, top = round(found[1] * 768), round(found[2] * 512)
+    shown = picture_of(found[0])
+    assert shown.shape[1] == round(found[3] * 768) < 700
+    full = sw.render(coast, sw.Edit(sun_elevation=3))
+    assert np.array_equal(shown, full[top : top + shown.shape[0], left : left + shown.shape[1]])
+    # Of another edit it is never seen.
+    page.get_by_role("slider", name="Elevation").focus()
+    page.keyboard.press("ArrowRight")
+    assert page.locator(".sw-detail:visible").count() == 0
+    page.locator(".sw-detail:visible").wait_for()
+    again = page.locator(".sw-detail").evaluate("canvas => canvas.toDataURL().split(',')[1]")
+    assert not np.array_equal(picture_of(again), shown)
+    page.get_by_role("button", name="Split").click()
+    assert page.locator(".sw-detail:visible").count() == 0
+    assert page.errors == []
+    context.close()
 
 
 def test_two_fingers_zoom_and_pan_and_one_moves_the_sun(browser, coast):

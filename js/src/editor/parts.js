@@ -12,6 +12,7 @@
 import { announcements } from "./announcements.js";
 import { autosave } from "./autosave.js";
 import { cross } from "./cross.js";
+import { detail } from "./detail.js";
 import { drop } from "./drop.js";
 import { exportPanel } from "./export_panel.js";
 import { fullScreen } from "./full_screen.js";
@@ -43,6 +44,7 @@ import { zoomControl } from "./zoom_control.js";
 /** @type {MakePart[]} */
 const PARTS = [
   zoomControl,
+  detail,
   hover,
   cross,
   heldKeys,
