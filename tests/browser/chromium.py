@@ -74,6 +74,15 @@ def open_page(context, name="page.html"):
     return page
 
 
+def at_rest(page):
+    """Wait until nothing moves on the page by itself: what fades in is there, and is drawn."""
+    page.wait_for_function(
+        """() => document.getAnimations().every(({ effect, playState }) =>
+             playState !== "running" || effect.getComputedTiming().endTime === Infinity)"""
+    )
+    page.evaluate("() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))")
+
+
 def count_contexts(page):
     """From now on note every WebGL context that the page makes; see ``live_contexts``."""
     page.evaluate(COUNT_CONTEXTS)
