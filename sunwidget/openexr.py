@@ -75,6 +75,8 @@ def write(
     ------
     PhotoError
         Without the ``exr`` extra.
+    OSError
+        When the folder is missing or the disk full.
     """
     exr = library()
     header = {
@@ -88,7 +90,10 @@ def write(
             values = np.clip(values, -_LARGEST_HALF, _LARGEST_HALF).astype(np.float16)
         packed[name] = np.ascontiguousarray(values, np.float16 if bits == 16 else np.float32)
     own = {_NOTE + name: text for name, text in notes.items()}
-    exr.File(header | attributes | own, packed).write(str(path))
+    try:
+        exr.File(header | attributes | own, packed).write(str(path))
+    except RuntimeError as error:  # the library's only kind, for a full disk as well
+        raise OSError(f"The OpenEXR file was not written: {error}") from error
 
 
 def read(data: bytes, name: str) -> Exr:

@@ -1,6 +1,7 @@
 """Stills as light: OpenEXR, Radiance HDR and float TIFF, written, read by others, read again."""
 
 import sys
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -173,6 +174,13 @@ def test_without_the_extra_nothing_is_rendered_and_the_message_names_it(tmp_path
     with pytest.raises(PhotoError, match=r"pip install 'sunwidget\[exr\]'"):
         open_photo(data)
     assert not (tmp_path / "no.exr").exists()
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
+def test_a_full_disk_is_an_error_of_the_system():
+    planes = {name: wide_light(200, 300)[..., i] for i, name in enumerate("RGB")}
+    with pytest.raises(OSError, match=r"not written.*No space left"):
+        openexr.write(Path("/dev/full"), planes, {}, {})
 
 
 @pytest.mark.parametrize("ending", [".exr", ".hdr"])
