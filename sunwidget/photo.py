@@ -208,6 +208,8 @@ def open_photo(source: Any) -> Photo:
     Parameters
     ----------
     source : path, bytes, binary file object, PIL image, array or Photo
+        Files are JPEG, PNG, TIFF, WebP, AVIF, BMP, GIF, Radiance HDR, OpenEXR (extra ``exr``) or
+        camera raw (extra ``raw``).
         Arrays are (H, W), (H, W, 3) or (H, W, 4), also with 1 or 2 channels: uint8 and
         uint16 are taken as sRGB code values, floats as *linear* Rec. 709 light with
         1 = white. A Photo is returned as it is.
