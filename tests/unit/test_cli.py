@@ -99,7 +99,7 @@ def test_flags_win_over_the_recipe(tmp_path):
         (["render", "sample:beach", "-o", "y.png"], "no sample"),
         (["render", "x.jpg", "-o", "y.png", "--recipe", "no-such.json"], "no-such.json"),
         (["sweep", "x.jpg", "-o", "y.gif"], "Nothing moves"),
-        (["batch", "x.jpg"], "invalid choice"),
+        (["bake", "x.jpg"], "invalid choice"),
         (["analyze", "x.jpg", "-o", "maps", "--refine", "magic"], "'dense_crf'"),
         (["analyze", "sample:coast", "-o", "maps", "--sky-label", "2"], "ONNX network"),
     ],
