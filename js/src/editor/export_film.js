@@ -196,7 +196,7 @@ export function exportFilm(view, job, signal) {
       field.hidden = !day || !clock.path.length;
       input.value = clockText((((i ? last : first) % DAY) + DAY) % DAY);
     }
-    if (!length.node.contains(document.activeElement)) length.input.value = String(lengthOf());
+    if (!length.input.matches(":focus")) length.input.value = String(lengthOf());
     const reason = still();
     why.textContent = reason;
     why.hidden = reason === "";
