@@ -17,6 +17,7 @@ export function detail(view, signal) {
   let scenes = 0; // how many have come
   let shown = ""; // the edit that the canvas is of
   let asked = ""; // the edit and the part that were asked for last
+  let under = ""; // the edit of these
   let request = new AbortController();
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
@@ -55,7 +56,7 @@ export function detail(view, signal) {
       canvas.hidden = shown !== of;
       return;
     }
-    asked = key;
+    [asked, under] = [key, of];
     request.abort();
     request = new AbortController();
     state.push();
@@ -94,9 +95,13 @@ export function detail(view, signal) {
     },
     draw() {
       clearTimeout(timer);
-      const useful = helps();
-      if (!canvas.hidden && !(useful && edit() === shown)) canvas.hidden = true;
-      if (useful) timer = setTimeout(ask, REST_MS);
+      const now = helps() ? edit() : "";
+      if (now !== shown) canvas.hidden = true;
+      if (now !== under) {
+        request.abort(); // the kernel has better things to do
+        asked = under = "";
+      }
+      if (now) timer = setTimeout(ask, REST_MS);
     },
   };
 }
