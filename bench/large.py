@@ -89,7 +89,7 @@ def exported(photo: Path, out: Path, moved: bool) -> dict[str, Any]:
     elif picture.width * picture.height <= WHOLE:
         strips = sw.render(scene, edit)
         # Another value of the strip alone: all else of the way is the same.
-        vars(module)["_BAND_PIXELS"] = picture.width * picture.height
+        vars(module)["_BAND_PIXELS"] = vars(module)["STRIP_PIXELS"] = picture.width * picture.height
         row["seam"] = int(np.abs(sw.render(scene, edit).astype(int) - strips).max())
     return row
 

@@ -27,7 +27,7 @@ from sunwidget.layout import PhotoError, PhotoWarning, check_light, check_size, 
 
 __all__ = ["FieldOfView", "Photo", "PhotoError", "PhotoWarning", "open_photo"]
 
-_DECODED_AT_ONCE = 1 << 25  # pixels: 400 MB of light
+_DECODED_AT_ONCE = 1 << 23  # pixels: 100 MB of light
 
 
 class FieldOfView(NamedTuple):

@@ -259,14 +259,14 @@ def _score(
     return near - 1.5 * below - 0.01 * tilt, near
 
 
-def above(camera: Camera, width: int, height: int) -> np.ndarray:
+def above(camera: Camera, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
     """Return 1 above the horizon and 0 below, (height, width) float32, with a soft edge.
 
     The edge lies 0.8 % of the height under the line, so that a line a little too high cuts
-    nothing off the sky.
+    nothing off the sky. ``rows`` asks for some of the rows alone.
     """
-    line, rows = _line_and_rows(camera, width, height)
-    return np.clip((line + 0.012 - rows) / 0.008, 0, 1).astype(np.float32)
+    line, at = _line_and_rows(camera, width, height)
+    return np.clip((line + 0.012 - at[rows]) / 0.008, 0, 1).astype(np.float32)
 
 
 def below(camera: Camera, width: int, height: int) -> np.ndarray:

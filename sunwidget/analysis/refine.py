@@ -279,8 +279,8 @@ def matte(
             rows = slice(top, min(top + strip, height))
             a = _rows(slope, rows, height, width)
             guide = code_values(photo, rows)
-            alpha[rows] = np.einsum("hwc,hwc->hw", a, guide) + _rows(offset, rows, height, width)
-        alpha = stretched(alpha)
+            filtered = np.einsum("hwc,hwc->hw", a, guide) + _rows(offset, rows, height, width)
+            alpha[rows] = stretched(filtered)
     set_strokes(alpha, strokes)
     return alpha
 

@@ -34,6 +34,7 @@ from sunwidget.analysis.sun import Blot, SunObservation
 from sunwidget.analysis.unmix import cloud_gain
 from sunwidget.analysis.working import Working, resize
 from sunwidget.camera import Camera, Point
+from sunwidget.color import strips
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -111,7 +112,7 @@ def complete(
         # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
         disc = sun_stage.in_sky(blot, sky)
         sky = np.maximum(sky, disc)
-        matte = np.maximum(matte, resize(disc, *photo.size))
+        np.maximum(matte, resize(disc, *photo.size), out=matte)
 
     step("horizon", 0.8, "Fitting the horizon")
     horizon = _horizon(working, sky, hints, photo.width)
@@ -123,7 +124,8 @@ def complete(
     if ours and (hints.horizon is not None or seen):
         # Water that mirrors the sky is not sky.
         sky = sky * horizon_stage.above(camera, *sky.shape[::-1])
-        matte = matte * horizon_stage.above(camera, *photo.size)
+        for rows in strips(matte.shape):
+            matte[rows] *= horizon_stage.above(camera, *photo.size, rows)
     sun = sun_stage.observe(seed, blot, sky, camera, working)
     moon = None if sun is not None else sun_stage.find_moon(working, sky)
     light = sun
@@ -187,7 +189,7 @@ def _cut_out(base: Scene, step: Steps) -> tuple[np.ndarray, np.ndarray]:
     bound = np.maximum(bound, grow_over_glow(np.maximum(sky, bound), coarse, working.encoded))
     if bound.any():
         sky = np.maximum(sky, bound)
-        matte = np.maximum(matte, resize(bound, *photo.size))
+        np.maximum(matte, resize(bound, *photo.size), out=matte)
     return sky, matte
 
 

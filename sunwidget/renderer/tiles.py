@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 RESIDENT_PIXELS = 1 << 23
 # Longer side of the copy of a larger one, as a browser's preview has it.
 COPY_EDGE = 2048
+# What a strip has of it at most: six RGBA32F targets of 1 MP are 100 MB.
+STRIP_PIXELS = 1 << 20
 _MARGIN = 1  # rows: what a pixel reads around it (retouch.glsl)
 
 
@@ -111,9 +113,12 @@ def _picture(scene: Scene, size: Size) -> dict[str, Array]:
     """Return those of the picture's size."""
     import cv2
 
-    layers = scene.layers()
-    if scene.photo.size != size:
-        layers = cv2.resize(layers, size, interpolation=cv2.INTER_AREA)
+    # One after the other: all three of a large photo at once would be what takes most memory.
+    maps = [
+        cv2.resize(image, size, interpolation=cv2.INTER_AREA) if scene.photo.size != size else image
+        for image in (scene.sky, scene.clouds, scene.cloud_softness)
+    ]
+    layers = np.stack(maps, axis=-1)
     return {
         "photo": scene.photo.resized(size),
         "layers": quantise_map(layers),
