@@ -6,7 +6,7 @@
 import { element } from "../controls/element.js";
 import { decodePicture } from "../gl/texture.js";
 
-const REST_MS = 500;
+const REST_MS = 800; // long enough that who goes on dragging shares no processor with it
 const READY = "ready";
 
 /** @type {import("./parts.js").MakePart} */
