@@ -18,9 +18,8 @@ from sunwidget.export.batch.workers import DaskWorkers
 
 # Dask has glibc give memory back whenever 64 kB are free: a picture's arrays are then mapped anew
 # for each operation, which doubles the time of a photo (measured). None unsets the variable.
-_ENVIRONMENT = {
-    "DASK_DISTRIBUTED__NANNY__PRE_SPAWN_ENVIRON": repr({"MALLOC_TRIM_THRESHOLD_": None})
-}
+_MEMORY: dict[str, int | None] = {"MALLOC_TRIM_THRESHOLD_": None}
+_BLAS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # Dask's own: 1
 # What a worker should have at least: a photo of 24 MP takes about 1.5 GB.
 _MEMORY_OF_ONE = 2 << 30
 _ANSWER = 10.0  # seconds in which a scheduler answers
@@ -55,6 +54,7 @@ def local_workers(count: int, *, deaths: int) -> Iterator[DaskWorkers]:
     from distributed import Client, LocalCluster
     from distributed.system import MEMORY_LIMIT
 
+    threads = max(1, CPU_COUNT // count)
     with contextlib.ExitStack() as stack:
         folder = Path(
             stack.enter_context(
@@ -73,7 +73,9 @@ def local_workers(count: int, *, deaths: int) -> Iterator[DaskWorkers]:
         )
         words = stack.enter_context((folder / "workers.log").open("w+b"))
         process = stack.enter_context(
-            _processes(cluster.scheduler_address, count, MEMORY_LIMIT // count, folder, words)
+            _processes(
+                cluster.scheduler_address, count, MEMORY_LIMIT // count, threads, folder, words
+            )
         )
 
         def alive() -> None:
@@ -87,14 +89,14 @@ def local_workers(count: int, *, deaths: int) -> Iterator[DaskWorkers]:
 
         client = stack.enter_context(Client(cluster, set_as_default=False))
         text = f"{count} worker processes" if count > 1 else "1 worker process"
-        workers = DaskWorkers(client, text, max(1, CPU_COUNT // count), alive)
+        workers = DaskWorkers(client, text, threads, alive)
         workers.wait_for_one()
         yield workers
 
 
 @contextlib.contextmanager
 def _processes(
-    address: str, count: int, memory: int, folder: Path, words: Any
+    address: str, count: int, memory: int, threads: int, folder: Path, words: Any
 ) -> Iterator[subprocess.Popen[bytes]]:
     command = [
         # -P: a folder of photos is no place to import from.
@@ -103,6 +105,7 @@ def _processes(
         *("--host", "127.0.0.1", "--no-dashboard", "--death-timeout", "60"),
         *("--local-directory", str(folder)),
     ]
+    environment = _MEMORY | dict.fromkeys(_BLAS, threads)
     # The very sunwidget that asks, also from a checkout that is not installed.
     path = os.pathsep.join(
         [str(Path(sunwidget.__file__).parents[1]), *filter(None, [os.environ.get("PYTHONPATH")])]
@@ -112,7 +115,11 @@ def _processes(
         stdin=subprocess.DEVNULL,
         stdout=words,
         stderr=subprocess.STDOUT,
-        env=os.environ | _ENVIRONMENT | {"PYTHONPATH": path},
+        env=os.environ
+        | {
+            "PYTHONPATH": path,
+            "DASK_DISTRIBUTED__NANNY__PRE_SPAWN_ENVIRON": repr(environment),
+        },
         start_new_session=True,
     )
     try:
