@@ -9,6 +9,7 @@ change the order of brightness of land and sky beyond what the two photos show.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -145,7 +146,7 @@ def _label_change(
     weight = _STATISTICS * max(sure, 0.5 * sure_of_all)
     # A fit in the dark or under cloud may be far off; the sky that is seen is not.
     light = lit + _SKY_IN_TINT * (by_sky - lit)
-    step = np.sqrt(3) * np.log10(np.e)
+    step = np.sqrt(3) * np.log10(math.e)
     light[0] = by_sky[0] + np.clip(lit[0] - by_sky[0], -step, step)
     if lit is by_sky:  # a mirror shows the sky's colour, whatever it is
         light = lit.copy()

@@ -103,9 +103,9 @@ def test_a_value_in_the_browser_is_pythons(browser):
 
 
 def test_both_sides_keep_as_much(root):
-    state = (root / "js/src/state.js").read_text("utf-8")
+    steps = (root / "js/src/steps.js").read_text("utf-8")
     versions = (root / "js/src/editor/versions.js").read_text("utf-8")
-    assert f"HISTORY_LENGTH = {HISTORY_LENGTH};" in state
-    assert f"HISTORY_BYTES = {HISTORY_BYTES:_};" in state
+    assert f"HISTORY_LENGTH = {HISTORY_LENGTH};" in steps
+    assert f"HISTORY_BYTES = {HISTORY_BYTES:_};" in steps
     assert f"MOST = {VERSIONS};" in versions
     assert f"NAME_LENGTH = {NAME_LENGTH};" in versions
