@@ -1,6 +1,7 @@
 /** Work that may wait until the page has nothing else to do. */
 
 const FALLBACK_MS = 60; // where a browser cannot say when it is idle
+const LATEST_MS = 1500; // a slow machine that composes frame after frame may never be idle
 
 /**
  * @param {() => void} work
@@ -8,7 +9,7 @@ const FALLBACK_MS = 60; // where a browser cannot say when it is idle
  */
 export function whenIdle(work) {
   if (typeof requestIdleCallback === "function") {
-    const id = requestIdleCallback(work);
+    const id = requestIdleCallback(work, { timeout: LATEST_MS });
     return () => cancelIdleCallback(id);
   }
   const timer = setTimeout(work, FALLBACK_MS);
