@@ -212,6 +212,7 @@ export function exportFilm(view, job, signal) {
     node,
     show,
     stop: () => player.stop(),
+    drawn: () => keys.drawn(),
     loaded() {
       keys.loaded();
       hours = known = null;

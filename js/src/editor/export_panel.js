@@ -116,6 +116,7 @@ export function exportPanel(view, signal) {
     loaded() {
       film.loaded();
     },
+    drawn: () => film.drawn(),
     show,
   };
 }

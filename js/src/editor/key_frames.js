@@ -195,6 +195,7 @@ export function keyFrames(view, signal) {
       generation += 1;
       cards = [];
     },
+    drawn: () => small.wake(),
   };
 }
 
