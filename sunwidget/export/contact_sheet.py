@@ -70,8 +70,8 @@ def contact_sheet(
     --------
     >>> sw.contact_sheet(scene, [sw.Edit(), "sunset"])
     """
+    from sunwidget.export.film import film_size
     from sunwidget.export.stills import save
-    from sunwidget.export.sweep import film_size
     from sunwidget.renderer.render import render
 
     width, height = camera = (scene.camera.width, scene.camera.height)

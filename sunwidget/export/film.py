@@ -17,9 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.export.gif import write_gif
+from sunwidget.files import complete_or_absent, target
+from sunwidget.time_left import Progress
 
 Frames = Iterator[NDArray[np.uint8]]
 LOOPS = ("once", "forever", "there_and_back")
+
+# Beyond this, H.264 at 4:2:0 leaves the levels that phones and browsers decode; a GIF of that
+# size has a hundred megabytes.
+_LONGEST_SIDE = {".gif": 720}
+_LONGEST_SIDE_ELSE = 1920
 
 # %d, %4d or %04d, as ffmpeg and printf name files in a row.
 _NUMBER = re.compile(r"%(?:0?\d)?d(?![a-z])")
@@ -44,6 +51,34 @@ class Film:
 
 
 Writer = Callable[[Frames, Path, Film], None]
+
+
+def longest_side(path: Path) -> int:
+    """Return how many pixels a side a film of this name has at most, unless asked for more."""
+    return _LONGEST_SIDE.get(path.suffix.lower(), _LONGEST_SIDE_ELSE)
+
+
+def film_size(
+    photo: tuple[int, int], size: tuple[int, int] | None, longest: int = _LONGEST_SIDE_ELSE
+) -> tuple[int, int]:
+    """Return (width, height) of the film: ``size``, or the photo's within ``longest`` a side."""
+    if size is None:
+        scale = min(1.0, longest / max(photo))
+        size = (max(2, round(photo[0] * scale)), max(2, round(photo[1] * scale)))
+    try:
+        width, height = (int(n) for n in size)
+    except (TypeError, ValueError):
+        raise ValueError(f"size must be (width, height) in pixels, not {size!r:.40}.") from None
+    if not (2 <= width <= 8192 and 2 <= height <= 8192):
+        raise ValueError(f"A film of {width}×{height} is not possible; 2 to 8192 pixels a side.")
+    return width, height
+
+
+def size_for(path: Path, photo: tuple[int, int], size: tuple[int, int] | None) -> tuple[int, int]:
+    """Return (width, height) of the film of this name; MP4 has even ones."""
+    width, height = film_size(photo, size, longest_side(path))
+    even = path.suffix.lower() == ".mp4"
+    return (width - width % 2, height - height % 2) if even else (width, height)
 
 
 def is_sequence(path: Path) -> bool:
@@ -162,6 +197,23 @@ def _write_pngs(frames: Frames, folder: Path, _film: Film) -> None:
                 waiting.popleft().result()
         for rest in waiting:
             rest.result()
+
+
+def film_target(path: Path, *, overwrite: bool) -> Path:
+    """Check where a film, or frames one by one, are to be written, before any work is spent."""
+    return (sequence_target if is_sequence(path) else target)(path, overwrite=overwrite)
+
+
+def whole_film(path: Path, *, overwrite: bool) -> contextlib.AbstractContextManager[Path]:
+    """Yield where to write it; what is there becomes ``path`` only when all went well."""
+    return (whole_sequence if is_sequence(path) else complete_or_absent)(path, overwrite=overwrite)
+
+
+def told(frames: Frames, count: int, progress: Progress) -> Frames:
+    """Pass frames on and tell ``progress`` when each has been taken."""
+    for done, frame in enumerate(frames, start=1):
+        yield frame
+        progress(done / count, f"frame {done} of {count}")
 
 
 def sequence_target(path: Path, *, overwrite: bool) -> Path:

@@ -181,6 +181,12 @@ FORMATS: dict[str, Format] = {
 """File name ending to format."""
 
 
+def check_quality(quality: Any) -> None:
+    """Refuse, before any work, what is no quality of a picture or film; a PhotoError says so."""
+    if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
+        raise PhotoError(f"quality must be a whole number from 1 to 100, not {quality!r:.40}.")
+
+
 def check_format(path: Path, bit_depth: int | None = None, *, layers: bool = False) -> Format:
     """Return the format that a file's ending chooses, before any work is spent on it.
 

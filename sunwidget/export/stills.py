@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,15 +17,14 @@ from numpy.typing import NDArray
 
 from sunwidget.color import strips
 from sunwidget.edit import Edit
-from sunwidget.export.formats import Format, Still, check_format
+from sunwidget.export.formats import Format, Still, check_format, check_quality
 from sunwidget.export.layers import LAYERS, layer_alone, layers_of
 from sunwidget.export.metadata import told
 from sunwidget.files import complete_or_absent, target
 from sunwidget.photo import Photo, PhotoError, open_photo
+from sunwidget.time_left import Progress
 
 __all__ = ["check_format", "encode_like", "save"]
-
-Progress = Callable[[float, str], object]
 
 # Light that differs less than this from the photo's own is the photo's own: it is the
 # noise of float32 arithmetic, but near black a gamma of 2.2 would blow it up to dozens
@@ -98,8 +96,7 @@ def save(
     """
     place = target(path, overwrite=overwrite)
     form = check_format(place, bit_depth, layers=layers)
-    if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
-        raise PhotoError(f"quality must be a whole number from 1 to 100, not {quality!r:.40}.")
+    check_quality(quality)
     names = LAYERS if layers and form.layers == "beside" else ()
     places = {name: place.with_suffix(f".{name}{place.suffix}") for name in names}
     for beside in places.values():

@@ -15,23 +15,21 @@ from sunwidget.export.film import (
     LOOPS,
     Film,
     Frames,
+    film_target,
     is_sequence,
-    sequence_target,
-    whole_sequence,
+    size_for,
+    told,
+    whole_film,
     writer,
 )
+from sunwidget.export.formats import check_quality
 from sunwidget.export.sun_path import SunPath, film_edits
-from sunwidget.files import complete_or_absent, target
 from sunwidget.time_left import Progress, with_time_left
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
     from sunwidget.edit import Edit
 
-# Beyond this, H.264 at 4:2:0 leaves the levels that phones and browsers decode; a GIF of that
-# size has a hundred megabytes.
-LONGEST_SIDE = {".gif": 720}
-LONGEST_SIDE_ELSE = 1920
 # Frames kept for the way back; what does not fit is rendered again.
 _KEPT_BYTES = 400e6
 
@@ -114,45 +112,20 @@ def sweep(
     write = writer(place)
     if loop not in LOOPS:
         raise ValueError(f"loop must be one of {', '.join(LOOPS)}, not {loop!r:.40}.")
-    if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
-        raise ValueError(f"quality must be a whole number from 1 to 100, not {quality!r:.40}.")
-    suffix = place.suffix.lower()
-    camera = scene.camera
-    size = film_size(
-        (camera.width, camera.height), size, LONGEST_SIDE.get(suffix, LONGEST_SIDE_ELSE)
-    )
-    if suffix == ".mp4":
-        size = (size[0] - size[0] % 2, size[1] - size[1] % 2)
-    one_by_one = is_sequence(place)
-    place = (sequence_target if one_by_one else target)(place, overwrite=overwrite)
+    check_quality(quality)
+    size = size_for(place, (scene.camera.width, scene.camera.height), size)
+    place = film_target(place, overwrite=overwrite)
     row = film_edits(scene, path, fps=fps, frames=frames, seconds=seconds, easing=easing)
     order = list(range(len(row)))
     if loop == "there_and_back":
         order += order[-2:0:-1]
     film = Film(size, fps, len(order), loop, quality)
-    whole = (whole_sequence if one_by_one else complete_or_absent)(place, overwrite=overwrite)
     with (
-        whole as unfinished,
+        whole_film(place, overwrite=overwrite) as unfinished,
         contextlib.closing(ahead(_rendered(scene, row, order, size))) as pictures,
     ):
-        write(_told(pictures, len(order), with_time_left(progress)), unfinished, film)
-    return place.parent if one_by_one else place
-
-
-def film_size(
-    photo: tuple[int, int], size: tuple[int, int] | None, longest: int = LONGEST_SIDE_ELSE
-) -> tuple[int, int]:
-    """Return (width, height) of the film: ``size``, or the photo's within ``longest`` a side."""
-    if size is None:
-        scale = min(1.0, longest / max(photo))
-        size = (max(2, round(photo[0] * scale)), max(2, round(photo[1] * scale)))
-    try:
-        width, height = (int(n) for n in size)
-    except (TypeError, ValueError):
-        raise ValueError(f"size must be (width, height) in pixels, not {size!r:.40}.") from None
-    if not (2 <= width <= 8192 and 2 <= height <= 8192):
-        raise ValueError(f"A film of {width}×{height} is not possible; 2 to 8192 pixels a side.")
-    return width, height
+        write(told(pictures, len(order), with_time_left(progress)), unfinished, film)
+    return place.parent if is_sequence(place) else place
 
 
 def _rendered(scene: Scene, row: list[Edit], order: list[int], size: tuple[int, int]) -> Frames:
@@ -169,10 +142,3 @@ def _rendered(scene: Scene, row: list[Edit], order: list[int], size: tuple[int, 
                 kept[number] = frame
                 room -= frame.nbytes
         yield frame
-
-
-def _told(frames: Frames, count: int, progress: Progress) -> Frames:
-    """Pass frames on and tell ``progress`` when each has been taken."""
-    for done, frame in enumerate(frames, start=1):
-        yield frame
-        progress(done / count, f"frame {done} of {count}")

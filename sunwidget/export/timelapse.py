@@ -16,12 +16,21 @@ import numpy as np
 from sunwidget.analysis.frame_scenes import FrameScenes, Trouble
 from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.export.ahead import ahead
-from sunwidget.export.film import Film, is_sequence, sequence_target, whole_sequence, writer
+from sunwidget.export.film import (
+    Film,
+    film_size,
+    film_target,
+    is_sequence,
+    longest_side,
+    size_for,
+    told,
+    whole_film,
+    writer,
+)
+from sunwidget.export.formats import check_quality
 from sunwidget.export.frame_edits import FrameEdits
 from sunwidget.export.stills import save
 from sunwidget.export.sun_path import Step, SunPath
-from sunwidget.export.sweep import LONGEST_SIDE, LONGEST_SIDE_ELSE, film_size
-from sunwidget.files import complete_or_absent, target
 from sunwidget.frames import Clock, Times, frame_sources, name_of
 from sunwidget.layout import PhotoError, PhotoWarning
 from sunwidget.place import Place
@@ -133,14 +142,12 @@ def timelapse(
     long_edge = None if size is None else max(film_size((2, 2), size))
     if film:
         write = writer(place_out)
-        suffix = place_out.suffix.lower()
-        check = sequence_target if is_sequence(place_out) else target
-        place_out = check(place_out, overwrite=overwrite)
-        long_edge = long_edge or LONGEST_SIDE.get(suffix, LONGEST_SIDE_ELSE)
+        place_out = film_target(place_out, overwrite=overwrite)
+        long_edge = long_edge or longest_side(place_out)
     else:
         names = _still_names(sources, place_out, format, overwrite=overwrite)
     steps = FrameEdits(edit, len(sources), easing)
-    told = with_time_left(progress)
+    report = with_time_left(progress)
     scenes = FrameScenes.of(
         sources,
         long_edge=long_edge,
@@ -148,31 +155,32 @@ def timelapse(
         place=place,
         clock=Clock(times, len(sources), None if place is None else place.longitude),
         hints=hints,
-        progress=lambda fraction, message: told(_LOOKING * fraction, message),
+        progress=lambda fraction, message: report(_LOOKING * fraction, message),
     )
-    _report(scenes.troubles, len(sources), broken, film=film)
+    _refuse_or_warn(scenes.troubles, len(sources), broken, film=film)
+
+    def drawing(fraction: float, message: str) -> None:
+        report(_LOOKING + (1 - _LOOKING) * fraction, message)
+
     if not film:
         place_out.mkdir(exist_ok=True)
         for number, scene in enumerate(scenes):
-            told(_LOOKING + (1 - _LOOKING) * number / len(sources), _frame_of(number, sources))
+            drawing(number / len(sources), f"frame {number + 1} of {len(sources)}")
             if isinstance(scene, Scene):
                 moved = steps.of(scene, number, scenes.daylight[number])
                 save((scene, moved), names[number], overwrite=overwrite, quality=quality)
-        told(1.0, f"{len(sources)} frames")
+        drawing(1.0, f"{len(sources)} frames")
         return place_out
     count = len(sources) - (len(scenes.troubles) if broken == "skip" else 0)
-    size = scenes.size if size is None else film_size(scenes.size, size)
-    if suffix == ".mp4":
-        size = (size[0] - size[0] % 2, size[1] - size[1] % 2)
-    whole = whole_sequence if is_sequence(place_out) else complete_or_absent
+    size = size_for(place_out, scenes.size, size)
     with (
-        whole(place_out, overwrite=overwrite) as unfinished,
+        whole_film(place_out, overwrite=overwrite) as unfinished,
         contextlib.closing(ahead(iter(scenes))) as prepared,
         contextlib.closing(
             ahead(_drawn(prepared, steps, scenes.daylight, size, broken))
         ) as pictures,
     ):
-        row = _told(pictures, count, told)
+        row = told(pictures, count, drawing)
         write(row, unfinished, Film(size, fps, count, loop, quality))
     return place_out.parent if is_sequence(place_out) else place_out
 
@@ -198,17 +206,6 @@ def _drawn(
             waiting += 1
         elif broken == "hold" and last is not None:
             yield last
-
-
-def _told(frames: Iterator[np.ndarray], count: int, progress: Progress) -> Iterator[np.ndarray]:
-    for done, frame in enumerate(frames, start=1):
-        yield frame
-        share = _LOOKING + (1 - _LOOKING) * done / count
-        progress(share, f"frame {done} of {count}")
-
-
-def _frame_of(number: int, sources: Sequence[Any]) -> str:
-    return f"frame {number + 1} of {len(sources)}"
 
 
 def _still_names(
@@ -240,16 +237,16 @@ def _still_names(
     return names
 
 
-def _report(troubles: Sequence[Trouble], count: int, broken: str, *, film: bool) -> None:
+def _refuse_or_warn(troubles: Sequence[Trouble], count: int, broken: str, *, film: bool) -> None:
     if not troubles:
         return
     shown = "; ".join(f"{t.name}: {t.reason.rstrip('.')}" for t in troubles[:3])
     more = f"; and {len(troubles) - 3} more" if len(troubles) > 3 else ""
-    told = f"{len(troubles)} of {count} frames cannot be used ({shown}{more})"
+    words = f"{len(troubles)} of {count} frames cannot be used ({shown}{more})"
     if broken == "stop":
-        raise PhotoError(f"{told}. Leave them out, or pass broken='hold' or broken='skip'.")
+        raise PhotoError(f"{words}. Leave them out, or pass broken='hold' or broken='skip'.")
     done = "the frame before each is shown again" if film and broken == "hold" else "left out"
-    warnings.warn(f"{told}; {done}.", PhotoWarning, stacklevel=3)
+    warnings.warn(f"{words}; {done}.", PhotoWarning, stacklevel=3)
 
 
 def _check(*, fps: float, loop: str, quality: int, broken: str, hints: Mapping[str, Any]) -> None:
@@ -262,7 +259,6 @@ def _check(*, fps: float, loop: str, quality: int, broken: str, hints: Mapping[s
         raise ValueError(f"fps = {fps!r:.40} is outside 1 to 120 frames a second.")
     if loop not in _LOOPS:
         raise ValueError(f"loop must be one of {', '.join(_LOOPS)}, not {loop!r:.40}.")
-    if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
-        raise ValueError(f"quality must be a whole number from 1 to 100, not {quality!r:.40}.")
+    check_quality(quality)
     if broken not in BROKEN:
         raise ValueError(f"broken must be one of {', '.join(BROKEN)}, not {broken!r:.40}.")

@@ -10,7 +10,8 @@ from PIL import Image, ImageSequence
 
 from sunwidget.edit import Edit
 from sunwidget.export import sweep as module
-from sunwidget.export.sweep import film_size, sweep
+from sunwidget.export.film import film_size
+from sunwidget.export.sweep import sweep
 
 # The package names a function of the same name.
 RENDERER = importlib.import_module("sunwidget.renderer.render")
