@@ -85,6 +85,10 @@ class Camera:
         roll : float
             Degrees of roll, used with a row only.
 
+        Returns
+        -------
+        Camera
+
         Raises
         ------
         ValueError
@@ -192,14 +196,14 @@ class Camera:
         )
 
     def horizon_row(self, x: ArrayLike | None = None) -> Any:
-        """Row of the horizon in column ``x`` (default: the centre), in pixels."""
+        """Return the row of the horizon in column ``x`` (default: the centre), in pixels."""
         column = self.width / 2 if x is None else np.asarray(x, np.float64)
         ux, uy, uz = self.up
         row = self.height / 2 - (ux * (column - self.width / 2) + uz * self.focal) / uy
         return float(row) if np.ndim(row) == 0 else row
 
     def resized(self, width: int, height: int) -> Camera:
-        """Return the same camera for a picture of another size (same shape)."""
+        """Return the same camera for a picture of ``width`` × ``height`` pixels (same shape)."""
         return Camera(width, height, self.fov_vertical_deg, self.pitch, self.roll)
 
 

@@ -147,7 +147,23 @@ class Stroke:
 
 @dataclass(frozen=True, kw_only=True)
 class Edit:
-    """Every parameter of one edit. ``Edit()`` moves nothing."""
+    """Every parameter of one edit. ``Edit()`` moves nothing.
+
+    Parameters
+    ----------
+    **values
+        Any row of ``PARAMETERS`` by name; docs/parameters.md lists them with units and ranges.
+        ``None`` is what the photo has.
+
+    Raises
+    ------
+    EditError
+        For an unknown name (the nearest spelling is suggested) or a value out of range.
+
+    Examples
+    --------
+    >>> sw.Edit(sun_elevation=3, cloud_opacity=0.5)
+    """
 
     # fmt: off
     sun_azimuth: float | None = _number(None, (-180, 180), 0.1, "°", "Azimuth", "sun",
@@ -296,7 +312,7 @@ class Edit:
             object.__setattr__(self, parameter.name, value)
 
     def replace(self, **changes: Any) -> Edit:
-        """Return a copy with the named parameters changed.
+        """Return a copy with ``changes`` to the parameters that they name.
 
         Raises
         ------
@@ -313,6 +329,10 @@ class Edit:
         ----------
         place : Place
             Without a heading the azimuth stays as it is. Below −12° the sun is held there.
+
+        Returns
+        -------
+        Edit
 
         Raises
         ------
@@ -331,7 +351,7 @@ class Edit:
         return self.replace(**changes)
 
     def changed(self) -> dict[str, Any]:
-        """Parameters that differ from their defaults, by name."""
+        """Return the parameters that differ from their defaults, by name."""
         return {
             p.name: getattr(self, p.name) for p in PARAMETERS if getattr(self, p.name) != p.default
         }
@@ -345,7 +365,16 @@ class Edit:
 
     @classmethod
     def from_dict(cls, recipe: dict[str, Any]) -> Edit:
-        """Build an Edit from a recipe (see ``to_dict``). Never executes anything.
+        """Return the Edit that a recipe describes. Never executes anything.
+
+        Parameters
+        ----------
+        recipe : dict
+            As ``to_dict`` returns it.
+
+        Returns
+        -------
+        Edit
 
         Raises
         ------
@@ -376,7 +405,7 @@ class Edit:
 
     @classmethod
     def from_json(cls, text: str) -> Edit:
-        """Build an Edit from JSON text; raises EditError like ``from_dict``."""
+        """Return the Edit of a recipe as JSON ``text``; raises EditError like ``from_dict``."""
         try:
             recipe = json.loads(text)
         # TypeError: no text at all; ValueError: bad syntax, bad UTF-8, numbers of 5000 digits.

@@ -125,7 +125,7 @@ class Photo:
         return light
 
     def light(self, rows: slice = slice(None)) -> NDArray[np.float32]:
-        """Return some rows of ``pixels``, (h, W, 3) float32, without keeping what is decoded."""
+        """Return the ``rows`` of ``pixels``, (h, W, 3) float32, without keeping what is decoded."""
         if self.encoded.dtype.kind == "f":
             return np.asarray(self.encoded[rows])
         if "pixels" in self.__dict__:

@@ -58,12 +58,12 @@ class Place:
             _set(self, "heading", _number("heading", self.heading, 360) % 360)
 
     def replace(self, **changes: Any) -> Place:
-        """Return a copy with the named fields changed; raises ValueError as ``Place`` does."""
+        """Return a copy with ``changes`` to its fields; raises ValueError as ``Place`` does."""
         return dataclasses.replace(self, **changes)
 
     @classmethod
     def from_dict(cls, values: Any) -> Place:
-        """Build a Place from a mapping; raises ValueError for one that is none."""
+        """Return the Place of ``values``, a mapping by field; raises ValueError for one of none."""
         names = [field.name for field in dataclasses.fields(cls)]
         if not isinstance(values, dict) or not set(names[:4]) <= values.keys() <= set(names):
             raise ValueError(

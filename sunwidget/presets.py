@@ -137,6 +137,10 @@ def edit(name: str, scene: Scene, base: Edit | None = None) -> Edit:
     base : Edit, optional
         What to start from: its other parameters stay, strokes and hints too.
 
+    Returns
+    -------
+    Edit
+
     Raises
     ------
     EditError

@@ -237,7 +237,7 @@ class Scene:
         }
 
     def uniforms(self) -> dict[str, Any]:
-        """Values of the frame graph's scene uniforms: floats and tuples of floats."""
+        """Return the frame graph's scene uniforms by name: floats and tuples of floats."""
         return self._uniforms
 
     @cached_property
@@ -306,7 +306,17 @@ class Scene:
 
         The same edit always gives the same maps, to the bit; an edit that corrects nothing
         gives this very object. Thresholds correct nothing when clouds are un-mixed.
-        ``progress`` as for ``analyze``: what it raises cancels, and nothing has changed then.
+
+        Parameters
+        ----------
+        edit : Edit
+            Strokes and hints in fractions of the picture.
+        progress : callable, optional
+            As for ``analyze``: what it raises cancels, and nothing has changed then.
+
+        Returns
+        -------
+        Scene
 
         Raises
         ------

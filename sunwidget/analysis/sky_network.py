@@ -115,11 +115,11 @@ class SkyNetwork:
         return network_output.sky_of(output, label)
 
     def open(self) -> Opened:
-        """Open the file and read what its input is."""
+        """Return the opened file, with what its input is."""
         return Opened.of(self.path, self.layout, self.size)
 
     def arrange(self, picture: np.ndarray) -> np.ndarray:
-        """Put the channels of a picture (h, w, 3) into the network's order."""
+        """Return a ``picture`` (h, w, 3) with its channels in the network's order."""
         return picture if self.channels == "rgb" else picture[..., ::-1]
 
 

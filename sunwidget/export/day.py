@@ -70,7 +70,22 @@ class Day:
                 object.__setattr__(self, name, clock_hours(value))
 
     def edits(self, scene: Scene, shares: Sequence[float], between: Between) -> list[Edit]:
-        """Return the edits at shares (0–1) of the way from the start to the end.
+        """Return the edits along the day.
+
+        Parameters
+        ----------
+        scene : Scene
+            What ``analyze`` returned.
+        shares : sequence of float
+            Where they lie on the way from the start (0) to the end (1).
+        between : callable
+            Called as ``between(edit, last, share, scene)`` for the edit at a share, when the day
+            has a ``last``; the sun then goes where it stands.
+
+        Returns
+        -------
+        list of Edit
+            One a share.
 
         Raises
         ------

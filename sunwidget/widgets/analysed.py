@@ -30,7 +30,7 @@ class Analysed(anywidget.AnyWidget):
         return self._analyst.wait()
 
     def wait(self, timeout: float | None = None) -> Self:
-        """Block until the photo is analysed; raises what the analysis raised.
+        """Block until the photo is analysed and return the widget; raises what the analysis did.
 
         Parameters
         ----------

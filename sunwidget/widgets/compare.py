@@ -195,7 +195,21 @@ class Compare(Analysed, AnswersRefusals):
     ) -> Path | str:
         """Write a page in which the pictures can be compared: one file, no kernel, no network.
 
-        Waits for the analysis. Without a ``path`` the page is returned as text.
+        Waits for the analysis.
+
+        Parameters
+        ----------
+        path : path, optional
+            Where to write it. Default: nowhere, and the page is returned as text.
+        title : str, optional
+            Of the page. Default: the photo's name.
+        overwrite : bool
+            Replace an existing file.
+
+        Returns
+        -------
+        Path or str
+            Where the page is, or the page.
 
         Raises
         ------

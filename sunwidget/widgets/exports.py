@@ -46,6 +46,8 @@ class Exports(Pictures):
             ``sunwidget.sweep`` takes as a path, such as a ``Day``. Default: ``editor.key_frames``,
             whose strokes, methods and hints are then those of the edit as it is. From a single
             one, or without any from the photo as it was, the film goes to the edit as it is.
+        **options
+            As for ``sunwidget.sweep``: size, seconds, easing …
 
         Returns
         -------

@@ -136,7 +136,7 @@ class EditHistory(AnswersRefusals):
             self._step(Edit.from_dict(self._version(name)["recipe"]))
 
     def forget(self, name: str) -> None:
-        """Keep a version no longer; raises EditError when there is none of that name."""
+        """Keep the version ``name`` no longer; raises EditError when there is none."""
         with self._lock:
             version = self._version(name)
             self._versions = [v for v in self._versions if v is not version]

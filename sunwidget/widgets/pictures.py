@@ -43,7 +43,13 @@ class Pictures(EditHistory, Analysed):
         return render(self._base_scene(), self.edit, **options)
 
     def save(self, path: Any, **options: Any) -> Path:
-        """Write the picture at full size; ``options`` as in ``sunwidget.save``."""
+        """Write the picture at full size to ``path``; ``options`` as in ``sunwidget.save``.
+
+        Returns
+        -------
+        Path
+            Where it is.
+        """
         from sunwidget.export.stills import save
 
         return save((self._base_scene(), self.edit), path, **options)
@@ -82,8 +88,8 @@ class Pictures(EditHistory, Analysed):
     ) -> Path | str:
         """Write a page in which the sun can be moved: one file, no kernel, no network.
 
-        Waits for the analysis. Parameters and errors as for ``sunwidget.to_html``; without a
-        ``path`` the page is returned as text.
+        Waits for the analysis. ``path``, ``title``, ``overwrite`` and errors as for
+        ``sunwidget.to_html``; without a path the page is returned as text.
         """
         place = None if path is None else target(path, overwrite=overwrite)
         self._analyst.wait()

@@ -201,7 +201,9 @@ class SkyExplorer(AnswersRefusals):
         return effective_values(self.parameters())
 
     def preset(self, name: str) -> None:
-        """Set the air to one of ``sunwidget.atmosphere.presets.PRESETS``, in one step.
+        """Set the air to the one called ``name``, in one step.
+
+        They are ``sunwidget.atmosphere.presets.PRESETS``.
 
         Raises
         ------
@@ -282,6 +284,11 @@ class SkyExplorer(AnswersRefusals):
         overwrite : bool
             Replace an existing file.
 
+        Returns
+        -------
+        Path or str
+            Where the page is, or the page.
+
         Raises
         ------
         FileExistsError
@@ -302,6 +309,10 @@ class SkyExplorer(AnswersRefusals):
         ----------
         name : str
             "phase", "transmittance", "sun", "principal_plane" or "zenith".
+
+        Returns
+        -------
+        (n, 4) float32
 
         Raises
         ------

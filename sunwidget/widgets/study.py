@@ -108,6 +108,18 @@ class Study(anywidget.AnyWidget):
     def to_csv(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
         """Write one row an answer; see ``sunwidget.study.Answer`` for the columns.
 
+        Parameters
+        ----------
+        path : path
+            Where to write them.
+        overwrite : bool
+            Replace an existing file.
+
+        Returns
+        -------
+        Path
+            Where they are.
+
         Raises
         ------
         FileExistsError
@@ -125,7 +137,21 @@ class Study(anywidget.AnyWidget):
         """Write a page for raters elsewhere: one file, no kernel, no network.
 
         It begins without answers. Raters save theirs as a file when they are done, and
-        ``read_csv`` pools these. Without a ``path`` the page is returned as text.
+        ``read_csv`` pools these.
+
+        Parameters
+        ----------
+        path : path, optional
+            Where to write it. Default: nowhere, and the page is returned as text.
+        title : str
+            Of the page.
+        overwrite : bool
+            Replace an existing file.
+
+        Returns
+        -------
+        Path or str
+            Where the page is, or the page.
 
         Raises
         ------
@@ -144,11 +170,21 @@ class Study(anywidget.AnyWidget):
 
     @staticmethod
     def read_csv(*paths: str | os.PathLike[str]) -> list[Answer]:
-        """Read the answers of one or more files; see ``sunwidget.study.read_csv``."""
+        """Return the answers of the files at ``paths``; see ``sunwidget.study.read_csv``."""
         return read_csv(*paths)
 
     def results(self, *, prior: float = PRIOR) -> BradleyTerry:
         """Return the methods' strengths after Bradley and Terry, pooled over raters and photos.
+
+        Parameters
+        ----------
+        prior : float
+            Comparisons that every method is taken to have won, and lost, besides.
+
+        Returns
+        -------
+        BradleyTerry
+            Prints as a table.
 
         Raises
         ------
@@ -162,7 +198,7 @@ class Study(anywidget.AnyWidget):
         return bradley_terry(self.answers, prior=prior, methods=self.methods)
 
     def results_by_rater(self, *, prior: float = PRIOR) -> dict[str, BradleyTerry]:
-        """Return the strengths by each rater's own answers, by rater."""
+        """Return the strengths by each rater's own answers; ``prior`` as for ``results``."""
         return by_rater(self.answers, prior=prior)
 
     @property

@@ -121,8 +121,8 @@ class SunEditor(PlaceClock, Exports):
         """Take another photo into this editor, which then begins anew.
 
         The edit of the photo before, its history and its versions are set aside; they are back
-        when that photo is opened again, and a recipe that is given is then a step on top of them.
-        Parameters and errors as for the class.
+        when that photo is opened again; a ``recipe`` that is given is then a step on top of them.
+        ``source``, ``options`` and errors as for the class.
 
         Examples
         --------

@@ -144,6 +144,18 @@ class BatchReport:
     def to_csv(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
         """Write all rows as CSV (UTF-8, RFC 4180) with a line of headings.
 
+        Parameters
+        ----------
+        path : path
+            Where to write them.
+        overwrite : bool
+            Replace an existing file.
+
+        Returns
+        -------
+        Path
+            Where they are.
+
         Raises
         ------
         FileExistsError
