@@ -274,7 +274,7 @@ class Scene:
         return roughness(self.working, water, self.camera, (self.sun.azimuth, self.sun.elevation))
 
     def layers(self, size: tuple[int, int] | None = None, rows: slice = slice(None)) -> np.ndarray:
-        """(H, W, 3) float32 in [0, 1]: sky matte, cloud opacity, cloud softness.
+        """Return sky matte, cloud opacity, cloud softness: (H, W, 3) float32 in [0, 1].
 
         ``size`` (width, height) asks for another size than the photo's, ``rows`` for some of
         its rows alone.
@@ -284,7 +284,7 @@ class Scene:
         return np.stack([resize_rows(image, width, height, rows) for image in maps], axis=-1)
 
     def surface(self, size: tuple[int, int] | None = None, rows: slice = slice(None)) -> np.ndarray:
-        """(H, W, 4) float32 in [0, 1]: glare, water, glitter, log-depth of the land.
+        """Return glare, water, glitter, log-depth of the land: (H, W, 4) float32 in [0, 1].
 
         Glare is where the photo says nothing about the sky behind: the old sun's clipped core
         and its halo, fading outwards. The log-depth (depth_level.py) is dithered; in the sky it
