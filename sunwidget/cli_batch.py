@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from sunwidget.cli_edit import add_edit, recipe
-from sunwidget.cli_photo import Progress, add_methods, methods_of_stages
+from sunwidget.cli_photo import Progress, add_methods, given, methods_of_stages
 from sunwidget.edit import PARAMETERS
 from sunwidget.export.batch.wish import Wish
 
@@ -84,10 +84,8 @@ def _batch(options: argparse.Namespace) -> int:
     replaced = options.overwrite or (options.csv is not None and is_table(options.csv))
     if options.csv is not None:
         target(options.csv, overwrite=replaced)
-    flags = {p.name: getattr(options, p.name, None) for p in PARAMETERS}
-    wish = Wish(recipe(options), options.preset, _given(flags))
-    analysis = {name: getattr(options, name) for name in ("fov", *methods_of_stages())}
-    saving = {name: getattr(options, name) for name in ("quality", "bit_depth")}
+    wish = Wish(recipe(options), options.preset, given(options, (p.name for p in PARAMETERS)))
+    saving = given(options, ("quality", "bit_depth"))
     if options.layers:
         saving["layers"] = True
     with Progress("batch") as progress:
@@ -97,7 +95,7 @@ def _batch(options: argparse.Namespace) -> int:
             options.output,
             scheduler=options.scheduler,
             workers=options.workers,
-            analysis=_given(analysis),
+            analysis=given(options, ("fov", *methods_of_stages())),
             format=options.format,
             name=options.name,
             long_edge=options.long_edge,
@@ -106,13 +104,9 @@ def _batch(options: argparse.Namespace) -> int:
             resume=not options.no_resume,
             retries=options.retries,
             progress=progress,
-            **_given(saving),
+            **saving,
         )
     print(report)
     if options.csv is not None:
         report.to_csv(options.csv, overwrite=replaced)
     return 1 if report.failed else 0
-
-
-def _given(values: dict[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in values.items() if value is not None}

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sunwidget import presets
-from sunwidget.cli_photo import flag
+from sunwidget.cli_photo import flag, given
 from sunwidget.cli_place import is_placed, placed
 from sunwidget.edit import PARAMETERS, Edit, EditError, Parameter
 
@@ -74,8 +74,7 @@ def recipe(options: argparse.Namespace) -> Edit:
 def edit_of_flags(options: argparse.Namespace, prefix: str = "", start: Edit | None = None) -> Edit:
     """Return ``start``, or the recipe, with the flags that were given, the flags winning."""
     start = recipe(options) if start is None else start
-    given = {p.name: getattr(options, prefix + p.name, None) for p in PARAMETERS}
-    return start.replace(**{name: value for name, value in given.items() if value is not None})
+    return start.replace(**given(options, (p.name for p in PARAMETERS), prefix))
 
 
 def edit_of_scene(options: argparse.Namespace, scene: Scene, edit: Edit) -> Edit:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, Self
 
@@ -74,6 +74,12 @@ def flag(name: str) -> str:
     return "--" + name.replace("_", "-")
 
 
+def given(options: argparse.Namespace, names: Iterable[str], prefix: str = "") -> dict[str, Any]:
+    """Return by name the flags among ``names`` that were given."""
+    values = {name: getattr(options, prefix + name, None) for name in names}
+    return {name: value for name, value in values.items() if value is not None}
+
+
 def _label(text: str) -> int | str:
     return int(text) if text.isdecimal() else text
 
@@ -114,9 +120,7 @@ def scene_of(options: argparse.Namespace) -> Any:
     import sunwidget as sw
 
     photo = opened(options.photo)
-    named = (*_HINTS, *methods_of_stages())
-    given = {name: getattr(options, name, None) for name in named}
-    hints: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    hints = given(options, (*_HINTS, *methods_of_stages()))
     if "horizon" in hints:
         hints["horizon"] = _horizon(hints["horizon"])
     if "sky" in hints:

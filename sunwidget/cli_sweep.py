@@ -1,4 +1,4 @@
-"""The command line's films: ``sunwidget sweep``."""
+"""The command line's films of one photo: ``sunwidget sweep``."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sunwidget.cli_edit import add_edit, add_number, edit_of_flags, edit_of_scene, size
+from sunwidget.cli_edit import add_edit, add_number, edit_of_flags, edit_of_scene
+from sunwidget.cli_film import add_film, add_steps, film_options
 from sunwidget.cli_photo import Progress, add_photo, refuse_existing, scene_of
 from sunwidget.cli_place import add_place, is_placed, place_of
 from sunwidget.edit import NUMBERS, Edit, EditError, parameter
 from sunwidget.export.film import LOOPS, is_sequence, sequence_target
 from sunwidget.export.film import writer as check_film
-from sunwidget.export.sun_path import EASINGS, Day, SunPath, step
+from sunwidget.export.sun_path import Day, SunPath, step
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -33,30 +34,14 @@ def add_sweep(commands: Any) -> None:
     sweep.add_argument(
         "--sheet", type=Path, metavar="FILE", help="also, or only, twelve frames on one picture"
     )
-    sweep.add_argument(
-        "--size", type=size, metavar="WxH", help="pixels (default: ≤ 1920 a side, GIF ≤ 720)"
-    )
-    sweep.add_argument("--fps", type=float, default=24, help="frames a second (default 24)")
+    add_film(sweep, LOOPS)
     length = sweep.add_mutually_exclusive_group()
     length.add_argument("--frames", type=int, help="number of frames")
     length.add_argument(
         "--seconds", type=float, help="length (default: the last key frame's, else 5)"
     )
-    sweep.add_argument(
-        "--easing", choices=tuple(EASINGS), default="linear", help="how it starts and stops"
-    )
-    sweep.add_argument("--loop", choices=LOOPS, default="forever", help="of GIF and WebP")
-    sweep.add_argument(
-        "--quality", type=int, default=85, help="of MP4 and WebP, 1 to 100 (default 85)"
-    )
     way = sweep.add_mutually_exclusive_group()
-    way.add_argument(
-        "--steps",
-        "--recipes",
-        nargs="+",
-        metavar="STEP",
-        help="recipe files or presets that the film passes through",
-    )
+    add_steps(way)
     way.add_argument(
         "--key-frame",
         type=_key_frame,
@@ -87,15 +72,10 @@ def _sweep(options: argparse.Namespace) -> int:
                 scene,
                 path,
                 options.output,
-                fps=options.fps,
                 frames=options.frames,
                 seconds=options.seconds,
-                size=options.size,
-                easing=options.easing,
-                loop=options.loop,
-                quality=options.quality,
-                overwrite=options.overwrite,
                 progress=progress,
+                **film_options(options),
             )
         print(made)
     if options.sheet is not None:

@@ -7,11 +7,12 @@ import datetime as dt
 from pathlib import Path
 from typing import Any
 
-from sunwidget.cli_edit import add_edit, edit_of_flags, size
-from sunwidget.cli_photo import Progress
+from sunwidget.cli_edit import add_edit, edit_of_flags
+from sunwidget.cli_film import STEPS, add_film, add_steps, film_options
+from sunwidget.cli_photo import Progress, given
 from sunwidget.cli_place import coordinates
 from sunwidget.edit import Edit
-from sunwidget.export.sun_path import EASINGS
+from sunwidget.export.timelapse import BROKEN, LOOPS
 from sunwidget.place import Place
 
 
@@ -32,29 +33,15 @@ def add_timelapse(commands: Any) -> None:
         help=".mp4, .gif, .webp, frames/%%04d.png, or a folder for stills with their metadata",
     )
     command.add_argument("--overwrite", action="store_true", help="replace existing files")
-    command.add_argument("--fps", type=float, default=24, help="frames a second (default 24)")
-    command.add_argument(
-        "--size", type=size, metavar="WxH", help="pixels (default: film ≤ 1920 a side, GIF ≤ 720)"
-    )
-    command.add_argument("--loop", choices=("forever", "once"), default="forever")
-    command.add_argument("--quality", type=int, default=85, help="1 to 100 (default 85)")
+    add_film(command, LOOPS)
     command.add_argument("--format", help="ending of stills (default: the frames' own)")
     command.add_argument(
         "--broken",
-        choices=("hold", "skip", "stop"),
+        choices=BROKEN,
         default="hold",
         help="a frame that cannot be read: show the one before it, leave it out, or stop",
     )
-    command.add_argument(
-        "--steps",
-        "--recipes",
-        nargs="+",
-        metavar="STEP",
-        help="recipe files or presets that the film passes through, instead of one edit",
-    )
-    command.add_argument(
-        "--easing", choices=tuple(EASINGS), default="linear", help="between the steps"
-    )
+    add_steps(command, f"{STEPS}, instead of one edit")
     camera = command.add_argument_group("camera (default: what the files tell or show)")
     camera.add_argument(
         "--place",
@@ -85,28 +72,18 @@ def _timelapse(options: argparse.Namespace) -> int:
     import sunwidget as sw
 
     edit = _edit(options)
-    hints = {
-        name: getattr(options, name)
-        for name in ("sky", "horizon", "fov")
-        if getattr(options, name) is not None
-    }
     with Progress("time-lapse") as progress:
         made = sw.timelapse(
             _frames(options.frames),
             edit,
             options.output,
-            fps=options.fps,
-            size=options.size,
-            easing=options.easing,
-            loop=options.loop,
-            quality=options.quality,
             format=options.format,
             place=_camera(options),
             times=_times(options),
             broken=options.broken,
-            overwrite=options.overwrite,
             progress=progress,
-            **hints,
+            **film_options(options),
+            **given(options, ("sky", "horizon", "fov")),
         )
     print(made)
     return 0

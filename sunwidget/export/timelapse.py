@@ -37,7 +37,7 @@ from sunwidget.place import Place
 from sunwidget.time_left import Progress, with_time_left
 
 BROKEN = ("hold", "skip", "stop")
-_LOOPS = ("forever", "once")
+LOOPS = ("forever", "once")
 _OPTIONS = ("fps", "size", "easing", "loop", "quality", "format", "place", "times", "broken")
 _LOOKING = 0.3  # of the work: what is done before the first frame is drawn
 
@@ -257,8 +257,8 @@ def _check(*, fps: float, loop: str, quality: int, broken: str, hints: Mapping[s
         raise TypeError(f"timelapse() takes no {unknown[0]!r:.40}.{hint}")
     if not (isinstance(fps, (int, float)) and 1 <= fps <= 120):
         raise ValueError(f"fps = {fps!r:.40} is outside 1 to 120 frames a second.")
-    if loop not in _LOOPS:
-        raise ValueError(f"loop must be one of {', '.join(_LOOPS)}, not {loop!r:.40}.")
+    if loop not in LOOPS:
+        raise ValueError(f"loop must be one of {', '.join(LOOPS)}, not {loop!r:.40}.")
     check_quality(quality)
     if broken not in BROKEN:
         raise ValueError(f"broken must be one of {', '.join(BROKEN)}, not {broken!r:.40}.")
