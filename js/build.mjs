@@ -36,14 +36,19 @@ const GRAPHS = { editor: "graph.json", explorer: "explorer.json" };
 /**
  * The files that a graph's passes expand to.
  *
- * @param {{ passes: { shader: string, constants?: string }[] }} graph
+ * @param {{ passes: import("./src/gl/graph.js").Pass[] }} graph
  * @param {Record<string, string>} files text by path
  * @returns {string[]} paths, sorted
  */
 export function reachable(graph, files) {
   const pending = graph.passes
-    .flatMap(({ shader, constants }) => (constants ? [shader, constants] : [shader]))
-    .map((name) => `${name}.glsl`);
+    .flatMap(({ shader, constants, parts }) => [
+      shader,
+      constants,
+      parts?.by,
+      ...(parts?.shaders ?? []),
+    ])
+    .flatMap((name) => (name ? [`${name}.glsl`] : []));
   const found = new Set(pending);
   for (const path of pending) {
     if (files[path] === undefined) throw new Error(`There is no shader file "${path}".`);

@@ -14,10 +14,15 @@
  * @typedef {import("./types.js").Model} Model
  * @typedef {{ result: any, buffers: DataView[] }} Answer
  * @typedef {(fraction: number, message: string) => void} OnProgress
+ * @typedef {{
+ *   resolve: (answer: Answer) => void, reject: (error: Error) => void, pieces: DataView[],
+ *   onProgress?: OnProgress, outlives: boolean, timer?: ReturnType<typeof setTimeout>,
+ * }} Pending `outlives` the channel: the kernel makes a file of its own of it
  */
 
 // A kernel that says nothing for so long was restarted or is gone.
 const SILENCE_MS = 180_000;
+const SILENT = "The kernel does not answer. If it was restarted, run the cell again.";
 
 /** The person wants the answer no more. */
 export class Cancelled extends Error {}
@@ -29,18 +34,17 @@ export class Channel {
    */
   constructor(model, signal) {
     this.model = model;
-    /** @type {Map<string, { resolve: (answer: Answer) => void, reject: (error: Error) => void, pieces: DataView[], onProgress?: OnProgress, timer?: ReturnType<typeof setTimeout> }>} */
+    /** @type {Map<string, Pending>} */
     this.open = new Map();
     /** @type {(message: any, buffers: DataView[]) => void} */
     const receive = (message, buffers) => this.receive(message, buffers);
     model.on("msg:custom", receive);
     signal.addEventListener("abort", () => {
       model.off("msg:custom", receive);
-      for (const { reject, timer } of this.open.values()) {
-        clearTimeout(timer);
-        reject(new Error("The editor was closed."));
+      for (const [id, { outlives }] of this.open) {
+        this.end(id)?.reject(new Error("The editor was closed."));
+        if (!outlives) this.sendCancel(id);
       }
-      this.open.clear();
     });
   }
 
@@ -56,21 +60,45 @@ export class Channel {
   request(action, content = {}, onProgress = undefined, buffers = [], signal = undefined) {
     const id = crypto.randomUUID?.() ?? String(Math.random());
     return new Promise((resolve, reject) => {
-      this.open.set(id, { resolve, reject, pieces: [], onProgress });
-      this.watch(id);
+      if (signal?.aborted) throw new Cancelled("Cancelled.");
       this.model.send({ ...content, type: "request", id, action }, undefined, buffers);
-      signal?.addEventListener("abort", () => this.cancel(id), { once: true });
+      const outlives = content.in_folder === true;
+      this.open.set(id, { resolve, reject, pieces: [], onProgress, outlives });
+      this.watch(id);
+      signal?.addEventListener("abort", () => this.giveUp(id, new Cancelled("Cancelled.")), {
+        once: true,
+      });
     });
   }
 
-  /** @param {string} id */
-  cancel(id) {
+  /** The kernel is gone, and with it all that it was asked. @param {string} reason */
+  lose(reason) {
+    for (const id of [...this.open.keys()]) this.end(id)?.reject(new Error(reason));
+  }
+
+  /** Take a request off the list, which still has to be told. @param {string} id */
+  end(id) {
     const pending = this.open.get(id);
-    if (!pending) return;
     this.open.delete(id);
-    clearTimeout(pending.timer);
-    pending.reject(new Cancelled("Cancelled."));
-    this.model.send({ type: "cancel", id });
+    clearTimeout(pending?.timer);
+    return pending;
+  }
+
+  /** @param {string} id @param {Error} error */
+  giveUp(id, error) {
+    const pending = this.end(id);
+    if (!pending) return;
+    pending.reject(error);
+    this.sendCancel(id);
+  }
+
+  /** @param {string} id */
+  sendCancel(id) {
+    try {
+      this.model.send({ type: "cancel", id });
+    } catch {
+      // Without a connection there is nothing to stop.
+    }
   }
 
   /** Give up a request about which nothing is heard any more. @param {string} id */
@@ -78,12 +106,7 @@ export class Channel {
     const pending = this.open.get(id);
     if (!pending) return;
     clearTimeout(pending.timer);
-    pending.timer = setTimeout(() => {
-      this.open.delete(id);
-      pending.reject(
-        new Error("The kernel does not answer. If it was restarted, run the cell again."),
-      );
-    }, SILENCE_MS);
+    pending.timer = setTimeout(() => this.giveUp(id, new Error(SILENT)), SILENCE_MS);
   }
 
   /**
@@ -96,22 +119,14 @@ export class Channel {
     if (message.type === "progress") {
       this.watch(message.id);
       pending.onProgress?.(message.fraction, message.message);
-      return;
-    }
-    if (message.type === "piece") {
+    } else if (message.type === "piece") {
       this.watch(message.id);
       pending.pieces.push(...buffers);
-      return;
-    }
-    if (message.type !== "response") return;
-    this.open.delete(message.id);
-    clearTimeout(pending.timer);
-    if (message.error) pending.reject(new Error(message.error));
-    else {
-      pending.resolve({
-        result: message.result,
-        buffers: [...pending.pieces, ...(buffers ?? [])],
-      });
+    } else if (message.type === "response") {
+      this.end(message.id);
+      const { result, error } = message;
+      if (error) pending.reject(new Error(error));
+      else pending.resolve({ result, buffers: [...pending.pieces, ...(buffers ?? [])] });
     }
   }
 }

@@ -281,6 +281,7 @@ export class EditState {
     this.timer = undefined;
     this.before = null;
     this.unsent.clear();
+    this.held.clear();
     this.pull();
   }
 

@@ -62,11 +62,34 @@ test("what comes after the answer, twice or for nobody is left alone", async () 
   assert.deepEqual(seen, []);
 });
 
-test("closing the view ends what is open", async () => {
-  const { controller, channel } = open();
-  const request = channel.request("save");
+test("closing the view ends what is open, except a file that the kernel keeps", async () => {
+  const { model, controller, channel } = open();
+  const requests = [channel.request("save"), channel.request("film", { in_folder: true })];
+  const [{ id }] = model.sent;
   controller.abort();
-  await assert.rejects(request, /closed/);
+  for (const request of requests) await assert.rejects(request, /closed/);
+  assert.deepEqual(model.sent.slice(2), [{ type: "cancel", id }]);
+});
+
+test("with the kernel goes all that it was asked, at once", async () => {
+  const { channel } = open();
+  const request = channel.request("save");
+  channel.lose("The kernel is gone.");
+  await assert.rejects(request, /The kernel is gone/);
+  assert.equal(channel.open.size, 0);
+});
+
+test("what cannot be sent ends at once, and can be cancelled all the same", async () => {
+  const { model, channel } = open();
+  const stop = new AbortController();
+  const sent = channel.request("save", {}, undefined, [], stop.signal);
+  model.send = () => {
+    throw new Error("Not connected.");
+  };
+  await assert.rejects(channel.request("save"), /Not connected/);
+  stop.abort();
+  await assert.rejects(sent, /Cancelled/);
+  assert.equal(channel.open.size, 0);
 });
 
 test("a kernel that falls silent is said, one that reports progress is waited for", async () => {
@@ -81,4 +104,6 @@ test("a kernel that falls silent is said, one that reports progress is waited fo
   mock.timers.tick(20_000);
   mock.timers.reset();
   await assert.rejects(request, /does not answer/);
+  // It may only have been busy: what nobody waits for shall not be made later.
+  assert.deepEqual(model.sent.at(-1), { type: "cancel", id });
 });

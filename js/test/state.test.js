@@ -246,3 +246,14 @@ test("what was kept never wipes out what is there", () => {
   state.undo();
   assert.deepEqual(state.recipe(), { exposure: 6 });
 });
+
+test("another photo in the middle of a drag takes nothing of the drag over", () => {
+  state.begin();
+  state.set({ sun_elevation: 8 });
+  model.set("sun_elevation", null);
+  state.abandon();
+  assert.equal(state.values.sun_elevation, null);
+  state.set({ exposure: 1 });
+  assert.equal(model.get("sun_elevation"), null);
+  assert.deepEqual(model.get("_history").past, [{}]);
+});

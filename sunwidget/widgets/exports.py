@@ -13,7 +13,7 @@ from sunwidget.place import at_hours
 from sunwidget.time_left import with_time_left
 from sunwidget.widgets.export_files import FILMS, STILLS, kind_of, made
 from sunwidget.widgets.history import edit_of
-from sunwidget.widgets.key_frames import KeyFrames, along, key_frames_json
+from sunwidget.widgets.key_frames import KeyFrame, KeyFrames, along, key_frames_json
 from sunwidget.widgets.pictures import Pictures
 from sunwidget.widgets.requests import Answer, Progress
 
@@ -66,20 +66,25 @@ class Exports(Pictures):
         >>> editor.key_frames = [(0, sw.Edit()), (4, sw.Edit(sun_elevation=2))]
         >>> editor.sweep("evening.gif", size=(640, 427))
         """
-        from sunwidget.export.sweep import sweep
-
         if to is not None and key_frames is not None:
             raise EditError("Give either to= or key_frames=, not both.")
-        way = self._way(to) if key_frames is None else key_frames
-        return sweep(self._base_scene(), way, path, **options)
-
-    def _way(self, to: Edit | dict[str, Any] | str | None) -> Any:
-        """Return the film's path: to an edit, along the key frames, or from the photo on."""
         edit = self.edit
         if to is not None:
             end = presets.edit(to, self.scene, edit) if isinstance(to, str) else edit_of(to)
-            return [edit, end]
-        frames = along(self.key_frames or ((0.0, Edit()),), edit)
+            key_frames = [edit, end]
+        elif key_frames is None:
+            key_frames = self._way(self.key_frames, edit)
+        return self._sweep(key_frames, path, **options)
+
+    def _sweep(self, way: Any, path: Any, **options: Any) -> Path:
+        from sunwidget.export.sweep import sweep
+
+        return sweep(self._base_scene(), way, path, **options)
+
+    @staticmethod
+    def _way(key_frames: tuple[KeyFrame, ...], edit: Edit) -> Any:
+        """Return a film's path: along the key frames, or from the photo on to the edit."""
+        frames = along(key_frames or ((0.0, Edit()),), edit)
         if len(frames) > 1:
             return frames
         ((_, start),) = frames
@@ -125,10 +130,11 @@ class Exports(Pictures):
         if holds["layers"] and content.get("layers"):
             options["layers"] = True
         told = with_time_left(progress)
+        edit = self._asked_for(content)
 
         def make(path: Path) -> None:
             told(0.0, "Rendering …")
-            self.save(path, progress=told, **options)
+            self._save(edit, path, progress=told, **options)
 
         in_folder = bool(content.get("in_folder"))
         return made(kind, content.get("name"), make, progress, in_folder=in_folder)
@@ -136,7 +142,7 @@ class Exports(Pictures):
     def _export_film(self, content: dict[str, Any], progress: Progress) -> Answer:
         """Make a film: ``name``, ``suffix``, ``seconds``, ``fps``, ``easing``, ``loop``, ….
 
-        ``hours`` are the first and last of the place's day, else it goes along the key frames.
+        ``hours`` are the first and last of the place's day, else it goes along ``key_frames``.
         """
         kind = kind_of(FILMS, content.get("suffix"))
         options = self._size_of(content)
@@ -146,10 +152,16 @@ class Exports(Pictures):
         if kind.quality and content.get("quality"):
             options["quality"] = int(content["quality"])
 
+        edit = self._asked_for(content)
+        frames = self.key_frames
+        if content.get("key_frames") is not None:
+            frames = KeyFrames().validate(self, content["key_frames"])
+
         def make(path: Path) -> None:
             progress(0.0, "Rendering …")
-            way = self._film_day(*content["hours"]) if content.get("hours") else None
-            self.sweep(path, key_frames=way, progress=progress, **options)
+            hours = content.get("hours")
+            way = _film_day(edit, *hours) if hours else self._way(frames, edit)
+            self._sweep(way, path, progress=progress, **options)
 
         in_folder = bool(content.get("in_folder"))
         return made(kind, content.get("name"), make, progress, in_folder=in_folder)
@@ -158,13 +170,13 @@ class Exports(Pictures):
         edge = content.get("long_edge")
         return {"size": self.photo.size_within(int(edge))} if edge else {}
 
-    def _film_day(self, start: float, end: float) -> Day:
-        """Return the hours of the place's day, counted as its path counts them."""
-        edit = self.edit
-        if edit.place is None:
-            raise EditError("Say where the photo was taken first: Time and place, or set_place().")
-        place = at_hours(edit.place, start)
-        return Day(place, start=place.time, end=end % 24, edit=edit)
+
+def _film_day(edit: Edit, start: float, end: float) -> Day:
+    """Return the hours of the place's day, counted as its path counts them."""
+    if edit.place is None:
+        raise EditError("Say where the photo was taken first: Time and place, or set_place().")
+    place = at_hours(edit.place, start)
+    return Day(place, start=place.time, end=end % 24, edit=edit)
 
 
 def _holds(suffix: str) -> dict[str, Any]:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import tempfile
 from pathlib import Path
 from typing import Any
 
 from sunwidget.analysis.scene import Scene
-from sunwidget.edit import Edit
+from sunwidget.edit import Edit, plain
 from sunwidget.files import target
 from sunwidget.widgets.analysed import Analysed
 from sunwidget.widgets.detail import detail
-from sunwidget.widgets.history import EditHistory
+from sunwidget.widgets.history import NAMES, EditHistory, edit_of
 from sunwidget.widgets.payload import (
     THUMBNAIL_EDGE,
     encode_picture,
@@ -38,9 +39,7 @@ class Pictures(EditHistory, Analysed):
 
     def render(self, **options: Any) -> Any:
         """Return the picture as it is now; ``options`` as in ``sunwidget.render``."""
-        from sunwidget.renderer.render import render
-
-        return render(self._base_scene(), self.edit, **options)
+        return self._render(self.edit, **options)
 
     def save(self, path: Any, **options: Any) -> Path:
         """Write the picture at full size to ``path``; ``options`` as in ``sunwidget.save``.
@@ -50,9 +49,7 @@ class Pictures(EditHistory, Analysed):
         Path
             Where it is.
         """
-        from sunwidget.export.stills import save
-
-        return save((self._base_scene(), self.edit), path, **options)
+        return self._save(self.edit, path, **options)
 
     def snapshot(self, long_edge: int = SNAPSHOT_EDGE) -> Snapshot:
         """Return the picture as it is now, as the output of a cell: it stays when the edit goes on.
@@ -92,39 +89,68 @@ class Pictures(EditHistory, Analysed):
         ``sunwidget.to_html``; without a path the page is returned as text.
         """
         place = None if path is None else target(path, overwrite=overwrite)
+        text = self._page(self.edit, title)
+        return text if place is None else write_page(text, place, overwrite=overwrite)
+
+    def _render(self, edit: Edit, **options: Any) -> Any:
+        from sunwidget.renderer.render import render
+
+        return render(self._base_scene(), edit, **options)
+
+    def _save(self, edit: Edit, path: Any, **options: Any) -> Path:
+        from sunwidget.export.stills import save
+
+        return save((self._base_scene(), edit), path, **options)
+
+    def _page(self, edit: Edit, title: str | None = None) -> str:
         self._analyst.wait()
-        still = still_of(self.photo, self.render)
+        still = still_of(self.photo, functools.partial(self._render, edit))
         with self._lock:
             embedded = embedded_state(self)
-        text = editor_page(embedded, still, self.photo, title=title)
-        return text if place is None else write_page(text, place, overwrite=overwrite)
+        embedded["state"] |= {name: plain(getattr(edit, name)) for name in NAMES}
+        return editor_page(embedded, still, self.photo, title=title)
 
     def _base_scene(self) -> Scene:
         # The edit's corrections are applied by the renderer, from the scene without them.
-        self._analyst.wait()
-        base = self._analyst.base
+        analyst = self._analyst  # another photo, and its analyst, may come while this one works
+        analyst.wait()
+        base = analyst.base
         assert base is not None
         return base
 
-    def _save_for_browser(self, _content: dict[str, Any], progress: Progress) -> Answer:
+    def _asked_for(self, content: dict[str, Any]) -> Edit:
+        """Return the edit that a request of the browser is about.
+
+        It comes with the request: hosts hold traits back while the kernel is busy, and not
+        requests, so that the kernel's own may be older than what the person saw.
+        """
+        if content.get("photo") not in {None, self._source["fingerprint"]}:
+            raise ValueError("Another photo has been opened since this was asked for.")
+        recipe = content.get("recipe")
+        return self.edit if recipe is None else edit_of(recipe)
+
+    def _save_for_browser(self, content: dict[str, Any], progress: Progress) -> Answer:
+        edit = self._asked_for(content)
         progress(0.02, "Rendering at full size …")
         suffix = _SUFFIXES.get(self.photo.format or "", ".png")
         name = f"{Path(self.photo.name).stem}-sun{suffix}"
         with tempfile.TemporaryDirectory() as folder:
-            path = self.save(Path(folder) / f"picture{suffix}", progress=progress)
+            path = self._save(edit, Path(folder) / f"picture{suffix}", progress=progress)
             progress(1.0, "Sending the picture …")
             data = path.read_bytes()
         return {"name": name, "type": _TYPES[suffix]}, [data]
 
     def _detail_for_browser(self, content: dict[str, Any], progress: Progress) -> Answer:
+        edit = self._asked_for(content)
         box, pixels = detail(
-            self._base_scene(), self.edit, content.get("box"), content.get("size"), progress
+            self._base_scene(), edit, content.get("box"), content.get("size"), progress
         )
         return {"box": box}, [encode_picture(pixels)]
 
-    def _page_for_browser(self, _content: dict[str, Any], progress: Progress) -> Answer:
+    def _page_for_browser(self, content: dict[str, Any], progress: Progress) -> Answer:
+        edit = self._asked_for(content)
         progress(0.05, "Writing the page …")
-        data = str(self.to_html()).encode("utf-8")
+        data = self._page(edit).encode("utf-8")
         progress(1.0, "Sending the page …")
         return {"name": f"{Path(self.photo.name).stem}-sun.html", "type": "text/html"}, [data]
 

@@ -57,7 +57,11 @@ class Requests:
             self.cancel(str(content.get("id")))
         if content.get("type") != "request":
             return
-        self._wish(content)  # so that it can be cancelled from now on
+        with self._lock:
+            key = str(content.get("id"))
+            if key in self._running:  # the message came twice
+                return
+            self._running[key] = threading.Event()  # so that it can be cancelled from now on
         thread = threading.Thread(
             target=self._answer, args=({**content, "buffers": buffers},), daemon=True
         )

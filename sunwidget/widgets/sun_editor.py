@@ -103,6 +103,7 @@ class SunEditor(PlaceClock, Exports):
         )
         self._requests = Requests(self.send, self._actions())
         self.on_msg(self._requests)
+        self.observe(self._on_connection, "comm")
         self._analyst = self._analyst_of(source, analysis)
         self.observe(lambda _: self._analyst.ask(self.edit), list(CORRECTIONS))
         self._analyst.ask(start)
@@ -187,6 +188,10 @@ class SunEditor(PlaceClock, Exports):
         """
         presets.find(name)
         self._step(self.edit.replace(**presets.values(name, self.scene)))
+
+    def _on_connection(self, change: Any) -> None:
+        if change.new is None:  # closed: nobody is there to take what was asked for
+            self._requests.cancel()
 
     def _source_json(self, session: str) -> dict[str, str]:
         return {

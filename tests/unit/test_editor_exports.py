@@ -2,6 +2,8 @@
 
 import io
 import json
+import threading
+import time
 import zipfile
 
 import numpy as np
@@ -13,6 +15,7 @@ import sunwidget as sw
 from sunwidget.edit import EditError
 from sunwidget.widgets import SunEditor
 from sunwidget.widgets.export_files import FILMS, STILLS
+from sunwidget.widgets.exports import _film_day
 from sunwidget.widgets.requests import Cancelled
 
 LOW = sw.Edit(sun_elevation=2, exposure=0.5)
@@ -199,7 +202,7 @@ def test_a_film_of_the_places_day(editor):
     # Before midnight UTC, on a solar day that began the day before.
     editor.place = sw.Place(21.3, -157.9, "2024-06-22", 1.5, 270.0)
     # From 20:00 on the 21st to 04:00 on the 22nd, as the day's path counts it.
-    day = editor._film_day(20.0, 28.0)
+    day = _film_day(editor.edit, 20.0, 28.0)
     edits = day.edits(editor.scene, [0.0, 0.5, 1.0], lambda *_: None)
     assert [(edit.place.date, edit.place.time) for edit in edits] == [
         ("2024-06-21", 20.0),
@@ -221,4 +224,51 @@ def test_a_cancelled_film_leaves_nothing(editor, tmp_path, suffix):
     content = {"name": "a", "suffix": suffix, "fps": 4, "seconds": 1.0, "in_folder": True}
     with pytest.raises(Cancelled):
         editor._actions()["film"]({**content, "long_edge": 64}, stop)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_exported_is_what_the_browser_shows_though_its_traits_are_still_on_their_way(
+    editor, monkeypatch
+):
+    asked = swept(monkeypatch)
+    seen = sw.Edit(sun_elevation=3, exposure=0.37)
+    about = {"recipe": seen.to_dict(), "photo": editor._source["fingerprint"]}
+    kept = editor.edit
+    _, data = ask(editor, "still", name="still", suffix=".png", **about)
+    assert np.array_equal(np.asarray(Image.open(io.BytesIO(data))), editor._render(seen))
+    _, page = ask(editor, "page", **about)
+    assert b'"exposure":0.37' in page
+    frames = [{"seconds": 0, "recipe": LOW.to_dict()}, {"seconds": 2, "recipe": {}}]
+    film(editor, key_frames=frames, **about)
+    assert asked[0][0][1] == [(0.0, LOW), (2.0, sw.Edit())]
+    assert editor.edit == kept
+
+
+def test_an_export_of_a_photo_that_is_no_longer_shown_is_refused(editor):
+    with pytest.raises(ValueError, match="Another photo has been opened"):
+        ask(editor, "still", name="still", suffix=".png", recipe={}, photo="another")
+
+
+def test_a_closed_editor_ends_what_the_browser_asked_for_and_leaves_no_half_file(
+    editor, tmp_path, monkeypatch
+):
+    began = threading.Event()
+
+    def slow(_scene, _way, path, *, progress, **_options):
+        path.write_bytes(b"half")
+        began.set()
+        for _ in range(600):
+            progress(0.5, "Rendering …")
+            time.sleep(0.01)
+
+    monkeypatch.setattr("sunwidget.export.sweep.sweep", slow)
+    editor.sun_elevation = 3
+    threads = set(threading.enumerate())
+    content = {"name": "evening", "suffix": ".gif", "in_folder": True}
+    editor._requests(editor, {"type": "request", "id": "a", "action": "film"} | content, [])
+    assert began.wait(60)
+    editor.close()
+    (thread,) = set(threading.enumerate()) - threads
+    thread.join(60)
+    assert not thread.is_alive()
     assert list(tmp_path.iterdir()) == []

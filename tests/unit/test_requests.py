@@ -1,4 +1,6 @@
-"""Answers to the browser that are too large for one message."""
+"""Requests of the browser: large answers travel in pieces, and a message may come twice."""
+
+import threading
 
 from sunwidget.widgets import requests as module
 from sunwidget.widgets.requests import Requests
@@ -31,3 +33,23 @@ def test_small_answers_and_one_large_buffer_are_one_message(monkeypatch):
         )
         requests._answer({"type": "request", "id": "a", "action": "map"})
         assert sent == [("response", buffers)]
+
+
+def test_a_request_that_comes_twice_is_worked_on_once():
+    began, go_on, sent = threading.Semaphore(0), threading.Event(), []
+
+    def film(_content, _progress):
+        began.release()
+        assert go_on.wait(60)
+        return {}, []
+
+    requests = Requests(lambda content, buffers=(): sent.append(content), {"film": film})
+    threads = set(threading.enumerate())
+    for _ in range(2):
+        requests(None, {"type": "request", "id": "a", "action": "film"}, [])
+    assert began.acquire(timeout=60)
+    go_on.set()
+    for thread in set(threading.enumerate()) - threads:
+        thread.join(60)
+    assert [content["type"] for content in sent] == ["response"]
+    assert not began.acquire(blocking=False)

@@ -7,6 +7,7 @@
 import { sunText } from "../angle_text.js";
 import { Divider } from "../controls/divider.js";
 import { element } from "../controls/element.js";
+import { ErrorMessage } from "../controls/error_message.js";
 import { errorText } from "../error_text.js";
 import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
@@ -62,7 +63,7 @@ export class View {
     this.grid = element("div", { class: "sw-compare-grid" }, ...this.panels.map((p) => p.node));
     this.divider = new Divider({ label: "Divider", onMove: () => placeDivider(this) });
     this.readout = element("div", { class: "sw-readout" });
-    this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
+    this.message = new ErrorMessage();
     this.toolbar = toolbar(this);
     this.differences = new Differences(this);
     root.append(
@@ -71,7 +72,7 @@ export class View {
         "div",
         { class: "sw-main" },
         this.grid,
-        this.message,
+        this.message.node,
         element("div", { class: "sw-foot" }, this.readout),
       ),
     );
@@ -101,7 +102,7 @@ export class View {
     onTraits(model, ["_scenes"], () => void this.loadScenes(), signal);
     onTraits(model, ["_status"], () => this.showStatus(), signal);
     onTraits(model, ["_variants", "arrangement", "difference"], () => this.show(), signal);
-    onKernelError(model, (text) => this.showError(text), signal);
+    onKernelError(model, (text) => this.message.show(text), signal);
     this.state.subscribe(() => this.show());
     const observer = new ResizeObserver(() => this.layOut());
     observer.observe(this.grid);
@@ -146,7 +147,7 @@ export class View {
       }
       photo.close();
     } catch {
-      this.showError("The browser cannot decode the preview that the kernel sent.");
+      this.message.show("The browser cannot decode the preview that the kernel sent.");
     }
   }
 
@@ -157,7 +158,7 @@ export class View {
       this.zoom.size = size; // perhaps before the photo is shown by itself
       this.show();
     } catch (error) {
-      this.showError(`The maps of the analysis cannot be shown: ${errorText(error)}`);
+      this.message.show(`The maps of the analysis cannot be shown: ${errorText(error)}`);
     }
   }
 
@@ -167,13 +168,7 @@ export class View {
     if (!status) return;
     const working = status.stage === "opening" || status.stage === "analysing";
     this.panels[0].setProgress(working ? status.fraction : null, status.message);
-    this.showError(status.stage === "error" ? status.message : "");
-  }
-
-  /** Text is shown as text: a file name may hold HTML. @param {string} text */
-  showError(text) {
-    this.message.hidden = !text;
-    this.message.textContent = text;
+    this.message.show(status.stage === "error" ? status.message : "");
   }
 
   /** Everything that follows from the state: marks at once, the pictures with the next refresh. */
@@ -250,16 +245,16 @@ export class View {
     this.drawMarks();
     if (!this.scenes.found.length) return;
     const size = this.drawSize(scale);
-    try {
-      const drawn = this.shown().map((panel) => panel.drawPicture(size));
-      if (!drawn.every(Boolean)) return;
-      this.root.classList.add("sw-live");
-      if (scale < 1) return;
-      this.grid.setAttribute("aria-busy", "false");
-      this.differences.request();
-    } catch (error) {
-      this.showError(errorText(error));
+    const drawn = this.message.attempt(() => this.shown().map((panel) => panel.drawPicture(size)));
+    if (!drawn) return;
+    if (!drawn.every(Boolean)) {
+      this.request(); // a context was lost meanwhile; the next frame makes another
+      return;
     }
+    this.root.classList.add("sw-live");
+    if (scale < 1) return;
+    this.grid.setAttribute("aria-busy", "false");
+    this.differences.request();
   }
 
   drawMarks() {

@@ -59,9 +59,9 @@ export function detail(view, signal) {
     [asked, under] = [key, of];
     request.abort();
     request = new AbortController();
-    state.push();
     try {
-      const answer = await view.channel.request("detail", wanted, undefined, [], request.signal);
+      const content = { ...wanted, ...view.asked() };
+      const answer = await view.channel.request("detail", content, undefined, [], request.signal);
       const picture = await decodePicture(answer.buffers[0]);
       if (!signal.aborted && helps() && edit() === of) put(picture, answer.result.box, of);
       picture.close();

@@ -80,7 +80,7 @@ async function take(view, file) {
     if (RECIPE.test(file.name)) await loadRecipe(view, file);
     else await upload(view, file);
   } catch (error) {
-    view.showError(`${file.name} was not opened: ${errorText(error)}`);
+    view.message.show(`${file.name} was not opened: ${errorText(error)}`);
   }
 }
 
@@ -95,7 +95,7 @@ async function upload(view, file) {
     throw new Error("a photo is analysed by the kernel, and there is none. Run the cell again.");
   }
   view.state.commit();
-  view.showError("");
+  view.message.show("");
   const key = crypto.randomUUID?.() ?? String(Math.random());
   const { name, size } = file;
   try {

@@ -82,8 +82,8 @@ export function exportJob(view, isOpen, signal) {
         const onProgress = (fraction, text) => {
           if (!stop.aborted) tell(fraction, text);
         };
-        const { channel } = view;
-        const { result, buffers } = await channel.request(action, content, onProgress, [], stop);
+        const asked = { ...content, ...view.asked(), key_frames: view.state.keyFrames() };
+        const { result, buffers } = await view.channel.request(action, asked, onProgress, [], stop);
         if (!result.taken) return show(result, buffers, action === "film");
         const other = chip(`Use ${result.free}`, "Export under this name", () => {
           rename(result.free);

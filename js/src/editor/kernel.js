@@ -88,7 +88,8 @@ export class Kernel {
   become(state) {
     if (state === this.state || this.state === "none") return;
     this.state = state;
-    if (state === "lost") clearTimeout(this.timer);
+    clearTimeout(this.timer);
+    this.asked = false;
     this.tell();
   }
 

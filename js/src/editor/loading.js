@@ -31,7 +31,8 @@ export class Loading {
     try {
       await stage.setPhoto(bytes);
     } catch {
-      this.view.showError("The browser cannot decode the preview that the kernel sent.");
+      if (bytes !== model.get("_photo")) return; // another is on its way
+      this.view.message.show("The browser cannot decode the preview that the kernel sent.");
     }
   }
 
@@ -59,7 +60,7 @@ export class Loading {
       });
     } catch (error) {
       if (load !== this.loads) return;
-      view.showError(`The maps of the analysis cannot be shown: ${errorText(error)}`);
+      view.message.show(`The maps of the analysis cannot be shown: ${errorText(error)}`);
       return;
     }
     const { fov_vertical_deg, pitch, roll } = scene.camera;

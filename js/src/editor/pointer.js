@@ -15,6 +15,7 @@ const HESITATION = 120; // ms after which a finger that rests means one too
 /**
  * @param {View} view
  * @param {AbortSignal} signal
+ * @returns {() => void} drops what a pointer has begun, and lets it go
  */
 export function listenToPointer(view, signal) {
   const { stage } = view;
@@ -119,9 +120,15 @@ export function listenToPointer(view, signal) {
     panning = false;
   };
   const cancel = () => {
+    const { pointer } = view;
     clearTimeout(timer);
     waiting = null;
+    panning = false;
+    view.pointer = null; // so that the end of its capture ends nothing of the next tool's
     tool().cancel();
+    if (pointer !== null && overlay.hasPointerCapture(pointer)) {
+      overlay.releasePointerCapture(pointer);
+    }
   };
   const leave = () => {
     view.point(null);
@@ -136,6 +143,7 @@ export function listenToPointer(view, signal) {
   // The focus is where `down` or the tool has put it.
   overlay.addEventListener("mousedown", (event) => event.preventDefault(), { signal });
   signal.addEventListener("abort", () => clearTimeout(timer));
+  return cancel;
 }
 
 /** @param {Spot} event @returns {Spot} */

@@ -20,7 +20,7 @@ export function recipe(view, signal) {
   /** @type {(text: string, what: string) => Promise<void>} */
   const copy = async (text, what) => {
     if (await copied(text)) say(view, `${what} copied.`);
-    else view.showError(`The page may not use the clipboard. ${what}:\n${text}`);
+    else view.message.show(`The page may not use the clipboard. ${what}:\n${text}`);
   };
   menu.add({
     group: "recipe",
@@ -96,11 +96,11 @@ export function useRecipe(view, text) {
     if (problems.length) throw new Error(problems.slice(0, 3).join(" "));
     const before = state.history().past.length;
     state.replace(values);
-    view.showError("");
+    view.message.show("");
     const moved = state.history().past.length !== before;
     say(view, moved ? "Recipe taken over." : "This is the recipe already.", moved);
   } catch (error) {
-    view.showError(`Nothing was changed. ${errorText(error)}`);
+    view.message.show(`Nothing was changed. ${errorText(error)}`);
   }
 }
 

@@ -64,13 +64,14 @@ export function webPage(view) {
  * @param {"save" | "page"} action
  * @param {AbortSignal} signal
  */
-async function fromKernel({ channel, stage }, action, signal) {
+async function fromKernel(view, action, signal) {
+  const { channel, stage } = view;
   /** @type {import("../channel.js").OnProgress} */
   const onProgress = (fraction, text) => {
     if (!signal.aborted) stage.setProgress(fraction, text);
   };
   onProgress(0, "Asking the kernel …");
-  const { result, buffers } = await channel.request(action, {}, onProgress, [], signal);
+  const { result, buffers } = await channel.request(action, view.asked(), onProgress, [], signal);
   download(new Blob([/** @type {BlobPart} */ (buffers[0])], { type: result.type }), result.name);
 }
 

@@ -53,8 +53,12 @@ export class Stage extends PictureStage {
     this.zoom = new Zoom();
     this.focusing = false; // while a pointer gives it the focus
     this.full = true; // whether the canvas holds the frame at its full size
-    this.url = "";
-    signal.addEventListener("abort", () => URL.revokeObjectURL(this.url));
+    this.url = ""; // of the photo that is shown
+    this.coming = ""; // of the one that is decoded
+    signal.addEventListener("abort", () => {
+      this.coming = "";
+      URL.revokeObjectURL(this.url);
+    });
     this.watchScreen(signal);
     this.node.addEventListener("wheel", (event) => this.onWheel(event), { passive: false, signal });
   }
@@ -78,7 +82,14 @@ export class Stage extends PictureStage {
     const url = URL.createObjectURL(new Blob([/** @type {BlobPart} */ (bytes)]));
     const image = new Image();
     image.src = url;
-    await image.decode();
+    this.coming = url;
+    try {
+      await image.decode();
+    } finally {
+      // A small photo that came later may be decoded before a large one.
+      if (this.coming !== url || !image.naturalWidth) URL.revokeObjectURL(url);
+    }
+    if (this.coming !== url) return;
     URL.revokeObjectURL(this.url);
     this.url = url;
     this.photo.src = url;

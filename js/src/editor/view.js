@@ -9,7 +9,7 @@ import { sunText } from "../angle_text.js";
 import { Channel } from "../channel.js";
 import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
-import { errorText } from "../error_text.js";
+import { ErrorMessage } from "../controls/error_message.js";
 import { Frame } from "../frame.js";
 import { FrameLoop } from "../frame_loop.js";
 import { onKernelError } from "../kernel_errors.js";
@@ -121,8 +121,10 @@ export class View {
     this.notes = new Notes();
     const busy = () => this.pointer !== null || this.state.before !== null;
     this.notices = new Notices(root, busy, signal);
-    this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
+    this.message = new ErrorMessage();
     this.foot = element("div", { class: "sw-foot" }, this.readout, this.sureness, this.notes.node);
+    /** Drops what the pointer has begun, and lets it go. */
+    this.cancelGesture = () => {};
     /** @type {import("./split.js").Split | null} */
     this.split = null;
     /** @type {import("./full_screen.js").FullScreen | null} */
@@ -150,7 +152,7 @@ export class View {
       "div",
       { class: "sw-main" },
       this.stage.node,
-      this.message,
+      this.message.node,
       this.inspector.node,
       this.foot,
     );
@@ -170,18 +172,15 @@ export class View {
       stage.setProgress(0.04, "Waiting for the kernel …");
     };
     onTraits(model, ["_status"], () => this.showStatus(), signal);
-    onKernelError(model, (text) => this.showError(text), signal);
-    listenToPointer(this, signal);
+    onKernelError(model, (text) => this.message.show(text), signal);
+    this.cancelGesture = listenToPointer(this, signal);
+    this.kernel.onChange(() => {
+      if (!this.kernel.answers) this.channel.lose("The kernel is gone. Run the cell again.");
+    });
     this.root.addEventListener("keydown", (event) => onShortcut(this, event), { signal });
     signal.addEventListener("abort", () => {
       this.frame.dispose();
     });
-  }
-
-  /** Drop what the pointer has begun, and let it go. */
-  cancelGesture() {
-    this.tools[this.tool].cancel();
-    if (this.pointer !== null) this.stage.overlay.releasePointerCapture(this.pointer);
   }
 
   /** @param {string} name */
@@ -232,20 +231,14 @@ export class View {
     const working = status.stage === "opening" || status.stage === "analysing";
     this.stage.setProgress(working ? status.fraction : null, status.message);
     this.root.dataset.stage = status.stage;
-    if (status.stage === "error") this.showError(status.message);
-    else if (status.stage === "ready") this.showError("");
-  }
-
-  /** Text is shown as text: a file name may hold HTML. @param {string} text */
-  showError(text) {
-    this.message.hidden = !text;
-    this.message.textContent = text;
+    if (status.stage === "error") this.message.show(status.message);
+    else if (status.stage === "ready") this.message.show("");
   }
 
   /** @param {string} tool */
   setTool(tool) {
     if (tool !== "sun" && !this.kernel.answers) return; // all others correct the analysis
-    this.tools[this.tool].cancel();
+    this.cancelGesture();
     this.tool = tool;
     this.root.dataset.tool = tool;
     this.root.classList.toggle("sw-brushing", BRUSHES.includes(tool));
@@ -264,12 +257,10 @@ export class View {
   /** While a brush is chosen: what the kernel holds for its subject, as a tint. */
   showMask() {
     if (!BRUSHES.includes(this.tool)) return;
-    try {
+    this.message.attempt(() => {
       const levels = this.frame.levels(SUBJECTS[this.subject].texture);
       if (levels) paintBrushMask(this.stage.mask, levels, this.subject);
-    } catch (error) {
-      this.showError(errorText(error));
-    }
+    });
   }
 
   /** @param {boolean} on */
@@ -311,19 +302,14 @@ export class View {
     this.drawOverlay();
     if (!this.scene) return;
     const [width, height] = this.size;
-    try {
-      const drawn = this.frame.draw(this.shown, [
-        Math.max(1, Math.round(width * scale)),
-        Math.max(1, Math.round(height * scale)),
-      ]);
-      if (drawn) {
-        this.root.classList.add("sw-live");
-        for (const part of this.parts) part.drawn?.(scale);
-      } else {
-        this.loop.request(); // the context was lost meanwhile; the next frame makes another
-      }
-    } catch (error) {
-      this.showError(errorText(error));
+    /** @type {[number, number]} */
+    const size = [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
+    const drawn = this.message.attempt(() => this.frame.draw(this.shown, size));
+    if (drawn) {
+      this.root.classList.add("sw-live");
+      for (const part of this.parts) part.drawn?.(scale);
+    } else if (drawn === false) {
+      this.loop.request(); // the context was lost meanwhile; the next frame makes another
     }
   }
 
@@ -334,6 +320,14 @@ export class View {
       this.readout.textContent = sunText(this.value("sun_azimuth"), this.value("sun_elevation"));
     }
     for (const part of this.parts) part.draw?.();
+  }
+
+  /**
+   * What a request for a picture is about. Hosts hold traits back while the kernel is busy, and not
+   * requests: without it the kernel would answer with an older edit than the person saw.
+   */
+  asked() {
+    return { recipe: this.state.recipe(), photo: this.model.get("_source")?.fingerprint };
   }
 
   /** Hand the picture to the person as a file. */

@@ -69,7 +69,7 @@ export function modelControls(view, signal) {
     busy = true;
     const asked = key();
     show();
-    view.showError("");
+    view.message.show("");
     try {
       const { result, buffers } = await view.channel.request(
         "bruneton",
@@ -84,7 +84,7 @@ export function modelControls(view, signal) {
       computed = asked;
     } catch (error) {
       if (signal.aborted) return;
-      view.showError(`Bruneton's table: ${errorText(error)}`);
+      view.message.show(`Bruneton's table: ${errorText(error)}`);
     } finally {
       busy = false;
       if (!signal.aborted) {

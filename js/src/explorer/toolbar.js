@@ -64,7 +64,7 @@ export function toolbar(view) {
     const code = await codeOf(view);
     said.textContent = (await copied(code)) ? "Copied" : "";
     // Without a clipboard the person copies by hand.
-    view.showError(said.textContent ? "" : code);
+    view.message.show(said.textContent ? "" : code);
     clearTimeout(silence);
     silence = setTimeout(() => {
       said.textContent = "";

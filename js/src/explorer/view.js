@@ -8,9 +8,9 @@
 import { Channel } from "../channel.js";
 import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
+import { ErrorMessage } from "../controls/error_message.js";
 import { runShortcut } from "../controls/keys.js";
 import { angleBetween, sunAt, turned } from "../day.js";
-import { errorText } from "../error_text.js";
 import { FrameLoop } from "../frame_loop.js";
 import { onKernelError } from "../kernel_errors.js";
 import { watchSight } from "../sight.js";
@@ -67,7 +67,7 @@ export class View {
     this.plots = new Plots(this, signal);
     this.panel = panel(this, signal);
     this.toolbar = toolbar(this);
-    this.message = element("div", { class: "sw-message", role: "alert", hidden: true });
+    this.message = new ErrorMessage();
     /** @type {Point | null} direction under the pointer */
     this.pointed = null;
     /** @type {Point | null} direction that a plot points at */
@@ -94,7 +94,7 @@ export class View {
       "div",
       { class: "sw-main" },
       this.stage.node,
-      this.message,
+      this.message.node,
       this.readout.node,
     );
     this.root.append(
@@ -125,7 +125,7 @@ export class View {
       if (this.loop.inSight) this.plots.request();
     };
     onTraits(model, ["_day", "_measured", "_scans", "_aliases", "_presets"], onData, signal);
-    onKernelError(model, (text) => this.showError(text), signal);
+    onKernelError(model, (text) => this.message.show(text), signal);
     listenToPointer(this, signal);
     this.root.addEventListener("keydown", (event) => runShortcut(SHORTCUTS, this, event), {
       signal,
@@ -232,12 +232,6 @@ export class View {
     return this.state.values.projection === "camera" ? this.number("fov") / height : 360 / width;
   }
 
-  /** Text is shown as text. @param {string} text */
-  showError(text) {
-    this.message.hidden = !text;
-    this.message.textContent = text;
-  }
-
   /** What lies under the pointer. @param {Point | null} direction */
   hover(direction) {
     this.pointed = direction && direction[1] >= -90 ? direction : null;
@@ -283,14 +277,14 @@ export class View {
     const key = JSON.stringify([this.state.values, size, this.tables]);
     // A pointer that only reads changes no pixel.
     if (key === this.drawnKey && !this.tracer.works) return;
-    try {
-      if (!this.frame.draw(this.state.values, size)) return;
+    const drawn = this.message.attempt(() => this.frame.draw(this.state.values, size));
+    if (drawn) {
       this.drawnKey = key;
       this.root.classList.add("sw-live");
       this.plots.request();
       if (this.tracer.works) this.tracer.goOn();
-    } catch (error) {
-      this.showError(errorText(error));
+    } else if (drawn === false) {
+      this.requestFrame(); // the context was lost meanwhile; the next frame makes another
     }
   }
 
@@ -320,11 +314,6 @@ export class View {
    * @returns {Float32Array | null} four numbers each
    */
   radiances(directions) {
-    try {
-      return this.frame.radiances(directions);
-    } catch (error) {
-      this.showError(errorText(error));
-      return null;
-    }
+    return this.message.attempt(() => this.frame.radiances(directions));
   }
 }

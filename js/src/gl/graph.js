@@ -20,8 +20,9 @@ import { uniformValue } from "./values.js";
  * @typedef {{
  *   name: string, shader: string, size: Size, format: "rgba32f" | "output", state: string,
  *   inputs: Record<string, string | string[]>, when?: string[], history?: boolean,
- *   constants?: string,
+ *   constants?: string, parts?: { by: string, shaders: string[] },
  * }} Pass
+ * @typedef {{ shader: string, constants?: string, depth?: number }} Stage what one draw is compiled of
  * @typedef {{ passes: Pass[], scene_uniforms: Record<string, string> }} Description
  * @typedef {{
  *   states: Record<string, Values>, scene: Values, host: Values, size: [number, number],
@@ -109,7 +110,7 @@ export class Graph {
       throw new Error(`The frame graph has no pass "${until}" for ${frame.methods.join(" and ")}.`);
     }
     const passes = this.ancestors(rows, last);
-    for (const pass of passes) this.begin(pass);
+    for (const pass of passes) for (const stage of this.stages(pass)) this.begin(stage);
     for (const pass of passes) this.runPass(pass, frame, host);
   }
 
@@ -149,7 +150,8 @@ export class Graph {
     const { gl } = this;
     const output = pass.format === "output";
     const [width, height] = passSize(pass.size, frame.size, frame.sizes);
-    const program = this.program(pass);
+    const stages = this.stages(pass);
+    const programs = stages.map((stage) => this.program(stage));
     const own = { ...host, pass_size: [width, height], canvas_flip: output ? 1 : 0 };
 
     /** @type {(number | string)[]} */
@@ -158,7 +160,7 @@ export class Graph {
     const values = {};
     /** @type {Record<string, Texture>} */
     const textures = {};
-    for (const { name } of program.uniforms) {
+    for (const { name } of programs.flatMap((program) => program.uniforms)) {
       const input = pass.inputs[name];
       if (input !== undefined) {
         const source = this.source(input);
@@ -181,6 +183,26 @@ export class Graph {
       return;
     }
 
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target ? target.framebuffer : null);
+    gl.viewport(0, 0, width, height);
+    if (programs.length > 1) this.drawParts(programs, values, textures);
+    else this.draw(programs[0], values, textures);
+    if (target) {
+      target.key = key;
+      target.samples += 1;
+      this.versions += 1;
+      target.texture.version = this.versions;
+    }
+    this.runs[pass.name] = (this.runs[pass.name] ?? 0) + 1;
+  }
+
+  /**
+   * @param {Program} program
+   * @param {Record<string, number | number[]>} values
+   * @param {Record<string, Texture>} textures
+   */
+  draw(program, values, textures) {
+    const { gl } = this;
     gl.useProgram(program.handle);
     let unit = 0;
     for (const uniform of program.uniforms) {
@@ -194,16 +216,29 @@ export class Graph {
       gl.uniform1i(uniform.location, unit);
       unit += 1;
     }
-    gl.bindFramebuffer(gl.FRAMEBUFFER, target ? target.framebuffer : null);
-    gl.viewport(0, 0, width, height);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-    if (target) {
-      target.key = key;
-      target.samples += 1;
-      this.versions += 1;
-      target.texture.version = this.versions;
-    }
-    this.runs[pass.name] = (this.runs[pass.name] ?? 0) + 1;
+  }
+
+  /**
+   * Write to which part each pixel belongs, and draw each part's pixels by its program. Where the
+   * depth differs no driver runs a shader, while most compute both sides of a branch.
+   *
+   * @param {Program[]} programs the first tells the parts apart
+   * @param {Record<string, number | number[]>} values
+   * @param {Record<string, Texture>} textures
+   */
+  drawParts([by, ...programs], values, textures) {
+    const { gl } = this;
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.ALWAYS);
+    gl.depthMask(true);
+    gl.colorMask(false, false, false, false);
+    this.draw(by, values, textures);
+    gl.depthFunc(gl.EQUAL);
+    gl.depthMask(false);
+    gl.colorMask(true, true, true, true);
+    for (const program of programs) this.draw(program, values, textures);
+    gl.disable(gl.DEPTH_TEST);
   }
 
   /**
@@ -222,22 +257,40 @@ export class Graph {
     return texels;
   }
 
-  /** Begin to compile a pass that is not compiled yet. @param {Pass} pass */
-  begin({ shader, constants }) {
-    if (this.programs.has(shader) || this.compiling.has(shader)) return;
-    const text = (/** @type {string} */ name) => resolveIncludes(this.files, `${name}.glsl`);
-    const wait = beginProgram(this.gl, shader, text(shader), constants && text(constants));
-    this.compiling.set(shader, wait);
+  /**
+   * What draws a pass: its shader alone, or what tells its parts apart and then each part's. Without
+   * a depth buffer the pass' own shader draws all parts.
+   *
+   * @param {Pass} pass
+   * @returns {Stage[]}
+   */
+  stages({ shader, constants, parts, format }) {
+    if (!parts || format !== "output" || !this.gl.getContextAttributes()?.depth) {
+      return [{ shader, constants }];
+    }
+    const drawn = [...parts.shaders, shader];
+    return [
+      { shader: parts.by },
+      ...drawn.map((name, part) => ({ shader: name, constants, depth: 0.5 * (part + 1) - 1 })),
+    ];
   }
 
-  /** @param {Pass} pass */
-  program(pass) {
-    let program = this.programs.get(pass.shader);
+  /** Begin to compile what is not compiled yet. @param {Stage} stage */
+  begin({ shader, constants, depth }) {
+    if (this.programs.has(shader) || this.compiling.has(shader)) return;
+    const text = (/** @type {string} */ name) => resolveIncludes(this.files, `${name}.glsl`);
+    const vertex = { constants: constants && text(constants), depth };
+    this.compiling.set(shader, beginProgram(this.gl, shader, text(shader), vertex));
+  }
+
+  /** @param {Stage} stage */
+  program(stage) {
+    let program = this.programs.get(stage.shader);
     if (!program) {
-      this.begin(pass);
-      program = /** @type {() => Program} */ (this.compiling.get(pass.shader))();
-      this.compiling.delete(pass.shader);
-      this.programs.set(pass.shader, program);
+      this.begin(stage);
+      program = /** @type {() => Program} */ (this.compiling.get(stage.shader))();
+      this.compiling.delete(stage.shader);
+      this.programs.set(stage.shader, program);
     }
     return program;
   }

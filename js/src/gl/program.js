@@ -3,12 +3,12 @@
 const HEADER = "#version 300 es\n";
 const PRECISION = "precision highp float; precision highp int; precision highp sampler2D;\n";
 
-// One triangle that covers the target, without buffers.
-const TRIANGLE = `
+// One triangle that covers the target, without buffers, at a depth of the view volume.
+const triangle = (/** @type {number} */ depth) => `
 void main() {
   SetConstants();
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-  gl_Position = vec4(corner, 0.0, 1.0);
+  gl_Position = vec4(corner, float(${depth}), 1.0);
 }
 `;
 
@@ -23,11 +23,9 @@ void main() {
  * @param {WebGL2RenderingContext} gl
  * @param {string} name for error messages
  * @param {string} text fragment shader with its includes expanded
- * @param {string} [constants] what is the same for all pixels, computed once a corner
  * @returns {Program}
  */
-export const createProgram = (gl, name, text, constants) =>
-  beginProgram(gl, name, text, constants)();
+export const createProgram = (gl, name, text) => beginProgram(gl, name, text)();
 
 /**
  * Begin to compile and link a pass, and return how to wait for it. The driver works on several at
@@ -36,13 +34,15 @@ export const createProgram = (gl, name, text, constants) =>
  * @param {WebGL2RenderingContext} gl
  * @param {string} name for error messages
  * @param {string} text fragment shader with its includes expanded
- * @param {string} constants what is the same for all pixels, computed once a corner
+ * @param {{ constants?: string, depth?: number }} vertex what is the same for all pixels, computed once
+ *   a corner, and where the triangle lies, from -1 to 1
  * @returns {() => Program}
  */
-export function beginProgram(gl, name, text, constants = "void SetConstants() {}\n") {
+export function beginProgram(gl, name, text, vertex = {}) {
+  const { constants = "void SetConstants() {}\n", depth = 0 } = vertex;
   const handle = gl.createProgram();
   const texts = [
-    { kind: gl.VERTEX_SHADER, text: HEADER + PRECISION + constants + TRIANGLE },
+    { kind: gl.VERTEX_SHADER, text: HEADER + PRECISION + constants + triangle(depth) },
     { kind: gl.FRAGMENT_SHADER, text: HEADER + PRECISION + text },
   ];
   const stages = texts.map(({ kind, text: source }) => {

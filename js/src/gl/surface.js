@@ -19,6 +19,10 @@ import { readLevels } from "./texture.js";
 const NO_WEBGL =
   "This browser offers no WebGL2, which the live preview needs. Turn on hardware acceleration " +
   "or use another browser; exports from Python work all the same.";
+const TAKEN_AWAY =
+  "The browser took the graphics context away and gives no other, as after a crash of the graphics " +
+  "driver. Load the page again; your edit is kept.";
+const MOST_LOSSES = 3; // in a row: what takes the context away does so at every try
 
 export class Surface {
   /**
@@ -40,6 +44,8 @@ export class Surface {
     /** @type {Graph | null} */
     this.graph = null;
     this.turns = 1; // how many edits are drawn in turn (gl/graph.js)
+    this.worked = false; // whether there ever was a context
+    this.losses = 0; // of contexts, since one worked
     this.release = () => this.giveBack();
   }
 
@@ -51,7 +57,14 @@ export class Surface {
     const previous = this.pictures.get(name);
     if (previous && previous !== pixels && "close" in previous) previous.close();
     this.pictures.set(name, pixels);
-    this.graph?.setTexture(name, pixels);
+    if (!this.graph) return;
+    const { gl } = this.graph;
+    try {
+      this.graph.setTexture(name, pixels);
+    } catch (error) {
+      if (!gl.isContextLost()) throw error;
+    }
+    if (gl.isContextLost()) this.forget(); // the next draw loads all pictures anew
   }
 
   /**
@@ -62,18 +75,16 @@ export class Surface {
    */
   show(frame) {
     const [width, height] = frame.size;
-    const graph = this.liveGraph();
-    const { gl } = graph;
-    resize(gl.canvas, width, height);
-    graph.run(frame);
-    if (gl.isContextLost()) {
-      this.forget();
-      return false;
-    }
+    const drawn = this.withGraph((graph) => {
+      resize(graph.gl.canvas, width, height);
+      graph.run(frame);
+      return graph.gl.canvas;
+    });
+    if (!drawn) return false;
     if (!resize(this.canvas, width, height) && this.alpha) {
       this.context.clearRect(0, 0, width, height);
     }
-    this.context.drawImage(gl.canvas, 0, 0);
+    this.context.drawImage(drawn, 0, 0);
     return true;
   }
 
@@ -84,12 +95,10 @@ export class Surface {
    * @param {string} name
    */
   read(frame, name) {
-    const graph = this.liveGraph();
-    graph.run(frame, name);
-    const texels = graph.read(name);
-    if (!graph.gl.isContextLost()) return texels;
-    this.forget();
-    return null;
+    return this.withGraph((graph) => {
+      graph.run(frame, name);
+      return graph.read(name);
+    });
   }
 
   /**
@@ -100,38 +109,71 @@ export class Surface {
    */
   levels(name) {
     if (!this.pictures.has(name)) return null;
-    const { gl, textures } = this.liveGraph();
-    const texture = textures.get(name);
-    const levels = texture ? readLevels(gl, texture) : null;
-    if (!gl.isContextLost()) return levels;
-    this.forget();
-    return null;
+    return this.withGraph(({ gl, textures }) => {
+      const texture = textures.get(name);
+      return texture ? readLevels(gl, texture) : null;
+    });
   }
 
-  /** The graph on a living context: the present one, or all of it made again. */
-  liveGraph() {
+  /**
+   * What some work with the graph returns; null when the context was lost in it. Whatever the work
+   * had to say of a lost context is beside the point.
+   *
+   * @template T
+   * @param {(graph: Graph) => T} work
+   * @returns {T | null}
+   */
+  withGraph(work) {
+    const gl = this.liveContext();
+    try {
+      this.graph ??= this.makeGraph(gl);
+      const result = work(this.graph);
+      if (!gl.isContextLost()) {
+        this.losses = 0;
+        return result;
+      }
+    } catch (error) {
+      if (!gl.isContextLost()) {
+        if (!this.graph) {
+          loseContext(gl);
+          this.forget();
+        }
+        throw error;
+      }
+    }
+    this.forget();
+    this.losses += 1;
+    if (this.losses < MOST_LOSSES) return null;
+    this.losses = 0;
+    throw new Error(TAKEN_AWAY);
+  }
+
+  /** The present context, or a new one in place of one that was lost. */
+  liveContext() {
     useContext(this.release);
-    if (this.graph && !this.graph.gl.isContextLost()) return this.graph;
+    if (this.graph && !this.graph.gl.isContextLost()) return this.graph.gl;
     this.graph = null;
     const gl = document.createElement("canvas").getContext("webgl2", {
       alpha: this.alpha,
       antialias: false,
-      depth: false,
+      depth: this.description.passes.some(({ parts }) => parts),
       stencil: false,
       powerPreference: "high-performance",
     });
-    try {
-      if (!gl) throw new Error(NO_WEBGL);
-      const graph = new Graph(gl, this.description, this.files);
-      graph.turns = this.turns;
-      for (const [name, pixels] of this.pictures) graph.setTexture(name, pixels);
-      this.graph = graph;
-      return graph;
-    } catch (error) {
-      loseContext(gl);
-      this.forget();
-      throw error;
+    if (gl) {
+      this.worked = true;
+      return gl;
     }
+    this.forget();
+    throw new Error(this.worked ? TAKEN_AWAY : NO_WEBGL);
+  }
+
+  /** @param {WebGL2RenderingContext} gl */
+  makeGraph(gl) {
+    const graph = new Graph(gl, this.description, this.files);
+    graph.turns = this.turns;
+    for (const [name, pixels] of this.pictures) graph.setTexture(name, pixels);
+    return graph;
   }
 
   /** Drop a lost context's objects: the driver has freed them. */

@@ -174,7 +174,7 @@ export class Plots {
         told.textContent = plot.tell?.() ?? "";
       }
     } catch (error) {
-      this.view.showError(errorText(error));
+      this.view.message.show(errorText(error));
     }
     this.last = performance.now();
     this.cost = this.last - begin;
