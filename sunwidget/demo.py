@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import importlib.util
-from collections.abc import Callable
 from pathlib import Path
 
 from sunwidget.edit import Edit
+from sunwidget.time_left import Progress, part
 
 SAMPLE = "coast"
 STILL = Edit(sun_elevation=3)
@@ -15,9 +15,7 @@ SUNSET = (14.0, -4.0)
 FILM_SIZE = (960, 640)
 
 
-def demo(
-    folder: Path, progress: Callable[[float, str], object] | None = None
-) -> list[tuple[Path, str]]:
+def demo(folder: Path, progress: Progress | None = None) -> list[tuple[Path, str]]:
     """Analyse the sample, write its maps, a still, a recipe, a page and a sunset film.
 
     Returns (path, what it is) in the order of making. Its own files are replaced. Without
@@ -28,7 +26,7 @@ def demo(
 
     report = progress or (lambda _fraction, _message: None)
     folder.mkdir(parents=True, exist_ok=True)
-    scene = sw.analyze(sw.sample(SAMPLE), progress=lambda f, text: report(0.3 * f, text))
+    scene = sw.analyze(sw.sample(SAMPLE), progress=part(report, 0.0, 0.3))
     save_maps(scene, folder / "maps", overwrite=True)
     made = [(folder / "maps", "what the analysis found: overview.png, scene.json, every map")]
 
@@ -54,7 +52,7 @@ def demo(
         film,
         size=FILM_SIZE,
         overwrite=True,
-        progress=lambda f, text: report(0.4 + 0.6 * f, text),
+        progress=part(report, 0.4, 1.0),
     )
     made.append((film, f"a sunset from {SUNSET[0]:g}° to {SUNSET[1]:g}°"))
     return made

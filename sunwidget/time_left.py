@@ -52,6 +52,11 @@ def with_time_left(
     return report
 
 
+def part(progress: Progress, start: float, end: float) -> Progress:
+    """Return what tells ``progress`` of one part of its work, the one from ``start`` to ``end``."""
+    return lambda fraction, message: progress(start + (end - start) * fraction, message)
+
+
 def time_left_text(seconds: float) -> str:
     """Return "12 s left", "3 min left" or "1 h 20 min left", no finer than it can be known."""
     if seconds < 20:

@@ -34,7 +34,7 @@ from sunwidget.export.sun_path import Step, SunPath
 from sunwidget.frames import Clock, Times, frame_sources, name_of
 from sunwidget.layout import PhotoError, PhotoWarning
 from sunwidget.place import Place
-from sunwidget.time_left import Progress, with_time_left
+from sunwidget.time_left import Progress, part, with_time_left
 
 BROKEN = ("hold", "skip", "stop")
 LOOPS = ("forever", "once")
@@ -155,13 +155,11 @@ def timelapse(
         place=place,
         clock=Clock(times, len(sources), None if place is None else place.longitude),
         hints=hints,
-        progress=lambda fraction, message: report(_LOOKING * fraction, message),
+        progress=part(report, 0.0, _LOOKING),
     )
     _refuse_or_warn(scenes.troubles, len(sources), broken, film=film)
 
-    def drawing(fraction: float, message: str) -> None:
-        report(_LOOKING + (1 - _LOOKING) * fraction, message)
-
+    drawing = part(report, _LOOKING, 1.0)
     if not film:
         place_out.mkdir(exist_ok=True)
         for number, scene in enumerate(scenes):

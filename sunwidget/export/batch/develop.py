@@ -14,12 +14,12 @@ import tempfile
 import threading
 import time
 import warnings
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from sunwidget import __version__
 from sunwidget.export.batch.wish import Wish
+from sunwidget.time_left import Progress, part
 
 # Two photos at a time in one process would take twice the memory for one GL context.
 _one_at_a_time = threading.Lock()
@@ -60,7 +60,7 @@ class Outcome:
     worker: str = ""
 
 
-def develop(job: Job, progress: Callable[[float, str], object] | None = None) -> Outcome:
+def develop(job: Job, progress: Progress | None = None) -> Outcome:
     """Open, analyse, render and encode one photo. What goes wrong becomes the outcome's error.
 
     Raises
@@ -117,9 +117,7 @@ class _Stopped(BaseException):
         self.reason = reason
 
 
-def _files(
-    job: Job, notes: list[str], progress: Callable[[float, str], object] | None
-) -> dict[str, bytes]:
+def _files(job: Job, notes: list[str], progress: Progress | None) -> dict[str, bytes]:
     limit_threads(job.threads)
     with tempfile.TemporaryDirectory(prefix="sunwidget-", dir=_scratch()) as folder:
         photo = _photo(job, Path(folder))
@@ -144,30 +142,28 @@ def _is_ours(category: type[Warning]) -> bool:
     return category.__module__.startswith("sunwidget")
 
 
-def _save(
-    job: Job, photo: Path, path: Path, progress: Callable[[float, str], object] | None
-) -> tuple[str, ...]:
+def _save(job: Job, photo: Path, path: Path, progress: Progress | None) -> tuple[str, ...]:
     import sunwidget as sw
 
     wish = job.wish
-    scene = sw.analyze(sw.open(photo), progress=_part(progress, 0.0, 0.6), **wish.analysis)
+    report = _stopping(progress)
+    scene = sw.analyze(sw.open(photo), progress=part(report, 0.0, 0.6), **wish.analysis)
     edit = wish.edit_of(scene)
     own = scene.photo.size
     size = own if wish.long_edge is None else scene.photo.size_within(wish.long_edge)
-    rest = _part(progress, 0.6, 1.0)
+    rest = part(report, 0.6, 1.0)
     sw.save((scene, edit), path, size=None if size == own else size, progress=rest, **wish.options)
     return scene.warnings
 
 
-def _part(
-    progress: Callable[[float, str], object] | None, start: float, end: float
-) -> Callable[[float, str], object] | None:
-    if progress is None:
-        return None
+def _stopping(progress: Progress | None) -> Progress:
+    """Return ``progress`` in such a way that what it raises ends the batch, not this photo."""
 
     def report(fraction: float, message: str) -> None:
+        if progress is None:
+            return
         try:
-            progress(start + (end - start) * fraction, message)
+            progress(fraction, message)
         except Exception as reason:
             raise _Stopped(reason) from reason
 
