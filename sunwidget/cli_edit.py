@@ -10,6 +10,7 @@ from sunwidget import presets
 from sunwidget.cli_photo import flag, given
 from sunwidget.cli_place import is_placed, placed
 from sunwidget.edit import PARAMETERS, Edit, EditError, Parameter
+from sunwidget.recipe import read_recipe
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -68,7 +69,7 @@ def recipe(options: argparse.Namespace) -> Edit:
     """Return the edit of --recipe, an unmoved one without it."""
     if options.recipe is None:
         return Edit()
-    return Edit.from_json(options.recipe.read_text("utf-8"))
+    return read_recipe(options.recipe)
 
 
 def edit_of_flags(options: argparse.Namespace, prefix: str = "", start: Edit | None = None) -> Edit:

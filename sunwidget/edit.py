@@ -12,10 +12,12 @@ import dataclasses
 import difflib
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal, NamedTuple, Self
 
 from sunwidget.place import Place, sun_at
+from sunwidget.wording import shown
 
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
@@ -23,7 +25,8 @@ LIGHTS = ("sun", "moon", "automatic")
 COLOUR_LOSSES = ("luminance", "power")
 # "analysed": as ``analyze`` chose. The others are the names in ``analysis.clouds.METHODS``.
 CLOUD_METHODS = ("analysed", "rb_ratio", "rb_difference", "saturation", "learned", "unmix")
-STROKE_LABELS = ("sky", "not_sky", "water", "not_water")
+StrokeLabel = Literal["sky", "not_sky", "water", "not_water"]
+STROKE_LABELS: tuple[StrokeLabel, ...] = ("sky", "not_sky", "water", "not_water")
 
 Point = tuple[float, float]
 
@@ -140,7 +143,7 @@ class Stroke:
         Brush radius in fractions of the picture's longer side.
     """
 
-    label: Literal["sky", "not_sky", "water", "not_water"]
+    label: StrokeLabel
     points: tuple[Point, ...]
     radius: float = 0.01
 
@@ -344,6 +347,7 @@ class Edit:
         >>> place = sw.Place(41.0, 29.0, "2024-06-21", time=16.5, heading=270)
         >>> sw.sweep(scene, [sw.Edit().at(place.replace(time=t)) for t in (15, 16, 17)], "day.mp4")
         """
+        place = _check_place(place)
         sun = sun_at(place)
         changes: dict[str, Any] = {"place": place, "sun_elevation": round(sun.elevation, 4)}
         if sun.azimuth is not None:
@@ -364,7 +368,7 @@ class Edit:
         return recipe
 
     @classmethod
-    def from_dict(cls, recipe: dict[str, Any]) -> Edit:
+    def from_dict(cls, recipe: Mapping[str, Any]) -> Edit:
         """Return the Edit that a recipe describes. Never executes anything.
 
         Parameters
@@ -382,17 +386,17 @@ class Edit:
             When the recipe is not a mapping, comes from a newer version, or holds an
             unknown name or an impossible value.
         """
-        if not isinstance(recipe, dict):
+        if not isinstance(recipe, Mapping):
             raise EditError(
                 f"A recipe is a JSON object, not {type(recipe).__name__}. "
                 "Pass what Edit.to_dict() returned."
             )
         version = recipe.get("version", RECIPE_VERSION)
         if isinstance(version, bool) or not isinstance(version, int) or version < 1:
-            raise EditError(f"Recipe version {_shown(version)} is not a positive whole number.")
+            raise EditError(f"Recipe version {shown(version)} is not a positive whole number.")
         if version > RECIPE_VERSION:
             raise EditError(
-                f"This recipe has version {_shown(version)}, this sunwidget reads up to "
+                f"This recipe has version {shown(version)}, this sunwidget reads up to "
                 f"{RECIPE_VERSION}. Update sunwidget to open it."
             )
         values = {k: v for k, v in recipe.items() if k != "version"}
@@ -404,10 +408,14 @@ class Edit:
         return json.dumps(self.to_dict(), indent=2)
 
     @classmethod
-    def from_json(cls, text: str) -> Edit:
-        """Return the Edit of a recipe as JSON ``text``; raises EditError like ``from_dict``."""
+    def from_json(cls, text: str | bytes) -> Edit:
+        """Return the Edit of a recipe as JSON ``text``; raises EditError like ``from_dict``.
+
+        Of a name that stands there twice the last value counts, as in the browser.
+        """
         try:
-            recipe = json.loads(text)
+            # Editors on Windows begin a file with a mark of its byte order; bytes may have one.
+            recipe = json.loads(text.removeprefix("\ufeff") if isinstance(text, str) else text)
         # TypeError: no text at all; ValueError: bad syntax, bad UTF-8, numbers of 5000 digits.
         except (TypeError, ValueError, RecursionError) as error:
             raise EditError(f"The recipe is not valid JSON: {error}") from error
@@ -459,22 +467,15 @@ def parameter(name: str) -> Parameter:
 
 def unknown_name_message(name: str, others: tuple[str, ...] = ()) -> str:
     """Say that ``name`` is no parameter and suggest the nearest spelling, also of ``others``."""
-    near = difflib.get_close_matches(str(name), [*_BY_NAME, *others], n=1)
+    spelled = name[:80] if isinstance(name, str) else ""
+    near = difflib.get_close_matches(spelled, [*_BY_NAME, *others], n=1)
     hint = f" Did you mean {near[0]!r}?" if near else " See sunwidget.PARAMETERS for the list."
-    return f"Unknown parameter {str(name)[:80]!r}.{hint}"
-
-
-def _shown(value: Any) -> str:
-    """Return the start of a value's repr, which may itself fail on hostile input."""
-    try:
-        return repr(value)[:80]
-    except (ValueError, RecursionError):  # numbers of 5000 digits, lists a thousand deep
-        return f"this {type(value).__name__}"
+    return f"Unknown parameter {shown(name)}.{hint}"
 
 
 def _refuse_unknown(names: Any) -> None:
     for name in names:
-        if name not in _BY_NAME:
+        if not isinstance(name, str) or name not in _BY_NAME:
             raise UnknownParameterError(unknown_name_message(name))
 
 
@@ -482,8 +483,8 @@ def checked(p: Parameter, value: Any) -> Any:
     """Return ``value`` as an Edit holds it; raises EditError where the row does not take it."""
     if p.kind == "choice":
         if not isinstance(value, str) or value not in p.choices:
-            raise EditError(f"{p.name} must be one of {', '.join(p.choices)}, not {_shown(value)}.")
-        return value
+            raise EditError(f"{p.name} must be one of {', '.join(p.choices)}, not {shown(value)}.")
+        return p.choices[p.choices.index(value)]  # a plain str, whose repr is its own
     if p.kind == "number":
         if value is None and p.default is None:
             return None
@@ -500,7 +501,7 @@ def checked(p: Parameter, value: Any) -> Any:
         return _check_point(p.name, value)
     points = _check_points(p.name, value)
     if len(points) != 2 or points[0][0] == points[1][0]:
-        raise EditError(f"{p.name} needs two points with different x, not {_shown(value)}.")
+        raise EditError(f"{p.name} needs two points with different x, not {shown(value)}.")
     return points
 
 
@@ -510,7 +511,7 @@ def _check_number(name: str, value: Any, low: float, high: float, unit: str = ""
     except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
-        raise EditError(f"{name} must be a number from {low:g} to {high:g}, not {_shown(value)}.")
+        raise EditError(f"{name} must be a number from {low:g} to {high:g}, not {shown(value)}.")
     if not low <= number <= high:
         raise EditError(f"{name} = {number:g} is outside {low:g} to {high:g} {unit}".rstrip() + ".")
     return number
@@ -518,7 +519,7 @@ def _check_number(name: str, value: Any, low: float, high: float, unit: str = ""
 
 def _check_point(name: str, value: Any) -> Point:
     if not isinstance(value, (tuple, list)) or len(value) != 2:
-        raise EditError(f"{name} must be a pair (x, y), not {_shown(value)}.")
+        raise EditError(f"{name} must be a pair (x, y), not {shown(value)}.")
     return (
         _check_number(f"{name} x", value[0], -10, 10),
         _check_number(f"{name} y", value[1], -10, 10),
@@ -527,30 +528,30 @@ def _check_point(name: str, value: Any) -> Point:
 
 def _check_points(name: str, value: Any) -> tuple[Point, ...]:
     if not isinstance(value, (tuple, list)) or not value:
-        raise EditError(f"{name} must be a list of (x, y) pairs, not {_shown(value)}.")
+        raise EditError(f"{name} must be a list of (x, y) pairs, not {shown(value)}.")
     return tuple(_check_point(name, point) for point in value)
 
 
 def _check_strokes(value: Any) -> tuple[Stroke, ...]:
     if not isinstance(value, (tuple, list)):
-        raise EditError(f"strokes must be a list of strokes, not {_shown(value)}.")
+        raise EditError(f"strokes must be a list of strokes, not {shown(value)}.")
     checked = []
     for stroke in value:
         if isinstance(stroke, Stroke):
-            stroke = dataclasses.asdict(stroke)
+            stroke = vars(stroke)
         if not isinstance(stroke, dict) or not {"label", "points"} <= stroke.keys():
-            raise EditError(f"A stroke needs a label and points, not {_shown(stroke)}.")
-        if stroke["label"] not in STROKE_LABELS:
+            raise EditError(f"A stroke needs a label and points, not {shown(stroke)}.")
+        label = stroke["label"]
+        if not isinstance(label, str) or label not in STROKE_LABELS:
             raise EditError(
-                f"A stroke's label is one of {', '.join(STROKE_LABELS)}, "
-                f"not {stroke['label']!r:.80}."
+                f"A stroke's label is one of {', '.join(STROKE_LABELS)}, not {shown(label)}."
             )
         extra = stroke.keys() - {"label", "points", "radius"}
         if extra:
-            raise EditError(f"A stroke has no {_shown(min(map(str, extra)))}.")
+            raise EditError(f"A stroke has no {shown(min(map(str, extra)))}.")
         checked.append(
             Stroke(
-                stroke["label"],
+                STROKE_LABELS[STROKE_LABELS.index(label)],
                 _check_points("stroke", stroke["points"]),
                 _check_number("stroke radius", stroke.get("radius", 0.01), 0.0005, 0.5),
             )
@@ -565,8 +566,6 @@ def _check_place(value: Any) -> Place:
         return Place.from_dict(value)
     except ValueError as error:
         raise EditError(str(error)) from None
-    except RecursionError:  # lists a thousand deep have no repr
-        raise EditError("place is no place.") from None
 
 
 def plain(value: Any) -> Any:

@@ -3,10 +3,27 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+
+# What stood in the way, and what to do about it.
+_OBSTACLES = {
+    errno.ENOSPC: "the disk is full. Free some space or choose another folder",
+    errno.EDQUOT: "the space that you may use is used up. Free some or choose another folder",
+    errno.EFBIG: "a file may not be that large there. Choose another folder or a smaller size",
+    errno.EIO: "the disk failed. Choose another one",
+    errno.EROFS: "the folder is read-only. Choose another one",
+    errno.EACCES: "the folder may not be written to. Choose another one",
+    errno.EPERM: "the folder may not be written to. Choose another one",
+    errno.ENOENT: "the folder is there no more. Make it again or choose another one",
+}
+
+
+class NotWrittenError(OSError):
+    """A file that could not be written; the message says why. No part of it is left."""
 
 
 def target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
@@ -20,32 +37,85 @@ def target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
         When its folder does not exist.
     IsADirectoryError
         When ``path`` is a folder.
+    NotWrittenError
+        For what no file can be called, and for a folder that may not be written to.
     """
-    # Through a link: replacing it would leave the file it names unchanged.
-    place = Path(os.path.realpath(Path(path).expanduser()))
+    try:
+        # Through a link: replacing it would leave the file it names unchanged.
+        place = Path(os.path.realpath(Path(path).expanduser()))
+        is_there = _is_there(place)
+    except (TypeError, ValueError, RuntimeError, OSError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise NotWrittenError(f"No file can be called {ascii(path)[:80]}: {reason}.") from error
     if place.is_dir():
         raise IsADirectoryError(f"{path} is a folder. Add a file name to it.")
-    if place.exists() and not overwrite:
+    if is_there and not overwrite:
         raise FileExistsError(f"{path} exists already. Pass overwrite=True to replace it.")
     if not place.parent.is_dir():
         raise FileNotFoundError(f"There is no folder {place.parent} to write {place.name} into.")
+    if not os.access(place.parent, os.W_OK):
+        raise NotWrittenError(
+            f"{place.name} cannot be written: the folder {place.parent} may not be written to. "
+            "Choose another one."
+        )
     return place
 
 
 @contextlib.contextmanager
 def complete_or_absent(path: Path, *, overwrite: bool) -> Iterator[Path]:
-    """Yield a temporary name beside ``path`` that becomes ``path`` only when all went well."""
-    handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=".sunwidget-", dir=path.parent)
-    os.close(handle)
-    unfinished = Path(name)
+    """Yield a temporary name beside ``path`` that becomes ``path`` only when all went well.
+
+    Raises
+    ------
+    FileExistsError
+        When ``path`` has come to exist meanwhile and ``overwrite`` is false.
+    NotWrittenError
+        As ``explained``.
+    """
+    with explained(path):
+        handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=".sunwidget-", dir=path.parent)
+        os.close(handle)
+        unfinished = Path(name)
+        try:
+            yield unfinished
+            # mkstemp makes files private; an export gets what the umask gives any new file.
+            mask = os.umask(0)
+            os.umask(mask)
+            unfinished.chmod(0o666 & ~mask)
+            if path.exists() and not overwrite:
+                raise FileExistsError(f"{path} appeared while it was being made; it was kept.")
+            unfinished.replace(path)
+        finally:
+            unfinished.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def explained(path: Path) -> Iterator[None]:
+    """Say of ``path`` why it was not written, where the system says so.
+
+    Raises
+    ------
+    NotWrittenError
+        Instead of the system's error about the disk or about the folder of ``path``.
+    """
     try:
-        yield unfinished
-        # mkstemp makes files private; an export gets what the umask gives any new file.
-        mask = os.umask(0)
-        os.umask(mask)
-        unfinished.chmod(0o666 & ~mask)
-        if path.exists() and not overwrite:
-            raise FileExistsError(f"{path} appeared while it was being made; it was kept.")
-        unfinished.replace(path)
-    finally:
-        unfinished.unlink(missing_ok=True)
+        yield
+    except NotWrittenError:
+        raise
+    except OSError as error:
+        obstacle = _OBSTACLES.get(error.errno or 0)
+        # What else was read or written meanwhile tells of itself.
+        elsewhere = error.filename is not None and path.parent not in Path(error.filename).parents
+        if obstacle is None or elsewhere or (error.errno == errno.ENOENT and path.parent.exists()):
+            raise
+        told = NotWrittenError(f"{path} was not written: {obstacle}. No part of it was left.")
+        told.errno = error.errno
+        raise told from error
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        path.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+    return True

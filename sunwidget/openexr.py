@@ -6,6 +6,8 @@ attributes (``chromaticities``, ``whiteLuminance`` where light is absolute).
 
 from __future__ import annotations
 
+import errno
+import os
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -93,7 +95,10 @@ def write(
     try:
         exr.File(header | attributes | own, packed).write(str(path))
     except RuntimeError as error:  # the library's only kind, for a full disk as well
-        raise OSError(f"The OpenEXR file was not written: {error}") from error
+        told = OSError(f"The OpenEXR file was not written: {error}")
+        if os.strerror(errno.ENOSPC) in str(error):
+            told.errno = errno.ENOSPC
+        raise told from error
 
 
 def read(data: bytes, name: str) -> Exr:

@@ -13,6 +13,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from sunwidget.wording import shown
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -67,7 +69,7 @@ class Place:
         names = [field.name for field in dataclasses.fields(cls)]
         if not isinstance(values, dict) or not set(names[:4]) <= values.keys() <= set(names):
             raise ValueError(
-                f"place needs {', '.join(names[:4])} and may have {names[4]}, not {values!r:.80}."
+                f"place needs {', '.join(names[:4])} and may have {names[4]}, not {shown(values)}."
             )
         return cls(**values)
 
@@ -186,7 +188,7 @@ def _number(name: str, value: Any, high: float, low: float | None = None) -> flo
         number = math.nan
     if not least <= number <= high:
         raise ValueError(
-            f"place: {name} must be a number from {least:g} to {high:g}, not {value!r:.80}."
+            f"place: {name} must be a number from {least:g} to {high:g}, not {shown(value)}."
         )
     return number
 
@@ -200,5 +202,5 @@ def _day(value: Any) -> str:
         day = None
     # Years that a count of nanoseconds reaches (pandas), with a day to spare.
     if day is None or not 1700 <= day.year <= 2200:
-        raise ValueError(f"place: date must be a day as YYYY-MM-DD, not {value!r:.80}.")
+        raise ValueError(f"place: date must be a day as YYYY-MM-DD, not {shown(value)}.")
     return day.isoformat()

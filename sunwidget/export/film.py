@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import itertools
+import os
 import re
 import subprocess
 import tempfile
@@ -17,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.export.gif import write_gif
-from sunwidget.files import complete_or_absent, target
+from sunwidget.files import complete_or_absent, explained, target
 from sunwidget.time_left import Progress
 
 Frames = Iterator[NDArray[np.uint8]]
@@ -156,7 +158,11 @@ def _write_mp4(frames: Frames, path: Path, film: Film) -> None:
         if encoder.wait() != 0:
             messages.seek(0)
             words = messages.read().decode(errors="replace").strip().splitlines()
-            raise OSError(f"ffmpeg could not write the film: {words[-1] if words else 'no reason'}")
+            reason = words[-1] if words else f"it ended with {encoder.returncode}"
+            said = f"ffmpeg could not write the film: {reason}"
+            if os.strerror(errno.ENOSPC) in said:
+                raise OSError(errno.ENOSPC, said)
+            raise OSError(said)
 
 
 def _write_gif(frames: Frames, path: Path, film: Film) -> None:
@@ -234,7 +240,11 @@ def sequence_target(path: Path, *, overwrite: bool) -> Path:
         raise NotADirectoryError(f"{folder} is a file. Name another folder for the frames.")
     if not folder.exists() and not folder.parent.is_dir():
         raise FileNotFoundError(f"There is no folder {folder.parent} to make {folder.name} in.")
-    if not overwrite and (taken := _numbered(path)):
+    taken = _numbered(path)
+    for place in taken.values():
+        if place.is_dir():
+            raise IsADirectoryError(f"{place} is a folder. Name the frames otherwise.")
+    if taken and not overwrite:
         raise FileExistsError(
             f"{taken[min(taken)]} exists already. Pass overwrite=True to replace the sequence."
         )
@@ -249,9 +259,12 @@ def whole_sequence(path: Path, *, overwrite: bool) -> Iterator[Path]:
     beyond the new one's end are removed: a longer one's last frames would show in the film.
     """
     folder = path.parent
-    with tempfile.TemporaryDirectory(
-        prefix=".sunwidget-", dir=folder if folder.is_dir() else folder.parent
-    ) as name:
+    with (
+        explained(folder),
+        tempfile.TemporaryDirectory(
+            prefix=".sunwidget-", dir=folder if folder.is_dir() else folder.parent
+        ) as name,
+    ):
         unfinished = Path(name)
         yield unfinished
         done = sorted(unfinished.iterdir(), key=lambda file: int(file.stem))

@@ -107,16 +107,10 @@ def save(
     files = {place: form.encode(still)}
     for name, beside in places.items():
         files[beside] = form.encode(layer_alone(still, name))
-    try:
-        with contextlib.ExitStack() as stack:
-            for where, data in files.items():
-                unfinished = stack.enter_context(complete_or_absent(where, overwrite=overwrite))
-                unfinished.write_bytes(data)
-    except FileExistsError:
-        raise
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise type(error)(f"{path} was not written: {reason}. No part of it was left.") from error
+    with contextlib.ExitStack() as stack:
+        for where, data in files.items():
+            unfinished = stack.enter_context(complete_or_absent(where, overwrite=overwrite))
+            unfinished.write_bytes(data)
     return place
 
 

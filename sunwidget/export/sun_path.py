@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import itertools
 import json
-import math
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +16,8 @@ from sunwidget import presets
 from sunwidget.edit import NUMBERS, PARAMETERS, Edit, EditError
 from sunwidget.export.day import Day
 from sunwidget.export.easing import EASINGS
+from sunwidget.recipe import edit_of, is_recipe_file, read_recipe
+from sunwidget.wording import shown
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -70,9 +70,8 @@ def film_edits(
         For what is no path, length or easing, or edits that no path joins (EditError).
     """
     if not (isinstance(fps, (int, float)) and 1 <= fps <= 120):
-        raise ValueError(f"fps = {fps!r:.40} is outside 1 to 120 frames a second.")
-    if easing not in EASINGS:
-        raise ValueError(f"easing must be one of {', '.join(EASINGS)}, not {easing!r:.40}.")
+        raise ValueError(f"fps = {shown(fps, 40)} is outside 1 to 120 frames a second.")
+    _check_easing(easing)
     if isinstance(path, Day):
         count = _count(fps, frames, seconds, DEFAULT_SECONDS)
         ease = EASINGS[easing]
@@ -96,8 +95,7 @@ def edit_at(scene: Scene, path: SunPath, share: float, easing: str = "linear") -
     For films in which every frame has a scene of its own. The rest as ``film_edits``, but that
     a row of edits is always a path through them.
     """
-    if easing not in EASINGS:
-        raise ValueError(f"easing must be one of {', '.join(EASINGS)}, not {easing!r:.40}.")
+    _check_easing(easing)
     if isinstance(path, Day):
         return path.edits(scene, [EASINGS[easing](share)], between)[0]
     return _along(_stations(scene, path), [share], easing, scene)[0]
@@ -128,18 +126,13 @@ def step(scene: Scene, what: Step, base: Edit | None = None) -> Edit:
     EditError
         For anything else; the message says what is understood.
     """
-    if isinstance(what, Edit):
-        return what
-    if isinstance(what, Mapping):
-        return Edit.from_dict(dict(what))
+    if isinstance(what, (Edit, Mapping)):
+        return edit_of(what)
     if isinstance(what, str) and what in presets.NAMES:
         return presets.edit(what, scene, base)
     if isinstance(what, (str, os.PathLike)):
-        file = Path(what).expanduser()
-        if file.is_file():
-            return Edit.from_json(file.read_text("utf-8", errors="replace"))
-        if file.suffix.lower() == ".json":
-            raise EditError(f"There is no recipe file {file}.")
+        if is_recipe_file(what):
+            return read_recipe(what)
         raise EditError(
             f"{os.fspath(what)[:80]!r} is neither a recipe file nor a preset "
             f"({', '.join(presets.NAMES)})."
@@ -148,6 +141,11 @@ def step(scene: Scene, what: Step, base: Edit | None = None) -> Edit:
         "A step of a path is an Edit, a recipe, a recipe's file or the name of a preset, "
         f"not {type(what).__name__}."
     )
+
+
+def _check_easing(easing: str) -> None:
+    if not isinstance(easing, str) or easing not in EASINGS:
+        raise ValueError(f"easing must be one of {', '.join(EASINGS)}, not {shown(easing, 40)}.")
 
 
 def _stations(scene: Scene, path: Any) -> _Stations:
@@ -161,12 +159,13 @@ def _stations(scene: Scene, path: Any) -> _Stations:
         raise ValueError("A film needs two or more edits, presets, recipes or key frames.")
     timed = [_is_key_frame(item) for item in steps]
     if all(timed):
-        times = [float(seconds) for seconds, _ in steps]
-        apart = all(b > a for a, b in itertools.pairwise(times))
-        if not (apart and times[0] >= 0 and math.isfinite(times[-1])):
+        given = [seconds for seconds, _ in steps]
+        apart = all(b > a for a, b in itertools.pairwise(given))
+        if not (apart and given[0] >= 0 and given[-1] < MOST_FRAMES):
             raise ValueError(
-                f"Key frames are in the order of their seconds, from 0 upwards, not {times}."
+                f"Key frames are in the order of their seconds, from 0 upwards, not {shown(given)}."
             )
+        times = [float(seconds) for seconds in given]
         edits = [step(scene, what) for _, what in steps]
         if times[0] > 0:  # the film begins at 0 and holds the first one until then
             times, edits = [0.0, *times], [edits[0], *edits]
@@ -195,10 +194,10 @@ def _count(fps: float, frames: int | None, seconds: float | None, otherwise: flo
     if frames is None:
         length = otherwise if seconds is None else seconds
         if not (isinstance(length, (int, float)) and 0 < length < MOST_FRAMES):
-            raise ValueError(f"seconds must be a number above 0, not {seconds!r:.40}.")
+            raise ValueError(f"seconds must be a number above 0, not {shown(seconds, 40)}.")
         frames = max(2, round(length * fps))
     if isinstance(frames, bool) or not isinstance(frames, int) or frames < 2:
-        raise ValueError(f"frames must be a whole number from 2 upwards, not {frames!r:.40}.")
+        raise ValueError(f"frames must be a whole number from 2 upwards, not {shown(frames, 40)}.")
     if frames > MOST_FRAMES:
         raise ValueError(f"A film of {frames} frames is not possible; at most {MOST_FRAMES}.")
     return frames

@@ -65,7 +65,7 @@ def write(name: str, table: NDArray[np.float32]) -> None:
         _prune(target.parent)
     except OSError as error:
         warnings.warn(
-            f"The precomputed sky could not be kept in {target.parent} ({error.strerror}); it will "
+            f"The precomputed sky could not be kept in {target.parent} ({error.strerror or error}); it will "
             "be made again next time. Set XDG_CACHE_HOME to a folder that can be written.",
             stacklevel=3,
         )

@@ -129,7 +129,7 @@ def test_the_file_is_whole_or_absent(scene, tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("pathlib.Path.write_bytes", full)
-    with pytest.raises(OSError, match="was not written: No space left"):
+    with pytest.raises(OSError, match="was not written: the disk is full"):
         sw.to_html(scene, path=path, overwrite=True)
     assert [p.name for p in tmp_path.iterdir()] == ["beach.html"]
     assert path.read_bytes() == before

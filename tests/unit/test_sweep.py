@@ -227,7 +227,7 @@ def test_a_failing_encoder_is_an_error_and_leaves_no_file(scene, tmp_path, monke
     broken.write_text("#!/bin/sh\ncat >/dev/null\necho 'No space left on device' >&2\nexit 1\n")
     broken.chmod(0o755)
     monkeypatch.setattr(imageio_ffmpeg, "get_ffmpeg_exe", lambda: str(broken))
-    with pytest.raises(OSError, match="No space left"):
+    with pytest.raises(OSError, match="film.mp4 was not written: the disk is full"):
         sweep(scene, ENDS, tmp_path / "film.mp4", frames=3)
     assert list(tmp_path.iterdir()) == [broken]
 

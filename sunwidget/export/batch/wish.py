@@ -5,13 +5,15 @@ from __future__ import annotations
 import difflib
 import inspect
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from sunwidget import presets
 from sunwidget.edit import Edit, EditError
+from sunwidget.recipe import edit_of, is_recipe_file, read_recipe
+from sunwidget.wording import shown
 
 # What a recipe says about one photo only.
 _OF_ONE_PHOTO = ("strokes", "sun_hint", "horizon_hint", "fov_hint")
@@ -79,19 +81,17 @@ def _preset(edit: Any) -> str | None:
 
 
 def _edit(edit: Any) -> Edit:
-    if isinstance(edit, Edit):
-        return edit
-    if isinstance(edit, dict):
-        return Edit.from_dict(edit)
+    if isinstance(edit, (Edit, Mapping)):
+        return edit_of(edit)
     if isinstance(edit, str) and edit in presets.NAMES:
         return Edit()
     if isinstance(edit, (str, os.PathLike)):
-        path = Path(edit).expanduser()
-        if not path.is_file():
+        if not is_recipe_file(edit):
             raise EditError(
-                f"There is no recipe {path}; the presets are {', '.join(presets.NAMES)}."
+                f"There is no recipe {shown(os.fspath(edit))}; the presets are "
+                f"{', '.join(presets.NAMES)}."
             )
-        return Edit.from_json(path.read_text("utf-8"))
+        return read_recipe(edit)
     raise EditError(f"A batch needs an Edit, a recipe or a preset, not {type(edit).__name__}.")
 
 
@@ -119,4 +119,6 @@ def check_whole(name: str, value: Any, least: int) -> None:
     if value is None:
         return
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise ValueError(f"{name} must be a whole number from {least} upwards, not {value!r:.40}.")
+        raise ValueError(
+            f"{name} must be a whole number from {least} upwards, not {shown(value, 40)}."
+        )
