@@ -19,7 +19,7 @@ help:
 	@echo 'make demo    maps, a still and a sunset film of the bundled photo'
 	@echo 'make lab     open the quickstart notebook in JupyterLab'
 	@echo 'make test    every check: lint, types, JavaScript, Python, browser, notebooks'
-	@echo 'make bench   measure speed; table and build/bench.json'
+	@echo 'make bench   measure speed beside other ways of doing it; table, plot and build/bench.json'
 	@echo 'make validate  the sky against measurements and other models; table and build/validation.json'
 	@echo 'make tour    pictures of a walk through the editor in JupyterLab, in build/tour'
 	@echo 'make build   build the front end into sunwidget/static'

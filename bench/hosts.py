@@ -28,6 +28,7 @@ from chromium import (  # noqa: E402 - a folder of the tests
     widget_state,
 )
 from lab import jupyterlab, lab_page, write_notebook  # noqa: E402
+from speed.many_editors import memory  # noqa: E402
 
 CELL = """import sunwidget as sw
 scene = globals().get("scene") or sw.analyze(sw.sample("coast").preview({side}))
@@ -49,20 +50,6 @@ COUNT_URLS = """(() => {
 })()"""
 
 
-def memory(browser: Any) -> float:
-    """Return the resident memory of the browser's processes in MB (Linux)."""
-    session = browser.new_browser_cdp_session()
-    processes = session.send("SystemInfo.getProcessInfo")["processInfo"]
-    session.detach()
-    total = 0
-    for process in processes:
-        status = Path(f"/proc/{process['id']}/status")
-        if status.exists():
-            rows = dict(line.split(":", 1) for line in status.read_text().splitlines())
-            total += int(rows["VmRSS"].split()[0]) if "VmRSS" in rows else 0
-    return total / 1000
-
-
 def left(page: Any) -> dict[str, float]:
     """Return what the page holds after a garbage collection."""
     session = page.context.new_cdp_session(page)
@@ -78,7 +65,7 @@ def left(page: Any) -> dict[str, float]:
         "heap MB": metrics["JSHeapUsedSize"] / 1e6,
         "listeners": metrics["JSEventListeners"],
         "nodes": metrics["Nodes"],
-        "browser MB": memory(page.context.browser),
+        "browser MB": 1000 * memory(page),
     }
 
 
