@@ -34,8 +34,8 @@ def clear_sky(scene: Scene) -> np.ndarray:
     working = scene.working
     scale = min(1.0, LONG_SIDE / max(working.width, working.height))
     size = (max(1, round(working.width * scale)), max(1, round(working.height * scale)))
-    matte = np.asarray(resize(scene.sky, *size), np.float32)
-    opacity = np.asarray(resize(scene.clouds, *size), np.float32) / np.maximum(matte, 1e-3)
+    matte = np.asarray(resize(scene.small_sky, *size), np.float32)
+    opacity = np.asarray(resize(scene.cloud_map, *size), np.float32) / np.maximum(matte, 1e-3)
     opacity = np.clip(opacity, 0, 1)
     field = _residual(scene, matte, opacity)
     encoded = (field + RANGE) / (2 * RANGE)
@@ -67,7 +67,7 @@ def _residual(scene: Scene, matte: np.ndarray, opacity: np.ndarray) -> np.ndarra
     trust = trust.astype(np.float32)
 
     seen = scene.sun is not None and scene.sun.visible
-    blue = fit if seen else believable(fit, scene.working, resize(scene.sky, *_size(scene)))
+    blue = fit if seen else believable(fit, scene.working, scene.small_sky)
     expected = np.log(np.array(blue.gain) / np.array(fit.gain))
     slow = _surface(residual - expected, trust) + expected
     around = fill_by_pyramid((residual - slow).astype(np.float32), trust)
@@ -75,10 +75,6 @@ def _residual(scene: Scene, matte: np.ndarray, opacity: np.ndarray) -> np.ndarra
     sure = cv2.GaussianBlur(trust, (0, 0), reach)
     share = (sure / (sure + 0.05))[..., None]
     return np.asarray(np.clip(slow + share * around, -RANGE, RANGE), np.float32)
-
-
-def _size(scene: Scene) -> tuple[int, int]:
-    return scene.working.width, scene.working.height
 
 
 def _surface(values: np.ndarray, trust: np.ndarray) -> np.ndarray:

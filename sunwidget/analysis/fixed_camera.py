@@ -145,8 +145,8 @@ class FixedCamera:
         return dataclasses.replace(
             self.scene,
             sky=_moved(self.scene.sky, offset),
-            sky_coarse=_moved(self.scene.sky_coarse, offset),
-            water=_moved(self.scene.water, offset),
+            coarse_map=_moved(self.scene.coarse_map, offset),
+            water_map=_moved(self.scene.water_map, offset),
             known_depth=dataclasses.replace(
                 known,
                 log_depth=_moved(known.log_depth, offset),
@@ -198,7 +198,7 @@ def _land_weight(scene: Scene) -> np.ndarray:
 
     side = _SIDE / max(scene.width, scene.height)
     size = max(8, round(scene.width * side)), max(8, round(scene.height * side))
-    land = (resize(scene.sky, *size) < 0.05) & (resize(scene.water, *size) < 0.5)
+    land = (resize(scene.sky, *size) < 0.05) & (resize(scene.water_map, *size) < 0.5)
     # Beyond the frame the land goes on; the skyline itself may be a treetop in the wind.
     inner = cv2.erode(land.astype(np.float32), np.ones((9, 9)))
     window = cv2.createHanningWindow(size, cv2.CV_32F) ** 0.25

@@ -54,7 +54,7 @@ def key_of(sample: Sample, shared: Scene, sun: Direction, source: str) -> Key:
     working = sample.working
     sky = np.asarray(resize(shared.sky, working.width, working.height), np.float32)
     seen = observation(sun, working, sky, shared.camera, shared.hints, source)
-    covers = clouds_by_colour(working, sky, shared.hints, seen.mask if seen.visible else None)
+    covers = clouds_by_colour(working, sky, shared.hints, seen.blot if seen.visible else None)
     fit, _, _ = fit_atmosphere(working, sky, covers, shared.camera, seen, shared.hints, Steps(None))
     return Key(sample.number, fit, 0.05 + (fit.atmosphere.confidence or 0.0))
 

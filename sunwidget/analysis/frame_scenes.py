@@ -251,7 +251,7 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
     size = _size_of(working)
     sky = np.asarray(resize(shared.sky, *size), np.float32)
     seen = observation(fit.sun, working, sky, shared.camera, shared.hints, source)
-    covers = clouds_by_colour(working, sky, shared.hints, seen.mask if seen.visible else None)
+    covers = clouds_by_colour(working, sky, shared.hints, seen.blot if seen.visible else None)
     fit, behind = behind_sun(working, sky, shared.camera, fit, visible=seen.visible, measure=False)
     if shared.hints.method("clouds") == "unmix":
         covers = unmix_clouds(
@@ -262,9 +262,8 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
         shared,
         photo=photo,
         working=working,
-        # At the working size, since several scenes are in memory at once; whoever draws resizes.
-        clouds=cover.opacity,
-        cloud_softness=cover.softness,
+        cloud_map=cover.opacity,
+        softness_map=cover.softness,
         shade=cover.shade,
         everywhere=everywhere,
         # A sun that nobody knows is no observation.
@@ -280,7 +279,7 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
             "sky_gain": fit.gain,
             "cloud_gain": cloud_gain(fit),
             "glare_profile": fit.glare,
-            "sun_mask_share": min(1.0, float(seen.mask.sum()) / max(float(sky.sum()), 1.0)),
+            "sun_mask_share": min(1.0, float(seen.blot.sum()) / max(float(sky.sum()), 1.0)),
         },
         backdrop=behind.field,
         glare=behind.glare,

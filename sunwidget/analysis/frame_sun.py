@@ -180,8 +180,9 @@ def observation(
     """Return what a frame shows of a sun whose direction is known.
 
     It is visible where sky is burnt at its place; behind land, behind a cloud or outside the
-    frame it is not, and then has no pixels. Its mask has the size of ``working``.
+    frame it is not, and then has no pixels.
     """
+    size = camera.width, camera.height
     x, y = camera.pixel(*sun)
     small_x, small_y = x / working.zoom[0], y / working.zoom[1]
     inside = 0 <= small_x < working.width and 0 <= small_y < working.height
@@ -198,6 +199,6 @@ def observation(
             blot = sun_blot(working, sky, (small_x, small_y), focal, hints.method("sun"))
             if blot is not None and blot.mask.any():
                 radius = blot.radius * working.zoom[1]
-                return SunObservation(x, y, radius, *sun, blot.mask, True, source)
+                return SunObservation(x, y, radius, *sun, blot.mask, size, True, source)
     none = np.zeros(sky.shape, np.float32)
-    return SunObservation(x, y, 0.0, *sun, none, False, source)
+    return SunObservation(x, y, 0.0, *sun, none, size, False, source)

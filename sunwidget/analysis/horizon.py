@@ -15,6 +15,7 @@ import numpy as np
 from sunwidget.analysis.straight_edge import StraightEdge, straight_edges
 from sunwidget.analysis.working import LUMINANCE
 from sunwidget.camera import Camera, Point
+from sunwidget.color import strips
 
 TOLERANCE = 0.004  # of the height: how far a sea horizon strays from a line
 MAXIMUM_ROLL = 20.0
@@ -267,6 +268,19 @@ def above(camera: Camera, width: int, height: int, rows: slice = slice(None)) ->
     """
     line, at = _line_and_rows(camera, width, height)
     return np.clip((line + 0.012 - at[rows]) / 0.008, 0, 1).astype(np.float32)
+
+
+def cut_below(matte: np.ndarray, camera: Camera) -> None:
+    """Multiply a map (H, W) in place by ``above`` of its size."""
+    height, width = matte.shape
+    line, _ = _line_and_rows(camera, width, height)
+    # Only between these rows is it neither 1 nor 0 all along.
+    first = int(np.clip((line.min() + 0.004) * height - 1, 0, height))
+    last = int(np.clip((line.max() + 0.012) * height + 1, 0, height))
+    for strip in strips((last - first, width)):
+        rows = slice(first + strip.start, first + strip.stop)
+        matte[rows] *= above(camera, width, height, rows)
+    matte[last:] = 0
 
 
 def below(camera: Camera, width: int, height: int) -> np.ndarray:

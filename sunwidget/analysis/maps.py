@@ -176,7 +176,7 @@ def _sun(scene: Scene) -> np.ndarray | None:
 
 
 def _glitter(scene: Scene) -> np.ndarray | None:
-    if not (scene.water > 0).any():
+    if not (scene.water_map > 0).any():
         return None
     small = scene.working
     return scene.surface((small.width, small.height))[..., 2]

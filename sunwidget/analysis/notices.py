@@ -69,10 +69,10 @@ def notices(
         )
     elif sun.visible:
         true = camera.focal * np.tan(np.radians(sun_stage.RADIUS_DEG))
-        area = float(sun.mask.sum())
-        if area > 0.02 * sun.mask.size and area > 60 * np.pi * true**2:
+        covered = float(sun.blot.mean())
+        if covered > 0.02 and covered * camera.width * camera.height > 60 * np.pi * true**2:
             notes.append(
-                f"The sun's mask covers {100 * area / sun.mask.size:.0f} % of {photo.name}, "
+                f"The sun's mask covers {100 * covered:.0f} % of {photo.name}, "
                 "far more than a sun. Click on its centre, or pass sun_method='disc_fit'."
             )
     sureness = None if fit is None else fit.atmosphere.confidence

@@ -15,13 +15,17 @@ import numpy as np
 
 from sunwidget.analysis.dense_crf import mean_field
 from sunwidget.analysis.edges import snap
-from sunwidget.analysis.working import Working, code_values, resize, shrink
+from sunwidget.analysis.enlarge import Box, enlarged_part, pixels_of
+from sunwidget.analysis.working import Working, encode, resize, shrink
 from sunwidget.edit import Stroke
 from sunwidget.photo import Photo
 
 SIDE = 384
 MINIMUM_SIDE = 4  # below this there is no neighbourhood to refine in
 RADIUS, EPSILON = 6, 1e-4  # of the matte's guided filter, in working pixels and code values
+CLEAR, OPAQUE = 0.06, 0.94  # what a guided filter makes of land and of sky
+_TILE = 64  # working pixels
+_ROUNDING = 1e-4  # far above float32's
 
 
 class Decision(NamedTuple):
@@ -273,21 +277,58 @@ def matte(
         sky = resize(decision.sky, working.width, working.height)
         sureness = resize(decision.sureness, working.width, working.height)
         slope, offset = guided_coefficients(working.guide, sky, sureness, radius, epsilon)
-        alpha = np.empty((height, width), np.float32)
-        strip = max(1, 2**22 // width)  # bounds the memory of a 24 MP photo
-        for top in range(0, height, strip):
-            rows = slice(top, min(top + strip, height))
-            a = _rows(slope, rows, height, width)
-            guide = code_values(photo, rows)
-            filtered = np.einsum("hwc,hwc->hw", a, guide) + _rows(offset, rows, height, width)
-            alpha[rows] = stretched(filtered)
+        alpha = _at_full_size(photo, working.zoom, np.dstack([slope, offset]))
     set_strokes(alpha, strokes)
     return alpha
 
 
+def _at_full_size(photo: Photo, zoom: tuple[float, float], lines: np.ndarray) -> np.ndarray:
+    """Evaluate slope and offset (h, w, 4) at every pixel of the photo: (H, W) float32.
+
+    Most tiles of a picture hold sky or land alone: whatever their pixels are, the matte is 1
+    or 0 there, and they need not be looked at.
+    """
+    slope, offset = lines[..., :3], lines[..., 3]
+    lowest = offset + np.minimum(slope, 0).sum(axis=-1)
+    highest = offset + np.maximum(slope, 0).sum(axis=-1)
+    width, height = photo.size
+    alpha = np.empty((height, width), np.float32)
+    for top in range(0, lines.shape[0], _TILE):
+        for left in range(0, lines.shape[1], _TILE):
+            bottom, right = min(top + _TILE, lines.shape[0]), min(left + _TILE, lines.shape[1])
+            part = pixels_of(top, bottom, zoom[1]), pixels_of(left, right, zoom[0])
+            # Interpolation sees a pixel more on each side.
+            corner = max(top - 1, 0), max(left - 1, 0)
+            near = slice(corner[0], bottom + 1), slice(corner[1], right + 1)
+            if lowest[near].min() > OPAQUE + _ROUNDING:
+                alpha[part] = 1
+            elif highest[near].max() < CLEAR - _ROUNDING:
+                alpha[part] = 0
+            else:
+                here = enlarged_part(np.ascontiguousarray(lines[near]), zoom, part, corner)
+                alpha[part] = stretched(on_lines(here, photo, part))
+    return alpha
+
+
+def on_lines(lines: np.ndarray, photo: Photo, part: Box) -> np.ndarray:
+    """Return slope · code values + offset for ``lines`` (h, w, 4) at a part of the photo's size."""
+    import cv2
+
+    code = photo.encoded[part]
+    scale = 1.0
+    if code.dtype.kind == "f":
+        code = encode(code)
+    else:
+        scale = 1 / np.iinfo(code.dtype).max
+    # With an opacity of 1 beside R, G and B one product takes in the offset.
+    opaque = cv2.cvtColor(np.ascontiguousarray(code), cv2.COLOR_RGB2RGBA)
+    product = cv2.multiply(lines, opaque, scale=scale, dtype=cv2.CV_32F)
+    return cv2.transform(product, np.ones((1, 4), np.float32))
+
+
 def stretched(alpha: np.ndarray) -> np.ndarray:
     """Stretch the ends: a guided filter leaves sure pixels a few percent short of 0 and 1."""
-    return np.asarray(np.clip((alpha - 0.06) / 0.88, 0, 1))
+    return np.asarray(np.clip((alpha - CLEAR) / (OPAQUE - CLEAR), 0, 1), np.float32)
 
 
 def set_strokes(matte: np.ndarray, strokes: Sequence[Stroke]) -> None:
@@ -331,25 +372,6 @@ def paint(
             canvas, (int(x), int(y)), round(radius * 2**fraction), 1, -1, cv2.LINE_8, fraction
         )
     return canvas > 0
-
-
-def _rows(small: np.ndarray, rows: slice, height: int, width: int) -> np.ndarray:
-    """Rows of ``resize(small, width, height)`` without making the whole of it."""
-    import cv2
-
-    if small.shape[:2] == (height, width):
-        return small[rows]
-    zoom = np.array([small.shape[1] / width, small.shape[0] / height])
-    matrix = np.array(
-        [[zoom[0], 0, zoom[0] / 2 - 0.5], [0, zoom[1], (rows.start + 0.5) * zoom[1] - 0.5]]
-    )
-    return cv2.warpAffine(
-        small,
-        matrix,
-        (width, rows.stop - rows.start),
-        flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
-        borderMode=cv2.BORDER_REPLICATE,
-    )
 
 
 def guided_coefficients(

@@ -9,7 +9,6 @@ to the bit whichever way a set of strokes was reached.
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -17,6 +16,7 @@ import numpy as np
 
 from sunwidget.analysis import clouds as cloud_stage
 from sunwidget.analysis.backdrop import behind_sun
+from sunwidget.analysis.enlarge import Box, enlarged_part, pixels_of
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.notices import notices
 from sunwidget.analysis.refine import (
@@ -25,13 +25,14 @@ from sunwidget.analysis.refine import (
     RADIUS,
     Decision,
     guided_coefficients,
+    on_lines,
     stretched,
 )
 from sunwidget.analysis.stages import Progress, Steps, complete
 from sunwidget.analysis.strokes import Painting, set_strokes
 from sunwidget.analysis.water_strokes import LABELS as WATER
 from sunwidget.analysis.water_strokes import with_water
-from sunwidget.analysis.working import code_values, resize
+from sunwidget.analysis.working import resize
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -39,8 +40,6 @@ if TYPE_CHECKING:
 
 SIDE = 128  # working pixels of a tile
 MARGIN = 2 * RADIUS + 4  # around it: the guided filter sees two radii, interpolation a pixel
-
-Box = tuple[slice, slice]
 
 
 class _Tile(NamedTuple):
@@ -80,7 +79,7 @@ def _painting(base: Scene, strokes: tuple[Stroke, ...], step: Steps) -> Painting
     while count and strokes[:count] not in memory.paintings:
         count -= 1
     painting = memory.paintings.get(strokes[:count]) or Painting.begin(
-        base.sky, base.working, base.sky_coarse
+        base.sky, base.working, base.coarse_map
     )
     for stroke in strokes[count:]:
         count += 1
@@ -137,10 +136,10 @@ def _retouch(
     scene = dataclasses.replace(
         source,
         sky=matte,
-        clouds=maps[0],
-        cloud_softness=maps[1],
+        cloud_map=maps[0],
+        softness_map=maps[1],
         shade=maps[2],
-        water=_water_after(source, matte),
+        water_map=_water_after(source, matte),
         backdrop=behind.field,
         glare=behind.glare,
         decision=decision,
@@ -195,54 +194,29 @@ def _tiles(scene: Scene, fresh: np.ndarray) -> Iterator[_Tile]:
                 yield _Tile(
                     (slice(top, bottom), slice(left, right)),
                     outer,
-                    (_pixels(top, bottom, zoom_y), _pixels(left, right, zoom_x)),
+                    (pixels_of(top, bottom, zoom_y), pixels_of(left, right, zoom_x)),
                 )
-
-
-def _pixels(first: int, last: int, zoom: float) -> slice:
-    """Pixels of the photo whose centres lie in working pixels ``first`` to ``last``."""
-    return slice(math.ceil(first * zoom - 0.5), math.ceil(last * zoom - 0.5))
 
 
 def _matte_of(base: Scene, decision: Decision, near: np.ndarray, tile: _Tile) -> np.ndarray:
     """Matte of a tile, in pixels of the photo."""
     guide = np.ascontiguousarray(base.working.guide[tile.outer])
-    slope, offset = guided_coefficients(
+    lines = guided_coefficients(
         guide,
         np.ascontiguousarray(decision.sky[tile.outer]),
         np.ascontiguousarray(decision.sureness[tile.outer]),
         RADIUS,
         EPSILON,
     )
-    values = code_values(base.photo, *tile.full)
-    alpha = np.einsum("hwc,hwc->hw", _enlarged(base, slope, tile), values)
-    alpha = stretched(alpha + _enlarged(base, offset, tile)).astype(np.float32)
+    alpha = stretched(on_lines(_enlarged(base, np.dstack(lines), tile), base.photo, tile.full))
     here = _enlarged(base, near[tile.outer].astype(np.float32), tile) > 0
     return np.where(here, alpha, base.sky[tile.full])
 
 
 def _enlarged(scene: Scene, small: np.ndarray, tile: _Tile) -> np.ndarray:
     """Interpolate a tile with its margin, in working pixels, at the photo's pixels inside it."""
-    import cv2
-
-    rows, columns = tile.full
-    zoom_x, zoom_y = scene.working.zoom
-    left, top = tile.outer[1].start, tile.outer[0].start
-    if (zoom_x, zoom_y) == (1, 1):
-        return small[rows.start - top : rows.stop - top, columns.start - left : columns.stop - left]
-    matrix = np.array(
-        [
-            [1 / zoom_x, 0, (columns.start + 0.5) / zoom_x - 0.5 - left],
-            [0, 1 / zoom_y, (rows.start + 0.5) / zoom_y - 0.5 - top],
-        ]
-    )
-    return cv2.warpAffine(
-        small,
-        matrix,
-        (columns.stop - columns.start, rows.stop - rows.start),
-        flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
-        borderMode=cv2.BORDER_REPLICATE,
-    )
+    corner = tile.outer[0].start, tile.outer[1].start
+    return enlarged_part(small, scene.working.zoom, tile.full, corner)
 
 
 def _clouds_after(
@@ -256,13 +230,14 @@ def _clouds_after(
     start = source if previous is None else previous
     fresh = resize(np.abs(matte - start.sky), source.working.width, source.working.height) > 0
     everywhere = source.everywhere
-    clouds, softness = start.clouds.copy(), start.cloud_softness.copy()
+    clouds, softness = np.array(start.clouds), np.array(start.cloud_softness)
+    source_clouds, source_softness = source.clouds, source.cloud_softness
     shade = None if start.shade is None else start.shade.copy()
     for tile in _tiles(source, fresh):
         before, after = source.sky[tile.full], matte[tile.full]
         kept = np.where(before > 0, np.minimum(after / np.maximum(before, 1e-6), 1), 1)
-        clouds[tile.full] = source.clouds[tile.full] * kept
-        softness[tile.full] = source.cloud_softness[tile.full] * kept
+        clouds[tile.full] = source_clouds[tile.full] * kept
+        softness[tile.full] = source_softness[tile.full] * kept
         grown = np.maximum(after - before, 0)
         if everywhere is None or not grown.any():
             if shade is not None and source.shade is not None:
@@ -286,9 +261,10 @@ def _clouds_after(
 
 def _water_after(source: Scene, matte: np.ndarray) -> np.ndarray:
     """Water where no stroke says sky; none is looked for in new land."""
-    if not source.water.any():
-        return source.water
-    return np.where(matte > source.sky, np.minimum(source.water, 1 - matte), source.water)
+    if not source.water_map.any():
+        return source.water_map
+    water = source.water
+    return np.where(matte > source.sky, np.minimum(water, 1 - matte), water)
 
 
 def _size(box: Box) -> tuple[int, int]:

@@ -17,6 +17,7 @@ from sunwidget.analysis import depth_level, match, refine
 from sunwidget.analysis import sky as sky_stage
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
+from sunwidget.analysis.enlarge import resize_rows
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.glitter import column_of, glitter, roughness
@@ -36,7 +37,7 @@ from sunwidget.analysis.stages import (
     find_clouds_again,
 )
 from sunwidget.analysis.sun import SunObservation
-from sunwidget.analysis.working import Working, resize, resize_rows
+from sunwidget.analysis.working import Working, resize
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.camera import Camera, Point
 from sunwidget.edit import PARAMETERS, Edit, Stroke, parameter
@@ -61,16 +62,14 @@ class Scene:
     photo : Photo
     sky : (H, W) float32
         Alpha matte, 1 = sky, clouds and sun included.
-    sky_coarse : (H, W) float32
-        The network's map before refinement.
-    clouds, cloud_softness : (H, W) float32
-        Opacity of the clouds, and the thesis' C^s.
+    coarse_map, cloud_map, softness_map, water_map : (h, w) float32
+        As they were found, of any size; ``sky_coarse``, ``clouds``, ``cloud_softness`` and
+        ``water`` are these at the photo's size.
     sun : SunObservation or None
         The photo's own sun; None when it shows none and no hint gave one.
     horizon : Horizon
     camera : Camera
     atmosphere : Atmosphere
-    water : (H, W) float32
     backdrop : (h, w, 3) float32
         The slow log residual of photo over model, encoded (analysis/backdrop.py).
     glare : (h, w) float32
@@ -100,14 +99,14 @@ class Scene:
 
     photo: Photo = field(repr=False)
     sky: np.ndarray = field(repr=False)
-    sky_coarse: np.ndarray = field(repr=False)
-    clouds: np.ndarray = field(repr=False)
-    cloud_softness: np.ndarray = field(repr=False)
+    coarse_map: np.ndarray = field(repr=False)
+    cloud_map: np.ndarray = field(repr=False)
+    softness_map: np.ndarray = field(repr=False)
     sun: SunObservation | None = field(repr=False)
     horizon: Horizon
     camera: Camera
     atmosphere: Atmosphere
-    water: np.ndarray = field(repr=False)
+    water_map: np.ndarray = field(repr=False)
     backdrop: np.ndarray = field(repr=False)
     glare: np.ndarray = field(repr=False)
     assumed_sun: tuple[float, float]
@@ -135,6 +134,41 @@ class Scene:
     def height(self) -> int:
         """Rows of the photo."""
         return self.camera.height
+
+    @property
+    def sky_coarse(self) -> np.ndarray:
+        """The network's map before refinement: (H, W) float32, made when asked for."""
+        return resize_rows(self.coarse_map, self.width, self.height)
+
+    @property
+    def clouds(self) -> np.ndarray:
+        """Opacity of the clouds: (H, W) float32 in [0, 1], made when asked for."""
+        return resize_rows(self.cloud_map, self.width, self.height)
+
+    @property
+    def cloud_softness(self) -> np.ndarray:
+        """The thesis' C^s: (H, W) float32 in [0, 1], made when asked for."""
+        return resize_rows(self.softness_map, self.width, self.height)
+
+    @property
+    def water(self) -> np.ndarray:
+        """Share of water in a pixel, none of it in the sky: (H, W) float32, made when asked for."""
+        return self._water((self.width, self.height))
+
+    def _water(self, size: tuple[int, int], rows: slice = slice(None)) -> np.ndarray:
+        sky = resize_rows(self.sky, *size, rows)
+        return np.minimum(resize_rows(self.water_map, *size, rows), 1 - sky)
+
+    @cached_property
+    def small_sky(self) -> np.ndarray:
+        """``sky`` at working size, (h, w) float32: many stages and the page ask for it."""
+        return resize(self.sky, self.working.width, self.working.height)
+
+    @property
+    def small_water(self) -> np.ndarray:
+        """``water`` at working size, (h, w) float32."""
+        small = resize(self.water_map, self.working.width, self.working.height)
+        return np.minimum(small, 1 - self.small_sky)
 
     @property
     def lit_by_moon(self) -> bool:
@@ -187,21 +221,18 @@ class Scene:
 
     @cached_property
     def _glitter(self) -> np.ndarray:
-        small = self.working
-        sky = resize(self.sky, small.width, small.height)
-        water = resize(self.water, small.width, small.height)
         # Of a sun that the photo does not show, only a low one ahead would glint.
         azimuth, elevation = self.assumed_sun
         column = None if elevation > 15 else column_of(self.camera, azimuth)
         if self.sun is not None:
             column = column_of(self.camera, self.sun.azimuth)
-        return glitter(small, sky, water, column)
+        return glitter(self.working, self.small_sky, self.small_water, column)
 
     @cached_property
     def shown(self) -> refine.Decision:
         """Sky or land at working size as the matte shows it: what strokes begin with."""
         width, height = self.working.width, self.working.height
-        sky = resize(self.sky, width, height) > 0.5
+        sky = self.small_sky > 0.5
         decided = resize(self.decision.sky, width, height) > 0.5
         # Where a later stage overruled the decision nothing tells how sure it is.
         sureness = np.where(sky == decided, resize(self.decision.sureness, width, height), 0.5)
@@ -242,9 +273,8 @@ class Scene:
 
     @cached_property
     def _uniforms(self) -> dict[str, Any]:
-        small = self.working
-        sky = resize(self.sky, small.width, small.height)
-        blot = 0.0 if self.sun is None else float(self.sun.mask.sum())
+        small, sky = self.working, self.small_sky
+        blot = 0.0 if self.sun is None else float(self.sun.blot.mean())
         own = match.statistics_of_lab(small.lab, sky)
         return {
             "camera_right": self.camera.right,
@@ -254,7 +284,7 @@ class Scene:
             "sun_visible": float(self.sun is not None and self.sun.visible),
             "photo_light": float(self.lit_by_moon),
             "water_roughness": self._water_roughness(),
-            "sun_mask_share": min(1.0, blot / max(float(self.sky.sum()), 1.0)),
+            "sun_mask_share": min(1.0, blot / max(float(sky.mean()), 1 / sky.size)),
             "photo_sky_mean": own.mean,
             "photo_sky_deviation": own.deviation,
             "photo_sky_linear_mean": _weighted_mean(small.linear, sky),
@@ -270,8 +300,9 @@ class Scene:
     def _water_roughness(self) -> float:
         if self.sun is None or not self.sun.visible:
             return 1.0
-        water = resize(self.water, self.working.width, self.working.height)
-        return roughness(self.working, water, self.camera, (self.sun.azimuth, self.sun.elevation))
+        return roughness(
+            self.working, self.small_water, self.camera, (self.sun.azimuth, self.sun.elevation)
+        )
 
     def layers(self, size: tuple[int, int] | None = None, rows: slice = slice(None)) -> np.ndarray:
         """Return sky matte, cloud opacity, cloud softness: (H, W, 3) float32 in [0, 1].
@@ -280,7 +311,7 @@ class Scene:
         its rows alone.
         """
         width, height = size or (self.width, self.height)
-        maps = (self.sky, self.clouds, self.cloud_softness)
+        maps = (self.sky, self.cloud_map, self.softness_map)
         return np.stack([resize_rows(image, width, height, rows) for image in maps], axis=-1)
 
     def surface(self, size: tuple[int, int] | None = None, rows: slice = slice(None)) -> np.ndarray:
@@ -291,11 +322,12 @@ class Scene:
         is that of the nearest land. ``size`` and ``rows`` as for ``layers``.
         """
         width, height = size or (self.width, self.height)
-        maps = (self.glare, self.water, self._glitter)
         level = depth_level.to_level(self._log_depth(width, height, rows))
         return np.stack(
             [
-                *(resize_rows(image, width, height, rows) for image in maps),
+                resize_rows(self.glare, width, height, rows),
+                self._water((width, height), rows),
+                resize_rows(self._glitter, width, height, rows),
                 depth_level.dithered(level, rows.indices(height)[0]),
             ],
             axis=-1,
@@ -456,14 +488,14 @@ def analyze(
     start = Scene(
         photo=photo,
         sky=empty,
-        sky_coarse=resize(coarse, *photo.size),
-        clouds=empty,
-        cloud_softness=empty,
+        coarse_map=coarse,
+        cloud_map=empty,
+        softness_map=empty,
         sun=None,
         horizon=Horizon(0.0),
         camera=camera,
         atmosphere=Atmosphere(),
-        water=empty,
+        water_map=empty,
         backdrop=empty,
         glare=empty,
         assumed_sun=(0.0, 0.0),

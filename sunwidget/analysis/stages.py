@@ -23,6 +23,7 @@ from sunwidget.analysis.backdrop import Backdrop, behind_sun, clouds_behind_sun,
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.depth_view import View
+from sunwidget.analysis.enlarge import raise_to
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit, fit_sky
 from sunwidget.analysis.hints import Hints
@@ -34,7 +35,6 @@ from sunwidget.analysis.sun import Blot, SunObservation
 from sunwidget.analysis.unmix import cloud_gain
 from sunwidget.analysis.working import Working, resize
 from sunwidget.camera import Camera, Point
-from sunwidget.color import strips
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -112,7 +112,7 @@ def complete(
         # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
         disc = sun_stage.in_sky(blot, sky)
         sky = np.maximum(sky, disc)
-        np.maximum(matte, resize(disc, *photo.size), out=matte)
+        raise_to(matte, disc, working.zoom)
 
     step("horizon", 0.8, "Fitting the horizon")
     horizon = _horizon(working, sky, hints, photo.width)
@@ -124,8 +124,7 @@ def complete(
     if ours and (hints.horizon is not None or seen):
         # Water that mirrors the sky is not sky.
         sky = sky * horizon_stage.above(camera, *sky.shape[::-1])
-        for rows in strips(matte.shape):
-            matte[rows] *= horizon_stage.above(camera, *photo.size, rows)
+        horizon_stage.cut_below(matte, camera)
     sun = sun_stage.observe(seed, blot, sky, camera, working)
     moon = None if sun is not None else sun_stage.find_moon(working, sky)
     light = sun
@@ -148,8 +147,8 @@ def complete(
     scene = dataclasses.replace(
         base,
         sky=matte,
-        clouds=resize(cover.opacity, *photo.size),
-        cloud_softness=resize(cover.softness, *photo.size),
+        cloud_map=cover.opacity,
+        softness_map=cover.softness,
         shade=cover.shade,
         everywhere=everywhere,
         sun=sun,
@@ -157,7 +156,7 @@ def complete(
         horizon=horizon,
         camera=camera,
         atmosphere=fitted.atmosphere,
-        water=np.minimum(resize(water, *photo.size), 1 - matte),
+        water_map=water,
         assumed_sun=fitted.sun,
         fitted=fitted,
         response={
@@ -184,12 +183,12 @@ def _cut_out(base: Scene, step: Steps) -> tuple[np.ndarray, np.ndarray]:
     matte = refine.matte(photo, working, base.decision)
     step.within(0.6)
     sky = resize(matte, working.width, working.height)
-    coarse = resize(base.sky_coarse, working.width, working.height)
+    coarse = resize(base.coarse_map, working.width, working.height)
     bound = fill_islands(sky, coarse)
     bound = np.maximum(bound, grow_over_glow(np.maximum(sky, bound), coarse, working.encoded))
     if bound.any():
         sky = np.maximum(sky, bound)
-        np.maximum(matte, resize(bound, *photo.size), out=matte)
+        raise_to(matte, bound, working.zoom)
     return sky, matte
 
 
@@ -305,10 +304,10 @@ def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> 
     All else stays as it is, the fit too.
     """
     working, sun = base.working, base.sun
-    sky = resize(base.sky, working.width, working.height)
+    sky = base.small_sky
     methods = dict(base.hints.methods) | {"clouds": method}
     hints = dataclasses.replace(base.hints, methods=tuple(methods.items()), cloud_ratios=ratios)
-    mask = None if sun is None else resize(sun.mask, working.width, working.height)
+    mask = None if sun is None else resize(sun.blot, working.width, working.height)
     covers = clouds_by_colour(working, sky, hints, mask)
     if method == "unmix" and base.fitted is not None:
         seen = sun is not None and sun.visible
@@ -318,8 +317,8 @@ def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> 
     cover, everywhere = covers
     return dataclasses.replace(
         base,
-        clouds=resize(cover.opacity, *base.photo.size),
-        cloud_softness=resize(cover.softness, *base.photo.size),
+        cloud_map=cover.opacity,
+        softness_map=cover.softness,
         shade=cover.shade,
         everywhere=everywhere,
         hints=hints,
@@ -330,7 +329,14 @@ def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> 
 def depth_of(scene: Scene) -> DepthField:
     """Return the depth that was given, or found by the method that was asked for."""
     hints, working = scene.hints, scene.working
-    view = View.of(working, scene.sky, scene.water, scene.camera, scene.horizon, scene.atmosphere)
+    view = View.of(
+        working,
+        scene.small_sky,
+        scene.small_water,
+        scene.camera,
+        scene.horizon,
+        scene.atmosphere,
+    )
     if isinstance(hints.depth, np.ndarray):
         return depth_stage.field_of(view, hints.depth)
     if hints.depth is not None:

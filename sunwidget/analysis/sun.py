@@ -47,8 +47,10 @@ class SunObservation:
         come out far larger than the true disc.
     azimuth, elevation : float
         Degrees, by the camera.
-    mask : (H, W) float32
-        Pixels of the blot, [0, 1].
+    blot : (h, w) float32
+        Its pixels, [0, 1], at the size at which they were found.
+    size : (width, height)
+        Of the photo.
     visible : bool
         Whether the photo shows it.
     source : str
@@ -63,10 +65,16 @@ class SunObservation:
     radius_px: float
     azimuth: float
     elevation: float
-    mask: np.ndarray
+    blot: np.ndarray
+    size: tuple[int, int]
     visible: bool
     source: str
     kind: str = "sun"
+
+    @property
+    def mask(self) -> np.ndarray:
+        """Pixels of the blot at the photo's size, (H, W) float32 in [0, 1]; made when asked for."""
+        return resize(self.blot, *self.size)
 
 
 class Blot(NamedTuple):
@@ -172,7 +180,7 @@ def observe(
         x, y = blot.x, blot.y
     else:
         return None
-    mask = np.zeros((camera.height, camera.width), np.float32)
+    mask = np.zeros_like(sky)
     radius, visible = 0.0, False
     if blot is not None:
         column = min(max(int(x), 0), working.width - 1)
@@ -180,7 +188,7 @@ def observe(
         around = sky[max(row - 3, 0) : row + 4, max(column - 3, 0) : column + 4]
         visible = bool(around.max() > 0.5) and bool(blot.mask.any())
         if visible:
-            mask, radius = resize(blot.mask, camera.width, camera.height), blot.radius * zoom_y
+            mask, radius = blot.mask, blot.radius * zoom_y
     azimuth, elevation = camera.angles(x * zoom_x, y * zoom_y)
     source = "detected" if seed is None else "hint"
     dark = visible and night(working.encoded @ LUMINANCE, sky)
@@ -191,6 +199,7 @@ def observe(
         azimuth,
         elevation,
         mask,
+        (camera.width, camera.height),
         visible,
         source,
         "moon" if dark else "sun",

@@ -44,23 +44,22 @@ def with_water(base: Scene, scene: Scene, strokes: tuple[Stroke, ...]) -> Scene:
     width, height = scene.working.width, scene.working.height
     image = shrink(scene.working.bytes, SIDE)
     size = image.shape[1], image.shape[0]
-    start = resize(scene.water, *size) > 0.5
-    ground = (resize(scene.sky, *size) < 0.5) & horizon.below(scene.camera, *size)
+    start = resize(scene.small_water, *size) > 0.5
+    ground = (resize(scene.small_sky, *size) < 0.5) & horizon.below(scene.camera, *size)
     water = start.copy()
     said = np.full(start.shape, -1, np.int8)
     for stroke in ours:
         water, said = _stroked(image, ground, water, said, stroke)
-    sky = resize(scene.sky, width, height)
     changed = resize((water != start).astype(np.float32), width, height)
     result = np.array(scene.water)
     if changed.any():
-        fine = soft_edged(scene.working, sky, water.astype(np.float32))
+        fine = soft_edged(scene.working, scene.small_sky, water.astype(np.float32))
         near = _around(changed, scene.photo.size)
         result += near * (resize(fine, *scene.photo.size) - result)
     set_strokes(result, ours)
     return dataclasses.replace(
         scene,
-        water=np.clip(np.minimum(result, 1 - scene.sky), 0, 1).astype(np.float32),
+        water_map=np.clip(np.minimum(result, 1 - scene.sky), 0, 1).astype(np.float32),
         hints=dataclasses.replace(scene.hints, strokes=strokes),
         unstroked=base,
         memory=Memory(),

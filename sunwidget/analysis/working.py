@@ -70,32 +70,6 @@ def resize(image: np.ndarray, width: float, height: float) -> np.ndarray:
     )
 
 
-def resize_rows(image: np.ndarray, width: int, height: int, rows: slice) -> np.ndarray:
-    """Return some rows of ``resize(image, width, height)`` without making the whole of it.
-
-    For enlarging; within the last bit of float32. A smaller picture is made whole.
-    """
-    import cv2
-
-    if image.shape[1::-1] == (width, height):
-        return image[rows]
-    first, last, _ = rows.indices(height)
-    if (first, last) == (0, height) or width * height < image.shape[0] * image.shape[1]:
-        return np.asarray(resize(image, width, height)[rows])
-    tall = image.shape[0]
-    at = (np.arange(first, last) + 0.5) * (tall / height) - 0.5
-    low = np.clip(np.floor(at).astype(int), 0, tall - 1)
-    share = np.clip(at - low, 0, 1).astype(np.float32).reshape(-1, *(1,) * (image.ndim - 1))
-    high = np.minimum(low + 1, tall - 1)
-    begin = int(low[0])
-    wide = cv2.resize(
-        np.ascontiguousarray(image[begin : high[-1] + 1]),
-        (width, int(high[-1]) + 1 - begin),
-        interpolation=cv2.INTER_LINEAR,
-    )
-    return np.asarray(wide[low - begin] * (1 - share) + wide[high - begin] * share)
-
-
 @dataclass(frozen=True, eq=False)
 class Working:
     """The photo at ≤ 1024 px on its longer side.

@@ -111,17 +111,9 @@ def scene_textures(scene: Scene, size: Size) -> dict[str, Array]:
 
 def _picture(scene: Scene, size: Size) -> dict[str, Array]:
     """Return those of the picture's size."""
-    import cv2
-
-    # One after the other: all three of a large photo at once would be what takes most memory.
-    maps = [
-        cv2.resize(image, size, interpolation=cv2.INTER_AREA) if scene.photo.size != size else image
-        for image in (scene.sky, scene.clouds, scene.cloud_softness)
-    ]
-    layers = np.stack(maps, axis=-1)
     return {
         "photo": scene.photo.resized(size),
-        "layers": quantise_map(layers),
+        "layers": quantise_map(scene.layers(size)),
         "surface": quantise_map(scene.surface(size)),
     }
 

@@ -28,7 +28,7 @@ def test_all_frames_share_what_does_not_move(film):
     assert len(scenes) == len(row) == 7
     for number in (1, 2, 3, 4, 6):
         assert row[number].sky is row[0].sky
-        assert row[number].water is row[0].water
+        assert row[number].water_map is row[0].water_map
         assert row[number].atmosphere == row[0].atmosphere
         assert np.array_equal(row[number].surface()[..., 3], row[0].surface()[..., 3])
 

@@ -77,11 +77,11 @@ def test_the_horizon_map_is_the_cameras(scene):
 
 def test_the_glitter_map_is_the_shaders_own_and_none_without_water(scene):
     small = scene.working
-    wet = dataclasses.replace(scene, water=(1 - scene.sky).astype(np.float32))
+    wet = dataclasses.replace(scene, water_map=(1 - scene.sky).astype(np.float32))
     glitter = wet.surface((small.width, small.height))[..., 2]
     assert glitter.max() > 0
     assert np.array_equal(scene_map("glitter").read(wet), glitter)
-    dry = dataclasses.replace(scene, water=np.zeros_like(scene.water))
+    dry = dataclasses.replace(scene, water_map=np.zeros_like(scene.water))
     assert scene_map("glitter").read(dry) is None
 
 

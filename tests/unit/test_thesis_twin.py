@@ -117,7 +117,7 @@ def test_erratum_310_a_thick_cloud_under_an_unmoved_sun_keeps_its_colour():
 
 def light_of_sky(scene, edit):
     """The matched sky S, from a copy of the scene without clouds."""
-    clear = dataclasses.replace(scene, clouds=np.zeros_like(scene.clouds))
+    clear = dataclasses.replace(scene, cloud_map=np.zeros_like(scene.clouds))
     return render(clear, edit, dtype="float32")
 
 
@@ -153,7 +153,7 @@ def test_erratum_311_the_new_sun_shines_through_thin_cloud_and_not_through_thick
     azimuth, elevation = scene.camera.angles(column + 0.5, row + 0.5)
     levels = {}
     for opacity in (0.0, 0.5, 1.0):
-        veiled = dataclasses.replace(scene, clouds=np.full_like(scene.clouds, opacity))
+        veiled = dataclasses.replace(scene, cloud_map=np.full_like(scene.clouds, opacity))
         edit = Edit(sun_azimuth=azimuth, sun_elevation=elevation, sun_size=5, **ALL_SOFT)
         light = render(veiled, edit, method="thesis", dtype="float32") @ LUMINANCE
         dark = render(veiled, edit.replace(sun_size=0), method="thesis", dtype="float32")

@@ -36,7 +36,7 @@ def with_pillar(scene, columns):
     """The scene with land that rises to the top in some columns."""
     sky = scene.sky.copy()
     sky[:, columns] = 0
-    return dataclasses.replace(scene, sky=sky, clouds=scene.clouds * sky)
+    return dataclasses.replace(scene, sky=sky, cloud_map=scene.clouds * sky)
 
 
 @pytest.mark.parametrize("name", ["known", "coast"])
@@ -121,7 +121,7 @@ def test_an_open_sky_and_an_evenly_closed_one_have_no_shafts():
     scene = known_photo(clouds=False).analyze(sky=np.ones((80, 120), np.float32))
     scene = dataclasses.replace(scene, glare=np.zeros_like(scene.glare))
     for opacity in (0.0, 0.9):
-        same = dataclasses.replace(scene, clouds=np.full_like(scene.clouds, opacity))
+        same = dataclasses.replace(scene, cloud_map=np.full_like(scene.clouds, opacity))
         shafts = render_pass(same, LOW.replace(aerosol_optical_depth=0.4), "shafts_edit")
         assert np.abs(shafts[..., 0]).max() < 1e-3, opacity
 

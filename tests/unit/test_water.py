@@ -175,7 +175,7 @@ def test_an_unmoved_sun_leaves_water_to_the_bit():
 @pytest.mark.parametrize("move", MOVES)
 def test_water_strength_zero_lights_water_as_land(move):
     scene = sunny()
-    dry = dataclasses.replace(scene, water=np.zeros_like(scene.water))
+    dry = dataclasses.replace(scene, water_map=np.zeros_like(scene.water))
     edit = sw.Edit(sun_azimuth=move[0], sun_elevation=move[1], water_strength=0)
     # The zone of glints is wider where water is known, and is read at a quarter of the size.
     other = scene.surface()[..., 2] != dry.surface()[..., 2]
