@@ -28,6 +28,7 @@ MOMENTS = 7
 _LOBE_SAMPLES = 5
 _EIGENVALUE_ROW = 6 / 19  # of the table: 3 km
 _WAVELENGTHS_AT_ONCE = 8
+_AIRS_KEPT = 4
 
 
 @dataclass(frozen=True)
@@ -241,6 +242,7 @@ class _Rays:
         mu_s_t = sun_cosine(h, mu_s, nu, t, h_t)
         mu_t = np.clip(((GROUND_RADIUS + h) * mu + t) / (GROUND_RADIUS + h_t), -1, 1)
 
+        self._kept: dict[tuple[float, float, bytes], tuple[Array, Array, Array]] = {}
         self.heights = heights
         self.mu_s = mu_s[0, :, 0, 0, 0]
         self.nu = nu[0, ..., 0]  # (s, m, a)
@@ -268,6 +270,33 @@ class _Rays:
         low = np.zeros_like(self.mu_s_ground)
         share = sun_share(low, self.mu_s_ground) * np.maximum(self.mu_s_ground, 0)
         return optics.columns_to_top(low, self.mu_s_ground, self.heights), share
+
+    def once_scattered(self, a: Atmosphere, extinction: Array) -> tuple[Array, Array, Array]:
+        """Return sunlight that air, haze and ground send on, (h, s, m, a, w) each.
+
+        Air's and haze's before their phase functions: a fit tries several with the same air, so
+        that the last few are kept.
+        """
+        key = (a.aerosol_albedo, a.ground_albedo, extinction.tobytes())
+        found = self._kept.get(key)
+        if found is None:
+            found = self._once_scattered(a, extinction)
+            while len(self._kept) >= _AIRS_KEPT:
+                self._kept.pop(next(iter(self._kept)), None)
+            self._kept[key] = found
+        return found
+
+    def _once_scattered(self, a: Atmosphere, extinction: Array) -> tuple[Array, Array, Array]:
+        rayleigh, mie, total = scattering(a, extinction, self.density)
+        seen, through = attenuate(total, self.dt)
+        columns, share = self.sun
+        lit = share[..., None] * np.exp(-(columns @ extinction))
+        by_air = np.einsum("hmtw,hsmatw->hsmaw", seen * rayleigh, lit)
+        by_haze = np.einsum("hmtw,hsmatw->hsmaw", seen * mie, lit)
+        columns, share = self.sun_on_ground
+        reflected = share[..., None] * np.exp(-(columns @ extinction))
+        albedo = a.ground_albedo / np.pi * self.ground * through
+        return by_air, by_haze, np.einsum("hmw,hsmaw->hsmaw", albedo, reflected)
 
     def moments_of(self, radiance: Array) -> Array:
         """Moments (h, s, k, w) of a radiance (h, s, m, a, w)."""
@@ -347,18 +376,10 @@ def _drawn_orders(
 
 def _first_order(a: Atmosphere, extinction: Array, rays: _Rays) -> Array:
     """Once-scattered radiance in every direction, shape (h, s, m, a, w)."""
-    rayleigh, mie, total = scattering(a, extinction, rays.density)
-    seen, through = attenuate(total, rays.dt)
-    columns, share = rays.sun
-    lit = share[..., None] * np.exp(-(columns @ extinction))
-    by_air = np.einsum("hmtw,hsmatw->hsmaw", seen * rayleigh, lit)
-    by_haze = np.einsum("hmtw,hsmatw->hsmaw", seen * mie, lit)
+    by_air, by_haze, by_ground = rays.once_scattered(a, extinction)
     radiance = optics.rayleigh_phase(rays.nu)[..., None] * by_air
     radiance += _mean_mie_phase(rays, a.aerosol_asymmetry)[..., None] * by_haze
-    columns, share = rays.sun_on_ground
-    reflected = share[..., None] * np.exp(-(columns @ extinction))
-    albedo = a.ground_albedo / np.pi * rays.ground * through
-    return np.asarray(radiance + np.einsum("hmw,hsmaw->hsmaw", albedo, reflected))
+    return np.asarray(radiance + by_ground)
 
 
 def _mean_mie_phase(rays: _Rays, asymmetry: float) -> Array:

@@ -31,6 +31,7 @@ Array = NDArray[np.float64]
 
 ATMOSPHERE_HEIGHT = TOP_RADIUS - GROUND_RADIUS
 LONGEST_HORIZON = float(np.sqrt(TOP_RADIUS**2 - GROUND_RADIUS**2))
+_VALUES_AT_ONCE = 1 << 15  # 256 kB stay in the cache
 SUN_ANGULAR_RADIUS = float(np.radians(SUN_ANGULAR_RADIUS_DEG))
 
 
@@ -165,16 +166,32 @@ def _columns_table(heights: ScaleHeights) -> Array:
 def bilinear(table: Array, row: ArrayLike, column: ArrayLike) -> Array:
     """Sample ``table`` (rows, columns, ...) at places in [0, 1], samples on both ends."""
     height, width = table.shape[:2]
-    y = np.clip(row, 0, 1) * (height - 1)
-    x = np.clip(column, 0, 1) * (width - 1)
+    y, x = np.broadcast_arrays(
+        np.clip(row, 0, 1) * (height - 1), np.clip(column, 0, 1) * (width - 1)
+    )
     i = np.minimum(y.astype(np.intp), height - 2)
     j = np.minimum(x.astype(np.intp), width - 2)
     flat = table.reshape(height * width, -1)
-    y, x = (y - i)[..., None], (x - j)[..., None]
-    corner = i * width + j
-    upper = flat[corner] * (1 - x) + flat[corner + 1] * x
-    lower = flat[corner + width] * (1 - x) + flat[corner + width + 1] * x
-    return np.asarray(upper * (1 - y) + lower * y)
+    corners = (i * width + j).ravel()
+    y, x = (y - i).reshape(-1, 1), (x - j).reshape(-1, 1)
+    out = np.empty((corners.size, flat.shape[1]))
+    step = max(1, _VALUES_AT_ONCE // flat.shape[1])
+    for first in range(0, corners.size, step):
+        part = slice(first, first + step)
+        corner, right = corners[part], x[part]
+        left = 1 - right
+        upper, beside = flat.take(corner, axis=0), flat.take(corner + 1, axis=0)
+        upper *= left
+        beside *= right
+        upper += beside
+        lower, beside = flat.take(corner + width, axis=0), flat.take(corner + width + 1, axis=0)
+        lower *= left
+        beside *= right
+        lower += beside
+        upper *= 1 - y[part]
+        lower *= y[part]
+        np.add(upper, lower, out=out[part])
+    return out.reshape(*i.shape, -1)
 
 
 def transmittance_to_top(
