@@ -104,9 +104,13 @@ def decode_image(image: Any, name: str, data: bytes | None = None) -> Decoded:
     except MemoryError as error:
         raise PhotoError(f"There is not enough memory to open {name}. Scale it down.") from error
     except Exception as error:  # decoders fail in many ways; all mean a damaged file
+        if data is None:
+            raise PhotoError(
+                f"{name}, a Pillow image, cannot be read ({reason(error)}). Pass its file instead."
+            ) from error
         raise PhotoError(
             f"{name} is damaged: its {image.format or 'picture'} data ends early or makes no "
-            f"sense ({_reason(error)}). Copy or download it again."
+            f"sense ({reason(error)}). Copy or download it again."
         ) from error
 
 
@@ -115,7 +119,7 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
     notes = []
     if getattr(image, "n_frames", 1) > 1 and image.format != "MPO":
         notes.append(f"{name} holds {image.n_frames} frames; only the first is used.")
-    deep = data is not None and is_deep(image)
+    deep = is_deep(image)
     # Loading turns a TIFF and makes it forget its orientation; a PNG tells it only then.
     way = image.getexif().get(274, 1) if image.format == "TIFF" else None
     image.load()
@@ -127,7 +131,8 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
         )
     found = by_opencv(data) if deep and data is not None else None
     if deep and found is None:
-        notes.append(f"The 16-bit channels of {name} could only be read with 8 bits.")
+        more = "" if data is not None else " Pass its file instead of a Pillow image."
+        notes.append(f"The 16-bit channels of {name} could only be read with 8 bits.{more}")
     icc = image.info.get("icc_profile") or None
     result = Decoded(np.empty(0), icc=icc, exif=metadata, format=_format(image), notes=notes)
     if found is not None:
@@ -162,7 +167,7 @@ def _open(data: bytes, name: str) -> Any:
             raise PhotoError(_unknown(data, name)) from error
         except Exception as error:  # header parsers fail in many ways
             raise PhotoError(
-                f"{name} is damaged: its header makes no sense ({_reason(error)}). Copy or "
+                f"{name} is damaged: its header makes no sense ({reason(error)}). Copy or "
                 "download it again."
             ) from error
         finally:
@@ -192,8 +197,11 @@ def _unknown(data: bytes, name: str) -> str:
     return f"{name} is not a picture that sunwidget reads. Expected {_READABLE}."
 
 
-def _reason(error: BaseException) -> str:
-    return (str(error).splitlines() or [type(error).__name__])[0][:120] or type(error).__name__
+def reason(error: BaseException) -> str:
+    """Return what an error says, in one line without a full stop; its kind when it is silent."""
+    text = str((isinstance(error, OSError) and error.strerror) or error)
+    first = (text.splitlines() or [""])[0][:120].rstrip(". ")
+    return "".join(sign for sign in first if sign.isprintable()) or type(error).__name__
 
 
 def _format(image: Any) -> str | None:
@@ -268,6 +276,8 @@ def _take(result: Decoded, coded: Coded) -> None:
 
 
 def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
+    if image.mode == "La":  # converts to nothing but LA
+        image = image.convert("LA")
     mode = image.mode
     if mode == "F":
         _fill_from_array(result, np.asarray(image, np.float32), name)
@@ -290,7 +300,7 @@ def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
         result.notes.extend(notes)
         _fill_from_array(result, np.asarray(converted), name)
     else:  # palettes, YCbCr, Lab, premultiplied alpha
-        has_alpha = "transparency" in image.info or mode in ("PA", "RGBa", "La")
+        has_alpha = "transparency" in image.info or mode in ("PA", "RGBa")
         try:
             converted = image.convert("RGBA" if has_alpha else "RGB")
         except ValueError as error:

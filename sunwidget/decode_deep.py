@@ -19,7 +19,8 @@ def is_deep(image: Any) -> bool:
         return False
     if image.format == "TIFF":
         return image.tag_v2.get(258, (8,))[0] == 16
-    return any(";16" in str(tile[3]) for tile in image.tile)
+    # An image that was made, not read, has no tiles.
+    return any(";16" in str(tile[3]) for tile in getattr(image, "tile", ()))
 
 
 def by_opencv(data: bytes) -> NDArray[Any] | None:

@@ -81,9 +81,10 @@ def develop(data: bytes, name: str) -> tuple[NDArray[np.uint16], Any, bool]:
     except rawpy.LibRawError as error:
         version = ".".join(str(n) for n in rawpy.libraw_version)
         reason = error.args[0].decode() if isinstance(error.args[0], bytes) else error
+        plain = " If it is a plain TIFF, name it .tif." if data.startswith(_TIFF) else ""
         raise PhotoError(
             f"{name} is a camera raw file that LibRaw {version} cannot read ({reason}). Copy it "
-            "again, or convert it to DNG or TIFF."
+            f"again, or convert it to DNG or TIFF.{plain}"
         ) from error
     return np.asarray(codes, np.uint16), exif, turned
 

@@ -12,6 +12,9 @@ from sunwidget.color import LUMINANCE
 MAX_PIXELS = 200_000_000
 """Largest picture that is opened. Above it, a few kilobytes could ask for all of memory."""
 
+MAX_LIGHT = 1e18
+"""Brightest light that is opened, 1 = white: its square is still a float of single precision."""
+
 
 class PhotoError(ValueError):
     """A picture that cannot be opened or written; the message says what to do."""
@@ -53,12 +56,18 @@ def split_alpha(array: NDArray[Any], name: str) -> tuple[NDArray[Any], NDArray[n
 
 
 def check_light(light: NDArray[Any], name: str) -> None:
-    """Refuse float pictures that hold no light: NaN, infinity, negative luminance."""
+    """Refuse float pictures that hold no light: NaN, infinity, too much, negative luminance."""
     bad = light.size - int(np.isfinite(light).sum())
     if bad:
         raise PhotoError(
             f"{name} holds {bad} values that are NaN or infinite. Replace them first, "
             "for example with numpy.nan_to_num."
+        )
+    brightest = float(np.abs(light).max())
+    if brightest > MAX_LIGHT:
+        raise PhotoError(
+            f"{name} holds light up to {brightest:.3g}, where 1 is white and {MAX_LIGHT:g} the "
+            "most that is opened. Cut it first, for example with numpy.clip."
         )
     luminance = light @ LUMINANCE
     # Single channels below 0 are colours outside Rec. 709; negative luminance is no colour.

@@ -6,14 +6,9 @@ Pixel (0, 0) is the top-left one; EXIF orientation is already applied.
 from __future__ import annotations
 
 import datetime as dt
-import difflib
-import os
-import stat
-import sys
 import warnings
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,8 +17,9 @@ from numpy.typing import NDArray
 from sunwidget import exif as exif_tags
 from sunwidget import xmp as xmp_packet
 from sunwidget.color import SRGB, ColorProfile, strips
-from sunwidget.decode import Decoded, decode_bytes, decode_image
-from sunwidget.layout import PhotoError, PhotoWarning, check_light, check_size, split_alpha
+from sunwidget.decode import Decoded
+from sunwidget.layout import PhotoError, PhotoWarning
+from sunwidget.photo_sources import decoded_from
 
 __all__ = ["FieldOfView", "Photo", "PhotoError", "PhotoWarning", "open_photo"]
 
@@ -230,26 +226,7 @@ def open_photo(source: Any) -> Photo:
     """
     if isinstance(source, Photo):
         return source
-    if isinstance(source, (str, os.PathLike)):
-        name, data = _read_path(source)
-        decoded = decode_bytes(data, name)
-    elif isinstance(source, (bytes, bytearray, memoryview)):
-        name = "picture"
-        decoded = decode_bytes(bytes(source), name)
-    elif _is_pil(source):
-        name = Path(str(getattr(source, "filename", ""))).name or "image"
-        decoded = decode_image(source.copy() if source.format is None else source, name)
-    elif callable(getattr(source, "read", None)):
-        name, data = _read_stream(source)
-        decoded = decode_bytes(data, name)
-    elif hasattr(source, "__array__") or isinstance(source, (list, tuple)):
-        name = "array"
-        decoded = _from_array(source)
-    else:
-        raise PhotoError(
-            f"Cannot open {type(source).__name__} as a photo. Pass a path, bytes, a file opened "
-            "with mode 'rb', a PIL image or a NumPy array."
-        )
+    name, decoded = decoded_from(source)
     for note in decoded.notes:
         warnings.warn(note, PhotoWarning, stacklevel=2)
     return _photo(decoded, name)
@@ -271,77 +248,3 @@ def _photo(decoded: Decoded, name: str) -> Photo:
         recipe=decoded.recipe or exif_tags.recipe(decoded.exif) or xmp_packet.recipe(decoded.xmp),
         notes=tuple(decoded.notes),
     )
-
-
-def _read_path(source: Any) -> tuple[str, bytes]:
-    text = os.fspath(source)
-    if isinstance(text, str) and "://" in text[:10]:
-        raise PhotoError(f"{text[:80]} is an address; sunwidget never downloads. Save it first.")
-    path = Path(os.fsdecode(text))
-    try:
-        path = path.expanduser()
-        mode = path.stat().st_mode
-        if stat.S_ISDIR(mode):
-            raise PhotoError(f"{path} is a folder. Pass the path of one picture in it.")
-        if not stat.S_ISREG(mode):
-            raise PhotoError(f"{path} is a device or pipe, not a file. Pass a picture file.")
-        return path.name, path.read_bytes()
-    except FileNotFoundError as error:
-        raise PhotoError(_missing(path)) from error
-    except PermissionError as error:
-        raise PhotoError(f"No permission to read {path}. Check its access rights.") from error
-    except (OSError, ValueError, RuntimeError) as error:
-        if isinstance(error, PhotoError):
-            raise
-        raise PhotoError(f"Cannot read {str(path)[:200]!r}: {error}.") from error
-
-
-def _missing(path: Path) -> str:
-    try:
-        near = difflib.get_close_matches(path.name, (p.name for p in path.parent.iterdir()), n=1)
-    except OSError:
-        return f"There is no file {path}, nor a folder {path.parent}."
-    hint = f" Did you mean {near[0]!r}?" if near else f" Looked in {path.parent.absolute()}."
-    return f"There is no file {path}.{hint}"
-
-
-def _read_stream(source: Any) -> tuple[str, bytes]:
-    label = getattr(source, "name", None)
-    name = Path(label).name if isinstance(label, str) and label else "picture"
-    try:
-        data = source.read()
-    except Exception as error:  # whatever a person's own file object may do
-        raise PhotoError(f"Reading {name} failed: {error}.") from error
-    if not isinstance(data, (bytes, bytearray)):
-        raise PhotoError(f"{name} was opened as text. Open it with mode 'rb'.")
-    return name, bytes(data)
-
-
-def _is_pil(source: Any) -> bool:
-    """Tell PIL images without importing Pillow: an image exists only when it is imported."""
-    module = sys.modules.get("PIL.Image")
-    return module is not None and isinstance(source, module.Image)
-
-
-def _from_array(source: Any) -> Decoded:
-    try:
-        array = np.asarray(source)
-    except (ValueError, TypeError) as error:
-        raise PhotoError(f"This array cannot be read: {error}.") from error
-    if array.ndim >= 2:
-        check_size(array.shape[1], array.shape[0], "The array")
-    kind = array.dtype  # both ways below copy: a Photo shares no memory with its source
-    if kind not in (np.uint8, np.uint16) and kind.kind != "f":
-        raise PhotoError(
-            f"The array has the type {kind}; expected uint8 or uint16 (sRGB), or float "
-            "(linear light). Convert it, for example with .astype('uint8')."
-        )
-    if kind.kind == "f":
-        with np.errstate(over="ignore"):
-            array = array.astype(np.float32)
-    else:
-        array = array.astype(kind.newbyteorder("="))
-    codes, alpha = split_alpha(array, "The array")
-    if codes.dtype.kind == "f":
-        check_light(codes, "The array")
-    return Decoded(codes, alpha)

@@ -12,6 +12,10 @@ from sunwidget.analysis.errors import AnalysisError
 from sunwidget.camera import Point
 from sunwidget.edit import Stroke, parameter
 
+FARTHEST = 1e7
+"""Pixels from the corner of the photo to the farthest hint: beyond, a camera has no direction."""
+_APART = 1e-3  # pixels: two points of the horizon that lie nearer together have no slope
+
 
 @dataclass(frozen=True)
 class Hints:
@@ -49,8 +53,10 @@ def check_point(name: str, value: Any) -> Point | None:
         raise AnalysisError(
             f"{name} must be a pair (x, y) of pixels, not {value!r:.80}."
         ) from error
-    if not (np.isfinite(x) and np.isfinite(y)):
-        raise AnalysisError(f"{name} must be finite pixels, not {value!r:.80}.")
+    if not max(abs(x), abs(y)) <= FARTHEST:  # of NaN, too
+        raise AnalysisError(
+            f"{name} must be pixels of the photo, at most {FARTHEST:g} away, not {value!r:.80}."
+        )
     return x, y
 
 
@@ -58,24 +64,22 @@ def check_horizon(value: Any) -> float | tuple[Point, Point] | None:
     """Return a row or two points in pixels; AnalysisError when it is neither."""
     if value is None:
         return None
-    if np.ndim(value) == 0:
-        try:
-            row = float(value)
-        except (TypeError, ValueError):
-            row = np.nan
-        if not np.isfinite(row):
-            raise AnalysisError(
-                f"horizon must be a row in pixels or two points, not {value!r:.80}."
-            )
-        return row
-    if len(value) != 2:
-        raise AnalysisError(f"horizon must be a row in pixels or two points, not {value!r:.80}.")
-    first, second = check_point("horizon", value[0]), check_point("horizon", value[1])
-    assert first is not None
-    assert second is not None
-    if first[0] == second[0]:
+    neither = AnalysisError(
+        f"horizon must be a row in pixels or two points ((x0, y0), (x1, y1)), at most "
+        f"{FARTHEST:g} away, not {value!r:.80}."
+    )
+    try:
+        rows = np.asarray(value, float)
+    except (TypeError, ValueError) as error:
+        raise neither from error
+    if rows.shape not in ((), (2, 2)) or not (np.abs(rows) <= FARTHEST).all():
+        raise neither
+    if rows.shape == ():
+        return float(rows)
+    (x0, y0), (x1, y1) = rows.tolist()
+    if abs(x0 - x1) < _APART:
         raise AnalysisError(f"The horizon needs two points with different x, not {value!r:.80}.")
-    return first, second
+    return (x0, y0), (x1, y1)
 
 
 def check_fov(value: Any) -> float | None:
