@@ -11,7 +11,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from sunwidget.analysis.errors import checked_scene
 from sunwidget.edit import Edit, EditError
+from sunwidget.recipe import edit_of
+from sunwidget.wording import shown
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -86,10 +89,10 @@ def find(name: str) -> Preset:
     """
     if isinstance(name, str) and name in _BY_NAME:
         return _BY_NAME[name]
-    spelled = str(name)[:80].strip().lower().replace(" ", "_").replace("-", "_")
+    spelled = shown(name).strip("'").strip().lower().replace(" ", "_").replace("-", "_")
     near = difflib.get_close_matches(spelled, NAMES, n=1)
     hint = f" Did you mean {near[0]!r}?" if near else f" There are {', '.join(NAMES)}."
-    raise EditError(f"Unknown preset {str(name)[:80]!r}.{hint}")
+    raise EditError(f"Unknown preset {shown(name)}.{hint}")
 
 
 def azimuth(preset: Preset, scene: Scene) -> float:
@@ -126,7 +129,7 @@ def values(name: str, scene: Scene) -> dict[str, Any]:
     return {"sun_azimuth": azimuth(preset, scene), **preset.parameters}
 
 
-def edit(name: str, scene: Scene, base: Edit | None = None) -> Edit:
+def edit(name: str, scene: Scene, base: Edit | dict[str, Any] | None = None) -> Edit:
     """Return the edit that shows a photo at another time of day.
 
     Parameters
@@ -134,7 +137,7 @@ def edit(name: str, scene: Scene, base: Edit | None = None) -> Edit:
     name : {"dawn", "golden_hour", "noon", "sunset", "blue_hour", "moonlight"}
     scene : Scene
         What ``analyze`` returned.
-    base : Edit, optional
+    base : Edit or dict, optional
         What to start from: its other parameters stay, strokes and hints too.
 
     Returns
@@ -150,8 +153,8 @@ def edit(name: str, scene: Scene, base: Edit | None = None) -> Edit:
     --------
     >>> sw.render(scene, sw.preset("sunset", scene))
     """
-    found = values(name, scene)
-    base = Edit() if base is None else base
+    found = values(name, checked_scene(scene))
+    base = edit_of(base)
     if base.sun_hint or base.horizon_hint or base.fov_hint:
         found["sun_azimuth"] = azimuth(find(name), scene.corrected(base))
     return base.replace(**found)

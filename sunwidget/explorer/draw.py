@@ -15,7 +15,7 @@ from sunwidget.edit import EditError
 from sunwidget.explorer.projection import Projection
 from sunwidget.explorer.values import effective_values
 from sunwidget.renderer.gl_thread import on_gl_thread
-from sunwidget.renderer.graph import FrameGraph, Programs, Target
+from sunwidget.renderer.graph import FrameGraph, Programs, Target, largest_texture
 from sunwidget.renderer.render import checked_size
 from sunwidget.renderer.shader_source import frame_graph
 
@@ -177,6 +177,8 @@ def _run(
         sizes["directions"] = (directions.shape[1], 1)
 
     def task(context: Any) -> Floats:
+        if size[0] > (limit := largest_texture(context)):
+            raise EditError(f"A picture of the sky is at most {limit} pixels wide, not {size[0]}.")
         graph = _graph(context, textures)
 
         def run(name: str | None, tile: tuple[int, int, int, int]) -> Target:
@@ -211,6 +213,8 @@ def _texels(target: Target) -> Floats:
 def _graph(context: Any, textures: Mapping[str, Floats | None]) -> FrameGraph:
     """Return the context's one graph with ``textures`` uploaded; runs on the GL thread."""
     if id(context) not in _graphs:
+        _graphs.clear()  # of a context that was lost
+        _tables.clear()
         _graphs[id(context)] = FrameGraph(Programs(context), {}, frame_graph("explorer"))
     graph = _graphs[id(context)]
     for name, image in textures.items():

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sunwidget.analysis.errors import checked_scene
 from sunwidget.export.day import Day
 from sunwidget.export.sheet import sheet
 from sunwidget.export.sun_path import SunPath, film_edits
 from sunwidget.files import target
 from sunwidget.time_left import Progress, with_time_left
+from sunwidget.wording import shown
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -74,17 +76,18 @@ def contact_sheet(
     from sunwidget.export.stills import save
     from sunwidget.renderer.render import render
 
-    width, height = camera = (scene.camera.width, scene.camera.height)
+    camera = checked_scene(scene).camera
+    width, height = camera.width, camera.height
     columns = (4 if width >= height else 3) if columns is None else columns
     for name, value, least in (("frames", frames, 2), ("columns", columns, 1)):
         if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= _MOST:
             raise ValueError(
-                f"{name} must be a whole number from {least} to {_MOST}, not {value!r:.40}."
+                f"{name} must be a whole number from {least} to {_MOST}, not {shown(value, 40)}."
             )
     if out is not None:
         target(out, overwrite=overwrite)
     report = with_time_left(progress)
-    size = film_size(camera, size, _LONG_EDGE)
+    size = film_size((width, height), size, _LONG_EDGE)
     pictures: dict[str, np.ndarray] = {}
     for i, edit in enumerate(film_edits(scene, path, frames=frames, easing=easing), start=1):
         name = _name(scene, edit, timed=isinstance(path, Day))

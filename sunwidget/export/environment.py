@@ -9,6 +9,7 @@ kcd m⁻²: times 1000 it is luminance.
 from __future__ import annotations
 
 import json
+import operator
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,9 +17,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.analysis.errors import checked_scene
 from sunwidget.color import LUMINANCE
 from sunwidget.files import complete_or_absent, target
 from sunwidget.photo import PhotoError
+from sunwidget.recipe import edit_of
+from sunwidget.wording import shown
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -40,7 +44,7 @@ _NIGHT_SKY = np.array([2.6e-7, 2.5e-7, 2.3e-7])
 
 def environment_map(
     scene: Scene,
-    edit: Edit | None,
+    edit: Edit | dict[str, Any] | None,
     path: str | os.PathLike[str],
     *,
     size: tuple[int, int] = (2048, 1024),
@@ -53,7 +57,7 @@ def environment_map(
     ----------
     scene : Scene
         What ``analyze`` returned.
-    edit : Edit or None
+    edit : Edit, dict or None
         Whose sun and air; None is the photo's own.
     path : path
         ``.hdr`` (Radiance) or ``.exr`` (32-bit floats: the sun is beyond half floats; needs the
@@ -80,17 +84,12 @@ def environment_map(
         When this machine has no EGL.
     """
     from sunwidget import openexr, radiance
-    from sunwidget.edit import Edit
     from sunwidget.export.metadata import software
 
     place = target(path, overwrite=overwrite)
     check_map(place)
-    width, height = (int(n) for n in size)
-    if width != 2 * height or not 8 <= width <= 16384:
-        raise PhotoError(
-            f"An environment map is twice as wide as high, 8 to 16384 pixels, not {width}×{height}."
-        )
-    edit = Edit() if edit is None else edit
+    width, height = _checked_size(size)
+    edit = edit_of(edit)
     light = environment(scene, edit, (width, height), sun=sun)
     notes = {"recipe": json.dumps(edit.to_dict())}
     with complete_or_absent(place, overwrite=overwrite) as unfinished:
@@ -102,6 +101,19 @@ def environment_map(
             channels = {name: light[..., i] for i, name in enumerate("RGB")}
             openexr.write(unfinished, channels, told, notes, bits=32)
     return place
+
+
+def _checked_size(size: Any) -> tuple[int, int]:
+    try:
+        width, height = (operator.index(n) for n in size)
+    except (TypeError, ValueError):
+        width = height = 0
+    if width != 2 * height or not 8 <= width <= 16384:
+        raise PhotoError(
+            "An environment map is twice as wide as high, 8 to 16384 pixels, not "
+            f"{shown(size, 40)}."
+        )
+    return width, height
 
 
 def check_map(path: Path) -> None:
@@ -126,7 +138,7 @@ def environment(scene: Scene, edit: Edit, size: tuple[int, int], *, sun: bool = 
     from sunwidget.atmosphere.color import spectral_to_rec709
     from sunwidget.explorer.draw import radiance_at
 
-    scene = scene.corrected(edit)
+    scene = checked_scene(scene).corrected(edit)
     values = _values(scene, edit)
     width, height = size
     azimuth = ((np.arange(width) + 0.5) / width - 0.5) * 360

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from sunwidget.export.gif import write_gif
 from sunwidget.files import complete_or_absent, explained, target
 from sunwidget.time_left import Progress
+from sunwidget.wording import shown
 
 Frames = Iterator[NDArray[np.uint8]]
 LOOPS = ("once", "forever", "there_and_back")
@@ -69,10 +70,13 @@ def film_size(
         size = (max(2, round(photo[0] * scale)), max(2, round(photo[1] * scale)))
     try:
         width, height = (int(n) for n in size)
-    except (TypeError, ValueError):
-        raise ValueError(f"size must be (width, height) in pixels, not {size!r:.40}.") from None
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(
+            f"size must be (width, height) in pixels, not {shown(size, 40)}."
+        ) from None
     if not (2 <= width <= 8192 and 2 <= height <= 8192):
-        raise ValueError(f"A film of {width}×{height} is not possible; 2 to 8192 pixels a side.")
+        asked = f"{shown(width, 9)}×{shown(height, 9)}"
+        raise ValueError(f"A film of {asked} is not possible; 2 to 8192 pixels a side.")
     return width, height
 
 

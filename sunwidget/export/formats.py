@@ -20,6 +20,7 @@ from sunwidget.export.linear import exr, hdr
 from sunwidget.export.lost import warn_lost
 from sunwidget.export.tiff import EFFORT, tiff
 from sunwidget.layout import PhotoError
+from sunwidget.wording import shown
 
 # A JPEG segment holds 65533 bytes, of which Pillow's EXIF head takes six.
 _SEGMENT = 65_500
@@ -184,7 +185,7 @@ FORMATS: dict[str, Format] = {
 def check_quality(quality: Any) -> None:
     """Refuse, before any work, what is no quality of a picture or film; a PhotoError says so."""
     if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
-        raise PhotoError(f"quality must be a whole number from 1 to 100, not {quality!r:.40}.")
+        raise PhotoError(f"quality must be a whole number from 1 to 100, not {shown(quality, 40)}.")
 
 
 def check_format(path: Path, bit_depth: int | None = None, *, layers: bool = False) -> Format:
@@ -204,8 +205,8 @@ def check_format(path: Path, bit_depth: int | None = None, *, layers: bool = Fal
             f"{', '.join(FORMATS)}.{hint}"
         )
     form = FORMATS[suffix]
-    if bit_depth not in (None, 8, 16, 32) or isinstance(bit_depth, bool):
-        raise PhotoError(f"bit_depth must be 8, 16 or 32, not {bit_depth!r:.40}.")
+    if bit_depth is not None and (type(bit_depth) is not int or bit_depth not in (8, 16, 32)):
+        raise PhotoError(f"bit_depth must be 8, 16 or 32, not {shown(bit_depth, 40)}.")
     if bit_depth is not None and bit_depth not in form.depths:
         held = " or ".join(str(depth) for depth in sorted(form.depths))
         others = [key for key, other in FORMATS.items() if bit_depth in other.depths]

@@ -152,10 +152,10 @@ def _image(still: Still) -> str:
     return f'<img src="{_data_url(still.data)}" width="{width}" height="{height}" alt="{text}">'
 
 
-def _text(value: str) -> str:
+def _text(value: Any) -> str:
     """Return a person's text for an element or an attribute, on one line."""
     # Not printable: control signs, half surrogates of file names, U+2028.
-    line = "".join(sign if sign.isprintable() else " " for sign in value)
+    line = "".join(sign if sign.isprintable() else " " for sign in str(value))
     return html.escape(" ".join(line.split()))
 
 

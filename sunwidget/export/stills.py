@@ -256,10 +256,12 @@ def _rendered(
     progress: Progress,
 ) -> NDArray[Any]:
     """Draw the picture: code values in the photo's profile, or light for 32 bits."""
-    from sunwidget.renderer.render import render, strips_of
+    from sunwidget.renderer.render import checked_size, render, strips_of
 
     photo: Photo = scene.photo
-    more: dict[str, Any] = {"progress": progress} | ({} if size is None else {"size": size})
+    more: dict[str, Any] = {"progress": progress}
+    if size is not None:
+        more["size"] = size = checked_size(size)
     if bits == 8 and photo.bit_depth == 8 and photo.profile.is_srgb:
         # The same call as sw.render: the file is the very frame that the canvas shows.
         return render(scene, edit, **more)

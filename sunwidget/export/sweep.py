@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.analysis.errors import checked_scene
 from sunwidget.export.ahead import ahead
 from sunwidget.export.film import (
     LOOPS,
@@ -25,6 +26,7 @@ from sunwidget.export.film import (
 from sunwidget.export.formats import check_quality
 from sunwidget.export.sun_path import SunPath, film_edits
 from sunwidget.time_left import Progress, with_time_left
+from sunwidget.wording import shown
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -108,10 +110,11 @@ def sweep(
     >>> sw.sweep(scene, ["golden_hour", "sunset", "blue_hour"], "evening.mp4", seconds=8)
     >>> sw.sweep(scene, [(0, sw.Edit()), (4, sw.Edit(sun_elevation=-4))], "frames/%04d.png")
     """
+    checked_scene(scene)
     place = Path(out)
     write = writer(place)
-    if loop not in LOOPS:
-        raise ValueError(f"loop must be one of {', '.join(LOOPS)}, not {loop!r:.40}.")
+    if not isinstance(loop, str) or loop not in LOOPS:
+        raise ValueError(f"loop must be one of {', '.join(LOOPS)}, not {shown(loop, 40)}.")
     check_quality(quality)
     size = size_for(place, (scene.camera.width, scene.camera.height), size)
     place = film_target(place, overwrite=overwrite)

@@ -7,14 +7,16 @@ handlers on several threads; so every GL call of the kernel is sent to this one.
 from __future__ import annotations
 
 import atexit
+import contextlib
 import os
+import struct
 import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, TypeVar
 
-from sunwidget.renderer.missing_gl import explain
+from sunwidget.renderer.missing_gl import NO_FLOATS, explain
 
 if TYPE_CHECKING:
     import moderngl
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 _MOST_DEVICES = 8
+# After these, what was drawn is none; moderngl has no name for a lost context's code.
+_FAILURES = ("GL_OUT_OF_MEMORY", "GL_INVALID_FRAMEBUFFER_OPERATION", "GL_UNKNOWN_ERROR")
 
 
 class RendererError(RuntimeError):
@@ -35,6 +39,45 @@ class _Worker:
         self.thread: int | None = None
         self.context: moderngl.Context | None = None
 
+    def run(self, task: Callable[[moderngl.Context], T]) -> T:
+        """Run a task; after a failure of OpenGL once more, on a context that knows nothing of it.
+
+        A context is lost when the driver starts anew or the graphics card sleeps, and what fills
+        the card's memory goes with it.
+        """
+        try:
+            return self._run_once(task)
+        except _FailedError as failure:
+            self._discard_context()
+            first = failure
+        try:
+            return self._run_once(task)
+        except _FailedError as failure:
+            self._discard_context()
+            raise RendererError(
+                f"OpenGL failed while drawing, twice: {first}; {failure}. A smaller size needs "
+                "less of a graphics card's memory; LIBGL_ALWAYS_SOFTWARE=1, set before Python "
+                "starts, draws without the card."
+            ) from failure
+
+    def _run_once(self, task: Callable[[moderngl.Context], T]) -> T:
+        context = self.make_context()
+        try:
+            result = task(context)
+        except Exception as error:
+            if type(error).__module__ == "_moderngl":
+                raise _FailedError(str(error)) from error
+            raise
+        if (code := _error_of(context)) in _FAILURES:
+            raise _FailedError(code)
+        return result
+
+    def _discard_context(self) -> None:
+        context, self.context = self.context, None
+        if context is not None:
+            with contextlib.suppress(Exception):  # of a lost one nothing need be left
+                context.release()
+
     def make_context(self) -> moderngl.Context:
         self.thread = threading.get_ident()
         if self.context is None:
@@ -47,6 +90,14 @@ class _Worker:
             self.context.gc_mode = "context_gc"
         self.context.gc()
         return self.context
+
+
+class _FailedError(Exception):
+    """What OpenGL said when it could not draw."""
+
+
+def _error_of(context: moderngl.Context) -> str:
+    return context.error
 
 
 def _new_context() -> moderngl.Context:
@@ -64,15 +115,32 @@ def _new_context() -> moderngl.Context:
     # A device that a person chose stays chosen: glcontext takes it from the variable.
     for device in range(1 if "GLCONTEXT_DEVICE_INDEX" in os.environ else _MOST_DEVICES):
         try:
-            return moderngl.create_context(
+            context = moderngl.create_context(
                 standalone=True, backend="egl", require=330, device_index=device
             )
         except Exception as error:  # noqa: BLE001 - glcontext raises nothing finer
             first = first or error
             if not str(error).startswith("egl"):  # no such device, or no EGL at all
                 break
+        else:
+            if _draws_floats(context):
+                return context
+            context.release()
+            first = first or RuntimeError(NO_FLOATS)
     assert first is not None
     raise first
+
+
+def _draws_floats(context: moderngl.Context) -> bool:
+    """Whether passes can be drawn into textures of floats, as all of the frame's are."""
+    try:
+        texture = context.texture((1, 1), 4, dtype="f4")
+        framebuffer = context.framebuffer([texture])
+        framebuffer.clear(0.25, 2.0, -3.0, 1.0)
+        drawn = struct.unpack("4f", texture.read())
+    except Exception:  # noqa: BLE001 - moderngl.Error, or whatever such a driver says
+        return False
+    return drawn == (0.25, 2.0, -3.0, 1.0)
 
 
 _worker: _Worker | None = None
@@ -85,7 +153,8 @@ def on_gl_thread(task: Callable[[moderngl.Context], T]) -> T:
     Raises
     ------
     RendererError
-        When no EGL context can be made on this machine.
+        When no EGL context can be made on this machine, or when OpenGL fails, also on a new
+        context. A task is run twice then, so it must find what it needs by the context it gets.
     """
     global _worker
     with _lock:
@@ -96,4 +165,9 @@ def on_gl_thread(task: Callable[[moderngl.Context], T]) -> T:
         worker = _worker
     if threading.get_ident() == worker.thread:
         return task(worker.make_context())
-    return worker.pool.submit(lambda: task(worker.make_context())).result()
+    return worker.pool.submit(worker.run, task).result()
+
+
+def require_renderer() -> None:
+    """Raise RendererError when nothing can be drawn here, before work that would be lost."""
+    on_gl_thread(lambda _context: None)

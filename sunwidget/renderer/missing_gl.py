@@ -21,6 +21,9 @@ _FAMILIES = {
     "alpine": "Alpine",
 }
 
+NO_FLOATS = "no float targets"
+_SOFTWARE = "Mesa draws without the card: LIBGL_ALWAYS_SOFTWARE=1."
+
 # What glcontext says, what that means, and what may help besides installing packages.
 _CAUSES = (
     ("not loaded", "the system's OpenGL libraries are missing", ""),
@@ -42,6 +45,7 @@ _CAUSES = (
             " MESA_GL_VERSION_OVERRIDE is set."
         ),
     ),
+    (NO_FLOATS, "the driver cannot draw into textures of floats", _SOFTWARE),
 )
 
 

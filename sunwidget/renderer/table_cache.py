@@ -64,9 +64,10 @@ def write(name: str, table: NDArray[np.float32]) -> None:
             np.savez(unfinished, logarithms=encode(table))
         _prune(target.parent)
     except OSError as error:
+        reason = error.strerror or str(error)
         warnings.warn(
-            f"The precomputed sky could not be kept in {target.parent} ({error.strerror or error}); it will "
-            "be made again next time. Set XDG_CACHE_HOME to a folder that can be written.",
+            f"The precomputed sky could not be kept in {target.parent} ({reason}); "
+            "it will be made again next time. Set XDG_CACHE_HOME to a folder that can be written.",
             stacklevel=3,
         )
 
