@@ -1,10 +1,14 @@
 # Every target does its own set-up, once: what is there already is left alone.
 SHELL := bash
 .DEFAULT_GOAL := help
-.PHONY: help demo lab test bench validate tour build wheel clean gl chromium
+.PHONY: help demo lab test coverage bench validate tour build wheel clean gl chromium
 
+# make test PYTHON=python3.13: a .venv of another Python is made anew.
 PYTHON ?=
 export PYTHON
+ifneq ($(PYTHON),)
+$(shell PYTHON='$(PYTHON)' scripts/setup.sh other-python)
+endif
 PY := .venv/bin/python
 # A stamp lies inside what it vouches for, so that removing the one removes the other.
 VENV := .venv/made-venv
@@ -19,6 +23,7 @@ help:
 	@echo 'make demo    maps, a still and a sunset film of the bundled photo'
 	@echo 'make lab     open the quickstart notebook in JupyterLab'
 	@echo 'make test    every check: lint, types, JavaScript, Python, browser, notebooks'
+	@echo 'make coverage  which lines the tests run; pages in build/coverage'
 	@echo 'make bench   measure speed beside other ways of doing it; table, plot and build/bench.json'
 	@echo 'make validate  the sky against measurements and other models; table and build/validation.json'
 	@echo 'make tour    pictures of a walk through the editor in JupyterLab, in build/tour'
@@ -38,6 +43,10 @@ lab: $(LAB) $(STATIC) gl
 # PYTEST="-k camera" passes arguments on.
 test: $(TEST) $(STATIC) gl chromium
 	@scripts/check.sh -- $(PYTEST)
+
+# Without the browser: what Chromium runs of JavaScript and what its kernels run are not counted.
+coverage: $(TEST) $(STATIC) gl
+	@scripts/coverage.sh $(PYTEST)
 
 bench: $(TEST) $(STATIC) gl chromium
 	@$(PY) bench/bench.py $(BENCH)

@@ -24,6 +24,8 @@ printf '\033[1m==> pytest\033[0m\n'
 if ((${#failed[@]})); then
   trap 'printf "Failed before pytest: %s\n" "$(IFS=,; echo "${failed[*]}")"; exit 1' EXIT
 fi
+# Each of the two workers has a core, so a library's second thread only stands in the other's way.
+export OPENCV_FOR_THREADS_NUM=1 OPENBLAS_NUM_THREADS=1
 # Two at a time, a file on one worker, since its fixtures are dear; in the order of collection,
 # which has the long files first and many short ones at the end.
 .venv/bin/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder "$@"

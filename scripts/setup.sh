@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Brings what pip and npm cannot: a Python that makes environments, EGL, Chromium; or says what to do.
-# usage: scripts/setup.sh venv | gl | chromium | node
+# usage: scripts/setup.sh venv | other-python | gl | chromium | node
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -26,18 +26,31 @@ install() {
   fi
 }
 
-# The first Python that is new enough and really runs (version managers leave shims that do not).
+is_new_enough() {
+  "$1" -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1
+}
+
+# $PYTHON, or the first one that is new enough and really runs (version managers leave shims that do not).
 find_python() {
-  for candidate in ${PYTHON:-} python3 python3.13 python3.12 python3.11 python3.14 /usr/bin/python3; do
-    if "$candidate" -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1; then
-      command -v "$candidate"; return
-    fi
+  if [ -n "${PYTHON:-}" ]; then
+    is_new_enough "$PYTHON" || fail "PYTHON=$PYTHON does not run, or is older than Python 3.11."
+    command -v "$PYTHON"; return
+  fi
+  for candidate in python3 python3.13 python3.12 python3.11 python3.14 /usr/bin/python3; do
+    if is_new_enough "$candidate"; then command -v "$candidate"; return; fi
   done
   fail "Python 3.11 or newer was not found. Install it, or name it: make PYTHON=/path/to/python3"
 }
 
+# Whether .venv is there and was made by another Python than $PYTHON, if one is named.
+of_other_python() {
+  [ -n "${PYTHON:-}" ] && [ -x .venv/bin/python ] || return
+  version='import sys; print(sys.version)'
+  [ "$("$PYTHON" -c "$version" 2>&1)" != "$(.venv/bin/python -c "$version" 2>&1)" ]
+}
+
 make_venv() {
-  [ -x .venv/bin/python ] && .venv/bin/python -m pip --version >/dev/null 2>&1 && return
+  of_other_python || { [ -x .venv/bin/python ] && .venv/bin/python -m pip --version >/dev/null 2>&1 && return; }
   python=$(find_python)
   "$python" -c 'import ensurepip' >/dev/null 2>&1 ||
     install "The venv module of $python" "$("$python" -c 'import sys; print("python%d.%d-venv" % sys.version_info[:2])')"
@@ -53,6 +66,7 @@ has_gl() {
 
 case ${1:-} in
   venv) mkdir -p build; make_venv ;;
+  other-python) if of_other_python; then rm -f .venv/made-*; fi ;;
   gl)
     mkdir -p build
     has_gl || install "EGL (off-screen OpenGL)" libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri libgles2
@@ -68,5 +82,5 @@ case ${1:-} in
     [ "$(node -p 'parseInt(process.versions.node)')" -ge 20 ] ||
       fail "Node.js $(node --version) is too old; the front end needs version 20 or newer: https://nodejs.org/en/download"
     ;;
-  *) fail "usage: scripts/setup.sh venv | gl | chromium | node" ;;
+  *) fail "usage: scripts/setup.sh venv | other-python | gl | chromium | node" ;;
 esac
