@@ -120,7 +120,6 @@ class TableCurve:
 
 Curve = ParametricCurve | TableCurve
 
-LINEAR_CURVE = ParametricCurve(1.0)
 SRGB_CURVE = ParametricCurve(2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045)
 """IEC 61966-2-1. A shoulder of 1.055·y^(1/2.4) − 0.055 over a toe of 12.92·y."""
 
