@@ -180,7 +180,7 @@ NO_AIR = Atmosphere(air_density=0, aerosol_optical_depth=0.3)
     # sizes on the two hosts.
     [(50, 1.5e-3, 0.01), (5, 2e-3, 0.02), (-4, 5e-3, 0.03)],
 )
-def test_other_air_agrees_too(air, sun, typical, worst):
+def test_the_drawn_sky_of_other_air_agrees_with_numpy(air, sun, typical, worst):
     error = errors_all_over_the_sky(air, sun)
     assert np.median(error) < typical
     assert np.quantile(error, 0.99) < worst
@@ -194,7 +194,7 @@ def test_other_air_agrees_too(air, sun, typical, worst):
     [(CLEAR, 30, 2e-3, 0.01), (HAZY, 3, 6e-3, 0.05), (CLEAR, -4, 0.03, 0.09)],
     ids=["day", "low sun", "twilight"],
 )
-def test_the_first_orders_agree(orders, air, sun, typical, worst):
+def test_the_first_orders_of_scattering_agree_with_numpy(orders, air, sun, typical, worst):
     elevation, azimuth = all_over_the_sky(sun, count=200)
     views = unit_vectors(elevation, azimuth)
     drawn = shaders(lambda s: s.draw(air, sun, orders=orders).look(views))
@@ -250,7 +250,7 @@ def test_sky_turns_with_the_sun():
     [CLEAR, OTHER_AIR, Atmosphere(aerosol_scale_height=200)],
     ids=["standard", "other", "low haze"],
 )
-def test_columns_agree(air):
+def test_columns_of_air_agree_with_their_integrals(air):
     drawn = shaders(lambda s: s.draw(air, 30).read("columns_source"))
     # Row 0 is sea level; its first sample looks up, its last one to the horizon.
     for column, mu in ((0, 1), (-1, 0)):
@@ -322,7 +322,7 @@ def test_disc_agrees_and_integrates_to_the_sun():
         assert drawn == pytest.approx(reference, rel=0.01)
 
 
-def test_colour_agrees():
+def test_drawn_colour_is_that_of_the_drawn_spectrum():
     views = unit_vectors(np.array([2, 30, 80.0])[:, None], np.array([0, 90, 180.0]))
     drawn = shaders(lambda s: s.draw(CLEAR, 15).look(views, what=2))[:, :3]
     spectral = shaders(lambda s: s.draw(CLEAR, 15).look(views))

@@ -121,7 +121,7 @@ def test_canvas_and_kernel_agree_on_other_skies(page, root, changes):
 
 
 @pytest.mark.parametrize("elevation", [50.0, 1.0, -6.0])
-def test_linear_radiance_agrees(page, elevation):
+def test_the_tables_of_linear_radiance_agree_between_canvas_and_kernel(page, elevation):
     values = sky(sun_elevation=elevation, **HAZY)
     canvas_of(page, values)
     for name in ("multiple_scattering", "sky_view", "light"):
@@ -133,7 +133,7 @@ def test_linear_radiance_agrees(page, elevation):
 
 
 @pytest.mark.parametrize("name", CURVES)
-def test_curves_agree(page, name):
+def test_the_curves_beside_the_sky_agree_between_canvas_and_kernel(page, name):
     for elevation in (40.0, 0.5):
         values = sky(sun_elevation=elevation, **HAZY)
         canvas_of(page, values)

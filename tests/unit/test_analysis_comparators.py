@@ -129,7 +129,7 @@ def test_a_comparator_is_a_method_and_gives_the_same_bits_twice(method):
 @pytest.mark.parametrize("method", ["edge", "dense_crf"])
 @pytest.mark.parametrize("shape", [(1, 1), (1, 500), (500, 1), (3, 3), (2, 40)])
 @pytest.mark.parametrize("level", [0.0, 0.5, 1.0, None])
-def test_any_size_and_any_map(method, shape, level):
+def test_every_refinement_takes_any_size_and_any_coarse_map(method, shape, level):
     generator = np.random.default_rng(0)
     photo = open_photo(generator.integers(0, 256, (*shape, 3)).astype(np.uint8))
     coarse = generator.random((8, 8)) if level is None else np.full((8, 8), level)

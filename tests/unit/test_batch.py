@@ -190,7 +190,7 @@ def test_strokes_and_hints_stay_with_their_photo(folder, quick):
     assert told == edit.to_dict()
 
 
-def test_layers_come_along(folder, quick, monkeypatch):
+def test_layers_come_along_with_the_picture(folder, quick, monkeypatch):
     def save(job, photo, path, progress):
         path.with_suffix(".sky.png").write_bytes(b"sky")
         path.write_bytes(b"all")

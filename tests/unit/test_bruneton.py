@@ -54,7 +54,7 @@ def directions(elevation, azimuth):
 
 
 @pytest.mark.parametrize("sun", [60, 20, 6, 2, 0])
-def test_one_order_is_the_march(sun):
+def test_the_table_of_one_order_is_the_march_of_single_scattering(sun):
     one = made(AIR, 1)
     march = SkyTable(AIR, quality=Quality(groups=60), multiple_scattering=False)
     ratio = one.radiance(ELEVATION, AZIMUTH, sun) / march.radiance(ELEVATION, AZIMUTH, sun)
@@ -197,7 +197,7 @@ def test_other_users_of_the_gl_thread_wait_for_one_band_only():
     assert max(waits) < 0.5 * whole + 0.5
 
 
-def test_cost_is_told_before(table):
+def test_what_a_table_costs_is_told_before_it_is_made(table):
     assert 0 < bruneton_cost("tiny") < bruneton_cost("small") < bruneton_cost("full")
     assert table.seconds > 0
     with pytest.raises(ValueError, match="small"):

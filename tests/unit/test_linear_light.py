@@ -58,7 +58,7 @@ def saved(picture, path, **options):
         (".hdr", {}, 2**-8),
     ],
 )
-def test_light_comes_back(tmp_path, ending, options, error):
+def test_linear_light_comes_back_from_the_file(tmp_path, ending, options, error):
     light = wide_light()
     again = open_photo(saved(light, tmp_path / f"out{ending}", **options)).pixels
     largest = light.max(axis=-1, keepdims=True)

@@ -48,20 +48,20 @@ def opens_or_says_why(data):
 
 @given(st.binary(max_size=400))
 @relaxed
-def test_random_bytes(data):
+def test_random_bytes_open_or_say_why_not(data):
     opens_or_says_why(data)
 
 
 @given(st.sampled_from([b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n", b"II*\0", b"MM\0*", b"GIF89a"]))
 @relaxed
-def test_a_magic_number_alone(head):
+def test_a_magic_number_alone_says_why_it_does_not_open(head):
     opens_or_says_why(head)
 
 
 @pytest.mark.parametrize("kind", SEEDS)
 @given(data=st.data())
 @relaxed
-def test_mutated_files(kind, data):
+def test_a_file_with_changed_bytes_opens_or_says_why_not(kind, data):
     seed = bytearray(SEEDS[kind])
     # Headers are where the offsets and sizes are: mutate them more often than the rest.
     reach = data.draw(st.sampled_from([64, 256, len(seed)]))

@@ -102,7 +102,7 @@ def test_a_value_in_the_browser_is_pythons(browser):
     }
 
 
-def test_both_sides_keep_as_much(root):
+def test_browser_and_kernel_keep_as_many_steps_and_versions(root):
     steps = (root / "js/src/steps.js").read_text("utf-8")
     versions = (root / "js/src/editor/versions.js").read_text("utf-8")
     assert f"HISTORY_LENGTH = {HISTORY_LENGTH};" in steps

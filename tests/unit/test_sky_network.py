@@ -72,7 +72,7 @@ def test_well_known_numbers_of_classes_need_no_label(tmp_path, classes, label):
     assert is_the_sky(found(blueness(tmp_path, classes, label)))
 
 
-def test_a_label_given_wins(tmp_path):
+def test_a_label_that_is_given_wins_over_the_guessed_one(tmp_path):
     path = blueness(tmp_path, 150, 7)
     assert is_the_sky(found(path, label=7))
     assert is_the_sky(found(SkyNetwork(path, label=7)))
@@ -117,7 +117,7 @@ def test_a_label_without_a_network_is_refused():
 
 @pytest.mark.parametrize("dtype", [np.int64, np.int32, np.uint8, F4])
 @pytest.mark.parametrize("keep", [0, 1])
-def test_maps_of_labels(tmp_path, dtype, keep):
+def test_a_map_of_labels_is_read_as_sky_or_not(tmp_path, dtype, keep):
     tail = [
         onnx.node("ArgMax", ["scores"], ["best"], axis=1, keepdims=keep),
         onnx.node("Cast", ["best"], ["labels"], to=onnx.TYPES[np.dtype(dtype)]),
@@ -174,7 +174,7 @@ def test_the_scale_in_the_metadata_and_the_given_one_win(tmp_path):
     assert calibrate(given) == (2, (0.25, (1, 2, 3)))
 
 
-def test_blue_green_red(tmp_path):
+def test_a_network_that_wants_blue_green_red_gets_it(tmp_path):
     path = blueness(tmp_path)
     assert is_the_sky(1 - found(SkyNetwork(path, channels="bgr", mean=0, std=1)))
 

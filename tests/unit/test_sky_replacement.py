@@ -103,7 +103,7 @@ def test_the_sky_goes_on_where_the_donor_ends_without_a_seam(scenes, turn):
     assert np.abs(np.diff(logs, axis=1)).max() < 1.2 * sharpest + 0.02
 
 
-def test_one_sun_only(scenes):
+def test_the_mirrored_sky_beside_the_frame_has_no_second_sun(scenes):
     """The mirrored sky beside the frame is without the sun."""
     donor = scenes["coast"]
     sky = donor_sky(donor, donor.camera.focal)

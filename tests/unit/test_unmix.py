@@ -52,7 +52,7 @@ def test_opacity_and_shade_stay_in_their_ranges_for_any_colour():
     assert shade.max() <= 1.5
 
 
-def test_dusk_counts_like_noon():
+def test_opacity_is_the_same_at_dusk_as_at_noon():
     light = np.array([veiled(a) for a in (0.2, 0.5, 0.9)])
     bright, _ = opacity_of(light)
     scale = np.float32(1e-3)

@@ -15,7 +15,7 @@ def missed(rows):
     ("part", "count"),
     [(validation.closed_forms, 7), (validation.twilight, 7), (validation.sun_chromaticity, 4)],
 )
-def test_every_row_is_met(part, count):
+def test_every_figure_of_the_validation_keeps_its_bound(part, count):
     rows = list(part())
     assert len(rows) == count
     assert missed(rows) == []
