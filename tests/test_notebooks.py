@@ -21,6 +21,13 @@ SHOWN = {
     },
     "03_validation": {"text/markdown": 9},  # one row of the table at least
     "04_export": {"image/png": 3, "image/gif": 1, "text/html": 1},  # the batch's table
+    "05_gallery": {"image/png": 11},
+    "06_your_own_photo": {
+        "application/vnd.jupyter.widget-view+json": 2,  # the editor, and a study
+        "image/png": 6,
+        "text/html": 1,  # the batch's table
+        "text/markdown": 1,  # how bright land and sky are
+    },
 }
 """How many outputs of each kind a notebook shows at least."""
 NBCONVERT = [sys.executable, "-m", "nbconvert", "--execute", "--to=notebook", "--output-dir=."]
