@@ -145,7 +145,7 @@ def test_the_first_orders_agree_with_path_tracing(orders, air, sun, allowed):
 @pytest.mark.parametrize("air", [AIR, PRESETS["polluted"], AIR.replace(ground_albedo=0.8)])
 def test_orders_rise_to_all_of_them(air):
     for sun in (60.0, 5.0, -4.0):
-        skies = [sky_radiance(air, VIEWS, sun, orders=n) for n in (1, 2, 3, 4, 6, 10, 16)]
+        skies = [sky_radiance(air, VIEWS, sun, orders=n) for n in (1, 2, 3, 5, 16)]
         whole = sky_radiance(air, VIEWS, sun)
         for fewer, more in zip(skies, [*skies[1:], whole], strict=True):
             assert np.all(more > fewer * (1 - 1e-12))
