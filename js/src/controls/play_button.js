@@ -9,12 +9,13 @@ const LONGEST = 0.2; // seconds between two steps: after a pause nothing leaps
  * @param {{
  *   label: string,
  *   title: string,
+ *   onStart?: () => void,
  *   onStep: (seconds: number) => boolean,
  *   onStop: () => void,
  * }} options `onStep` moves on by what has passed since the last one; false ends the playing
  * @param {AbortSignal} signal
  */
-export function playButton({ label, title, onStep, onStop }, signal) {
+export function playButton({ label, title, onStart, onStep, onStop }, signal) {
   const node = button({ icon: "play", label, title, onClick: () => (frame ? stop() : start()) });
   let frame = 0;
   let last = 0;
@@ -25,6 +26,7 @@ export function playButton({ label, title, onStep, onStop }, signal) {
     else if (frame) frame = requestAnimationFrame(step);
   };
   const start = () => {
+    onStart?.();
     last = performance.now();
     frame = requestAnimationFrame(step);
     show();

@@ -14,7 +14,7 @@ function texts(view) {
   return {
     tool: tool?.node.getAttribute("aria-label") ?? "",
     before: view.root.classList.contains("sw-before") ? "Before: the photo" : "After: the edit",
-    sun: view.readout.textContent ?? "",
+    sun: view.foot.readout.textContent ?? "",
     strokes: strokes === 1 ? "1 stroke" : `${strokes} strokes`,
     analysis: view.model.get("_status")?.stage === "ready" ? "The analysis is done" : "",
   };

@@ -62,7 +62,7 @@ export function exportPanel(view, signal) {
     job.running,
     job.done,
   );
-  view.foot.after(node);
+  view.foot.node.after(node);
   trigger.setAttribute("aria-controls", id);
 
   let chosen = 0;

@@ -1,8 +1,7 @@
 /** Plays a film in the view's own picture: each moment is drawn live, and the edit stays as it is. */
 
-import { button } from "../controls/button.js";
 import { element } from "../controls/element.js";
-import { icon } from "../controls/icons.js";
+import { playButton } from "../controls/play_button.js";
 import { sameRecipe } from "../same.js";
 
 /**
@@ -17,7 +16,6 @@ import { sameRecipe } from "../same.js";
  */
 export function filmPlayer(view, signal, read) {
   const { state } = view;
-  const play = button({ icon: "play", label: "Play the film", onClick: () => toggle() });
   const range = element("input", {
     type: "range",
     class: "sw-range",
@@ -28,13 +26,9 @@ export function filmPlayer(view, signal, read) {
     "aria-label": "Moment of the film",
   });
   const time = element("span", { class: "sw-film-time" });
-  const node = element("div", { class: "sw-film-player", role: "group", "aria-label": "Film" });
-  node.append(play, range, time);
 
   let at = 0; // seconds
   let way = 1;
-  let frame = 0;
-  let last = 0;
   /** @type {import("../types.js").Edit} the edit under which the film is shown */
   let under = {};
 
@@ -45,61 +39,59 @@ export function filmPlayer(view, signal, read) {
     view.loop.request();
     show();
   };
-  const tick = (/** @type {number} */ now) => {
-    const film = read();
-    if (!film) return stop();
-    at += (way * Math.min(0.2, (now - last) / 1000)) % film.seconds;
-    last = now;
-    if (at > film.seconds || at < 0) {
-      if (film.loop === "once") return stop();
-      const back = film.loop === "there_and_back";
-      if (back) way = at < 0 ? 1 : -1;
-      at = back ? (at < 0 ? -at : 2 * film.seconds - at) : at - film.seconds;
-    }
-    draw(film);
-    frame = requestAnimationFrame(tick);
-  };
-  const toggle = () => {
-    if (frame) return pause();
-    const film = read();
-    if (!film) return;
-    if (at >= film.seconds) at = 0;
-    way = 1;
-    last = performance.now();
-    frame = requestAnimationFrame(tick);
-    show();
-  };
-  const pause = () => {
-    cancelAnimationFrame(frame);
-    frame = 0;
-    show();
-  };
   /** Back to the edit. */
-  const stop = () => {
-    if (frame) pause();
+  const leave = () => {
     if (!view.passing) return;
     view.passing = null;
     at = 0;
     view.show();
   };
+  const play = playButton(
+    {
+      label: "Play the film",
+      title: "Play the film in the picture; the edit stays as it is",
+      onStart: () => {
+        if (at >= (read()?.seconds ?? 0)) at = 0;
+        way = 1;
+      },
+      onStep: (seconds) => {
+        const film = read();
+        if (film) at += (way * seconds) % film.seconds;
+        if (!film || (film.loop === "once" && at > film.seconds)) {
+          leave();
+          return false;
+        }
+        if (at > film.seconds || at < 0) {
+          const back = film.loop === "there_and_back";
+          if (back) way = at < 0 ? 1 : -1;
+          at = back ? (at < 0 ? -at : 2 * film.seconds - at) : at - film.seconds;
+        }
+        draw(film);
+        return true;
+      },
+      onStop: () => show(),
+    },
+    signal,
+  );
+  const stop = () => {
+    play.stop();
+    leave();
+  };
+  const node = element("div", { class: "sw-film-player", role: "group", "aria-label": "Film" });
+  node.append(play.node, range, time);
   range.addEventListener("input", () => {
     const film = read();
     if (!film) return;
+    play.stop();
     at = Number(range.value) * film.seconds;
-    pause();
     draw(film);
   });
   // A hand on the picture or a panel's slider means the edit.
   view.stage.node.addEventListener("pointerdown", stop, { capture: true, signal });
-  signal.addEventListener("abort", pause);
 
   const show = () => {
     const film = read();
-    const playing = frame !== 0;
-    play.disabled = range.disabled = !film;
-    play.title = play.ariaLabel = playing ? "Pause the film" : "Play the film";
-    play.setAttribute("aria-pressed", String(playing));
-    play.replaceChildren(icon(playing ? "pause" : "play"));
+    play.node.disabled = range.disabled = !film;
     const seconds = film?.seconds ?? 0;
     const share = seconds ? Math.min(1, at / seconds) : 0;
     range.value = String(share);

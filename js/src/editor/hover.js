@@ -18,7 +18,7 @@ export function hover(view, signal) {
     element("span", { class: "sw-hover-arrow" }, "→"),
     after.node,
   );
-  view.readout.after(node);
+  view.foot.readout.after(node);
   // In main memory: a canvas of the graphics card takes the whole photo up there for one pixel.
   const pixel = element("canvas", { width: 1, height: 1 });
   const sample = pixel.getContext("2d", { alpha: false, willReadFrequently: true });

@@ -1,6 +1,6 @@
 /**
  * What hangs on the editor's view, each in a room of its own. A part puts its nodes where they
- * belong (`view.stage`, `view.toolbar.end`, `view.panel.section(name)`, `view.foot`) and is told:
+ * belong (`view.stage`, `view.toolbar.end`, `view.panel.section(name)`, `view.foot.node`) and is told:
  *
  *   loaded(scene)  the analysis, or an answer to a correction, has arrived
  *   show()         the edit or the history changed: controls follow at once

@@ -4,6 +4,7 @@ import { button, holdButton, radioButtons } from "../controls/button.js";
 import { element } from "../controls/element.js";
 import { historyButtons } from "../controls/history.js";
 import { menuButton } from "../controls/menu.js";
+import { save } from "./save.js";
 import { BRUSHES } from "./strokes.js";
 
 /** @typedef {import("./view.js").View} View */
@@ -68,12 +69,12 @@ export function toolbar(view) {
     title: "Show the photo as it was: hold, or click to keep (B)",
     onChange: (on) => view.setBefore(on),
   });
-  const save = button({
+  const saveButton = button({
     icon: "save",
     label: "Save",
     title: "Render at full size and download",
     caption: true,
-    onClick: () => view.save(),
+    onClick: () => save(view),
   });
   const size = element("input", {
     type: "range",
@@ -103,7 +104,7 @@ export function toolbar(view) {
     { class: "sw-group sw-end" },
     view.inspector.choice,
     before.node,
-    save,
+    saveButton,
     menu.node,
   );
   node.append(tools.node, water, size, history.node, end);
@@ -117,7 +118,7 @@ export function toolbar(view) {
     export: null,
     menu,
     before,
-    save,
+    save: saveButton,
     /** The tools' buttons by name. */
     tools: TOOLS.map(({ value }, i) => ({
       value,
@@ -126,7 +127,7 @@ export function toolbar(view) {
     show() {
       tools.show(view.tool);
       history.show();
-      save.disabled = !view.scene || view.work !== null;
+      saveButton.disabled = !view.scene || view.work !== null;
       for (const { value, label, title } of PAINTS) {
         tools.rename(value, label.replace("sky", view.subject), title.replace("sky", view.subject));
       }

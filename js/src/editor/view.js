@@ -5,7 +5,6 @@
  * when the analysis (`_scene`, `_layers`, `_surface`, `_backdrop`, `_clear_sky`) has arrived.
  */
 
-import { sunText } from "../angle_text.js";
 import { Channel } from "../channel.js";
 import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
@@ -18,17 +17,16 @@ import { EditState } from "../state.js";
 import { onTraits } from "../traits.js";
 import { paintBrushMask, SUBJECTS } from "./brush_mask.js";
 import { BrushTool, EraseTool } from "./brush_tool.js";
+import { Foot } from "./foot.js";
 import { HorizonTool } from "./horizon_tool.js";
 import { Inspector } from "./inspector.js";
 import { Kernel } from "./kernel.js";
 import { Loading } from "./loading.js";
-import { Notes } from "./notes.js";
 import { Notices } from "./notices.js";
 import { panel } from "./panel.js";
 import { makeParts } from "./parts.js";
 import { PickTool } from "./pick_tool.js";
 import { listenToPointer } from "./pointer.js";
-import { save } from "./save.js";
 import { onShortcut } from "./shortcuts.js";
 import { Stage } from "./stage.js";
 import { BRUSHES, StrokesLayer } from "./strokes.js";
@@ -112,17 +110,11 @@ export class View {
     this.inspector = new Inspector(this);
     this.panel = panel(this);
     this.toolbar = toolbar(this);
-    this.readout = element("div", { class: "sw-readout" });
-    this.sureness = element("div", {
-      class: "sw-sureness",
-      title: "How likely the sky that was fitted to the photo changes with the sun as the real one",
-    });
+    this.foot = new Foot();
     this.announcer = new Announcer(signal);
-    this.notes = new Notes();
     const busy = () => this.pointer !== null || this.state.before !== null;
     this.notices = new Notices(root, busy, signal);
     this.message = new ErrorMessage();
-    this.foot = element("div", { class: "sw-foot" }, this.readout, this.sureness, this.notes.node);
     /** Drops what the pointer has begun, and lets it go. */
     this.cancelGesture = () => {};
     /** @type {import("./split.js").Split | null} */
@@ -154,7 +146,7 @@ export class View {
       this.stage.node,
       this.message.node,
       this.inspector.node,
-      this.foot,
+      this.foot.node,
     );
     const body = element("div", { class: "sw-body" }, main, this.panel.node);
     this.root.append(this.toolbar.node, this.notices.node, body, this.announcer.node);
@@ -205,8 +197,7 @@ export class View {
     this.frame.setScene(scene);
     this.scene = scene;
     this.camera = camera;
-    this.notes.show(scene.warnings);
-    this.sureness.textContent = surenessText(scene.sureness);
+    this.foot.showScene(scene);
     this.showMask();
     void this.inspector.refresh();
     this.tools[this.tool].refresh?.();
@@ -219,8 +210,7 @@ export class View {
     this.scene = null;
     this.camera = null;
     this.root.classList.remove("sw-live");
-    this.notes.show([]);
-    this.sureness.textContent = "";
+    this.foot.showScene(null);
     this.show();
   }
 
@@ -316,9 +306,7 @@ export class View {
   drawOverlay() {
     this.strokes.draw();
     for (const tool of Object.values(this.tools)) tool.draw();
-    if (this.scene) {
-      this.readout.textContent = sunText(this.value("sun_azimuth"), this.value("sun_elevation"));
-    }
+    if (this.scene) this.foot.showSun(this.value("sun_azimuth"), this.value("sun_elevation"));
     for (const part of this.parts) part.draw?.();
   }
 
@@ -329,13 +317,4 @@ export class View {
   asked() {
     return { recipe: this.state.recipe(), photo: this.model.get("_source")?.fingerprint };
   }
-
-  /** Hand the picture to the person as a file. */
-  save() {
-    return save(this);
-  }
 }
-
-/** @param {number | null | undefined} sureness */
-const surenessText = (sureness) =>
-  typeof sureness === "number" ? `Atmosphere: ${Math.round(100 * sureness)} % sure` : "";

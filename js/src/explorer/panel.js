@@ -79,9 +79,9 @@ export function panel(view, signal) {
       onBegin: () => state.begin(),
       onInput: (value) => {
         if (!moves) return state.set({ [p.name]: value });
-        const [azimuth, elevation] = view.sun();
-        if (p.name === "sun_azimuth") return view.moveSun(Number(value), elevation);
-        return view.moveSun(azimuth, Number(value));
+        const [azimuth, elevation] = view.sun.direction();
+        if (p.name === "sun_azimuth") return view.sun.moveTo(Number(value), elevation);
+        return view.sun.moveTo(azimuth, Number(value));
       },
       onCommit: () => state.commit(),
     });
@@ -136,7 +136,7 @@ export function panel(view, signal) {
 /** @param {View} view */
 function hours(view) {
   const chips = HOURS.map(([label, elevation, title]) =>
-    chip(label, title, () => view.moveSun(view.sun()[0], elevation)),
+    chip(label, title, () => view.sun.moveTo(view.sun.direction()[0], elevation)),
   );
   return element("div", { class: "sw-chips" }, ...chips);
 }

@@ -83,7 +83,7 @@ export function placeControls(view, signal) {
       label: "Time, UTC",
     }),
     onBegin: () => state.begin(),
-    onInput: (value) => view.moveTime(Number(value)),
+    onInput: (value) => view.sun.moveTime(Number(value)),
     onCommit: () => state.commit(),
   });
   const play = playButton(
@@ -93,7 +93,7 @@ export function placeControls(view, signal) {
       onStep: (seconds) => {
         // Another gesture ends a step of the history; the playing goes on in the next.
         state.begin();
-        view.moveTime((view.number("time") + seconds * HOURS_A_SECOND) % 24);
+        view.sun.moveTime((view.number("time") + seconds * HOURS_A_SECOND) % 24);
         return true;
       },
       onStop: () => state.commit(),
@@ -111,7 +111,7 @@ export function placeControls(view, signal) {
       for (const { name, input } of numbers) {
         if (!input.matches(":focus")) input.value = String(values[name] ?? "");
       }
-      const day = view.day();
+      const day = view.sun.day();
       row.hidden = day.length === 0;
       if (!day.length) {
         play.stop();

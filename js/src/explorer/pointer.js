@@ -22,7 +22,7 @@ export function listenToPointer(view, signal) {
 
   /** @param {Point} start */
   const dragSun = (start) => {
-    const sun = view.placeOf(view.sun());
+    const sun = view.placeOf(view.sun.direction());
     const near = sun && Math.hypot(start[0] - sun[0], start[1] - sun[1]) < GRAB;
     const offset = near && sun ? [start[0] - sun[0], start[1] - sun[1]] : [0, 0];
     view.handle.node.focus({ preventScroll: true });
@@ -30,7 +30,7 @@ export function listenToPointer(view, signal) {
       // Losing the focus ends a gesture; a drag that goes on is the next one.
       state.begin();
       const direction = view.nearestDirection([x - offset[0], y - offset[1]]);
-      if (direction) view.moveSun(...direction);
+      if (direction) view.sun.moveTo(...direction);
     };
   };
 
@@ -60,7 +60,7 @@ export function listenToPointer(view, signal) {
   const grabsSun = (place) => {
     if (state.values.projection === "dome") return true;
     const box = stage.rectangle();
-    const at = view.handle.onStage(...view.sun(), box);
+    const at = view.handle.onStage(...view.sun.direction(), box);
     return Math.hypot(box.x + place[0] - at.x, box.y + place[1] - at.y) < GRAB;
   };
 

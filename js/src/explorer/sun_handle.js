@@ -24,14 +24,14 @@ export class SunHandle {
     if (!step) return;
     // On a dome that looks up, east is to the left.
     const side = this.view.state.values.projection === "dome" ? -1 : 1;
-    const [azimuth, elevation] = this.view.sun();
+    const [azimuth, elevation] = this.view.sun.direction();
     this.view.state.begin();
-    this.view.moveSun(azimuth + side * step[0], elevation + step[1]);
+    this.view.sun.moveTo(azimuth + side * step[0], elevation + step[1]);
   }
 
   draw() {
     const { view } = this;
-    const [azimuth, elevation] = view.sun();
+    const [azimuth, elevation] = view.sun.direction();
     const spot = this.onStage(azimuth, elevation, view.stage.rectangle());
     this.shape.show(spot, [turned(azimuth), elevation], view.parameter("sun_elevation"));
   }

@@ -88,8 +88,8 @@ export function toolbar(view) {
 
 /** The kernel's code, or the browser's when no kernel answers. @param {import("./view.js").View} view */
 async function codeOf(view) {
-  const [azimuth, elevation] = view.followedSun();
-  const sun = view.sun();
+  const [azimuth, elevation] = view.sun.followed();
+  const sun = view.sun.direction();
   const follows = Math.hypot(turned(sun[0] - azimuth), sun[1] - elevation) < SAME_PLACE;
   const own = pythonCode(view.state.recipe(), follows ? null : sun);
   /** @type {Promise<string>} */

@@ -10,7 +10,7 @@ import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
 import { ErrorMessage } from "../controls/error_message.js";
 import { runShortcut } from "../controls/keys.js";
-import { angleBetween, sunAt, turned } from "../day.js";
+import { angleBetween } from "../day.js";
 import { FrameLoop } from "../frame_loop.js";
 import { onKernelError } from "../kernel_errors.js";
 import { watchSight } from "../sight.js";
@@ -27,6 +27,7 @@ import { SHORTCUTS } from "./shortcuts.js";
 import { SkyFrame } from "./sky_frame.js";
 import { reading } from "./sky_probe.js";
 import { SkyStage } from "./stage.js";
+import { Sun } from "./sun.js";
 import { SunHandle } from "./sun_handle.js";
 import { toolbar } from "./toolbar.js";
 import { Tracer } from "./tracer.js";
@@ -56,6 +57,7 @@ export class View {
     this.parameters = model.get("_parameters");
     this.state = new EditState(model, this.parameters, signal);
     this.channel = new Channel(model, signal);
+    this.sun = new Sun(this);
     this.stage = new SkyStage(signal);
     this.frame = new SkyFrame(this.stage.canvas, this.parameters);
     this.tracer = new Tracer(this, signal);
@@ -153,55 +155,6 @@ export class View {
     return Math.min(maximum, Math.max(minimum, value));
   }
 
-  /** Azimuth and apparent elevation of the sun in degrees. @returns {Point} */
-  sun() {
-    return [this.number("sun_azimuth"), this.number("sun_elevation")];
-  }
-
-  /**
-   * Move the sun by hand: the clock then stands still.
-   *
-   * @param {number} azimuth degrees
-   * @param {number} elevation degrees
-   */
-  moveSun(azimuth, elevation) {
-    const round = (/** @type {number} */ value) => Math.round(value * 1e4) / 1e4;
-    this.state.set({
-      sun_azimuth: round(turned(azimuth)),
-      sun_elevation: round(this.clamp("sun_elevation", elevation)),
-      ...(this.state.values.time === null || !this.day().length ? {} : { time: null }),
-    });
-  }
-
-  /** The kernel's table of the sun's path. @returns {import("../day.js").DayRow[]} */
-  day() {
-    return this.model.get("_day") ?? [];
-  }
-
-  /** Where time, scan or else the table put the sun. @returns {Point} */
-  followedSun() {
-    const hours = this.state.values.time;
-    const place = hours === null ? null : sunAt(this.day(), Number(hours));
-    if (place) return [place.azimuth, this.clamp("sun_elevation", place.apparent)];
-    const scan = this.measured.scan();
-    if (scan) return [scan.sun_azimuth, scan.sun_elevation];
-    const standard = (/** @type {string} */ name) => Number(this.parameter(name).default);
-    return [standard("sun_azimuth"), standard("sun_elevation")];
-  }
-
-  /** Set the clock, and the sun with it. @param {number} hours UTC */
-  moveTime(hours) {
-    const place = sunAt(this.day(), hours);
-    const round = (/** @type {number} */ value) => Math.round(value * 1e4) / 1e4;
-    this.state.set({
-      time: round(hours),
-      ...(place && {
-        sun_azimuth: round(place.azimuth),
-        sun_elevation: round(this.clamp("sun_elevation", place.apparent)),
-      }),
-    });
-  }
-
   projection() {
     const { width, height } = this.stage.rectangle();
     return new Projection(String(this.state.values.projection), [width, height], {
@@ -292,10 +245,10 @@ export class View {
     this.guides.draw();
     this.handle.draw();
     this.measured.draw();
-    this.readout.showSun(this.sun());
+    this.readout.showSun(this.sun.direction());
     this.readout.showNote(this.panel.note());
     const { pointed } = this;
-    const angle = pointed ? angleBetween(pointed, this.sun()) : 0;
+    const angle = pointed ? angleBetween(pointed, this.sun.direction()) : 0;
     this.readout.showHover(pointed, pointed && this.read(pointed), angle);
     this.guides.point(this.plotPoint);
     this.plots.hover(pointed && angle);

@@ -162,7 +162,7 @@ export class Plots {
     /** @type {Context} */
     const context = {
       curve,
-      sun: this.view.sun(),
+      sun: this.view.sun.direction(),
       altitude: this.view.number("altitude"),
       measured: this.view.measured.scan(),
       scatteringAngle: this.angle,
@@ -208,7 +208,7 @@ export class Plots {
       const elevation = chart.plot.posToVal(event.clientX - over.left, "x");
       if (!Number.isFinite(elevation)) return;
       view.state.begin();
-      view.moveSun(view.sun()[0], elevation);
+      view.sun.moveTo(view.sun.direction()[0], elevation);
     };
     target.addEventListener("pointerdown", (event) => {
       if (event.button > 0) return;
