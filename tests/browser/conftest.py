@@ -7,9 +7,11 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from chromium import chromium, open_page
+from chromium import VIEWPORT, chromium, open_page, start_anew
 
 import sunwidget as sw
+
+FAILED = pytest.StashKey[bool]()
 
 
 def pytest_collection_modifyitems(items):
@@ -30,11 +32,38 @@ def browser():
         yield instance
 
 
+def pytest_runtest_makereport(item, call):
+    if call.excinfo is not None:
+        item.stash[FAILED] = True
+
+
 @pytest.fixture
-def page(browser):
-    context = browser.new_context(viewport={"width": 1180, "height": 860})
+def fresh_page(browser):
+    """A page of its own, for a test that changes the browser's own functions."""
+    context = browser.new_context(viewport=VIEWPORT)
     yield open_page(context)
     context.close()
+
+
+@pytest.fixture(scope="module")
+def used_pages(browser):
+    """The page that the tests of a file use one after the other; none before the first."""
+    pages = []
+    yield pages
+    for page in pages:
+        page.context.close()
+
+
+@pytest.fixture
+def page(request, browser, used_pages):
+    """A page without a view. A new one for every test would be half of what a test costs."""
+    if used_pages:
+        start_anew(used_pages[0])
+    else:
+        used_pages.append(open_page(browser.new_context(viewport=VIEWPORT)))
+    yield used_pages[0]
+    if request.node.stash.get(FAILED, False):
+        used_pages.pop().context.close()
 
 
 @pytest.fixture(scope="session")

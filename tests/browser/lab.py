@@ -1,9 +1,9 @@
 """A real JupyterLab or Notebook 7, and what a person does there."""
 
+import contextlib
 import json
 import secrets
 import sys
-from contextlib import contextmanager
 
 import nbformat
 from chromium import PATIENCE, picture_of
@@ -17,11 +17,12 @@ _SETTINGS = {
 }
 
 
-@contextmanager
+@contextlib.contextmanager
 def jupyterlab(folder, root, *, app="lab", theme="JupyterLab Light"):
     """Start JupyterLab over the files of ``folder``; yields ``url(path)``; ends its kernels too.
 
-    ``app="notebook"`` starts Notebook 7, whose cells answer to the same names.
+    ``app="notebook"`` starts Notebook 7, whose cells answer to the same names. ``url(path, name)``
+    opens it in a workspace of that name: no other page's notebooks are open there.
     """
     home = folder / ".home"
     for name in ("labconfig", "nbconfig"):
@@ -54,7 +55,12 @@ def jupyterlab(folder, root, *, app="lab", theme="JupyterLab Light"):
     }
     status = f"/api/status?token={token}"
     with serving(command, folder, root, status=status, settings=settings) as address:
-        yield lambda path: f"{address}/{tree}/{path}?token={token}"
+
+        def url(path, workspace=None):
+            place = f"lab/workspaces/{workspace}/tree" if workspace else tree
+            return f"{address}/{place}/{path}?token={token}"
+
+        yield url
 
 
 def lab_page(context):
@@ -87,8 +93,10 @@ def write_notebook(path, cells):
     nbformat.write(written, path)
 
 
-@contextmanager
-def notebook_page(browser, folder, root, cells, *, failed, app="lab", script="", **context):
+@contextlib.contextmanager
+def notebook_page(
+    browser, folder, root, cells, *, failed, app="lab", url=None, script="", **context
+):
     """Open a notebook of ``cells`` in a real JupyterLab, or Notebook 7, and run its first.
 
     Parameters
@@ -102,6 +110,8 @@ def notebook_page(browser, folder, root, cells, *, failed, app="lab", script="",
     failed : Path
         Picture of the page to write when the test fails in it.
     app : {"lab", "notebook"}
+    url : callable, optional
+        Of a ``jupyterlab`` that runs already, over the folder that holds ``folder``.
     script : str
         JavaScript to run before the page's own.
     **context
@@ -112,12 +122,16 @@ def notebook_page(browser, folder, root, cells, *, failed, app="lab", script="",
     Page
     """
     write_notebook(folder / "cells.ipynb", cells)
-    with jupyterlab(folder, root, app=app) as url:
+    with contextlib.ExitStack() as stack:
+        if url is None:
+            address = stack.enter_context(jupyterlab(folder, root, app=app))("cells.ipynb")
+        else:
+            address = url(f"{folder.name}/cells.ipynb", folder.name)
         tab = browser.new_context(**context)
         tab.add_init_script(script)
         page = lab_page(tab)
         try:
-            page.goto(url("cells.ipynb"))
+            page.goto(address)
             page.locator(".jp-Notebook .jp-CodeCell").first.wait_for()
             run_cell(page, 0)
             yield page

@@ -24,32 +24,36 @@ def axe(root):
 
 
 @pytest.fixture
-def open_editor(browser, state):
-    """Open the editor in a browser of its own: ``open_editor(width, color_scheme=…)``."""
+def open_editor(browser, page, state):
+    """Open the editor: ``open_editor(width, color_scheme=…)``, elsewhere for other options."""
     contexts = []
 
-    def opened(width=1180, traits=None, **options):
-        contexts.append(browser.new_context(viewport={"width": width, "height": 860}, **options))
-        page = open_page(contexts[-1])
-        page.evaluate("(state) => showEditor(state)", {**state, **(traits or {})})
-        page.locator(".sunwidget.sw-live").wait_for()
-        return page
+    def opened(width=1180, traits=None, color_scheme="light", **options):
+        shown = page
+        if options:
+            contexts.append(browser.new_context(**options))
+            shown = open_page(contexts[-1])
+        shown.set_viewport_size({"width": width, "height": 860})
+        shown.emulate_media(color_scheme=color_scheme)
+        shown.evaluate("(state) => showEditor(state)", {**state, **(traits or {})})
+        shown.locator(".sunwidget.sw-live").wait_for()
+        return shown
 
     yield opened
     for context in contexts:
         context.close()
 
 
-def violations(page, axe, *, only_colors=False):
+def violations(page, axe, *, only_colors=False, within=".sunwidget"):
     """What axe finds, as text; and that it looked at something."""
     page.evaluate(f"{axe};0")
     tags = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
     found = page.evaluate(
-        """([tags, skipped]) => axe.run(".sunwidget", {
+        """([within, tags, skipped]) => axe.run(within, {
           runOnly: tags,
           rules: Object.fromEntries(skipped.map((id) => [id, { enabled: false }])),
         })""",
-        [["color-contrast"] if only_colors else tags, OF_PAGES],
+        [within, ["color-contrast"] if only_colors else tags, OF_PAGES],
     )
     read = next(rule for rule in found["passes"] if rule["id"] == "color-contrast")
     assert len(read["nodes"]) > 10, "axe found no text to judge"
@@ -99,7 +103,7 @@ def test_axe_finds_nothing_in_the_editor(open_editor, axe, scheme):
         assert violations(page, axe) == []
     press(page, "?")
     page.locator("dialog").wait_for()
-    assert violations(page, axe, only_colors=only_colors) == []
+    assert violations(page, axe, only_colors=only_colors, within="dialog") == []
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -90,7 +90,7 @@ def test_a_stroke_made_while_the_kernel_works_is_not_lost(editor, state):
              _status: { stage: "ready", fraction: 1, message: "" } })""",
         [scene, trait(editor, "strokes")],
     )
-    editor.wait_for_timeout(300)
+    editor.wait_for_function("document.querySelector('.sunwidget').dataset.stage === 'ready'")
     move(editor, 0.5, 0.8, steps=3)
     editor.mouse.up()
     rows = [stroke["points"][0][1] for stroke in trait(editor, "strokes")]

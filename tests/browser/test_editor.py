@@ -45,13 +45,15 @@ def grab_sun(page):
 
 
 def settled(page, before):
-    """Wait until the canvas shows another full frame than ``before``."""
+    """Wait until the canvas shows another full frame than ``before``, and rests."""
+    last = before
     for _ in range(150):
-        page.wait_for_timeout(100)
+        page.wait_for_timeout(150)
         now = canvas_of(page)
         if now.shape == before.shape and not np.array_equal(now, before):
-            page.wait_for_timeout(400)
-            return canvas_of(page)
+            if np.array_equal(now, last):
+                return now
+            last = now
     raise AssertionError("the canvas did not change")
 
 
@@ -225,7 +227,6 @@ def test_before_shows_the_photo_while_held(editor):
     editor.mouse.move(button["x"] + 10, button["y"] + 10)
     editor.mouse.down()
     assert editor.locator(".sunwidget.sw-before").count() == 1
-    editor.wait_for_timeout(500)
     editor.mouse.up()
     assert editor.locator(".sunwidget.sw-before").count() == 0
 
@@ -347,9 +348,9 @@ def test_a_shader_that_does_not_compile_shows_its_line(page, state):
     assert "nonsense = 1.0;" in message
 
 
-def test_missing_float_targets_are_said(page, state):
-    page.evaluate("async (state) => makeFrame(state)", state)
-    message = page.evaluate(
+def test_missing_float_targets_are_said(fresh_page, state):
+    fresh_page.evaluate("async (state) => makeFrame(state)", state)
+    message = fresh_page.evaluate(
         """() => {
           WebGL2RenderingContext.prototype.getExtension = () => null;
           try { drawn({}); } catch (error) { return error.message; }
@@ -358,7 +359,8 @@ def test_missing_float_targets_are_said(page, state):
     assert "EXT_color_buffer_float" in message
 
 
-def test_without_webgl2_the_photo_stays_and_the_reason_is_said(page, state):
+def test_without_webgl2_the_photo_stays_and_the_reason_is_said(fresh_page, state):
+    page = fresh_page
     page.evaluate(
         """(state) => {
           const original = HTMLCanvasElement.prototype.getContext;
@@ -413,18 +415,13 @@ def test_a_drag_frame_at_1024_by_698(page, state):
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_the_editor_is_pictured(browser, state, screenshots, theme):
-    from chromium import open_page
-
-    context = browser.new_context(
-        viewport={"width": 1180, "height": 760}, color_scheme=theme, device_scale_factor=1
-    )
-    page = open_page(context)
+def test_the_editor_is_pictured(page, state, screenshots, theme):
+    page.set_viewport_size({"width": 1180, "height": 760})
+    page.emulate_media(color_scheme=theme)
     page.evaluate("(state) => showEditor(state)", state)
     page.locator(".sunwidget.sw-live").wait_for()
-    page.wait_for_timeout(800)
+    at_rest(page)
     page.screenshot(path=screenshots / f"editor-{theme}.png")
     panel = page.evaluate("getComputedStyle(document.querySelector('.sunwidget')).backgroundColor")
     lightness = sum(int(n) for n in panel[4:-1].split(",")) / 3
     assert (lightness < 128) == (theme == "dark")
-    context.close()

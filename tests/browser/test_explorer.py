@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from chromium import STATIC, open_page, picture_of, widget_state
+from chromium import LOSE_ONCE, STATIC, open_page, picture_of, widget_state
 
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.presets import PRESETS
@@ -100,6 +100,15 @@ def blue_over_red(page):
     x, y = width // 2, round(0.72 * height)
     red, _, blue = picture[y - 4 : y + 4, x - 4 : x + 4].mean((0, 1))
     return blue / max(red, 1)
+
+
+def test_a_graphics_context_that_is_lost_in_a_frame_is_made_anew(explorer):
+    page = explorer(sun_elevation=12)
+    expected = canvas_of(page)
+    explorer(sun_elevation=40)
+    page.evaluate(LOSE_ONCE)
+    explorer(sun_elevation=12)
+    assert np.array_equal(canvas_of(page), expected)
 
 
 def test_it_opens_with_a_sky_and_six_plots(explorer):

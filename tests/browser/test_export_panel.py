@@ -145,9 +145,11 @@ def test_a_film_is_played_in_the_picture_and_the_edit_stays(page, state, choices
     shown = drawn_anew(page, still)
     sun_stands(page, "16.0°")
     assert page.locator(".sw-film-time").text_content() == "30.0 / 60.0 s"
-    page.get_by_role("button", name="Play the film").click()
+    play = page.get_by_role("button", name="Play the film")
+    play.click()
     drawn_anew(page, shown)
-    page.get_by_role("button", name="Pause the film").click()
+    assert play.get_attribute("aria-pressed") == "true"
+    play.click()
     assert float(moment.input_value()) > 0.5
     assert trait(page, "sun_elevation") == 4
     assert trait(page, "_history") == history

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from chromium import ORIGIN, connect, open_page, picture_of, widget_state
+from chromium import ORIGIN, connect, picture_of, widget_state
 from PIL import Image
 
 import sunwidget as sw
@@ -16,13 +16,6 @@ pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 @pytest.fixture(scope="module")
 def state(coast):
     return widget_state(SunEditor(coast).wait())
-
-
-@pytest.fixture
-def context(browser):
-    context = browser.new_context(viewport={"width": 1180, "height": 860})
-    yield context
-    context.close()
 
 
 def show(page, state, session="first", **changes):
@@ -54,10 +47,7 @@ def paste(page, text):
     )
 
 
-def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(
-    context, state, screenshots
-):
-    page = open_page(context)
+def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(page, state, screenshots):
     show(page, state)
     page.get_by_role("slider", name="Azimuth").focus()
     page.keyboard.press("ArrowRight")
@@ -111,8 +101,7 @@ def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(
     assert page.errors == []
 
 
-def test_a_page_without_kernel_goes_on_and_keeps_what_is_done(context, state, screenshots):
-    page = open_page(context)
+def test_a_page_without_kernel_goes_on_and_keeps_what_is_done(page, state, screenshots):
     page.evaluate(
         """(state) => {
           const make = window.makeModel;
@@ -138,11 +127,11 @@ def test_a_page_without_kernel_goes_on_and_keeps_what_is_done(context, state, sc
     assert page.errors == []
 
 
-def test_a_browser_without_storage_edits_as_ever(context, state):
-    context.add_init_script(
-        "Object.defineProperty(window, 'localStorage', { get() { throw new Error('no'); } });"
+def test_a_browser_without_storage_edits_as_ever(fresh_page, state):
+    page = fresh_page
+    page.evaluate(
+        "Object.defineProperty(window, 'localStorage', { get() { throw new Error('no'); } })"
     )
-    page = open_page(context)
     show(page, state)
     paste(page, "sw.Edit(exposure=1)")
     page.wait_for_timeout(700)
@@ -151,8 +140,7 @@ def test_a_browser_without_storage_edits_as_ever(context, state):
     assert page.errors == []
 
 
-def test_versions_are_kept_renamed_gone_to_and_deleted(context, state, screenshots):
-    page = open_page(context)
+def test_versions_are_kept_renamed_gone_to_and_deleted(page, state, screenshots):
     show(page, state)
     for number, exposure in enumerate((0.5, 1), 1):
         paste(page, json.dumps({"exposure": exposure}))
@@ -186,8 +174,7 @@ def test_versions_are_kept_renamed_gone_to_and_deleted(context, state, screensho
     assert page.errors == []
 
 
-def test_recipes_are_pasted_copied_and_saved_by_the_menus_keys(context, state):
-    page = open_page(context)
+def test_recipes_are_pasted_copied_and_saved_by_the_menus_keys(page, state):
     show(page, state)
     paste(page, "import sunwidget as sw\nedit = sw.Edit(sun_elevation=3, exposure=-0.5)")
     assert (trait(page, "sun_elevation"), trait(page, "exposure")) == (3, -0.5)

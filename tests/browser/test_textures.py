@@ -48,14 +48,14 @@ def as_text(data):
     return base64.b64encode(data).decode("ascii")
 
 
-def test_all_four_channels_of_surface_arrive_unpremultiplied(page, coast):
+def test_all_four_channels_of_surface_arrive_unpremultiplied(fresh_page, coast):
     state = widget_state(SunEditor(coast).wait(120))
     noise = np.random.default_rng(5).integers(0, 256, (512, 768, 4), dtype=np.uint8)
     # The ends of alpha are where premultiplying loses most.
     noise[:64, :, 3], noise[64:128, :, 3] = 0, 1
     backdrop = noise[:90, :160, :3]
-    page.evaluate(READ_BACK)
-    page.evaluate(
+    fresh_page.evaluate(READ_BACK)
+    fresh_page.evaluate(
         "(state) => showEditor(state)",
         {
             **state,
@@ -63,9 +63,9 @@ def test_all_four_channels_of_surface_arrive_unpremultiplied(page, coast):
             "_backdrop": as_text(encode_png(backdrop)),
         },
     )
-    page.locator(".sunwidget.sw-live").wait_for()
-    assert page.errors == []
-    photo, layers, surface, small, *_ = uploads(page)
+    fresh_page.locator(".sunwidget.sw-live").wait_for()
+    assert fresh_page.errors == []
+    photo, layers, surface, small, *_ = uploads(fresh_page)
     assert np.array_equal(surface, noise)
     assert np.array_equal(small[..., :3], backdrop)
     assert (small[..., 3] == 255).all()
@@ -73,12 +73,12 @@ def test_all_four_channels_of_surface_arrive_unpremultiplied(page, coast):
     assert (layers[..., 3] == 255).all()
 
 
-def test_surface_travels_with_the_depth_of_the_land_in_its_alpha(page, coast):
+def test_surface_travels_with_the_depth_of_the_land_in_its_alpha(fresh_page, coast):
     widget = SunEditor(coast).wait(120)
-    page.evaluate(READ_BACK)
-    page.evaluate("(state) => showEditor(state)", widget_state(widget))
-    page.locator(".sunwidget.sw-live").wait_for()
-    surface = uploads(page)[2]
+    fresh_page.evaluate(READ_BACK)
+    fresh_page.evaluate("(state) => showEditor(state)", widget_state(widget))
+    fresh_page.locator(".sunwidget.sw-live").wait_for()
+    surface = uploads(fresh_page)[2]
     levels = coast.surface((768, 512))
     assert np.abs(surface - 255 * levels).max() <= 0.51
     assert len(np.unique(surface[..., 3])) > 20
