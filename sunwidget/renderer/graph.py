@@ -15,6 +15,7 @@ import numpy as np
 from sunwidget.renderer.shader_source import (
     EGL_HEADER,
     frame_graph,
+    part_shaders,
     resolve_includes,
     vertex_shader,
 )
@@ -39,6 +40,8 @@ class Target:
     texture: moderngl.Texture
     framebuffer: moderngl.Framebuffer
     key: Any = None
+    # Of a pass with parts: what its depth was drawn from.
+    parts_key: Any = None
     version: int = 0
     # A pass with history: what it drew before, and how many samples it holds by now.
     previous: moderngl.Texture | None = None
@@ -54,10 +57,13 @@ class Programs:
     arrays: dict[str, moderngl.VertexArray] = field(default_factory=dict)
     uniforms: dict[str, dict[str, moderngl.Uniform]] = field(default_factory=dict)
 
-    def get(self, shader: str, constants: str | None = None) -> moderngl.Program:
+    def get(
+        self, shader: str, constants: str | None = None, depth: float = 0.0
+    ) -> moderngl.Program:
         """Compile ``shader`` on first use; a failure names the shader.
 
-        ``constants`` is the shader of what is the same for all its pixels.
+        ``constants`` is the shader of what is the same for all its pixels, ``depth`` where it is
+        drawn when it draws a part of a pass (``part_shaders``).
         """
         if shader not in self.programs:
             import moderngl
@@ -65,7 +71,7 @@ class Programs:
             text = EGL_HEADER + resolve_includes(f"{shader}.glsl")
             try:
                 program = self.context.program(
-                    vertex_shader=vertex_shader(constants), fragment_shader=text
+                    vertex_shader=vertex_shader(constants, depth), fragment_shader=text
                 )
             except Exception as error:  # moderngl.Error derives from Exception alone
                 raise RuntimeError(f"Shader {shader!r} does not compile:\n{error}") from error
@@ -218,54 +224,124 @@ class FrameGraph:
         scene: Mapping[str, Any],
         host: Mapping[str, Any],
     ) -> None:
-        name, shader = row["name"], row["shader"]
+        name = row["name"]
         inputs = {uniform: self._source(names) for uniform, names in row["inputs"].items()}
-        program = self.programs.get(shader, row.get("constants"))
+        shaders = self._shaders(row)
         host = {**host, "pass_size": (float(size[0]), float(size[1]))}
         framed = row["size"] == "frame"
         if not framed:
             # Only frame-sized passes are drawn piece by piece; a table is drawn whole.
             host["tile_origin"] = (0.0, 0.0)
         values: dict[str, Any] = {}
-        key: list[Any] = [size, shader]
-        for uniform in self.programs.uniforms[shader]:
-            if uniform in inputs:
-                key.append(self._version(inputs[uniform], framed))
-            elif uniform not in ("history", "sample_index"):
-                values[uniform] = uniform_value(shader, uniform, state, scene, host)
-                key.append(values[uniform])
-        target = self.targets.get(name)
-        if target is None or target.texture.size != size:
-            target = self._new_target(size, target.version if target else 0)
-            self.targets[name] = target
+        keys: list[list[Any]] = []
+        for shader in shaders:
+            keys.append([shader])
+            for uniform in self.programs.uniforms[shader]:
+                if uniform in inputs:
+                    keys[-1].append(self._version(inputs[uniform], framed))
+                elif uniform not in ("history", "sample_index"):
+                    values[uniform] = uniform_value(shader, uniform, state, scene, host)
+                    keys[-1].append(values[uniform])
+        levels = "f1" if row["format"] == "output" and host.get("output_levels") == 255 else "f4"
+        target = self._target(name, size, levels, "parts" in row)
+        key = [size, keys]
         if row.get("history"):
             self._turn(target, key)
             values["sample_index"] = float(target.samples)
         elif target.key == key:
             return
-        unit = 0
-        for uniform, member in self.programs.uniforms[shader].items():
-            if uniform in values:
-                member.value = values[uniform]
-                continue
-            of_inputs = uniform in inputs
-            texture = self._texture(inputs[uniform], framed) if of_inputs else target.previous
-            if texture is None:
-                raise KeyError(f"Pass {name!r} reads its history and has none in the frame graph.")
-            texture.use(unit)
-            member.value = unit
-            unit += 1
-        del program
+        textures = {uniform: self._texture(of, framed) for uniform, of in inputs.items()}
+        if target.previous is not None:
+            textures["history"] = target.previous
         target.framebuffer.use()
-        self.programs.arrays[shader].render(vertices=3)
+        if "parts" in row:
+            self._write_parts(target, shaders[0], keys[0], values, textures)
+            self._draw_parts(shaders[1:], values, textures)
+        else:
+            self._draw(row["shader"], values, textures)
         target.key = key
         target.version += 1
         target.samples += 1
         self.runs[name] = self.runs.get(name, 0) + 1
 
-    def _new_target(self, size: tuple[int, int], version: int) -> Target:
-        texture = self.context.texture(size, 4, dtype="f4")
-        return Target(texture, self.context.framebuffer([texture]), version=version)
+    def _shaders(self, row: Mapping[str, Any]) -> list[str]:
+        """Compile the shaders of a pass; first of several is the one that tells its parts apart."""
+        drawn = part_shaders(row)
+        for shader, depth in drawn.items():
+            self.programs.get(shader, row.get("constants"), depth)
+        if "parts" not in row:
+            return list(drawn)
+        self.programs.get(row["parts"]["by"])
+        return [row["parts"]["by"], *drawn]
+
+    def _draw(
+        self, shader: str, values: Mapping[str, Any], textures: Mapping[str, moderngl.Texture]
+    ) -> None:
+        unit = 0
+        for uniform, member in self.programs.uniforms[shader].items():
+            if uniform in values:
+                member.value = values[uniform]
+                continue
+            textures[uniform].use(unit)
+            member.value = unit
+            unit += 1
+        self.programs.arrays[shader].render(vertices=3)
+
+    def _write_parts(
+        self,
+        target: Target,
+        shader: str,
+        key: list[Any],
+        values: Mapping[str, Any],
+        textures: Mapping[str, moderngl.Texture],
+    ) -> None:
+        """Write to which part each pixel belongs as its depth, unless it stands there already."""
+        import moderngl
+
+        if target.parts_key == key:
+            return
+        context, framebuffer = self.context, target.framebuffer
+        context.enable(moderngl.DEPTH_TEST)
+        context.depth_func = "1"  # always
+        framebuffer.color_mask = (False,) * 4
+        framebuffer.depth_mask = True
+        self._draw(shader, values, textures)
+        framebuffer.color_mask = (True,) * 4
+        framebuffer.depth_mask = False
+        context.disable(moderngl.DEPTH_TEST)
+        target.parts_key = key
+
+    def _draw_parts(
+        self,
+        shaders: list[str],
+        values: Mapping[str, Any],
+        textures: Mapping[str, moderngl.Texture],
+    ) -> None:
+        """Draw each part's pixels by its shader.
+
+        Where the depth differs no driver runs a shader, while some compute both sides of a branch.
+        """
+        import moderngl
+
+        self.context.enable(moderngl.DEPTH_TEST)
+        self.context.depth_func = "=="
+        for shader in shaders:
+            self._draw(shader, values, textures)
+        self.context.disable(moderngl.DEPTH_TEST)
+
+    def _target(self, name: str, size: tuple[int, int], dtype: str, parts: bool) -> Target:
+        """Return where a pass draws: a new target when the one it has will not do."""
+        target = self.targets.get(name)
+        if target is not None:
+            fits = (target.texture.size, target.texture.dtype) == (size, dtype)
+            if fits and (not parts or target.framebuffer.depth_attachment is not None):
+                return target
+        texture = self.context.texture(size, 4, dtype=dtype)
+        depth = self.context.depth_renderbuffer(size) if parts else None
+        framebuffer = self.context.framebuffer([texture], depth)
+        framebuffer.depth_mask = False
+        self.targets[name] = Target(texture, framebuffer, version=target.version if target else 0)
+        return self.targets[name]
 
     def _turn(self, target: Target, key: list[Any]) -> None:
         """Swap the two textures of a pass with history; it begins anew when ``key`` is new."""

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sunwidget.analysis.errors import checked_scene
 from sunwidget.edit import METHODS, Edit, EditError
+from sunwidget.layout import MAX_PIXELS
+from sunwidget.recipe import edit_of
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs, largest_texture
 from sunwidget.renderer.shader_source import frame_graph
@@ -25,6 +28,7 @@ from sunwidget.renderer.tiles import (
     scene_textures,
 )
 from sunwidget.renderer.values import states
+from sunwidget.wording import shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -38,7 +42,6 @@ if TYPE_CHECKING:
 # bounded at any size: three RGBA32F targets of 2.1 MP are 100 MB. A 1080p frame is one band,
 # so that a film computes the sky of the unmoved sun once and not for each frame.
 _BAND_PIXELS = 2_100_000
-_OUTPUT = {"uint8": (255, np.uint8), "uint16": (65535, np.uint16)}
 
 
 @dataclass
@@ -91,13 +94,14 @@ _renderers: dict[int, _Renderer] = {}
 
 def _renderer(context: moderngl.Context) -> _Renderer:
     if id(context) not in _renderers:
+        _renderers.clear()  # of a context that was lost
         _renderers[id(context)] = _Renderer(context)
     return _renderers[id(context)]
 
 
 def render(
     scene: Scene,
-    edit: Edit | None = None,
+    edit: Edit | dict[str, Any] | None = None,
     *,
     dtype: str = "uint8",
     size: tuple[int, int] | None = None,
@@ -110,8 +114,8 @@ def render(
     ----------
     scene : Scene
         What ``analyze`` returned.
-    edit : Edit, optional
-        What to change; ``Edit()``, the default, changes nothing.
+    edit : Edit or dict, optional
+        What to change, as an edit or a recipe; ``Edit()``, the default, changes nothing.
     dtype : {"uint8", "uint16", "float32"}
         uint8 and uint16 are sRGB-encoded; float32 is linear Rec. 709, unclamped.
     size : (width, height), optional
@@ -128,14 +132,16 @@ def render(
     Raises
     ------
     EditError
-        For an unknown dtype, method or size.
+        For an unknown dtype or method, or an impossible size.
+    AnalysisError
+        When ``scene`` is none.
     RendererError
         When this machine has no EGL.
     """
-    edit = Edit() if edit is None else edit
+    edit = edit_of(edit)
     if method is not None:
         edit = edit.replace(method=method)
-    scene = scene.corrected(edit)
+    scene = checked_scene(scene).corrected(edit)
     width, height = scene.photo.size if size is None else checked_size(size)
     out: npt.NDArray[Any] | None = None
     for rows, pixels in strips_of(scene, edit, dtype, (width, height), progress):
@@ -178,16 +184,19 @@ def strips_of(
     EditError, RendererError
         As ``render``, when the first strip is asked for.
     """
-    if dtype not in ("uint8", "uint16", "float32"):
-        raise EditError(f"dtype must be 'uint8', 'uint16' or 'float32', not {dtype!r:.40}.")
-    edit = Edit() if edit is None else edit
-    scene = scene.corrected(edit)
+    if not isinstance(dtype, str) or dtype not in ("uint8", "uint16", "float32"):
+        raise EditError(f"dtype must be 'uint8', 'uint16' or 'float32', not {shown(dtype, 40)}.")
+    edit = edit_of(edit)
+    scene = checked_scene(scene).corrected(edit)
     size = scene.photo.size if size is None else checked_size(size)
     drawing, limit = on_gl_thread(
         lambda context: (_renderer(context).drawing(scene, size), largest_texture(context))
     )
 
-    def draw(rows: slice, columns: list[slice]) -> npt.NDArray[Any]:
+    def draw(rows: slice, columns: list[slice], context: moderngl.Context) -> npt.NDArray[Any]:
+        nonlocal drawing
+        if drawing.graph.context is not context:  # that was lost, and is a new one
+            drawing = _renderer(context).drawing(scene, size)
         if drawing.strips is not None:
             # On this thread, so that no other picture's strip is drawn instead.
             drawing.load(rows, limit)
@@ -199,8 +208,7 @@ def strips_of(
     for rows, columns in pieces(size, pixels, limit):
         if rows.stop <= first or rows.start >= end:
             continue
-        task = functools.partial(draw, rows, columns)
-        yield rows, on_gl_thread(lambda _, task=task: task())  # type: ignore[misc]
+        yield rows, on_gl_thread(functools.partial(draw, rows, columns))
         if progress is not None:
             progress(rows.stop / size[1], "rendering")
 
@@ -221,13 +229,16 @@ def draw_part(
     tile = (left, top, right - left, bottom - top)
     host = _host_values(size, dtype)
     target = graph.run(values, _scene_values(scene), host, tile, (edit.method,))
-    # Read as float and quantise here: the driver's own rounding differs between hosts.
-    data = np.frombuffer(target.framebuffer.read(components=3, dtype="f4"), np.float32)
-    pixels = data.reshape(bottom - top, right - left, 3)
+    shape = (bottom - top, right - left, 3)
+    if dtype == "uint8":  # the shader has rounded
+        levels = np.empty(shape, np.uint8)
+        target.framebuffer.read_into(levels, components=3, alignment=1)
+        return levels
+    pixels: npt.NDArray[Any] = np.empty(shape, np.float32)
+    target.framebuffer.read_into(pixels, components=3, dtype="f4")
     if dtype == "float32":
         return pixels
-    scale, kind = _OUTPUT[dtype]
-    return np.clip(pixels * scale + 0.5, 0, scale).astype(kind)
+    return np.clip(pixels * 65535 + 0.5, 0, 65535).astype(np.uint16)
 
 
 def render_pass(
@@ -257,13 +268,23 @@ def render_pass(
 
 
 def checked_size(size: Any) -> tuple[int, int]:
-    """Return ``size`` as (width, height) in whole pixels, at least one; else raise EditError."""
+    """Return ``size`` as (width, height) in pixels: whole, at least 1, no more than a photo has.
+
+    Raises
+    ------
+    EditError
+        For anything else.
+    """
     try:
         width, height = (operator.index(n) for n in size)
     except (TypeError, ValueError):
         width = height = 0
     if width < 1 or height < 1:
-        raise EditError(f"size must be (width, height) in whole pixels, not {size!r:.40}.")
+        raise EditError(f"size must be (width, height) in whole pixels, not {shown(size, 40)}.")
+    if width * height > MAX_PIXELS:
+        raise EditError(
+            f"size = {shown((width, height), 40)} is more than {MAX_PIXELS / 1e6:.0f} megapixels."
+        )
     return width, height
 
 
@@ -277,6 +298,7 @@ def _host_values(size: tuple[int, int], dtype: str) -> dict[str, Any]:
         "frame_size": (float(size[0]), float(size[1])),
         "canvas_flip": 0.0,
         "output_transfer": 0 if dtype == "float32" else 1,
+        "output_levels": 255 if dtype == "uint8" else 0,
         "dither": {"uint8": 0.5, "uint16": 0.5 / 257, "float32": 0.0}[dtype],
     }
 

@@ -10,17 +10,20 @@ import functools
 import json
 import re
 from importlib.resources import files
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 _INCLUDE = re.compile(r'^[ \t]*#include "([^"]+)"[ \t]*$', re.MULTILINE)
 
 EGL_HEADER = "#version 330\n"
-# One triangle that covers the target, without buffers.
+# One triangle that covers the target, without buffers, at a depth of the view volume.
 _TRIANGLE = """
 void main() {
   SetConstants();
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-  gl_Position = vec4(corner, 0.0, 1.0);
+  gl_Position = vec4(corner, %r, 1.0);
 }
 """
 
@@ -55,7 +58,17 @@ def frame_graph(name: str = "graph") -> dict[str, Any]:
     return graph
 
 
-def vertex_shader(constants: str | None = None) -> str:
+def part_shaders(row: Mapping[str, Any]) -> dict[str, float]:
+    """Return the shaders that draw the pass of ``row`` and the depth of each.
+
+    Only a pass with ``parts`` has more than its own: ``parts["by"]`` writes which of them draws
+    a pixel as a depth (``lib/part.glsl``), and those are drawn where it equals theirs.
+    """
+    shaders = [*row.get("parts", {}).get("shaders", []), row["shader"]]
+    return {shader: 0.5 * (part + 1) - 1 for part, shader in enumerate(shaders)}
+
+
+def vertex_shader(constants: str | None = None, depth: float = 0.0) -> str:
     """Return the text of the vertex shader: the triangle that covers a target.
 
     Parameters
@@ -63,9 +76,11 @@ def vertex_shader(constants: str | None = None) -> str:
     constants : str, optional
         Name of the shader whose ``SetConstants`` computes what is the same for all pixels of
         the pass: once a corner instead of once a pixel.
+    depth : float, default 0
+        Of the triangle, from -1 to 1.
     """
     text = resolve_includes(f"{constants}.glsl") if constants else "void SetConstants() {}\n"
-    return EGL_HEADER + text + _TRIANGLE
+    return EGL_HEADER + text + _TRIANGLE % float(depth)
 
 
 FULL_SCREEN_TRIANGLE = vertex_shader()

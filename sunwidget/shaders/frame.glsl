@@ -3,6 +3,9 @@
 // disc and its halo, extreme ratios) the frame cross-fades to the matched model itself.
 // Software rendering is bound by memory: a full-size map costs more than a dozen functions, so
 // the sky at the moved sun is computed here and not read from a map of its own.
+//
+// SKY_ALONE and LAND_ALONE leave out what comes to nothing where the matte is 1 or 0
+// (frame_parts.glsl): the picture is the same to the bit.
 
 #include "lib/picture.glsl"
 #include "lib/packed.glsl"
@@ -45,14 +48,27 @@ void main() {
   vec3 scene = scene_texel.rgb;
   vec3 sky_marks = UnpackLevels(behind_texel.a);
   vec3 land_marks = UnpackLevels(scene_texel.a);
+  vec3 clean = behind_texel.rgb;
 
   // What of the pixel is sky and what is land, each as if it filled the pixel.
-  vec3 clean = behind_texel.rgb;
+#if defined(SKY_ALONE)
+  const float matte = 1.0;
+  const float glare = 0.0;
+  vec3 behind = scene;
+#elif defined(LAND_ALONE)
+  const float matte = 0.0;
+  float glare = sky_marks.b;
+  vec3 front = scene;
+#else
   float matte = sky_marks.r;
-  vec3 share = GetSkyShare(matte, scene, clean, sky_marks.b);
+  float glare = sky_marks.b;
+  vec3 share = GetSkyShare(matte, scene, clean, glare);
   vec3 behind = scene * share / max(matte, 1e-4);
   vec3 front = scene * (1.0 - share) / max(1.0 - matte, 1e-4);
+#endif
 
+  vec3 change = vec3(0.0);
+#ifndef LAND_ALONE
   vec4 sky_before = texelFetch(sky_source, texel, 0);
   // An unchanged sky is the same to the bit, whatever two programs make of the same formula.
   vec4 sky_now = mix(GetDescribedSky(view), sky_before, bvec4(term[0].w > 0.5));
@@ -60,22 +76,26 @@ void main() {
   vec3 added_glare = max(sky_now.a - sky_before.a, 0.0) * GetGlareColor();
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   vec3 disc = GetDisc(view, GetDescribedSun());
-  vec3 sky_change = GetSkyChange(behind, clean, opacity, sky_marks.b, sky_before.rgb, sky_now.rgb - added_glare, view, disc);
+  vec3 sky_change = GetSkyChange(behind, clean, opacity, glare, sky_before.rgb, sky_now.rgb - added_glare, view, disc);
   sky_change += sky_strength * term[0].x * added_glare;
+  change += matte * sky_change;
+#endif
 
+#ifndef SKY_ALONE
   float upright = GetUprightness(view);
   float shine = GetMirrorShare(front, GetLitBefore(upright), land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
   vec3 air = GetAirChange(place, land_marks.b, front, land_ratio);
   vec3 land_change = GetLandChange(front, land_ratio, shine, mirror.rgb, air);
-  vec3 water_change = GetWaterChange(front, clean, land_marks.g, sky_marks.b, mirror, air);
+  vec3 water_change = GetWaterChange(front, clean, land_marks.g, glare, mirror, air);
   land_change += water_strength * land_marks.r * (water_change - land_change);
+  change += (1.0 - matte) * land_change;
+#endif
 
-  vec3 change = matte * sky_change + (1.0 - matte) * land_change;
   change += GetVeil(scene + change, term[0].x * ReadBilinear(veil, place), matte);
   change += mix(land_strength, sky_strength, matte) * GetNight() * GetRodShift(scene + change);
   // What was filled where the old sun hid the sky gets the grain of the rest.
-  float filled = matte * sky_marks.b * term[0].y * min(sky_strength, 1.0);
+  float filled = matte * glare * term[0].y * min(sky_strength, 1.0);
   WriteChange(display, scene, change, filled, pixel);
 }

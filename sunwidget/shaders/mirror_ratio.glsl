@@ -11,7 +11,7 @@
 uniform sampler2D mirror_source;
 uniform sampler2D mirror_edit;
 uniform sampler2D surface;
-uniform sampler2D layers;
+uniform sampler2D mirrored_clouds;
 uniform sampler2D terms;
 uniform sampler2D land_terms;
 uniform vec2 pass_size;
@@ -29,9 +29,6 @@ const float kRoadRoughness = 0.3;
 // Irradiance reflectance of the sea just below its surface, between clear ocean and coast
 // (Jerlov 1976): water swallows red.
 const vec3 kBody = vec3(0.008, 0.025, 0.035);
-
-const int kClouds = 18;  // three by six
-const float kCloudShare = 0.4;  // the steeper facets mirror the sky above them
 
 // Light of the water itself under an irradiance, of which the surface lets in what it does not
 // reflect.
@@ -51,17 +48,8 @@ void main() {
   vec4 now = texelFetch(mirror_edit, texel, 0);
   vec3 view = GetViewDirection(place);
 
-  // Clouds are mirrored, too, drawn out along the line of sight and blurred across it.
-  float facing = GetFacing(view, source_wind_speed);
-  float cloud = 0.0;
-  for (int i = 0; i < kClouds; ++i) {
-    float higher = (float(i / 3) + 0.5) / float(kClouds / 3);
-    vec3 up = normalize(vec3(view.x, mix(0.3, 1.5, higher) * facing, view.z));
-    vec2 at = GetPlaceOfDirection(up).xy + vec2(0.025 * (float(i % 3) - 1.0 + 0.7 * (higher - 0.5)), 0.0);
-    cloud += ReadPicture(layers, at).g / float(kClouds);
-  }
-  cloud *= kCloudShare * step(view.y, 0.0);
-  float share = GetFresnel(facing);
+  float cloud = texelFetch(mirrored_clouds, texel, 0).r;
+  float share = GetFresnel(GetFacing(view, source_wind_speed));
   vec3 sky_before = before.rgb + cloud * (share * GetTerm(5) - before.rgb);
   vec3 sky_now = now.rgb + cloud * (share * GetTerm(7) - now.rgb);
   vec3 water = GetRatio(sky_now + GetBody(GetTerm(3), view, wind_speed),

@@ -19,6 +19,7 @@ HOST_UNIFORMS = {
     "pass_size",
     "canvas_flip",
     "output_transfer",
+    "output_levels",
     "dither",
     "view",
 }
@@ -27,8 +28,10 @@ ROWS = [row for name in GRAPHS for row in frame_graph(name)["passes"]]
 
 
 def shaders_of(rows):
-    """Fragment shaders and the shaders of what their pixels share."""
-    return {row[stage] for row in rows for stage in ("shader", "constants") if stage in row}
+    """Fragment shaders, those of parts of a pass too, and the shaders of what pixels share."""
+    own = {row[stage] for row in rows for stage in ("shader", "constants") if stage in row}
+    parts = [row["parts"] for row in rows if "parts" in row]
+    return own | {name for part in parts for name in (part["by"], *part["shaders"])}
 
 
 SHADERS = sorted(shaders_of(ROWS))
@@ -136,6 +139,8 @@ def test_every_library_file_is_included_by_some_pass():
             pending += [name for name in found if name not in used]
             used |= set(found)
     folder = files("sunwidget").joinpath("shaders", "lib")
+    # A shader of a part of a pass includes the pass's own.
+    used -= {f"{name}.glsl" for name in SHADERS}
     assert {f"lib/{f.name}" for f in folder.iterdir()} == used
 
 

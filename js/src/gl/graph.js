@@ -66,6 +66,8 @@ export class Graph {
     this.textures = new Map();
     /** @type {Record<string, number>} how often each pass was drawn */
     this.runs = {};
+    /** @type {(number | string)[]} what the canvas's depth was drawn from (writeParts) */
+    this.partsKey = [];
     /** @type {Set<string>} passes that the present run may draw */
     this.drawn = new Set();
     this.versions = 0; // of all textures: two sizes of one pass must differ, too
@@ -102,16 +104,27 @@ export class Graph {
       tile_origin: [0, 0],
       picture_strip: [0, 0, 0, 0],
     };
+    for (const pass of this.prepare(frame.methods, until)) this.runPass(pass, frame, host);
+  }
+
+  /**
+   * Begin to compile what a run needs, and return its passes. Nobody waits yet, so a run that comes
+   * later finds the programs there.
+   *
+   * @param {string[]} methods
+   * @param {string} [until]
+   */
+  prepare(methods, until) {
     const rows = this.description.passes.filter(
-      ({ when }) => !when || when.some((method) => frame.methods.includes(method)),
+      ({ when }) => !when || when.some((method) => methods.includes(method)),
     );
     const last = rows.find((row) => (until ? row.name === until : row.format === "output"));
     if (!last) {
-      throw new Error(`The frame graph has no pass "${until}" for ${frame.methods.join(" and ")}.`);
+      throw new Error(`The frame graph has no pass "${until}" for ${methods.join(" and ")}.`);
     }
     const passes = this.ancestors(rows, last);
     for (const pass of passes) for (const stage of this.stages(pass)) this.begin(stage);
-    for (const pass of passes) this.runPass(pass, frame, host);
+    return passes;
   }
 
   /**
@@ -156,21 +169,25 @@ export class Graph {
 
     /** @type {(number | string)[]} */
     const key = [width, height];
+    const ends = []; // of each program's values in the key
     /** @type {Record<string, number | number[]>} */
     const values = {};
     /** @type {Record<string, Texture>} */
     const textures = {};
-    for (const { name } of programs.flatMap((program) => program.uniforms)) {
-      const input = pass.inputs[name];
-      if (input !== undefined) {
-        const source = this.source(input);
-        textures[name] = this.input(pass, source);
-        key.push(source, textures[name].version);
-      } else if (!HISTORY.has(name)) {
-        const value = uniformValue(pass.shader, name, frame.states[pass.state], frame.scene, own);
-        values[name] = value;
-        key.push(...(typeof value === "number" ? [value] : value));
+    for (const { uniforms } of programs) {
+      for (const { name } of uniforms) {
+        const input = pass.inputs[name];
+        if (input !== undefined) {
+          const source = this.source(input);
+          textures[name] = this.input(pass, source);
+          key.push(source, textures[name].version);
+        } else if (!HISTORY.has(name)) {
+          const value = uniformValue(pass.shader, name, frame.states[pass.state], frame.scene, own);
+          values[name] = value;
+          key.push(...(typeof value === "number" ? [value] : value));
+        }
       }
+      ends.push(key.length);
     }
 
     const target = output ? null : this.target(pass, [width, height], key, frame.size[0]);
@@ -185,8 +202,12 @@ export class Graph {
 
     gl.bindFramebuffer(gl.FRAMEBUFFER, target ? target.framebuffer : null);
     gl.viewport(0, 0, width, height);
-    if (programs.length > 1) this.drawParts(programs, values, textures);
-    else this.draw(programs[0], values, textures);
+    if (pass.parts && programs.length > 1) {
+      this.writeParts(programs[0], key.slice(0, ends[0]), values, textures);
+      this.drawParts(programs.slice(1), values, textures);
+    } else {
+      this.draw(programs[0], values, textures);
+    }
     if (target) {
       target.key = key;
       target.samples += 1;
@@ -220,23 +241,39 @@ export class Graph {
   }
 
   /**
-   * Write to which part each pixel belongs, and draw each part's pixels by its program. Where the
-   * depth differs no driver runs a shader, while most compute both sides of a branch.
+   * Write to which part each pixel belongs as its depth, unless it stands there already.
    *
-   * @param {Program[]} programs the first tells the parts apart
+   * @param {Program} program
+   * @param {(number | string)[]} key what the depth is drawn from
    * @param {Record<string, number | number[]>} values
    * @param {Record<string, Texture>} textures
    */
-  drawParts([by, ...programs], values, textures) {
+  writeParts(program, key, values, textures) {
     const { gl } = this;
+    if (same(this.partsKey, key)) return;
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.ALWAYS);
     gl.depthMask(true);
     gl.colorMask(false, false, false, false);
-    this.draw(by, values, textures);
-    gl.depthFunc(gl.EQUAL);
+    this.draw(program, values, textures);
     gl.depthMask(false);
     gl.colorMask(true, true, true, true);
+    gl.disable(gl.DEPTH_TEST);
+    this.partsKey = key;
+  }
+
+  /**
+   * Draw each part's pixels by its program. Where the depth differs no driver runs a shader, while
+   * some compute both sides of a branch.
+   *
+   * @param {Program[]} programs
+   * @param {Record<string, number | number[]>} values
+   * @param {Record<string, Texture>} textures
+   */
+  drawParts(programs, values, textures) {
+    const { gl } = this;
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.EQUAL);
     for (const program of programs) this.draw(program, values, textures);
     gl.disable(gl.DEPTH_TEST);
   }

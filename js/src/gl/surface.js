@@ -76,7 +76,7 @@ export class Surface {
   show(frame) {
     const [width, height] = frame.size;
     const drawn = this.withGraph((graph) => {
-      resize(graph.gl.canvas, width, height);
+      if (resize(graph.gl.canvas, width, height)) graph.partsKey = []; // its depth is gone
       graph.run(frame);
       return graph.gl.canvas;
     });
@@ -157,6 +157,7 @@ export class Surface {
       alpha: this.alpha,
       antialias: false,
       depth: this.description.passes.some(({ parts }) => parts),
+      preserveDrawingBuffer: true, // the depth stays from frame to frame
       stencil: false,
       powerPreference: "high-performance",
     });
