@@ -1,6 +1,7 @@
 """The pages hold together: every link leads somewhere, every code block is code."""
 
 import ast
+import hashlib
 import json
 import re
 import subprocess
@@ -107,3 +108,11 @@ def test_every_method_of_the_analysis_is_told_in_a_page(docs, root, stage):
 def test_every_method_of_the_frame_is_told_in_a_page(docs, root):
     index = (root / "docs" / "README.md").read_text("utf-8")
     assert all(f"`{name}`" in index for name in RENDER_METHODS)
+
+
+def test_the_model_card_is_of_the_network_that_ships(root):
+    folder = root / "sunwidget" / "analysis" / "models"
+    network = (folder / "sky.onnx").read_bytes()
+    card = (folder / "MODEL_CARD.md").read_text("utf-8")
+    assert hashlib.sha256(network).hexdigest() in card
+    assert f"{len(network) / 1e6:.1f} MB" in card
