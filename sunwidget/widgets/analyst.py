@@ -12,6 +12,7 @@ from typing import Any
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.scene import Scene, analyze
 from sunwidget.edit import Edit
+from sunwidget.widgets import background
 from sunwidget.widgets.known_scenes import remember
 
 Report = Callable[[str, float, str], None]
@@ -69,7 +70,7 @@ class Analyst:
             if self._busy:
                 return
             self._busy = True
-        threading.Thread(target=self._work, name="sunwidget-analysis", daemon=True).start()
+        background.start(self._work, name="sunwidget-analysis")
 
     def cancel(self) -> None:
         """End the work under way where it tells its progress next; without any do nothing.
@@ -119,16 +120,20 @@ class Analyst:
             except AnalysisCancelled as error:
                 with self._changed:
                     self._error = error
-                self._report("cancelled", 1.0, "The analysis was cancelled.")
+                self._tell("cancelled", "The analysis was cancelled.")
             except Exception as error:  # noqa: BLE001 - shown to the person, raised by wait()
                 with self._changed:
                     self._error = error
-                self._report("error", 1.0, str(error) or type(error).__name__)
+                self._tell("error", str(error) or type(error).__name__)
+
+    def _tell(self, stage: str, message: str) -> None:
+        if not background.leaving():
+            self._report(stage, 1.0, message)
 
     def _update(self, edit: Edit) -> None:
         def progress(fraction: float, message: str) -> None:
             with self._changed:
-                if self._cancelled:
+                if self._cancelled or background.leaving():
                     raise AnalysisCancelled("The analysis was cancelled. retry() starts it again.")
             self._report("analysing", fraction, f"{message} …")
 

@@ -6,7 +6,6 @@ The browser moves the sun itself, from the path in ``_day``; the kernel computes
 from __future__ import annotations
 
 import datetime as dt
-import threading
 from typing import Any
 
 import traitlets
@@ -16,6 +15,7 @@ from sunwidget.heading import HeadingMatch, heading_by_sun
 from sunwidget.photo import Photo
 from sunwidget.photo_place import PhotoPlace, from_photo
 from sunwidget.place import Place, day_table, solar_day
+from sunwidget.widgets import background
 from sunwidget.widgets.analysed import Analysed
 from sunwidget.widgets.history import EditHistory
 
@@ -38,7 +38,7 @@ class PlaceClock(EditHistory, Analysed):
         self.observe(self._on_source, "_source")
         if start.place is not None:
             # pvlib takes a second to load, which the first picture shall not wait for.
-            threading.Thread(target=self._refresh_day, daemon=True).start()
+            background.start(self._refresh_day, name="sunwidget-day")
 
     @property
     def photo_place(self) -> PhotoPlace:

@@ -17,6 +17,8 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from sunwidget.widgets import background
+
 Progress = Callable[[float, str], None]
 Answer = tuple[dict[str, Any], list[bytes]]
 Action = Callable[[dict[str, Any], Progress], Answer]
@@ -62,10 +64,7 @@ class Requests:
             if key in self._running:  # the message came twice
                 return
             self._running[key] = threading.Event()  # so that it can be cancelled from now on
-        thread = threading.Thread(
-            target=self._answer, args=({**content, "buffers": buffers},), daemon=True
-        )
-        thread.start()
+        background.start(self._answer, {**content, "buffers": buffers}, name="sunwidget-request")
 
     def cancel(self, key: str | None = None) -> None:
         """Cancel the request with this id, or all that are under way."""
@@ -83,7 +82,7 @@ class Requests:
         wish = self._wish(content)
 
         def progress(fraction: float, message: str) -> None:
-            if wish.is_set():
+            if wish.is_set() or background.leaving():
                 raise Cancelled(f"{str(name).capitalize()} was cancelled.")
             self._send({"type": "progress", "id": key, "fraction": fraction, "message": message})
 
@@ -99,6 +98,8 @@ class Requests:
         finally:
             with self._lock:
                 self._running.pop(str(key), None)
+        if background.leaving():
+            return
         while len(buffers) > 1 and sum(map(len, buffers)) > _MESSAGE_BYTES:
             if wish.is_set():  # nobody listens any more
                 buffers = []

@@ -1,0 +1,40 @@
+"""Threads that work behind a widget's back, and end before Python does.
+
+A daemon thread that is inside a C++ library when the interpreter ends is torn out of it, which
+aborts the whole process ("terminate called without an active exception"). So all of them are told
+that it ends, and waited for.
+"""
+
+from __future__ import annotations
+
+import atexit
+import threading
+import time
+import weakref
+from collections.abc import Callable
+from typing import Any
+
+_PATIENCE = 10.0  # seconds for all threads together; the longest step of an analysis takes a few
+
+_running: weakref.WeakSet[threading.Thread] = weakref.WeakSet()
+_leaving = threading.Event()
+
+
+def start(work: Callable[..., Any], *args: Any, name: str) -> None:
+    """Call ``work(*args)`` on a thread of its own; it should look at ``leaving`` now and then."""
+    thread = threading.Thread(target=work, args=args, name=name, daemon=True)
+    _running.add(thread)
+    thread.start()
+
+
+def leaving() -> bool:
+    """Tell whether Python is about to end: nobody is there any more to hear of the work."""
+    return _leaving.is_set()
+
+
+@atexit.register
+def _wait() -> None:
+    _leaving.set()
+    end = time.monotonic() + _PATIENCE
+    for thread in list(_running):
+        thread.join(max(0.0, end - time.monotonic()))
