@@ -1,6 +1,7 @@
 """The API page is what the code says, and the docstrings it is made of are complete."""
 
 import ast
+import doctest
 import inspect
 import re
 import sys
@@ -105,3 +106,14 @@ def test_a_docstring_tells_of_every_error_that_is_raised_at_once():
             and isinstance(node.exc.func, ast.Name)
         }
         assert all(error in inspect.getdoc(function) for error in raised), (name, raised)
+
+
+def test_examples_in_docstrings_compile():
+    parser = doctest.DocTestParser()
+    examples = {name: parser.get_examples(inspect.getdoc(PUBLIC[name])) for name in PUBLIC}
+    assert sum(map(len, examples.values())) > 20
+    for name, found in examples.items():
+        for example in found:
+            compile(example.source, name, "exec")
+            for used in re.findall(r"\bsw\.(\w+)", example.source):
+                assert hasattr(sw, used), (name, used)
