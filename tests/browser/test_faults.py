@@ -199,10 +199,10 @@ def test_a_kernel_that_goes_ends_what_it_was_asked_and_the_stroke_that_was_begun
         "Object.assign(model, { widget_manager: {}, comm_live: false }).fire('comm_live_update')"
     )
     editor.locator("[data-kernel='lost']").wait_for()
-    editor.get_by_text("Saving failed: The kernel is gone.").wait_for()
-    assert editor.get_by_role("button", name="Save", exact=True).is_enabled()
     editor.mouse.move(x - 80, y + 20, steps=2)
     editor.mouse.up()
+    editor.get_by_text("Saving failed: The kernel is gone.").wait_for()
+    assert editor.get_by_role("button", name="Save", exact=True).is_enabled()
     assert trait(editor, "strokes") == []
     assert trait(editor, "_history")["past"] == []
     assert editor.errors == []

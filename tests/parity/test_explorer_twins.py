@@ -3,10 +3,6 @@
 The browser's modules are run by node, as they are.
 """
 
-import json
-import shutil
-import subprocess
-
 import numpy as np
 import pytest
 
@@ -18,12 +14,10 @@ from sunwidget.widgets.payload import parameter_json
 from sunwidget.widgets.sky_explorer import SkyExplorer
 
 SCRIPT = """
-import { readFileSync } from "node:fs";
 import { effectiveValues } from "./src/explorer/values.js";
 import { sunAt, trueElevation } from "./src/day.js";
 import * as haze from "./src/explorer/haze.js";
-const asked = JSON.parse(readFileSync(0, "utf-8"));
-console.log(JSON.stringify({
+answer({
   values: asked.states.map((state) => effectiveValues(asked.parameters, state)),
   suns: asked.days.map(([day, hours]) => hours.map((h) => sunAt(day, h))),
   true: asked.elevations.map(trueElevation),
@@ -33,7 +27,7 @@ console.log(JSON.stringify({
     of_turbidity: haze.depthOfTurbidity(asked.clean, air, 2.5),
     of_visibility: haze.depthOfVisibility(asked.clean, air, 9000),
   })),
-}));
+});
 """
 # Ithaca, midnight sun, a sun through the zenith, the pole.
 DAYS = (
@@ -69,11 +63,8 @@ def airs():
 
 
 @pytest.fixture(scope="module")
-def browsers(root):
+def browsers(in_node):
     """What the browser's modules answer."""
-    node = shutil.which("node")
-    if node is None:
-        pytest.skip("node is not installed")
     asked = {
         "parameters": parameter_json(EXPLORER_PARAMETERS),
         "states": states(),
@@ -82,16 +73,7 @@ def browsers(root):
         "airs": [air.parameters() for air in airs()],
         "clean": SkyExplorer()._aliases,
     }
-    done = subprocess.run(
-        [node, "--input-type=module", "--eval", SCRIPT],
-        cwd=root / "js",
-        input=json.dumps(asked),
-        capture_output=True,
-        text=True,
-        check=True,
-        timeout=60,
-    )
-    return json.loads(done.stdout)
+    return in_node(SCRIPT, asked)
 
 
 def test_switches_and_choices_give_the_same_uniforms(browsers):

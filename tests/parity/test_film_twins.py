@@ -1,8 +1,5 @@
 """A film's path on both sides: the browser's code, run by node, against Python's."""
 
-import json
-import shutil
-import subprocess
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,15 +12,14 @@ from sunwidget.widgets.key_frames import MOVED, along
 from sunwidget.widgets.payload import parameter_json
 
 SCRIPT = """
-import { readFileSync } from "node:fs";
 import { EASINGS, keyFramePath } from "./src/film_path.js";
-const { frames, edit, parameters, automatic, count } = JSON.parse(readFileSync(0, "utf-8"));
+const { frames, edit, parameters, automatic, count } = asked;
 const rows = {};
 for (const easing of Object.keys(EASINGS)) {
   const path = keyFramePath(frames, easing, parameters, edit, automatic);
   rows[easing] = Array.from({ length: count }, (_, i) => path(i / (count - 1)));
 }
-console.log(JSON.stringify(rows));
+answer(rows);
 """
 
 # Four key frames with automatic values, the azimuth past the camera's back, a value held and one
@@ -52,10 +48,7 @@ def scene():
 
 
 @pytest.fixture(scope="module")
-def played(scene, root):
-    node = shutil.which("node")
-    if node is None:
-        pytest.skip("node is not installed: it runs the browser's half of this comparison")
+def played(scene, in_node):
     values = {p["name"]: p["default"] for p in parameter_json()} | EDIT.to_dict()
     asked = {
         "frames": [{"seconds": t, "recipe": edit.to_dict()} for t, edit in FRAMES],
@@ -64,15 +57,7 @@ def played(scene, root):
         "automatic": scene.automatic,
         "count": 145,
     }
-    done = subprocess.run(
-        [node, "--input-type=module", "-e", SCRIPT],
-        input=json.dumps(asked),
-        capture_output=True,
-        text=True,
-        cwd=root / "js",
-        check=True,
-    )
-    return json.loads(done.stdout)
+    return in_node(SCRIPT, asked)
 
 
 def test_the_browser_knows_the_kernels_easings(played):

@@ -1,9 +1,5 @@
 """Time and place on both sides: the browser's code, run by node, against Python's."""
 
-import json
-import shutil
-import subprocess
-
 import numpy as np
 import pytest
 
@@ -14,10 +10,8 @@ from sunwidget.place import Place, at_hours, day_table, hours_of_day, solar_day
 pytest.importorskip("pvlib")
 
 SCRIPT = """
-import { readFileSync } from "node:fs";
 import * as place from "./src/place.js";
-const asked = JSON.parse(readFileSync(0, "utf-8"));
-console.log(JSON.stringify(asked.map(({ here, path, seen }) => {
+answer(asked.map(({ here, path, seen }) => {
   const hours = place.hoursOfDay(here);
   return {
     day: place.solarDay(here),
@@ -28,7 +22,7 @@ console.log(JSON.stringify(asked.map(({ here, path, seen }) => {
     match: place.matchHeading(here, path, seen),
     solar: place.solarTime(here),
   };
-})));
+}));
 """
 
 
@@ -55,27 +49,14 @@ def places():
 
 
 @pytest.fixture(scope="module")
-def answers(root):
-    node = shutil.which("node")
-    if node is None:
-        pytest.skip("node is not installed, so the browser's code cannot be run here")
+def answers(in_node):
     rng = np.random.default_rng(8)
     seen = [(float(rng.uniform(-40, 40)), float(rng.uniform(0, 40))) for _ in places()]
     asked = [
         {"here": vars(p), "path": day_table(p).tolist(), "seen": s}
         for p, s in zip(places(), seen, strict=True)
     ]
-    done = subprocess.run(
-        [node, "--input-type=module", "-e", SCRIPT],
-        input=json.dumps(asked),
-        capture_output=True,
-        text=True,
-        cwd=root / "js",
-        timeout=60,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    return list(zip(places(), seen, json.loads(done.stdout), strict=True))
+    return list(zip(places(), seen, in_node(SCRIPT, asked), strict=True))
 
 
 def test_days_and_hours_are_counted_alike(answers):

@@ -1,9 +1,5 @@
 """SkyExplorer's picture and curves, drawn on EGL, against closed forms and the sky in NumPy."""
 
-import json
-import shutil
-import subprocess
-
 import numpy as np
 import pytest
 
@@ -383,17 +379,14 @@ def test_a_panorama_holds_all_azimuths_once():
     assert view.direction(360, [0.01, 199.99])[:, 1] == pytest.approx([90, -10], abs=0.02)
 
 
-def test_browser_and_python_project_alike(root):
-    node = shutil.which("node")
-    if node is None:
-        pytest.skip("no Node.js to run the browser's projection with")
+def test_browser_and_python_project_alike(in_node):
     cases = [
         {"name": name, "size": size, "look": LOOK} for name in PROJECTIONS for size in [(300, 200)]
     ]
     grid = [[x, y] for x in range(5, 300, 29) for y in range(5, 200, 21)]
     script = """
       import { Projection } from "./src/explorer/projection.js";
-      const { cases, grid } = JSON.parse(process.argv[1]);
+      const { cases, grid } = asked;
       const all = cases.map(({ name, size, look }) => {
         const view = new Projection(name, size, look);
         return grid.map(([x, y]) => {
@@ -401,17 +394,11 @@ def test_browser_and_python_project_alike(root):
           return seen && [...seen, ...(view.pixel(...seen) ?? [])];
         });
       });
-      process.stdout.write(JSON.stringify(all));
+      answer(all);
     """
-    done = subprocess.run(
-        [node, "--input-type=module", "-e", script, json.dumps({"cases": cases, "grid": grid})],
-        cwd=root / "js",
-        capture_output=True,
-        check=True,
-        timeout=60,
-    )
+    found_by_browser = in_node(script, {"cases": cases, "grid": grid})
     x, y = np.array(grid, float).T
-    for case, seen in zip(cases, json.loads(done.stdout), strict=True):
+    for case, seen in zip(cases, found_by_browser, strict=True):
         angles = Projection(name=case["name"], size=case["size"], **LOOK).direction(x, y)
         assert np.isfinite(angles[:, 0]).sum() > 20
         for wanted, found, place in zip(angles, seen, grid, strict=True):

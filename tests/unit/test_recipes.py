@@ -1,8 +1,6 @@
 """Recipes cross from Python to the browser and back; the browser's Python is executed here."""
 
 import json
-import shutil
-import subprocess
 
 import pytest
 
@@ -11,7 +9,6 @@ from sunwidget.edit import PARAMETERS, RECIPE_VERSION, plain
 from sunwidget.widgets.history import HISTORY_BYTES, HISTORY_LENGTH, NAME_LENGTH, VERSIONS
 from sunwidget.widgets.payload import parameter_json
 
-pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="needs Node")
 
 STROKES = (
     sw.Stroke("sky", ((0.1, 0.2), (0.30000000000000004, -1.0)), radius=0.02),
@@ -32,34 +29,23 @@ EDITS = {
     "half known place": sw.Edit(place=sw.Place(-33.9, 151.2, "2024-12-21", 9)),
 }
 SCRIPT = """
-import { checkRecipe } from "./js/src/recipe/check.js";
-import { readRecipe } from "./js/src/recipe/read.js";
-import { toJson, toPython } from "./js/src/recipe/write.js";
-let text = "";
-for await (const part of process.stdin) text += part;
-const { parameters, recipes } = JSON.parse(text);
-const answers = recipes.map((recipe) => {
+import { checkRecipe } from "./src/recipe/check.js";
+import { readRecipe } from "./src/recipe/read.js";
+import { toJson, toPython } from "./src/recipe/write.js";
+const { parameters, recipes } = asked;
+answer(recipes.map((recipe) => {
   const { values, problems } = checkRecipe(parameters, readRecipe(recipe));
   return { json: toJson(values), python: toPython(values), problems };
-});
-console.log(JSON.stringify(answers));
+}));
 """
 
 
 @pytest.fixture(scope="module")
-def browser(root):
+def browser(in_node):
     """``browser(texts)`` reads recipes as the front end does and writes them again."""
 
     def ask(texts):
-        done = subprocess.run(
-            ["node", "--input-type=module", "--eval", SCRIPT],
-            cwd=root,
-            input=json.dumps({"parameters": parameter_json(), "recipes": texts}),
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        return json.loads(done.stdout)
+        return in_node(SCRIPT, {"parameters": parameter_json(), "recipes": texts})
 
     return ask
 
