@@ -9,7 +9,6 @@ from sunwidget.edit import PARAMETERS, RECIPE_VERSION, plain
 from sunwidget.widgets.history import HISTORY_BYTES, HISTORY_LENGTH, NAME_LENGTH, VERSIONS
 from sunwidget.widgets.payload import parameter_json
 
-
 STROKES = (
     sw.Stroke("sky", ((0.1, 0.2), (0.30000000000000004, -1.0)), radius=0.02),
     sw.Stroke("not_water", ((1e-7, 0.5),)),
