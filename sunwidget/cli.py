@@ -1,7 +1,8 @@
 """The command line: ``sunwidget render | sweep | html | analyze | replace-sky | …``.
 
 Every parameter flag comes from the one table in ``edit.py``. Errors are one line on
-stderr and exit status 2, without a traceback (``--debug`` shows it).
+stderr and exit status 2, without a traceback (``--debug`` shows it); 1 when a part of the work
+failed, 130 after Ctrl-C, 143 after SIGTERM.
 """
 
 from __future__ import annotations
@@ -16,6 +17,13 @@ from typing import Any, NoReturn
 
 from sunwidget.cli_batch import add_batch
 from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene
+from sunwidget.cli_ending import (
+    EndedError,
+    ended_in_order,
+    nobody_reads,
+    one_line,
+    print_anything,
+)
 from sunwidget.cli_photo import Progress, add_methods, add_photo, refuse_existing, scene_of
 from sunwidget.cli_place import add_place
 from sunwidget.cli_render import add_render
@@ -36,25 +44,27 @@ class _Parser(argparse.ArgumentParser):
         )
 
     def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message}\n")
+        self.exit(2, f"{self.prog}: {one_line(message)}\n")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
     parser = _parser()
     options = parser.parse_args(arguments)
+    print_anything()
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), ended_in_order():
             warnings.showwarning = _one_line_warning
             result: int = options.run(options)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, EndedError) as stop:
         print("sunwidget: stopped; nothing half-written was left.", file=sys.stderr)
-        return 130
+        return stop.status if isinstance(stop, EndedError) else 130
+    except BrokenPipeError:
+        return nobody_reads()
     except Exception as error:  # a person at a prompt wants the sentence, not the stack
         if "debug" in options:
             raise
-        sentence = " ".join(str(error).split()) or type(error).__name__
-        print(f"sunwidget: {sentence}", file=sys.stderr)
+        print(f"sunwidget: {one_line(error)}", file=sys.stderr)
         return 2
     return result
 
@@ -136,4 +146,4 @@ def _demo(options: argparse.Namespace) -> int:
 
 
 def _one_line_warning(message: Warning | str, *_rest: Any, **_more: Any) -> None:
-    print(f"sunwidget: {message}", file=sys.stderr)
+    print(f"sunwidget: {one_line(message)}", file=sys.stderr)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, Self
 
+from sunwidget.cli_ending import one_line
 from sunwidget.time_left import with_time_left
 
 _HINTS = ("sun", "horizon", "fov", "sky", "sky_label")
@@ -110,9 +111,16 @@ def refuse_existing(path: Path, overwrite: bool) -> None:
     """Fail before the work, not after it."""
     from sunwidget.files import target
 
-    if path.exists() and not overwrite:
+    if target(path, overwrite=True).exists() and not overwrite:
         raise FileExistsError(f"{path} exists already. Add --overwrite to replace it.")
-    target(path, overwrite=True)
+
+
+def scene_to_draw(options: argparse.Namespace) -> Any:
+    """Return ``scene_of`` the flags; fail before that where nothing can be drawn."""
+    from sunwidget.renderer.gl_thread import require_renderer
+
+    require_renderer()
+    return scene_of(options)
 
 
 def scene_of(options: argparse.Namespace) -> Any:
@@ -128,7 +136,7 @@ def scene_of(options: argparse.Namespace) -> Any:
     with Progress("analysis") as progress:
         scene = sw.analyze(photo, progress=progress, **hints)
     for warning in scene.warnings:
-        print(f"sunwidget: {warning}", file=sys.stderr)
+        print(f"sunwidget: {one_line(warning)}", file=sys.stderr)
     return scene
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene, size
-from sunwidget.cli_photo import Progress, add_photo, refuse_existing, scene_of
+from sunwidget.cli_photo import Progress, add_photo, refuse_existing, scene_to_draw
 from sunwidget.cli_place import add_place
 from sunwidget.time_left import with_time_left
 
@@ -66,7 +66,7 @@ def _render(options: argparse.Namespace) -> int:
     if options.environment is not None:
         refuse_existing(options.environment, options.overwrite)
         check_map(options.environment)
-    scene = scene_of(options)
+    scene = scene_to_draw(options)
     edit = edit_of_scene(options, scene, edit)
     begin = time.perf_counter()
     with Progress("picture") as progress:

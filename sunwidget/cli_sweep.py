@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from sunwidget.cli_edit import add_edit, add_number, edit_of_flags, edit_of_scene
 from sunwidget.cli_film import add_film, add_steps, film_options
-from sunwidget.cli_photo import Progress, add_photo, refuse_existing, scene_of
+from sunwidget.cli_photo import Progress, add_photo, refuse_existing, scene_to_draw
 from sunwidget.cli_place import add_place, is_placed, place_of
 from sunwidget.edit import NUMBERS, Edit, EditError, parameter
 from sunwidget.export.film import LOOPS, is_sequence, sequence_target
@@ -64,7 +64,7 @@ def _sweep(options: argparse.Namespace) -> int:
 
     start = edit_of_flags(options)
     _check(options, start)
-    scene = scene_of(options)
+    scene = scene_to_draw(options)
     path = _path(options, scene, edit_of_scene(options, scene, start))
     if options.output is not None:
         with Progress("film") as progress:

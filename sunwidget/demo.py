@@ -23,7 +23,9 @@ def demo(folder: Path, progress: Progress | None = None) -> list[tuple[Path, str
     """
     import sunwidget as sw
     from sunwidget.export.maps import save_maps
+    from sunwidget.renderer.gl_thread import require_renderer
 
+    require_renderer()
     report = progress or (lambda _fraction, _message: None)
     folder.mkdir(parents=True, exist_ok=True)
     scene = sw.analyze(sw.sample(SAMPLE), progress=part(report, 0.0, 0.3))

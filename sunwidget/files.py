@@ -8,6 +8,9 @@ import os
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
+
+from sunwidget.wording import shown
 
 # What stood in the way, and what to do about it.
 _OBSTACLES = {
@@ -40,24 +43,47 @@ def target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
     NotWrittenError
         For what no file can be called, and for a folder that may not be written to.
     """
-    try:
+    with _named(path):
         # Through a link: replacing it would leave the file it names unchanged.
         place = Path(os.path.realpath(Path(path).expanduser()))
         is_there = _is_there(place)
-    except (TypeError, ValueError, RuntimeError, OSError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise NotWrittenError(f"No file can be called {ascii(path)[:80]}: {reason}.") from error
     if place.is_dir():
         raise IsADirectoryError(f"{path} is a folder. Add a file name to it.")
     if is_there and not overwrite:
         raise FileExistsError(f"{path} exists already. Pass overwrite=True to replace it.")
     if not place.parent.is_dir():
         raise FileNotFoundError(f"There is no folder {place.parent} to write {place.name} into.")
-    if not os.access(place.parent, os.W_OK):
-        raise NotWrittenError(
-            f"{place.name} cannot be written: the folder {place.parent} may not be written to. "
-            "Choose another one."
-        )
+    _refuse_closed(place.parent, place.name)
+    return place
+
+
+def folder_target(folder: str | os.PathLike[str], *, parents: bool = False) -> Path:
+    """Check a folder that files are to be written into, before any work is spent on them.
+
+    Parameters
+    ----------
+    folder : path
+    parents : bool
+        Whether the folders that it lies in need not be there either.
+
+    Raises
+    ------
+    NotADirectoryError
+        When it is a file.
+    FileNotFoundError
+        When the folder that it is to be made in does not exist.
+    NotWrittenError
+        For what no folder can be called, and for one that may not be written to.
+    """
+    with _named(folder):
+        place = Path(folder).expanduser()
+        is_there = _is_there(place)
+    if is_there and not place.is_dir():
+        raise NotADirectoryError(f"{folder} is a file. Name a folder.")
+    if not (is_there or parents or place.absolute().parent.is_dir()):
+        raise FileNotFoundError(f"There is no folder {place.parent} to make {place.name} in.")
+    outer = next((p for p in (place, *place.absolute().parents) if p.exists()), place)
+    _refuse_closed(outer, place.name)
     return place
 
 
@@ -111,6 +137,23 @@ def explained(path: Path) -> Iterator[None]:
         told = NotWrittenError(f"{path} was not written: {obstacle}. No part of it was left.")
         told.errno = error.errno
         raise told from error
+
+
+@contextlib.contextmanager
+def _named(path: Any) -> Iterator[None]:
+    try:
+        yield
+    except (TypeError, ValueError, RuntimeError, OSError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise NotWrittenError(f"No file can be called {shown(path)}: {reason}.") from error
+
+
+def _refuse_closed(folder: Path, name: str) -> None:
+    if not os.access(folder, os.W_OK):
+        raise NotWrittenError(
+            f"{name} cannot be written: the folder {folder} may not be written to. Choose another "
+            "one."
+        )
 
 
 def _is_there(path: Path) -> bool:

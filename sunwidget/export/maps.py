@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import json
 import math
@@ -11,7 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sunwidget.analysis.errors import checked_scene
 from sunwidget.analysis.maps import MAPS, levels, shares_of
+from sunwidget.files import complete_or_absent, explained, folder_target
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -54,12 +57,15 @@ def save_maps(
     ------
     FileExistsError
         When one of the files exists and ``overwrite`` is false; nothing is written then.
+    OSError
+        When there can be no such folder, or the disk is full: none of the files is left then.
     """
     from PIL import Image
 
     from sunwidget.export.overview import overview
 
-    folder = Path(folder)
+    folder = folder_target(folder, parents=True)
+    checked_scene(scene)
     images = {}
     for entry in MAPS:
         shares = shares_of(scene, entry, scene.photo.size)
@@ -71,11 +77,14 @@ def save_maps(
     for path in paths:
         if path.exists() and not overwrite:
             raise FileExistsError(f"{path} exists already. Pass overwrite to replace it.")
-    folder.mkdir(parents=True, exist_ok=True)
-    for path, image in zip(paths, images.values(), strict=False):
-        image.save(path)
     text = json.dumps(facts(scene, made), indent=2, allow_nan=False, ensure_ascii=False)
-    paths[-1].write_text(text + "\n", "utf-8")
+    with explained(folder), contextlib.ExitStack() as stack:
+        folder.mkdir(parents=True, exist_ok=True)
+        # None gets its name before all are written.
+        whole = [stack.enter_context(complete_or_absent(p, overwrite=overwrite)) for p in paths]
+        for unfinished, image in zip(whole, images.values(), strict=False):
+            image.save(unfinished)
+        whole[-1].write_bytes(text.encode("utf-8", "replace") + b"\n")
     return paths
 
 

@@ -31,9 +31,11 @@ from sunwidget.export.formats import check_quality
 from sunwidget.export.frame_edits import FrameEdits
 from sunwidget.export.stills import save
 from sunwidget.export.sun_path import Step, SunPath
+from sunwidget.files import folder_target
 from sunwidget.frames import Clock, Times, frame_sources, name_of
 from sunwidget.layout import PhotoError, PhotoWarning
 from sunwidget.place import Place
+from sunwidget.renderer.gl_thread import require_renderer
 from sunwidget.time_left import Progress, part, with_time_left
 
 BROKEN = ("hold", "skip", "stop")
@@ -129,6 +131,8 @@ def timelapse(
         is "stop".
     ValueError
         For options that are none.
+    RendererError
+        When this machine has no EGL.
 
     Examples
     --------
@@ -147,6 +151,7 @@ def timelapse(
     else:
         names = _still_names(sources, place_out, format, overwrite=overwrite)
     steps = FrameEdits(edit, len(sources), easing)
+    require_renderer()  # the frames are long looked at before the first is drawn
     report = with_time_left(progress)
     scenes = FrameScenes.of(
         sources,
@@ -210,10 +215,7 @@ def _still_names(
     sources: Sequence[Any], folder: Path, ending: str | None, *, overwrite: bool
 ) -> list[Path]:
     """Return where each still goes; raise before any work is spent when one cannot go there."""
-    if folder.exists() and not folder.is_dir():
-        raise NotADirectoryError(f"{folder} is a file. Name a folder, or a film ending in .mp4.")
-    if not folder.exists() and not folder.parent.is_dir():
-        raise FileNotFoundError(f"There is no folder {folder.parent} to make {folder.name} in.")
+    folder_target(folder)
     from sunwidget.export.formats import FORMATS
 
     names = []

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Literal
 
 from sunwidget.files import complete_or_absent, target
+from sunwidget.wording import printable
 
 State = Literal["done", "skipped", "failed"]
 
@@ -113,9 +114,9 @@ class BatchReport:
         for i, line in enumerate(cells):
             padded = [text.ljust(width) for text, width in zip(line, widths, strict=True)]
             padded[3] = line[3].rjust(widths[3])
-            lines.append("  ".join(padded).rstrip())
+            lines.append(printable("  ".join(padded).rstrip()))
             if i and (what := _cells(rows[i - 1])[-1]):
-                lines.append(f"    {what}")
+                lines.append(printable(f"    {what}"))
         if left_out:
             lines.append(f"… and {left_out} more that are done or skipped")
         return "\n".join([*lines, "", self.summary])

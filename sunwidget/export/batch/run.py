@@ -15,7 +15,7 @@ from sunwidget.export.batch.record import Record, recipe_key
 from sunwidget.export.batch.report import BatchReport, BatchRow
 from sunwidget.export.batch.wish import Wish, check_endings, check_whole, wish_of
 from sunwidget.export.batch.workers import ThisProcess, Workers, has_dask, require_dask
-from sunwidget.files import complete_or_absent
+from sunwidget.files import complete_or_absent, explained, folder_target
 from sunwidget.time_left import with_time_left
 
 
@@ -197,12 +197,10 @@ class _Run:
         error = outcome.error
         if not error:
             try:
-                self._write(outcome)
-                self.record.add(
-                    output, photo, self._digests[outcome.number], self.recipe, outcome.files
-                )
+                with explained(self.record.folder / output):
+                    self._write(outcome)
             except OSError as wrong:
-                error = f"{self.record.folder / output} was not written: {sentence(wrong)}"
+                error = sentence(wrong)
         row = BatchRow(
             photo,
             None if error else self.record.folder / output,
@@ -215,12 +213,28 @@ class _Run:
         self._row(outcome.number, row)
 
     def _write(self, outcome: Outcome) -> None:
-        for name, data in outcome.files.items():
-            place = self.record.folder / name
-            place.parent.mkdir(parents=True, exist_ok=True)
-            overwrite = self.overwrite or self.record.is_own(name)
-            with complete_or_absent(place, overwrite=overwrite) as unfinished:
-                unfinished.write_bytes(data)
+        number = outcome.number
+        written: list[Path] = []
+        try:
+            for name, data in outcome.files.items():
+                place = self.record.folder / name
+                place.parent.mkdir(parents=True, exist_ok=True)
+                overwrite = self.overwrite or self.record.is_own(name)
+                with complete_or_absent(place, overwrite=overwrite) as unfinished:
+                    unfinished.write_bytes(data)
+                written.append(place)
+            self.record.add(
+                self.outputs[number],
+                self.photos[number],
+                self._digests[number],
+                self.recipe,
+                outcome.files,
+            )
+        except OSError:
+            # What the record does not know, the next run would take for a person's own.
+            for place in written:
+                place.unlink(missing_ok=True)
+            raise
 
     def _row(self, number: int, row: BatchRow) -> None:
         self.rows[number] = row
@@ -236,11 +250,7 @@ class _Run:
 
 
 def _folder(out: str | os.PathLike[str]) -> Path:
-    folder = Path(os.path.abspath(Path(out).expanduser()))  # noqa: PTH100 - links stay links
-    if folder.exists() and not folder.is_dir():
-        raise NotADirectoryError(f"{folder} is a file. Name a folder for the pictures.")
-    if not folder.parent.is_dir():
-        raise FileNotFoundError(f"There is no folder {folder.parent} to make {folder.name} in.")
+    folder = Path(os.path.abspath(folder_target(out)))  # noqa: PTH100 - links stay links
     folder.mkdir(exist_ok=True)
     return folder
 
