@@ -227,6 +227,7 @@ def test_before_shows_the_photo_while_held(editor):
     editor.mouse.move(button["x"] + 10, button["y"] + 10)
     editor.mouse.down()
     assert editor.locator(".sunwidget.sw-before").count() == 1
+    editor.wait_for_timeout(500)  # longer than a click, which keeps it
     editor.mouse.up()
     assert editor.locator(".sunwidget.sw-before").count() == 0
 
