@@ -24,6 +24,12 @@ class PhotoWarning(UserWarning):
     """A picture was opened, but not everything in it could be kept."""
 
 
+def size_within(size: tuple[int, int], long_edge: float) -> tuple[int, int]:
+    """Return a (width, height) shrunk in proportion to at most ``long_edge`` pixels, at least 1."""
+    scale = min(1.0, long_edge / max(size))
+    return max(1, round(size[0] * scale)), max(1, round(size[1] * scale))
+
+
 def check_size(width: int, height: int, name: str) -> None:
     """Refuse pictures without pixels and those of more than MAX_PIXELS."""
     if width < 1 or height < 1:

@@ -18,7 +18,7 @@ from sunwidget import exif as exif_tags
 from sunwidget import xmp as xmp_packet
 from sunwidget.color import SRGB, ColorProfile, strips
 from sunwidget.decode import Decoded
-from sunwidget.layout import PhotoError, PhotoWarning
+from sunwidget.layout import PhotoError, PhotoWarning, size_within
 from sunwidget.photo_sources import decoded_from
 
 __all__ = ["FieldOfView", "Photo", "PhotoError", "PhotoWarning", "open_photo"]
@@ -171,9 +171,7 @@ class Photo:
 
     def size_within(self, long_edge: int) -> tuple[int, int]:
         """Return width and height, shrunk in proportion to at most ``long_edge`` pixels."""
-        scale = min(1.0, long_edge / max(self.size))
-        width, height = (max(1, round(n * scale)) for n in self.size)
-        return width, height
+        return size_within(self.size, long_edge)
 
     def resized(self, size: tuple[int, int]) -> NDArray[np.float32]:
         """Return ``pixels`` averaged over areas at ``size`` (width, height), kept nowhere."""

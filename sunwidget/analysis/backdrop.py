@@ -25,6 +25,7 @@ from sunwidget.analysis.old_sun import largest_halo, old_sun_mark, starburst
 from sunwidget.analysis.unmix import cloud_white, unmix
 from sunwidget.analysis.working import LUMINANCE, Working, resize, smoothstep
 from sunwidget.camera import Camera
+from sunwidget.layout import size_within
 
 RANGE = 2.0
 """The stored field spans ±2 in natural logarithm: a seventh to seven times the model."""
@@ -80,8 +81,7 @@ def behind_sun(
     SkyFit, Backdrop
         The fit with its glare profile; the field at no more than ``LONG_SIDE`` pixels.
     """
-    scale = min(1.0, LONG_SIDE / max(working.width, working.height))
-    size = (max(1, round(working.width * scale)), max(1, round(working.height * scale)))
+    size = size_within((working.width, working.height), LONG_SIDE)
     display = np.asarray(resize(working.linear, *size), np.float32)
     matte = np.asarray(resize(sky, *size), np.float32)
     scene_light = fit.response.scene_light(display)
@@ -134,8 +134,7 @@ def _clear_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray
     """March the fitted sky on a coarser grid: without its disc the sky's logarithm is smooth."""
     import cv2
 
-    scale = min(1.0, _MODEL_SIDE / max(size))
-    coarse = max(1, round(size[0] * scale)), max(1, round(size[1] * scale))
+    coarse = size_within(size, _MODEL_SIDE)
     logs = _coarse_logs(dataclasses.replace(fit, glare=(0.0, 3.0, 2.0)), camera, coarse)
     model = np.exp(cv2.resize(logs, size, interpolation=cv2.INTER_LINEAR))
     return model.reshape(size[1], size[0], 3).astype(np.float32)

@@ -15,6 +15,7 @@ import numpy as np
 from sunwidget.analysis.backdrop import LONG_SIDE, RANGE, fill_by_pyramid, matched_sky
 from sunwidget.analysis.overcast import believable
 from sunwidget.analysis.working import resize
+from sunwidget.layout import size_within
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -32,8 +33,7 @@ def clear_sky(scene: Scene) -> np.ndarray:
     ``LONG_SIDE`` pixels.
     """
     working = scene.working
-    scale = min(1.0, LONG_SIDE / max(working.width, working.height))
-    size = (max(1, round(working.width * scale)), max(1, round(working.height * scale)))
+    size = size_within((working.width, working.height), LONG_SIDE)
     matte = np.asarray(resize(scene.small_sky, *size), np.float32)
     opacity = np.asarray(resize(scene.cloud_map, *size), np.float32) / np.maximum(matte, 1e-3)
     opacity = np.clip(opacity, 0, 1)

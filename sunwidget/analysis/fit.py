@@ -31,6 +31,7 @@ from sunwidget.atmosphere.sky import SkyTable
 from sunwidget.camera import Camera
 
 T = TypeVar("T")
+Done = Callable[[float], object]
 
 # What is searched. Finer steps change no picture visibly: gain and contrast absorb the rest.
 _OPTICAL_DEPTHS = (0.01, 0.03, 0.06, 0.12, 0.25, 0.5)
@@ -129,6 +130,7 @@ def fit_sky(
     camera: Camera,
     sun: tuple[float, float] | None,
     assumed: tuple[float, float],
+    done: Done = lambda _share: None,
 ) -> SkyFit:
     """Fit model and camera to the clear sky of a photo.
 
@@ -144,6 +146,8 @@ def fit_sky(
         The photo's own sun in degrees, or ``None`` to find it from the sky's colours.
     assumed : (azimuth, elevation)
         Where to start when the sky cannot tell.
+    done : callable, optional
+        Told now and then what share of the work is done, 0 to 1; what it raises ends the fit.
 
     Returns
     -------
@@ -163,8 +167,12 @@ def fit_sky(
     where = (azimuth.ravel()[index], elevation.ravel()[index])
     display = light.reshape(-1, 3)[index].astype(np.float64)
     sure_of_sun = 1.0
+    searched = 0.0
     if sun is None:
-        sun, sure_of_sun = _search_sun(display, where, assumed)
+        searched = 0.5
+        sun, sure_of_sun = _search_sun(
+            display, where, assumed, lambda share: done(searched * share)
+        )
 
     # First the air under a middling response, then the response under the likeliest airs.
     candidates = [
@@ -176,7 +184,11 @@ def fit_sky(
         )
         for depth, asymmetry in itertools.product(_OPTICAL_DEPTHS, _ASYMMETRIES)
     ]
-    models = _side_by_side(lambda air: model_sky(air, *where, sun), candidates)
+    models = _side_by_side(
+        lambda air: model_sky(air, *where, sun),
+        candidates,
+        lambda share: done(searched + (1 - searched) * share),
+    )
     airs = [
         (_compare(display, model, Response())[0], air, model)
         for air, model in zip(candidates, models, strict=True)
@@ -212,10 +224,17 @@ def fit_sky(
     )
 
 
-def _side_by_side(task: Callable[[T], np.ndarray], items: list[T]) -> list[np.ndarray]:
+def _side_by_side(task: Callable[[T], np.ndarray], items: list[T], done: Done) -> list[np.ndarray]:
     """Map over two threads, since a person waits; NumPy lets go of the interpreter."""
-    with ThreadPoolExecutor(2) as pool:
-        return list(pool.map(task, items))
+    results = []
+    pool = ThreadPoolExecutor(2)
+    try:
+        for result in pool.map(task, items):
+            results.append(result)
+            done(len(results) / len(items))
+    finally:
+        pool.shutdown(cancel_futures=True)
+    return results
 
 
 def view_angles(camera: Camera, width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
@@ -241,7 +260,10 @@ def _compare(
 
 
 def _search_sun(
-    display: np.ndarray, where: tuple[np.ndarray, np.ndarray], assumed: tuple[float, float]
+    display: np.ndarray,
+    where: tuple[np.ndarray, np.ndarray],
+    assumed: tuple[float, float],
+    done: Done,
 ) -> tuple[tuple[float, float], float]:
     """Direction of an unseen sun, and how sure it is: coarse search from the assumed one."""
     step = max(1, display.shape[0] // 120)
@@ -267,7 +289,8 @@ def _search_sun(
 
     tasks = list(itertools.product(airs, rings))
     errors: dict[tuple[float, float], float] = {}
-    for (_, (azimuths, height)), skies in zip(tasks, _side_by_side(march, tasks), strict=True):
+    found = _side_by_side(march, tasks, done)
+    for (_, (azimuths, height)), skies in zip(tasks, found, strict=True):
         for azimuth, sky in zip(azimuths, skies, strict=True):
             candidate = float(azimuth), float(height)
             error, _ = _compare(display, sky, response)

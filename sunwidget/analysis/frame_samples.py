@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -26,12 +25,11 @@ from sunwidget.layout import PhotoError
 from sunwidget.photo import Photo
 from sunwidget.photo_place import from_photo
 from sunwidget.place import Place
+from sunwidget.time_left import Progress
 
 _SIDE = 640  # pixels of the longer side at which they are looked at
 _SEARCH_SIDE = 384
 _MOST_BYTES = 400_000_000  # of the whole photos that a median picture is made from
-
-Progress = Callable[[float, str], Any]
 
 
 def open_samples(

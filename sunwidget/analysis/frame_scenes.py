@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -31,14 +31,13 @@ from sunwidget.analysis.unmix import cloud_gain
 from sunwidget.analysis.working import Working, resize, smoothstep
 from sunwidget.edit import Edit
 from sunwidget.frames import Clock, name_of, read_frame
-from sunwidget.layout import PhotoError
+from sunwidget.layout import PhotoError, size_within
 from sunwidget.photo import Photo
 from sunwidget.place import Place
+from sunwidget.time_left import Progress
 
 SAMPLES = 9
 _AROUND = 2  # frames before and after over which the old sun's mark is averaged
-
-Progress = Callable[[float, str], Any]
 
 
 class Trouble(NamedTuple):
@@ -155,7 +154,7 @@ class FrameScenes:
         for number, source in enumerate(sources):
             progress(0.6 + 0.4 * number / len(sources), f"looking at frame {number + 1}")
             try:
-                photo = read_frame(source, None, like=_within(size, 1024))
+                photo = read_frame(source, None, like=size_within(size, 1024))
             except PhotoError as error:
                 troubles.append(Trouble(number, name_of(source, number), str(error)))
                 offsets.append(Offset(0.0, 0.0, sure=False))
@@ -314,8 +313,3 @@ def _moved_message(name: str, offset: Offset) -> str:
 
 def _size_of(working: Working) -> tuple[int, int]:
     return working.width, working.height
-
-
-def _within(size: tuple[int, int], long_edge: int) -> tuple[int, int]:
-    scale = min(1.0, long_edge / max(size))
-    return max(1, round(size[0] * scale)), max(1, round(size[1] * scale))

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sunwidget.layout import size_within
+
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
 
@@ -162,8 +164,7 @@ def ramp_colours(ramp: Ramp, count: int = 256) -> np.ndarray:
 def _elevation(scene: Scene) -> np.ndarray:
     # As fine as the browser shows it; a smooth map loses nothing by it.
     camera = scene.camera
-    scale = min(1.0, 1024 / max(camera.width, camera.height))
-    width, height = (max(1, round(n * scale)) for n in (camera.width, camera.height))
+    width, height = size_within((camera.width, camera.height), 1024)
     x = (np.arange(width) + 0.5) * camera.width / width
     y = (np.arange(height) + 0.5) * camera.height / height
     return np.asarray(camera.angles(x[None], y[:, None])[1], np.float32)

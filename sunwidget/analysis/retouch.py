@@ -28,11 +28,12 @@ from sunwidget.analysis.refine import (
     on_lines,
     stretched,
 )
-from sunwidget.analysis.stages import Progress, Steps, complete
+from sunwidget.analysis.stages import Steps, complete
 from sunwidget.analysis.strokes import Painting, set_strokes
 from sunwidget.analysis.water_strokes import LABELS as WATER
 from sunwidget.analysis.water_strokes import with_water
 from sunwidget.analysis.working import resize
+from sunwidget.time_left import Progress
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene

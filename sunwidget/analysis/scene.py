@@ -21,7 +21,13 @@ from sunwidget.analysis.enlarge import resize_rows
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.glitter import column_of, glitter, roughness
-from sunwidget.analysis.hints import Hints, check_fov, check_horizon, check_point
+from sunwidget.analysis.hints import (
+    Hints,
+    check_fov,
+    check_horizon,
+    check_point,
+    check_strokes,
+)
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.noise import noise_level
@@ -29,7 +35,6 @@ from sunwidget.analysis.plausible import plausible
 from sunwidget.analysis.retouch import stroked
 from sunwidget.analysis.stages import (
     METHODS,
-    Progress,
     Steps,
     check_method,
     complete,
@@ -41,7 +46,9 @@ from sunwidget.analysis.working import Working, resize
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.camera import Camera, Point
 from sunwidget.edit import PARAMETERS, Edit, Stroke, parameter
+from sunwidget.layout import size_within
 from sunwidget.photo import Photo, open_photo
+from sunwidget.time_left import Progress
 
 # What an edit says that leaves the clouds to ``analyze``.
 _ANALYSED_CLOUDS = {
@@ -206,8 +213,7 @@ class Scene:
     def _log_depth(self, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
         """Return ln(metres), the sky as its nearest land: (height, width) float32, or ``rows``."""
         # Beyond a preview's size depth has nothing finer to show.
-        scale = min(1.0, _DEPTH_EDGE / max(width, height))
-        size = max(1, round(width * scale)), max(1, round(height * scale))
+        size = size_within((width, height), _DEPTH_EDGE)
         if size not in self._log_depths:
             metres = self.depth_field.log_metres(*size, self.working)
             land = resize(self.sky, *size) <= 0.5
@@ -463,6 +469,9 @@ def analyze(
     }
     for stage, name in methods.items():
         check_method(stage, name)
+    strokes = check_strokes(strokes)
+    if progress is not None and not callable(progress):
+        raise AnalysisError(f"progress must be a function, not {progress!r:.80}.")
     hints = Hints(
         check_point("sun", sun),
         check_horizon(horizon),
@@ -507,7 +516,7 @@ def analyze(
         decision=decision,
         doubted=doubted,
     )
-    return stroked(complete(start, hints, step), tuple(strokes))
+    return stroked(complete(start, hints, step), strokes)
 
 
 def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:

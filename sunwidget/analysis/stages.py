@@ -35,11 +35,11 @@ from sunwidget.analysis.sun import Blot, SunObservation
 from sunwidget.analysis.unmix import cloud_gain
 from sunwidget.analysis.working import Working, resize
 from sunwidget.camera import Camera, Point
+from sunwidget.time_left import Progress
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
 
-Progress = Callable[[float, str], Any]
 FIT_SIDE = 384
 SURE_HORIZON = 0.68  # confidence from which nothing below the horizon can be sky
 
@@ -85,6 +85,10 @@ class Steps:
         """Tell how far a long stage is, so that the caller may cancel it there."""
         if self.progress is not None:
             self.progress(fraction, self._message)
+
+    def between(self, first: float, last: float) -> Callable[[float], None]:
+        """Return what a part of the work tells its share done, 0 to 1, from first to last."""
+        return lambda share: self.within(first + (last - first) * share)
 
 
 def complete(
@@ -250,13 +254,15 @@ def fit_atmosphere(
     small_sky = resize(sky, small.width, small.height)
     opacity = resize(covers[0].opacity, small.width, small.height)
     assumed = sun_angles or sun_stage.assume(small, small_sky, camera)
-    fitted = fit_sky(small, small_sky, opacity, camera, sun_angles, assumed)
-    step.within(0.86)
+    fitted = fit_sky(
+        small, small_sky, opacity, camera, sun_angles, assumed, step.between(0.82, 0.87)
+    )
     if unmixed:
         # The colour of the clear sky tells the clouds, and without them it is known better.
         veil = cloud_stage.veil(small, small_sky, camera, fitted, sun_seen=visible)[0]
-        fitted = fit_sky(small, small_sky, veil.opacity, camera, fitted.sun, assumed)
-        step.within(0.89)
+        fitted = fit_sky(
+            small, small_sky, veil.opacity, camera, fitted.sun, assumed, step.between(0.88, 0.9)
+        )
     fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
     step.within(0.92)
     if unmixed:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.color import strips
+from sunwidget.layout import size_within
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -107,8 +108,7 @@ class _Around:
         from sunwidget.analysis.backdrop import fill_by_pyramid
 
         height, width = codes.shape[:2]
-        scale = min(1.0, _FILLED_EDGE / max(width, height))
-        size = (max(1, round(width * scale)), max(1, round(height * scale)))
+        size = size_within((width, height), _FILLED_EDGE)
         small = _resized(matte, *size)
         shares = _edited(_own_opacity(_resized(opacity, *size), small), edit)
         known = _sky_share(small)

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sunwidget.layout import size_within
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -47,8 +49,7 @@ def copy_size(size: Size, limit: int) -> Size:
     """
     if is_resident(size, limit):
         return size
-    scale = min(1.0, min(COPY_EDGE, limit) / max(size))
-    return max(1, round(size[0] * scale)), max(1, round(size[1] * scale))
+    return size_within(size, min(COPY_EDGE, limit))
 
 
 def pieces(size: Size, pixels: int, limit: int) -> list[tuple[slice, list[slice]]]:

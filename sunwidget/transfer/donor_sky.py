@@ -20,6 +20,7 @@ from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit, view_angles
 from sunwidget.analysis.working import resize
 from sunwidget.camera import Camera
+from sunwidget.layout import size_within
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -199,8 +200,7 @@ def _without_land(residual: np.ndarray, sky: np.ndarray) -> np.ndarray:
 
 
 def _small(size: tuple[int, int]) -> tuple[int, int]:
-    scale = min(1.0, 512 / max(size))
-    return max(1, round(size[0] * scale)), max(1, round(size[1] * scale))
+    return size_within(size, 512)
 
 
 def _edge(values: np.ndarray, places: np.ndarray, asked: np.ndarray) -> np.ndarray:

@@ -135,3 +135,24 @@ def test_the_response_and_its_inverse_agree_below_the_shoulders_end(response):
     display = np.linspace(0.001, 0.98, 200)
     assert np.allclose(response.display_light(response.scene_light(display)), display, rtol=1e-3)
     assert np.all(np.diff(response.scene_light(display)) > 0)
+
+
+def test_a_fit_tells_how_far_it_is_and_ends_when_told_to():
+    photo = known_photo(clouds=False)
+    working = Working.of(open_photo(photo.bytes))
+    arguments = working, photo.sky, photo.opacity, photo.camera, None, (0.0, 40.0)
+    told = []
+    fit_sky(*arguments, told.append)
+    assert told == sorted(told)
+    assert told[-1] == 1
+    # Fourteen rings of suns, then eighteen airs.
+    assert max(np.diff([0.0, *told])) < 0.1
+
+    def stop(share):
+        told.append(share)
+        raise InterruptedError
+
+    told.clear()
+    with pytest.raises(InterruptedError):
+        fit_sky(*arguments, stop)
+    assert len(told) == 1
