@@ -7,7 +7,7 @@ did. The data belong to others and are not part of the project: without them, sk
 import numpy as np
 import pytest
 
-from sunwidget.atmosphere import measurements, validation
+from sunwidget.atmosphere import evaluation, measurements, validation
 from sunwidget.atmosphere.parameters import Atmosphere
 
 pytestmark = pytest.mark.shared
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.shared
 @pytest.fixture(scope="module")
 def folder(shared):
     folder = shared / "data" / "sky-reference"
-    if not (folder / validation.EVALUATION).is_file() or not measurements.is_available(folder):
+    if not (folder / evaluation.EVALUATION).is_file() or not measurements.is_available(folder):
         pytest.skip(f"no measured skies in {folder}")
     return folder
 
@@ -24,7 +24,7 @@ def folder(shared):
 @pytest.fixture(scope="module")
 def day(folder):
     """The day as Bruneton cleaned it, and what other models say of it."""
-    return validation.Evaluation(folder)
+    return evaluation.Evaluation(folder)
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from sunwidget.atmosphere.path_tracer import trace
 from sunwidget.atmosphere.presets import PRESETS
 from sunwidget.atmosphere.rayleigh import rayleigh_coefficient
 from sunwidget.atmosphere.sky import SHADER, SkyTable, sky_radiance
-from sunwidget.atmosphere.validation import furnace
+from sunwidget.atmosphere.sky_figures import furnace
 from sunwidget.edit import NUMBERS
 
 VIEWS = directions(*np.meshgrid([4.0, 15.0, 40.0, 80.0], [0.0, 60.0, 120.0, 180.0]))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sunwidget.atmosphere import validation
+from sunwidget.atmosphere import sky_figures
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.sky import FAST, SHADER, SkyTable, sky_radiance
 
@@ -29,14 +29,14 @@ def directions(elevation, azimuth):
     ],
 )
 def test_all_orders_agree_with_path_tracing(air, sun, allowed):
-    error, noise = validation.path_tracing_error(air, sun, paths=200)
+    error, noise = sky_figures.path_tracing_error(air, sun, paths=200)
     # Three per cent by day; in twilight few paths meet the light, and weigh much.
     assert noise.max() < (0.06 if sun > 2 else 0.25)
     assert np.sqrt(np.mean(error**2)) < allowed
 
 
 def test_the_blue_hour_has_its_colour():
-    assert validation.zenith_chromaticity(AIR, -6.0) == pytest.approx([0.231, 0.232], abs=0.01)
+    assert sky_figures.zenith_chromaticity(AIR, -6.0) == pytest.approx([0.231, 0.232], abs=0.01)
 
 
 @pytest.mark.parametrize("quality", [FAST, SHADER], ids=["fast", "shader"])

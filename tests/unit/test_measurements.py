@@ -10,9 +10,10 @@ import measured_skies as made_up
 import numpy as np
 import pytest
 
-from sunwidget.atmosphere import measurements
+from sunwidget.atmosphere import measured_skies, measurements
 from sunwidget.atmosphere.constants import WAVELENGTHS
-from sunwidget.atmosphere.measurements import MeasurementsError, azimuth_of_symmetry, load
+from sunwidget.atmosphere.measured_skies import azimuth_of_symmetry
+from sunwidget.atmosphere.measurements import MeasurementsError, load
 from sunwidget.atmosphere.measurements_source import (
     BASE_URL,
     CHECKSUMS,
@@ -140,9 +141,9 @@ def test_the_known_elevations_are_those_of_the_ephemeris():
     pytest.importorskip("pvlib")
     from sunwidget.atmosphere.solar import solar_position
 
-    assert len(measurements._SUN_ELEVATION) == len(CHECKSUMS)
-    for time, elevation in measurements._SUN_ELEVATION.items():
-        place = measurements.LATITUDE, measurements.LONGITUDE
+    assert len(measured_skies._SUN_ELEVATION) == len(CHECKSUMS)
+    for time, elevation in measured_skies._SUN_ELEVATION.items():
+        place = measured_skies.LATITUDE, measured_skies.LONGITUDE
         sun = solar_position(f"{time.replace(' ', 'T')}-04:00", *place)
         # Rounded to four digits.
         assert elevation == pytest.approx(sun.true_elevation, abs=6e-5)
@@ -179,7 +180,7 @@ def test_a_scan_travels_to_the_browser(published):
 def test_a_comparison_knows_level_pattern_and_error(published):
     data = load(published[0])
     made = measurements.compare(("multiple",), data=data)[0]
-    doubled = measurements.Measurements(**{**vars(data), "radiance": 2 * data.radiance})
+    doubled = measured_skies.Measurements(**{**vars(data), "radiance": 2 * data.radiance})
     half = measurements.compare(("multiple",), data=doubled)[0]
     assert half.level == pytest.approx(made.level / 2)
     assert half.pattern == pytest.approx(made.pattern)
