@@ -74,6 +74,30 @@ def test_every_notebook_is_in_the_index(root):
         assert f"../notebooks/{path.name}" in text
 
 
+# Files that a person has, or that are written.
+NOT_OURS = {"evening.json", "sunset.json", "scene.json", "script.py"}
+
+
+def test_files_of_the_source_that_the_pages_name_exist(pages, root):
+    folders = ("sunwidget", "js", "tests", "bench", "scripts", "training")
+    ours = [
+        f"/{path.relative_to(root).as_posix()}"
+        for folder in folders
+        for path in (root / folder).rglob("*.*")
+        if "node_modules" not in path.parts
+    ]
+    named = re.compile(r"`([\w./]+\.(?:py|glsl|js|mjs|css|json))`")
+    lost = {
+        f"{path.name}: {name}"
+        for path, text in pages.items()
+        for name in named.findall(text)
+        if name not in NOT_OURS
+        and not name.startswith("build/")
+        and not any(own.endswith(f"/{name}") for own in ours)
+    }
+    assert lost == set()
+
+
 def test_python_in_the_pages_compiles(pages):
     for path, text in pages.items():
         if path.name != "api.md":  # signatures are no statements
