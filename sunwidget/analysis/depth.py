@@ -21,7 +21,7 @@ from sunwidget.analysis.depth_level import fill_sky
 from sunwidget.analysis.depth_network import DepthNetwork
 from sunwidget.analysis.depth_view import View
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.sky import check_proportions
+from sunwidget.analysis.sky import check_proportions, plain_numbers
 from sunwidget.analysis.working import LUMINANCE
 
 FAR_CONTACT = 3_000.0  # metres: what stands on the horizon itself is taken to be no farther
@@ -123,7 +123,7 @@ def given(value: Any, size: tuple[int, int]) -> np.ndarray | DepthNetwork | None
             return None
         raise AnalysisError(choices)
     try:
-        array = np.asarray(value).astype(np.float32)
+        array = plain_numbers(np.asarray(value))
     except (TypeError, ValueError) as error:
         raise AnalysisError(choices) from error
     if array.ndim == 0:

@@ -55,7 +55,7 @@ def check_point(name: str, value: Any) -> Point | None:
         ) from error
     if not max(abs(x), abs(y)) <= FARTHEST:  # of NaN, too
         raise AnalysisError(
-            f"{name} must be pixels of the photo, at most {FARTHEST:g} away, not {value!r:.80}."
+            f"{name} must be finite pixels, at most {FARTHEST:g} away, not {value!r:.80}."
         )
     return x, y
 
@@ -93,3 +93,12 @@ def check_fov(value: Any) -> float | None:
     if not 5 <= degrees <= 150:
         raise AnalysisError(f"fov must be 5 to 150 degrees (vertical), not {value!r:.80}.")
     return degrees
+
+
+def check_strokes(value: Any) -> tuple[Stroke, ...]:
+    """Return strokes; AnalysisError when anything else is among them."""
+    strokes = tuple(value) if isinstance(value, (tuple, list)) else (value,)
+    for stroke in strokes:
+        if not isinstance(stroke, Stroke):
+            raise AnalysisError(f"strokes must be a tuple of sunwidget.Stroke, not {value!r:.80}.")
+    return strokes

@@ -16,6 +16,7 @@ import numpy as np
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.sky_network import SkyNetwork, bundled
 from sunwidget.analysis.working import Working, resize
+from sunwidget.photo import PhotoError, open_photo
 
 
 def network(working: Working) -> np.ndarray:
@@ -107,19 +108,11 @@ def coarse(
 
 
 def _read_mask(path: Path) -> np.ndarray:
-    """Read a picture as grey code values, 8 or 16 bits."""
-    from PIL import Image, UnidentifiedImageError
-
+    """Read a picture's code values (h, w, 3); never by a reader that can start a program."""
     try:
-        with Image.open(path) as picture:
-            wide = picture.mode.startswith("I")
-            return np.asarray(picture if wide else picture.convert("L"))
-    except FileNotFoundError as error:
-        raise AnalysisError(f"No sky mask at {path}. Pass the path of a picture.") from error
-    except (OSError, UnidentifiedImageError, ValueError, Image.DecompressionBombError) as error:
-        raise AnalysisError(
-            f"{path} is no picture that can be read as a sky mask: {error}."
-        ) from error
+        return open_photo(path).encoded
+    except PhotoError as error:
+        raise AnalysisError(f"This sky mask cannot be read: {error}") from error
 
 
 def mask_from(mask: Any, size: tuple[int, int] | None = None, of: str = "sky") -> np.ndarray:
@@ -136,7 +129,7 @@ def mask_from(mask: Any, size: tuple[int, int] | None = None, of: str = "sky") -
         if array.ndim == 3:
             array = array[..., 0] if array.shape[2] in (1, 2) else array[..., :3].max(axis=2)
         boolean = array.dtype == bool
-        array = array.astype(np.float32)
+        array = plain_numbers(array)
     except (TypeError, ValueError) as error:
         raise AnalysisError(
             f"{of}= takes a mask array, a path or a method, not {mask!r:.80}."
@@ -150,6 +143,14 @@ def mask_from(mask: Any, size: tuple[int, int] | None = None, of: str = "sky") -
     if size is not None:
         check_proportions(f"{of} mask", array.shape, size)
     return np.clip(array, 0, 1)
+
+
+def plain_numbers(array: np.ndarray) -> np.ndarray:
+    """Return whole or real numbers as float32; TypeError for anything else."""
+    if array.dtype.kind not in "bfiu":
+        raise TypeError(f"{array.dtype} holds no plain numbers")
+    with np.errstate(over="ignore"):  # what is too large becomes infinite, and is refused as such
+        return array.astype(np.float32)
 
 
 def check_proportions(name: str, shape: tuple[int, ...], size: tuple[int, int]) -> None:

@@ -1,6 +1,7 @@
 """The page on what can go wrong promises nothing that no test guards."""
 
 import ast
+import itertools
 import re
 
 SECTIONS = ["Pictures", "Recipes, exports and drivers", "Notebook and browser"]
@@ -10,7 +11,7 @@ GUARD = re.compile(r"`([\w./]+\.(?:py|js))(?:::([^`]+))?`")
 def rows(page):
     """Yield the rows of the page's tables without their heads."""
     lines = page.splitlines()
-    for above, line in zip(lines, lines[1:], strict=False):
+    for above, line in itertools.pairwise(lines):
         if line.startswith("| ") and above.startswith("|"):
             yield line
 
