@@ -80,5 +80,8 @@ def measured(megapixels: float) -> dict[str, Any]:
         photo = photo_file(Path(name), megapixels)
         command = [sys.executable, "-m", "speed.one_size", str(photo)]
         here = Path(__file__).resolve().parents[1]
-        found: dict[str, Any] = json.loads(subprocess.check_output(command, cwd=here))
+        run = subprocess.run(command, cwd=here, capture_output=True, text=True, check=False)
+    if run.returncode:
+        raise RuntimeError(f"{megapixels:g} MP: {run.stderr.strip().splitlines()[-1]}")
+    found: dict[str, Any] = json.loads(run.stdout)
     return found

@@ -1,6 +1,7 @@
 /**
  * When a view draws: once a refresh of the screen at most, only while it is in sight, smaller while
- * a drag lasts and the machine is behind, and in full as soon as the hand rests.
+ * a drag lasts and the machine is behind, and in full as soon as the hand rests. The first frame of
+ * a scene, which all that is kept of it is drawn for, is no larger than it can be seen either.
  */
 
 const SLOW_MS = 33; // a frame that waits longer makes the next ones smaller
@@ -25,6 +26,7 @@ export class FrameLoop {
     this.owed = false; // a frame was asked for while out of sight
     /** @type {() => number} the largest scale that can be seen while a drag lasts */
     this.limit = () => 1;
+    this.first = false; // whether somebody waits for the first frame of a scene
     this.wanted = 1; // the scale that would be just fast enough
     this.scale = 1; // the last one that was drawn
     this.unlike = UNLIKE_FRAMES; // how many frames still say nothing about speed
@@ -69,7 +71,9 @@ export class FrameLoop {
 
   run() {
     const { asked } = this;
-    const small = this.dragging() && !this.rests;
+    const asSeen = this.first && this.limit() < 1;
+    const small = (this.dragging() || asSeen) && !this.rests;
+    this.first = false;
     const scale = small ? Math.min(rung(this.wanted), this.limit()) : 1;
     if (scale !== this.scale) this.unlike = UNLIKE_FRAMES;
     this.scale = scale;

@@ -51,6 +51,23 @@ test("at a speed in between the size stays", (t) => {
   assert.ok(drawn.slice(-50).every((scale) => scale === reached));
 });
 
+test("the first frame of a scene is as large as it is seen, and in full as soon as nothing moves", (t) => {
+  const { loop, drawn, step, run } = loopOf(t, { dragging: () => false });
+  loop.limit = () => 0.4;
+  loop.first = true;
+  step(16);
+  t.mock.timers.tick(10_000);
+  run(16);
+  step(16);
+  assert.deepEqual(drawn, [0.4, 1, 1]);
+  loop.limit = () => 1;
+  loop.first = true;
+  step(16);
+  t.mock.timers.tick(10_000);
+  run(16);
+  assert.deepEqual(drawn, [0.4, 1, 1, 1], "what is seen in full is not drawn twice");
+});
+
 test("a slow hand is no slow machine", (t) => {
   const { drawn, step } = loopOf(t);
   for (let i = 0; i < 20; i++) {

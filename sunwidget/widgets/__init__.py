@@ -1,8 +1,29 @@
 """Widgets for Jupyter: traits and messages only; the picture is drawn in ``js/``."""
 
-from sunwidget.widgets.compare import Compare
-from sunwidget.widgets.sky_explorer import SkyExplorer
-from sunwidget.widgets.study import Study
-from sunwidget.widgets.sun_editor import SunEditor
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from sunwidget.widgets.compare import Compare
+    from sunwidget.widgets.sky_explorer import SkyExplorer
+    from sunwidget.widgets.study import Study
+    from sunwidget.widgets.sun_editor import SunEditor
 
 __all__ = ["Compare", "SkyExplorer", "Study", "SunEditor"]
+
+_HOMES = {
+    "Compare": "compare",
+    "SkyExplorer": "sky_explorer",
+    "Study": "study",
+    "SunEditor": "sun_editor",
+}
+
+
+def __getattr__(name: str) -> Any:
+    # On first use: a person waits for the first editor, which needs none of the other widgets.
+    if name not in _HOMES:
+        raise AttributeError(f"module 'sunwidget.widgets' has no attribute {name!r}")
+    import importlib
+
+    value = getattr(importlib.import_module(f"sunwidget.widgets.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import base64
 import math
+import weakref
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -22,7 +23,7 @@ from sunwidget.analysis.maps import MAPS, levels, scene_map, shares_of
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.working import resize
 from sunwidget.edit import PARAMETERS, Parameter
-from sunwidget.photo import Photo
+from sunwidget.photo import Photo, open_photo
 from sunwidget.renderer.render import quantise_map
 from sunwidget.renderer.shader_source import frame_graph
 
@@ -32,6 +33,7 @@ THUMBNAIL_EDGE = 480
 # Above this many bytes a lossless preview costs more than it shows.
 _LOSSLESS_BYTES = 4_000_000
 _JPEG_QUALITY = 95
+_thumbnails: weakref.WeakKeyDictionary[Photo, bytes] = weakref.WeakKeyDictionary()
 
 
 def encode_png(image: NDArray[np.uint8]) -> bytes:
@@ -48,7 +50,10 @@ def encode_png(image: NDArray[np.uint8]) -> bytes:
 
 def encode_preview(photo: Photo) -> bytes:
     """Return the photo's preview, encoded as ``encode_picture`` does."""
-    return encode_picture(photo.preview(PREVIEW_EDGE))
+    preview = photo.preview(PREVIEW_EDGE)
+    # A cell's output holds both, and a person waits for it: the large photo is shrunk once.
+    _thumbnails[photo] = encode_png(open_photo(preview).preview(THUMBNAIL_EDGE))
+    return encode_picture(preview)
 
 
 def encode_picture(image: NDArray[np.uint8]) -> bytes:
@@ -70,7 +75,9 @@ def encode_picture(image: NDArray[np.uint8]) -> bytes:
 
 def thumbnail(photo: Photo) -> bytes:
     """Return a small PNG for viewers that run no widgets."""
-    return encode_png(photo.preview(THUMBNAIL_EDGE))
+    if photo not in _thumbnails:
+        _thumbnails[photo] = encode_png(photo.preview(THUMBNAIL_EDGE))
+    return _thumbnails[photo]
 
 
 def with_picture(bundle: Any, picture: Callable[[], bytes]) -> Any:

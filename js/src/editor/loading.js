@@ -16,6 +16,7 @@ export class Loading {
    */
   constructor(view, signal) {
     this.view = view;
+    this.signal = signal;
     this.loads = 0;
     onTraits(view.model, ["_photo"], () => void this.photo(), signal);
     onTraits(view.model, ["_scene"], () => void this.scene(), signal);
@@ -33,6 +34,20 @@ export class Loading {
     } catch {
       if (bytes !== model.get("_photo")) return; // another is on its way
       this.view.message.show("The browser cannot decode the preview that the kernel sent.");
+      return;
+    }
+    // Not before the photo is on the screen: compiling keeps the browser's graphics process busy.
+    requestAnimationFrame(() => setTimeout(() => this.prepare()));
+  }
+
+  /** Begin to compile the shaders while the kernel analyses: some drivers take seconds. */
+  prepare() {
+    const { frame, loop, scene, state } = this.view;
+    if (this.signal.aborted || scene || !loop.inSight) return;
+    try {
+      frame.withGraph((graph) => graph.prepare([String(state.values.method)]));
+    } catch {
+      // The first frame will say what is wrong, when there is something to draw.
     }
   }
 
@@ -65,6 +80,7 @@ export class Loading {
     }
     const { fov_vertical_deg, pitch, roll } = scene.camera;
     const camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
+    view.loop.first = true;
     view.takeScene(scene, camera);
   }
 
