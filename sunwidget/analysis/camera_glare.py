@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+from functools import lru_cache
 
 import numpy as np
 
-from sunwidget.analysis.fit import SkyFit, view_angles
+from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.working import LUMINANCE
 from sunwidget.atmosphere.constants import SPECTRAL_TO_REC709, WAVELENGTHS, solar_irradiance
 from sunwidget.atmosphere.optics import camera_height, transmittance_to_top
@@ -95,10 +96,19 @@ def sun_color(fit: SkyFit) -> np.ndarray:
     return np.asarray(color / float(color @ LUMINANCE), np.float32)
 
 
+@lru_cache(maxsize=4)
 def angle_to_sun(camera: Camera, size: tuple[int, int], sun: tuple[float, float]) -> np.ndarray:
-    """Return degrees from the sun of each pixel at ``size`` (w, h): (h, w) float32."""
-    azimuth, elevation = view_angles(camera, *size)
-    az, el = np.radians(azimuth - sun[0]), np.radians(elevation)
-    sun_el = np.radians(sun[1])
-    cosine = np.sin(el) * np.sin(sun_el) + np.cos(el) * np.cos(sun_el) * np.cos(az)
-    return np.asarray(np.degrees(np.arccos(np.clip(cosine, -1, 1))), np.float32)
+    """Return degrees from the sun of each pixel at ``size`` (w, h): (h, w) float32, read-only."""
+    azimuth, elevation = np.radians(sun)
+    level = np.cos(elevation)
+    x, y, z = (
+        level * (np.cos(azimuth) * forward + np.sin(azimuth) * right) + np.sin(elevation) * up
+        for forward, right, up in zip(camera.forward, camera.right, camera.up, strict=True)
+    )
+    width, height = size
+    u = ((np.arange(width) + 0.5) / width - 0.5) * camera.width / camera.focal
+    v = (((np.arange(height) + 0.5) / height - 0.5) * camera.height / camera.focal)[:, None]
+    cosine = (u * x + (v * y + z)) / np.sqrt(u * u + (v * v + 1))
+    angle = np.degrees(np.arccos(np.clip(cosine, -1, 1))).astype(np.float32)
+    angle.flags.writeable = False
+    return angle

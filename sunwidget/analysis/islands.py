@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from sunwidget.analysis.working import channel_sum
+
 
 def fill_islands(sky: np.ndarray, coarse: np.ndarray) -> np.ndarray:
     """Return how much to add to the matte so that islands the network calls sky are sky.
@@ -60,7 +62,7 @@ def grow_over_glow(sky: np.ndarray, coarse: np.ndarray, encoded: np.ndarray) -> 
     smooth = cv2.GaussianBlur(encoded, (0, 0), 1.0)
     across = cv2.Sobel(smooth, cv2.CV_32F, 1, 0, ksize=3) / 8
     down = cv2.Sobel(smooth, cv2.CV_32F, 0, 1, ksize=3) / 8
-    slope = np.sqrt((across**2 + down**2).sum(-1))
+    slope = np.sqrt(channel_sum(across**2 + down**2))
     gentle = slope < 4.0 / max(sky.shape)
     doubtful = (sky < 0.5) & (coarse > 0.04) & gentle & (encoded.mean(-1) > 0.4)
     count, labels = cv2.connectedComponents(doubtful.astype(np.uint8), connectivity=4)

@@ -55,8 +55,11 @@ def overcast(working: Working, sky: np.ndarray) -> np.ndarray:
     nothing, nor does a burnt or a night sky.
     """
     encoded = working.encoded
-    spread = np.ptp(encoded, axis=-1)
-    seen = (sky > 0.9) & (encoded.max(-1) < 0.97)
+    # Three planes, as NumPy's maximum over a last axis of three takes twenty times as long.
+    red, green, blue = np.moveaxis(encoded, -1, 0)
+    brightest = np.maximum(np.maximum(red, green), blue)
+    spread = brightest - np.minimum(np.minimum(red, green), blue)
+    seen = (sky > 0.9) & (brightest < 0.97)
     none = np.zeros_like(sky)
     if np.count_nonzero(seen) < 200 or float(np.quantile(spread, 0.99)) < 0.012:
         return none

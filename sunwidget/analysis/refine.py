@@ -16,7 +16,7 @@ import numpy as np
 from sunwidget.analysis.dense_crf import mean_field
 from sunwidget.analysis.edges import snap
 from sunwidget.analysis.enlarge import Box, enlarged_part, pixels_of
-from sunwidget.analysis.working import Working, encode, resize, shrink
+from sunwidget.analysis.working import Working, channel_sum, encode, resize, shrink
 from sunwidget.edit import Stroke
 from sunwidget.photo import Photo
 
@@ -195,12 +195,13 @@ def local_evidence(
     difference = np.square(colour - mean)
     # Sky seen through a crown or a wheel: the network doubts it is land, and it has very nearly
     # the colour of the sky beside. Land learned from it would look like sky.
-    like_sky = (difference / np.minimum(variance, 0.02**2)).sum(axis=-1) < 9
+    like_sky = channel_sum(difference / np.minimum(variance, 0.02**2)) < 9
     ratio = difference / -variance
     mean, other = learn(~sky & (probability < 0.4) & ~(like_sky & (probability > 0.03)))
     ratio += np.square(colour - mean) / other
     other /= variance
-    return np.asarray((ratio.sum(axis=-1) + np.log(other.prod(axis=-1))) / 2, np.float32)
+    spread = other[..., 0] * other[..., 1] * other[..., 2]
+    return np.asarray((channel_sum(ratio) + np.log(spread)) / 2, np.float32)
 
 
 def _local_moments(

@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from sunwidget.analysis.fit import SkyFit, model_sky
-from sunwidget.analysis.working import LUMINANCE
+from sunwidget.analysis.working import LUMINANCE, channel_sum
 
 _LARGEST_SHADE = 1.5
 _RIDGE = 0.02  # weight of "no cloud", as a share of the squared contrast between S and w
@@ -70,8 +70,8 @@ def unmix(
     difference = np.minimum(scene_light / level, 8) - clear / level
     down, up = -clear / level, np.broadcast_to(white, clear.shape) / level
     # Normal equations of difference = a down + b up, b = a k, with a ridge towards no cloud.
-    dd, uu, du = (down * down).sum(-1), (up * up).sum(-1), (down * up).sum(-1)
-    dx, ux = (down * difference).sum(-1), (up * difference).sum(-1)
+    dd, uu, du = (channel_sum(x) for x in (down * down, up * up, down * up))
+    dx, ux = channel_sum(down * difference), channel_sum(up * difference)
     ridge = _RIDGE * dd
     determinant = (dd + ridge) * (uu + ridge) - du * du
     a = ((uu + ridge) * dx - du * ux) / determinant
