@@ -131,6 +131,7 @@ def fit_sky(
     sun: tuple[float, float] | None,
     assumed: tuple[float, float],
     done: Done = lambda _share: None,
+    sure_of_sun: float = 1.0,
 ) -> SkyFit:
     """Fit model and camera to the clear sky of a photo.
 
@@ -148,6 +149,8 @@ def fit_sky(
         Where to start when the sky cannot tell.
     done : callable, optional
         Told now and then what share of the work is done, 0 to 1; what it raises ends the fit.
+    sure_of_sun : float
+        How likely ``sun`` is near the true one, [0, 1], when it was not given but found.
 
     Returns
     -------
@@ -166,7 +169,6 @@ def fit_sky(
     index = index[:: max(1, index.size // _SAMPLES)]
     where = (azimuth.ravel()[index], elevation.ravel()[index])
     display = light.reshape(-1, 3)[index].astype(np.float64)
-    sure_of_sun = 1.0
     searched = 0.0
     if sun is None:
         searched = 0.5

@@ -261,7 +261,9 @@ def fit_atmosphere(
         # The colour of the clear sky tells the clouds, and without them it is known better.
         veil = cloud_stage.veil(small, small_sky, camera, fitted, sun_seen=visible)[0]
         fitted = fit_sky(
-            small, small_sky, veil.opacity, camera, fitted.sun, assumed, step.between(0.88, 0.9)
+            *(small, small_sky, veil.opacity, camera, fitted.sun, assumed),
+            done=step.between(0.88, 0.9),
+            sure_of_sun=fitted.sun_confidence,
         )
     fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
     step.within(0.92)

@@ -109,6 +109,14 @@ def test_a_sun_that_is_told_is_sure_and_one_that_is_guessed_is_not():
     assert GOOD_SUN < 90
 
 
+def test_an_unseen_sun_stays_a_guess_when_the_sky_is_fitted_again_without_its_clouds():
+    photo = known_photo(clouds=False)
+    above = photo.bytes[: len(photo.bytes) // 4]  # the sun stands lower
+    scene = sw.analyze(above, sky=np.ones(above.shape[:2], np.float32), refine="none")
+    assert scene.sun is None
+    assert 0 < scene.sun_confidence < 1
+
+
 def test_a_photo_without_sky_is_sure_of_nothing_and_says_what_to_do():
     land = np.full((60, 90, 3), 90, np.uint8)
     scene = sw.analyze(land, sky=np.zeros((60, 90), np.float32), refine="none")
