@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.export.gif import write_gif
-from sunwidget.files import complete_or_absent, explained, target
+from sunwidget.files import complete_or_absent, explained, folder_target, target
 from sunwidget.time_left import Progress
 from sunwidget.wording import shown
 
@@ -235,15 +235,11 @@ def sequence_target(path: Path, *, overwrite: bool) -> Path:
     ------
     FileExistsError
         When a file has a name of the sequence and ``overwrite`` is false.
-    FileNotFoundError, NotADirectoryError
-        When there is no folder to write into.
+    FileNotFoundError, NotADirectoryError, NotWrittenError
+        When there is no folder to write into, as ``folder_target``.
     """
     path = path.expanduser().absolute()
-    folder = path.parent
-    if folder.exists() and not folder.is_dir():
-        raise NotADirectoryError(f"{folder} is a file. Name another folder for the frames.")
-    if not folder.exists() and not folder.parent.is_dir():
-        raise FileNotFoundError(f"There is no folder {folder.parent} to make {folder.name} in.")
+    folder_target(path.parent)
     taken = _numbered(path)
     for place in taken.values():
         if place.is_dir():
