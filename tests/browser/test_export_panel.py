@@ -119,6 +119,8 @@ def test_key_frames_are_made_timed_and_ordered(page, state, choices, screenshots
     length.press("Enter")
     assert [frame["seconds"] for frame in trait(page, "key_frames")] == [0, 3, 8]
 
+    pictured = "document.querySelectorAll('.sw-key-frame .sw-drawn').length === 3"
+    page.wait_for_function(pictured)
     page.screenshot(path=screenshots / "export-film-light.png", full_page=True)
     page.emulate_media(color_scheme="dark")
     page.screenshot(path=screenshots / "export-film-dark.png", full_page=True)

@@ -208,17 +208,29 @@ def test_a_kernel_that_goes_ends_what_it_was_asked_and_the_stroke_that_was_begun
     assert editor.errors == []
 
 
-def test_a_denser_screen_in_the_middle_of_it_lays_the_picture_out_anew(editor):
-    editor.locator(".sw-percent").click()
-    assert editor.locator(".sw-picture").bounding_box()["width"] == 192
-    session = editor.context.new_cdp_session(editor)
-    screen = {"width": 1180, "height": 860, "deviceScaleFactor": 2, "mobile": False}
-    session.send("Emulation.setDeviceMetricsOverride", screen)
-    editor.wait_for_function(
-        "document.querySelector('.sw-picture').getBoundingClientRect().width === 96"
+def test_a_screen_that_becomes_denser_shows_a_pixel_on_each_of_its_own(fresh_page, state):
+    page = fresh_page
+    page.evaluate(
+        """() => {
+          const { matchMedia } = window;
+          window.queries = [];
+          window.matchMedia = (text) => {
+            const query = matchMedia.call(window, text);
+            window.queries.push(query);
+            return query;
+          };
+        }"""
     )
-    session.send("Emulation.clearDeviceMetricsOverride")
-    assert editor.errors == []
+    shown(page, state)
+    page.locator(".sw-percent").click()
+    width = "document.querySelector('.sw-picture').getBoundingClientRect().width"
+    assert page.evaluate(width) == 192
+    screen = {"width": 1180, "height": 860, "deviceScaleFactor": 2, "mobile": False}
+    page.context.new_cdp_session(page).send("Emulation.setDeviceMetricsOverride", screen)
+    # The emulated screen tells no query of the change, as a real one does.
+    page.evaluate("for (const query of queries) query.dispatchEvent(new Event('change'))")
+    assert page.evaluate(width) == 96
+    assert page.errors == []
 
 
 def test_a_tab_out_of_sight_draws_what_was_done_when_it_is_seen_again(fresh_page, state):

@@ -12,6 +12,7 @@ import { errorText } from "../error_text.js";
 import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
 import { onKernelError } from "../kernel_errors.js";
+import { parameterOf } from "../parameter.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { onTraits } from "../traits.js";
@@ -130,9 +131,7 @@ export class View {
 
   /** @param {string} name */
   parameter(name) {
-    const found = this.parameters.find((p) => p.name === name);
-    if (!found) throw new Error(`The kernel's table has no parameter "${name}".`);
-    return found;
+    return parameterOf(this.parameters, name);
   }
 
   async loadPhoto() {

@@ -12,6 +12,7 @@ import { ErrorMessage } from "../controls/error_message.js";
 import { Frame } from "../frame.js";
 import { FrameLoop } from "../frame_loop.js";
 import { onKernelError } from "../kernel_errors.js";
+import { parameterOf } from "../parameter.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { onTraits } from "../traits.js";
@@ -177,9 +178,7 @@ export class View {
 
   /** @param {string} name */
   parameter(name) {
-    const found = this.parameters.find((p) => p.name === name);
-    if (!found) throw new Error(`The kernel's table has no parameter "${name}".`);
-    return found;
+    return parameterOf(this.parameters, name);
   }
 
   /** What the picture shows: the edit, or a moment of a film. */

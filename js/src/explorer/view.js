@@ -13,6 +13,7 @@ import { runShortcut } from "../controls/keys.js";
 import { angleBetween } from "../day.js";
 import { FrameLoop } from "../frame_loop.js";
 import { onKernelError } from "../kernel_errors.js";
+import { parameterOf } from "../parameter.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { onTraits } from "../traits.js";
@@ -139,9 +140,7 @@ export class View {
 
   /** @param {string} name */
   parameter(name) {
-    const found = this.parameters.find((p) => p.name === name);
-    if (!found) throw new Error(`The kernel's table has no parameter "${name}".`);
-    return found;
+    return parameterOf(this.parameters, name);
   }
 
   /** @param {string} name @returns {number} */

@@ -8,7 +8,6 @@
 import { element } from "../../controls/element.js";
 import { icon } from "../../controls/icons.js";
 import { followTheme, readTheme } from "../../controls/theme.js";
-import { errorText } from "../../error_text.js";
 import { PhasePlot } from "./phase.js";
 import { PrincipalPlanePlot } from "./principal_plane.js";
 import { SunColorPlot } from "./sun_color.js";
@@ -155,7 +154,6 @@ export class Plots {
     const read = new Map();
     const curve = (/** @type {string} */ pass) => {
       const texels = read.get(pass) ?? this.view.frame.curve(pass);
-      if (!texels) throw new Error("The graphics context was lost.");
       read.set(pass, texels);
       return texels;
     };
@@ -167,15 +165,13 @@ export class Plots {
       measured: this.view.measured.scan(),
       scatteringAngle: this.angle,
     };
-    try {
+    this.view.message.attempt(() => {
       for (const { plot, body, told } of this.cards) {
         if (body.hidden) continue;
         plot.update(context);
         told.textContent = plot.tell?.() ?? "";
       }
-    } catch (error) {
-      this.view.message.show(errorText(error));
-    }
+    });
     this.last = performance.now();
     this.cost = this.last - begin;
   }
