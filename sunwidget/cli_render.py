@@ -59,10 +59,13 @@ def _render(options: argparse.Namespace) -> int:
     import sunwidget as sw
     from sunwidget.export.environment import check_map
     from sunwidget.export.formats import check_format
+    from sunwidget.renderer.render import checked_size
 
     edit = edit_of_flags(options)  # what is wrong with it shows before the work
     refuse_existing(options.output, options.overwrite)
     check_format(options.output, options.bit_depth, layers=options.layers)
+    if options.size is not None:
+        checked_size(options.size)
     if options.environment is not None:
         refuse_existing(options.environment, options.overwrite)
         check_map(options.environment)

@@ -6,14 +6,24 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from sunwidget import presets
 from sunwidget.cli_edit import add_edit, add_number, edit_of_flags, edit_of_scene
 from sunwidget.cli_film import add_film, add_steps, film_options
 from sunwidget.cli_photo import Progress, add_photo, refuse_existing, scene_to_draw
 from sunwidget.cli_place import add_place, is_placed, place_of
 from sunwidget.edit import NUMBERS, Edit, EditError, parameter
-from sunwidget.export.film import LOOPS, is_sequence, sequence_target
+from sunwidget.export.film import LOOPS, film_size, is_sequence, sequence_target
 from sunwidget.export.film import writer as check_film
-from sunwidget.export.sun_path import Day, SunPath, step
+from sunwidget.export.formats import check_format, check_quality
+from sunwidget.export.sun_path import (
+    DEFAULT_SECONDS,
+    Day,
+    SunPath,
+    check_rate,
+    frame_count,
+    named_edit,
+    step,
+)
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -102,10 +112,20 @@ def _check(options: argparse.Namespace, start: Edit) -> None:
             sequence_target(options.output, overwrite=options.overwrite)
         else:
             refuse_existing(options.output, options.overwrite)
+        check_rate(options.fps)
+        frame_count(options.fps, options.frames, options.seconds, DEFAULT_SECONDS)
+        check_quality(options.quality)
+        film_size((2, 2), options.size)
     if options.sheet is not None:
         refuse_existing(options.sheet, options.overwrite)
+        check_format(options.sheet)
     ends = [p.name for p in NUMBERS if getattr(options, f"to_{p.name}") is not None]
     stations = bool(options.steps or options.key_frame)
+    for what in [*(options.steps or ()), *(what for _, what in options.key_frame or ())]:
+        if isinstance(what, dict):
+            start.replace(**what)
+        elif what not in presets.NAMES:
+            named_edit(what)
     if stations and (ends or options.to_time is not None):
         way = "--steps" if options.steps else "--key-frame"
         raise ValueError(f"{way} and --to-… both say where the film goes: leave one of them out.")

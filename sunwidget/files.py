@@ -130,9 +130,10 @@ def explained(path: Path) -> Iterator[None]:
         raise
     except OSError as error:
         obstacle = _OBSTACLES.get(error.errno or 0)
+        place = path if error.filename is None else Path(error.filename)
         # What else was read or written meanwhile tells of itself.
-        elsewhere = error.filename is not None and path.parent not in Path(error.filename).parents
-        if obstacle is None or elsewhere or (error.errno == errno.ENOENT and path.parent.exists()):
+        elsewhere = path.parent not in place.parents
+        if obstacle is None or elsewhere or (error.errno == errno.ENOENT and place.parent.exists()):
             raise
         told = NotWrittenError(f"{path} was not written: {obstacle}. No part of it was left.")
         told.errno = error.errno

@@ -7,6 +7,7 @@ mantissa m with exponent e stands for m · 2^(e − 136), as most programs read 
 from __future__ import annotations
 
 import re
+import tempfile
 from dataclasses import dataclass
 from typing import Any
 
@@ -45,7 +46,10 @@ def pack(
         levels[rows] = _on_levels(light[rows])[..., ::-1]
     done, packed = cv2.imencode(".hdr", levels)
     if not done:
-        raise PhotoError("OpenCV could not pack the picture as Radiance HDR.")
+        raise PhotoError(
+            "OpenCV could not pack the picture as Radiance HDR. It needs room for that in "
+            f"{tempfile.gettempdir()}."
+        )
     data = packed.tobytes()
     primaries = " ".join(f"{value:g}" for value in REC709_CHROMATICITIES)
     lines = ["#?RADIANCE", f"SOFTWARE={software}", f"PRIMARIES={primaries}"]

@@ -69,11 +69,10 @@ def film_edits(
     ValueError
         For what is no path, length or easing, or edits that no path joins (EditError).
     """
-    if not (isinstance(fps, (int, float)) and 1 <= fps <= 120):
-        raise ValueError(f"fps = {shown(fps, 40)} is outside 1 to 120 frames a second.")
+    check_rate(fps)
     _check_easing(easing)
     if isinstance(path, Day):
-        count = _count(fps, frames, seconds, DEFAULT_SECONDS)
+        count = frame_count(fps, frames, seconds, DEFAULT_SECONDS)
         ease = EASINGS[easing]
         return path.edits(scene, [ease(i / (count - 1)) for i in range(count)], between)
     stations = _stations(scene, path)
@@ -84,7 +83,7 @@ def film_edits(
                 f"them, which easing={easing!r} can then ease."
             )
         return stations.edits
-    count = _count(fps, frames, seconds, stations.seconds)
+    count = frame_count(fps, frames, seconds, stations.seconds)
     row = [i / (count - 1) for i in range(count)]
     return _along(stations, row, easing, scene)
 
@@ -126,10 +125,21 @@ def step(scene: Scene, what: Step, base: Edit | None = None) -> Edit:
     EditError
         For anything else; the message says what is understood.
     """
-    if isinstance(what, (Edit, Mapping)):
-        return edit_of(what)
     if isinstance(what, str) and what in presets.NAMES:
         return presets.edit(what, scene, base)
+    return named_edit(what)
+
+
+def named_edit(what: Step) -> Edit:
+    """Return the Edit that a step names, whatever the photo: any but a preset.
+
+    Raises
+    ------
+    EditError
+        For anything else; the message says what is understood.
+    """
+    if isinstance(what, (Edit, Mapping)):
+        return edit_of(what)
     if isinstance(what, (str, os.PathLike)):
         if is_recipe_file(what):
             return read_recipe(what)
@@ -141,6 +151,12 @@ def step(scene: Scene, what: Step, base: Edit | None = None) -> Edit:
         "A step of a path is an Edit, a recipe, a recipe's file or the name of a preset, "
         f"not {type(what).__name__}."
     )
+
+
+def check_rate(fps: float) -> None:
+    """Refuse, before any work, what is no number of frames a second; a ValueError says so."""
+    if not (isinstance(fps, (int, float)) and 1 <= fps <= 120):
+        raise ValueError(f"fps = {shown(fps, 40)} is outside 1 to 120 frames a second.")
 
 
 def _check_easing(easing: str) -> None:
@@ -188,7 +204,8 @@ def _is_key_frame(item: Any) -> bool:
     )
 
 
-def _count(fps: float, frames: int | None, seconds: float | None, otherwise: float) -> int:
+def frame_count(fps: float, frames: int | None, seconds: float | None, otherwise: float) -> int:
+    """Return how many frames a film has; ValueError for a length that none has."""
     if frames is not None and seconds is not None:
         raise ValueError("Give the length of a film in frames or in seconds, not in both.")
     if frames is None:
@@ -199,7 +216,9 @@ def _count(fps: float, frames: int | None, seconds: float | None, otherwise: flo
     if isinstance(frames, bool) or not isinstance(frames, int) or frames < 2:
         raise ValueError(f"frames must be a whole number from 2 upwards, not {shown(frames, 40)}.")
     if frames > MOST_FRAMES:
-        raise ValueError(f"A film of {frames} frames is not possible; at most {MOST_FRAMES}.")
+        raise ValueError(
+            f"A film of {shown(frames, 9)} frames is not possible; at most {MOST_FRAMES}."
+        )
     return frames
 
 
@@ -301,6 +320,9 @@ __all__ = [
     "Step",
     "SunPath",
     "between",
+    "check_rate",
     "film_edits",
+    "frame_count",
+    "named_edit",
     "step",
 ]

@@ -30,7 +30,7 @@ from sunwidget.export.film import (
 from sunwidget.export.formats import check_quality
 from sunwidget.export.frame_edits import FrameEdits
 from sunwidget.export.stills import save
-from sunwidget.export.sun_path import Step, SunPath
+from sunwidget.export.sun_path import Step, SunPath, check_rate
 from sunwidget.files import folder_target
 from sunwidget.frames import Clock, Times, frame_sources, name_of
 from sunwidget.layout import PhotoError, PhotoWarning
@@ -255,8 +255,7 @@ def _check(*, fps: float, loop: str, quality: int, broken: str, hints: Mapping[s
         near = difflib.get_close_matches(unknown[0], [*known, *_OPTIONS], n=1)
         hint = f" Did you mean {near[0]!r}?" if near else ""
         raise TypeError(f"timelapse() takes no {unknown[0]!r:.40}.{hint}")
-    if not (isinstance(fps, (int, float)) and 1 <= fps <= 120):
-        raise ValueError(f"fps = {fps!r:.40} is outside 1 to 120 frames a second.")
+    check_rate(fps)
     if loop not in LOOPS:
         raise ValueError(f"loop must be one of {', '.join(LOOPS)}, not {loop!r:.40}.")
     check_quality(quality)

@@ -20,6 +20,7 @@ _SHOWN_BYTES = 20_000_000  # a smaller film is sent to be looked at, wherever it
 _PIECE_BYTES = 8_000_000
 _FRAMES = "%04d.png"
 _NAME_LENGTH = 120
+_FORBIDDEN = '/\\:\0"<>|?*%'  # by a system's folders; % numbers frames
 _ZIP = "application/zip"
 
 
@@ -145,10 +146,18 @@ def made(
     return answer, [data[i : i + _PIECE_BYTES] for i in range(0, len(data), _PIECE_BYTES)]
 
 
+def possible_stem(name: str) -> str:
+    """Return a photo's name without its ending as every folder takes it."""
+    signs = (
+        sign if sign.isprintable() and sign not in _FORBIDDEN else "_" for sign in Path(name).stem
+    )
+    return "".join(signs).strip(" .")[: _NAME_LENGTH // 2] or "picture"
+
+
 def _checked_stem(name: Any, suffix: str) -> str:
     text = name.strip() if isinstance(name, str) else ""
     stem = text.removesuffix(suffix)
-    plain = stem not in {"", ".", ".."} and not any(sign in stem for sign in '/\\:\0"<>|?*%')
+    plain = stem not in {"", ".", ".."} and not any(sign in stem for sign in _FORBIDDEN)
     if not plain or len(text) > _NAME_LENGTH:
         raise ValueError(
             f"{text[:60]!r} cannot be a file's name. Choose one of 1 to {_NAME_LENGTH} characters "

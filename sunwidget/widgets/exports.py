@@ -11,7 +11,7 @@ from sunwidget.export.day import Day
 from sunwidget.export.formats import FORMATS
 from sunwidget.place import at_hours
 from sunwidget.time_left import with_time_left
-from sunwidget.widgets.export_files import FILMS, STILLS, kind_of, made
+from sunwidget.widgets.export_files import FILMS, STILLS, kind_of, made, possible_stem
 from sunwidget.widgets.history import edit_of
 from sunwidget.widgets.key_frames import KeyFrame, KeyFrames, along, key_frames_json
 from sunwidget.widgets.pictures import Pictures
@@ -110,7 +110,7 @@ class Exports(Pictures):
         known = {".jpeg": ".jpg", ".tiff": ".tif"}.get(own, own)
         return {
             "folder": str(Path.cwd()),
-            "name": f"{Path(photo.name).stem or 'picture'}-sun",
+            "name": f"{possible_stem(photo.name)}-sun",
             "suffix": known if known in {kind.suffix for kind in STILLS} else ".png",
             "bits": 16 if photo.bit_depth > 8 else 8,
             "size": list(photo.size),

@@ -172,7 +172,8 @@ class BatchReport:
             notes = " ".join(row.notes)
             writer.writerow((row.photo, output, row.state, seconds, row.error, row.worker, notes))
         with complete_or_absent(place, overwrite=overwrite) as unfinished:
-            unfinished.write_text(text.getvalue(), "utf-8", newline="")
+            # Names of files need not be text.
+            unfinished.write_text(text.getvalue(), "utf-8", "backslashreplace", newline="")
         return place
 
 
