@@ -74,7 +74,7 @@ def _read_path(source: Any) -> tuple[str, bytes]:
     except (OSError, ValueError, RuntimeError) as error:
         # A picture's own bytes, taken for a path, hold what no path may hold.
         hint = " Pass a picture's contents as bytes." if "\0" in text else ""
-        raise PhotoError(f"Cannot read {told!r}: {reason(error)}.{hint}") from error
+        raise PhotoError(f"Cannot read {told!r:.200}: {reason(error)}.{hint}") from error
     except MemoryError as error:
         raise PhotoError(f"There is not enough memory to read {told}.") from error
     if stat.S_ISDIR(mode):

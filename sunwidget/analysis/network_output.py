@@ -19,6 +19,7 @@ LABELS = {1: 0, 2: 1, 19: 10, 150: 2, 151: 3}
 """Index of "sky" by the number of classes: sky alone, land and sky, Cityscapes, ADE20K, and
 ADE20K with its background class."""
 LABEL_MAP = 2  # a map of labels does not say how many there are: ADE20K's, as in the thesis
+_MOST_CLASSES = 65_536  # larger numbers are scores, whole as they may be
 
 _KNOWN = (
     "2 for ADE20K's 150 classes, 3 for its 151 with background, 10 for Cityscapes' 19, "
@@ -99,7 +100,9 @@ def _whole_numbers(array: np.ndarray, label: int | None) -> bool:
         return False
     if array.dtype.kind != "f":
         return True
-    if not np.isfinite(array).all() or array.min() < 0 or np.any(array != np.round(array)):
+    if not np.isfinite(array).all() or array.min() < 0 or array.max() > _MOST_CLASSES:
+        return False
+    if np.any(array != np.round(array)):
         return False
     return bool(array.max() > 1) or label not in (None, 0)
 

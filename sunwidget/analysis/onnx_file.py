@@ -17,6 +17,7 @@ from sunwidget.analysis.onnx_runtime import onnx_runtime
 from sunwidget.analysis.working import resize
 
 SIDE = 384  # of the picture for networks that take any size, as in the thesis
+LARGEST = 4096  # a side of the picture: a float copy of it is 200 MB
 TYPES = {
     "tensor(float)": np.float32,
     "tensor(float16)": np.float16,
@@ -110,6 +111,11 @@ class Opened:
         if size is not None and takes_size != tuple(wanted):
             raise AnalysisError(
                 f"{path} takes pictures of {takes_size[0]} × {takes_size[1]} only; leave out size=."
+            )
+        if max(takes_size) > LARGEST:
+            raise AnalysisError(
+                f"{path} takes pictures of {takes_size[0]} × {takes_size[1]}; at most {LARGEST} "
+                "pixels a side are possible. Export it for smaller ones, or for any size."
             )
         kind = TYPES[entry.type]
         free = width is None and height is None

@@ -5,8 +5,10 @@ Nothing in this module uses sunwidget: what it makes is what the reader is judge
 
 import io
 import struct
+import tempfile
 import zlib
 from dataclasses import dataclass
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -196,6 +198,28 @@ def icc_chunk(icc):
     return (b"iCCP", b"profile\0\0" + zlib.compress(icc))
 
 
+def hdr_file(light, lines=()):
+    """A Radiance HDR, packed by OpenCV, with further lines in its header."""
+    done, packed = cv2.imencode(".hdr", light[..., ::-1].astype(np.float32))
+    assert done
+    data = packed.tobytes()
+    start = data.index(b"\n") + 1
+    return data[:start] + b"".join(line + b"\n" for line in lines) + data[start:]
+
+
+def exr_file(light, dtype=np.float32, **attributes):
+    """An OpenEXR of (H, W, 3 or 4) values as they are."""
+    import OpenEXR
+
+    names = ("R", "G", "B", "A")[: light.shape[2]]
+    channels = {name: np.ascontiguousarray(light[..., i], dtype) for i, name in enumerate(names)}
+    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "picture.exr")
+        OpenEXR.File(header | attributes, channels).write(str(path))
+        return path.read_bytes()
+
+
 def exif_block(tags=None, shot=None, gps=None, orientation=None):
     exif = Image.Exif()
     for tag, value in (tags or {}).items():
@@ -318,10 +342,69 @@ def readable():
             pillow_file(Image.fromarray(palette[index]).quantize(16), "GIF"), palette[index]
         ),
         "bmp": Readable(pillow_file(base, "BMP"), base),
+        # Lossy like JPEG.
+        "avif": Readable(pillow_file(base, "AVIF", quality=95, subsampling="4:4:4"), base, near),
+        # Eight bits of the brightest channel; OpenCV cuts where rounding is due.
+        "hdr": Readable(hdr_file(light), light, light.max() / 128),
+        "exr": Readable(exr_file(light), light),
+        "exr_half_alpha": Readable(
+            exr_file(np.dstack([light, np.full_like(light[..., 0], 0.5)]), np.float16),
+            light * 2,  # OpenEXR's colours are multiplied by alpha
+            light.max() / 512,
+            alpha=np.full(light.shape[:2], 0.5),
+        ),
         "one_pixel": Readable(png_file(base[:1, :1]), base[:1, :1]),
         "one_wide": Readable(png_file(ramp(5000, 1)), ramp(5000, 1)),
         "one_high": Readable(png_file(ramp(1, 5000)), ramp(1, 5000)),
         "very_wide": Readable(png_file(ramp(100, 20_000)), ramp(100, 20_000)),
+    }
+
+
+XMP = (
+    b'<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-'
+    b'syntax-ns#"><rdf:Description xmlns:tiff="http://ns.adobe.com/tiff/1.0/" tiff:Orientation="6" '
+    b'xmlns:s="urn:sunwidget:edit:1:" s:recipe="{&quot;version&quot;: 1}"/></rdf:RDF></x:xmpmeta>'
+)
+
+
+def with_metadata():
+    """Return small files full of metadata, by name: what a mutation of them can break is much."""
+    base = ramp(12, 16)
+    camera = {0x010F: "Maker", 0x0110: "Model", 0x0131: "Firmware"}
+    lens = {0xA405: 28, 0x920A: 4.2, 0xA20E: 300.0, 0xA210: 2, 0xA002: 16, 0xA003: 12}
+    moment = {0x9003: "2026:06:21 21:30:00", 0x9011: "+02:00", 0x927C: b"maker's own"}
+    place = {1: "N", 2: (59.0, 30.0, 1.5), 3: "W", 4: (18.0, 3.0, 0.0), 5: b"\0", 6: 12.5}
+    fix = {7: (19.0, 30.0, 0.0), 16: "T", 17: 271.5, 29: "2026:06:21"}
+    comment = {0x9286: b'ASCII\0\0\0{"version": 1}'}
+    block = exif_block(camera, lens | moment | comment, place | fix, 6)
+    text = (b"iTXt", b"XML:com.adobe.xmp\0\0\0\0\0" + XMP)
+    gamma = (b"gAMA", struct.pack(">I", 100_000))
+    sixth = (b"eXIf", block[6:])
+    curve = matrix_profile(P3_PRIMARIES, ("table", np.linspace(0, 1, 9) ** 2))
+    lines = [b"EXPOSURE=2.5", b"PRIMARIES=0.68 0.32 0.265 0.69 0.15 0.06 0.3127 0.329"]
+    lines += [b'# recipe: {"version": 1}', b"# xmp: PHg+", b"# exif: SUkqAAgAAAA="]
+    return {
+        "jpeg_metadata": jpeg_file(base, exif=block, icc_profile=DISPLAY_P3, xmp=XMP),
+        "jpeg_table": jpeg_file(base, icc_profile=LUT_RGB),
+        "jpeg_cmyk_profile": jpeg_file(
+            Image.fromarray(base).convert("CMYK"), icc_profile=CMYK_PROFILE
+        ),
+        "png_metadata": png_file(base, chunks=[icc_chunk(ADOBE_RGB), sixth, text]),
+        "png_gamma": png16_file(ramp16(12, 16), chunks=[gamma]),
+        "tiff_metadata": pillow_file(base, "TIFF", exif=block, icc_profile=curve),
+        "tiff_16_profile": tiff_file(
+            ramp16(12, 16), iccprofile=ADOBE_RGB, extratags=[(274, "H", 1, 6, True)]
+        ),
+        "webp_metadata": pillow_file(
+            base, "WEBP", lossless=True, exif=block, icc_profile=grey_profile(), xmp=XMP
+        ),
+        "hdr_metadata": hdr_file(base / 255, lines),
+        "exr_metadata": exr_file(
+            base / 255,
+            np.float16,
+            **{"sunwidget.recipe": '{"version": 1}', "xDensity": 300.0},
+            chromaticities=(0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329),
+        ),
     }
 
 

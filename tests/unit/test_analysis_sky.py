@@ -91,3 +91,11 @@ def test_what_is_no_mask_is_refused_in_words(mask, word):
 def test_a_rotated_mask_is_refused():
     with pytest.raises(AnalysisError, match="rotated"):
         sky.mask_from(np.ones((160, 120)), (160, 120))
+
+
+def test_a_mask_is_never_read_by_what_starts_a_program(tmp_path):
+    # Pillow would hand this to Ghostscript, whatever its name.
+    path = tmp_path / "mask.png"
+    path.write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n%%EndComments\nshowpage\n")
+    with pytest.raises(AnalysisError, match=r"sky mask cannot be read: mask.png is not a picture"):
+        sky.coarse(Working.of(open_photo(np.zeros((9, 9, 3), np.uint8))), path, (9, 9))

@@ -1,4 +1,5 @@
 import io
+import os
 import pickle
 import warnings
 
@@ -115,10 +116,59 @@ def test_a_file_without_permission_says_so(tmp_path, monkeypatch):
         open_photo(path)
 
 
-@pytest.mark.parametrize("path", ["", "\0", "x" * 5000, "~nobody-of-this-name/x.jpg"])
-def test_an_impossible_path_is_a_photo_error(path):
-    with pytest.raises(PhotoError):
+class PathOf:
+    """A path object of somebody else's, which gives whatever it was made with."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def __fspath__(self):
+        if isinstance(self.path, Exception):
+            raise self.path
+        return self.path
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("", "path is empty"),
+        ("\0", "contents as bytes"),
+        (corpus.jpeg_file(corpus.ramp(4, 4)).decode("latin-1"), "contents as bytes"),
+        ("x" * 5000, "Cannot read 'xxx"),
+        ("~nobody-of-this-name/x.jpg", "home directory"),
+        ("data:image/png;base64,iVBORw0KGgo=", "never downloads"),
+        ("\ud800.jpg", "Cannot read"),
+        (PathOf(3), "names no file"),
+        (PathOf(RuntimeError("unplugged")), "names no file: unplugged"),
+        (__file__.encode(), "is a path in bytes.*os.fsdecode"),
+        (f"{__file__}/x.jpg", "Not a directory"),
+    ],
+)
+def test_an_impossible_path_says_what_is_wrong(path, message):
+    with pytest.raises(PhotoError, match=message) as caught:
         open_photo(path)
+    assert len(str(caught.value)) < 500
+    str(caught.value).encode()  # fails on half a character, which nothing can print
+
+
+def test_a_link_to_nowhere_says_so(tmp_path):
+    (tmp_path / "sun.jpg").symlink_to("gone.jpg")
+    with pytest.raises(PhotoError, match="is a link to gone.jpg, which is not there"):
+        open_photo(tmp_path / "sun.jpg")
+
+
+def test_a_pipe_is_refused_before_it_is_read(tmp_path):
+    os.mkfifo(tmp_path / "pipe.jpg")
+    with pytest.raises(PhotoError, match="device or pipe"):
+        open_photo(tmp_path / "pipe.jpg")
+
+
+def test_a_name_that_is_no_text_becomes_one(tmp_path):
+    path = os.fsencode(tmp_path) + b"/\xff\xfe.png"
+    with open(path, "wb") as file:  # noqa: PTH123 - bytes
+        file.write(READABLE["png"].data)
+    photo = open_photo(os.fsdecode(path))
+    assert photo.name == "??.png"
 
 
 def test_an_address_is_never_downloaded():
@@ -141,9 +191,54 @@ def test_bytes_paths_and_file_objects_open_alike(tmp_path):
     assert photos[4].name == "a.png"
 
 
-def test_a_file_opened_as_text_is_refused():
-    with pytest.raises(PhotoError, match="mode 'rb'"):
-        open_photo(io.StringIO("abc"))
+class StreamOf:
+    """A file object of somebody else's, which gives whatever it was made with."""
+
+    name = 3
+
+    def __init__(self, data):
+        self.data = data
+
+    def read(self):
+        if isinstance(self.data, Exception):
+            raise self.data
+        return self.data
+
+
+def spent():
+    file = io.BytesIO(READABLE["png"].data)
+    file.read()
+    return file
+
+
+def closed():
+    file = io.BytesIO(READABLE["png"].data)
+    file.close()
+    return file
+
+
+@pytest.mark.parametrize(
+    ("stream", "message"),
+    [
+        (io.StringIO("abc"), "opened as text.*mode 'rb'"),
+        # Its bytes are no UTF-8, and to read them fails.
+        (io.TextIOWrapper(io.BytesIO(READABLE["jpeg"].data), "utf-8"), "opened as text"),
+        (StreamOf("abc"), "opened as text"),
+        (StreamOf(None), "gave NoneType, not bytes"),
+        (StreamOf(OSError("unplugged")), "Reading picture failed: unplugged"),
+        (StreamOf(ValueError()), "Reading picture failed: ValueError"),
+        (closed(), "closed file"),
+        (spent(), "nothing left to read.*Open it again"),
+    ],
+)
+def test_a_file_object_that_gives_no_picture_says_why(stream, message):
+    with pytest.raises(PhotoError, match=message):
+        open_photo(stream)
+
+
+def test_a_file_object_may_give_any_bytes():
+    for kind in (bytes, bytearray, memoryview):
+        assert open_photo(StreamOf(kind(READABLE["png"].data))).name == "picture"
 
 
 def test_a_photo_is_returned_as_it_is():
@@ -162,6 +257,19 @@ def test_pil_images_of_every_mode_open(mode):
     elif mode not in ("F", "P", "CMYK", "HSV"):
         expected = np.asarray(image.convert("RGB"))
         assert np.array_equal(photo.encoded, expected)
+
+
+def test_a_closed_pil_image_says_so():
+    image = Image.fromarray(corpus.ramp())
+    image.close()
+    with pytest.raises(PhotoError, match=r"Pillow image.*closed image.*Pass its file"):
+        open_photo(image)
+
+
+def test_a_deep_pil_image_says_that_its_file_holds_more():
+    image = Image.open(io.BytesIO(READABLE["png_16"].data))
+    _, notes = opened_with_notes(image)
+    assert "could only be read with 8 bits. Pass its file" in notes[0]
 
 
 def test_opening_a_pil_image_leaves_it_usable():
@@ -183,6 +291,46 @@ def test_whole_number_arrays_are_srgb(dtype, channels):
     assert np.array_equal(photo.encoded, color)
     np.testing.assert_allclose(photo.pixels, srgb_to_linear(color / top), atol=1e-6)
     assert (photo.alpha is not None) == (channels in (2, 4))
+
+
+@pytest.mark.parametrize("dtype", ["u1", "<u2", ">u2", "<f2", ">f4", "<f8", ">f8", "g"])
+def test_arrays_of_any_byte_order_and_layout_are_the_same_picture(dtype):
+    values = corpus.ramp(8, 10)
+    array = values / 255 if np.dtype(dtype).kind == "f" else values
+    wanted = open_photo(array.astype(np.dtype(dtype).newbyteorder("="))).encoded
+    padded = np.repeat(array.astype(dtype), 2, axis=1)
+    read_only = array.astype(dtype)
+    read_only.flags.writeable = False
+    for same in (np.asfortranarray(array.astype(dtype)), padded[:, ::2], read_only):
+        assert np.array_equal(open_photo(same).encoded, wanted)
+    assert np.array_equal(open_photo(read_only[::-1, ::-1]).encoded, wanted[::-1, ::-1])
+
+
+def test_an_array_on_disk_and_a_foreign_one_are_pictures(tmp_path):
+    corpus.ramp().tofile(tmp_path / "picture.raw")
+    on_disk = np.memmap(tmp_path / "picture.raw", np.uint8, "r", shape=(24, 32, 3))
+    for array in (on_disk, ArrayOf(corpus.ramp()), np.ma.masked_array(corpus.ramp())):
+        assert np.array_equal(open_photo(array).encoded, corpus.ramp())
+
+
+class ArrayOf:
+    """An array of another library, such as a tensor."""
+
+    def __init__(self, array):
+        self.array = array
+
+    def __array__(self, dtype=None, copy=None):
+        if isinstance(self.array, Exception):
+            raise self.array
+        return self.array
+
+
+def test_floats_that_look_like_code_values_are_light_with_a_note():
+    photo, notes = opened_with_notes(corpus.ramp().astype(np.float32))
+    assert photo.pixels.max() == 255
+    assert "whole numbers up to 255" in notes[0]
+    assert opened_with_notes(corpus.ramp() / 255)[1] == []
+    assert opened_with_notes(np.eye(9))[1] == []
 
 
 @pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
@@ -215,7 +363,12 @@ def test_a_photo_does_not_change_with_the_array_it_was_made_of():
         (np.full((4, 4, 3), np.nan), "48 values that are NaN or infinite"),
         (np.full((4, 4, 3), np.inf), "NaN or infinite"),
         (np.full((4, 4, 3), 1e300), "NaN or infinite"),
+        (np.full((4, 4, 3), 1e19), r"light up to 1e\+19.*numpy.clip"),
         (np.full((4, 4, 3), -1.0), "negative light"),
+        (np.ma.masked_greater(corpus.ramp(), 200), r"hides \d+ values behind its mask"),
+        (ArrayOf(RuntimeError("it is on the graphics card")), "it is on the graphics card"),
+        (np.zeros((4, 4, 3), object), "type object"),
+        (np.zeros((4, 4), "datetime64[s]"), "type datetime64"),
         (np.zeros((4, 4, 3), np.int32), "type int32"),
         (np.zeros((4, 4, 3), bool), "type bool"),
         (np.zeros((4, 4, 3), complex), "type complex128"),

@@ -1,12 +1,17 @@
-"""Whatever bytes come in, a Photo or a PhotoError comes out."""
+"""Whatever bytes or array come in, a Photo or a PhotoError comes out."""
 
+import os
+import subprocess
+import sys
 import warnings
 
 import numpy as np
 import photo_corpus as corpus
 import pytest
+import raw_files
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
 
 from sunwidget.photo import PhotoError, PhotoWarning, open_photo
 
@@ -25,6 +30,9 @@ SEEDS = {
     "webp": corpus.pillow_file(BASE, "WEBP", lossless=True),
     "gif": corpus.pillow_file(BASE, "GIF"),
     "bmp": corpus.pillow_file(BASE, "BMP"),
+    "hdr": corpus.hdr_file(BASE / 255),
+    "exr": corpus.exr_file(BASE / 255, np.float16),
+    "raw": raw_files.dng(raw_files.ramp(16, 16)),
 }
 # No deadline: the machine that runs this may be busy.
 relaxed = settings(
@@ -32,18 +40,19 @@ relaxed = settings(
 )
 
 
-def opens_or_says_why(data):
+def opens_or_says_why(source):
     with warnings.catch_warnings():
         warnings.simplefilter("error")  # a library's own warning must not leak either
         warnings.simplefilter("ignore", PhotoWarning)
         try:
-            photo = open_photo(data)
+            photo = open_photo(source)
         except PhotoError:
             return
         assert photo.encoded.ndim == 3
         assert photo.size[0] * photo.size[1] <= 200_000_000
         if photo.size[0] * photo.size[1] < 1_000_000:
             assert photo.preview(8).dtype == np.uint8
+            assert np.isfinite(photo.pixels).all()
 
 
 @given(st.binary(max_size=400))
@@ -76,3 +85,42 @@ def test_files_cut_at_every_length(kind):
     seed = SEEDS[kind]
     for length in range(0, len(seed), max(1, len(seed) // 100)):
         opens_or_says_why(seed[:length])
+
+
+KINDS = ["?", "u1", "i1", "<u2", ">u2", "i4", "u8", "<f2", "<f4", ">f4", "<f8", "g", "c8", "M8[s]"]
+SHAPES = st.one_of(
+    arrays.array_shapes(min_dims=0, max_dims=5, min_side=0, max_side=6),
+    st.tuples(st.integers(1, 6), st.integers(1, 6), st.integers(1, 5)),
+)
+ARRAYS = SHAPES.flatmap(
+    lambda shape: st.sampled_from(KINDS).flatmap(lambda kind: arrays.arrays(kind, shape))
+)
+
+
+@given(ARRAYS, st.sampled_from(["C", "F", "mirrored", "read-only"]))
+@settings(relaxed, max_examples=300)
+def test_arrays_of_any_type_shape_order_and_value(array, order):
+    if order == "F":
+        array = np.asfortranarray(array)
+    elif order == "mirrored":
+        array = array[tuple(slice(None, None, -1) for _ in array.shape)]
+    elif order == "read-only":
+        array.flags.writeable = False
+    opens_or_says_why(array)
+
+
+def test_what_guided_mutation_finds_opens_or_says_why(root, tmp_path):
+    pytest.importorskip("atheris", reason="no wheel for this system")
+    # Always the same files, unless the machine is so busy that the clock ends it before.
+    bounds = ("-seed=1", "-runs=1500", "-max_total_time=10")
+    done = subprocess.run(
+        [sys.executable, root / "tests/fuzz/photo_readers.py", tmp_path / "learned", *bounds],
+        capture_output=True,
+        text=True,
+        timeout=240,
+        check=False,
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(root)},
+    )
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert "Done " in done.stderr

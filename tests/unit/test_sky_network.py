@@ -269,6 +269,19 @@ def test_a_network_without_a_map_says_what_it_returned(tmp_path):
         found(path)
 
 
+def test_a_network_of_enormous_pictures_is_refused_before_one_is_made(tmp_path):
+    nodes = [onnx.node("Identity", ["a"], ["out"])]
+    entries, outputs = [("a", F4, (1, 3, 200_000, 200_000))], [("out", F4, ("b", "c", "h", "w"))]
+    path = onnx.write(tmp_path / "enormous.onnx", nodes, {}, entries, outputs)
+    with pytest.raises(AnalysisError, match="at most 4096 pixels a side"):
+        found(path)
+
+
+def test_whole_numbers_too_large_for_labels_are_scores():
+    logits = np.full((6, 8), 1e30, F4)
+    assert network_output.understand(logits, (8, 6), "nchw").kind == "sky"
+
+
 def test_a_network_of_nan_is_an_error_in_words(tmp_path):
     path = blueness(tmp_path, gain=np.nan)
     for network in (path, SkyNetwork(path, label=2, mean=0, std=1)):
