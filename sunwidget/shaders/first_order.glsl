@@ -50,7 +50,7 @@ void main() {
     vec4 extinction = coefficients * density;
     radiance += transmittance * (rayleigh * rayleigh_phase + mie * mie_phase)
         * GetTransmittanceToSun(columns, h_t, mu_s_t) * IntegrateTransmittance(extinction, dt);
-    transmittance *= exp(-extinction * dt);
+    transmittance *= exp(-(extinction * dt));
   }
   if (ray.ground) {
     float mu_s_ground = clamp((r * ray.mu_s + ray.d * ray.nu) / GROUND_RADIUS, -1.0, 1.0);

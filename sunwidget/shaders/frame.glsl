@@ -43,12 +43,17 @@ void main() {
   ivec2 texel = ivec2(pixel - tile_origin);
   vec3 view = GetViewDirection(place);
   vec3 display = texelFetch(retouched, texel, 0).rgb;
-  vec4 scene_texel = texelFetch(scene_light, texel, 0);
   vec4 behind_texel = texelFetch(sky_behind, texel, 0);
-  vec3 scene = scene_texel.rgb;
   vec3 sky_marks = UnpackLevels(behind_texel.a);
-  vec3 land_marks = UnpackLevels(scene_texel.a);
   vec3 clean = behind_texel.rgb;
+#ifdef SKY_ALONE
+  // Three powers cost less than a map that nothing else is read from.
+  vec3 scene = GetSceneLight(display);
+#else
+  vec4 scene_texel = texelFetch(scene_light, texel, 0);
+  vec3 scene = scene_texel.rgb;
+  vec3 land_marks = UnpackLevels(scene_texel.a);
+#endif
 
   // What of the pixel is sky and what is land, each as if it filled the pixel.
 #if defined(SKY_ALONE)

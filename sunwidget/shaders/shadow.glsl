@@ -31,15 +31,27 @@ vec3 GetCameraDirection(vec3 direction) {
   return direction.x * camera_right + direction.y * camera_up + direction.z * camera_forward;
 }
 
+// Whether some land is near enough to read this texel, or beside one that it reads.
+bool IsNearLand(vec2 place) {
+  vec2 margin = 2.5 / vec2(textureSize(land_depth, 0));
+  float land = ReadLandDepth(land_depth, place).g;
+  for (int i = 0; i < 4; ++i) {
+    vec2 corner = vec2(i % 2, i / 2) * 2.0 - 1.0;
+    land += ReadLandDepth(land_depth, place + margin * corner).g;
+  }
+  return land > 0.0;
+}
+
 float GetLandHiding(vec2 place, float level, vec3 sun) {
   float aspect = frame_size.x / frame_size.y;
   vec3 ray = vec3((place.x - 0.5) * aspect / camera_focal, (place.y - 0.5) / camera_focal, 1.0);
   float hidden = 0.0;
+  bool near_land = IsNearLand(place);
   for (int i = 0; i < kSteps; ++i) {
     float part = (float(i) + 0.7) / float(kSteps);
     float share = 1.0 - exp2(-kOctaves * part * sqrt(part));
     vec3 at = (1.0 - share) * ray + share * sun;
-    if (at.z < 0.02) break;
+    if (at.z < 0.02 || !near_land) break;
     vec2 seen = vec2(0.5 + at.x / at.z * camera_focal / aspect, 0.5 + at.y / at.z * camera_focal);
     vec2 outside = max(-seen, seen - 1.0);
     vec2 land = ReadLandDepth(land_depth, seen);

@@ -62,7 +62,7 @@ RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu)
       vec4 source = rayleigh * (sun * rayleigh_phase + through_air)
           + mie * (sun * mie_phase + through_haze);
       radiance += transmittance * source * IntegrateTransmittance(extinction, dt);
-      transmittance *= exp(-extinction * dt);
+      transmittance *= exp(-(extinction * dt));
     }
   }
   if (ground) {
