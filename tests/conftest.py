@@ -7,6 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -14,6 +15,11 @@ ROOT = Path(__file__).resolve().parents[1]
 # home use the same, or each would compile them anew: ten seconds of a core.
 _CACHE = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
 os.environ.setdefault("MESA_SHADER_CACHE_DIR", _CACHE)
+
+# A shared machine is slow at times, which says nothing about the code; and what fails here must
+# fail again for whoever looks.
+settings.register_profile("sunwidget", deadline=None, derandomize=True)
+settings.load_profile("sunwidget")
 
 
 @pytest.fixture(scope="session")
