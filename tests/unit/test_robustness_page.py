@@ -16,7 +16,7 @@ def rows(page):
             yield line
 
 
-def tests_in(path):
+def names_in(path):
     """Return what a file calls its tests: functions in Python, sentences in JavaScript."""
     text = path.read_text("utf-8")
     if path.suffix == ".js":
@@ -39,4 +39,4 @@ def test_every_row_names_tests_that_exist(root):
         for file, test in named:
             found = [path for path in homes if path.as_posix().endswith(f"/{file}")]
             assert len(found) == 1, f"{file} is not one file"
-            assert not test or test in tests_in(found[0]), f"{file} has no {test}"
+            assert not test or test in names_in(found[0]), f"{file} has no {test}"
