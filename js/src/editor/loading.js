@@ -18,6 +18,8 @@ export class Loading {
     this.view = view;
     this.signal = signal;
     this.loads = 0;
+    /** @type {Map<string, unknown>} the bytes of the pictures that the frame has */
+    this.taken = new Map();
     onTraits(view.model, ["_photo"], () => void this.photo(), signal);
     onTraits(view.model, ["_scene"], () => void this.scene(), signal);
     signal.addEventListener("abort", () => {
@@ -62,16 +64,19 @@ export class Loading {
     this.loads += 1;
     const load = this.loads;
     try {
-      const bitmaps = await Promise.all(
-        PICTURES.map((name) => decodePicture(view.model.get(`_${name}`))),
-      );
+      // A correction changes some of the maps and never the photo.
+      const sent = PICTURES.map((name) => ({ name, bytes: view.model.get(`_${name}`) }));
+      const fresh = sent.filter(({ name, bytes }) => bytes !== this.taken.get(name));
+      const bitmaps = await Promise.all(fresh.map(({ bytes }) => decodePicture(bytes)));
       if (load !== this.loads) {
         for (const bitmap of bitmaps) bitmap.close();
         return;
       }
-      view.size = [bitmaps[0].width, bitmaps[0].height];
-      PICTURES.forEach((name, i) => {
+      fresh.forEach(({ name, bytes }, i) => {
+        const { width, height } = bitmaps[i];
         view.frame.setPicture(name, bitmaps[i]);
+        this.taken.set(name, bytes);
+        if (name === "photo") view.size = [width, height];
       });
     } catch (error) {
       if (load !== this.loads) return;
