@@ -69,7 +69,7 @@ def check_light(light: NDArray[Any], name: str) -> None:
             f"{name} holds {bad} values that are NaN or infinite. Replace them first, "
             "for example with numpy.nan_to_num."
         )
-    brightest = float(np.abs(light).max())
+    brightest = max(float(light.max()), -float(light.min()))
     if brightest > MAX_LIGHT:
         raise PhotoError(
             f"{name} holds light up to {brightest:.3g}, where 1 is white and {MAX_LIGHT:g} the "
