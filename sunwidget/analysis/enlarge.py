@@ -12,19 +12,23 @@ Box = tuple[slice, slice]
 
 
 def resize_rows(
-    image: np.ndarray, width: int, height: int, rows: slice = slice(None)
+    image: np.ndarray,
+    width: int,
+    height: int,
+    rows: slice = slice(None),
+    columns: slice = slice(None),
 ) -> np.ndarray:
-    """Return some rows of ``image`` resized to (height, width) without making the whole of it.
+    """Return a part of ``image`` resized to (height, width) without making the whole of it.
 
-    A row has the same bits whichever others are asked for with it, and those of ``resize`` but
+    A pixel has the same bits whichever others are asked for with it, and those of ``resize`` but
     for the last bit of float32. A smaller picture is made whole.
     """
     import cv2
 
     if image.shape[1::-1] == (width, height):
-        return image if rows == slice(None) else image[rows]
+        return image if (rows, columns) == (slice(None), slice(None)) else image[rows, columns]
     if width * height < image.shape[0] * image.shape[1]:
-        return np.asarray(resize(image, width, height)[rows])
+        return np.asarray(resize(image, width, height)[rows, columns])
     first, last, _ = rows.indices(height)
     tall = image.shape[0]
     at = (np.arange(first, last) + 0.5) * (tall / height) - 0.5
@@ -35,7 +39,7 @@ def resize_rows(
         np.ascontiguousarray(image[begin:end], np.float32),
         (width, end - begin),
         interpolation=cv2.INTER_LINEAR,
-    )
+    )[:, columns]
     step = np.zeros_like(wide)
     np.subtract(wide[1:], wide[:-1], out=step[:-1])
     out = np.empty((last - first, *wide.shape[1:]), np.float32)

@@ -16,7 +16,7 @@ import numpy as np
 
 from sunwidget.analysis import clouds as cloud_stage
 from sunwidget.analysis.backdrop import behind_sun
-from sunwidget.analysis.enlarge import Box, enlarged_part, pixels_of
+from sunwidget.analysis.enlarge import Box, enlarged_part, pixels_of, resize_rows
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.notices import notices
 from sunwidget.analysis.refine import (
@@ -231,14 +231,15 @@ def _clouds_after(
     start = source if previous is None else previous
     fresh = resize(np.abs(matte - start.sky), source.working.width, source.working.height) > 0
     everywhere = source.everywhere
-    clouds, softness = np.array(start.clouds), np.array(start.cloud_softness)
-    source_clouds, source_softness = source.clouds, source.cloud_softness
+    clouds = _own(start.clouds, start.cloud_map)
+    softness = _own(start.cloud_softness, start.softness_map)
+    size = source.photo.size
     shade = None if start.shade is None else start.shade.copy()
     for tile in _tiles(source, fresh):
         before, after = source.sky[tile.full], matte[tile.full]
         kept = np.where(before > 0, np.minimum(after / np.maximum(before, 1e-6), 1), 1)
-        clouds[tile.full] = source_clouds[tile.full] * kept
-        softness[tile.full] = source_softness[tile.full] * kept
+        clouds[tile.full] = resize_rows(source.cloud_map, *size, *tile.full) * kept
+        softness[tile.full] = resize_rows(source.softness_map, *size, *tile.full) * kept
         grown = np.maximum(after - before, 0)
         if everywhere is None or not grown.any():
             if shade is not None and source.shade is not None:
@@ -260,10 +261,18 @@ def _clouds_after(
     return clouds, softness, shade
 
 
+def _own(image: np.ndarray, held: np.ndarray) -> np.ndarray:
+    """Return a map that may be written to: a copy of what the scene holds itself."""
+    return image.copy() if image is held else image
+
+
 def _water_after(source: Scene, matte: np.ndarray) -> np.ndarray:
     """Water where no stroke says sky; none is looked for in new land."""
     if not source.water_map.any():
         return source.water_map
+    if source.water_map.size <= source.small_sky.size:
+        # None of it where the sky was; what is sky now the scene takes away.
+        return source.small_water
     water = source.water
     return np.where(matte > source.sky, np.minimum(water, 1 - matte), water)
 

@@ -17,10 +17,12 @@ SIZE = 127, 90  # (width, height): no whole multiple
 
 
 @pytest.mark.parametrize("image", [SMALL, RANDOM.random((23, 31, 3), np.float32)])
-def test_rows_have_the_same_bits_whichever_are_asked_for_with_them(image):
+def test_pixels_have_the_same_bits_whichever_are_asked_for_with_them(image):
     whole = resize_rows(image, *SIZE)
     parts = [resize_rows(image, *SIZE, slice(top, top + 7)) for top in range(0, SIZE[1], 7)]
     assert np.array_equal(np.concatenate(parts), whole)
+    part = slice(11, 60), slice(40, 101)
+    assert np.array_equal(resize_rows(image, *SIZE, *part), whole[part])
 
 
 def test_rows_are_those_of_the_enlarged_map():
