@@ -164,9 +164,9 @@ def test_erratum_311_the_new_sun_shines_through_thin_cloud_and_not_through_thick
 
 def test_erratum_fs_the_printed_weight_depends_on_the_masks_area_and_the_right_one_does_not():
     scene = known_scene()
-    mask = np.zeros_like(scene.sun.mask)
+    mask = np.zeros_like(scene.sun.blot)
     mask[:20, :20] = 1
-    wide = dataclasses.replace(scene, sun=dataclasses.replace(scene.sun, mask=mask))
+    wide = dataclasses.replace(scene, sun=dataclasses.replace(scene.sun, blot=mask))
     edit = Edit(sun_azimuth=-10, sun_elevation=5)
     printed = [land_gain(s, edit.replace(method="thesis_literal")) for s in (scene, wide)]
     right = [land_gain(s, edit.replace(method="thesis")) for s in (scene, wide)]
