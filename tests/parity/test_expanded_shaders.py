@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 
-from sunwidget.renderer.shader_source import frame_graph, resolve_includes
+from sunwidget.renderer.shader_source import frame_graph, part_shaders, resolve_includes
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +24,10 @@ def in_javascript(root):
 
 def test_every_pass_expands_to_the_same_text_on_both_hosts(in_javascript):
     graphs = [frame_graph(), frame_graph("explorer")]
-    shaders = {f"{row['shader']}.glsl" for graph in graphs for row in graph["passes"]}
+    rows = [row for graph in graphs for row in graph["passes"]]
+    names = {name for row in rows for name in part_shaders(row)}
+    names |= {row["parts"]["by"] for row in rows if "parts" in row}
+    shaders = {f"{name}.glsl" for name in names}
     assert shaders <= in_javascript.keys()
     for name in sorted(shaders):
         assert in_javascript[name] == resolve_includes(name), name
