@@ -16,6 +16,7 @@ ASKED_FOR_OTHERWISE = {
     "ipywidgets": "anywidget's widgets are its widgets",
     "jupyterlab": "make lab; the browser tests run a server of it",
     "build": "makes the wheel of test_wheel.py and of make wheel",
+    "defusedxml": "Pillow's getxmp imports it",
     "hatchling": "the build's backend, hatch_build.py is its hook",
     "marimo": "tests/browser/marimo_host.py is run by it",
     "notebook": "the browser tests run a server of it",
