@@ -77,7 +77,7 @@ def tiny_pictures(draw):
     return draw(arrays.arrays(kind, shape, elements=values))
 
 
-@given(tiny_pictures(), st.floats(-20, 90), st.floats(-180, 180))
+@given(tiny_pictures(), st.floats(-12, 90), st.floats(-180, 180))
 @settings(
     # Each is a second's work: few, always the same.
     max_examples=4,
