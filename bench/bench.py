@@ -71,14 +71,14 @@ def write(rows: list[Row], facts: dict[str, object], seconds: dict[str, float]) 
 
 
 def write_docs(text: str) -> None:
-    """Put the table between its marks in docs/speed.md, and the plot beside it."""
-    page = DOCS / "speed.md"
+    """Put the table between its marks in docs/speed.md, and the plot below it."""
+    page, plot = DOCS / "speed.md", BUILD / "bench-pixels.svg"
+    if plot.is_file():
+        shutil.copyfile(plot, DOCS / "speed-pixels.svg")
+        text += "\n![Time and peak memory against the pixel count](speed-pixels.svg)\n"
     before, _, rest = page.read_text("utf-8").partition(MARKS[0])
     _, _, after = rest.partition(MARKS[1])
     page.write_text(f"{before}{MARKS[0]}\n{text}{MARKS[1]}{after}", "utf-8")
-    plot = BUILD / "bench-pixels.svg"
-    if plot.is_file():
-        shutil.copyfile(plot, DOCS / "speed-pixels.svg")
 
 
 if __name__ == "__main__":

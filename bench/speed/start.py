@@ -25,9 +25,7 @@ _IMPORT = (
 def rows(effort: Effort) -> Rows:
     yield of_times("import", "import sunwidget", import_time("sunwidget", effort), "s")
     widgets = import_time("sunwidget.widgets.sun_editor", effort)
-    yield of_times(
-        "import widgets", "first use of an editor: its imports", widgets, "s"
-    )
+    yield of_times("import widgets", "first use of an editor: its imports", widgets, "s")
     for name in BUNDLES:
         size = (PACKAGE / "static" / f"{name}.js").stat().st_size / 1000
         yield Row(f"bundle {name}", f"front end {name}.js, minified", size, "kB")
