@@ -303,3 +303,28 @@ def test_the_command_goes_on_where_it_stopped(folder, quick, tmp_path, capsys):
     out = capsys.readouterr().out
     assert "3 photos: 1 done, 1 skipped, 1 failed" in out
     assert main([*command, "--csv", str(folder / "0.png")]) == 2
+
+
+def test_a_picture_that_cannot_be_recorded_is_failed_and_made_by_the_next_run(folder, quick):
+    resource = pytest.importorskip("resource", reason="only Unix limits the size of files")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    room = 450  # bytes: each picture fits, the three lines of the record do not
+    resource.setrlimit(resource.RLIMIT_FSIZE, (room, hard))
+    try:
+        report = run(folder)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert list(report)[-1].state == "failed"
+    assert "was not written: a file may not be that large" in report.failed[0].error
+    assert len([name for name in left(folder) if name.endswith(".png")]) == len(report.done)
+    again = run(folder)
+    assert not again.failed
+    assert len(again.skipped) == len(report.done)
+
+
+def test_a_report_takes_names_that_no_terminal_should_obey(folder, quick):
+    (folder / "0.png").rename(folder / "\x1b[2J\udcff.png")
+    report = run(folder)
+    assert "\x1b" not in str(report)
+    path = report.to_csv(folder.parent / "report.csv")
+    assert "\\udcff" in path.read_text("utf-8")
