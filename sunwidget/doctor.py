@@ -84,11 +84,14 @@ def _graphics() -> Iterator[Finding]:
 def _shaders() -> Iterator[Finding]:
     from sunwidget.renderer.gl_thread import RendererError, on_gl_thread
     from sunwidget.renderer.graph import Programs
-    from sunwidget.renderer.shader_source import frame_graph
+    from sunwidget.renderer.shader_source import frame_graph, part_shaders
 
-    shaders = {
-        row["shader"] for name in ("graph", "explorer") for row in frame_graph(name)["passes"]
-    }
+    shaders: set[str] = set()
+    for name in ("graph", "explorer"):
+        for row in frame_graph(name)["passes"]:
+            shaders.update(part_shaders(row))
+            if "parts" in row:
+                shaders.add(row["parts"]["by"])
 
     def compile_all(context: Any) -> None:
         programs = Programs(context)

@@ -18,11 +18,11 @@ from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, parameter
 from sunwidget.files import target
 from sunwidget.photo import Photo, open_photo
+from sunwidget.recipe import edit_of
 from sunwidget.widgets.analysed import OPENING, Analysed
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.edit_traits import AnswersRefusals, edit_traits
 from sunwidget.widgets.front_end import front_end
-from sunwidget.widgets.history import edit_of
 from sunwidget.widgets.payload import (
     encode_maps,
     encode_png,

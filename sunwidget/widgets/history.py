@@ -17,6 +17,7 @@ from typing import Any
 import traitlets
 
 from sunwidget.edit import PARAMETERS, Edit, EditError
+from sunwidget.recipe import edit_of
 from sunwidget.widgets.edit_traits import AnswersRefusals, edit_traits
 
 NAMES = tuple(p.name for p in PARAMETERS)
@@ -175,6 +176,13 @@ class EditHistory(AnswersRefusals):
                 self._browser_thread = None
                 self._committed = self.edit
 
+    @traitlets.validate("_history")
+    def _check_history(self, proposal: dict[str, Any]) -> dict[str, Any]:
+        history: dict[str, Any] = proposal["value"]
+        if all(isinstance(history.get(row, []), list) for row in ("past", "future")):
+            return history
+        raise traitlets.TraitError("A history holds two lists of recipes, past and future.")
+
     def _steps(self) -> tuple[list[Recipe], list[Recipe]]:
         return list(self._history.get("past", [])), list(self._history.get("future", []))
 
@@ -217,13 +225,6 @@ class EditHistory(AnswersRefusals):
             if edit != self._committed:
                 self._remember(self._committed)
                 self._committed = edit
-
-
-def edit_of(recipe: Edit | Recipe | None) -> Edit:
-    """Return what may be given as a recipe as an ``Edit``; None is one that moves nothing."""
-    if recipe is None:
-        return Edit()
-    return recipe if isinstance(recipe, Edit) else Edit.from_dict(recipe)
 
 
 def _checked_name(name: Any) -> str:

@@ -11,9 +11,10 @@ from typing import Any
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, plain
 from sunwidget.files import target
+from sunwidget.recipe import edit_of
 from sunwidget.widgets.analysed import Analysed
 from sunwidget.widgets.detail import detail
-from sunwidget.widgets.history import NAMES, EditHistory, edit_of
+from sunwidget.widgets.history import NAMES, EditHistory
 from sunwidget.widgets.payload import (
     THUMBNAIL_EDGE,
     encode_picture,

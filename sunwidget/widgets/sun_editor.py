@@ -17,11 +17,11 @@ from sunwidget import presets
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit import CORRECTIONS, Edit
 from sunwidget.photo import Photo
+from sunwidget.recipe import edit_of
 from sunwidget.widgets.analysed import OPENING
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.exports import Exports
 from sunwidget.widgets.front_end import front_end
-from sunwidget.widgets.history import edit_of
 from sunwidget.widgets.payload import (
     encode_map,
     encode_maps,

@@ -79,6 +79,14 @@ def test_a_refused_value_says_why_and_changes_nothing(editor, name, value):
     assert editor._history["past"] == []
 
 
+def test_a_history_that_is_none_is_refused_and_undo_goes_on(editor):
+    editor.exposure = 1
+    with pytest.raises(TraitError, match="two lists of recipes"):
+        editor._history = {"past": 3}
+    editor.undo()
+    assert editor.edit == sw.Edit()
+
+
 def test_an_unknown_keyword_gets_the_nearest_spelling(scene):
     with pytest.raises(TypeError, match="Did you mean 'sun_elevation'"):
         SunEditor(scene, sun_elevaton=3)

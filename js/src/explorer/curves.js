@@ -15,8 +15,6 @@ export const channel = (texels, c) => {
 /** @type {(n: number, at: (i: number) => number) => number[]} */
 const range = (n, at) => Array.from({ length: n }, (_, i) => at(i));
 
-/** Scattering angles in degrees of `curve_phase`. */
-export const PHASE_ANGLES = range(181, (i) => i);
 /** Nanometres of `curve_transmittance`. */
 export const WAVELENGTHS = range(64, (i) => 380 + (i * 400) / 63);
 /** Sun's elevations in degrees of `curve_sun`. */
