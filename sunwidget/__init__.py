@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any
 
 # What type checkers and editors see; a test holds it equal to the table below.
 if TYPE_CHECKING:
+    from sunwidget.analysis.analyze import analyze
     from sunwidget.analysis.errors import AnalysisError
-    from sunwidget.analysis.scene import Scene, analyze
+    from sunwidget.analysis.scene import Scene
     from sunwidget.analysis.sky_network import SkyNetwork
     from sunwidget.camera import Camera
     from sunwidget.edit import PARAMETERS, Edit, EditError, Stroke
@@ -67,7 +68,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Study": ("sunwidget.widgets", "Study"),
     "StudyError": ("sunwidget.study", "StudyError"),
     "SunEditor": ("sunwidget.widgets", "SunEditor"),
-    "analyze": ("sunwidget.analysis.scene", "analyze"),
+    "analyze": ("sunwidget.analysis.analyze", "analyze"),
     "batch": ("sunwidget.export.batch.run", "batch"),
     "contact_sheet": ("sunwidget.export.contact_sheet", "contact_sheet"),
     "environment_map": ("sunwidget.export.environment", "environment_map"),

@@ -46,7 +46,7 @@ def methods_of_stages() -> dict[str, tuple[Sequence[str], str]]:
     import inspect
 
     from sunwidget.analysis import stages
-    from sunwidget.analysis.scene import analyze
+    from sunwidget.analysis.analyze import analyze
 
     parameters = inspect.signature(analyze).parameters
     found: dict[str, tuple[Sequence[str], str]] = {}

@@ -44,7 +44,7 @@ def read_recipe(path: str | os.PathLike[str]) -> Edit:
     EditError
         For a file that is missing, cannot be read or holds no recipe; the message names it.
     """
-    name = shown(os.fspath(path))
+    name = shown(os.fspath(path), 400)  # its end tells most
     try:
         with Path(path).expanduser().open("rb") as file:
             data = file.read(_MOST_BYTES + 1)

@@ -16,7 +16,7 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.analysis import refine, sky
+from sunwidget.analysis import matting, refine, sky
 from sunwidget.analysis.working import Working, resize
 
 from .effort import Effort
@@ -36,7 +36,7 @@ def rows(effort: Effort) -> Rows:
         working = Working.of(photo)
         probability = sky.network(working)
         with clock(ours):
-            alpha = refine.matte(photo, working, refine.grabcut_mask(working, probability))
+            alpha = matting.matte(photo, working, refine.grabcut_mask(working, probability))
         coarse = resize(probability, *photo.size)
         with clock(theirs):
             cut = refine.cut(photo.encoded, refine.trimap(coarse), iterations=5)

@@ -17,11 +17,12 @@ import numpy as np
 
 from sunwidget.analysis import refine
 from sunwidget.analysis import sky as sky_stage
+from sunwidget.analysis.analyze import analyze
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.noise import noise_level
 from sunwidget.analysis.plausible import plausible
-from sunwidget.analysis.scene import Scene, analyze
+from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.working import LUMINANCE, Working, resize
 from sunwidget.color import SRGB, strips
 from sunwidget.edit import CORRECTIONS, Edit

@@ -16,20 +16,20 @@ import numpy as np
 
 from sunwidget.analysis import clouds as cloud_stage
 from sunwidget.analysis.backdrop import behind_sun
+from sunwidget.analysis.brush import set_strokes
 from sunwidget.analysis.enlarge import Box, enlarged_part, pixels_of, resize_rows
-from sunwidget.analysis.memory import Memory
-from sunwidget.analysis.notices import notices
-from sunwidget.analysis.refine import (
+from sunwidget.analysis.matting import (
     EPSILON,
-    MINIMUM_SIDE,
     RADIUS,
-    Decision,
     guided_coefficients,
     on_lines,
     stretched,
 )
+from sunwidget.analysis.memory import Memory
+from sunwidget.analysis.notices import notices
+from sunwidget.analysis.refine import MINIMUM_SIDE, Decision
 from sunwidget.analysis.stages import Steps, complete
-from sunwidget.analysis.strokes import Painting, set_strokes
+from sunwidget.analysis.strokes import Painting
 from sunwidget.analysis.water_strokes import LABELS as WATER
 from sunwidget.analysis.water_strokes import with_water
 from sunwidget.analysis.working import resize

@@ -16,7 +16,7 @@ import numpy as np
 from sunwidget.analysis import clouds as cloud_stage
 from sunwidget.analysis import depth as depth_stage
 from sunwidget.analysis import horizon as horizon_stage
-from sunwidget.analysis import refine
+from sunwidget.analysis import matting, refine
 from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis import water as water_stage
 from sunwidget.analysis.backdrop import Backdrop, behind_sun, clouds_behind_sun, fill_by_pyramid
@@ -184,7 +184,7 @@ def complete(
 def _cut_out(base: Scene, step: Steps) -> tuple[np.ndarray, np.ndarray]:
     """Return the sky at working size and the matte at the photo's size."""
     photo, working = base.photo, base.working
-    matte = refine.matte(photo, working, base.decision)
+    matte = matting.matte(photo, working, base.decision)
     step.within(0.6)
     sky = resize(matte, working.width, working.height)
     coarse = resize(base.coarse_map, working.width, working.height)

@@ -7,12 +7,12 @@ with and on the strokes alone, so a ``Painting`` may be kept and painted on.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sunwidget.analysis.refine import SIDE, Decision, cut, paint
+from sunwidget.analysis.brush import paint
+from sunwidget.analysis.refine import SIDE, Decision, cut
 from sunwidget.analysis.working import Working, resize, shrink
 from sunwidget.edit import Stroke
 
@@ -213,18 +213,3 @@ def _nearest(lab: np.ndarray, where: np.ndarray, colours: np.ndarray, most: int)
         squares = (flat**2).sum(axis=1)[:, None] - 2 * flat @ samples.T + (samples**2).sum(axis=1)
         distance[where] = np.sqrt(np.maximum(squares.min(axis=1), 0))
     return distance
-
-
-def set_strokes(matte: np.ndarray, strokes: Sequence[Stroke]) -> None:
-    """Set a map (H, W) under each brush, in place: what a person says wins over everything."""
-    height, width = matte.shape
-    for stroke in strokes:
-        reach = stroke.radius * max(width, height) + 2
-        xs = [x * width for x, _ in stroke.points]
-        ys = [y * height for _, y in stroke.points]
-        left, right = max(math.floor(min(xs) - reach), 0), min(math.ceil(max(xs) + reach), width)
-        top, bottom = max(math.floor(min(ys) - reach), 0), min(math.ceil(max(ys) + reach), height)
-        if left < right and top < bottom:
-            # Painting only the stroke's box saves most of the time on a large photo.
-            box = slice(top, bottom), slice(left, right)
-            matte[box][paint(stroke, width, height, box)] = stroke.label in ("sky", "water")

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sunwidget.analysis import horizon
+from sunwidget.analysis.brush import paint, set_strokes
 from sunwidget.analysis.memory import Memory
-from sunwidget.analysis.refine import SIDE, paint
-from sunwidget.analysis.strokes import set_strokes
+from sunwidget.analysis.refine import SIDE
 from sunwidget.analysis.water import soft_edged
 from sunwidget.analysis.working import resize, shrink
 

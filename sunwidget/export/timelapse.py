@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from sunwidget.analysis.analyze import analyze
 from sunwidget.analysis.frame_scenes import FrameScenes, Trouble
-from sunwidget.analysis.scene import Scene, analyze
+from sunwidget.analysis.scene import Scene
 from sunwidget.export.ahead import ahead
 from sunwidget.export.film import (
     Film,

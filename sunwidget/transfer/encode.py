@@ -31,7 +31,8 @@ def photo_like(photo: Photo, light: np.ndarray) -> Photo:
 
 def scene_of(source: Any) -> Scene:
     """Return a scene as it is, and anything else analysed."""
-    from sunwidget.analysis.scene import Scene, analyze
+    from sunwidget.analysis.analyze import analyze
+    from sunwidget.analysis.scene import Scene
 
     return source if isinstance(source, Scene) else analyze(source)
 

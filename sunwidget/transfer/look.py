@@ -33,7 +33,7 @@ from sunwidget.transfer.local_affine import (
 )
 
 if TYPE_CHECKING:
-    from sunwidget.analysis.scene import Progress
+    from sunwidget.time_left import Progress
 
 _LONG_SIDE = 240  # of the copies that are compared: 40,000 points match in seconds
 _LEARNED_SIDE = 640  # of the pair when the transforms are fitted

@@ -22,8 +22,9 @@ from sunwidget.transfer.encode import check_strength, photo_like, scene_of
 from sunwidget.transfer.land import LandChange, land_change, mean_sky, rows_at
 
 if TYPE_CHECKING:
-    from sunwidget.analysis.scene import Progress, Scene
+    from sunwidget.analysis.scene import Scene
     from sunwidget.photo import Photo
+    from sunwidget.time_left import Progress
 
 _LEAST_SKY = 0.002  # share of the picture
 

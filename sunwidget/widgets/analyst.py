@@ -9,8 +9,9 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from sunwidget.analysis.analyze import analyze
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.scene import Scene, analyze
+from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit
 from sunwidget.widgets import background
 from sunwidget.widgets.known_scenes import remember

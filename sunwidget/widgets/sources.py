@@ -5,7 +5,8 @@ from __future__ import annotations
 import inspect
 from typing import Any
 
-from sunwidget.analysis.scene import Scene, analyze
+from sunwidget.analysis.analyze import analyze
+from sunwidget.analysis.scene import Scene
 from sunwidget.edit import PARAMETERS, unknown_name_message
 from sunwidget.photo import Photo, open_photo
 from sunwidget.widgets.known_scenes import recall

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from sunwidget.analysis import refine
+from sunwidget.analysis import matting, refine
 from sunwidget.analysis.dense_crf import _bilateral, mean_field
 from sunwidget.analysis.edges import snap
 from sunwidget.analysis.working import Working
@@ -119,7 +119,7 @@ def test_a_comparator_is_a_method_and_gives_the_same_bits_twice(method):
     photo = open_photo(paint(truth))
     working = Working.of(photo)
     first, second = (
-        refine.matte(photo, working, refine.METHODS[method](working, moved(truth)))
+        matting.matte(photo, working, refine.METHODS[method](working, moved(truth)))
         for _ in range(2)
     )
     assert np.array_equal(first, second)

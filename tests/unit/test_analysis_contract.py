@@ -94,7 +94,7 @@ def test_the_path_of_a_mask_is_the_mask(tmp_path):
         ({"fov": 0}, r"5 to 150 degrees"),
         ({"fov": "wide"}, r"5 to 150 degrees"),
         ({"sky": "magic"}, r"network, skyline"),
-        ({"sky": "/no/such/mask.png"}, r"No sky mask at"),
+        ({"sky": "/no/such/mask.png"}, r"sky mask cannot be read: There is no file"),
         ({"sky": "/no/such/net.onnx"}, r"No sky network at"),
         ({"sky": np.zeros((160, 30))}, r"shapes must agree"),
         ({"refine": "scissors"}, r"choose one of .*grabcut_mask"),
@@ -115,7 +115,7 @@ def test_a_hint_that_cannot_be_used_is_refused_with_what_to_do(hints, words):
 def test_a_file_that_is_no_picture_is_refused_as_a_mask(tmp_path):
     path = tmp_path / "mask.png"
     path.write_bytes(b"not a picture")
-    with pytest.raises(AnalysisError, match="no picture that can be read"):
+    with pytest.raises(AnalysisError, match="not a picture that sunwidget reads"):
         sw.analyze(seascape(60, 40), sky=path)
 
 

@@ -7,7 +7,7 @@ import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
-from sunwidget.analysis import refine, strokes
+from sunwidget.analysis import brush
 from sunwidget.analysis.memory import Memory
 
 MAPS = ("sky", "clouds", "cloud_softness", "cloud_shade", "depth", "water", "backdrop", "glare")
@@ -151,7 +151,7 @@ def said(scene):
     height, width = scene.sky.shape
     wanted = np.full((height, width), np.nan)
     for stroke in STROKES:
-        wanted[refine.paint(stroke, width, height)] = stroke.label == "sky"
+        wanted[brush.paint(stroke, width, height)] = stroke.label == "sky"
     return wanted
 
 
@@ -224,7 +224,7 @@ def test_land_that_is_told_to_be_sky_brings_its_clouds():
 
 def test_sureness_is_full_where_a_stroke_decided(scene, brushed):
     height, width = scene.sky.shape
-    under = refine.paint(sw.Stroke("sky", ROCK.points, 0.005), width, height)
+    under = brush.paint(sw.Stroke("sky", ROCK.points, 0.005), width, height)
     assert brushed.sureness[under].min() == 1
 
 
@@ -240,7 +240,7 @@ def test_sureness_is_full_where_a_stroke_decided(scene, brushed):
 )
 def test_setting_a_stroke_touches_the_pixels_under_it_and_no_others(stroke):
     matte = np.full((261, 384), 0.5, np.float32)
-    strokes.set_strokes(matte, (stroke,))
-    under = refine.paint(stroke, 384, 261)
+    brush.set_strokes(matte, (stroke,))
+    under = brush.paint(stroke, 384, 261)
     assert np.array_equal(matte != 0.5, under)
     assert (matte[under] == (stroke.label == "sky")).all()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis import refine
+from sunwidget.analysis import matting
 from sunwidget.analysis.enlarge import enlarged_part, pixels_of, raise_to, resize_rows
 from sunwidget.analysis.horizon import above, cut_below
 from sunwidget.analysis.refine import Decision
@@ -78,8 +78,8 @@ def test_tiles_without_a_skyline_are_what_looking_at_every_pixel_gives(monkeypat
     sky = np.zeros((working.height, working.width), np.float32)
     sky[: working.height // 2] = 1
     decision = Decision(sky, np.ones_like(sky))
-    quick = refine.matte(photo, working, decision)
-    monkeypatch.setattr(refine, "_ROUNDING", np.inf)  # no tile is sure
-    every = refine.matte(photo, working, decision)
+    quick = matting.matte(photo, working, decision)
+    monkeypatch.setattr(matting, "_ROUNDING", np.inf)  # no tile is sure
+    every = matting.matte(photo, working, decision)
     assert np.array_equal(quick, every)
     assert 0 < np.mean((quick > 0) & (quick < 1)) < 0.1

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from sunwidget.analysis import refine
+from sunwidget.analysis import brush, matting, refine
 from sunwidget.analysis.strokes import Painting
 from sunwidget.analysis.working import Working
 from sunwidget.edit import Stroke
@@ -46,7 +46,7 @@ def overlap(matte: np.ndarray, truth: np.ndarray) -> float:
 
 def refined(photo: Photo, probability: np.ndarray, method: str = "grabcut_mask") -> np.ndarray:
     working = Working.of(photo)
-    return refine.matte(photo, working, refine.METHODS[method](working, probability))
+    return matting.matte(photo, working, refine.METHODS[method](working, probability))
 
 
 def test_refinement_finds_the_sky_between_the_twigs():
@@ -126,10 +126,10 @@ def test_no_stroke_gives_the_very_same_decision():
 
 
 def test_a_dab_is_at_least_a_pixel_and_a_stroke_outside_paints_nothing():
-    dab = refine.paint(Stroke("sky", ((0.5, 0.5),), 0.0005), 40, 30)
+    dab = brush.paint(Stroke("sky", ((0.5, 0.5),), 0.0005), 40, 30)
     assert 1 <= dab.sum() <= 5
     assert dab[14:16, 19:21].any()
-    assert refine.paint(Stroke("sky", ((9.0, 9.0), (9.5, 9.0)), 0.01), 40, 30).sum() == 0
+    assert brush.paint(Stroke("sky", ((9.0, 9.0), (9.5, 9.0)), 0.01), 40, 30).sum() == 0
 
 
 def test_doubted_land_of_the_skys_colour_does_not_teach_what_land_looks_like():

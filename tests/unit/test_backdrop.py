@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
+from sunwidget.analysis.analyze import analyze
 from sunwidget.analysis.backdrop import (
     LONG_SIDE,
     RANGE,
@@ -14,7 +15,6 @@ from sunwidget.analysis.backdrop import (
     matched_sky,
 )
 from sunwidget.analysis.fit import SkyFit
-from sunwidget.analysis.scene import analyze
 from sunwidget.analysis.working import Working, resize
 from sunwidget.photo import open_photo
 from sunwidget.samples import sample

@@ -112,7 +112,13 @@ def drawn(cut, air, sun, views, grid=(96, 80)):
         values = {**air.parameters(), "sun_elevation": float(sun), "sun_azimuth": 0.0}
         values |= {"scattering_orders": 0.0}
         inputs = {"bruneton": "bruneton"}
-        row = {"name": "bruneton_view", "shader": "bruneton_view", "size": "grid", "inputs": inputs}
+        row = {
+            "name": "bruneton_view",
+            "shader": "bruneton_view",
+            "size": "grid",
+            "format": "rgba32f",
+            "inputs": inputs,
+        }
         graph = FrameGraph(Programs(context), {"bruneton": cut})
         graph._run_pass(row, grid, values, {}, {"tile_origin": (0, 0)})
         text = EGL_HEADER + resolve_includes("lib/sky.glsl") + PROBE

@@ -143,7 +143,7 @@ def frames_of(path):
     ],
 )
 def test_every_path_has_its_flags(request, scene, tmp_path, monkeypatch, flags):
-    monkeypatch.setattr(cli_sweep, "scene_of", lambda _options: scene)
+    monkeypatch.setattr(cli_sweep, "scene_to_draw", lambda _options: scene)
     if "--day" in flags or "--end-time" in flags:
         request.getfixturevalue("pvlib")
     film = tmp_path / "film.webp"
@@ -152,7 +152,7 @@ def test_every_path_has_its_flags(request, scene, tmp_path, monkeypatch, flags):
 
 
 def test_a_sheet_and_frames_one_by_one(scene, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(cli_sweep, "scene_of", lambda _options: scene)
+    monkeypatch.setattr(cli_sweep, "scene_to_draw", lambda _options: scene)
     ends = ["--to-sun-elevation", "-4", "--frames", "3", "--size", "48x32"]
     sheet, pattern = tmp_path / "sheet.png", tmp_path / "frames" / "%02d.png"
     assert main(["sweep", "x.png", "--sheet", str(sheet), "-o", str(pattern), *ends]) == 0

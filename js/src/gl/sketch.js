@@ -21,6 +21,7 @@ class Borrower extends Graph {
     this.lender = lender;
     this.programs = lender.programs;
     this.textures = lender.textures;
+    this.depth = lender.depth; // there is one canvas
     /** @type {Map<string, Target>} of the present run: the lender may draw between two */
     this.lent = new Map();
     // The lender counts in whole numbers: a version of one is never one of the other.
@@ -84,8 +85,11 @@ export class Sketch {
     const { gl } = lender;
     const [width, height] = frame.size;
     // The surface gives its canvas a size again before it draws.
-    if (gl.canvas.width < width) gl.canvas.width = width;
-    if (gl.canvas.height < height) gl.canvas.height = height;
+    if (gl.canvas.width < width || gl.canvas.height < height) {
+      gl.canvas.width = Math.max(gl.canvas.width, width);
+      gl.canvas.height = Math.max(gl.canvas.height, height);
+      lender.depth.key = [];
+    }
     this.graph.run(frame);
     if (gl.isContextLost()) return false;
     context.imageSmoothingQuality = "high";

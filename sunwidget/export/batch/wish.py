@@ -60,7 +60,7 @@ def wish_of(
     EditError, ValueError, TypeError
         For an unusable recipe, size or option.
     """
-    from sunwidget.analysis.scene import analyze
+    from sunwidget.analysis.analyze import analyze
     from sunwidget.export.stills import save
 
     if long_edge is not None:

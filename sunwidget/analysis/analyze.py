@@ -1,0 +1,148 @@
+"""From a photo to its Scene: ``sunwidget.analyze``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from sunwidget.analysis import depth as depth_stage
+from sunwidget.analysis import sky as sky_stage
+from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.hints import (
+    Hints,
+    check_fov,
+    check_horizon,
+    check_point,
+    check_strokes,
+)
+from sunwidget.analysis.horizon import Horizon
+from sunwidget.analysis.plausible import plausible
+from sunwidget.analysis.retouch import stroked
+from sunwidget.analysis.scene import Scene
+from sunwidget.analysis.stages import METHODS, Steps, check_method, complete
+from sunwidget.analysis.working import Working
+from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.camera import Camera, Point
+from sunwidget.edit import Stroke
+from sunwidget.photo import open_photo
+from sunwidget.time_left import Progress
+
+
+def analyze(
+    photo: Any,
+    *,
+    sun: Point | None = None,
+    horizon: float | tuple[Point, Point] | None = None,
+    fov: float | None = None,
+    sky: Any = None,
+    sky_label: int | str | None = None,
+    refine: str = "grabcut_mask",
+    clouds: str = "unmix",
+    horizon_method: str = "water_line",
+    sun_method: str = "disc_fit",
+    depth: Any = "fused",
+    water: Any = "streaks",
+    strokes: tuple[Stroke, ...] = (),
+    progress: Progress | None = None,
+) -> Scene:
+    """Find sky, sun, clouds, horizon, camera, depth and water in a photo.
+
+    Parameters
+    ----------
+    photo : Photo or anything that ``sunwidget.open`` takes
+    sun : (x, y), optional
+        Where the photo's own sun is, in pixels; may lie outside the picture. Default: what
+        the photo itself knows (``Photo.sun``), else looked for.
+    horizon : float or ((x0, y0), (x1, y1)), optional
+        Row of the horizon at the picture's centre, or two of its points, in pixels.
+    fov : float, optional
+        Vertical field of view in degrees.
+    sky : array, path, SkyNetwork or str, optional
+        A mask, an ONNX network or its path, or a name of ``sky.METHODS``. Default: the bundled
+        network, doubted where it hardly believes itself (plausible.py); a named one is not.
+    sky_label : int or str, optional
+        The class "sky" of an ONNX network, index from 0 or name (``SkyNetwork.label``).
+    refine, clouds, horizon_method, sun_method : str
+        Name in the stage's ``METHODS``.
+    depth : str, path, DepthNetwork or array
+        Name in ``depth.METHODS``; an ONNX network for depth from one picture, or its path; or
+        metres along the optical axis (H, W), inf for the sky.
+    water : str or array
+        Name in ``water.METHODS``, or a map (H, W), 1 = water.
+    strokes : tuple of Stroke
+        Corrections of the sky.
+    progress : callable, optional
+        Called with (fraction, message); raise in it to cancel.
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    AnalysisError
+        For a hint or method that cannot be used, or a missing network.
+    PhotoError
+        When the photo cannot be opened.
+    """
+    photo = open_photo(photo)
+    sun = photo.sun if sun is None else sun
+    methods = {
+        "refine": refine,
+        "clouds": clouds,
+        "horizon": horizon_method,
+        "sun": sun_method,
+        "depth": depth if isinstance(depth, str) and depth in METHODS["depth"] else "fused",
+        "water": water if isinstance(water, str) else "none",
+    }
+    for stage, name in methods.items():
+        check_method(stage, name)
+    strokes = check_strokes(strokes)
+    if progress is not None and not callable(progress):
+        raise AnalysisError(f"progress must be a function, not {progress!r:.80}.")
+    hints = Hints(
+        check_point("sun", sun),
+        check_horizon(horizon),
+        check_fov(fov),
+        methods=tuple(methods.items()),
+        water=None if isinstance(water, str) else sky_stage.mask_from(water, photo.size, "water"),
+        depth=depth_stage.given(depth, photo.size),
+    )
+    step = Steps(progress)
+    step("prepare", 0.0, "Preparing the photo")
+    working = Working.of(photo)
+    step("sky", 0.1, "Finding the sky")
+    coarse = sky_stage.coarse(working, sky, photo.size, sky_label)
+    step("refine", 0.4, "Following the skyline")
+    decision = METHODS["refine"][refine](working, coarse)
+    doubted = 0.0
+    if sky is None:  # what a person names is taken at its word
+        kept = plausible(decision.sky, coarse, working)
+        doubted = float(np.mean((decision.sky > 0.5) & ~kept))
+        decision = decision._replace(sky=decision.sky * kept)
+    camera = Camera(photo.width, photo.height, hints.fov or photo.field_of_view.vertical)
+    empty = np.zeros((1, 1), np.float32)
+    start = Scene(
+        photo=photo,
+        sky=empty,
+        coarse_map=coarse,
+        cloud_map=empty,
+        softness_map=empty,
+        sun=None,
+        horizon=Horizon(0.0),
+        camera=camera,
+        atmosphere=Atmosphere(),
+        water_map=empty,
+        backdrop=empty,
+        glare=empty,
+        assumed_sun=(0.0, 0.0),
+        response={},
+        warnings=(),
+        hints=hints,
+        timings=step.timings,
+        working=working,
+        decision=decision,
+        doubted=doubted,
+    )
+    return stroked(complete(start, hints, step), strokes)
