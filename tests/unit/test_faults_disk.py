@@ -157,6 +157,21 @@ def test_a_folder_with_the_name_of_a_frame_is_refused_and_kept(tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["0001.png"]
 
 
+@pytest.fixture
+def interruptible():
+    """Signals as at a terminal: a shell's background and nohup start what they run without some."""
+    at_a_terminal = {
+        signal.SIGINT: signal.default_int_handler,
+        signal.SIGTERM: signal.SIG_DFL,
+        signal.SIGHUP: signal.SIG_DFL,
+    }
+    before = {number: signal.signal(number, at_a_terminal[number]) for number in at_a_terminal}
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
+@pytest.mark.usefixtures("interruptible")
 @pytest.mark.parametrize(("number", "status"), [("SIGTERM", 143), ("SIGHUP", 129), ("SIGINT", 130)])
 @pytest.mark.parametrize("name", ["x.mp4", "new/%04d.png"])
 def test_a_command_that_is_ended_leaves_no_film(
