@@ -66,8 +66,8 @@ export class Graph {
     this.textures = new Map();
     /** @type {Record<string, number>} how often each pass was drawn */
     this.runs = {};
-    /** @type {{ key: (number | string)[] }} what the canvas's depth was drawn from (writeParts) */
-    this.depth = { key: [] };
+    /** @type {(number | string)[]} what the canvas's depth was drawn from (writeParts) */
+    this.partsKey = [];
     /** @type {Set<string>} passes that the present run may draw */
     this.drawn = new Set();
     this.versions = 0; // of all textures: two sizes of one pass must differ, too
@@ -250,7 +250,7 @@ export class Graph {
    */
   writeParts(program, key, values, textures) {
     const { gl } = this;
-    if (same(this.depth.key, key)) return;
+    if (same(this.partsKey, key)) return;
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.ALWAYS);
     gl.depthMask(true);
@@ -259,7 +259,7 @@ export class Graph {
     gl.depthMask(false);
     gl.colorMask(true, true, true, true);
     gl.disable(gl.DEPTH_TEST);
-    this.depth.key = key;
+    this.partsKey = key;
   }
 
   /**

@@ -21,7 +21,6 @@ class Borrower extends Graph {
     this.lender = lender;
     this.programs = lender.programs;
     this.textures = lender.textures;
-    this.depth = lender.depth; // there is one canvas
     /** @type {Map<string, Target>} of the present run: the lender may draw between two */
     this.lent = new Map();
     // The lender counts in whole numbers: a version of one is never one of the other.
@@ -51,6 +50,15 @@ class Borrower extends Graph {
       return lent;
     }
     return super.target(pass, size, key, frame);
+  }
+
+  /**
+   * A pass that has parts is drawn in one go: the canvas has one depth, and it is the lender's.
+   *
+   * @param {import("./graph.js").Pass} pass
+   */
+  stages(pass) {
+    return super.stages(pass).slice(-1);
   }
 
   /**
@@ -88,7 +96,7 @@ export class Sketch {
     if (gl.canvas.width < width || gl.canvas.height < height) {
       gl.canvas.width = Math.max(gl.canvas.width, width);
       gl.canvas.height = Math.max(gl.canvas.height, height);
-      lender.depth.key = [];
+      lender.partsKey = [];
     }
     this.graph.run(frame);
     if (gl.isContextLost()) return false;

@@ -76,7 +76,7 @@ export class Surface {
   show(frame) {
     const [width, height] = frame.size;
     const drawn = this.withGraph((graph) => {
-      if (resize(graph.gl.canvas, width, height)) graph.depth.key = []; // it is empty
+      if (resize(graph.gl.canvas, width, height)) graph.partsKey = []; // its depth is gone
       graph.run(frame);
       return graph.gl.canvas;
     });
