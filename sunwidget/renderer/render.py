@@ -141,8 +141,7 @@ def render(
     edit = edit_of(edit)
     if method is not None:
         edit = edit.replace(method=method)
-    scene = checked_scene(scene).corrected(edit)
-    width, height = scene.photo.size if size is None else checked_size(size)
+    width, height = checked_scene(scene).photo.size if size is None else checked_size(size)
     out: npt.NDArray[Any] | None = None
     for rows, pixels in strips_of(scene, edit, dtype, (width, height), progress):
         if out is None:

@@ -62,6 +62,12 @@ def test_a_sky_stroke_takes_back_a_not_sky_stroke(scene):
     assert back.sky[under].min() == 1
 
 
+def test_a_picture_has_its_strokes_worked_out_once():
+    photo = sw.analyze(seascape(), fov=45.0)
+    sw.render(photo, sw.Edit(strokes=(ROCK,)))
+    assert list(photo.memory.scenes) == [(ROCK,)]
+
+
 def test_the_uncorrected_scene_stays_as_it_was(scene):
     before = scene.sky.copy()
     scene.corrected(sw.Edit(strokes=(sw.Stroke("sky", ((0.5, 0.9),), 0.05),)))
