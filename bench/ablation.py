@@ -19,29 +19,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from PIL import Image
+from speed.effects import WITHOUT
 
 import sunwidget as sw
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 # The value that switches an effect off, where it is not 0.
 OFF: dict[str, dict[str, float]] = {
-    name: {name: 0.0}
-    for name in (
-        "shading",
-        "gloss",
-        "cast_shadows",
-        "cloud_shadows",
-        "aerial_perspective",
-        "colourfulness",
-        "water_strength",
-        "glitter",
-        "glow",
-        "light_shafts",
-        "lens_flare",
-        "cloud_strength",
-        "silver_lining",
-        "grain",
-    )
+    name: {name: 0.0} for name in (*WITHOUT, "colourfulness", "lens_flare", "cloud_strength")
 }
 OFF["land's slope and shadows"] = {
     "shading": 0,

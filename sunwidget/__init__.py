@@ -40,7 +40,10 @@ if TYPE_CHECKING:
     from sunwidget.study import StudyError
     from sunwidget.transfer.look import transfer_look
     from sunwidget.transfer.sky_replacement import replace_sky
-    from sunwidget.widgets import Compare, SkyExplorer, Study, SunEditor
+    from sunwidget.widgets.compare import Compare
+    from sunwidget.widgets.sky_explorer import SkyExplorer
+    from sunwidget.widgets.study import Study
+    from sunwidget.widgets.sun_editor import SunEditor
     from sunwidget.widgets.unseen import to_html
 
 __version__ = "0.1.0"
@@ -52,7 +55,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "PRESETS": ("sunwidget.presets", "PRESETS"),
     "BatchReport": ("sunwidget.export.batch.report", "BatchReport"),
     "Camera": ("sunwidget.camera", "Camera"),
-    "Compare": ("sunwidget.widgets", "Compare"),
+    "Compare": ("sunwidget.widgets.compare", "Compare"),
     "Day": ("sunwidget.export.day", "Day"),
     "Edit": ("sunwidget.edit", "Edit"),
     "EditError": ("sunwidget.edit", "EditError"),
@@ -62,12 +65,12 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Place": ("sunwidget.place", "Place"),
     "RendererError": ("sunwidget.renderer.gl_thread", "RendererError"),
     "Scene": ("sunwidget.analysis.scene", "Scene"),
-    "SkyExplorer": ("sunwidget.widgets", "SkyExplorer"),
+    "SkyExplorer": ("sunwidget.widgets.sky_explorer", "SkyExplorer"),
     "SkyNetwork": ("sunwidget.analysis.sky_network", "SkyNetwork"),
     "Stroke": ("sunwidget.edit", "Stroke"),
-    "Study": ("sunwidget.widgets", "Study"),
+    "Study": ("sunwidget.widgets.study", "Study"),
     "StudyError": ("sunwidget.study", "StudyError"),
-    "SunEditor": ("sunwidget.widgets", "SunEditor"),
+    "SunEditor": ("sunwidget.widgets.sun_editor", "SunEditor"),
     "analyze": ("sunwidget.analysis.analyze", "analyze"),
     "batch": ("sunwidget.export.batch.run", "batch"),
     "contact_sheet": ("sunwidget.export.contact_sheet", "contact_sheet"),

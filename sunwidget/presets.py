@@ -89,7 +89,8 @@ def find(name: str) -> Preset:
     """
     if isinstance(name, str) and name in _BY_NAME:
         return _BY_NAME[name]
-    spelled = shown(name).strip("'").strip().lower().replace(" ", "_").replace("-", "_")
+    spelled = name[:80].strip().lower() if isinstance(name, str) else ""
+    spelled = spelled.replace(" ", "_").replace("-", "_")
     near = difflib.get_close_matches(spelled, NAMES, n=1)
     hint = f" Did you mean {near[0]!r}?" if near else f" There are {', '.join(NAMES)}."
     raise EditError(f"Unknown preset {shown(name)}.{hint}")

@@ -19,8 +19,8 @@ from sunwidget.renderer.bruneton import bruneton_table
 
 from .effort import Effort
 from .passes import table_bytes
-from .rows import Row, Rows
-from .timing import Times, clock, in_turn
+from .rows import Row, Rows, of_times
+from .timing import Times, clock, in_turn, ratio
 
 KEYS = ("Bruneton, first sky", "Bruneton, new sun", "Bruneton, memory")
 TABLES = ("columns_edit", "first_order_edit", "first_field_edit", "second_order_edit")
@@ -43,31 +43,23 @@ def rows(effort: Effort) -> Rows:
     fresh, _ = in_turn(
         lambda i: ours(0, aerosol_optical_depth=0.05 + 0.01 * i), lambda _i: None, effort.runs, 1
     )
-    yield Row(
+    yield of_times(
         "Bruneton, first sky",
         f"first sky of new air, beside {size}",
-        fresh.median,
+        fresh,
         "s",
-        low=min(fresh.wall),
-        high=max(fresh.wall),
-        runs=len(fresh.wall),
-        processor=fresh.work,
         peer=made.median,
-        ratio=made.work / fresh.work,
+        ratio=ratio(fresh, made),
         note=f"radiances differ by {difference(cut):.1%}",
     )
     new, other = in_turn(ours, theirs, effort.runs, effort.runs)
-    yield Row(
+    yield of_times(
         "Bruneton, new sun",
         f"sky of a new sun, beside {size}",
-        1000 * new.median,
+        new,
         "ms",
-        low=1000 * min(new.wall),
-        high=1000 * max(new.wall),
-        runs=len(new.wall),
-        processor=1000 * new.work,
         peer=1000 * other.median,
-        ratio=other.work / new.work,
+        ratio=ratio(new, other),
     )
     own = table_bytes(TABLES) / 1e6
     yield Row(

@@ -20,7 +20,7 @@ from sunwidget.analysis import matting, refine, sky
 from sunwidget.analysis.working import Working, resize
 
 from .effort import Effort
-from .rows import Row, Rows
+from .rows import Rows, of_times
 from .timing import Times, clock
 
 KEYS = ("GrabCut, full resolution",)
@@ -48,15 +48,11 @@ def rows(effort: Effort) -> Rows:
     if right:
         mine, peer = np.mean(right, axis=0)
         note += f"; against the true sky ours {mine:.3f}, GrabCut {peer:.3f} ({len(right)} samples)"
-    yield Row(
+    yield of_times(
         "GrabCut, full resolution",
         f"sky refined, {max(effort.frame)} px, beside GrabCut at full resolution",
-        ours.median,
+        ours,
         "s",
-        low=min(ours.wall),
-        high=max(ours.wall),
-        runs=len(ours.wall),
-        processor=ours.work,
         peer=theirs.median,
         ratio=sum(theirs.wall) / sum(ours.wall),
         note=note,

@@ -103,19 +103,8 @@ def rows(effort: Effort) -> Rows:
 
 def beside(key: str, what: str, ours: Times, theirs: Times, note: str = "") -> Row:
     """Return the row of two processor times."""
-    return Row(
-        key,
-        what,
-        1000 * ours.median,
-        "ms",
-        low=1000 * min(ours.wall),
-        high=1000 * max(ours.wall),
-        runs=len(ours.wall),
-        processor=1000 * ours.work,
-        peer=1000 * theirs.median,
-        ratio=theirs.work / ours.work,
-        note=note,
-    )
+    peer = 1000 * theirs.median
+    return of_times(key, what, ours, "ms", peer=peer, ratio=ratio(ours, theirs), note=note)
 
 
 def in_numpy(rays: Rays, effort: Effort) -> tuple[float, Times]:

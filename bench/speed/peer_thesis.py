@@ -13,7 +13,7 @@ import sunwidget as sw
 
 from .effort import Effort
 from .pictures import analysed
-from .rows import Row, Rows
+from .rows import Row, Rows, of_times
 from .thesis import thesis_frame
 from .timing import in_turn
 
@@ -44,15 +44,11 @@ def rows(effort: Effort) -> Rows:
         runs=len(theirs.wall),
         note=f"difference {levels.mean():.2f} of 255 levels on average",
     )
-    yield Row(
+    yield of_times(
         "thesis frame",
         f"thesis frame {width}×{height}, beside NumPy + OpenCV",
-        1000 * ours.median,
+        ours,
         "ms",
-        low=1000 * min(ours.wall),
-        high=1000 * max(ours.wall),
-        runs=len(ours.wall),
-        processor=1000 * ours.work,
         peer=1000 * theirs.median,
         ratio=theirs.median / ours.median,
     )

@@ -18,9 +18,7 @@ from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.enlarge import resize_rows
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.glitter import column_of, glitter, roughness
-from sunwidget.analysis.hints import (
-    Hints,
-)
+from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.noise import noise_level

@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 
 from sunwidget.atmosphere.constants import WAVELENGTHS
 from sunwidget.atmosphere.measured_skies import Measurements, is_available, load
-from sunwidget.atmosphere.measurements_source import MeasurementsError, Progress, download
+from sunwidget.atmosphere.measurements_source import MeasurementsError, download
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.path_tracer import trace
 from sunwidget.atmosphere.sky import SkyTable
+from sunwidget.time_left import Progress
 
 __all__ = [
     "AIR_OF_THE_DAY",

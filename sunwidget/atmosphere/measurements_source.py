@@ -11,7 +11,7 @@ import io
 import re
 import urllib.error
 import urllib.request
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from sunwidget.cache import cache_folder
 from sunwidget.files import complete_or_absent
+from sunwidget.time_left import Progress
 
 Array = NDArray[np.float64]
-Progress = Callable[[float, str], None]
 Raw = tuple[Array, Array, dict[str, NDArray[np.float32]]]
 
 FILE_NAME = "kider2014-2013-05-27.npz"

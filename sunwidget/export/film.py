@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from sunwidget.export.gif import write_gif
 from sunwidget.files import complete_or_absent, explained, folder_target, target
+from sunwidget.layout import size_within
 from sunwidget.time_left import Progress
 from sunwidget.wording import shown
 
@@ -66,8 +67,8 @@ def film_size(
 ) -> tuple[int, int]:
     """Return (width, height) of the film: ``size``, or the photo's within ``longest`` a side."""
     if size is None:
-        scale = min(1.0, longest / max(photo))
-        size = (max(2, round(photo[0] * scale)), max(2, round(photo[1] * scale)))
+        width, height = size_within(photo, longest)
+        size = max(2, width), max(2, height)
     try:
         width, height = (int(n) for n in size)
     except (TypeError, ValueError, OverflowError):

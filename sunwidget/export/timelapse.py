@@ -216,9 +216,9 @@ def _still_names(
     sources: Sequence[Any], folder: Path, ending: str | None, *, overwrite: bool
 ) -> list[Path]:
     """Return where each still goes; raise before any work is spent when one cannot go there."""
-    folder_target(folder)
     from sunwidget.export.formats import FORMATS
 
+    folder_target(folder)
     names = []
     for number, source in enumerate(sources):
         name = Path(name_of(source, number))

@@ -28,11 +28,11 @@ from sunwidget.renderer.precomputation import (
     PASSES,
     SIZES,
     Precomputation,
-    Progress,
     Size,
     measured_rates,
 )
 from sunwidget.renderer.shader_source import resolve_includes
+from sunwidget.time_left import Progress
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

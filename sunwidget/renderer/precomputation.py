@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -14,6 +13,7 @@ import numpy as np
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import Programs
+from sunwidget.time_left import Progress
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float32]
 
-Progress = Callable[[float, str], Any]
 
 PASSES = (
     "bruneton_first",

@@ -10,20 +10,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Compare", "SkyExplorer", "Study", "SunEditor"]
 
-_HOMES = {
-    "Compare": "compare",
-    "SkyExplorer": "sky_explorer",
-    "Study": "study",
-    "SunEditor": "sun_editor",
-}
-
 
 def __getattr__(name: str) -> Any:
     # On first use: a person waits for the first editor, which needs none of the other widgets.
-    if name not in _HOMES:
+    if name not in __all__:
         raise AttributeError(f"module 'sunwidget.widgets' has no attribute {name!r}")
-    import importlib
+    import sunwidget
 
-    value = getattr(importlib.import_module(f"sunwidget.widgets.{_HOMES[name]}"), name)
-    globals()[name] = value
-    return value
+    return getattr(sunwidget, name)

@@ -14,7 +14,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from sunwidget.widgets.requests import Answer, Progress
+from sunwidget.time_left import Progress
+from sunwidget.widgets.requests import Answer
 
 _SHOWN_BYTES = 20_000_000  # a smaller film is sent to be looked at, wherever it was written
 _PIECE_BYTES = 8_000_000

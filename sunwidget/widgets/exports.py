@@ -11,11 +11,11 @@ from sunwidget.export.day import Day
 from sunwidget.export.formats import FORMATS
 from sunwidget.place import at_hours
 from sunwidget.recipe import edit_of
-from sunwidget.time_left import with_time_left
+from sunwidget.time_left import Progress, with_time_left
 from sunwidget.widgets.export_files import FILMS, STILLS, kind_of, made, possible_stem
 from sunwidget.widgets.key_frames import KeyFrame, KeyFrames, along, key_frames_json
 from sunwidget.widgets.pictures import Pictures
-from sunwidget.widgets.requests import Answer, Progress
+from sunwidget.widgets.requests import Answer
 
 
 class Exports(Pictures):

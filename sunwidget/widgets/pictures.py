@@ -12,6 +12,7 @@ from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, plain
 from sunwidget.files import target
 from sunwidget.recipe import edit_of
+from sunwidget.time_left import Progress
 from sunwidget.widgets.analysed import Analysed
 from sunwidget.widgets.detail import detail
 from sunwidget.widgets.history import NAMES, EditHistory
@@ -22,7 +23,7 @@ from sunwidget.widgets.payload import (
     thumbnail,
     with_picture,
 )
-from sunwidget.widgets.requests import Answer, Progress
+from sunwidget.widgets.requests import Answer
 from sunwidget.widgets.snapshot import SNAPSHOT_EDGE, Snapshot
 from sunwidget.widgets.standalone import editor_page, embedded_state, still_of, write_page
 

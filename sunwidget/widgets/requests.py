@@ -17,9 +17,9 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from sunwidget.time_left import Progress
 from sunwidget.widgets import background
 
-Progress = Callable[[float, str], None]
 Answer = tuple[dict[str, Any], list[bytes]]
 Action = Callable[[dict[str, Any], Progress], Answer]
 

@@ -18,6 +18,7 @@ from sunwidget.analysis.scene import Scene
 from sunwidget.edit import CORRECTIONS, Edit
 from sunwidget.photo import Photo
 from sunwidget.recipe import edit_of
+from sunwidget.time_left import Progress
 from sunwidget.widgets.analysed import OPENING
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.exports import Exports
@@ -32,7 +33,7 @@ from sunwidget.widgets.payload import (
     scene_json,
 )
 from sunwidget.widgets.place_clock import PlaceClock
-from sunwidget.widgets.requests import Action, Answer, Progress, Requests
+from sunwidget.widgets.requests import Action, Answer, Requests
 from sunwidget.widgets.sources import opened
 from sunwidget.widgets.uploads import Uploads, fingerprint
 

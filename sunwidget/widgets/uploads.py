@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from sunwidget.photo import Photo, PhotoError, open_photo
-from sunwidget.widgets.requests import Answer, Progress
+from sunwidget.time_left import Progress
+from sunwidget.widgets.requests import Answer
 
 UPLOAD_BYTES = 400_000_000
 _SAMPLE = 512  # rows and columns that a fingerprint reads at most, roughly
