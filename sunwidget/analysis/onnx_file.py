@@ -30,6 +30,7 @@ Scale = tuple[Any, Any]  # mean and deviation, each a number or three
 # What else a person can pass instead of a network, by what the network finds.
 INSTEAD = {
     "sky": "sky=mask, the path of an .onnx file, or sky='skyline'",
+    "sun": "sun=(x, y)",
     "depth": "depth=an array of metres, the path of an .onnx file, or depth='fused'",
 }
 
@@ -83,8 +84,8 @@ class Opened:
             raise AnalysisError(f"No {finds} network at {path}. Pass {INSTEAD[finds]}.")
         stat = path.stat()
         stamp = (stat.st_mtime_ns, stat.st_size)
-        session = _session(str(path), stamp, finds)
-        entries = session.get_inputs()
+        opened = session(str(path), stamp, finds)
+        entries = opened.get_inputs()
         takes = "; ".join(f"{e.name} {e.type} {e.shape}" for e in entries) or "nothing"
         refused = f"{path} is no network of one picture: it takes {takes}. "
         if len(entries) != 1:
@@ -120,7 +121,7 @@ class Opened:
         kind = TYPES[entry.type]
         free = width is None and height is None
         return cls(
-            str(path), session, stamp, entry.name, kind, layout, batch, takes_size, free, finds
+            str(path), opened, stamp, entry.name, kind, layout, batch, takes_size, free, finds
         )
 
     @property
@@ -180,7 +181,14 @@ class Opened:
 
 
 @lru_cache(maxsize=4)
-def _session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
+def session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
+    """Open a file once; ``finds`` is a key of ``INSTEAD``, for the errors.
+
+    Raises
+    ------
+    AnalysisError
+        When onnxruntime is missing or the file is no network.
+    """
     import cv2
 
     try:

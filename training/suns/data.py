@@ -1,0 +1,256 @@
+"""Batches for SunNet: drawn suns in photos without one, and hand-labelled photos as they are.
+
+Labels are ``labels.csv`` beside this file: file, kind, x, y, r, group. ``x`` and ``y`` are the
+centre in fractions of width and height, ``r`` the radius of the bright core in widths. Kinds: disc,
+glow (the place is clear, no disc is seen), moon, art (a pasted or painted sun), none, drop. Photos
+of a group show the same and share their fate; those of the group "photos" are also in the set on
+which pictures are judged. The photos are not in this repository.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+import torch
+from torch.utils.data import IterableDataset, get_worker_info
+
+from training.data import read_pair
+from training.suns.compose import LUMINANCE, compose, spoil, to_linear
+from training.suns.model import LIGHT_FLOOR, QUARTER
+
+LABELS = Path(__file__).with_name("labels.csv")
+FOLDERS = ("landscape-pseudo", "weather-pseudo", "camvid", "sea-sky", "skyreplace-example")
+TEXTURES = "opensky"
+SIZES = ((192, 256), (224, 224), (256, 192), (160, 288), (256, 256))
+"""(height, width) of the pictures of a batch, in pixels: every shape of photo in turn."""
+
+
+@dataclass
+class Photo:
+    """One labelled photo."""
+
+    file: str
+    kind: str
+    x: float
+    y: float
+    r: float
+    group: str
+
+    @property
+    def is_sun(self) -> bool:
+        """Whether a sun is seen, be it pasted."""
+        return self.kind in ("disc", "art")
+
+    @property
+    def test(self) -> bool:
+        """Whether it only judges: half of those with a sun or moon, an eighth of the others."""
+        if self.group == "photos":
+            return True
+        draw = hashlib.sha256(f"sun/{self.group or self.file}".encode()).digest()[0]
+        return draw % (8 if self.kind == "none" and "landscape" in self.file else 2) == 0
+
+
+def labels(path: Path = LABELS) -> list[Photo]:
+    """Every labelled photo."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return [
+            Photo(r["file"], r["kind"], *(float(r[k] or "nan") for k in "xyr"), r["group"])
+            for r in csv.DictReader(file)
+        ]
+
+
+@dataclass
+class Split:
+    """Paths of photos to train on: with a label as they are, and without a sun."""
+
+    labelled: list[Photo]
+    sunless: list[str]
+    skies: list[str]  # those without a sun that have sky enough to draw one in
+    textures: list[str]
+
+
+def split(root: Path) -> Split:
+    """What may be trained on. A photo whose label only judges is in no list."""
+    known = {p.file: p for p in labels()}
+    sunless = []
+    for folder in FOLDERS:
+        for path in sorted((root / folder / "images").glob("*.jpg")):
+            photo = known.get(f"{folder}/{path.name}")
+            unlabelled = photo is None and not path.name.startswith(("sunrise", "shine"))
+            if unlabelled or (photo is not None and photo.kind == "none" and not photo.test):
+                sunless.append(f"{folder}/{path.name}")
+    trained = [p for p in known.values() if not p.test and p.kind in ("disc", "art", "moon", "none")]
+    textures = [f"{TEXTURES}/{p.name}" for p in sorted((root / TEXTURES).glob("*.jpg"))]
+    skies = [f for f in sunless if (read(root, f)[::4, ::4, 3] > 191).mean() > 0.06]
+    return Split(trained, sunless, skies, textures)
+
+
+def read(root: Path, file: str) -> np.ndarray:
+    """A photo (h, w, 4) uint8: sRGB and its sky mask (255 sky, 128 unknown)."""
+    folder, name = file.split("/")
+    if folder == TEXTURES:
+        photo = read_pair(root / folder / name, None)
+        scale = 512 / max(photo.shape)
+        return photo if scale >= 1 else cv2.resize(photo, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    return read_pair(root / folder / "images" / name, root / folder / "masks" / f"{Path(name).stem}.png")
+
+
+def random_box(
+    shape: tuple[int, int], aspect: float, random: np.random.Generator, least: float
+) -> tuple[int, int, int, int]:
+    """A part of a photo, (top, left, height, width), of about this aspect (width over height)."""
+    height, width = shape
+    scale = np.sqrt(random.uniform(least, 1.0))
+    aspect *= np.exp(random.normal(0, 0.08))
+    h, w = min(height, width / aspect), min(width, height * aspect)
+    h, w = max(int(h * scale), 16), max(int(w * scale), 16)
+    return int(random.integers(height - h + 1)), int(random.integers(width - w + 1)), h, w
+
+
+def cut(photo: np.ndarray, box: tuple[int, int, int, int], size: tuple[int, int]) -> np.ndarray:
+    """The part of a photo at (height, width) ``size``."""
+    top, left, h, w = box
+    part = np.ascontiguousarray(photo[top : top + h, left : left + w])
+    how = cv2.INTER_AREA if h > size[0] else cv2.INTER_LINEAR
+    return cv2.resize(part, size[::-1], interpolation=how)
+
+
+def tone(rgb: np.ndarray, random: np.random.Generator) -> np.ndarray:
+    """A real photo through another exposure, gamma and saturation; uint8."""
+    x = rgb.astype(np.float32) / 255
+    x = x ** np.exp(random.normal(0, 0.15)) * np.exp(min(random.normal(-0.03, 0.1), 0.05))
+    grey = x @ LUMINANCE
+    x = grey[..., None] + random.uniform(0.6, 1.35) * (x - grey[..., None])
+    return spoil(np.clip(x * np.exp(random.normal(0, 0.03, 3)), 0, 1).astype(np.float32), random)
+
+
+def small_log(encoded: np.ndarray) -> np.ndarray:
+    """log(display-linear light + floor) at a quarter of the size, (h/4, w/4, 3)."""
+    height, width = encoded.shape[:2]
+    light = cv2.resize(
+        to_linear(encoded), (width // QUARTER, height // QUARTER), interpolation=cv2.INTER_AREA
+    )
+    return np.log(light + LIGHT_FLOOR)
+
+
+def example(
+    image: np.ndarray,
+    sky: np.ndarray,
+    place: tuple[float, float] | None,
+    radius: float,
+    sharp: float,
+    clean: np.ndarray | None,
+    seen: float = 1.0,
+) -> dict[str, np.ndarray]:
+    """Image (uint8) and targets; ``clean`` None where the sky without the sun is not known."""
+    height, width = image.shape[0] // QUARTER, image.shape[1] // QUARTER
+    heat = np.zeros((height, width), np.float32)
+    weight = np.ones((height, width), np.float32)
+    if place is not None:
+        column, row = int(place[0] / QUARTER), int(place[1] / QUARTER)
+        column, row = min(max(column, 0), width - 1), min(max(row, 0), height - 1)
+        sigma = max(1.0, 0.4 * radius * width)
+        d2 = (np.arange(width) - column) ** 2 + (np.arange(height)[:, None] - row) ** 2
+        heat = np.exp(-0.5 * d2 / sigma**2).astype(np.float32)
+        heat[row, column] = 1.0
+        if seen < 0.25:  # hardly to be seen: neither a sun nor none
+            weight = (heat < 0.02).astype(np.float32)
+            heat *= 0
+    if clean is None:
+        target, clean_weight = np.zeros((height, width, 3), np.float32), 0 * weight
+    else:
+        target = small_log(clean) - small_log(image.astype(np.float32) / 255)
+        small = cv2.resize(sky.astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
+        clean_weight = (0.15 + 0.85 * small) * (1 + 2 * np.minimum(np.abs(target).mean(-1), 1))
+    return {
+        "image": image.transpose(2, 0, 1),
+        "heat": heat[None],
+        "heat_weight": weight[None],
+        "radius": np.full((1, 1, 1), np.log(max(radius, 1e-3)) if radius > 0 else np.nan, np.float32),
+        "sharp": np.full((1, 1, 1), sharp, np.float32),
+        "clean": np.ascontiguousarray(target.transpose(2, 0, 1), np.float32),
+        "clean_weight": clean_weight[None].astype(np.float32),
+    }
+
+
+def drawn(photo: np.ndarray, size: tuple[int, int], random: np.random.Generator) -> dict:
+    """A photo without a sun, one drawn into it."""
+    part = cut(photo, random_box(photo.shape[:2], size[1] / size[0], random, 0.35), size)
+    part = part[:, ::-1] if random.random() < 0.5 else part
+    sky = cv2.GaussianBlur((part[..., 3] > 127).astype(np.float32), (0, 0), 0.6)
+    result = compose(np.ascontiguousarray(part[..., :3]), sky, random)
+    image = spoil(result.image, random)
+    return example(
+        image, sky, result.place, result.radius, result.sharp, result.clean, result.seen
+    )
+
+
+def real(photo: np.ndarray, label: Photo | None, size: tuple[int, int], random: np.random.Generator) -> dict:
+    """A photo as it is; the part keeps the sun, mostly."""
+    has_sun = label is not None and label.is_sun
+    height, width = photo.shape[:2]
+    for _ in range(12):
+        top, left, h, w = box = random_box((height, width), size[1] / size[0], random, 0.3)
+        x, y = 0.0, 0.0
+        if not has_sun:
+            break
+        x, y = (label.x * width - left) / w, (label.y * height - top) / h
+        if 0.03 < x < 0.97 and 0.03 < y < 0.97:
+            break
+    part = cut(photo, box, size)
+    if random.random() < 0.5:
+        part, x = part[:, ::-1], 1 - x
+    image = tone(part[..., :3], random)
+    sky = (part[..., 3] > 127).astype(np.float32)
+    if not has_sun:
+        return example(image, sky, None, 0.0, np.nan, image.astype(np.float32) / 255)
+    radius = label.r * width / w
+    if not (-2 * radius < x < 1 + 2 * radius and -2 * radius < y < 1 + 2 * radius):
+        return example(image, sky, None, 0.0, np.nan, None)
+    inside = 0 < x < 1 and 0 < y < 1
+    place = x * size[1], y * size[0]
+    return example(image, sky, place, radius, np.nan, None, 1.0 if inside else 0.0)
+
+
+class Batches(IterableDataset):
+    """Endless batches: dictionaries of tensors, see ``training.suns.model.losses``."""
+
+    def __init__(self, root: Path, batch: int, seed: int) -> None:
+        self.root, self.batch, self.seed = root, batch, seed
+
+    def __iter__(self) -> Iterator[dict[str, torch.Tensor]]:
+        cv2.setNumThreads(0)
+        torch.set_num_threads(1)
+        worker = get_worker_info()
+        random = np.random.default_rng((self.seed, worker.id if worker else 0))
+        photos = split(self.root)
+        suns = [p for p in photos.labelled if p.is_sun]
+        others = [p for p in photos.labelled if not p.is_sun]
+
+        def one(size: tuple[int, int]) -> dict[str, np.ndarray]:
+            draw = random.random()
+            if draw < 0.62:
+                file = str(random.choice(photos.textures if random.random() < 0.12 else photos.skies))
+                return drawn(read(self.root, file), size, random)
+            if draw < 0.84 and suns:
+                label = suns[int(random.integers(len(suns)))]
+            elif draw < 0.92 and others:
+                label = others[int(random.integers(len(others)))]
+            else:
+                file = str(random.choice(photos.sunless))
+                return real(read(self.root, file), None, size, random)
+            return real(read(self.root, label.file), label, size, random)
+
+        while True:
+            size = SIZES[int(random.integers(len(SIZES)))]
+            rows = [one(size) for _ in range(self.batch)]
+            yield {
+                key: torch.from_numpy(np.ascontiguousarray(np.stack([r[key] for r in rows])))
+                for key in rows[0]
+            }
