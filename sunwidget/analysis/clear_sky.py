@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sunwidget.analysis.backdrop import LONG_SIDE, RANGE, fill_by_pyramid, matched_sky
+from sunwidget.analysis.backdrop import LONG_SIDE, RANGE, matched_sky
+from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.overcast import believable
 from sunwidget.analysis.working import resize
 from sunwidget.layout import size_within
@@ -53,17 +54,16 @@ def _residual(scene: Scene, matte: np.ndarray, opacity: np.ndarray) -> np.ndarra
     fit = scene.fitted
     if fit is None:
         return np.zeros((height, width, 3), np.float32)
-    display = np.asarray(resize(scene.working.linear, width, height), np.float32)
+    display = np.asarray(resize(scene.without_sun.working.linear, width, height), np.float32)
     model = matched_sky(fit, scene.camera, (width, height))
     ratio = np.maximum(fit.response.scene_light(display), 1e-4) / np.maximum(model, 1e-6)
     residual = np.clip(np.log(ratio), -RANGE, RANGE)
 
     # A cloud's fringe is no clear sky, and neither is what glows or is burnt out.
     near = cv2.GaussianBlur(cv2.dilate(opacity, np.ones((3, 3))), (0, 0), 1.5)
-    glare = resize(scene.glare, width, height)
     burnt = np.clip((display.max(-1) - 0.9) / 0.07, 0, 1)
     inside = cv2.erode((matte > 0.98).astype(np.uint8), np.ones((3, 3))) > 0
-    trust = inside * (1 - burnt) * np.square(1 - glare) * np.exp(-np.square(near / _CLEAR))
+    trust = inside * (1 - burnt) * np.exp(-np.square(near / _CLEAR))
     trust = trust.astype(np.float32)
 
     seen = scene.sun is not None and scene.sun.visible

@@ -26,7 +26,8 @@ from sunwidget.analysis.frame_sun import (
 )
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.scene import Scene
-from sunwidget.analysis.stages import clouds_by_colour, unmix_clouds
+from sunwidget.analysis.stages import clouds_by_colour, erased_for, unmix_clouds
+from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.unmix import cloud_gain
 from sunwidget.analysis.working import Working, resize, smoothstep
 from sunwidget.edit import Edit
@@ -250,12 +251,12 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
     size = _size_of(working)
     sky = np.asarray(resize(shared.sky, *size), np.float32)
     seen = observation(fit.sun, working, sky, shared.camera, shared.hints, source)
-    covers = clouds_by_colour(working, sky, shared.hints, seen.blot if seen.visible else None)
-    fit, behind = behind_sun(working, sky, shared.camera, fit, visible=seen.visible, measure=False)
+    erased = erased_for(working, look_for_sun(working), seen)
+    mask = seen.blot if seen.visible else None
+    covers = clouds_by_colour(erased.working, sky, shared.hints, mask)
+    behind = behind_sun(erased, sky, shared.camera, fit)
     if shared.hints.method("clouds") == "unmix":
-        covers = unmix_clouds(
-            working, sky, shared.camera, fit, behind.glare, covers, sun_seen=seen.visible
-        )
+        covers = unmix_clouds(erased, sky, shared.camera, fit, covers, sun_seen=seen.visible)
     cover, everywhere = covers
     return dataclasses.replace(
         shared,
@@ -282,6 +283,7 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
         },
         backdrop=behind.field,
         glare=behind.glare,
+        erased=erased,
         memory=Memory(),
     )
 

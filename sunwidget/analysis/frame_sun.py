@@ -17,7 +17,8 @@ import numpy as np
 
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.stages import sun_blot
-from sunwidget.analysis.sun import SunObservation, observe
+from sunwidget.analysis.sun import SunObservation, find, observe
+from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.working import LUMINANCE, Working
 from sunwidget.camera import Camera
 from sunwidget.photo_place import date_and_hours
@@ -75,8 +76,9 @@ class SunTrack:
 def seen_sun(working: Working, sky: np.ndarray, camera: Camera, hints: Hints) -> Direction | None:
     """Return the direction of the sun that a frame shows; None when it shows none."""
     focal = camera.focal / working.zoom[1]
-    blot = sun_blot(working, sky, None, focal, hints.method("sun"))
-    sun = observe(None, blot, sky, camera, working)
+    peak = find(working, look_for_sun(working), sky)
+    blot = sun_blot(working, sky, peak, focal, hints.method("sun"))
+    sun = observe(None, blot, sky, camera, working, peak)
     if sun is None or not sun.visible or sun.kind != "sun":
         return None
     return sun.azimuth, sun.elevation

@@ -129,9 +129,7 @@ def _retouch(
     step("fit", 0.8, "Looking behind the sun")
     sun, fitted = source.sun, source.fitted
     assert fitted is not None
-    visible = sun is not None and sun.visible
-    # The glare is the camera's, and stays as it was measured.
-    _, behind = behind_sun(working, sky, source.camera, fitted, visible=visible, measure=False)
+    behind = behind_sun(source.without_sun, sky, source.camera, fitted)
 
     hints = dataclasses.replace(source.hints, strokes=strokes)
     scene = dataclasses.replace(
@@ -247,7 +245,7 @@ def _clouds_after(
             continue
         opacity = np.ascontiguousarray(everywhere.opacity[tile.outer])
         if source.fitted is not None and source.hints.method("clouds") == "unmix":
-            encoded = np.ascontiguousarray(source.working.encoded[tile.outer])
+            encoded = np.ascontiguousarray(source.without_sun.working.encoded[tile.outer])
             reach = cloud_stage.smoothing_radius(source.working)
             opacity = np.clip(cloud_stage.smoothed(encoded, opacity, reach), 0, 1)
         clouds[tile.full] += _enlarged(source, opacity, tile) * grown

@@ -16,6 +16,7 @@ from sunwidget.analysis import depth_level, match, refine
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.enlarge import resize_rows
+from sunwidget.analysis.erase import Erased, unerased
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.glitter import column_of, glitter, roughness
 from sunwidget.analysis.hints import Hints
@@ -86,6 +87,8 @@ class Scene:
         The clouds at working size as if all of the picture were sky: for strokes that say so.
     unstroked : Scene or None
         The scene that the strokes of ``hints`` were drawn on; None without strokes.
+    erased : Erased or None
+        The small photo without its sun; None before it was looked for.
     known_depth : DepthField or None
         The depth of the same view, found on other pictures of it (analysis/fixed_camera.py).
     """
@@ -115,6 +118,7 @@ class Scene:
     fitted: SkyFit | None = field(default=None, repr=False)
     everywhere: Clouds | None = field(default=None, repr=False)
     unstroked: Scene | None = field(default=None, repr=False)
+    erased: Erased | None = field(default=None, repr=False)
     known_depth: DepthField | None = field(default=None, repr=False)
     memory: Memory = field(default_factory=Memory, repr=False)
 
@@ -162,6 +166,11 @@ class Scene:
         """``water`` at working size, (h, w) float32."""
         small = resize(self.water_map, self.working.width, self.working.height)
         return np.minimum(small, 1 - self.small_sky)
+
+    @property
+    def without_sun(self) -> Erased:
+        """The small photo without its sun, the photo itself where it shows none."""
+        return self.erased or unerased(self.working)
 
     @property
     def lit_by_moon(self) -> bool:

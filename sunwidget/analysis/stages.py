@@ -19,12 +19,15 @@ from sunwidget.analysis import horizon as horizon_stage
 from sunwidget.analysis import matting, refine
 from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis import water as water_stage
-from sunwidget.analysis.backdrop import Backdrop, behind_sun, clouds_behind_sun, fill_by_pyramid
+from sunwidget.analysis.backdrop import Backdrop, behind_sun
+from sunwidget.analysis.camera_glare import angle_to_sun, with_glare
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.depth_view import View
 from sunwidget.analysis.enlarge import raise_to
+from sunwidget.analysis.erase import Erased, erase, unerased
 from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.fit import SkyFit, fit_sky
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
@@ -32,9 +35,12 @@ from sunwidget.analysis.islands import fill_islands, grow_over_glow
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.notices import notices
 from sunwidget.analysis.sun import Blot, SunObservation
+from sunwidget.analysis.sun_network import SunMaps, look_for_sun
+from sunwidget.analysis.sun_search import Peak
 from sunwidget.analysis.unmix import cloud_gain
-from sunwidget.analysis.working import Working, resize
+from sunwidget.analysis.working import LUMINANCE, Working, resize
 from sunwidget.camera import Camera, Point
+from sunwidget.layout import size_within
 from sunwidget.time_left import Progress
 
 if TYPE_CHECKING:
@@ -111,10 +117,12 @@ def complete(
 
     step("sun", 0.7, "Looking for the sun")
     seed = hints.sun and (hints.sun[0] / zoom_x, hints.sun[1] / zoom_y)
-    blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
+    maps = look_for_sun(working)
+    peak = sun_stage.find(working, maps, sky) if seed is None else None
+    blot = sun_blot(working, sky, seed or peak, camera.focal / zoom_y, hints.method("sun"))
     if blot is not None and ours:
         # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
-        disc = sun_stage.in_sky(blot, sky)
+        disc = sun_stage.in_sky(blot, sky) if peak is None else sun_stage.in_sky(blot, sky, 0.25)
         sky = np.maximum(sky, disc)
         raise_to(matte, disc, working.zoom)
 
@@ -129,7 +137,7 @@ def complete(
         # Water that mirrors the sky is not sky.
         sky = sky * horizon_stage.above(camera, *sky.shape[::-1])
         horizon_stage.cut_below(matte, camera)
-    sun = sun_stage.observe(seed, blot, sky, camera, working)
+    sun = sun_stage.observe(seed, blot, sky, camera, working, peak)
     moon = None if sun is not None else sun_stage.find_moon(working, sky)
     light = sun
     if moon is not None:
@@ -138,12 +146,14 @@ def complete(
         blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
         light = sun_stage.observe(seed, blot, sky, camera, working)
 
+    erased = erased_for(working, maps, light)
+
     step("clouds", 0.81, "Finding clouds")
-    covers = clouds_by_colour(working, sky, hints, None if blot is None else blot.mask)
+    covers = clouds_by_colour(erased.working, sky, hints, None if blot is None else blot.mask)
 
     step("fit", 0.82, "Fitting the atmosphere")
     fitted, behind, (cover, everywhere) = fit_atmosphere(
-        working, sky, covers, camera, light, hints, step
+        working, erased, sky, covers, camera, light, hints, step
     )
 
     step("water", 0.95, "Looking for water")
@@ -175,6 +185,7 @@ def complete(
         timings=step.timings,
         backdrop=behind.field,
         glare=behind.glare,
+        erased=erased,
         memory=Memory(),
     )
     step(None, 1.0, "Analysed")
@@ -197,13 +208,21 @@ def _cut_out(base: Scene, step: Steps) -> tuple[np.ndarray, np.ndarray]:
 
 
 def sun_blot(
-    working: Working, sky: np.ndarray, seed: Point | None, focal: float, method: str
+    working: Working, sky: np.ndarray, seed: Point | Peak | None, focal: float, method: str
 ) -> Blot | None:
     """Grow the blot of the hinted or found sun; None when none is in the frame."""
-    found = seed or sun_stage.find(working, sky, focal)
-    if not found or not (0 <= found[0] < working.width and 0 <= found[1] < working.height):
+    if seed is None or not (0 <= seed[0] < working.width and 0 <= seed[1] < working.height):
         return None
-    return sun_stage.METHODS[method](working, sky, found[0], found[1], focal)
+    blot = sun_stage.METHODS[method](working, sky, seed[0], seed[1], focal)
+    found = isinstance(seed, Peak) and method != "flood_fill"  # the thesis' way stays as it is
+    return sun_stage.settled(blot, seed) if found else blot
+
+
+def erased_for(working: Working, maps: SunMaps, light: SunObservation | None) -> Erased:
+    """Return the photo without the sun or moon that it shows; as it is where it shows none."""
+    if light is None or not light.visible:
+        return unerased(working)
+    return erase(working, maps, light)
 
 
 def _horizon(working: Working, sky: np.ndarray, hints: Hints, width: int) -> Horizon:
@@ -235,6 +254,7 @@ def clouds_by_colour(
 
 def fit_atmosphere(
     working: Working,
+    erased: Erased,
     sky: np.ndarray,
     covers: tuple[Clouds, Clouds],
     camera: Camera,
@@ -250,7 +270,7 @@ def fit_atmosphere(
     visible = sun is not None and sun.visible
     unmixed = hints.method("clouds") == "unmix"
     # A fit looks at a few hundred pixels; on a small copy they are less noisy, too.
-    small = working.shrunk(FIT_SIDE)
+    small = erased.working.shrunk(FIT_SIDE)
     small_sky = resize(sky, small.width, small.height)
     opacity = resize(covers[0].opacity, small.width, small.height)
     assumed = sun_angles or sun_stage.assume(small, small_sky, camera)
@@ -265,37 +285,44 @@ def fit_atmosphere(
             done=step.between(0.88, 0.9),
             sure_of_sun=fitted.sun_confidence,
         )
-    fitted, behind = behind_sun(working, sky, camera, fitted, visible=visible)
+    if visible:
+        fitted = _glare_of(fitted, working, erased, sky, camera)
+    behind = behind_sun(erased, sky, camera, fitted)
     step.within(0.92)
     if unmixed:
-        covers = unmix_clouds(working, sky, camera, fitted, behind.glare, covers, sun_seen=visible)
+        covers = unmix_clouds(erased, sky, camera, fitted, covers, sun_seen=visible)
     return fitted, behind, covers
 
 
+def _glare_of(
+    fit: SkyFit, working: Working, erased: Erased, sky: np.ndarray, camera: Camera
+) -> SkyFit:
+    """Return the fit with the glare that the camera put round the sun: what was erased."""
+    size = size_within((working.width, working.height), FIT_SIDE)
+    display, clean = (resize(w.linear, *size) for w in (working, erased.working))
+    trusted = (resize(sky, *size) > 0.95) & (display.max(-1) < 0.95)
+    light, behind = (fit.response.scene_light(x) @ LUMINANCE for x in (display, clean))
+    return with_glare(fit, light, behind, angle_to_sun(camera, size, fit.sun), trusted)
+
+
 def unmix_clouds(
-    working: Working,
+    erased: Erased,
     sky: np.ndarray,
     camera: Camera,
     fitted: SkyFit,
-    glare: np.ndarray,
     covers: tuple[Clouds, Clouds],
     *,
     sun_seen: bool,
 ) -> tuple[Clouds, Clouds]:
     """Return ``covers`` with opacity and shade un-mixed from the fitted sky."""
-    of_sky, of_all = cloud_stage.veil(working, sky, camera, fitted, sun_seen=sun_seen)
-    # Round the sun whiteness tells nothing, and where the matte is soft, twigs darken the sky as a
-    # cloud would: continue the clouds from around them.
-    trust = 1 - resize(glare, working.width, working.height)
-    weight = trust * inner(sky > 0.98)
-    found = np.dstack([of_sky.opacity, of_sky.shade])
-    filled = fill_by_pyramid(found, weight)
-    if glare.max() > 0:
-        behind = clouds_behind_sun(filled[..., 0], weight, 1 - trust, camera, fitted)
-        filled = np.dstack([behind, filled[..., 1]])
+    of_sky, of_all = cloud_stage.veil(erased.working, sky, camera, fitted, sun_seen=sun_seen)
+    # Where the matte is soft, twigs darken the sky as a cloud would: continue the clouds from
+    # around them.
+    weight = np.asarray(inner(sky > 0.98), np.float32)
+    filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), weight)
     return (
         Clouds(filled[..., 0] * sky, covers[0].softness, filled[..., 1]),
-        Clouds(of_all.opacity * trust, covers[1].softness, of_all.shade),
+        Clouds(of_all.opacity, covers[1].softness, of_all.shade),
     )
 
 
@@ -311,7 +338,7 @@ def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> 
 
     All else stays as it is, the fit too.
     """
-    working, sun = base.working, base.sun
+    working, sun = base.without_sun.working, base.sun
     sky = base.small_sky
     methods = dict(base.hints.methods) | {"clouds": method}
     hints = dataclasses.replace(base.hints, methods=tuple(methods.items()), cloud_ratios=ratios)
@@ -320,7 +347,7 @@ def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> 
     if method == "unmix" and base.fitted is not None:
         seen = sun is not None and sun.visible
         covers = unmix_clouds(
-            working, sky, base.camera, base.fitted, base.glare, covers, sun_seen=seen
+            base.without_sun, sky, base.camera, base.fitted, covers, sun_seen=seen
         )
     cover, everywhere = covers
     return dataclasses.replace(

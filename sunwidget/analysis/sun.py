@@ -1,7 +1,7 @@
 """The photo's own sun: where it is, how large it came out, and its pixels (thesis 3.1.3).
 
 ``METHODS`` maps a name to a function that grows a mask from a seed pixel; ``find``
-(sun_search.py) looks for the seed when no person gave one.
+(sun_search.py) gives the seed when no person does.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.sun_search import RADIUS_DEG, find, find_moon, night
+from sunwidget.analysis.sun_search import RADIUS_DEG, Peak, find, find_moon, night
 from sunwidget.analysis.working import LUMINANCE, Working, resize
 from sunwidget.camera import Camera, Point
 
@@ -58,6 +58,8 @@ class SunObservation:
     kind : str
         "sun"; or "moon", when a person pointed at a disc in a night sky. A moon that is found
         is ``Scene.moon`` instead.
+    confidence : float
+        How likely it is the sun, [0, 1]; 1 where a person said so.
     """
 
     x: float
@@ -70,6 +72,7 @@ class SunObservation:
     visible: bool
     source: str
     kind: str = "sun"
+    confidence: float = 1.0
 
     @property
     def mask(self) -> np.ndarray:
@@ -148,15 +151,32 @@ METHODS: dict[str, Callable[[Working, np.ndarray, float, float, float], Blot]] =
 }
 
 
-def in_sky(blot: Blot, sky: np.ndarray) -> np.ndarray:
-    """Return the blot with a soft rim, (h, w) float32; zeros unless sky surrounds it."""
+def settled(blot: Blot, peak: Peak) -> Blot:
+    """Return a blot that grew from a found sun; where it grew into cloud or glow, a plain disc."""
     import cv2
 
-    if not 0 < blot.radius < 0.1 * max(sky.shape):
+    near = math.hypot(blot.x - peak.x, blot.y - peak.y) < max(0.7 * peak.radius, 3)
+    if near and 0.5 * peak.radius < blot.radius < 1.6 * peak.radius:
+        return blot
+    disc = np.zeros(blot.mask.shape, np.float32)
+    scale = 16  # cv2 draws in sixteenths of a pixel
+    centre = round((peak.x - 0.5) * scale), round((peak.y - 0.5) * scale)
+    cv2.circle(disc, centre, max(round(peak.radius * scale), 1), 1.0, -1, cv2.LINE_AA, 4)
+    return Blot(peak.x, peak.y, peak.radius, disc)
+
+
+def in_sky(blot: Blot, sky: np.ndarray, least: float = 0.6) -> np.ndarray:
+    """Return the blot with a soft rim, (h, w) float32; zeros unless sky surrounds it.
+
+    ``least`` is the share of its surroundings that must be sky.
+    """
+    import cv2
+
+    if not 0 < blot.radius < 0.12 * max(sky.shape):
         return np.zeros_like(sky)
     reach = 2 * math.ceil(0.25 * blot.radius + 2) + 1
     ring = cv2.dilate(blot.mask, np.ones((3 * reach, 3 * reach), np.uint8)) - blot.mask
-    if ring.sum() < 1 or float((ring * sky).sum() / ring.sum()) < 0.6:
+    if ring.sum() < 1 or float((ring * sky).sum() / ring.sum()) < least:
         return np.zeros_like(sky)
     grown = cv2.dilate(blot.mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
     return np.clip(cv2.GaussianBlur(grown, (0, 0), reach / 6), 0, 1).astype(np.float32)
@@ -168,10 +188,12 @@ def observe(
     sky: np.ndarray,
     camera: Camera,
     working: Working,
+    peak: Peak | None = None,
 ) -> SunObservation | None:
     """Turn a blot, or a hint outside the picture, into what the Scene tells about the sun.
 
-    A hinted sun stays where the person put it; the blot then only gives size and pixels.
+    A hinted sun stays where the person put it; the blot then only gives size and pixels. ``peak``
+    is what a found one was found as.
     """
     zoom_x, zoom_y = working.zoom
     if seed is not None:
@@ -203,6 +225,7 @@ def observe(
         visible,
         source,
         "moon" if dark else "sun",
+        1.0 if peak is None else peak.confidence,
     )
 
 

@@ -105,7 +105,7 @@ class _Around:
         edit: Edit,
         top: np.float32,
     ) -> None:
-        from sunwidget.analysis.backdrop import fill_by_pyramid
+        from sunwidget.analysis.fill import fill_by_pyramid
 
         height, width = codes.shape[:2]
         size = size_within((width, height), _FILLED_EDGE)

@@ -9,14 +9,14 @@ donor's sun, so that there is one sun only.
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sunwidget.analysis.backdrop import RANGE, fill_by_pyramid, matched_sky
+from sunwidget.analysis.backdrop import RANGE, matched_sky
 from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.fit import SkyFit, view_angles
 from sunwidget.analysis.working import resize
 from sunwidget.camera import Camera
@@ -29,7 +29,6 @@ _LONG_SIDE = 4096  # of the donor; skies hold no finer detail
 _LEAST_SKY = 0.01  # share of the picture
 _FEATHER = 0.015  # of the long side, over which real pixels give way to continued ones
 _FURTHEST = 0.9  # natural log by which the model may change a continued sky
-_NO_GLARE = (0.0, 3.0, 2.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,14 +140,12 @@ def donor_sky(donor: Scene, focal: float) -> DonorSky:
     sky = resize(donor.sky, *size)
     model = np.log(resize(matched_sky(donor.fitted, donor.camera, _small(size)), *size))
     residual = np.log(donor.fitted.response.scene_light(light)) - model
-    plain = dataclasses.replace(donor.fitted, glare=_NO_GLARE)
-    clear = np.log(resize(matched_sky(plain, donor.camera, _small(size)), *size))
     slow = resize(donor.backdrop, *size) * (2 * RANGE) - RANGE
     glare = resize(donor.glare, *size)[..., None]
     sunless = residual + glare * (slow - residual)
     return DonorSky(
         (_without_land(residual, sky) + model).astype(np.float32),
-        (_without_land(sunless, sky) + clear).astype(np.float32),
+        (_without_land(sunless, sky) + model).astype(np.float32),
         camera,
         donor.fitted,
     )

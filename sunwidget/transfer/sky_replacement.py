@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sunwidget.analysis.backdrop import fill_by_pyramid
 from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.working import LUMINANCE, resize
 from sunwidget.color import strips
 from sunwidget.transfer.donor_sky import DonorSky, directions, donor_sky

@@ -58,9 +58,7 @@ def sun_color(random: Random, around: np.ndarray) -> np.ndarray:
     """White to deep red; in a warm sky warm more often."""
     warm = float(np.clip(np.log(max(around[0], 1e-3) / max(around[2], 1e-3)) / 2, 0, 1))
     redness = np.clip(random.beta(1.2, 2.2) * 0.9 + 0.6 * warm * random.random(), 0, 1)
-    return np.array(
-        [1.0, 1 - 0.75 * redness**1.2, 1 - 0.97 * redness**0.75], np.float32
-    )
+    return np.array([1.0, 1 - 0.75 * redness**1.2, 1 - 0.97 * redness**0.75], np.float32)
 
 
 def place_of_sun(sky: np.ndarray, random: Random) -> tuple[float, float]:
@@ -94,9 +92,7 @@ def starburst(dx: np.ndarray, dy: np.ndarray, d: np.ndarray, random: Random) -> 
     return log_uniform(random, 0.15, 3) * wave**sharp * np.exp(-d / length)
 
 
-def ghosts(
-    x: float, y: float, columns: np.ndarray, rows: np.ndarray, random: Random
-) -> np.ndarray:
+def ghosts(x: float, y: float, columns: np.ndarray, rows: np.ndarray, random: Random) -> np.ndarray:
     """Reflections between lenses on the line through the picture's centre: (h, w, 3)."""
     height, width = rows.shape[0], columns.shape[1]
     light = np.zeros((height, width, 3), np.float32)
@@ -119,7 +115,9 @@ def sea(scene: np.ndarray, sky: np.ndarray, random: Random) -> tuple[np.ndarray,
     depth = np.linspace(0.02, 1, height - row, dtype=np.float32)[:, None]
     ripples = cv2.GaussianBlur(
         random.standard_normal((height - row, width)).astype(np.float32),
-        (0, 0), sigmaX=log_uniform(random, 1.5, 6), sigmaY=log_uniform(random, 0.4, 1.2),
+        (0, 0),
+        sigmaX=log_uniform(random, 1.5, 6),
+        sigmaY=log_uniform(random, 0.4, 1.2),
     )
     ripples *= random.uniform(0.1, 0.5) / max(float(ripples.std()), 1e-6) * np.sqrt(depth)
     shade = random.uniform(0.2, 0.8) * np.exp(ripples) * (1 - 0.4 * depth)
@@ -130,17 +128,17 @@ def sea(scene: np.ndarray, sky: np.ndarray, random: Random) -> tuple[np.ndarray,
     return out, np.broadcast_to(alpha, sky.shape).copy(), row
 
 
-def column_on_water(
-    x: float, row: int, height: int, width: int, random: Random
-) -> np.ndarray:
+def column_on_water(x: float, row: int, height: int, width: int, random: Random) -> np.ndarray:
     """Glints of the sun on water below ``row``: (height, width), brightness."""
     rows = np.arange(height, dtype=np.float32)[:, None]
     below = np.clip(rows - row, 0, None) / height
     wide = width * (log_uniform(random, 0.01, 0.06) + random.uniform(0.0, 0.5) * below)
     envelope = np.exp(-0.5 * ((np.arange(width) + 0.5 - x) / wide) ** 2) * (rows > row)
     noise = cv2.GaussianBlur(
-        random.standard_normal((height, width)).astype(np.float32), (0, 0),
-        sigmaX=log_uniform(random, 0.8, 3), sigmaY=0.5,
+        random.standard_normal((height, width)).astype(np.float32),
+        (0, 0),
+        sigmaX=log_uniform(random, 0.8, 3),
+        sigmaY=0.5,
     )
     noise /= max(float(noise.std()), 1e-6)
     sparkle = np.clip(noise - random.uniform(-1.5, 1.0), 0, 3)
@@ -235,9 +233,7 @@ def night_lights(scene: np.ndarray, sky: np.ndarray, random: Random) -> np.ndarr
     return scene
 
 
-def camera(
-    scene: np.ndarray, clean: np.ndarray, random: Random
-) -> tuple[np.ndarray, np.ndarray]:
+def camera(scene: np.ndarray, clean: np.ndarray, random: Random) -> tuple[np.ndarray, np.ndarray]:
     """One exposure, white balance and curve for both; sRGB."""
     burnt = log_uniform(random, 4e-4, 0.06)  # share of the picture that may burn
     level = float(np.quantile((scene @ LUMINANCE)[::2, ::2], 1 - burnt))
@@ -262,7 +258,9 @@ def spoil(image: np.ndarray, random: Random) -> np.ndarray:
     if random.random() < 0.15:
         image = cv2.GaussianBlur(image, (0, 0), random.uniform(0.4, 1.1))
     if random.random() < 0.4:
-        image = image + random.standard_normal(image.shape, np.float32) * random.uniform(0.002, 0.02)
+        image = image + random.standard_normal(image.shape, np.float32) * random.uniform(
+            0.002, 0.02
+        )
     out = np.clip(image * 255 + 0.5, 0, 255).astype(np.uint8)
     if random.random() < 0.6:
         quality = int(random.integers(35, 96))
@@ -278,11 +276,18 @@ def compose(rgb: np.ndarray, sky: np.ndarray, random: Random) -> Drawn:
     water = None
     if (sky > 0.5).mean() > 0.55 and random.random() < 0.3:
         scene, sky, water = sea(scene, sky, random)
-    if random.random() < 0.3:  # evening: warm below, dim
-        rows = np.linspace(1, 0, sky.shape[0], dtype=np.float32)[:, None, None]
-        warm = np.array([1.0, random.uniform(0.45, 0.9), random.uniform(0.15, 0.7)], np.float32)
-        fade = np.exp(-rows * random.uniform(0.3, 4))
-        scene = scene * (1 + fade * (warm - 1)) * random.uniform(0.4, 1)
+    draw = random.random()
+    if draw < 0.5:  # evening: warm towards the horizon, dim above
+        inside = np.flatnonzero((sky > 0.5).any(1))
+        last = inside[-1] if len(inside) else sky.shape[0] - 1
+        rows = np.clip(1 - np.arange(sky.shape[0]) / max(last, 1), 0, 1)
+        green = random.uniform(0.25, 0.9)
+        warm = np.array([1.0, green, green * random.uniform(0.1, 0.85)], np.float32)
+        fade = np.exp(-rows * log_uniform(random, 0.1, 5)).astype(np.float32)[:, None, None]
+        level = (1 - random.uniform(0, 0.7) * (1 - fade)) * random.uniform(0.4, 1.3)
+        scene = scene * (1 + fade * (warm - 1)) * level
+    if draw > 0.35 and draw < 0.65:  # a grading
+        scene = scene * np.exp(random.normal(0, 0.3, 3)).astype(np.float32)
     scene = (scene * 2.0 ** random.normal(-0.4, 0.6)).astype(np.float32)
     if random.random() < 0.08:
         scene = night_lights(scene, sky, random)

@@ -85,7 +85,9 @@ def split(root: Path) -> Split:
             unlabelled = photo is None and not path.name.startswith(("sunrise", "shine"))
             if unlabelled or (photo is not None and photo.kind == "none" and not photo.test):
                 sunless.append(f"{folder}/{path.name}")
-    trained = [p for p in known.values() if not p.test and p.kind in ("disc", "art", "moon", "none")]
+    trained = [
+        p for p in known.values() if not p.test and p.kind in ("disc", "art", "moon", "none")
+    ]
     textures = [f"{TEXTURES}/{p.name}" for p in sorted((root / TEXTURES).glob("*.jpg"))]
     skies = [f for f in sunless if (read(root, f)[::4, ::4, 3] > 191).mean() > 0.06]
     return Split(trained, sunless, skies, textures)
@@ -97,8 +99,14 @@ def read(root: Path, file: str) -> np.ndarray:
     if folder == TEXTURES:
         photo = read_pair(root / folder / name, None)
         scale = 512 / max(photo.shape)
-        return photo if scale >= 1 else cv2.resize(photo, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
-    return read_pair(root / folder / "images" / name, root / folder / "masks" / f"{Path(name).stem}.png")
+        return (
+            photo
+            if scale >= 1
+            else cv2.resize(photo, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+        )
+    return read_pair(
+        root / folder / "images" / name, root / folder / "masks" / f"{Path(name).stem}.png"
+    )
 
 
 def random_box(
@@ -172,7 +180,9 @@ def example(
         "image": image.transpose(2, 0, 1),
         "heat": heat[None],
         "heat_weight": weight[None],
-        "radius": np.full((1, 1, 1), np.log(max(radius, 1e-3)) if radius > 0 else np.nan, np.float32),
+        "radius": np.full(
+            (1, 1, 1), np.log(max(radius, 1e-3)) if radius > 0 else np.nan, np.float32
+        ),
         "sharp": np.full((1, 1, 1), sharp, np.float32),
         "clean": np.ascontiguousarray(target.transpose(2, 0, 1), np.float32),
         "clean_weight": clean_weight[None].astype(np.float32),
@@ -186,12 +196,12 @@ def drawn(photo: np.ndarray, size: tuple[int, int], random: np.random.Generator)
     sky = cv2.GaussianBlur((part[..., 3] > 127).astype(np.float32), (0, 0), 0.6)
     result = compose(np.ascontiguousarray(part[..., :3]), sky, random)
     image = spoil(result.image, random)
-    return example(
-        image, sky, result.place, result.radius, result.sharp, result.clean, result.seen
-    )
+    return example(image, sky, result.place, result.radius, result.sharp, result.clean, result.seen)
 
 
-def real(photo: np.ndarray, label: Photo | None, size: tuple[int, int], random: np.random.Generator) -> dict:
+def real(
+    photo: np.ndarray, label: Photo | None, size: tuple[int, int], random: np.random.Generator
+) -> dict:
     """A photo as it is; the part keeps the sun, mostly."""
     has_sun = label is not None and label.is_sun
     height, width = photo.shape[:2]
@@ -236,7 +246,9 @@ class Batches(IterableDataset):
         def one(size: tuple[int, int]) -> dict[str, np.ndarray]:
             draw = random.random()
             if draw < 0.62:
-                file = str(random.choice(photos.textures if random.random() < 0.12 else photos.skies))
+                file = str(
+                    random.choice(photos.textures if random.random() < 0.12 else photos.skies)
+                )
                 return drawn(read(self.root, file), size, random)
             if draw < 0.84 and suns:
                 label = suns[int(random.integers(len(suns)))]
@@ -254,3 +266,17 @@ class Batches(IterableDataset):
                 key: torch.from_numpy(np.ascontiguousarray(np.stack([r[key] for r in rows])))
                 for key in rows[0]
             }
+
+
+def typical(root: Path, count: int, batch: int = 8) -> Iterator[torch.Tensor]:
+    """``count`` batches of photos as they are trained on, uint8 (N, 3, 224, 320)."""
+    random = np.random.default_rng(5)
+    photos = split(root)
+    for _ in range(count):
+        labelled = [
+            photos.labelled[int(i)] for i in random.integers(len(photos.labelled), size=batch // 2)
+        ]
+        files = [p.file for p in labelled] + [str(random.choice(photos.sunless)) for _ in labelled]
+        parts = [read(root, f) for f in files]
+        images = [cut(p, (0, 0, *p.shape[:2]), (224, 320))[..., :3] for p in parts]
+        yield torch.from_numpy(np.stack(images).transpose(0, 3, 1, 2).copy())

@@ -1,0 +1,81 @@
+"""The photo without its sun: detail under little glare, what the network sees under much."""
+
+import numpy as np
+import pytest
+
+from sunwidget.analysis.erase import erase, unerased
+from sunwidget.analysis.sun import SunObservation
+from sunwidget.analysis.sun_network import LIGHT_FLOOR, SunMaps
+from sunwidget.analysis.working import Working
+from sunwidget.photo import open_photo
+
+SIZE = (160, 128)  # width, height
+SMALL = (32, 40)  # rows, columns of the network's maps
+
+
+def picture(level=0.3):
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
+    grain = 0.02 * np.sin(1.9 * columns) * np.sin(1.7 * rows)
+    code = np.clip(level + grain, 0, 1)[..., None] * np.array([0.7, 0.85, 1.0])
+    return Working.of(open_photo(np.round(255 * code).astype(np.uint8)))
+
+
+def maps(clean):
+    plain = np.zeros(SMALL, np.float32)
+    return SunMaps(plain, plain + 0.02, plain, np.asarray(clean, np.float32))
+
+
+def light(blot):
+    return SunObservation(80.0, 40.0, 6.0, 0.0, 20.0, blot, SIZE, True, "detected")
+
+
+def blot():
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
+    return (np.hypot(columns - 80, rows - 40) < 6).astype(np.float32)
+
+
+def test_a_photo_without_a_sun_stays_the_same_object():
+    working = picture()
+    assert unerased(working).working is working
+    assert not unerased(working).mark.any()
+
+
+def test_little_glare_is_taken_from_the_light_and_leaves_the_detail():
+    working = picture()
+    erased = erase(working, maps(np.full((*SMALL, 3), -0.2)), light(blot()))
+    assert erased.mark.min() == pytest.approx(1)
+    expected = (working.linear + LIGHT_FLOOR) * np.exp(-0.2) - LIGHT_FLOOR
+    assert np.allclose(erased.working.linear, expected, atol=1e-4)
+
+
+def test_where_nothing_is_said_to_be_glare_the_photo_stays_to_the_bit():
+    working = picture()
+    clean = np.zeros((*SMALL, 3))
+    clean[:16, :] = -1.0
+    erased = erase(working, maps(clean), light(blot()))
+    below = slice(80, None)
+    assert np.array_equal(erased.working.linear[below], working.linear[below])
+    assert erased.mark[below].max() == 0
+    assert erased.mark[:40].min() == pytest.approx(1)
+
+
+def test_a_core_is_filled_from_around_it():
+    code = np.full((SIZE[1], SIZE[0], 3), 80, np.uint8)
+    code[blot() > 0] = 255
+    working = Working.of(open_photo(code))
+    clean = np.zeros((*SMALL, 3))
+    clean[5:16, 14:27] = -1.5  # over the core and a little beyond, too strong there
+    clean[7:13, 17:24] = -3.0
+    filled = erase(working, maps(clean), light(blot())).working.encoded[40, 80]
+    assert np.abs(filled - 80 / 255).max() < 0.25
+    assert filled.min() > 0.05
+
+
+def test_a_sun_that_only_a_person_sees_is_covered_by_its_surroundings():
+    code = np.full((SIZE[1], SIZE[0], 3), 80, np.uint8)
+    code[blot() > 0] = 255
+    working = Working.of(open_photo(code))
+    erased = erase(working, maps(np.zeros((*SMALL, 3))), light(blot()))
+    assert erased.mark[40, 80] == pytest.approx(1)
+    assert np.abs(erased.working.encoded[40, 80] - 80 / 255).max() < 0.02
+    assert erased.mark[100, 20] == 0

@@ -1,0 +1,46 @@
+"""Continuing a picture over what is not known: push-pull."""
+
+import numpy as np
+import pytest
+
+from sunwidget.analysis.fill import fill_by_pyramid
+
+ROWS, COLUMNS = np.mgrid[:60, :90]
+
+
+def smooth_field():
+    x, y = COLUMNS / 90, ROWS / 60
+    return np.stack([0.5 + 0.3 * x, 0.4 - 0.2 * y + 0.1 * x, 0.2 * x * y], -1).astype(np.float32)
+
+
+def hole(radius):
+    return (np.hypot(COLUMNS - 40, ROWS - 30) >= radius).astype(np.float32)
+
+
+@pytest.mark.parametrize("radius", [3, 8, 15])
+def test_a_hole_in_a_smooth_field_is_filled_smoothly(radius):
+    field, weight = smooth_field(), hole(radius)
+    broken = np.where(weight[..., None] > 0, field, 9).astype(np.float32)
+    filled = fill_by_pyramid(broken, weight)
+    # A pyramid continues the mean, not the slope: a share of the field's change over the hole.
+    assert np.abs(filled - field).max() < 0.25 * 0.3 * (2 * radius) / 60 + 0.03
+    assert np.array_equal(filled[weight == 1], field[weight == 1])
+
+
+def test_what_lies_in_the_hole_has_no_influence():
+    field, weight = smooth_field(), hole(10)
+    first = fill_by_pyramid(np.where(weight[..., None] > 0, field, 0).astype(np.float32), weight)
+    second = fill_by_pyramid(np.where(weight[..., None] > 0, field, 5).astype(np.float32), weight)
+    assert np.allclose(first, second, atol=1e-5)
+
+
+def test_a_constant_stays_constant_under_any_weight():
+    weight = np.random.default_rng(3).random((37, 53)).astype(np.float32) ** 8
+    filled = fill_by_pyramid(np.full((37, 53, 3), 0.7, np.float32), weight)
+    assert np.allclose(filled, 0.7, atol=1e-5)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (2, 30), (64, 3), (5, 5)])
+def test_no_weight_at_all_gives_zeros_not_nan(shape):
+    filled = fill_by_pyramid(np.ones((*shape, 3), np.float32), np.zeros(shape, np.float32))
+    assert np.array_equal(filled, np.zeros((*shape, 3), np.float32))

@@ -1,0 +1,54 @@
+"""Writes a checkpoint's averaged weights as the ONNX file that the package ships.
+
+``python -m training.suns.export --checkpoint build/suns/last.pt``
+
+Contract: ``image`` float32 ``(1, 3, H, W)``, RGB, sRGB-encoded in [0, 1] -> ``sun`` and ``clean``,
+float32 ``(1, 3, H/4, W/4)`` (training/suns/model.py). H and W are multiples of 32.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import torch
+
+from training.export import to_onnx
+from training.suns.data import typical
+from training.suns.model import SunMaps, SunNet
+from training.train import prepare
+
+OUT = Path("sunwidget/analysis/models/suns.onnx")
+
+
+def load(checkpoint: Path, data: Path) -> SunNet:
+    """The averaged network of a checkpoint, its batch statistics measured afresh."""
+    network = SunNet()
+    network.load_state_dict(torch.load(checkpoint, weights_only=True)["average"])
+    layers = [m for m in network.modules() if isinstance(m, torch.nn.BatchNorm2d)]
+    for layer in layers:
+        layer.reset_running_stats()
+        layer.momentum = None  # plain mean over the batches
+    network.train()
+    with torch.no_grad():
+        for image in typical(data, 24):
+            network(prepare(image))
+    return network.eval()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--checkpoint", type=Path, default=Path("build/suns/last.pt"))
+    parser.add_argument("--data", type=Path, default=Path("../shared/data/train"))
+    parser.add_argument("--out", type=Path, default=OUT)
+    options = parser.parse_args()
+    torch.set_num_threads(1)
+    network = SunMaps(load(options.checkpoint, options.data)).eval()
+    picture = torch.rand(1, 3, 224, 320)
+    options.out.write_bytes(to_onnx(network, picture, ["sun", "clean"], "Suns and clean skies"))
+
+
+if __name__ == "__main__":
+    main()
