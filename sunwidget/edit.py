@@ -494,7 +494,7 @@ def checked(p: Parameter, value: Any) -> Any:
     if value is None:
         return None
     if p.name == "fov_hint":
-        return _check_number(p.name, value, 5, 150, "°")
+        return _check_number(p.name, value, 1, 150, "°")
     if p.name == "place":
         return _check_place(value)
     if p.name == "sun_hint":

@@ -90,8 +90,8 @@ def check_fov(value: Any) -> float | None:
         degrees = float(value)
     except (TypeError, ValueError):
         degrees = np.nan
-    if not 5 <= degrees <= 150:
-        raise AnalysisError(f"fov must be 5 to 150 degrees (vertical), not {value!r:.80}.")
+    if not 1 <= degrees <= 150:
+        raise AnalysisError(f"fov must be 1 to 150 degrees (vertical), not {value!r:.80}.")
     return degrees
 
 

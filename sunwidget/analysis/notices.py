@@ -96,6 +96,13 @@ def notices(
             "so, or pass horizon=row."
         )
     if hints.fov is None and photo.field_of_view.source == "assumed":
+        if camera.fov_vertical_deg != photo.field_of_view.vertical:
+            told = f"by the size of the sun's disc it is {camera.fov_vertical_deg:.1f}°"
+            notes.append(
+                f"{photo.name} names no focal length: {told}, vertically. Pass fov= in degrees if "
+                "the lens is known."
+            )
+            return tuple(notes)
         notes.append(
             f"{photo.name} names no focal length: {camera.fov_vertical_deg:.0f}° vertical field "
             "of view is assumed. Pass fov= in degrees."

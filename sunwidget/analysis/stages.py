@@ -41,6 +41,7 @@ from sunwidget.analysis.unmix import cloud_gain
 from sunwidget.analysis.working import LUMINANCE, Working, resize
 from sunwidget.camera import Camera, Point
 from sunwidget.layout import size_within
+from sunwidget.photo import Photo
 from sunwidget.time_left import Progress
 
 if TYPE_CHECKING:
@@ -125,6 +126,10 @@ def complete(
         disc = sun_stage.in_sky(blot, sky) if peak is None else sun_stage.in_sky(blot, sky, 0.25)
         sky = np.maximum(sky, disc)
         raise_to(matte, disc, working.zoom)
+
+    if peak is not None and blot is not None and _lens_unknown(photo, hints):
+        told = sun_stage.field_of_view_of(blot, peak, working, camera.fov_vertical_deg)
+        camera = Camera(*photo.size, told or camera.fov_vertical_deg)
 
     step("horizon", 0.8, "Fitting the horizon")
     horizon = _horizon(working, sky, hints, photo.width)
@@ -216,6 +221,10 @@ def sun_blot(
     blot = sun_stage.METHODS[method](working, sky, seed[0], seed[1], focal)
     found = isinstance(seed, Peak) and method != "flood_fill"  # the thesis' way stays as it is
     return sun_stage.settled(blot, seed) if found else blot
+
+
+def _lens_unknown(photo: Photo, hints: Hints) -> bool:
+    return hints.fov is None and photo.field_of_view.source == "assumed"
 
 
 def erased_for(working: Working, maps: SunMaps, light: SunObservation | None) -> Erased:

@@ -24,13 +24,17 @@ __all__ = [
     "SunObservation",
     "assume",
     "disc_fit",
+    "field_of_view_of",
     "find",
     "find_moon",
     "flood_fill",
     "in_sky",
     "observe",
+    "settled",
 ]
 
+_SHARP = 0.6  # of the network, from which a core is a disc with a limb
+_LEAST_LIMB = 6.0  # working pixels of radius
 TOLERANCE = 0.03  # M of Algorithm 1: encoded luminance around the seed's
 
 
@@ -163,6 +167,22 @@ def settled(blot: Blot, peak: Peak) -> Blot:
     centre = round((peak.x - 0.5) * scale), round((peak.y - 0.5) * scale)
     cv2.circle(disc, centre, max(round(peak.radius * scale), 1), 1.0, -1, cv2.LINE_AA, 4)
     return Blot(peak.x, peak.y, peak.radius, disc)
+
+
+def field_of_view_of(blot: Blot, peak: Peak, working: Working, assumed: float) -> float | None:
+    """Return the vertical field of view that the disc's size tells, degrees, or None.
+
+    A limb that is sharp and round is the true 0.533°; a bloomed core says nothing, and a disc of a
+    few pixels little. A disc no larger than in the ``assumed`` field of view is bloomed, too.
+    """
+    area = float(blot.mask.sum())
+    if peak.sharpness < _SHARP or blot.radius < _LEAST_LIMB or peak.confidence < 0.5:
+        return None
+    if area > 1.4 * math.pi * blot.radius**2:
+        return None
+    focal = blot.radius / math.tan(math.radians(RADIUS_DEG))
+    degrees = 2 * math.degrees(math.atan(0.5 * working.height / focal))
+    return max(degrees, 1.0) if degrees < 0.7 * assumed else None
 
 
 def in_sky(blot: Blot, sky: np.ndarray, least: float = 0.6) -> np.ndarray:

@@ -213,6 +213,25 @@ def add_sun(scene: np.ndarray, sky: np.ndarray, random: Random, water: int | Non
     return total.astype(np.float32), (x, y), radius, sharp, seen
 
 
+def burnt_radius(
+    image: np.ndarray, sky: np.ndarray, place: tuple[float, float], expected: float
+) -> float:
+    """Where the core's brightness ends, as a person would draw its rim; in widths."""
+    height, width = sky.shape
+    d = np.hypot(np.arange(width) + 0.5 - place[0], np.arange(height)[:, None] + 0.5 - place[1])
+    luminance = image @ LUMINANCE
+    inside = (sky > 0.5) & (d < 0.3 * width)
+    ring = d[inside].astype(int)
+    count = np.bincount(ring)
+    mean = np.bincount(ring, luminance[inside]) / np.maximum(count, 1)
+    known = np.flatnonzero(count > 0)
+    if not len(known):
+        return expected
+    level = float(mean[known[0]]) - 0.05
+    ended = known[mean[known] < level]
+    return float(ended[0]) / width if len(ended) else expected
+
+
 def night_lights(scene: np.ndarray, sky: np.ndarray, random: Random) -> np.ndarray:
     """A dark picture with a moon in its sky, or lamps below it: no suns."""
     height, width = sky.shape
@@ -298,4 +317,6 @@ def compose(rgb: np.ndarray, sky: np.ndarray, random: Random) -> Drawn:
         return Drawn(image, clean, None, 0.0, 0.0, 0.0)
     total, place, radius, sharp, seen = add_sun(scene, sky, random, water)
     image, clean = camera(total, scene, random)
+    if sharp < 0.5:
+        radius = burnt_radius(image, sky, place, radius)
     return Drawn(image, clean, place, radius, sharp, seen)

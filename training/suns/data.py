@@ -1,16 +1,7 @@
-"""Batches for SunNet: drawn suns in photos without one, and hand-labelled photos as they are.
-
-Labels are ``labels.csv`` beside this file: file, kind, x, y, r, group. ``x`` and ``y`` are the
-centre in fractions of width and height, ``r`` the radius of the bright core in widths. Kinds: disc,
-glow (the place is clear, no disc is seen), moon, art (a pasted or painted sun), none, drop. Photos
-of a group show the same and share their fate; those of the group "photos" are also in the set on
-which pictures are judged. The photos are not in this repository.
-"""
+"""Batches for SunNet: drawn suns in photos without one, and hand-labelled photos as they are."""
 
 from __future__ import annotations
 
-import csv
-import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,47 +13,13 @@ from torch.utils.data import IterableDataset, get_worker_info
 
 from training.data import read_pair
 from training.suns.compose import LUMINANCE, compose, spoil, to_linear
+from training.suns.labels import Photo, labels
 from training.suns.model import LIGHT_FLOOR, QUARTER
 
-LABELS = Path(__file__).with_name("labels.csv")
 FOLDERS = ("landscape-pseudo", "weather-pseudo", "camvid", "sea-sky", "skyreplace-example")
 TEXTURES = "opensky"
 SIZES = ((192, 256), (224, 224), (256, 192), (160, 288), (256, 256))
 """(height, width) of the pictures of a batch, in pixels: every shape of photo in turn."""
-
-
-@dataclass
-class Photo:
-    """One labelled photo."""
-
-    file: str
-    kind: str
-    x: float
-    y: float
-    r: float
-    group: str
-
-    @property
-    def is_sun(self) -> bool:
-        """Whether a sun is seen, be it pasted."""
-        return self.kind in ("disc", "art")
-
-    @property
-    def test(self) -> bool:
-        """Whether it only judges: half of those with a sun or moon, an eighth of the others."""
-        if self.group == "photos":
-            return True
-        draw = hashlib.sha256(f"sun/{self.group or self.file}".encode()).digest()[0]
-        return draw % (8 if self.kind == "none" and "landscape" in self.file else 2) == 0
-
-
-def labels(path: Path = LABELS) -> list[Photo]:
-    """Every labelled photo."""
-    with path.open(encoding="utf-8", newline="") as file:
-        return [
-            Photo(r["file"], r["kind"], *(float(r[k] or "nan") for k in "xyr"), r["group"])
-            for r in csv.DictReader(file)
-        ]
 
 
 @dataclass
@@ -85,9 +42,7 @@ def split(root: Path) -> Split:
             unlabelled = photo is None and not path.name.startswith(("sunrise", "shine"))
             if unlabelled or (photo is not None and photo.kind == "none" and not photo.test):
                 sunless.append(f"{folder}/{path.name}")
-    trained = [
-        p for p in known.values() if not p.test and p.kind in ("disc", "art", "moon", "none")
-    ]
+    trained = [p for p in known.values() if not p.test and p.kind != "drop"]
     textures = [f"{TEXTURES}/{p.name}" for p in sorted((root / TEXTURES).glob("*.jpg"))]
     skies = [f for f in sunless if (read(root, f)[::4, ::4, 3] > 191).mean() > 0.06]
     return Split(trained, sunless, skies, textures)
@@ -203,7 +158,7 @@ def real(
     photo: np.ndarray, label: Photo | None, size: tuple[int, int], random: np.random.Generator
 ) -> dict:
     """A photo as it is; the part keeps the sun, mostly."""
-    has_sun = label is not None and label.is_sun
+    has_sun = label is not None and (label.is_sun or label.kind == "glow")
     height, width = photo.shape[:2]
     for _ in range(12):
         top, left, h, w = box = random_box((height, width), size[1] / size[0], random, 0.3)
@@ -220,6 +175,9 @@ def real(
     sky = (part[..., 3] > 127).astype(np.float32)
     if not has_sun:
         return example(image, sky, None, 0.0, np.nan, image.astype(np.float32) / 255)
+    if label.kind == "glow":  # its place is neither a sun nor none, elsewhere there is none
+        place = x * size[1], y * size[0]
+        return example(image, sky, place, 0.1, np.nan, None, 0.0)
     radius = label.r * width / w
     if not (-2 * radius < x < 1 + 2 * radius and -2 * radius < y < 1 + 2 * radius):
         return example(image, sky, None, 0.0, np.nan, None)
@@ -245,14 +203,14 @@ class Batches(IterableDataset):
 
         def one(size: tuple[int, int]) -> dict[str, np.ndarray]:
             draw = random.random()
-            if draw < 0.62:
+            if draw < 0.5:
                 file = str(
                     random.choice(photos.textures if random.random() < 0.12 else photos.skies)
                 )
                 return drawn(read(self.root, file), size, random)
-            if draw < 0.84 and suns:
+            if draw < 0.7 and suns:
                 label = suns[int(random.integers(len(suns)))]
-            elif draw < 0.92 and others:
+            elif draw < 0.87 and others:
                 label = others[int(random.integers(len(others)))]
             else:
                 file = str(random.choice(photos.sunless))

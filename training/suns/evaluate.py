@@ -16,7 +16,7 @@ from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.sun_search import peak_of
 from sunwidget.analysis.working import Working
 from sunwidget.photo import open_photo
-from training.suns.data import Photo, labels
+from training.suns.labels import Photo, labels
 
 
 def miss(photo: Photo, x: float, y: float, aspect: float) -> float:

@@ -68,7 +68,7 @@ function problemOf(p, value) {
 const DATA = {
   strokes: areStrokes,
   sun_hint: isPoint,
-  fov_hint: (/** @type {any} */ value) => isBetween(value, 5, 150),
+  fov_hint: (/** @type {any} */ value) => isBetween(value, 1, 150),
   horizon_hint: (/** @type {any} */ value) =>
     arePoints(value) && value.length === 2 && value[0][0] !== value[1][0],
   place: isPlace,
