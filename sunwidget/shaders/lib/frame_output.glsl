@@ -4,12 +4,34 @@
 #include "lib/output.glsl"
 #include "lib/grain.glsl"
 
+// From here on highlights roll off: display-linear.
+const float kKnee = 0.5;
+
+// Display-linear light of `scene` as a good camera draws highlights: the luminance leaves the response at
+// the knee and nears white like 1 / distance, and the colour keeps its hue on the way to white. Each
+// channel for itself would end in cyan, yellow and magenta, and in a flat plate.
+vec3 GetRolledOff(vec3 scene) {
+  float w = max(response_shoulder, 1e-4);
+  float luminance = max(GetLuminance(scene), 1e-9);
+  float r = pow(luminance, response_contrast);
+  float knee = -log(1.0 - w * kKnee) / w;
+  float over = (1.0 - w * kKnee) / (1.0 - kKnee) * max(r - knee, 0.0);
+  float level = r < knee ? (1.0 - exp(-w * r)) / w : kKnee + (1.0 - kKnee) * over / (1.0 + over);
+  vec3 color = scene / luminance - 1.0;
+  float most = max(color.r, max(color.g, color.b));
+  float x = most * level / max(1.0 - level, 1e-4);
+  return level + level * inversesqrt(1.0 + x * x) * color;
+}
+
 // Written as a difference, so that what did not change adds exactly nothing. What was `filled`
-// gets the photo's noise (lib/grain.glsl).
+// gets the photo's noise (lib/grain.glsl). What is brighter than the photo had it rolls off.
 void WriteChange(vec3 display, vec3 scene, vec3 change, float filled, vec2 pixel) {
   float touched = step(1e-30, dot(abs(change), vec3(1.0)));
   vec3 representable = clamp(display, vec3(0.0), vec3(GetWhiteLevel()));
   vec3 light = GetDisplayLight(scene + change);
+  float old = GetLuminance(scene) / max(GetLuminance(scene + change), 1e-9);
+  float rolls = max(1.0 - old * old, 0.0) * smoothstep(0.4, 0.8, max(light.r, max(light.g, light.b)));
+  light += rolls * (GetRolledOff(scene + change) - light);
   light += GetGrain(light, filled, pixel);
   WriteFrame(display, touched * (light - representable), pixel);
 }
