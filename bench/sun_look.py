@@ -138,7 +138,7 @@ def main() -> None:
         scene = sw.analyze(sw.open(file))
         found, pictures = look(scene, density)
         shown = scene.sun is not None and scene.sun.visible
-        print(file.name, "sun" if shown else "", *(f"{k} {100 * r.get('burnt', np.nan):.2f}/{100 * r.get('odd', np.nan):.1f}" for k, r in found.items()), flush=True)
+        print(file.name, *(f"black {100 * r.get('black', np.nan):.1f}" for r in found.values()), "sun" if shown else "", *(f"{k} {100 * r.get('burnt', np.nan):.2f}/{100 * r.get('odd', np.nan):.1f}" for k, r in found.items()), flush=True)
         rows.append(found)
         if wish.sheets:
             wish.sheets.mkdir(parents=True, exist_ok=True)

@@ -24,7 +24,7 @@ from sunwidget.camera import Camera
 _CLEAREST = 0.3
 # In units of a picture's width and of the light of its middle grey: with lib/frame_output.glsl's
 # highlights this falls off as the photos' suns do. Lenses scatter as the angle squared.
-_CORE, _LEVEL = 0.01, 54.0
+_CORE, _LEVEL, _POWER = 0.013, 68.0, 1.3
 SUN_RADIUS = 0.2665  # degrees
 _WIDTHS, _POWERS = (0.5, 1.0, 2.0, 4.0, 7.0, 11.0), (1.0, 1.5, 2.5)
 
@@ -89,7 +89,7 @@ def default_glare(fit: SkyFit, camera: Camera) -> tuple[float, float, float]:
     width = math.degrees(camera.width / camera.focal)
     core = math.hypot(_CORE * width, SUN_RADIUS)
     middle = float(fit.response.scene_light(np.array(0.5)))
-    return _LEVEL * middle * (_CORE * width / core) ** 2, core, 1.0
+    return _LEVEL * middle * (_CORE * width / core) ** (2 * _POWER), core, _POWER
 
 
 def through_glare(clear: np.ndarray, fit: SkyFit, camera: Camera) -> np.ndarray:

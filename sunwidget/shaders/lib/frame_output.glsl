@@ -6,6 +6,7 @@
 
 // From here on highlights roll off: display-linear.
 const float kKnee = 0.5;
+const float kBurns = 1.06;  // of the way to white, at infinity: the sun itself burns
 
 // Display-linear light of `scene` as a good camera draws highlights: the luminance leaves the response at
 // the knee and nears white like 1 / distance, and the colour keeps its hue on the way to white. Each
@@ -16,7 +17,7 @@ vec3 GetRolledOff(vec3 scene) {
   float r = pow(luminance, response_contrast);
   float knee = -log(1.0 - w * kKnee) / w;
   float over = (1.0 - w * kKnee) / (1.0 - kKnee) * max(r - knee, 0.0);
-  float level = r < knee ? (1.0 - exp(-w * r)) / w : kKnee + (1.0 - kKnee) * over / (1.0 + over);
+  float level = r < knee ? (1.0 - exp(-w * r)) / w : kKnee + (1.0 - kKnee) * min(kBurns * over / (1.0 + over), 1.0);
   vec3 color = scene / luminance - 1.0;
   float most = max(color.r, max(color.g, color.b));
   float x = most * level / max(1.0 - level, 1e-4);
