@@ -76,7 +76,7 @@ void main() {
 #ifndef LAND_ALONE
   vec3 sky_before = texelFetch(sky_source, texel, 0).rgb;
   // An unchanged sky is the same to the bit, whatever two programs make of the same formula.
-  vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(term[0].w > 0.5));
+  vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(term[0].w < 0.0));
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   vec3 disc = GetDisc(view, GetDescribedSun());
   change += matte * GetSkyChange(behind, clean, opacity, glare, sky_before, sky_now, view, disc);

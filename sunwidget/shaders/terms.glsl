@@ -1,7 +1,7 @@
 // Everything of the ratio composite that is the same for all pixels, so that no pixel computes
 // it again. Texels:
-//   0  exposure gain, how far the sun has moved (0..1), colour lost in shade; alpha: whether the
-//      sky is as it was
+//   0  exposure gain, how far the sun has moved (0..1), colour lost in shade; alpha: the land's gain
+//      over the picture's, negative where the sky is as it was
 //   1  light on lying land before     2  on upright land before     3, 4  the same now
 //   5  light of a cloud before        6  what its forward lobe adds, before     7, 8  now
 //   9  direction of the sun before
@@ -57,6 +57,10 @@ const vec2 kNightBegins = vec2(5.9, -5.06);
 const float kBrightSky = 0.35;
 const float kProtection = 0.9;
 
+// Cameras and phones lift land that has become darker than this (stops) by this share of the rest.
+const float kDark = -2.0;
+const float kLift = 0.6;
+
 // A moon is 20 EV brighter than the sky it lights and would burn to a white hole; it is drawn so
 // bright, of white, and dimmed less by the air, as when a second, short exposure is laid over.
 const float kMoonLevel = 0.85;
@@ -95,6 +99,21 @@ vec3 GetGlare() {
   float light = GetLuminance(beam);
   float visible = texelFetch(visibility_edit, ivec2(0), 0).g;
   return glow * visible * exp2(GetStops() - GetDayStops(before, now)) * GetGlareStrength(light) * beam / light;
+}
+
+// Light of the land, lying and upright, by its part of land_terms.glsl: luminance.
+float GetLandLevel(int first, vec2 share) {
+  vec3 sun = texelFetch(land_terms, ivec2(first + 7, 0), 0).xyz;
+  vec3 sky = texelFetch(land_terms, ivec2(first, 0), 0).rgb + texelFetch(land_terms, ivec2(first + 4, 0), 0).rgb;
+  float cosine = GetSoftCosine(sun.y, kRoughness) + GetSoftCosine(-sun.z, kRoughness);
+  return GetLuminance(sky + share.x * share.y * cosine * texelFetch(land_terms, ivec2(first + 6, 0), 0).rgb);
+}
+
+// Stops by which a camera lifts land that has become dark.
+float GetLift() {
+  vec4 share = texelFetch(land_terms, ivec2(16, 0), 0);
+  float stops = GetStops() - exposure + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
+  return auto_exposure * kLift * (log2(1.0 + exp2(kDark - stops)) - log2(1.0 + exp2(kDark)));
 }
 
 // log2 of the radiance in the middle of a disc at this height, without its limb's darkening.
@@ -148,7 +167,7 @@ void main() {
     // A sun that is taken away leaves the sky behind it, as one that moves does.
     float moved = GetMoon() == photo_light
         ? max(smoothstep(0.0, kGlareFade, turn), source_sun_visibility - sun_visibility) : 1.0;
-    result = vec4(exp2(GetStops()), moved, 0.5 * hidden * colourfulness, same);
+    result = vec4(exp2(GetStops()), moved, 0.5 * hidden * colourfulness, (same ? -1.0 : 1.0) * exp2(GetLift()));
   } else if (index == 9) {
     result = vec4(sun_before, disc);
   } else if (index == 10) {

@@ -50,7 +50,7 @@ void main() {
   float shaft_now = ReadBilinear(shafts_edit, place).r;
   vec3 shafts = shaft_now * beam_now - shaft_before * relit * beam_before;
   // Two texts of one formula need not agree to the bit.
-  shafts = light_shafts * mix(shafts, vec3(0.0), bvec3(first.w > 0.5 && shaft_now == shaft_before));
+  shafts = light_shafts * mix(shafts, vec3(0.0), bvec3(first.w < 0.0 && shaft_now == shaft_before));
 
   vec3 at = GetPlaceOfDirection(sun_now);
   vec2 scale_of_place = vec2(frame_size.x / frame_size.y, 1.0);
