@@ -59,7 +59,7 @@ const float kProtection = 0.9;
 
 // Cameras and phones lift land that has become darker than this (stops) by this share of the rest.
 const float kDark = -2.0;
-const float kLift = 0.6;
+const float kLift = 0.7;
 
 // A moon is 20 EV brighter than the sky it lights and would burn to a white hole; it is drawn so
 // bright, of white, and dimmed less by the air, as when a second, short exposure is laid over.
@@ -98,7 +98,9 @@ vec3 GetGlare() {
   vec3 beam = GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
   float light = GetLuminance(beam);
   float visible = texelFetch(visibility_edit, ivec2(0), 0).g;
-  return glow * visible * exp2(GetStops() - GetDayStops(before, now)) * GetGlareStrength(light) * beam / light;
+  // Cameras balance their white half way. A red tint of the photo dyes the sun's light, a blue one its sky.
+  vec3 color = sqrt(beam * (sky_gain.r > sky_gain.b ? sky_gain : vec3(1.0)));
+  return glow * visible * exp2(GetStops() - GetDayStops(before, now)) * GetGlareStrength(light) * color / GetLuminance(color);
 }
 
 // Light of the land, lying and upright, by its part of land_terms.glsl: luminance.

@@ -4,19 +4,18 @@
 
 #include "lib/matched_sky.glsl"
 
-// log of blue over red of the model's sky, bent to -1 .. 1.
+// log of blue over red of the model's sky.
 float GetBlueness(vec3 matched) {
   vec3 sky = matched / sky_gain;
-  float x = log(max(sky.b, 1e-9) / max(sky.r, 1e-9));
-  return x / (abs(x) + 0.4);
+  return log(max(sky.b, 1e-9) / max(sky.r, 1e-9));
 }
 
 // 0 where the sky is as it was.
 float GetLostTint(vec3 sky_before, vec3 sky_now) {
   float side = sign(sky_gain.b - sky_gain.r);
-  float before = GetBlueness(sky_before);
-  float lost = side * (before - GetBlueness(sky_now));
-  return clamp(lost * smoothstep(0.0, 0.5, side * before), 0.0, 1.0);
+  float before = side * GetBlueness(sky_before);
+  float lost = before - side * GetBlueness(sky_now);
+  return clamp(lost / max(before, 0.3), 0.0, 1.0) * smoothstep(0.0, 0.3, before);
 }
 
 vec3 WithoutLostTint(vec3 sky_before, vec3 sky_now) {
