@@ -8,21 +8,22 @@
 const float kKnee = 0.5;
 const float kBurns = 1.06;  // of the way to white, at infinity: the sun itself burns
 
-// Display-linear light of `scene` as a good camera draws highlights: the colour keeps its hue on the way to
-// white (each channel for itself would end in cyan, yellow and magenta), and what is `brighter` than it was,
-// 0 to 1, leaves the response at the knee and nears white slowly, without a flat plate.
+// Display-linear light as a good camera draws highlights. What is `brighter` than it was, 0 to 1, leaves the
+// response at the knee and nears white slowly, without a flat plate. Each channel does so for itself, which
+// makes a sunset's orange yellow, as films do; but cold colours would end in cyan, and keep their hue. The core is white.
 vec3 GetRolledOff(vec3 scene, float brighter) {
   float w = max(response_shoulder, 1e-4);
-  float luminance = max(GetLuminance(scene), 1e-9);
-  float r = pow(luminance, response_contrast);
+  vec4 r = pow(max(vec4(scene, GetLuminance(scene)), vec4(1e-9)), vec4(response_contrast));
   float knee = -log(1.0 - w * kKnee) / w;
-  float over = (1.0 - w * kKnee) / (1.0 - kKnee) * max(r - knee, 0.0);
-  float level = (1.0 - exp(-w * r)) / w;
-  level += brighter * (kKnee + (1.0 - kKnee) * kBurns * over / (1.0 + over) - level) * step(knee, r);
-  level = min(level, 0.9999);
-  vec3 color = scene / luminance - 1.0;
-  float x = max(color.r, max(color.g, color.b)) * level / (1.0 - level);
-  return level + level * inversesqrt(1.0 + x * x) * color;
+  vec4 over = (1.0 - w * kKnee) / (1.0 - kKnee) * max(r - knee, vec4(0.0));
+  vec4 plain = (1.0 - exp(-w * r)) / w;
+  vec4 slow = kKnee + (1.0 - kKnee) * kBurns * over / (1.0 + over);
+  vec4 level = min(plain + brighter * step(knee, r) * (slow - plain), vec4(0.9999));
+  vec3 color = scene / max(GetLuminance(scene), 1e-9) - 1.0;
+  float x = max(color.r, max(color.g, color.b)) * level.a / (1.0 - level.a);
+  vec3 same_hue = level.a + level.a * inversesqrt(1.0 + x * x) * color;
+  float warm = smoothstep(0.0, 0.8, color.r - color.b) * (1.0 - smoothstep(0.75, 1.0, level.a));
+  return mix(same_hue, level.rgb, warm);
 }
 
 // Written as a difference, so that what did not change adds exactly nothing. What was `filled`
