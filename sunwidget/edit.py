@@ -263,8 +263,8 @@ class Edit:
         "How far water mirrors the changed sky; 0 lights it as land.")
     glitter: float = _number(1.0, (0, 3), 0.05, "", "Glitter", "water",
         "The sun's glints on water: 1 as the waves of this wind make them.")
-    glow: float = _number(0.5, (0, 3), 0.05, "", "Glow", "effects",
-        "Veiling glare of the camera round the sun, also before the land.")
+    glow: float = _number(1.0, (0, 3), 0.05, "", "Glow", "effects",
+        "Glare of the camera round the moved sun, before sky and land: 1 as cameras have it.")
     light_shafts: float = _number(0.25, (0, 1), 0.01, "", "Light shafts", "effects",
         "Beams in the haze where land and clouds let the sun through.")
     lens_flare: float = _number(0.0, (0, 1), 0.01, "", "Lens flare", "effects",

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -21,6 +22,10 @@ from sunwidget.camera import Camera
 
 # The sky shows between clouds and rays: in a ring the darker third is sky and glare alone.
 _CLEAREST = 0.3
+# In units of a picture's width and of the light of its middle grey: with lib/frame_output.glsl's
+# highlights this falls off as the photos' suns do. Lenses scatter as the angle squared.
+_CORE, _LEVEL, _POWER = 0.013, 68.0, 1.3
+SUN_RADIUS = 0.2665  # degrees
 _WIDTHS, _POWERS = (0.5, 1.0, 2.0, 4.0, 7.0, 11.0), (1.0, 1.5, 2.5)
 
 
@@ -69,6 +74,22 @@ def with_glare(
         if cost < best[0]:
             best = (cost, height, width, power)
     return dataclasses.replace(fit, glare=best[1:])
+
+
+def default_glare(fit: SkyFit, camera: Camera) -> tuple[float, float, float]:
+    """Return the profile of a camera that is not known, as 94 photos of the sun have it.
+
+    Parameters
+    ----------
+    fit : SkyFit
+        Its response says how bright the picture's white is.
+    camera : Camera
+        Glare is as wide as the picture, and no narrower than the sun's disc.
+    """
+    width = math.degrees(camera.width / camera.focal)
+    core = math.hypot(_CORE * width, SUN_RADIUS)
+    middle = float(fit.response.scene_light(np.array(0.5)))
+    return _LEVEL * middle * (_CORE * width / core) ** (2 * _POWER), core, _POWER
 
 
 def through_glare(clear: np.ndarray, fit: SkyFit, camera: Camera) -> np.ndarray:

@@ -74,16 +74,12 @@ void main() {
 
   vec3 change = vec3(0.0);
 #ifndef LAND_ALONE
-  vec4 sky_before = texelFetch(sky_source, texel, 0);
+  vec3 sky_before = texelFetch(sky_source, texel, 0).rgb;
   // An unchanged sky is the same to the bit, whatever two programs make of the same formula.
-  vec4 sky_now = mix(GetDescribedSky(view), sky_before, bvec4(term[0].w > 0.5));
-  // Less glare than in the photo leaves by the ratio; more is light from the lens, of its own colour.
-  vec3 added_glare = max(sky_now.a - sky_before.a, 0.0) * GetGlareColor();
+  vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(term[0].w < 0.0));
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   vec3 disc = GetDisc(view, GetDescribedSun());
-  vec3 sky_change = GetSkyChange(behind, clean, opacity, glare, sky_before.rgb, sky_now.rgb - added_glare, view, disc);
-  sky_change += sky_strength * term[0].x * added_glare;
-  change += matte * sky_change;
+  change += matte * GetSkyChange(behind, clean, opacity, glare, sky_before, sky_now, view, disc);
 #endif
 
 #ifndef SKY_ALONE
@@ -98,7 +94,7 @@ void main() {
   change += (1.0 - matte) * land_change;
 #endif
 
-  change += GetVeil(scene + change, term[0].x * ReadBilinear(veil, place), matte);
+  change += GetVeil(scene + change, view, ReadBilinear(veil, place), matte);
   change += mix(land_strength, sky_strength, matte) * GetNight() * GetRodShift(scene + change);
   // What was filled where the old sun hid the sky gets the grain of the rest.
   float filled = matte * glare * term[0].y * min(sky_strength, 1.0);

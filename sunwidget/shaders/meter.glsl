@@ -1,5 +1,6 @@
-// What a camera's exposure meter would see: the mean log2 luminance of the picture with this
-// sun, from the model alone. One pixel; r = log2 of luminance in the photo's scene-linear unit.
+// What a camera's exposure meter would see with this sun, from the model alone. One pixel: r is the mean
+// log2 luminance of the picture, g log2 of the sky's (the mean of its root, squared: what is bright counts
+// more, but a sun in view is not all), both in the photo's scene-linear unit.
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
@@ -15,12 +16,13 @@ uniform float land_facing;
 
 out vec4 result;
 
-const int kColumns = 12;
-const int kRows = 9;
+const int kColumns = 16;
+const int kRows = 12;
 const float kLandAlbedo = 0.18;
 
 void main() {
   float sum = 0.0;
+  vec2 bright = vec2(0.0);
   vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
   // The meter averages, so a half-visible sun stands for any state of the disc: whether a
   // twig hides the sun must not change the exposure.
@@ -31,8 +33,10 @@ void main() {
       vec2 place = (vec2(column, row) + 0.5) / vec2(kColumns, kRows);
       float sky = ReadBilinear(layers, place).r;
       vec3 color = mix(land, GetMatchedSky(sky_view, GetViewDirection(place)), sky);
-      sum += log2(max(dot(color, vec3(0.2126, 0.7152, 0.0722)), 1e-20));
+      float luminance = max(dot(color, vec3(0.2126, 0.7152, 0.0722)), 1e-20);
+      sum += log2(luminance);
+      bright += (sky + 1e-3) * vec2(sqrt(luminance), 1.0);
     }
   }
-  result = vec4(sum / float(kColumns * kRows), 0.0, 0.0, 1.0);
+  result = vec4(sum / float(kColumns * kRows), 2.0 * log2(bright.x / bright.y), 0.0, 1.0);
 }

@@ -75,13 +75,17 @@ float GetLandHiding(vec2 place, float level, vec3 sun) {
   return hidden;
 }
 
+// Clouds take no more of the sun's light than this: of a cloud of optical depth 16 a third comes through,
+// and what the others throw back lights their shadows.
+const float kCloudShade = 0.65;
+
 // Share of the sun that clouds take at `position`, metres from the camera in world coordinates.
 float GetCloudHiding(vec3 position, vec3 sun) {
   vec3 leaves = position + sun * (kCloudHeight - position.y) / max(sun.y, 0.03);
   vec3 seen = GetPlaceOfDirection(leaves);
   vec2 outside = max(-seen.xy, seen.xy - 1.0);
   float inside = step(0.0, seen.z) * (1.0 - smoothstep(-0.05, 0.1, max(outside.x, outside.y)));
-  return inside * ReadBilinear(openness, seen.xy).b;
+  return kCloudShade * inside * ReadBilinear(openness, seen.xy).b;
 }
 
 void main() {

@@ -11,5 +11,5 @@ out vec4 result;
 
 void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
-  result = GetDescribedSky(GetViewDirection(place));
+  result = vec4(GetDescribedSky(GetViewDirection(place)), 1.0);
 }

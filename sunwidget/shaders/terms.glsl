@@ -1,12 +1,13 @@
 // Everything of the ratio composite that is the same for all pixels, so that no pixel computes
 // it again. Texels:
-//   0  exposure gain, how far the sun has moved (0..1), colour lost in shade; alpha: whether the
-//      sky is as it was
+//   0  exposure gain, how far the sun has moved (0..1), colour lost in shade; alpha: the land's gain
+//      over the picture's, negative where the sky is as it was
 //   1  light on lying land before     2  on upright land before     3, 4  the same now
 //   5  light of a cloud before        6  what its forward lobe adds, before     7, 8  now
 //   9  direction of the sun before
 //  10  the disc (lib/disc.glsl): radius, sine of its middle's elevation, inverse of half its height
 //  11  the sun's light on water before   12  now
+//  13  the camera's glare: what lib/camera_glare.glsl's profile is multiplied with
 //  Alphas of 1-4, 5-8, 9-12: log2 of the disc's radiance in its middle, slope and bend over its height.
 
 #include "lib/picture.glsl"
@@ -14,6 +15,7 @@
 #include "lib/matched_sky.glsl"
 #include "lib/daylight.glsl"
 #include "lib/response.glsl"
+#include "lib/camera_glare.glsl"
 
 uniform sampler2D columns;
 uniform sampler2D land_terms;
@@ -36,6 +38,7 @@ uniform float source_land_facing;
 uniform float colourfulness;
 uniform float exposure;
 uniform float auto_exposure;
+uniform float glow;
 
 out vec4 result;
 
@@ -49,6 +52,15 @@ const float kGlareFade = 4.0;
 const float kNightKey = 1.6;
 const vec2 kNightBegins = vec2(5.9, -5.06);
 
+// Where a sun in view would burn the sky, a camera exposes for the sky: by so much of what its mean exceeds
+// this (display-linear).
+const float kBrightSky = 0.35;
+const float kProtection = 0.9;
+
+// Cameras and phones lift land that has become darker than this (stops) by this share of the rest.
+const float kDark = -2.0;
+const float kLift = 0.7;
+
 // A moon is 20 EV brighter than the sky it lights and would burn to a white hole; it is drawn so
 // bright, of white, and dimmed less by the air, as when a second, short exposure is laid over.
 const float kMoonLevel = 0.85;
@@ -60,10 +72,50 @@ float GetNightStops(float meter) {
   return kNightKey * (1.0 - smoothstep(kNightBegins.y, kNightBegins.x, luminance));
 }
 
+// How far the sky's bright side, log2 of display white, is over what a camera lets pass.
+float GetStopsTooBright(float level) {
+  float over = level - log2(GetSceneLight(vec3(kBrightSky)).g);
+  return kProtection * log2(1.0 + exp2(over));
+}
+
+// What a fully automatic exposure does by day: it follows the mean, and holds back for a bright sky.
+float GetDayStops(vec2 before, vec2 now) {
+  float stops = before.r - now.r;
+  return stops - (GetStopsTooBright(now.g + stops) - GetStopsTooBright(before.g));
+}
+
 float GetStops() {
-  float before = texelFetch(meter_source, ivec2(0), 0).r;
-  float now = texelFetch(meter_edit, ivec2(0), 0).r;
-  return exposure + auto_exposure * (before - now - (GetNightStops(now) - GetNightStops(before)));
+  vec2 before = texelFetch(meter_source, ivec2(0), 0).rg;
+  vec2 now = texelFetch(meter_edit, ivec2(0), 0).rg;
+  float night = GetNightStops(now.r) - GetNightStops(before.r);
+  return exposure + auto_exposure * (GetDayStops(before, now) - night);
+}
+
+// The glare of a sun in a picture that is exposed for it: with another exposure it is as much brighter.
+vec3 GetGlare() {
+  vec2 before = texelFetch(meter_source, ivec2(0), 0).rg;
+  vec2 now = texelFetch(meter_edit, ivec2(0), 0).rg;
+  vec3 beam = GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
+  float light = GetLuminance(beam);
+  float visible = texelFetch(visibility_edit, ivec2(0), 0).g;
+  // Cameras balance their white half way. A red tint of the photo dyes the sun's light, a blue one its sky.
+  vec3 color = sqrt(beam * (sky_gain.r > sky_gain.b ? sky_gain : vec3(1.0)));
+  return glow * visible * exp2(GetStops() - GetDayStops(before, now)) * GetGlareStrength(light) * color / GetLuminance(color);
+}
+
+// Light of the land, lying and upright, by its part of land_terms.glsl: luminance.
+float GetLandLevel(int first, vec2 share) {
+  vec3 sun = texelFetch(land_terms, ivec2(first + 7, 0), 0).xyz;
+  vec3 sky = texelFetch(land_terms, ivec2(first, 0), 0).rgb + texelFetch(land_terms, ivec2(first + 4, 0), 0).rgb;
+  float cosine = GetSoftCosine(sun.y, kRoughness) + GetSoftCosine(-sun.z, kRoughness);
+  return GetLuminance(sky + share.x * share.y * cosine * texelFetch(land_terms, ivec2(first + 6, 0), 0).rgb);
+}
+
+// Stops by which a camera lifts land that has become dark.
+float GetLift() {
+  vec4 share = texelFetch(land_terms, ivec2(16, 0), 0);
+  float stops = GetStops() - exposure + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
+  return auto_exposure * kLift * (log2(1.0 + exp2(kDark - stops)) - log2(1.0 + exp2(kDark)));
 }
 
 // log2 of the radiance in the middle of a disc at this height, without its limb's darkening.
@@ -117,7 +169,7 @@ void main() {
     // A sun that is taken away leaves the sky behind it, as one that moves does.
     float moved = GetMoon() == photo_light
         ? max(smoothstep(0.0, kGlareFade, turn), source_sun_visibility - sun_visibility) : 1.0;
-    result = vec4(exp2(GetStops()), moved, 0.5 * hidden * colourfulness, same);
+    result = vec4(exp2(GetStops()), moved, 0.5 * hidden * colourfulness, (same ? -1.0 : 1.0) * exp2(GetLift()));
   } else if (index == 9) {
     result = vec4(sun_before, disc);
   } else if (index == 10) {
@@ -131,11 +183,13 @@ void main() {
         : index == 6 ? GetForwardLight(light_before)
         : index == 7 ? GetCloudRadiance(light_edit, 0.0)
         : index == 8 ? GetForwardLight(light_edit)
+        : index == 13 ? GetGlare()
         : index == 11 ? visible_before * GetLightTexel(light_before, 1)
         : visible_now * GetLightTexel(light_edit, 1);
     // Without a moon no light reaches a surface but the night sky's, from half the sphere.
     float moon = index == 3 || index == 4 || index == 7 || index == 8 || index == 12 ? GetMoon() : photo_light;
     float night = index <= 4 ? PI : index == 5 || index == 7 ? 1.0 : 0.0;
-    result = vec4(sky_gain * (GetLightScale(moon) * light + night * GetNightSky(moon)), disc);
+    result = index == 13 ? vec4(light, 0.0)
+        : vec4(sky_gain * (GetLightScale(moon) * light + night * GetNightSky(moon)), disc);
   }
 }

@@ -1,13 +1,13 @@
-// What the camera and the air between put before the whole picture: glow, light shafts and lens
-// flare, now minus with the photo's own sun. Soft, so a quarter of the size is enough. Alpha: the
-// luminance of it without the glow.
+// What the camera and the air between put before the whole picture: light shafts and lens flare, now
+// minus with the photo's own sun. Soft, so a quarter of the size is enough. Alpha: the luminance of the
+// old sun's glare as it lies on the relit land. The new sun's is too sharp for this size (lib/veil.glsl).
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
 #include "lib/matched_sky.glsl"
 #include "lib/daylight.glsl"
 #include "lib/srgb.glsl"
-#include "lib/glow.glsl"
+#include "lib/camera_glare.glsl"
 #include "lib/flare.glsl"
 
 uniform sampler2D terms;
@@ -28,12 +28,6 @@ uniform vec2 pass_size;
 
 out vec4 result;
 
-vec3 GetGlowOf(vec3 view, vec3 sun, vec3 beam, float measured) {
-  float light = max(GetLuminance(beam), 1e-20);
-  float angle = GetDegreesFromSun(view, sun);
-  return beam / light * GetGlow(angle, light, measured * GetCameraGlare(angle));
-}
-
 void main() {
   vec2 place = gl_FragCoord.xy / pass_size;
   vec3 view = GetViewDirection(place);
@@ -41,35 +35,28 @@ void main() {
   vec3 sun_before = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
   float glowing_before = texelFetch(visibility_source, ivec2(0), 0).g;
-  vec2 visible_now = texelFetch(visibility_edit, ivec2(0), 0).rg;
-  vec3 scale = GetLightScale(GetMoon());
+  float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
   // The gain of each channel was fitted to the sky and holds what that sky had of its own; what is
   // added gets the sun's colour and the gain of all three.
   float gain = GetLuminance(sky_gain);
   vec3 beam_before = gain * GetLightTexel(light_before, 1);
-  vec3 beam_now = gain * scale * GetLightTexel(light_edit, 1);
-  float strength = scale.g * GetGlareStrength(GetLightRatio(GetLightTexel(light_edit, 1), GetLightTexel(light_before, 1)),
-      GetLightRatio(GetLightTexel(light_edit, 0), GetLightTexel(light_before, 0)), visible_now.g);
+  vec3 beam_now = gain * GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
 
   // What the old sun's veil put into the photo was relit with the land and goes as it is by now.
   float relit = GetLuminance(texelFetch(terms, ivec2(3, 0), 0).rgb) / max(GetLuminance(texelFetch(terms, ivec2(1, 0), 0).rgb), 1e-20);
-  vec3 left = relit * beam_before;
+  float old = glow * glowing_before * GetGlareStrength(GetLuminance(GetLightTexel(light_before, 1))) * GetCameraGlare(view, sun_before);
 
   float shaft_before = ReadBilinear(shafts_source, place).r;
   float shaft_now = ReadBilinear(shafts_edit, place).r;
-  vec3 glare = GetGlowOf(view, sun_now, visible_now.g * beam_now, strength)
-      - GetGlowOf(view, sun_before, glowing_before * left, glowing_before * relit);
-  vec3 shafts = shaft_now * beam_now - shaft_before * left;
+  vec3 shafts = shaft_now * beam_now - shaft_before * relit * beam_before;
   // Two texts of one formula need not agree to the bit.
-  bool same = first.w > 0.5;
-  glare = glow * mix(glare, vec3(0.0), bvec3(same));
-  shafts = light_shafts * mix(shafts, vec3(0.0), bvec3(same && shaft_now == shaft_before));
+  shafts = light_shafts * mix(shafts, vec3(0.0), bvec3(first.w < 0.0 && shaft_now == shaft_before));
 
   vec3 at = GetPlaceOfDirection(sun_now);
   vec2 scale_of_place = vec2(frame_size.x / frame_size.y, 1.0);
   // The photo's own flare stays where it is: nobody knows it. The new one comes as the sun moves.
-  float flaring = lens_flare * first.y * visible_now.r * step(0.0, at.z);
+  float flaring = lens_flare * first.y * visible_now * step(0.0, at.z);
   vec3 flare = flaring * beam_now * GetFlare((place - 0.5) * scale_of_place, (at.xy - 0.5) * scale_of_place);
 
-  result = vec4(glare + shafts + flare, GetLuminance(shafts + flare));
+  result = first.x * vec4(shafts + flare, first.y * relit * old);
 }

@@ -2,6 +2,7 @@
 
 #include "lib/atmosphere.glsl"
 #include "lib/extinction.glsl"
+#include "lib/tint.glsl"
 
 uniform sampler2D air_source;
 uniform sampler2D air_edit;
@@ -24,10 +25,12 @@ vec3 GetAirChange(vec2 place, float log_depth, vec3 light, vec3 gain) {
       source_aerosol_scale_height, source_angstrom_exponent));
   vec3 share_now = 1.0 - exp(-distance * GetExtinction(air_density, aerosol_optical_depth,
       aerosol_scale_height, angstrom_exponent));
-  vec3 before = share_before * texelFetch(air_source, ivec2(column, 0), 0).rgb;
+  vec3 air_before = texelFetch(air_source, ivec2(column, 0), 0).rgb;
+  vec3 air_now = texelFetch(air_edit, ivec2(column, 0), 0).rgb;
+  vec3 before = share_before * air_before;
   vec3 room = light / max(before, vec3(1e-12));
   float believed = min(kLargestShare * min(min(room.r, room.g), room.b), 1.0);
   vec3 taken = gain * (believed * before);
-  vec3 given = believed * (share_now * texelFetch(air_edit, ivec2(column, 0), 0).rgb);
+  vec3 given = believed * (share_now * WithoutLostTint(air_before, air_now));
   return aerial_perspective * mix(given - taken, vec3(0.0), equal(given, taken));
 }

@@ -17,7 +17,7 @@ vec3 GetLandChange(vec3 light, vec3 land_ratio, float mirror, vec3 mirror_ratio,
   vec3 colour = max(land / max(luminance, 1e-9), vec3(1e-4));
   vec3 lost = colour_loss == 1 ? luminance * (pow(colour, vec3(1.0 - term[0].z)) - colour) : term[0].z * (vec3(luminance) - land);
   land = max(land + step(1e-9, abs(term[0].z)) * lost, vec3(0.0));
-  return land_strength * (term[0].x * land - light);
+  return land_strength * (term[0].x * abs(term[0].w) * land - light);
 }
 
 vec3 GetLitBefore(float upright) {

@@ -4,6 +4,7 @@
 #include "lib/described_sky.glsl"
 #include "lib/response.glsl"
 #include "lib/forward_lobe.glsl"
+#include "lib/tint.glsl"
 
 uniform float sky_strength;
 uniform float cloud_strength;
@@ -67,11 +68,9 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec3 sky_be
   float extreme = smoothstep(2.5, 4.0, abs(log2(GetLuminance(ratio) * gain)));
   vec3 relit = sky * ratio;
   relit += extreme * moved * (clean * ratio - relit);
-  // A camera's colours pale in bright light: where the new sun's glow is many times what was there,
-  // a sky that was purer than the model's would make it cyan.
-  float glow = smoothstep(2.0, 3.5, log2(GetLuminance(sky_now) / GetLuminance(sky_before)));
-  vec3 pale = sky_now * (GetLuminance(relit) / GetLuminance(sky_now));
-  relit += glow * (1.0 - opacity) * (pale - relit);
+  float lost = GetLostTint(sky_before, sky_now);
+  vec3 model = WithoutLostTint(sky_before, sky_now);
+  relit += lost * (1.0 - opacity) * (model * (GetLuminance(relit) / GetLuminance(model)) - relit);
   // The new disc, behind clouds; the matte hides it behind land.
   relit += moved * (1.0 - opacity) * (1.0 - opacity) * disc;
   return sky_strength * (gain * relit - light);
