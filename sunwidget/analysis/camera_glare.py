@@ -1,8 +1,9 @@
-"""The camera's own glare round a sun in the frame: measured once, then carried with the sun.
+"""The camera's own glare round a sun in the frame: what is drawn with the sun wherever it is moved.
 
-Bloom and haze in the lens add light of the sun's own colour to the sky, falling off as a Moffat
-profile a / (1 + (angle / b)²)^c (Moffat 1969). It is added, not multiplied: the glow in a deep
-blue sky is white, and a ratio that took it for sky would leave it cyan. Twin: camera_glare.glsl.
+Bloom and haze in the lens add light of the sun's colour, falling off as a Moffat profile
+a / (1 + (angle / b)²)^c (Moffat 1969). It is added, not multiplied: the glow in a deep blue sky is
+white, and a ratio that took it for sky would leave it cyan. A profile is that of a sun of 20 klx on
+the lens, in a picture exposed for it. Twin: camera_glare.glsl.
 """
 
 from __future__ import annotations
@@ -14,19 +15,99 @@ from functools import lru_cache
 
 import numpy as np
 
-from sunwidget.analysis.fit import SkyFit
+from sunwidget.analysis.fit import Response, SkyFit
 from sunwidget.analysis.working import LUMINANCE
 from sunwidget.atmosphere.constants import SPECTRAL_TO_REC709, WAVELENGTHS, solar_irradiance
 from sunwidget.atmosphere.optics import camera_height, transmittance_to_top
 from sunwidget.camera import Camera
 
+Profile = tuple[float, float, float]
+
+# Of cameras that are not known: in units of a picture's width and of the light of its middle grey. With
+# lib/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
+_CORE, _LEVEL, _POWER = 0.02, 23.0, 1.3
+_SUN_RADIUS = 0.2665  # degrees
+_LEAST, _MOST = 0.1, 3.0  # of that, whatever was measured
+_WIDTHS = (0.4, 0.7, 1.1, 1.6, 2.4, 3.6, 5.5)  # degrees
 # The sky shows between clouds and rays: in a ring the darker third is sky and glare alone.
 _CLEAREST = 0.3
-# In units of a picture's width and of the light of its middle grey: with lib/frame_output.glsl's
-# highlights this falls off as the photos' suns do. Lenses scatter as the angle squared.
-_CORE, _LEVEL, _POWER = 0.013, 68.0, 1.3
-SUN_RADIUS = 0.2665  # degrees
-_WIDTHS, _POWERS = (0.5, 1.0, 2.0, 4.0, 7.0, 11.0), (1.0, 1.5, 2.5)
+_REFERENCE, _GROWTH = 20.0, 0.35  # as in camera_glare.glsl
+
+
+def glare_profile(fit: SkyFit, camera: Camera) -> Profile:
+    """Return the glare of a new sun: as the photo's own has it, else as other photos' suns have it.
+
+    Parameters
+    ----------
+    fit : SkyFit
+        With what was measured, if anything was; its response says how bright the picture's white is.
+    camera : Camera
+        Glare is as wide as the picture, and no narrower than the sun's disc.
+    """
+    width = math.degrees(camera.width / camera.focal)
+    core = math.hypot(_CORE * width, _SUN_RADIUS)
+    usual = _LEVEL * float(fit.response.scene_light(np.array(0.5))) * (_CORE * width / core) ** (
+        2 * _POWER
+    )
+    height, own, _ = fit.glare
+    if height <= 0:
+        return usual, core, _POWER
+    # Far out only a b^2c counts. A core that is sharper than the usual would jump along a drag.
+    wide = max(own, core)
+    share = height * (own / core) ** (2 * _POWER) / usual
+    share = min(max(share, _LEAST), _MOST)
+    return share * usual * (core / wide) ** (2 * _POWER), wide, _POWER
+
+
+def measured_glare(
+    excess: np.ndarray, angle: np.ndarray, trusted: np.ndarray, fit: SkyFit
+) -> Profile:
+    """Measure the glare of the sun that a photo shows.
+
+    Parameters
+    ----------
+    excess : (h, w, 3) float32
+        The photo's light over that of its sky without sun and glare, scene-linear.
+    angle : (h, w) float32
+        Degrees from the sun.
+    trusted : (h, w) bool
+        Unclipped sky.
+    fit : SkyFit
+        Its response, air and sun.
+
+    Returns
+    -------
+    tuple of 3 floats
+        For ``SkyFit.glare``; its height is 0 where too little is seen.
+    """
+    light = np.asarray(excess @ LUMINANCE)
+    edges = np.concatenate([np.arange(0, 10, 0.5), np.arange(10, 41, 2.0)])
+    found = []
+    for low, high in itertools.pairwise(edges):
+        ring = trusted & (angle >= low) & (angle < high)
+        if ring.sum() >= 12:
+            found.append(((low + high) / 2, float(np.quantile(light[ring], _CLEAREST))))
+    if len(found) < 5:
+        return 0.0, 3.0, _POWER
+    theta, level = np.array(found).T
+    level = before_roll_off(np.maximum(level, 0), fit.response)
+    # Errors count relative to what is there: near the core a stop is a stop.
+    weight = 1 / (0.1 * float(fit.response.scene_light(np.array(0.5))) + level)
+    best = (math.inf, 0.0, 3.0)
+    for width in _WIDTHS:
+        shape = weight * (1 + (theta / width) ** 2) ** -_POWER
+        height = max(float(shape @ (weight * level)) / float(shape @ shape), 1e-6)
+        best = min(best, (float(np.square(weight * level - height * shape).sum()), height, width))
+    return best[1] / _strength(fit), best[2], _POWER
+
+
+def before_roll_off(light: np.ndarray, response: Response) -> np.ndarray:
+    """Return the light that lib/frame_output.glsl would draw as bright as the photo has ``light``."""
+    knee, burns = 0.5, 1.06
+    w = max(response.shoulder, 1e-4)
+    over = np.clip((response.display_light(light) - knee) / (1 - knee) / burns, 0, 0.9)
+    r = -np.log(1 - w * knee) / w + over / (1 - over) * (1 - knee) / (1 - w * knee)
+    return np.where(over > 0, r ** (1 / response.contrast), light)
 
 
 def with_glare(
@@ -36,60 +117,11 @@ def with_glare(
     angle: np.ndarray,
     trusted: np.ndarray,
 ) -> SkyFit:
-    """Return the fit with the camera's glare round a visible sun.
-
-    Parameters
-    ----------
-    fit : SkyFit
-    luminance, clear : (h, w) float32
-        Luminance of the photo and of the fitted sky without glare, scene-linear.
-    angle : (h, w) float32
-        Degrees from the sun.
-    trusted : (h, w) bool
-        Unclipped sky.
-    """
-    edges = np.concatenate([np.arange(0, 10, 0.5), np.arange(10, 41, 2.0)])
-    centres, levels, skies = [], [], []
-    for low, high in itertools.pairwise(edges):
-        ring = trusted & (angle >= low) & (angle < high)
-        if ring.sum() >= 12:
-            centres.append((low + high) / 2)
-            levels.append(float(np.quantile(luminance[ring] / clear[ring], _CLEAREST)))
-            skies.append(float(np.median(clear[ring])))
-    if len(centres) < 5:
-        return fit
-    theta, level, sky = np.array(centres), np.array(levels), np.array(skies)
-    outer = float(np.median(level[theta >= 0.5 * theta[-1]]))
-    excess = np.clip(level - outer, -0.5, 20)
-    # Errors count relative to what is there: near the core a stop is a stop.
-    weight = 1 / (1 + np.maximum(excess, 0))
-    best = (float(np.square(weight * excess).sum()), 0.0, 3.0, 2.0)
-    for width, power in itertools.product(_WIDTHS, _POWERS):
-        shape = (1 + (theta / width) ** 2) ** -power / sky
-        height = float((weight * shape) @ (weight * excess)) / float(
-            np.square(weight * shape).sum()
-        )
-        height = float(np.clip(height, 0, 30 * sky.max()))
-        cost = float(np.square(weight * (excess - height * shape)).sum())
-        if cost < best[0]:
-            best = (cost, height, width, power)
-    return dataclasses.replace(fit, glare=best[1:])
-
-
-def default_glare(fit: SkyFit, camera: Camera) -> tuple[float, float, float]:
-    """Return the profile of a camera that is not known, as 94 photos of the sun have it.
-
-    Parameters
-    ----------
-    fit : SkyFit
-        Its response says how bright the picture's white is.
-    camera : Camera
-        Glare is as wide as the picture, and no narrower than the sun's disc.
-    """
-    width = math.degrees(camera.width / camera.focal)
-    core = math.hypot(_CORE * width, SUN_RADIUS)
-    middle = float(fit.response.scene_light(np.array(0.5)))
-    return _LEVEL * middle * (_CORE * width / core) ** (2 * _POWER), core, _POWER
+    """Return the fit with the glare that ``luminance`` has over the model's ``clear`` sky."""
+    outer = trusted & (angle >= 0.5 * min(float(angle[trusted].max(initial=0)), 40.0))
+    level = float(np.median(luminance[outer] / clear[outer])) if outer.any() else 1.0
+    excess = (luminance - level * clear)[..., None] * np.ones(3, np.float32)
+    return dataclasses.replace(fit, glare=measured_glare(excess, angle, trusted, fit))
 
 
 def through_glare(clear: np.ndarray, fit: SkyFit, camera: Camera) -> np.ndarray:
@@ -98,7 +130,7 @@ def through_glare(clear: np.ndarray, fit: SkyFit, camera: Camera) -> np.ndarray:
     if height <= 0:
         return clear
     angle = angle_to_sun(camera, (clear.shape[1], clear.shape[0]), fit.sun)
-    veil = height * (1 + (angle / max(width, 0.1)) ** 2) ** -power
+    veil = _strength(fit) * height * (1 + (angle / width) ** 2) ** -power
     return (clear + veil[..., None] * sun_color(fit)).astype(np.float32)
 
 
@@ -108,13 +140,23 @@ def share_of_glare(clear: np.ndarray, model: np.ndarray) -> np.ndarray:
 
 
 def sun_color(fit: SkyFit) -> np.ndarray:
-    """Return the direct sun's colour (3,) in the photo's scene-linear unit, of luminance 1."""
+    """Return the colour (3,) of the sun's glare, of luminance 1: half balanced, as in terms.glsl."""
+    gain = np.array(fit.gain)
+    color = np.sqrt(_beam(fit) * (gain if gain[0] > gain[2] else 1.0))
+    return np.asarray(color / float(color @ LUMINANCE), np.float32)
+
+
+def _beam(fit: SkyFit) -> np.ndarray:
+    """Light of the photo's own sun (3,) on the lens, klx."""
     air = fit.atmosphere
     through = transmittance_to_top(air, camera_height(air), np.sin(np.radians(fit.sun[1])))
     matrix = np.asarray(SPECTRAL_TO_REC709).reshape(3, 4)
     light = matrix @ (solar_irradiance(WAVELENGTHS) * np.asarray(through).reshape(4))
-    color = np.maximum(light, 1e-9) * np.array(fit.gain)
-    return np.asarray(color / float(color @ LUMINANCE), np.float32)
+    return np.asarray(np.maximum(light, 1e-9))
+
+
+def _strength(fit: SkyFit) -> float:
+    return float(max(_beam(fit) @ LUMINANCE, 0.1) / _REFERENCE) ** _GROWTH
 
 
 @lru_cache(maxsize=4)

@@ -92,9 +92,11 @@ class Film:
 
     def fit(self, number: int, sun: Direction, log_gain: np.ndarray) -> SkyFit:
         """Return the fit of a frame with its sun and gain."""
-        at = [key.number for key in self.keys]
+        # Frames without their sun know nothing of its glare.
+        known = [key for key in self.keys if key.fit.glare[0] > 0] or list(self.keys)
+        at = [key.number for key in known]
         height, width, power = (
-            float(np.interp(number, at, [key.fit.glare[i] for key in self.keys])) for i in range(3)
+            float(np.interp(number, at, [key.fit.glare[i] for key in known])) for i in range(3)
         )
         red, green, blue = (float(gain) for gain in np.exp(log_gain))
         return SkyFit(

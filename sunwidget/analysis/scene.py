@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from sunwidget.analysis import depth_level, match, refine
-from sunwidget.analysis.camera_glare import default_glare
+from sunwidget.analysis.camera_glare import glare_profile
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.enlarge import resize_rows
@@ -300,10 +300,8 @@ class Scene:
         } | self.response | self._glare_profile()
 
     def _glare_profile(self) -> dict[str, tuple[float, float, float]]:
-        fit = self.fitted
-        if fit is None or self.response.get("glare_profile", (0.0,))[0] > 0:
-            return {}
-        return {"glare_profile": default_glare(fit, self.camera)}
+        # Only a scene that is still being made has no fit.
+        return {} if self.fitted is None else {"glare_profile": glare_profile(self.fitted, self.camera)}
 
     def _water_roughness(self) -> float:
         if self.sun is None or not self.sun.visible:
