@@ -1,8 +1,8 @@
 """The photo without its sun: the light behind disc, halo, veil and rays, by the network.
 
 The network says by how much light is to fall, at low resolution (sun_network.py). Where that is
-little, the photo's own detail stays and is darkened; where the glare hides the sky, what the
-network sees behind it stands alone.
+little, the photo's own detail stays and is darkened; where the glare hides the sky, the sky goes on
+from around it.
 """
 
 from __future__ import annotations
@@ -15,10 +15,13 @@ import numpy as np
 from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.sun import SunObservation
 from sunwidget.analysis.sun_network import LIGHT_FLOOR, SunMaps
-from sunwidget.analysis.working import Working, encode, resize, smoothstep
+from sunwidget.analysis.working import LUMINANCE, Working, encode, resize, smoothstep
 
-_FELT = (0.03, 0.12)  # natural log of light: less glare is none, more is taken away in full
-_HIDES = (0.3, 0.9)  # glare under which the photo keeps all of its detail, and none
+# Natural logarithms of light by which the network's glare exceeds the sky.
+_FELT = (0.03, 0.12)  # less is none, more is taken away in full
+_COLOURS = (0.06, 0.3)  # less leaves the sky its colour, more hides it
+_HIDES = (0.3, 0.9)  # less leaves the sky its clouds, more hides them
+_REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow is the sky's
 
 
 class Erased(NamedTuple):
@@ -41,37 +44,77 @@ def unerased(working: Working) -> Erased:
     return Erased(working, np.zeros((working.height, working.width), np.float32))
 
 
-def erase(working: Working, maps: SunMaps, light: SunObservation) -> Erased:
+def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation) -> Erased:
     """Take the sun, its halo and its rays out of a photo's small copy.
 
-    A moon, and a sun that only a person sees, the network leaves where it is: what is round it
-    is continued across ``light``, its pixels.
+    Parameters
+    ----------
+    working : Working
+    maps : SunMaps
+    sky : (h, w) float32
+        Sky matte at its size.
+    light : SunObservation
+        The sun or moon that the photo shows.
     """
     import cv2
 
     size = working.width, working.height
-    small = resize(working.linear, *maps.clean.shape[1::-1])
-    # What little glare leaves is sure; across much of it the sky goes on from around.
-    sure = 1 - smoothstep(*_HIDES, -maps.clean.min(-1)).astype(np.float32)
-    behind = fill_by_pyramid(np.log(small + LIGHT_FLOOR) + maps.clean, sure)
-    glare = cv2.resize(-maps.clean, size, interpolation=cv2.INTER_LINEAR)
+    rows, columns = maps.clean.shape[:2]
+    small_sky = resize(sky, columns, rows)
+    seen = np.log(resize(working.linear, columns, rows) + LIGHT_FLOOR)
+    glare = _risen(maps, small_sky, light)
     felt = glare.max(-1)
-    mark = smoothstep(*_FELT, felt).astype(np.float32)
-    alone = np.exp(cv2.resize(behind, size, interpolation=cv2.INTER_CUBIC)) - LIGHT_FLOOR
-    darkened = (working.linear + LIGHT_FLOOR) * np.exp(-glare) - LIGHT_FLOOR
+    blot = resize(light.blot, columns, rows)
+    if float((blot * felt).sum()) < _HIDES[0] * float(blot.sum()):
+        # A moon, and a sun that only a person sees, the network leaves where it is.
+        felt = np.maximum(felt, _round_about(blot))
+    known = (1 - smoothstep(*_COLOURS, felt)) * smoothstep(0.8, 1.0, small_sky)
+    behind = _continued(seen - glare, known.astype(np.float32))
+    clouds = (seen - glare - behind) @ LUMINANCE * (1 - smoothstep(*_HIDES, felt))
+    behind = behind + clouds[..., None]
+
+    def enlarged(values: np.ndarray) -> np.ndarray:
+        return cv2.resize(values.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
+
     # A rim is steeper than the network's map: it is left to what lies behind, too.
-    near = cv2.dilate(felt, np.ones((3, 3), np.uint8), iterations=max(1, size[0] // 160))
-    keep = (1 - smoothstep(*_HIDES, near))[..., None]
-    clean = np.maximum(alone + keep * (darkened - alone), 0)
-    linear = working.linear + mark[..., None] * (clean - working.linear)
-    blot = resize(light.blot, *size)
-    if float((blot * mark).sum()) < 0.5 * float(blot.sum()):
-        cover = _round_about(blot)
-        filled = fill_by_pyramid(np.log(linear + LIGHT_FLOOR), 1 - np.sqrt(cover))
-        linear += cover[..., None] * (np.exp(filled) - LIGHT_FLOOR - linear)
-        mark = np.maximum(mark, cover)
-    linear = np.maximum(linear, 0).astype(np.float32)
+    wide = cv2.dilate(felt.astype(np.float32), np.ones((3, 3), np.uint8))
+    keep = enlarged(1 - smoothstep(*_HIDES, wide))[..., None]
+    there = np.log(working.linear + LIGHT_FLOOR)
+    clean = np.exp(enlarged(behind) + keep * (there - enlarged(seen))) - LIGHT_FLOOR
+    near_sky = cv2.dilate(small_sky, np.ones((3, 3), np.uint8))
+    mark = enlarged(smoothstep(*_FELT, felt) * smoothstep(0.0, 0.5, near_sky))
+    linear = np.maximum(working.linear + mark[..., None] * (clean - working.linear), 0)
+    linear = linear.astype(np.float32)
     return Erased(dataclasses.replace(working, linear=linear, encoded=encode(linear)), mark)
+
+
+def _risen(maps: SunMaps, sky: np.ndarray, light: SunObservation) -> np.ndarray:
+    """Return by how much the glare exceeds the glow farther out, (h, w, 3), log of light.
+
+    How much of a wide glow is the sky's own no picture tells, and the fitted sky has one.
+    """
+    rows, columns = sky.shape
+    width, height = light.size
+    away = np.hypot(
+        (np.arange(columns) + 0.5) / columns - light.x / width,
+        ((np.arange(rows)[:, None] + 0.5) / rows - light.y / height) * height / width,
+    )
+    reach = _REACH + _REACH_OF_DISC * light.radius_px / width
+    beyond = smoothstep(0.7 * reach, reach, away) * np.maximum(sky, 1e-3)
+    wide = fill_by_pyramid(maps.clean, beyond.astype(np.float32))
+    return np.maximum(wide - maps.clean, 0) * (1 - smoothstep(0.8 * reach, reach, away))[..., None]
+
+
+def _continued(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Continue a sky (h, w, 3) over what is not known: row by row first, as skies are layered."""
+    known = weight.sum(1)
+    rows = np.flatnonzero(known > 0.02 * weight.shape[1])
+    if not rows.size:
+        return fill_by_pyramid(values.astype(np.float32), weight)
+    means = (values * weight[..., None]).sum(1)[rows] / known[rows, None]
+    every = np.arange(len(known))
+    layers = np.stack([np.interp(every, rows, mean) for mean in means.T], -1)[:, None]
+    return layers + fill_by_pyramid((values - layers).astype(np.float32), weight)
 
 
 def _round_about(blot: np.ndarray) -> np.ndarray:

@@ -251,7 +251,7 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
     size = _size_of(working)
     sky = np.asarray(resize(shared.sky, *size), np.float32)
     seen = observation(fit.sun, working, sky, shared.camera, shared.hints, source)
-    erased = erased_for(working, look_for_sun(working), seen)
+    erased = erased_for(working, look_for_sun(working), sky, seen)
     mask = seen.blot if seen.visible else None
     covers = clouds_by_colour(erased.working, sky, shared.hints, mask)
     behind = behind_sun(erased, sky, shared.camera, fit)

@@ -151,7 +151,7 @@ def complete(
         blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
         light = sun_stage.observe(seed, blot, sky, camera, working)
 
-    erased = erased_for(working, maps, light)
+    erased = erased_for(working, maps, sky, light)
 
     step("clouds", 0.81, "Finding clouds")
     covers = clouds_by_colour(erased.working, sky, hints, None if blot is None else blot.mask)
@@ -227,11 +227,13 @@ def _lens_unknown(photo: Photo, hints: Hints) -> bool:
     return hints.fov is None and photo.field_of_view.source == "assumed"
 
 
-def erased_for(working: Working, maps: SunMaps, light: SunObservation | None) -> Erased:
+def erased_for(
+    working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation | None
+) -> Erased:
     """Return the photo without the sun or moon that it shows; as it is where it shows none."""
     if light is None or not light.visible:
         return unerased(working)
-    return erase(working, maps, light)
+    return erase(working, maps, sky, light)
 
 
 def _horizon(working: Working, sky: np.ndarray, hints: Hints, width: int) -> Horizon:

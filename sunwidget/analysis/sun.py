@@ -233,7 +233,7 @@ def observe(
             mask, radius = blot.mask, blot.radius * zoom_y
     azimuth, elevation = camera.angles(x * zoom_x, y * zoom_y)
     source = "detected" if seed is None else "hint"
-    dark = visible and night(working.encoded @ LUMINANCE, sky)
+    dark = visible and peak is None and night(working.encoded @ LUMINANCE, sky)
     return SunObservation(
         x * zoom_x,
         y * zoom_y,

@@ -12,6 +12,7 @@ from sunwidget.analysis.working import LUMINANCE, Working
 
 RADIUS_DEG = 0.2665  # apparent radius of the sun's disc, and of the moon's
 LEAST_CONFIDENCE = 0.4  # of the network, from which a sun is one
+SURE = 0.6  # the same where the sky is as dark as a night's
 _NIGHT = 0.5  # a sun lights a tenth of its sky to more than this encoded luminance, a moon does not
 
 
@@ -55,11 +56,10 @@ def peak_of(maps: SunMaps, working: Working) -> Peak:
 
 
 def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:
-    """Return the sun that the photo shows, or None: at night a bright disc is the moon."""
+    """Return the sun that the photo shows, or None; a dark sky's disc is rather the moon."""
     peak = peak_of(maps, working)
-    if peak.confidence < LEAST_CONFIDENCE or night(working.encoded @ LUMINANCE, sky):
-        return None
-    return peak
+    dark = night(working.encoded @ LUMINANCE, sky)
+    return peak if peak.confidence >= (SURE if dark else LEAST_CONFIDENCE) else None
 
 
 def night(luminance: np.ndarray, sky: np.ndarray) -> bool:

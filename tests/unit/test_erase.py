@@ -29,6 +29,10 @@ def light(blot):
     return SunObservation(80.0, 40.0, 6.0, 0.0, 20.0, blot, SIZE, True, "detected")
 
 
+def sky():
+    return np.ones(SIZE[::-1], np.float32)
+
+
 def blot():
     rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
     return (np.hypot(columns - 80, rows - 40) < 6).astype(np.float32)
@@ -42,7 +46,7 @@ def test_a_photo_without_a_sun_stays_the_same_object():
 
 def test_little_glare_is_taken_from_the_light_and_leaves_the_detail():
     working = picture()
-    erased = erase(working, maps(np.full((*SMALL, 3), -0.2)), light(blot()))
+    erased = erase(working, maps(np.full((*SMALL, 3), -0.2)), sky(), light(blot()))
     assert erased.mark.min() == pytest.approx(1)
     expected = (working.linear + LIGHT_FLOOR) * np.exp(-0.2) - LIGHT_FLOOR
     assert np.allclose(erased.working.linear, expected, atol=1e-4)
@@ -52,7 +56,7 @@ def test_where_nothing_is_said_to_be_glare_the_photo_stays_to_the_bit():
     working = picture()
     clean = np.zeros((*SMALL, 3))
     clean[:16, :] = -1.0
-    erased = erase(working, maps(clean), light(blot()))
+    erased = erase(working, maps(clean), sky(), light(blot()))
     below = slice(80, None)
     assert np.array_equal(erased.working.linear[below], working.linear[below])
     assert erased.mark[below].max() == 0
@@ -66,7 +70,7 @@ def test_a_core_is_filled_from_around_it():
     clean = np.zeros((*SMALL, 3))
     clean[5:16, 14:27] = -1.5  # over the core and a little beyond, too strong there
     clean[7:13, 17:24] = -3.0
-    filled = erase(working, maps(clean), light(blot())).working.encoded[40, 80]
+    filled = erase(working, maps(clean), sky(), light(blot())).working.encoded[40, 80]
     assert np.abs(filled - 80 / 255).max() < 0.25
     assert filled.min() > 0.05
 
@@ -75,7 +79,7 @@ def test_a_sun_that_only_a_person_sees_is_covered_by_its_surroundings():
     code = np.full((SIZE[1], SIZE[0], 3), 80, np.uint8)
     code[blot() > 0] = 255
     working = Working.of(open_photo(code))
-    erased = erase(working, maps(np.zeros((*SMALL, 3))), light(blot()))
+    erased = erase(working, maps(np.zeros((*SMALL, 3))), sky(), light(blot()))
     assert erased.mark[40, 80] == pytest.approx(1)
     assert np.abs(erased.working.encoded[40, 80] - 80 / 255).max() < 0.02
     assert erased.mark[100, 20] == 0
