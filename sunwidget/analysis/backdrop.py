@@ -19,8 +19,8 @@ from sunwidget.analysis.working import resize, smoothstep
 from sunwidget.camera import Camera
 from sunwidget.layout import size_within
 
-RANGE = 2.0
-"""The stored field spans ±2 in natural logarithm: a seventh to seven times the model."""
+RANGE = 3.0
+"""The stored field spans ±3 in natural logarithm: a twentieth to twenty times the model."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -46,8 +46,10 @@ def glare_profile(fit: SkyFit, camera: Camera) -> Profile:
     """
     width = math.degrees(camera.width / camera.focal)
     core = math.hypot(_CORE * width, _SUN_RADIUS)
-    usual = _LEVEL * float(fit.response.scene_light(np.array(0.5))) * (_CORE * width / core) ** (
-        2 * _POWER
+    usual = (
+        _LEVEL
+        * float(fit.response.scene_light(np.array(0.5)))
+        * (_CORE * width / core) ** (2 * _POWER)
     )
     height, own, _ = fit.glare
     if height <= 0:

@@ -107,12 +107,15 @@ def _risen(maps: SunMaps, sky: np.ndarray, light: SunObservation) -> np.ndarray:
 
 def _continued(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """Continue a sky (h, w, 3) over what is not known: row by row first, as skies are layered."""
+    import cv2
+
     known = weight.sum(1)
     rows = np.flatnonzero(known > 0.02 * weight.shape[1])
     if not rows.size:
         return fill_by_pyramid(values.astype(np.float32), weight)
     means = (values * weight[..., None]).sum(1)[rows] / known[rows, None]
     every = np.arange(len(known))
+    means = cv2.GaussianBlur(means, (0, 0), sigmaX=1e-3, sigmaY=2.0) if len(rows) > 1 else means
     layers = np.stack([np.interp(every, rows, mean) for mean in means.T], -1)[:, None]
     return layers + fill_by_pyramid((values - layers).astype(np.float32), weight)
 

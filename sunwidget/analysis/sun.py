@@ -34,6 +34,7 @@ __all__ = [
 ]
 
 _SHARP = 0.6  # of the network, from which a core is a disc with a limb
+_LIMB_STEP = 0.15  # encoded luminance between the two sides of a limb
 _LEAST_LIMB = 6.0  # working pixels of radius
 TOLERANCE = 0.03  # M of Algorithm 1: encoded luminance around the seed's
 
@@ -178,6 +179,12 @@ def field_of_view_of(blot: Blot, peak: Peak, working: Working, assumed: float) -
     area = float(blot.mask.sum())
     if peak.sharpness < _SHARP or blot.radius < _LEAST_LIMB or peak.confidence < 0.5:
         return None
+    y, x = np.mgrid[: working.height, : working.width] + 0.5
+    away = np.hypot(x - blot.x, y - blot.y) / blot.radius
+    luminance = working.encoded @ LUMINANCE
+    inside, outside = (away > 0.7) & (away < 0.9), (away > 1.15) & (away < 1.35)
+    if float(np.median(luminance[inside]) - np.median(luminance[outside])) < _LIMB_STEP:
+        return None
     if area > 1.4 * math.pi * blot.radius**2:
         return None
     focal = blot.radius / math.tan(math.radians(RADIUS_DEG))
@@ -198,6 +205,9 @@ def in_sky(blot: Blot, sky: np.ndarray, least: float = 0.6) -> np.ndarray:
     ring = cv2.dilate(blot.mask, np.ones((3 * reach, 3 * reach), np.uint8)) - blot.mask
     if ring.sum() < 1 or float((ring * sky).sum() / ring.sum()) < least:
         return np.zeros_like(sky)
+    # A setting sun is cut by what lies below the sky.
+    below = np.arange(sky.shape[0]) > np.nonzero(((ring > 0) & (sky > 0.5)).any(1))[0].max()
+    blot = blot._replace(mask=np.where(below[:, None], 0, blot.mask).astype(np.float32))
     grown = cv2.dilate(blot.mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
     return np.clip(cv2.GaussianBlur(grown, (0, 0), reach / 6), 0, 1).astype(np.float32)
 
