@@ -74,6 +74,8 @@ class SunTrack:
 
 def seen_sun(working: Working, sky: np.ndarray, camera: Camera, hints: Hints) -> Direction | None:
     """Return the direction of the sun that a frame shows; None when it shows none."""
+    if hints.sun_outside:
+        return None
     focal = camera.focal / working.zoom[1]
     blot = sun_blot(working, sky, None, focal, hints.method("sun"))
     sun = observe(None, blot, sky, camera, working)

@@ -110,8 +110,11 @@ def complete(
     camera = Camera(*photo.size, hints.fov or photo.field_of_view.vertical)
 
     step("sun", 0.7, "Looking for the sun")
-    seed = hints.sun and (hints.sun[0] / zoom_x, hints.sun[1] / zoom_y)
-    blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
+    told = hints.sun_point
+    seed = told and (told[0] / zoom_x, told[1] / zoom_y)
+    blot = None
+    if not hints.sun_outside:
+        blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
     if blot is not None and ours:
         # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
         disc = sun_stage.in_sky(blot, sky)

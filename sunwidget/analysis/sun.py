@@ -58,6 +58,8 @@ class SunObservation:
     kind : str
         "sun"; or "moon", when a person pointed at a disc in a night sky. A moon that is found
         is ``Scene.moon`` instead.
+    confidence : float
+        How likely it is the sun, [0, 1]: 1 when a person said so, and where nothing measures it.
     """
 
     x: float
@@ -70,6 +72,7 @@ class SunObservation:
     visible: bool
     source: str
     kind: str = "sun"
+    confidence: float = 1.0
 
     @property
     def mask(self) -> np.ndarray:
