@@ -1,6 +1,6 @@
 /** Which notes stand under the picture, and what each offers to do. */
 
-import { assumedText, doubtText, LIKELY } from "./sun_words.js";
+import { assumedText, DOUBTED, doubtText } from "./sun_words.js";
 
 /**
  * @typedef {"pick" | "not_sun" | "take_back" | "moon_is_sun" | "horizon" | "paint" | "leave"} NoteAction
@@ -39,7 +39,7 @@ const PICKING = {
  */
 export function notesOf({ notes, sun }, now) {
   const rows = [...notes];
-  if (sun.source === "found" && sun.confidence < LIKELY) {
+  if (sun.source === "found" && sun.confidence < DOUBTED) {
     rows.unshift({ about: "doubtful_sun", text: doubtText(sun) });
   }
   // What is being said anew is not worth reading.
