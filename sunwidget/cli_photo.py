@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from sunwidget.cli_ending import one_line
+from sunwidget.edit import OUTSIDE
 from sunwidget.time_left import with_time_left
 
 _HINTS = ("sun", "horizon", "fov", "sky", "sky_label")
@@ -21,7 +22,12 @@ def add_photo(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("photo", help="picture file, or sample:NAME for a bundled one")
     parser.add_argument("--overwrite", action="store_true", help="replace existing files")
     hints = parser.add_argument_group("hints (win over detection)")
-    hints.add_argument("--sun", type=_numbers(2), metavar="X,Y", help="the photo's sun, in pixels")
+    hints.add_argument(
+        "--sun",
+        type=_sun,
+        metavar="X,Y",
+        help="the photo's sun, in pixels; outside, when nothing in the picture is the sun",
+    )
     hints.add_argument(
         "--horizon",
         type=_numbers(1, 4),
@@ -97,6 +103,10 @@ def _numbers(*counts: int) -> Callable[[str], tuple[float, ...]]:
         return values
 
     return parse
+
+
+def _sun(text: str) -> tuple[float, ...] | str:
+    return text if text == OUTSIDE else _numbers(2)(text)
 
 
 def opened(name: str) -> Any:

@@ -27,8 +27,11 @@ COLOUR_LOSSES = ("luminance", "power")
 CLOUD_METHODS = ("analysed", "rb_ratio", "rb_difference", "saturation", "learned", "unmix")
 StrokeLabel = Literal["sky", "not_sky", "water", "not_water"]
 STROKE_LABELS: tuple[StrokeLabel, ...] = ("sky", "not_sky", "water", "not_water")
+OUTSIDE: Literal["outside"] = "outside"
+"""Said of the photo's sun when nothing in the picture is it."""
 
 Point = tuple[float, float]
+SunHint = Point | Literal["outside"]
 
 
 class EditError(ValueError):
@@ -293,8 +296,9 @@ class Edit:
         "B_fp of eq. 3.12.", advanced=True)
     strokes: tuple[Stroke, ...] = _data((), "Strokes",
         "Sky, not-sky, water and not-water strokes, replayed in order.")
-    sun_hint: Point | None = _data(None, "Sun in the photo",
-        "Where the person says the photo's own sun is, in fractions of width and height.")
+    sun_hint: SunHint | None = _data(None, "Sun in the photo",
+        "Where the person says the photo's own sun is, in fractions of width and height; outside "
+        "when nothing in the picture is the sun.")
     horizon_hint: tuple[Point, Point] | None = _data(None, "Horizon in the photo",
         "Two points of the horizon that the person set, in fractions of width and height.")
     fov_hint: float | None = _data(None, "Vertical field of view",
@@ -498,7 +502,7 @@ def checked(p: Parameter, value: Any) -> Any:
     if p.name == "place":
         return _check_place(value)
     if p.name == "sun_hint":
-        return _check_point(p.name, value)
+        return _check_sun_hint(p.name, value)
     points = _check_points(p.name, value)
     if len(points) != 2 or points[0][0] == points[1][0]:
         raise EditError(f"{p.name} needs two points with different x, not {shown(value)}.")
@@ -524,6 +528,14 @@ def _check_point(name: str, value: Any) -> Point:
         _check_number(f"{name} x", value[0], -10, 10),
         _check_number(f"{name} y", value[1], -10, 10),
     )
+
+
+def _check_sun_hint(name: str, value: Any) -> SunHint:
+    if isinstance(value, str) and value == OUTSIDE:
+        return OUTSIDE
+    if isinstance(value, (tuple, list)) and len(value) == 2:
+        return _check_point(name, value)
+    raise EditError(f"{name} must be a pair (x, y) or {OUTSIDE!r}, not {shown(value)}.")
 
 
 def _check_points(name: str, value: Any) -> tuple[Point, ...]:

@@ -27,9 +27,9 @@ from .effort import Effort
 from .march import march
 from .passes import Passes
 from .pictures import analysed
-from .rows import Row, Rows
+from .rows import Row, Rows, of_times
 from .thesis import look_up
-from .timing import Times, clock, in_turn
+from .timing import Times, clock, in_turn, ratio
 
 KEYS = ("march as a shader", "march in NumPy")
 ELEVATION = 8.0  # of the sun where radiances are compared, degrees

@@ -36,7 +36,7 @@ export interface Scene {
   camera: { fov_vertical_deg: number; pitch: number; roll: number };
   automatic: Record<string, number>;
   uniforms: Record<string, number | number[]>;
-  sun: { x: number; y: number; visible: boolean } | null;
+  sun: PhotoSun;
   horizon: {
     row: number;
     roll: number;
@@ -49,7 +49,23 @@ export interface Scene {
   whiteness: { method: string; reach: number; shares: number[] };
   /** Times of day, with what each sets in this photo. */
   presets: import("./controls/chips.js").Preset[];
-  warnings: string[];
+  notes: { about: string; text: string }[];
+}
+
+/** The photo's own sun. */
+export interface PhotoSun {
+  /** A person told where it is, or that nothing in the picture is it ("outside"). */
+  source: "found" | "told" | "outside" | "unseen";
+  /** In fractions of the picture; null where its place is only assumed. */
+  at: Point | null;
+  visible: boolean;
+  /** Degrees, of the assumed one where there is no other. */
+  azimuth: number;
+  elevation: number;
+  /** How likely it is, or is there, 0–1; 1 where nothing measured it. */
+  confidence: number;
+  /** What lights a night in its stead, in fractions of the picture. */
+  moon: Point | null;
 }
 
 /** One row of the kernel's table of inspectable maps (`sunwidget/analysis/maps.py`). */

@@ -53,11 +53,18 @@ const TEXT = [
   ["note-text", ["note-back"]],
   ["solid-text", ["solid"]],
   ["good", ["panel", "field"]],
-  ["stage-text", ["surround", ["stage-hover", "surround"]]],
+  ["stage-text", ["surround", ["stage-hover", "surround"], ["stage-press", "surround"]]],
   ["stage-quiet", ["surround", ["stage-hover", "surround"]]],
   ["stage-accent", ["surround"]],
   ["stage-note", ["surround"]],
-  ["plate-text", [["plate", "mark"]]],
+  [
+    "plate-text",
+    [
+      ["plate", "mark"],
+      ["stage-hover", "plate", "mark"],
+      ["stage-press", "plate", "mark"],
+    ],
+  ],
 ];
 const SIGNS = [
   ["accent", ["panel", "track"]],

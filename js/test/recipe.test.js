@@ -48,6 +48,20 @@ test("a recipe comes back from both its texts to the last bit", () => {
   }
 });
 
+test("the sun's hint is a place or outside", () => {
+  for (const [hint, taken] of [
+    ["outside", true],
+    ["inside", false],
+    [["outside"], false],
+    [[0.5, -2], true],
+  ]) {
+    const { problems } = checkRecipe(parameters, { sun_hint: hint });
+    assert.equal(problems.length === 0, taken, JSON.stringify(hint));
+  }
+  const recipe = { sun_hint: "outside" };
+  assert.deepEqual(readRecipe(toPython(recipe)), recipe);
+});
+
 test("Python is read as people and Edit.to_code write it", () => {
   const text = `
 # an evening

@@ -13,8 +13,8 @@ from sunwidget.analysis.hints import (
     Hints,
     check_fov,
     check_horizon,
-    check_point,
     check_strokes,
+    check_sun,
 )
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.plausible import plausible
@@ -24,7 +24,7 @@ from sunwidget.analysis.stages import METHODS, Steps, check_method, complete
 from sunwidget.analysis.working import Working
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.camera import Camera, Point
-from sunwidget.edit import Stroke
+from sunwidget.edit import Stroke, SunHint
 from sunwidget.photo import open_photo
 from sunwidget.time_left import Progress
 
@@ -32,7 +32,7 @@ from sunwidget.time_left import Progress
 def analyze(
     photo: Any,
     *,
-    sun: Point | None = None,
+    sun: SunHint | None = None,
     horizon: float | tuple[Point, Point] | None = None,
     fov: float | None = None,
     sky: Any = None,
@@ -51,9 +51,10 @@ def analyze(
     Parameters
     ----------
     photo : Photo or anything that ``sunwidget.open`` takes
-    sun : (x, y), optional
-        Where the photo's own sun is, in pixels; may lie outside the picture. Default: what
-        the photo itself knows (``Photo.sun``), else looked for.
+    sun : (x, y) or "outside", optional
+        Where the photo's own sun is, in pixels; may lie outside the picture. "outside": nothing
+        in the picture is the sun, and where it stands is not known. Default: what the photo
+        itself knows (``Photo.sun``), else looked for.
     horizon : float or ((x0, y0), (x1, y1)), optional
         Row of the horizon at the picture's centre, or two of its points, in pixels.
     fov : float, optional
@@ -102,7 +103,7 @@ def analyze(
     if progress is not None and not callable(progress):
         raise AnalysisError(f"progress must be a function, not {progress!r:.80}.")
     hints = Hints(
-        check_point("sun", sun),
+        check_sun(sun),
         check_horizon(horizon),
         check_fov(fov),
         methods=tuple(methods.items()),

@@ -75,6 +75,8 @@ class SunTrack:
 
 def seen_sun(working: Working, sky: np.ndarray, camera: Camera, hints: Hints) -> Direction | None:
     """Return the direction of the sun that a frame shows; None when it shows none."""
+    if hints.sun_outside:
+        return None
     focal = camera.focal / working.zoom[1]
     peak = find(working, look_for_sun(working), sky)
     blot = sun_blot(working, sky, peak, focal, hints.method("sun"))

@@ -10,7 +10,7 @@ import numpy as np
 from sunwidget.analysis.depth_network import DepthNetwork
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.camera import Point
-from sunwidget.edit import Stroke, parameter
+from sunwidget.edit import OUTSIDE, Stroke, SunHint, parameter
 
 FARTHEST = 1e7
 """Pixels from the corner of the photo to the farthest hint: beyond, a camera has no direction."""
@@ -21,12 +21,13 @@ _APART = 1e-3  # pixels: two points of the horizon that lie nearer together have
 class Hints:
     """What a person says about the photo; a hint wins over detection.
 
-    Points are pixels of the photo. ``methods`` names the method of each stage; ``cloud_ratios``
-    are m_min and m_max of the clouds; ``water`` is a given map (h, w) in [0, 1] of any size;
-    ``depth`` a given map (h, w) in metres, or a network.
+    Points are pixels of the photo; ``sun`` is "outside" when nothing in the picture is it.
+    ``methods`` names the method of each stage; ``cloud_ratios`` are m_min and m_max of the clouds;
+    ``water`` is a given map (h, w) in [0, 1] of any size; ``depth`` a given map (h, w) in metres,
+    or a network.
     """
 
-    sun: Point | None = None
+    sun: SunHint | None = None
     horizon: float | tuple[Point, Point] | None = None
     fov: float | None = None
     strokes: tuple[Stroke, ...] = ()
@@ -41,6 +42,16 @@ class Hints:
     def method(self, stage: str) -> str:
         """Name of the stage's method."""
         return dict(self.methods)[stage]
+
+    @property
+    def sun_outside(self) -> bool:
+        """Whether nothing in the picture is the sun."""
+        return self.sun == OUTSIDE
+
+    @property
+    def sun_point(self) -> Point | None:
+        """Where the sun is said to be; None when nobody says a place."""
+        return self.sun if isinstance(self.sun, tuple) else None
 
 
 def check_point(name: str, value: Any) -> Point | None:
@@ -58,6 +69,18 @@ def check_point(name: str, value: Any) -> Point | None:
             f"{name} must be finite pixels, at most {FARTHEST:g} away, not {value!r:.80}."
         )
     return x, y
+
+
+def check_sun(value: Any) -> SunHint | None:
+    """Return a point (x, y) in pixels or "outside"; AnalysisError when it is neither."""
+    if not isinstance(value, str):
+        return check_point("sun", value)
+    if value != OUTSIDE:
+        raise AnalysisError(
+            f"sun must be a pair (x, y) of pixels, or {OUTSIDE!r} when the photo does not show it, "
+            f"not {value!r:.80}."
+        )
+    return OUTSIDE
 
 
 def check_horizon(value: Any) -> float | tuple[Point, Point] | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Self
+
 import numpy as np
 
 from sunwidget.analysis import sun as sun_stage
@@ -16,6 +18,29 @@ UNSURE = 0.3  # confidence of the fit below which a person should know
 NO_SKY = 0.005  # share of the picture below which the photo counts as without sky
 
 
+class Notice(str):
+    """What a person should know, in Python's words: a text that also names what it is about.
+
+    Parameters
+    ----------
+    text : str
+    about : str
+        What to do about it is known by this name, e.g. "horizon".
+    plain : str
+        The same for an editor, which has tools where Python has arguments.
+    """
+
+    __slots__ = ("about", "plain")
+    about: str
+    plain: str
+
+    def __new__(cls, text: str, about: str = "", plain: str = "") -> Self:
+        """Make a text with its subject; without ``plain`` both say the same."""
+        notice = super().__new__(cls, text)
+        notice.about, notice.plain = about, plain or text
+        return notice
+
+
 def notices(
     photo: Photo,
     sky: np.ndarray,
@@ -26,88 +51,154 @@ def notices(
     doubted: float = 0.0,
     moon: Point | None = None,
     fit: SkyFit | None = None,
-) -> tuple[str, ...]:
-    """Return one sentence for each doubt.
+) -> tuple[Notice, ...]:
+    """Return one notice for each doubt.
 
     ``sky`` is the matte at working size, ``doubted`` the share of the picture that was dropped
     from the sky as unlikely (plausible.py), ``moon`` where one was found, in fractions of the
     picture, ``fit`` what was fitted to the sky.
     """
-    notes = []
     share = float(np.mean(sky > 0.5))
-    if share < NO_SKY and doubted > NO_SKY:
+    notes = [
+        _about_sky(photo, share, doubted),
+        _about_sun(photo, sun, camera, hints, moon, fit),
+        _about_air(photo, share, sun, fit),
+        _about_horizon(photo, sky, horizon, camera),
+    ]
+    if hints.fov is None and photo.field_of_view.source == "assumed":
+        degrees = f"{camera.fov_vertical_deg:.3g}°"
+        assumed = camera.fov_vertical_deg == photo.field_of_view.vertical
+        how = "is assumed" if assumed else "follows from the size of the sun's disc"
         notes.append(
+            Notice(
+                f"{photo.name} names no focal length: {degrees} vertical field of view {how}. "
+                "Pass fov= in degrees.",
+                "field_of_view",
+                f"The photo does not say how wide its lens sees: {degrees} from top to bottom "
+                f"{how}.",
+            )
+        )
+    return tuple(note for note in notes if note is not None)
+
+
+def _about_sky(photo: Photo, share: float, doubted: float) -> Notice | None:
+    if share < NO_SKY and doubted > NO_SKY:
+        return Notice(
             f"No sky found in {photo.name}: what looked a little like it ({100 * doubted:.0f} % of "
             "pixels) is rather a wall or ceiling. If it is sky, draw a sky stroke or pass "
-            "sky='network', which is not doubted."
+            "sky='network', which is not doubted.",
+            "sky",
+            "No sky was found: what looked a little like it is rather a wall or ceiling. If it is "
+            "sky, paint over it.",
         )
-    elif doubted > NO_SKY:
-        notes.append(
+    if doubted > NO_SKY:
+        return Notice(
             f"A patch of {photo.name} that looks like sky ({100 * doubted:.1f} % of pixels) was "
-            "left out as unlikely. Draw a sky stroke over it if it is sky."
+            "left out as unlikely. Draw a sky stroke over it if it is sky.",
+            "sky",
+            f"A patch that looks like sky ({100 * doubted:.1f} % of the picture) was left out as "
+            "unlikely. If it is sky, paint over it.",
         )
-    elif share < NO_SKY:
-        notes.append(
+    if share < NO_SKY:
+        return Notice(
             f"No sky found in {photo.name} ({100 * share:.1f} % of pixels). "
-            "Draw a sky stroke or pass sky=mask."
+            "Draw a sky stroke or pass sky=mask.",
+            "sky",
+            "No sky was found. If there is some, paint over it.",
         )
+    return None
+
+
+def _about_sun(
+    photo: Photo,
+    sun: SunObservation | None,
+    camera: Camera,
+    hints: Hints,
+    moon: Point | None,
+    fit: SkyFit | None,
+) -> Notice | None:
     if sun is None and moon is not None:
-        notes.append(
+        return Notice(
             f"The disc at ({moon[0] * photo.width:.0f}, {moon[1] * photo.height:.0f}) of "
             f"{photo.name} is taken for the moon, as the sky round it is dark; it lights "
-            "the picture. If it is the sun, click it or pass sun=(x, y)."
+            "the picture. If it is the sun, click it or pass sun=(x, y).",
+            "moon",
+            "The bright disc is taken for the moon, as the sky round it is dark; it lights the "
+            "picture.",
         )
-    elif sun is None:
-        notes.append(
+    if sun is None and hints.sun_outside:
+        return Notice(
+            f"The sun is said not to be in {photo.name}. Its place is assumed{_sure(fit)}; "
+            "pass sun=(x, y) in pixels if you know it (outside the picture is fine).",
+            "told_outside",
+        )
+    if sun is None:
+        return Notice(
             f"No sun found in {photo.name}. Its place is assumed{_sure(fit)}; click where it is, "
-            "or pass sun=(x, y) in pixels (outside the picture is fine)."
+            "or pass sun=(x, y) in pixels (outside the picture is fine).",
+            "unseen_sun",
         )
-    elif sun.kind == "moon":
-        notes.append(
+    if sun.kind == "moon":
+        return Notice(
             f"What was pointed at as the sun of {photo.name} stands in a night sky and may be the "
-            "moon. It is treated as a sun; if it is none, take the hint back."
+            "moon. It is treated as a sun; if it is none, take the hint back.",
+            "night_sun",
+            "What was pointed at as the sun stands in a night sky and may be the moon. It is "
+            "treated as a sun.",
         )
-    elif sun.visible:
+    if sun.visible:
         true = camera.focal * np.tan(np.radians(sun_stage.RADIUS_DEG))
         covered = float(sun.blot.mean())
         if covered > 0.02 and covered * camera.width * camera.height > 60 * np.pi * true**2:
-            notes.append(
+            return Notice(
                 f"The sun's mask covers {100 * covered:.0f} % of {photo.name}, "
-                "far more than a sun. Click on its centre, or pass sun_method='disc_fit'."
+                "far more than a sun. Click on its centre, or pass sun_method='disc_fit'.",
+                "sun_mask",
+                f"What was taken for the sun covers {100 * covered:.0f} % of the picture, far "
+                "more than a sun. Point at its centre.",
             )
+    return None
+
+
+def _about_air(
+    photo: Photo, share: float, sun: SunObservation | None, fit: SkyFit | None
+) -> Notice | None:
     sureness = None if fit is None else fit.atmosphere.confidence
-    if share >= NO_SKY and sureness is not None and sureness < UNSURE:
-        first = "Click the sun" if sun is None else "Check the sun"
-        notes.append(
-            f"How the sky of {photo.name} changes with the sun is a guess "
-            f"({100 * sureness:.0f} % sure): it shows too little clear sky, or one that no "
-            f"atmosphere explains. {first} and the horizon, then set the haze by hand."
-        )
+    if share < NO_SKY or sureness is None or sureness >= UNSURE:
+        return None
+    first = "Click the sun" if sun is None else "Check the sun"
+    why = "it shows too little clear sky, or one that no atmosphere explains"
+    return Notice(
+        f"How the sky of {photo.name} changes with the sun is a guess "
+        f"({100 * sureness:.0f} % sure): {why}. {first} and the horizon, then set the haze by "
+        "hand.",
+        "air",
+        f"How this sky changes with the sun is a guess: {why}. See that sun and horizon are "
+        "right, then set the haze by hand.",
+    )
+
+
+def _about_horizon(
+    photo: Photo, sky: np.ndarray, horizon: Horizon, camera: Camera
+) -> Notice | None:
     if horizon.confidence < 0.3:
-        notes.append(
+        return Notice(
             f"The horizon of {photo.name} is a guess (row {horizon.row:.0f}). "
-            "Drag it, or pass horizon=row."
+            "Drag it, or pass horizon=row.",
+            "horizon",
+            "The horizon is a guess. Drag it to where it is.",
         )
-    elif horizon.confidence < 0.5 or _sky_below(sky, horizon, camera):
+    if horizon.confidence < 0.5 or _sky_below(sky, horizon, camera):
         # Thesis 5.1 and its figure: the sky is then drawn too far down, as in a sunset.
-        notes.append(
+        return Notice(
             f"The horizon of {photo.name} (row {horizon.row:.0f}) may be the edge of a roof or "
             "hill, which lies too high and makes the light that of a lower sun. Drag it down if "
-            "so, or pass horizon=row."
+            "so, or pass horizon=row.",
+            "horizon",
+            "The horizon may be the edge of a roof or hill, which lies too high and makes the "
+            "light that of a lower sun. Drag it down if so.",
         )
-    if hints.fov is None and photo.field_of_view.source == "assumed":
-        if camera.fov_vertical_deg != photo.field_of_view.vertical:
-            told = f"by the size of the sun's disc it is {camera.fov_vertical_deg:.1f}°"
-            notes.append(
-                f"{photo.name} names no focal length: {told}, vertically. Pass fov= in degrees if "
-                "the lens is known."
-            )
-            return tuple(notes)
-        notes.append(
-            f"{photo.name} names no focal length: {camera.fov_vertical_deg:.0f}° vertical field "
-            "of view is assumed. Pass fov= in degrees."
-        )
-    return tuple(notes)
+    return None
 
 
 def _sure(fit: SkyFit | None) -> str:

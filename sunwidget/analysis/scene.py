@@ -252,7 +252,9 @@ class Scene:
 
     @property
     def sun_confidence(self) -> float:
-        """How likely the sun is where it is taken to be, [0, 1]: 1 where it is seen or told."""
+        """How likely the sun is where it is taken to be, [0, 1]: 1 where it is told."""
+        if self.sun is not None:
+            return self.sun.confidence
         return 1.0 if self.fitted is None else self.fitted.sun_confidence
 
     @property
@@ -400,7 +402,8 @@ class Scene:
 
         changes: dict[str, Any] = {"strokes": ()}
         if edit.sun_hint is not None:
-            changes["sun"] = pixels(edit.sun_hint)
+            hint = edit.sun_hint
+            changes["sun"] = pixels(hint) if isinstance(hint, tuple) else hint
         if edit.horizon_hint is not None:
             changes["horizon"] = (pixels(edit.horizon_hint[0]), pixels(edit.horizon_hint[1]))
         if edit.fov_hint is not None:

@@ -117,9 +117,11 @@ def complete(
     camera = Camera(*photo.size, hints.fov or photo.field_of_view.vertical)
 
     step("sun", 0.7, "Looking for the sun")
-    seed = hints.sun and (hints.sun[0] / zoom_x, hints.sun[1] / zoom_y)
+    told = hints.sun_point
+    seed = told and (told[0] / zoom_x, told[1] / zoom_y)
     maps = look_for_sun(working)
-    peak = sun_stage.find(working, maps, sky) if seed is None else None
+    searched = seed is None and not hints.sun_outside
+    peak = sun_stage.find(working, maps, sky) if searched else None
     blot = sun_blot(working, sky, seed or peak, camera.focal / zoom_y, hints.method("sun"))
     if blot is not None and ours:
         # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
@@ -128,8 +130,8 @@ def complete(
         raise_to(matte, disc, working.zoom)
 
     if peak is not None and blot is not None and _lens_unknown(photo, hints):
-        told = sun_stage.field_of_view_of(blot, peak, working, camera.fov_vertical_deg)
-        camera = Camera(*photo.size, told or camera.fov_vertical_deg)
+        lens = sun_stage.field_of_view_of(blot, peak, working, camera.fov_vertical_deg)
+        camera = Camera(*photo.size, lens or camera.fov_vertical_deg)
 
     step("horizon", 0.8, "Fitting the horizon")
     horizon = _horizon(working, sky, hints, photo.width)

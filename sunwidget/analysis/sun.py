@@ -64,7 +64,7 @@ class SunObservation:
         "sun"; or "moon", when a person pointed at a disc in a night sky. A moon that is found
         is ``Scene.moon`` instead.
     confidence : float
-        How likely it is the sun, [0, 1]; 1 where a person said so.
+        How likely it is the sun, [0, 1]: 1 when a person said so, and where nothing measures it.
     """
 
     x: float

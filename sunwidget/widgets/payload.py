@@ -20,6 +20,7 @@ from sunwidget.analysis import horizon
 from sunwidget.analysis.clear_sky import clear_sky
 from sunwidget.analysis.clouds import INDICES
 from sunwidget.analysis.maps import MAPS, levels, scene_map, shares_of
+from sunwidget.analysis.notices import Notice
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.working import resize
 from sunwidget.edit import PARAMETERS, Parameter
@@ -133,7 +134,6 @@ def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
     ``revision`` differs from one scene to the next, so that the trait's change is seen.
     """
     uniforms = scene.uniforms()
-    sun = scene.sun
     return _plain(
         {
             "revision": revision,
@@ -146,9 +146,7 @@ def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
             },
             "automatic": scene.automatic,
             "uniforms": {name: uniforms[name] for name in frame_graph()["scene_uniforms"]},
-            "sun": None
-            if sun is None
-            else {"x": sun.x / scene.width, "y": sun.y / scene.height, "visible": sun.visible},
+            "sun": _sun_json(scene),
             "horizon": {
                 "row": scene.horizon.row / scene.height,
                 "roll": scene.horizon.roll,
@@ -158,9 +156,38 @@ def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
             "sureness": scene.atmosphere.confidence,
             "whiteness": whiteness(scene),
             "presets": preset_json(scene),
-            "warnings": list(scene.warnings),
+            "notes": [_note_json(text) for text in scene.warnings],
         }
     )
+
+
+def _sun_json(scene: Scene) -> dict[str, Any]:
+    """Return what is known of the photo's own sun, and where it comes from.
+
+    ``source`` is "found", "told", "outside" (somebody said that nothing in the picture is it) or
+    "unseen"; ``at`` its place in fractions of the picture, None where it has none.
+    """
+    sun = scene.sun
+    source = "unseen"
+    if sun is not None:
+        source = "told" if sun.source == "hint" else "found"
+    elif scene.hints.sun_outside:
+        source = "outside"
+    return {
+        "source": source,
+        "at": None if sun is None else (sun.x / scene.width, sun.y / scene.height),
+        "visible": sun is not None and sun.visible,
+        "azimuth": scene.automatic["sun_azimuth"],
+        "elevation": scene.automatic["sun_elevation"],
+        "confidence": scene.sun_confidence,
+        "moon": scene.moon,
+    }
+
+
+def _note_json(text: str) -> dict[str, str]:
+    if isinstance(text, Notice):
+        return {"about": text.about, "text": text.plain}
+    return {"about": "", "text": text}
 
 
 def preset_json(scene: Scene) -> list[dict[str, Any]]:

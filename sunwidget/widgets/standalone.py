@@ -41,7 +41,7 @@ def editor_page(
         # Pages are passed on: where a photo was taken is in none that its maker did not put there.
         "_photo_place": {},
         # Notes tell the maker what to correct; in a page nothing can be.
-        "_scene": embedded["state"]["_scene"] | {"warnings": []},
+        "_scene": embedded["state"]["_scene"] | {"notes": []},
     }
     name = photo.name if title is None else title
     return page({**embedded, "state": state}, still, title=name, notes=_NOTES)

@@ -343,15 +343,16 @@ def test_how_sure_the_atmosphere_is_stands_under_the_picture(editor, state):
 def test_notes_can_be_put_away_and_brought_back(editor, state):
     notes = editor.locator(".sw-note span")
     first = "The horizon is a <b>guess</b>. Drag it."
-    scene = {**state["_scene"], "warnings": [first, "No sun found."], "revision": 5}
+    rows = [{"about": "horizon", "text": first}, {"about": "", "text": "No lens."}]
+    scene = {**state["_scene"], "notes": rows, "revision": 5}
     editor.evaluate("(scene) => model.receive({ _scene: scene })", scene)
     editor.get_by_text(first, exact=True).wait_for()
-    assert notes.all_text_contents() == [first, "No sun found."]
+    assert notes.all_text_contents() == [first, "No lens."]
     editor.get_by_role("button", name="Dismiss this note").first.click()
-    assert notes.all_text_contents() == ["No sun found."]
+    assert notes.all_text_contents() == ["No lens."]
     # Put away means away, also when the scene comes again.
     editor.evaluate("(scene) => model.receive({ _scene: scene })", {**scene, "revision": 6})
     editor.wait_for_timeout(400)
-    assert notes.all_text_contents() == ["No sun found."]
+    assert notes.all_text_contents() == ["No lens."]
     editor.get_by_role("button", name="1 note").click()
     assert notes.count() == 2

@@ -96,6 +96,25 @@ def test_hints_of_an_edit_equal_the_same_hints_to_analyze(scene):
         assert np.array_equal(getattr(corrected, name), getattr(told, name)), name
 
 
+def test_a_person_may_say_that_nothing_in_the_picture_is_the_sun(scene):
+    assert scene.sun is not None
+    assert scene.sun.visible
+    told = scene.corrected(sw.Edit(sun_hint="outside"))
+    assert told.sun is None
+    assert told.uniforms()["sun_visible"] == 0
+    assert (told.automatic["sun_azimuth"], told.automatic["sun_elevation"]) == told.assumed_sun
+    assert any("said not to be in" in warning for warning in told.warnings)
+    assert_same(told, sw.analyze(seascape(), fov=45.0, sun="outside"))
+
+
+def test_a_hint_of_the_edit_wins_over_the_analysis_and_taken_back_leaves_it(scene):
+    told = sw.analyze(seascape(), sun="outside")
+    pointed = told.corrected(sw.Edit(sun_hint=(0.7021, 0.3531)))
+    assert pointed.sun is not None
+    assert pointed.sun.visible
+    assert told.corrected(sw.Edit()).sun is None
+
+
 def test_strokes_outside_the_picture_change_nothing(scene):
     outside = sw.Edit(strokes=(sw.Stroke("not_sky", ((3.0, 3.0), (4.0, 3.0)), 0.01),))
     assert np.array_equal(scene.corrected(outside).sky, scene.sky)

@@ -1,5 +1,6 @@
 """The photo's own sun: found on a drawn disc, not taken for a cloud, grown from a click."""
 
+import dataclasses
 import math
 
 import cv2
@@ -8,6 +9,8 @@ import pytest
 
 import sunwidget as sw
 from sunwidget.analysis import sun
+from sunwidget.analysis.frame_sun import seen_sun
+from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.working import Working
 from sunwidget.camera import Camera
 from sunwidget.photo import open_photo
@@ -118,6 +121,13 @@ def test_a_hinted_sun_outside_the_picture_keeps_its_place_and_is_not_visible():
     assert seen.source == "hint"
     assert seen.mask.max() == 0
     assert seen.azimuth < -30
+
+
+def test_no_frame_shows_a_sun_that_is_said_not_to_be_in_the_picture():
+    frame = evening(disc=(90.5, 60.5))
+    hints = Hints(methods=(("sun", "disc_fit"),))
+    assert seen_sun(frame, SKY, CAMERA, hints) is not None
+    assert seen_sun(frame, SKY, CAMERA, dataclasses.replace(hints, sun="outside")) is None
 
 
 def test_the_assumed_sun_lies_to_the_brighter_side():

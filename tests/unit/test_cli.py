@@ -77,6 +77,10 @@ def test_negative_values_need_no_equals_sign():
     assert options.sun_elevation == -3
 
 
+def test_the_sun_may_be_said_to_be_outside_the_picture():
+    assert parse("render", "x", "-o", "y", "--sun", "outside").sun == "outside"
+
+
 def test_flags_win_over_the_recipe(tmp_path):
     recipe = tmp_path / "recipe.json"
     recipe.write_text(Edit(sun_elevation=3, exposure=1).to_json())
@@ -95,6 +99,7 @@ def test_flags_win_over_the_recipe(tmp_path):
         (["render", "x.jpg", "-o", "y.png", "--method", "magic"], "invalid choice"),
         (["render", "x.jpg", "-o", "y.png", "--size", "big"], "1920x1080"),
         (["render", "x.jpg", "-o", "y.png", "--sun", "3"], "joined by commas"),
+        (["render", "x.jpg", "-o", "y.png", "--sun", "inside"], "joined by commas"),
         (["render", "no-such-photo.jpg", "-o", "y.png"], "no file"),
         (["render", "sample:beach", "-o", "y.png"], "no sample"),
         (["render", "x.jpg", "-o", "y.png", "--recipe", "no-such.json"], "no-such.json"),

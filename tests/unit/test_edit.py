@@ -54,7 +54,8 @@ def edits(draw):
         st.floats(0.0005, 0.5),
     )
     values["strokes"] = tuple(draw(st.lists(stroke, max_size=3)))
-    values["sun_hint"] = draw(st.none() | st.tuples(fraction, fraction))
+    point = st.tuples(fraction, fraction)
+    values["sun_hint"] = draw(st.none() | st.just("outside") | point)
     ends = st.tuples(st.just(0.1234567890123456), fraction), st.tuples(st.floats(0.5, 1), fraction)
     values["horizon_hint"] = draw(st.none() | st.tuples(*ends))
     return Edit(**values)
@@ -219,6 +220,8 @@ def test_a_senseless_stroke_is_refused(strokes, message):
         ("sun_hint", (1, 2, 3)),
         ("sun_hint", (math.nan, 0)),
         ("sun_hint", "ab"),
+        ("sun_hint", "inside"),
+        ("sun_hint", ("outside",)),
         ("horizon_hint", ((0, 0.5),)),
         ("horizon_hint", ((0.5, 0.5), (0.5, 0.6))),
         ("horizon_hint", ((0, 0.5), (1, "x"))),
@@ -230,6 +233,11 @@ def test_a_senseless_stroke_is_refused(strokes, message):
 def test_a_senseless_hint_is_refused_by_name(name, value):
     with pytest.raises(EditError, match=name):
         Edit(**{name: value})
+
+
+def test_a_refused_hint_of_the_sun_names_both_that_are_taken():
+    with pytest.raises(EditError, match=r"pair \(x, y\) or 'outside', not 'Outside'"):
+        Edit(sun_hint="Outside")
 
 
 # --- recipes ---------------------------------------------------------------------------

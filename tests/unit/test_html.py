@@ -55,7 +55,7 @@ def test_the_page_holds_the_edit_and_names_no_address(text):
     state = content(text)["state"]
     assert state["sun_elevation"] == 3
     assert state["_history"] == {"past": [], "future": []}
-    assert state["_scene"]["warnings"] == []  # nothing can be corrected in a page
+    assert state["_scene"]["notes"] == []  # nothing can be corrected in a page
     assert not {"layout", "_model_name", "_dom_classes"} & set(state)
     elements = list(parsed(text).iter())
     for name in ("src", "href", "action", "srcset", "data"):

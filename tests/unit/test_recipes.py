@@ -14,6 +14,7 @@ STROKES = (
     sw.Stroke("not_water", ((1e-7, 0.5),)),
 )
 EDITS = {
+    "a sun that is not there": sw.Edit(sun_hint="outside"),
     "empty": sw.Edit(),
     "sun": sw.Edit(sun_azimuth=-4.0, sun_elevation=2.5),
     "every row": sw.Edit(

@@ -1,8 +1,10 @@
 """SunEditor without a browser: traits, history, analysis, requests."""
 
 import base64
+import dataclasses
 import io
 import json
+import pickle
 import re
 import threading
 import zlib
@@ -19,7 +21,7 @@ from sunwidget.analysis.maps import MAPS, scene_map
 from sunwidget.edit import PARAMETERS, EditError
 from sunwidget.widgets import SunEditor
 from sunwidget.widgets import sun_editor as module
-from sunwidget.widgets.payload import PREVIEW_EDGE, whiteness
+from sunwidget.widgets.payload import PREVIEW_EDGE, scene_json, whiteness
 from sunwidget.widgets.requests import Requests
 
 
@@ -309,6 +311,37 @@ def test_presets_travel_with_the_scene_as_plain_values(editor, scene):
     assert [row["label"] for row in sent] == [preset.label for preset in presets.PRESETS]
     for row, preset in zip(sent, presets.PRESETS, strict=True):
         assert sw.Edit(**row["values"]) == presets.edit(preset.name, scene)
+
+
+def test_what_is_known_of_the_photos_sun_travels_with_the_scene(scene):
+    found = scene_json(scene, 1)["sun"]
+    assert (found["source"], found["visible"], found["confidence"]) == ("found", True, 1.0)
+    width, height = scene.photo.size
+    assert found["at"] == [scene.sun.x / width, scene.sun.y / height]
+    unsure = dataclasses.replace(scene, sun=dataclasses.replace(scene.sun, confidence=0.62))
+    assert scene_json(unsure, 1)["sun"]["confidence"] == unsure.sun_confidence == 0.62
+    told = scene_json(scene.corrected(sw.Edit(sun_hint=(0.25, -0.1))), 1)["sun"]
+    assert (told["source"], told["at"]) == ("told", pytest.approx([0.25, -0.1]))
+
+
+def test_of_a_sun_that_is_not_there_its_assumed_place_travels(scene):
+    outside = scene.corrected(sw.Edit(sun_hint="outside"))
+    sent = scene_json(outside, 1)["sun"]
+    assert (sent["source"], sent["at"], sent["visible"]) == ("outside", None, False)
+    assert (sent["azimuth"], sent["elevation"]) == outside.assumed_sun
+    assert sent["confidence"] == outside.fitted.sun_confidence < 1
+    unseen = dataclasses.replace(scene, sun=None)
+    assert scene_json(unseen, 1)["sun"]["source"] == "unseen"
+
+
+def test_notes_of_the_editor_hold_no_code_and_name_what_they_are_about():
+    dull = sw.analyze(np.full((48, 64, 3), 90, np.uint8), sky=np.zeros((48, 64)))
+    notes = json.loads(json.dumps(scene_json(dull, 1)["notes"]))
+    assert [note["about"] for note in notes] == ["sky", "unseen_sun", "horizon", "field_of_view"]
+    # What is told of an unseen sun the editor says itself, in words for a direction.
+    assert not any("=" in note["text"] for note in notes if note["about"] != "unseen_sun")
+    assert all("=" in warning for warning in dull.warnings)
+    assert pickle.loads(pickle.dumps(dull.warnings)) == dull.warnings
 
 
 def test_static_viewers_get_a_picture(editor):

@@ -1,8 +1,7 @@
-/** The line under the picture: where the sun stands, how sure the fitted sky is, what to mind. */
+/** The line under the picture: where the sun stands, how sure the fitted sky is. */
 
 import { sunText } from "../angle_text.js";
 import { element } from "../controls/element.js";
-import { Notes } from "./notes.js";
 
 const SURENESS =
   "How likely the sky that was fitted to the photo changes with the sun as the real one";
@@ -11,14 +10,12 @@ export class Foot {
   constructor() {
     this.readout = element("div", { class: "sw-readout" });
     this.sureness = element("div", { class: "sw-sureness", title: SURENESS });
-    this.notes = new Notes();
-    this.node = element("div", { class: "sw-foot" }, this.readout, this.sureness, this.notes.node);
+    this.node = element("div", { class: "sw-foot" }, this.readout, this.sureness);
   }
 
   /** What the analysis says of the photo; null while there is none. @param {import("../types.js").Scene | null} scene */
   showScene(scene) {
-    const { sureness = null, warnings = [] } = scene ?? {};
-    this.notes.show(warnings);
+    const { sureness = null } = scene ?? {};
     this.sureness.textContent =
       typeof sureness === "number" ? `Atmosphere: ${Math.round(100 * sureness)} % sure` : "";
   }

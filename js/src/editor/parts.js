@@ -21,6 +21,8 @@ import { help } from "./help.js";
 import { histogram } from "./histogram.js";
 import { hover } from "./hover.js";
 import { needsKernel } from "./needs_kernel.js";
+import { notes } from "./notes.js";
+import { ownSun } from "./own_sun.js";
 import { placeSection } from "./place_section.js";
 import { presetThumbnails } from "./preset_thumbnails.js";
 import { progress } from "./progress.js";
@@ -46,6 +48,8 @@ const PARTS = [
   zoomControl,
   detail,
   hover,
+  notes,
+  ownSun,
   cross,
   heldKeys,
   split,

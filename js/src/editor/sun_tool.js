@@ -59,7 +59,8 @@ export class SunTool {
     }
     this.tracked = this.track?.takes(place, near) ?? false;
     this.focus();
-    this.move(place, event);
+    // A press on the sun takes hold of it, and by itself moves nothing.
+    if (!near) this.move(place, event);
   }
 
   /** @param {Point} place @param {PointerEvent} [_event] */
@@ -137,6 +138,12 @@ export class SunTool {
     const { camera } = this.view;
     const pixel = camera?.pixel(azimuth, elevation);
     return camera && pixel ? [pixel[0] / camera.width, pixel[1] / camera.height] : null;
+  }
+
+  /** Where the handle stands on the stage. */
+  spot() {
+    const [azimuth, elevation] = [this.view.value("sun_azimuth"), this.view.value("sun_elevation")];
+    return this.onStage(azimuth, elevation, this.view.stage.rectangle());
   }
 
   draw() {

@@ -49,6 +49,7 @@ import { toolbar } from "./toolbar.js";
  *   reset?: () => void,
  *   refresh?: () => void,
  *   focus?: () => void,
+ *   spot?: () => { x: number, y: number },
  *   stays?: boolean,
  *   fine?: boolean,
  * }} Tool

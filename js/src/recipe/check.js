@@ -67,7 +67,7 @@ function problemOf(p, value) {
 
 const DATA = {
   strokes: areStrokes,
-  sun_hint: isPoint,
+  sun_hint: (/** @type {any} */ value) => value === "outside" || isPoint(value),
   fov_hint: (/** @type {any} */ value) => isBetween(value, 1, 150),
   horizon_hint: (/** @type {any} */ value) =>
     arePoints(value) && value.length === 2 && value[0][0] !== value[1][0],
