@@ -1,8 +1,7 @@
 """The sky behind the photo's sun, as the frame reads it: what fills in when the sun is moved away.
 
-Colours are never inpainted. The logarithm of the photo without its sun (erase.py) over the matched
-model is a slow, nearly colourless field wherever the sky is clear; it is continued over the land,
-and the compositor multiplies the model by it.
+It is the photo without its sun (erase.py). Over the land, and where the camera clipped, it goes on as
+the matched model does: the logarithm of photo over model is a slow field.
 """
 
 from __future__ import annotations
@@ -19,18 +18,18 @@ from sunwidget.analysis.working import resize, smoothstep
 from sunwidget.camera import Camera
 from sunwidget.layout import size_within
 
-RANGE = 3.0
-"""The stored field spans ±3 in natural logarithm: a twentieth to twenty times the model."""
+RANGE = 2.0
+"""Logs of photo over model are cut off at ±2: a seventh to seven times the model."""
 
 
 @dataclass(frozen=True, eq=False)
 class Backdrop:
-    """The residual field and where it replaces the photo.
+    """The sky behind and where it replaces the photo.
 
     Parameters
     ----------
     field : (h, w, 3) float32
-        (log(clean photo / model) + RANGE) / (2 RANGE), [0, 1], in scene-linear light.
+        Root of display-linear light, [0, 1].
     glare : (h, w) float32
         Weight with which the sky behind replaces the photo once the sun has moved, [0, 1].
     """
@@ -45,7 +44,7 @@ _MODEL_SIDE = 80
 
 
 def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> Backdrop:
-    """Return the log of the photo without its sun over the fitted sky.
+    """Return the photo without its sun, the sky continued over what is none.
 
     Parameters
     ----------
@@ -74,8 +73,10 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     model = matched_sky(fit, camera, size)
     log_residual = _log_residual(fit.response.scene_light(display), model)
     weight = np.asarray((matte > 0.98) * (1 - clipped), np.float32)
-    filled = fill_by_pyramid(log_residual, weight)
-    return Backdrop(_dithered((filled + RANGE) / (2 * RANGE)), mark)
+    filled = model * np.exp(fill_by_pyramid(log_residual, weight))
+    beyond = fit.response.display_light(filled)
+    sky_light = beyond + weight[..., None] * (display - beyond)
+    return Backdrop(_dithered(np.sqrt(np.clip(sky_light, 0, 1))), mark)
 
 
 def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
@@ -105,6 +106,6 @@ def _log_residual(scene_light: np.ndarray, model: np.ndarray) -> np.ndarray:
 
 
 def _dithered(encoded: np.ndarray) -> np.ndarray:
-    """Add ±half an 8-bit level of fixed noise: the field is slow and would band when stored."""
+    """Add ±half an 8-bit level of fixed noise: a slow sky would band when stored."""
     noise = np.random.default_rng(20170601).random(encoded.shape, np.float32) - 0.5
     return np.clip(encoded + noise / 255, 0, 1).astype(np.float32)

@@ -29,7 +29,7 @@ _SOFT_EDGE = 0.025  # deviation of the fully softened clouds' blur, in longer si
 def clear_sky(scene: Scene) -> np.ndarray:
     """Return what a scene's sky is behind its clouds, (h, w, 4) float32 in [0, 1].
 
-    RGB is (log(clear sky / matched model) + RANGE) / (2 RANGE), as in ``backdrop``; A the clouds'
+    RGB is (log(clear sky / matched model) + RANGE) / (2 RANGE); A the clouds'
     opacity with edges as soft as ``cloud_softness`` = 1 makes them. The longer side has at most
     ``LONG_SIDE`` pixels.
     """

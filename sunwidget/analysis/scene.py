@@ -66,7 +66,7 @@ class Scene:
     camera : Camera
     atmosphere : Atmosphere
     backdrop : (h, w, 3) float32
-        The slow log residual of photo over model, encoded (analysis/backdrop.py).
+        The photo without its sun, the sky gone on over the land; root of display-linear light.
     glare : (h, w) float32
         Where the backdrop replaces the photo once the sun has moved.
     assumed_sun : (azimuth, elevation)

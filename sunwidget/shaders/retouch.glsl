@@ -48,7 +48,7 @@ void main() {
   vec3 dissolved = ReadBilinear(soft_sky, place).rgb;
   // Where the matte is soft the pixel's own light is land as well.
   vec3 scene = GetSceneLight(display);
-  vec3 slow = model * DecodeResidual(ReadBilinear(backdrop, place).rgb);
+  vec3 slow = GetBackdropLight(ReadBilinear(backdrop, place).rgb);
   vec3 light = mix(slow, scene, smoothstep(0.85, 1.0, layer.r));
   // Near the sun's core a burnt pixel is sun and not cloud.
   float from_sun = length(GetViewDirection(place) - GetSunDirection(source_sun_azimuth, source_sun_elevation));

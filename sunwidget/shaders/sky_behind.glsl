@@ -1,14 +1,14 @@
-// The sky without the old sun: matched model times the slow residual that the analysis filled
-// across the glare (analysis/backdrop.py). Drawn once a photo. Alpha carries what else the frame
-// asks about the sky of a pixel, so that it reads one map for both: matte, cloud opacity and
-// glare of the old sun. On water it is the water without the old sun's glints, and what
-// its waves make of glints instead of the glare (water_behind.glsl).
+// The sky without the old sun, as the analysis found it (analysis/backdrop.py). Drawn once a photo.
+// Alpha carries what else the frame asks about the sky of a pixel, so that it reads one map for both:
+// matte, cloud opacity and glare of the old sun. On water it is the water without the old sun's glints,
+// and what its waves make of glints instead of the glare (water_behind.glsl).
 
 #include "lib/picture.glsl"
 #include "lib/strip.glsl"
 #include "lib/packed.glsl"
 #include "lib/cloud_edit.glsl"
 #include "lib/added_layer.glsl"
+#include "lib/response.glsl"
 
 uniform sampler2D sky_source;
 uniform sampler2D backdrop;
@@ -27,7 +27,7 @@ void main() {
   vec4 layer = ReadPixel(layers, place);
   vec3 levels = vec3(layer.r, opacity, ReadPixel(surface, place).r);
   vec3 model = texelFetch(sky_source, texel, 0).rgb;
-  vec3 sky = model * DecodeResidual(ReadBilinear(backdrop, place).rgb);
+  vec3 sky = GetBackdropLight(ReadBilinear(backdrop, place).rgb);
   if (IsCloudEdited()) {
     // As retouch.glsl changes the photo; a sky without detail needs no dissolving.
     vec4 open = ReadBilinear(clear_sky, place);

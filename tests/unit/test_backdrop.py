@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
-from sunwidget.analysis.backdrop import LONG_SIDE, RANGE, behind_sun, matched_sky
+from sunwidget.analysis.backdrop import LONG_SIDE, behind_sun, matched_sky
 from sunwidget.analysis.erase import Erased, unerased
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.working import Working
@@ -27,8 +27,9 @@ def behind(photo, mark=None):
     return behind_sun(erased, photo.sky, photo.camera, exact_fit(photo))
 
 
-def log_of(backdrop):
-    return backdrop.field * 2 * RANGE - RANGE
+def log_of(photo, backdrop):
+    light = photo.response.scene_light(np.square(backdrop.field))
+    return np.log(light / matched_sky(exact_fit(photo), photo.camera, light.shape[1::-1]))
 
 
 def test_without_a_visible_sun_nothing_is_replaced():
@@ -37,13 +38,13 @@ def test_without_a_visible_sun_nothing_is_replaced():
     assert max(backdrop.field.shape) <= LONG_SIDE
 
 
-def test_the_field_is_the_log_of_photo_over_model():
+def test_the_sky_behind_is_the_photos_own():
     photo = known_photo(clouds=False)
     x, y = photo.camera.pixel(*photo.sun)
     rows, columns = np.mgrid[:80, :120]
     sky = (photo.sky > 0) & (rows < 40) & (np.hypot(columns - x, rows - y) > 12)
     # Drawn with this model: photo over model is one, but for noise and encoding.
-    log = log_of(behind(photo))
+    log = log_of(photo, behind(photo))
     assert np.abs(log[sky]).max() < 0.25
     assert np.abs(log[sky].mean(0)).max() < 0.06
 
@@ -58,7 +59,7 @@ def test_what_was_found_behind_the_sun_counts_although_it_is_bright():
     mark = np.zeros(bright.shape[:2], np.float32)
     mark[8:22, 8:32] = 1
     found = behind_sun(Erased(white, mark), photo.sky, photo.camera, fit)
-    assert log_of(found)[15, 20].mean() > log_of(plain)[15, 20].mean() + 0.1
+    assert found.field[15, 20].mean() > plain.field[15, 20].mean() + 0.02
     assert found.glare[15, 20] == pytest.approx(1)
 
 

@@ -44,23 +44,29 @@ def test_a_photo_without_a_sun_stays_the_same_object():
     assert not unerased(working).mark.any()
 
 
+def glow(strength):
+    """Glare that falls off round the sun's place, over a wide one that is everywhere."""
+    rows, columns = np.mgrid[: SMALL[0], : SMALL[1]] + 0.5
+    near = np.exp(-np.square(np.hypot(columns - 20, rows - 10) / 4))
+    return np.repeat(-0.1 - strength * near[..., None], 3, -1)
+
+
 def test_little_glare_is_taken_from_the_light_and_leaves_the_detail():
     working = picture()
-    erased = erase(working, maps(np.full((*SMALL, 3), -0.2)), sky(), light(blot()))
-    assert erased.mark.min() == pytest.approx(1)
-    expected = (working.linear + LIGHT_FLOOR) * np.exp(-0.2) - LIGHT_FLOOR
-    assert np.allclose(erased.working.linear, expected, atol=1e-4)
+    linear = erase(working, maps(glow(0.25)), sky(), light(blot())).working.linear
+    box = slice(36, 44), slice(56, 64)  # 20 px beside the sun: e^-1.56 of the strength
+    change = np.log((linear[box] + LIGHT_FLOOR) / (working.linear[box] + LIGHT_FLOOR))
+    assert change.mean() == pytest.approx(-0.25 * np.exp(-1.56), abs=0.03)
+    assert linear[box].std() > 0.7 * working.linear[box].std()
 
 
-def test_where_nothing_is_said_to_be_glare_the_photo_stays_to_the_bit():
+def test_far_from_the_sun_the_photo_stays_to_the_bit():
     working = picture()
-    clean = np.zeros((*SMALL, 3))
-    clean[:16, :] = -1.0
-    erased = erase(working, maps(clean), sky(), light(blot()))
-    below = slice(80, None)
-    assert np.array_equal(erased.working.linear[below], working.linear[below])
-    assert erased.mark[below].max() == 0
-    assert erased.mark[:40].min() == pytest.approx(1)
+    erased = erase(working, maps(glow(1.5)), sky(), light(blot()))
+    assert erased.mark[40, 80] == pytest.approx(1)
+    far = slice(90, None)
+    assert np.array_equal(erased.working.linear[far], working.linear[far])
+    assert erased.mark[far].max() == 0
 
 
 def test_a_core_is_filled_from_around_it():

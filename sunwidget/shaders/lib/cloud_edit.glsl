@@ -7,9 +7,9 @@
 
 uniform float added_clouds;
 
-// Slow fields are kept as logarithms of light over matched model (analysis/backdrop.py).
+// Slow fields are kept as logarithms of light over matched model (analysis/clear_sky.py).
 vec3 DecodeResidual(vec3 code) {
-  return exp(6.0 * code - 3.0);
+  return exp(4.0 * code - 2.0);
 }
 
 bool IsCloudEdited() {

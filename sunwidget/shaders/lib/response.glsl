@@ -21,6 +21,11 @@ vec3 GetSceneLight(vec3 display) {
   return pow(max(r, vec3(1e-6)), vec3(1.0 / response_contrast));
 }
 
+// What analysis/backdrop.py stores: the root of display-linear light.
+vec3 GetBackdropLight(vec3 code) {
+  return GetSceneLight(code * code);
+}
+
 vec3 GetDisplayLight(vec3 scene) {
   float w = max(response_shoulder, 1e-4);
   return (1.0 - exp(-w * pow(max(scene, vec3(1e-9)), vec3(response_contrast)))) / w;
