@@ -21,6 +21,7 @@ __all__ = [
     "METHODS",
     "RADIUS_DEG",
     "Blot",
+    "Peak",
     "SunObservation",
     "assume",
     "disc_fit",

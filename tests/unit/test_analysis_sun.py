@@ -9,6 +9,7 @@ import pytest
 
 import sunwidget as sw
 from sunwidget.analysis import sun
+from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.frame_sun import seen_sun
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.working import Working
@@ -35,31 +36,65 @@ def evening(disc=None, cloud=None) -> Working:
     return Working.of(open_photo(np.round(np.clip(code, 0, 1) * 255).astype(np.uint8)))
 
 
+def find(working, sky=SKY):
+    """The sun as the network sees it, (x, y) and more, or None."""
+    return sun.find(working, look_for_sun(working), sky)
+
+
 @pytest.mark.parametrize("place", [(90.5, 60.5), (250.5, 110.5), (160.5, 30.5)])
 def test_a_drawn_sun_is_found_where_it_was_drawn(place):
-    found = sun.find(evening(disc=place), SKY, CAMERA.focal)
+    found = find(evening(disc=place))
     assert found is not None
-    assert math.dist(found, place) < 2.5
+    assert math.dist(found[:2], place) < 2.5
 
 
 def test_a_bright_white_cloud_is_no_sun():
-    assert sun.find(evening(cloud=(160.0, 70.0)), SKY, CAMERA.focal) is None
+    assert find(evening(cloud=(160.0, 70.0))) is None
 
 
 def test_a_sun_beside_a_white_cloud_is_preferred_to_it():
-    found = sun.find(evening(disc=(70.5, 60.5), cloud=(250.0, 60.0)), SKY, CAMERA.focal)
+    found = find(evening(disc=(70.5, 60.5), cloud=(250.0, 60.0)))
     assert found is not None
-    assert math.dist(found, (70.5, 60.5)) < 2.5
+    assert math.dist(found[:2], (70.5, 60.5)) < 2.5
 
 
 def test_a_lamp_on_the_land_is_no_sun():
     picture = evening().bytes.copy()
     cv2.circle(picture, (160, 190), 4, (255, 255, 255), -1)
-    assert sun.find(Working.of(open_photo(picture)), SKY, CAMERA.focal) is None
+    assert find(Working.of(open_photo(picture))) is None
 
 
-def test_without_sky_there_is_no_sun():
-    assert sun.find(evening(disc=(90.5, 60.5)), np.zeros_like(SKY), CAMERA.focal) is None
+def test_where_a_blot_grew_into_the_glow_the_networks_disc_stands():
+    working = evening(disc=(90.5, 60.5))
+    blot = sun.flood_fill(working, SKY, 20.0, 20.0, CAMERA.focal)  # some sky
+    peak = sun.Peak(90.5, 60.5, 5.0, 0.9, 0.1)
+    settled = sun.settled(blot, peak)
+    assert (settled.x, settled.y, settled.radius) == (90.5, 60.5, 5.0)
+    assert settled.mask.sum() == pytest.approx(math.pi * 25, rel=0.1)
+    fitting = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
+    assert sun.settled(fitting, peak) is fitting
+
+
+def limb(step):
+    """A disc of 20 px in an even sky that is darker by ``step``."""
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    inside = np.hypot(columns - 160, rows - 80) < 20
+    code = np.where(inside, 0.95, 0.95 - step)[..., None] * np.ones(3)
+    return Working.of(open_photo(np.round(255 * code).astype(np.uint8)))
+
+
+@pytest.mark.parametrize(
+    ("step", "sharp", "expected"),
+    [(0.4, 0.9, True), (0.4, 0.2, False), (0.05, 0.9, False)],
+)
+def test_a_sharp_limb_tells_the_field_of_view_and_a_glow_does_not(step, sharp, expected):
+    working = limb(step)
+    blot = sun.disc_fit(working, SKY, 160.0, 80.0, CAMERA.focal)
+    peak = sun.Peak(160.0, 80.0, 20.0, 0.9, sharp)
+    degrees = sun.field_of_view_of(blot, peak, working, 50.0)
+    assert (degrees is not None) == expected
+    if expected:  # 40 px are 0.533°
+        assert degrees == pytest.approx(SIZE[1] / 40 * 0.533, rel=0.06)
 
 
 def test_disc_fit_centres_on_the_blot_even_when_clicked_off_centre():
@@ -154,7 +189,7 @@ def night_sky(disc=True, post=False) -> Working:
 
 
 def test_a_disc_in_a_night_sky_is_the_moon_and_no_sun():
-    assert sun.find(night_sky(), SKY, CAMERA.focal) is None
+    assert find(night_sky()) is None
     found = sun.find_moon(night_sky(), SKY)
     assert found is not None
     assert math.dist((found[0] * SIZE[0], found[1] * SIZE[1]), (200.5, 70.5)) < 1.5
@@ -188,7 +223,7 @@ def test_a_ragged_bright_spot_of_a_cloud_is_no_sun():
     for x, y in np.random.default_rng(5).integers((-14, -10), (15, 11), (60, 2)):
         cv2.circle(picture, (160 + int(x), 60 + int(y)), 1, (250, 250, 250), -1)
     cv2.circle(picture, (160, 60), 3, (255, 255, 255), -1)
-    assert sun.find(Working.of(open_photo(picture)), SKY, CAMERA.focal) is None
+    assert find(Working.of(open_photo(picture))) is None
 
 
 def test_a_setting_sun_on_the_skyline_is_found_in_its_orange_sky():
@@ -199,6 +234,6 @@ def test_a_setting_sun_on_the_skyline_is_found_in_its_orange_sky():
     code = np.where((distance < 3.1)[..., None], np.array([255, 250, 243]) / 255, code)
     code = np.where(SKY[..., None] > 0, code, 0.04)
     working = Working.of(open_photo(np.round(code * 255).astype(np.uint8)))
-    found = sun.find(working, SKY, CAMERA.focal)
+    found = find(working)
     assert found is not None
-    assert math.dist(found, (180.5, 146.5)) < 3
+    assert math.dist(found[:2], (180.5, 146.5)) < 3
