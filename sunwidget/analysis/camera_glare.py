@@ -27,7 +27,7 @@ Profile = tuple[float, float, float]
 # lib/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
 _CORE, _LEVEL, _POWER = 0.02, 23.0, 1.3
 _SUN_RADIUS = 0.2665  # degrees
-_LEAST, _MOST = 0.2, 3.0  # of that, whatever was measured
+_LEAST, _MOST = 0.1, 3.0  # of that, whatever was measured
 _WIDTHS = (0.4, 0.7, 1.1, 1.6, 2.4, 3.6, 5.5)  # degrees
 # The sky shows between clouds and rays: in a ring the darker third is sky and glare alone.
 _CLEAREST = 0.3
