@@ -23,8 +23,8 @@ from sunwidget.camera import Camera
 
 Profile = tuple[float, float, float]
 
-# Of cameras that are not known: in units of a picture's width and of the light of its middle grey. With
-# lib/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
+# Of cameras that are not known, in units of a picture's width and of the light of its middle grey:
+# with lib/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
 _CORE, _LEVEL, _POWER = 0.02, 23.0, 1.3
 _SUN_RADIUS = 0.2665  # degrees
 _LEAST, _MOST = 0.1, 3.0  # of that, whatever was measured
@@ -40,14 +40,16 @@ def glare_profile(fit: SkyFit, camera: Camera) -> Profile:
     Parameters
     ----------
     fit : SkyFit
-        With what was measured, if anything was; its response says how bright the picture's white is.
+        With what was measured, if anything was; its response says how bright white is.
     camera : Camera
         Glare is as wide as the picture, and no narrower than the sun's disc.
     """
     width = math.degrees(camera.width / camera.focal)
     core = math.hypot(_CORE * width, _SUN_RADIUS)
-    usual = _LEVEL * float(fit.response.scene_light(np.array(0.5))) * (_CORE * width / core) ** (
-        2 * _POWER
+    usual = (
+        _LEVEL
+        * float(fit.response.scene_light(np.array(0.5)))
+        * (_CORE * width / core) ** (2 * _POWER)
     )
     height, own, _ = fit.glare
     if height <= 0:
@@ -102,7 +104,7 @@ def measured_glare(
 
 
 def before_roll_off(light: np.ndarray, response: Response) -> np.ndarray:
-    """Return the light that lib/frame_output.glsl would draw as bright as the photo has ``light``."""
+    """Return the light that lib/frame_output.glsl draws as bright as the photo has ``light``."""
     knee, burns = 0.5, 1.06
     w = max(response.shoulder, 1e-4)
     over = np.clip((response.display_light(light) - knee) / (1 - knee) / burns, 0, 0.9)
@@ -140,7 +142,7 @@ def share_of_glare(clear: np.ndarray, model: np.ndarray) -> np.ndarray:
 
 
 def sun_color(fit: SkyFit) -> np.ndarray:
-    """Return the colour (3,) of the sun's glare, of luminance 1: half balanced, as in terms.glsl."""
+    """Return the colour (3,) of the sun's glare, of luminance 1: as in terms.glsl."""
     gain = np.array(fit.gain)
     color = np.sqrt(_beam(fit) * (gain if gain[0] > gain[2] else 1.0))
     return np.asarray(color / float(color @ LUMINANCE), np.float32)
@@ -156,7 +158,7 @@ def _beam(fit: SkyFit) -> np.ndarray:
 
 
 def _strength(fit: SkyFit) -> float:
-    return float(max(_beam(fit) @ LUMINANCE, 0.1) / _REFERENCE) ** _GROWTH
+    return float((max(float(_beam(fit) @ LUMINANCE), 0.1) / _REFERENCE) ** _GROWTH)
 
 
 @lru_cache(maxsize=4)

@@ -269,7 +269,7 @@ class Scene:
         small, sky = self.working, self.small_sky
         blot = 0.0 if self.sun is None else float(self.sun.blot.mean())
         own = match.statistics_of_lab(small.lab, sky)
-        return {
+        found: dict[str, Any] = {
             "camera_right": self.camera.right,
             "camera_up": self.camera.up,
             "camera_forward": self.camera.forward,
@@ -288,11 +288,10 @@ class Scene:
             "noise_level": noise_level(self.photo, self.sky),
             "photo_height": float(self.height),
             "sky_gain": (1.0, 1.0, 1.0),
-        } | self.response | self._glare_profile()
-
-    def _glare_profile(self) -> dict[str, tuple[float, float, float]]:
-        # Only a scene that is still being made has no fit.
-        return {} if self.fitted is None else {"glare_profile": glare_profile(self.fitted, self.camera)}
+        } | self.response
+        if self.fitted is not None:
+            found["glare_profile"] = glare_profile(self.fitted, self.camera)
+        return found
 
     def _water_roughness(self) -> float:
         if self.sun is None or not self.sun.visible:

@@ -71,9 +71,7 @@ def test_a_sun_without_glare_leaves_little_and_one_that_is_not_seen_says_nothing
 
 def test_glare_is_as_wide_as_the_picture_and_no_narrower_than_the_disc():
     fit = exact_fit(known_photo())
-    wide, narrow, tele = (
-        glare_profile(fit, Camera(600, 400, fov))[1] for fov in (60.0, 30.0, 3.0)
-    )
+    wide, narrow, tele = (glare_profile(fit, Camera(600, 400, fov))[1] for fov in (60.0, 30.0, 3.0))
     assert wide > 1.8 * narrow
     assert tele > 0.2665
 

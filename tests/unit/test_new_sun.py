@@ -1,6 +1,7 @@
-"""A sun set into a photo that had none: hue is kept, little burns, and the land does not turn black."""
+"""A sun set into a photo that had none: hue is kept, little burns, land does not turn black."""
 
 import functools
+import itertools
 
 import numpy as np
 import pytest
@@ -40,7 +41,8 @@ def test_little_of_the_sky_burns_and_light_falls_without_a_plate(elevation):
         for a in (0, 1.5, 3, 5, 8, 12, 17)
     ]
     assert level[0] > 0.75
-    assert all(near > far for near, far in zip(level, level[1:], strict=False))
+    assert all(near > far for near, far in itertools.pairwise(level))
+    assert level[2] < 0.95
     assert 0.2 < level[4] < 0.75
 
 
@@ -49,8 +51,7 @@ def test_the_halo_in_a_blue_sky_is_not_cyan(elevation):
     scene = scene_without_sun()
     light, away = seen(scene, Edit(sun_azimuth=-8, sun_elevation=elevation))
     red, green, blue = np.moveaxis(light[(scene.sky == 1) & (away < 15)], -1, 0)
-    cold = blue - red > 0.05
-    assert ((green - red)[cold] < 0.85 * (blue - red)[cold]).mean() > 0.98
+    assert ((green - red) < 0.85 * (blue - red).clip(0.05)).all()
 
 
 def test_the_sky_away_from_the_sun_keeps_its_tone():
