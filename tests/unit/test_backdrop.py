@@ -139,7 +139,7 @@ def test_measuring_the_glare_again_finds_the_same_glare():
     # A stroke that keeps the fit comes here with a fit that already has its glare.
     scene = analyze(sample("coast"))
     sky = resize(scene.sky, scene.working.width, scene.working.height)
-    assert scene.fitted.glare[0] > 0.5
+    assert scene.fitted.glare[0] > 0.2
     again, _ = behind_sun(scene.working, sky, scene.camera, scene.fitted, visible=True)
     # The matte of ``sky`` went through the full size and back.
     assert again.glare == pytest.approx(scene.fitted.glare, rel=0.02)

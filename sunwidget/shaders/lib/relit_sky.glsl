@@ -76,10 +76,10 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec3 sky_be
   vec3 model = WithoutLostTint(sky_before, sky_now);
   relit += lost * (1.0 - opacity) * (model * (GetLuminance(relit) / GetLuminance(model)) - relit);
   // What the air brightens round the new sun is drawn in a camera's range, from a bright sky on; less so
-  // where the photo's own sun told how bright that is.
+  // where the photo's own sun or moon told how bright that is.
   float level = gain * GetLuminance(relit);
   float kept = max(kBrightAir, GetLuminance(light));
-  relit *= level > kept ? pow(level / kept, mix(kAirRange, kKnownAirRange, sun_visible) - 1.0) : 1.0;
+  relit *= level > kept ? pow(level / kept, mix(kAirRange, kKnownAirRange, max(sun_visible, photo_light)) - 1.0) : 1.0;
   // The new disc, behind clouds; the matte hides it behind land.
   relit += moved * (1.0 - opacity) * (1.0 - opacity) * disc;
   return sky_strength * (gain * relit - light);
