@@ -1,14 +1,16 @@
-"""How a new sun looks in photos, beside what cameras make of real ones: burnt sky, glare, odd colours.
+"""How a new sun looks in photos, beside what cameras make of real ones.
 
-    python bench/sun_look.py FOLDER_OR_FILES... [--limit 30 --seed 15] [--skip 30] [--sheets OUT] [--density SKY.npz]
+    python bench/sun_look.py FOLDER_OR_FILES... [--seed 15 --skip 30 --limit 30] [--sheets OUT]
 
-Two suns in view, 3 and 12 degrees high, are set into each photo. `burnt` is the share of the sky that
-burns to white and did not before, `black` the share of the land that turns black; both in percent, as
-median, 75th and 90th percentile. `glare` is the display-linear luminance above the sun at so many percent
-of the picture's width from its bright core. Beside it stand the quartiles of 94 photos that show their
-sun; of their frames, the burnt share has the median 0.14 %, and the percentiles 0.6 (75th) and 3.4 (90th).
-`--density` is a table of real skies' CIELAB colours (`density`, `lo`, `hi`, `threshold`): `odd` is then
-the share of pictures in which more than 1 % of the sky has none of them.
+Two suns in view, 3 and 12 degrees high, are set into each photo. `burnt` is the share of the sky
+that burns to white and did not before, `frame` that of the picture that is burnt, `black` the share
+of the land that turns black: percent; median, 75th and 90th percentile. `core` is the radius of the
+bright core in percent of the width (10th percentile, median, 90th). Below it stand quartiles of the
+display-linear luminance above the sun, so many percent of the width from its core, beside those of
+94 photos that show their sun; 0.14 % of their frames are burnt (75th percentile 0.6, 90th 3.4).
+
+`--density` is a table of real skies' CIELAB colours (`density`, `lo`, `hi`, `threshold`): `odd` is
+then the share of pictures in which more than 1 % of the sky has none of them.
 """
 
 import argparse
@@ -26,7 +28,13 @@ from sunwidget.color import srgb_to_linear
 
 SUNS = {"view3": (8, 3), "view12": (-20, 12)}
 DISTANCES = (2, 5, 10, 20, 30)
-REAL = ((0.55, 0.77, 0.87), (0.36, 0.56, 0.76), (0.30, 0.40, 0.57), (0.20, 0.27, 0.40), (0.13, 0.19, 0.37))
+REAL = (
+    (0.55, 0.77, 0.87),
+    (0.36, 0.56, 0.76),
+    (0.30, 0.40, 0.57),
+    (0.20, 0.27, 0.40),
+    (0.13, 0.19, 0.37),
+)
 CORE = 0.85  # display-linear luminance of what belongs to the sun's bright core
 
 
@@ -49,7 +57,9 @@ def unnatural(picture: np.ndarray, sky: np.ndarray, density: dict[str, np.ndarra
 def glare_above(picture: np.ndarray, sky: np.ndarray, x: float, y: float) -> list[float]:
     """Luminance above the sun's core, NaN where there is no sky; first the core's radius."""
     height, width = sky.shape
-    light = cv2.GaussianBlur((srgb_to_linear(picture / 255) @ LUMINANCE).astype(np.float32), (0, 0), 1)
+    light = cv2.GaussianBlur(
+        (srgb_to_linear(picture / 255) @ LUMINANCE).astype(np.float32), (0, 0), 1
+    )
     parts = cv2.connectedComponents((light > CORE).astype(np.uint8))[1]
     column, row = int(x), int(y)
     label = parts[row, column] if 0 <= column < width and 0 <= row < height else 0
@@ -107,28 +117,41 @@ def report(rows: list[dict[str, dict[str, Any]]]) -> None:
             print(f"  odd    {100 * np.mean(odd):6.1f} % of {len(odd)}")
         glare = np.array([row["glare"] for row in found if "glare" in row])
         if len(glare):
-            print("  core  ", *(f"{100 * v:6.2f}" for v in np.quantile(glare[:, 0], (0.1, 0.5, 0.9))))
+            print(
+                "  core  ", *(f"{100 * v:6.2f}" for v in np.quantile(glare[:, 0], (0.1, 0.5, 0.9)))
+            )
             for i, (distance, real) in enumerate(zip(DISTANCES, REAL, strict=True)):
                 values = glare[:, i + 1][np.isfinite(glare[:, i + 1])]
                 if values.size:
                     here = " ".join(f"{v:.2f}" for v in np.quantile(values, (0.25, 0.5, 0.75)))
-                    print(f"  +{distance:2} %   {here}   real {' '.join(f'{v:.2f}' for v in real)}  ({values.size})")
+                    those = " ".join(f"{v:.2f}" for v in real)
+                    print(f"  +{distance:2} %   {here}   real {those}  ({values.size})")
 
 
 def main() -> None:
     """Run over the photos asked for."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("paths", nargs="+", type=Path)
     parser.add_argument("--limit", type=int)
-    parser.add_argument("--skip", type=int, default=0, help="leave out the first of the seeded order")
+    parser.add_argument(
+        "--skip", type=int, default=0, help="leave out the first of the seeded order"
+    )
     parser.add_argument("--seed", type=int, help="shuffle the photos")
-    parser.add_argument("--sheets", type=Path, help="folder for a picture of each photo and its suns")
+    parser.add_argument(
+        "--sheets", type=Path, help="folder for a picture of each photo and its suns"
+    )
     parser.add_argument("--density", type=Path)
     wish = parser.parse_args()
     files = [
         file
         for path in wish.paths
-        for file in (sorted(p for p in path.iterdir() if p.suffix in (".jpg", ".jpeg", ".png")) if path.is_dir() else [path])
+        for file in (
+            sorted(p for p in path.iterdir() if p.suffix in (".jpg", ".jpeg", ".png"))
+            if path.is_dir()
+            else [path]
+        )
     ]
     if wish.seed is not None:
         random.Random(wish.seed).shuffle(files)
@@ -138,7 +161,16 @@ def main() -> None:
         scene = sw.analyze(sw.open(file))
         found, pictures = look(scene, density)
         shown = scene.sun is not None and scene.sun.visible
-        print(file.name, *(f"black {100 * r.get('black', np.nan):.1f}" for r in found.values()), "sun" if shown else "", *(f"{k} {100 * r.get('burnt', np.nan):.2f}/{100 * r.get('odd', np.nan):.1f}" for k, r in found.items()), flush=True)
+        print(
+            file.name,
+            *(f"black {100 * r.get('black', np.nan):.1f}" for r in found.values()),
+            "sun" if shown else "",
+            *(
+                f"{k} {100 * r.get('burnt', np.nan):.2f}/{100 * r.get('odd', np.nan):.1f}"
+                for k, r in found.items()
+            ),
+            flush=True,
+        )
         rows.append(found)
         if wish.sheets:
             wish.sheets.mkdir(parents=True, exist_ok=True)

@@ -1,7 +1,7 @@
 """The sky behind the photo's sun, as the frame reads it: what fills in when the sun is moved away.
 
-It is the photo without its sun (erase.py). Over the land, and where the camera clipped, it goes on as
-the matched model does: the logarithm of photo over model is a slow field.
+It is the photo without its sun (erase.py). Over the land, and where the camera clipped, it goes on
+as the matched model does: the logarithm of photo over model is a slow field.
 """
 
 from __future__ import annotations

@@ -8,7 +8,6 @@ the lens, in a picture exposed for it. Twin: camera_glare.glsl.
 
 from __future__ import annotations
 
-import dataclasses
 import itertools
 import math
 from functools import lru_cache
@@ -23,8 +22,8 @@ from sunwidget.camera import Camera
 
 Profile = tuple[float, float, float]
 
-# Of cameras that are not known: in units of a picture's width and of the light of its middle grey. With
-# lib/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
+# Of cameras that are not known, in units of a picture's width and of the light of its middle grey:
+# with lib/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
 _CORE, _LEVEL, _POWER = 0.02, 23.0, 1.3
 _SUN_RADIUS = 0.2665  # degrees
 _LEAST, _MOST = 0.1, 3.0  # of that, whatever was measured
@@ -40,7 +39,7 @@ def glare_profile(fit: SkyFit, camera: Camera) -> Profile:
     Parameters
     ----------
     fit : SkyFit
-        With what was measured, if anything was; its response says how bright the picture's white is.
+        With what was measured, if anything was; its response says how bright white is.
     camera : Camera
         Glare is as wide as the picture, and no narrower than the sun's disc.
     """
@@ -100,11 +99,11 @@ def measured_glare(
         shape = weight * (1 + (theta / width) ** 2) ** -_POWER
         height = max(float(shape @ (weight * level)) / float(shape @ shape), 1e-6)
         best = min(best, (float(np.square(weight * level - height * shape).sum()), height, width))
-    return best[1] / _strength(fit), best[2], _POWER
+    return best[1] / strength(fit), best[2], _POWER
 
 
 def before_roll_off(light: np.ndarray, response: Response) -> np.ndarray:
-    """Return the light that lib/frame_output.glsl would draw as bright as the photo has ``light``."""
+    """Return the light that lib/frame_output.glsl draws as bright as the photo has ``light``."""
     knee, burns = 0.5, 1.06
     w = max(response.shoulder, 1e-4)
     over = np.clip((response.display_light(light) - knee) / (1 - knee) / burns, 0, 0.9)
@@ -112,43 +111,7 @@ def before_roll_off(light: np.ndarray, response: Response) -> np.ndarray:
     return np.where(over > 0, r ** (1 / response.contrast), light)
 
 
-def with_glare(
-    fit: SkyFit,
-    luminance: np.ndarray,
-    clear: np.ndarray,
-    angle: np.ndarray,
-    trusted: np.ndarray,
-) -> SkyFit:
-    """Return the fit with the glare that ``luminance`` has over the model's ``clear`` sky."""
-    outer = trusted & (angle >= 0.5 * min(float(angle[trusted].max(initial=0)), 40.0))
-    level = float(np.median(luminance[outer] / clear[outer])) if outer.any() else 1.0
-    excess = (luminance - level * clear)[..., None] * np.ones(3, np.float32)
-    return dataclasses.replace(fit, glare=measured_glare(excess, angle, trusted, fit))
-
-
-def through_glare(clear: np.ndarray, fit: SkyFit, camera: Camera) -> np.ndarray:
-    """Add the camera's glare to the fitted sky (h, w, 3), scene-linear."""
-    height, width, power = fit.glare
-    if height <= 0:
-        return clear
-    angle = angle_to_sun(camera, (clear.shape[1], clear.shape[0]), fit.sun)
-    veil = _strength(fit) * height * (1 + (angle / width) ** 2) ** -power
-    return (clear + veil[..., None] * sun_color(fit)).astype(np.float32)
-
-
-def share_of_glare(clear: np.ndarray, model: np.ndarray) -> np.ndarray:
-    """Share of the light of ``model``, the sky ``clear`` with glare, that is glare: (h, w)."""
-    return np.asarray(1 - (clear @ LUMINANCE) / np.maximum(model @ LUMINANCE, 1e-9), np.float32)
-
-
-def sun_color(fit: SkyFit) -> np.ndarray:
-    """Return the colour (3,) of the sun's glare, of luminance 1: half balanced, as in terms.glsl."""
-    gain = np.array(fit.gain)
-    color = np.sqrt(_beam(fit) * (gain if gain[0] > gain[2] else 1.0))
-    return np.asarray(color / float(color @ LUMINANCE), np.float32)
-
-
-def _beam(fit: SkyFit) -> np.ndarray:
+def beam(fit: SkyFit) -> np.ndarray:
     """Light of the photo's own sun (3,) on the lens, klx."""
     air = fit.atmosphere
     through = transmittance_to_top(air, camera_height(air), np.sin(np.radians(fit.sun[1])))
@@ -157,8 +120,9 @@ def _beam(fit: SkyFit) -> np.ndarray:
     return np.asarray(np.maximum(light, 1e-9))
 
 
-def _strength(fit: SkyFit) -> float:
-    return float(max(_beam(fit) @ LUMINANCE, 0.1) / _REFERENCE) ** _GROWTH
+def strength(fit: SkyFit) -> float:
+    """Return what a measured profile is multiplied with for the photo's own sun."""
+    return float((max(float(beam(fit) @ LUMINANCE), 0.1) / _REFERENCE) ** _GROWTH)
 
 
 @lru_cache(maxsize=4)

@@ -280,38 +280,29 @@ class Scene:
         small, sky = self.working, self.small_sky
         blot = 0.0 if self.sun is None else float(self.sun.blot.mean())
         own = match.statistics_of_lab(small.lab, sky)
-        return (
-            {
-                "camera_right": self.camera.right,
-                "camera_up": self.camera.up,
-                "camera_forward": self.camera.forward,
-                "camera_focal": self.camera.focal / self.camera.height,
-                "sun_visible": float(self.sun is not None and self.sun.visible),
-                "photo_light": float(self.lit_by_moon),
-                "water_roughness": self._water_roughness(),
-                "sun_mask_share": min(1.0, blot / max(float(sky.mean()), 1 / sky.size)),
-                "photo_sky_mean": own.mean,
-                "photo_sky_deviation": own.deviation,
-                "photo_sky_linear_mean": _weighted_mean(small.linear, sky),
-                "photo_land_linear_mean": _weighted_mean(small.linear, 1 - sky),
-                "response_shoulder": 0.0,
-                "response_contrast": 1.0,
-                "glare_profile": (0.0, 3.0, 2.0),
-                "noise_level": noise_level(self.photo, self.sky),
-                "photo_height": float(self.height),
-                "sky_gain": (1.0, 1.0, 1.0),
-            }
-            | self.response
-            | self._glare_profile()
-        )
-
-    def _glare_profile(self) -> dict[str, tuple[float, float, float]]:
-        # Only a scene that is still being made has no fit.
-        return (
-            {}
-            if self.fitted is None
-            else {"glare_profile": glare_profile(self.fitted, self.camera)}
-        )
+        found: dict[str, Any] = {
+            "camera_right": self.camera.right,
+            "camera_up": self.camera.up,
+            "camera_forward": self.camera.forward,
+            "camera_focal": self.camera.focal / self.camera.height,
+            "sun_visible": float(self.sun is not None and self.sun.visible),
+            "photo_light": float(self.lit_by_moon),
+            "water_roughness": self._water_roughness(),
+            "sun_mask_share": min(1.0, blot / max(float(sky.mean()), 1 / sky.size)),
+            "photo_sky_mean": own.mean,
+            "photo_sky_deviation": own.deviation,
+            "photo_sky_linear_mean": _weighted_mean(small.linear, sky),
+            "photo_land_linear_mean": _weighted_mean(small.linear, 1 - sky),
+            "response_shoulder": 0.0,
+            "response_contrast": 1.0,
+            "glare_profile": (0.0, 3.0, 2.0),
+            "noise_level": noise_level(self.photo, self.sky),
+            "photo_height": float(self.height),
+            "sky_gain": (1.0, 1.0, 1.0),
+        } | self.response
+        if self.fitted is not None:
+            found["glare_profile"] = glare_profile(self.fitted, self.camera)
+        return found
 
     def _water_roughness(self) -> float:
         if self.sun is None or not self.sun.visible:

@@ -20,7 +20,7 @@ from sunwidget.analysis import matting, refine
 from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis import water as water_stage
 from sunwidget.analysis.backdrop import Backdrop, behind_sun
-from sunwidget.analysis.camera_glare import angle_to_sun, with_glare
+from sunwidget.analysis.camera_glare import angle_to_sun, measured_glare
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.depth_view import View
@@ -38,7 +38,7 @@ from sunwidget.analysis.sun import Blot, SunObservation
 from sunwidget.analysis.sun_network import SunMaps, look_for_sun
 from sunwidget.analysis.sun_search import Peak
 from sunwidget.analysis.unmix import cloud_gain
-from sunwidget.analysis.working import LUMINANCE, Working, resize
+from sunwidget.analysis.working import Working, resize
 from sunwidget.camera import Camera, Point
 from sunwidget.layout import size_within
 from sunwidget.photo import Photo
@@ -314,8 +314,9 @@ def _glare_of(
     size = size_within((working.width, working.height), FIT_SIDE)
     display, clean = (resize(w.linear, *size) for w in (working, erased.working))
     trusted = (resize(sky, *size) > 0.95) & (display.max(-1) < 0.95)
-    light, behind = (fit.response.scene_light(x) @ LUMINANCE for x in (display, clean))
-    return with_glare(fit, light, behind, angle_to_sun(camera, size, fit.sun), trusted)
+    excess = fit.response.scene_light(display) - fit.response.scene_light(clean)
+    angle = angle_to_sun(camera, size, fit.sun)
+    return dataclasses.replace(fit, glare=measured_glare(excess, angle, trusted, fit))
 
 
 def unmix_clouds(

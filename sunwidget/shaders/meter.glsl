@@ -1,6 +1,6 @@
 // What a camera's exposure meter would see with this sun, from the model alone. One pixel: r is the mean
-// log2 luminance of the picture, g log2 of the sky's (the mean of its root, squared: what is bright counts
-// more, but a sun in view is not all), both in the photo's scene-linear unit.
+// log2 luminance of the picture, g log2 of the sky's (the mean of its fourth root, so that a sun in view is not
+// all), both in the photo's scene-linear unit.
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
@@ -35,8 +35,8 @@ void main() {
       vec3 color = mix(land, GetMatchedSky(sky_view, GetViewDirection(place)), sky);
       float luminance = max(dot(color, vec3(0.2126, 0.7152, 0.0722)), 1e-20);
       sum += log2(luminance);
-      bright += (sky + 1e-3) * vec2(sqrt(luminance), 1.0);
+      bright += (sky + 1e-3) * vec2(sqrt(sqrt(luminance)), 1.0);
     }
   }
-  result = vec4(sum / float(kColumns * kRows), 2.0 * log2(bright.x / bright.y), 0.0, 1.0);
+  result = vec4(sum / float(kColumns * kRows), 4.0 * log2(bright.x / bright.y), 0.0, 1.0);
 }

@@ -66,6 +66,10 @@ const float kLift = 0.7;
 const float kMoonLevel = 0.85;
 const float kMoonDimming = 0.35;
 
+vec2 GetMeter(sampler2D meter) {
+  return texelFetch(meter, ivec2(0), 0).rg;
+}
+
 // `meter` as meter.glsl has it, of the photo's unit.
 float GetNightStops(float meter) {
   float luminance = meter + log2(1000.0 / GetLuminance(sky_gain)) + photo_light * log2(kMoonOverSun.g);
@@ -79,28 +83,26 @@ float GetStopsTooBright(float level) {
 }
 
 // What a fully automatic exposure does by day: it follows the mean, and holds back for a bright sky.
-float GetDayStops(vec2 before, vec2 now) {
+float GetDayStops() {
+  vec2 before = GetMeter(meter_source);
+  vec2 now = GetMeter(meter_edit);
   float stops = before.r - now.r;
   return stops - (GetStopsTooBright(now.g + stops) - GetStopsTooBright(before.g));
 }
 
 float GetStops() {
-  vec2 before = texelFetch(meter_source, ivec2(0), 0).rg;
-  vec2 now = texelFetch(meter_edit, ivec2(0), 0).rg;
-  float night = GetNightStops(now.r) - GetNightStops(before.r);
-  return exposure + auto_exposure * (GetDayStops(before, now) - night);
+  float night = GetNightStops(GetMeter(meter_edit).r) - GetNightStops(GetMeter(meter_source).r);
+  return exposure + auto_exposure * (GetDayStops() - night);
 }
 
 // The glare of a sun in a picture that is exposed for it: with another exposure it is as much brighter.
 vec3 GetGlare() {
-  vec2 before = texelFetch(meter_source, ivec2(0), 0).rg;
-  vec2 now = texelFetch(meter_edit, ivec2(0), 0).rg;
   vec3 beam = GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
   float light = GetLuminance(beam);
   float visible = texelFetch(visibility_edit, ivec2(0), 0).g;
   // Cameras balance their white half way. A red tint of the photo dyes the sun's light, a blue one its sky.
   vec3 color = sqrt(beam * (sky_gain.r > sky_gain.b ? sky_gain : vec3(1.0)));
-  return glow * visible * exp2(GetStops() - GetDayStops(before, now)) * GetGlareStrength(light) * color / GetLuminance(color);
+  return glow * visible * exp2(GetStops() - GetDayStops()) * GetGlareStrength(light) * color / GetLuminance(color);
 }
 
 // Light of the land, lying and upright, by its part of land_terms.glsl: luminance.
@@ -114,7 +116,7 @@ float GetLandLevel(int first, vec2 share) {
 // Stops by which a camera lifts land that has become dark.
 float GetLift() {
   vec4 share = texelFetch(land_terms, ivec2(16, 0), 0);
-  float stops = GetStops() - exposure + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
+  float stops = auto_exposure * GetDayStops() + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
   return auto_exposure * kLift * (log2(1.0 + exp2(kDark - stops)) - log2(1.0 + exp2(kDark)));
 }
 

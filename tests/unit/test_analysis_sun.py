@@ -9,9 +9,9 @@ import pytest
 
 import sunwidget as sw
 from sunwidget.analysis import sun
-from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.frame_sun import seen_sun
 from sunwidget.analysis.hints import Hints
+from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.working import Working
 from sunwidget.camera import Camera
 from sunwidget.photo import open_photo

@@ -6,81 +6,89 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo, known_scene
 
-from sunwidget.analysis.camera_glare import (
-    angle_to_sun,
-    share_of_glare,
-    sun_color,
-    through_glare,
-    with_glare,
-)
-from sunwidget.analysis.fit import SkyFit
+from sunwidget.analysis.camera_glare import beam, glare_profile, measured_glare, strength
+from sunwidget.analysis.fit import Response, SkyFit
 from sunwidget.analysis.working import LUMINANCE
+from sunwidget.camera import Camera
 from sunwidget.edit import Edit
 from sunwidget.renderer import render_pass
 
 ANGLE = np.linspace(0, 40, 12000).reshape(100, 120).astype(np.float32)
 
 
-def exact_fit(photo, glare=(0.0, 3.0, 2.0)):
+def exact_fit(photo, glare=(0.0, 3.0, 1.3)):
     return SkyFit(photo.atmosphere, photo.response, tuple(photo.gain), glare, photo.sun)
 
 
-def profile(glare, angle):
-    return glare[0] * (1 + (angle / glare[1]) ** 2) ** -glare[2]
+def drawn(fit, angle=ANGLE):
+    """Luminance of the fit's glare round the photo's own sun."""
+    height, width, power = fit.glare
+    return strength(fit) * height * (1 + (angle / width) ** 2) ** -power
 
 
-@pytest.mark.parametrize("true", [(3.0, 2.0, 1.5), (1.0, 4.0, 1.0)])
-@pytest.mark.parametrize("exposure", [0.7, 1.3])
-def test_a_drawn_glare_is_measured_also_when_the_sky_is_off_by_a_gain(true, exposure):
-    clear = 0.5 + 0.3 * np.cos(ANGLE / 30)
-    found = with_glare(
-        exact_fit(known_photo()), exposure * clear + profile(true, ANGLE), clear, ANGLE, ANGLE > 0.5
-    )
+def measured(fit, seen, clean, trusted):
+    """The fit with the glare that ``seen`` has over ``clean``, luminances."""
+    excess = np.asarray(seen - clean, np.float32)[..., None] * np.ones(3, np.float32)
+    return dataclasses.replace(fit, glare=measured_glare(excess, ANGLE, trusted, fit))
+
+
+@pytest.mark.parametrize("true", [(0.3, 2.0, 1.3), (0.2, 4.0, 1.3)])
+def test_a_drawn_glare_is_measured(true):
+    clean = 0.5 + 0.3 * np.cos(ANGLE / 30)
+    fit = exact_fit(known_photo(), true)
+    found = measured(exact_fit(known_photo()), clean + drawn(fit), clean, ANGLE > 0.5)
     x = np.linspace(1, 12, 50)
-    assert np.abs(profile(found.glare, x) - profile(true, x)).max() < 0.25 * true[0]
+    assert np.abs(drawn(found, x) - drawn(fit, x)).max() < 0.25 * drawn(fit).max()
 
 
 def test_clouds_over_half_of_each_ring_are_no_glare():
     clear = np.full_like(ANGLE, 0.5)
     random = np.random.default_rng(3)
     seen = np.where((random.random(ANGLE.shape) < 0.5) & (ANGLE < 20), 3.0, clear)
-    found = with_glare(exact_fit(known_photo()), seen, clear, ANGLE, ANGLE > 0).glare
-    assert profile(found, 2.0) < 0.02
+    found = measured(exact_fit(known_photo()), seen, clear, ANGLE > 0)
+    assert drawn(found, 2.0) < 0.02
 
 
-def test_an_even_sky_has_no_glare():
-    clear = np.full_like(ANGLE, 0.5)
+def test_a_sun_without_glare_leaves_little_and_one_that_is_not_seen_says_nothing():
     fit = exact_fit(known_photo())
-    assert with_glare(fit, 0.7 * clear, clear, ANGLE, ANGLE > 0).glare[0] == 0
+    camera = known_photo().camera
+    none = measured_glare(np.zeros((*ANGLE.shape, 3), np.float32), ANGLE, ANGLE > 0, fit)
+    unseen = measured_glare(np.zeros((*ANGLE.shape, 3), np.float32), ANGLE, ANGLE < 0, fit)
+    assert unseen[0] == 0
+    usual = glare_profile(dataclasses.replace(fit, glare=unseen), camera)
+    weak = glare_profile(dataclasses.replace(fit, glare=none), camera)
+    far = [a * (1 + (15 / b) ** 2) ** -c for a, b, c in (weak, usual)]
+    assert 0.05 * far[1] < far[0] < 0.5 * far[1]
 
 
-def test_glare_is_added_in_the_colour_of_the_sun():
-    photo = known_photo(clouds=False)
-    fit = exact_fit(photo, (2.0, 3.0, 2.0))
-    clear = np.broadcast_to(np.array([0.05, 0.2, 0.6], np.float32), (80, 120, 3))
-    veil = through_glare(clear, fit, photo.camera) - clear
-    color = veil / (veil @ LUMINANCE)[..., None]
-    assert np.allclose(color, sun_color(fit), rtol=0.01)
-    assert sun_color(fit)[0] > sun_color(fit)[2]  # whiter than the sky, redder than white
-    x, y = (int(v) for v in photo.camera.pixel(*photo.sun))
-    assert veil[y, x] @ LUMINANCE == pytest.approx(2, rel=0.05)
-    share = share_of_glare(clear, through_glare(clear, fit, photo.camera))
-    assert share[y, x] > 0.9
-    assert share.min() < 0.1
+def test_glare_is_as_wide_as_the_picture_and_no_narrower_than_the_disc():
+    fit = exact_fit(known_photo())
+    wide, narrow, tele = (glare_profile(fit, Camera(600, 400, fov))[1] for fov in (60.0, 30.0, 3.0))
+    assert wide > 1.8 * narrow
+    assert tele > 0.2665
+
+
+def test_glare_is_as_bright_as_the_response_draws_white():
+    fit = exact_fit(known_photo())
+    camera = known_photo().camera
+    flat, bent = (
+        glare_profile(dataclasses.replace(fit, response=Response(w, 1.0)), camera)[0]
+        for w in (0.2, 0.99)
+    )
+    assert bent > 1.1 * flat
+
+
+def sun_color(fit):
+    """The colour of the glare as terms.glsl has it, of luminance 1."""
+    gain = np.array(fit.gain)
+    color = np.sqrt(beam(fit) * (gain if gain[0] > gain[2] else 1.0))
+    return color / (color @ LUMINANCE)
 
 
 def test_kernel_and_shader_draw_the_same_glare():
-    known = known_scene()
-    scene = dataclasses.replace(known, response=known.response | {"glare_profile": (1.5, 4.0, 1.5)})
-    fit = dataclasses.replace(known.fitted, glare=(1.5, 4.0, 1.5))
-    drawn = render_pass(scene, Edit(), "sky_source")
-    visible = render_pass(scene, Edit(), "visibility_source")[0, 0, 0]
-    angle = angle_to_sun(scene.camera, (scene.width, scene.height), fit.sun)
-    assert np.abs(drawn[..., 3] / visible / profile(fit.glare, angle) - 1).max() < 0.02
-    without = dataclasses.replace(
-        known, response=known.response | {"glare_profile": (0.0, 4.0, 1.5)}
-    )
-    veil = drawn[..., :3] - render_pass(without, Edit(), "sky_source")[..., :3]
-    expected = visible * profile(fit.glare, angle)[..., None] * sun_color(fit)
-    near = angle < 15
-    assert np.abs(veil / expected - 1)[near].max() < 0.03
+    scene = known_scene()
+    fit = dataclasses.replace(scene.fitted, glare=(1.5, 4.0, 1.3))
+    light = render_pass(scene, Edit(), "terms")[0, 13, :3]
+    visible = render_pass(scene, Edit(), "visibility_edit")[0, 0, 1]
+    expected = visible * drawn(fit, 0.0) / 1.5 * sun_color(fit)
+    assert np.allclose(light, expected, rtol=0.03)

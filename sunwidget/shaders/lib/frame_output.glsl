@@ -10,20 +10,23 @@ const float kBurns = 1.06;  // of the way to white, at infinity: the sun itself 
 
 // Display-linear light as a good camera draws highlights. What is `brighter` than it was, 0 to 1, leaves the
 // response at the knee and nears white slowly, without a flat plate. Each channel does so for itself, which
-// makes a sunset's orange yellow, as films do; but cold colours would end in cyan, and keep their hue. The core is white.
-vec3 GetRolledOff(vec3 scene, float brighter) {
+// makes a sunset's orange yellow, as films do; but cold colours would end in cyan, and keep their hue. The
+// core is white. All this as far as the pixel has `changed`, 0 to 1.
+vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
   float w = max(response_shoulder, 1e-4);
-  vec4 r = pow(max(vec4(scene, GetLuminance(scene)), vec4(1e-9)), vec4(response_contrast));
+  float luminance = max(GetLuminance(scene), 1e-9);
+  vec4 r = pow(max(vec4(scene, luminance), vec4(1e-9)), vec4(response_contrast));
+  vec4 plain = (1.0 - exp(-w * r)) / w;
   float knee = -log(1.0 - w * kKnee) / w;
   vec4 over = (1.0 - w * kKnee) / (1.0 - kKnee) * max(r - knee, vec4(0.0));
-  vec4 plain = (1.0 - exp(-w * r)) / w;
   vec4 slow = kKnee + (1.0 - kKnee) * kBurns * over / (1.0 + over);
   vec4 level = min(plain + brighter * step(knee, r) * (slow - plain), vec4(0.9999));
-  vec3 color = scene / max(GetLuminance(scene), 1e-9) - 1.0;
+  vec3 color = scene / luminance - 1.0;
   float x = max(color.r, max(color.g, color.b)) * level.a / (1.0 - level.a);
   vec3 same_hue = level.a + level.a * inversesqrt(1.0 + x * x) * color;
   float warm = smoothstep(0.0, 0.8, color.r - color.b) * (1.0 - smoothstep(0.75, 1.0, level.a));
-  return mix(same_hue, level.rgb, warm);
+  float bright = smoothstep(0.4, 0.8, max(plain.r, max(plain.g, plain.b)));
+  return plain.rgb + changed * bright * (mix(same_hue, level.rgb, warm) - plain.rgb);
 }
 
 // Written as a difference, so that what did not change adds exactly nothing. What was `filled`
@@ -32,12 +35,10 @@ void WriteChange(vec3 display, vec3 scene, vec3 change, float filled, vec2 pixel
   float touched = step(1e-30, dot(abs(change), vec3(1.0)));
   vec3 representable = clamp(display, vec3(0.0), vec3(GetWhiteLevel()));
   vec3 now = scene + change;
-  vec3 light = GetDisplayLight(now);
   float old = GetLuminance(scene) / max(GetLuminance(now), 1e-9);
-  vec3 changed = abs(change) / max(now, scene);
-  float most = max(changed.r, max(changed.g, changed.b));
-  float rolls = most * most / (most * most + 0.01) * smoothstep(0.4, 0.8, max(light.r, max(light.g, light.b)));
-  light += rolls * (GetRolledOff(now, max(1.0 - old * old, 0.0)) - light);
+  vec3 share = abs(change) / max(max(now, scene), vec3(1e-9));
+  float most = max(share.r, max(share.g, share.b));
+  vec3 light = GetRolledOff(now, max(1.0 - old * old, 0.0), most * most / (most * most + 0.01));
   light += GetGrain(light, filled, pixel);
   WriteFrame(display, touched * (light - representable), pixel);
 }

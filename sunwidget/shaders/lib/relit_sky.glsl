@@ -9,6 +9,7 @@
 uniform float sky_strength;
 uniform float cloud_strength;
 uniform float silver_lining;
+uniform float sun_visible;  // whether the photo shows its sun, 0 or 1
 
 // Height of the sun (sine) under which clouds of two kilometres lose it, and high thin ones do not.
 const float kSetsForLow = -0.045;
@@ -20,6 +21,9 @@ const float kGrazing = 0.05;
 // Their share of the sun's light when it stands at the horizon.
 const float kUnderlit = 0.7;
 const float kFarthest = 1.8;  // stops
+const float kBrightAir = 0.4;  // scene-linear
+const float kAirRange = 0.5;
+const float kKnownAirRange = 0.9;
 
 // A cloud's share of full sunlight, by how bright the photo shows it: its light is what is left of the
 // sky's when what lies beyond it is taken away. Inside a cloud the light is scattered sunlight, too, and
@@ -71,6 +75,11 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec3 sky_be
   float lost = GetLostTint(sky_before, sky_now);
   vec3 model = WithoutLostTint(sky_before, sky_now);
   relit += lost * (1.0 - opacity) * (model * (GetLuminance(relit) / GetLuminance(model)) - relit);
+  // What the air brightens round the new sun is drawn in a camera's range, from a bright sky on; less so
+  // where the photo's own sun or moon told how bright that is.
+  float level = gain * GetLuminance(relit);
+  float kept = max(kBrightAir, GetLuminance(light));
+  relit *= level > kept ? pow(level / kept, mix(kAirRange, kKnownAirRange, max(sun_visible, photo_light)) - 1.0) : 1.0;
   // The new disc, behind clouds; the matte hides it behind land.
   relit += moved * (1.0 - opacity) * (1.0 - opacity) * disc;
   return sky_strength * (gain * relit - light);

@@ -4,10 +4,10 @@
 
 #include "lib/matched_sky.glsl"
 
-// log of blue over red of the model's sky.
+// Nearly the log of blue over red of the model's sky.
 float GetBlueness(vec3 matched) {
   vec3 sky = matched / sky_gain;
-  return log(max(sky.b, 1e-9) / max(sky.r, 1e-9));
+  return 2.0 * (sky.b - sky.r) / (sky.b + sky.r);
 }
 
 // 0 where the sky is as it was.
@@ -20,5 +20,5 @@ float GetLostTint(vec3 sky_before, vec3 sky_now) {
 
 vec3 WithoutLostTint(vec3 sky_before, vec3 sky_now) {
   vec3 tint = sky_gain / dot(sky_gain, vec3(0.2126, 0.7152, 0.0722));
-  return sky_now * pow(tint, vec3(-GetLostTint(sky_before, sky_now)));
+  return sky_now * mix(vec3(1.0), 1.0 / tint, GetLostTint(sky_before, sky_now));
 }
