@@ -19,7 +19,7 @@ from sunwidget.camera import Camera
 from sunwidget.layout import size_within
 
 RANGE = 2.0
-"""Logs of photo over model are cut off at ±2: a seventh to seven times the model."""
+"""Logs of clear sky over model (clear_sky.py) span ±2: a seventh to seven times the model."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +41,7 @@ class Backdrop:
 LONG_SIDE = 256
 _DETAILED = 512  # the longer side where a sun was erased: the photo's clouds there come from here
 _MODEL_SIDE = 80
+_CLOUDS = 0.025  # in longer sides: what is finer beside the sun is cloud and not glare
 
 
 def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> Backdrop:
@@ -72,11 +73,27 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     clipped = smoothstep(0.90, 0.97, display.max(-1)) * (1 - mark)
     model = matched_sky(fit, camera, size)
     log_residual = _log_residual(fit.response.scene_light(display), model)
-    weight = np.asarray((matte > 0.98) * (1 - clipped), np.float32)
-    filled = model * np.exp(fill_by_pyramid(log_residual, weight))
-    beyond = fit.response.display_light(filled)
+    # What the glare hides goes on as the model does, which knows how bright the air was round the
+    # sun: the frame takes that away with the old sun.
+    known = 1 - np.asarray(resize(erased.hidden, *size), np.float32)
+    weight = np.asarray((matte > 0.98) * (1 - clipped) * known, np.float32)
+    filled = fill_by_pyramid(log_residual, weight)
+    if erased.mark.any():
+        filled += (1 - known)[..., None] * _detail(log_residual, matte)
+    beyond = fit.response.display_light(model * np.exp(filled))
     sky_light = beyond + weight[..., None] * (display - beyond)
     return Backdrop(_dithered(np.sqrt(np.clip(sky_light, 0, 1))), mark)
+
+
+def _detail(values: np.ndarray, matte: np.ndarray) -> np.ndarray:
+    """Return what of a sky's values (h, w, 3) departs from their mean round about."""
+    import cv2
+
+    inside = (matte > 0.98).astype(np.float32)
+    reach = _CLOUDS * max(matte.shape)
+    mean = cv2.GaussianBlur(values * inside[..., None], (0, 0), reach)
+    share = cv2.GaussianBlur(inside, (0, 0), reach)
+    return inside[..., None] * (values - mean / np.maximum(share, 1e-3)[..., None])
 
 
 def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
@@ -102,7 +119,7 @@ def _coarse_logs(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarr
 
 def _log_residual(scene_light: np.ndarray, model: np.ndarray) -> np.ndarray:
     ratio = np.maximum(scene_light, 1e-4) / np.maximum(model, 1e-6)
-    return np.clip(np.log(ratio), -RANGE, RANGE).astype(np.float32)
+    return np.log(ratio).astype(np.float32)
 
 
 def _dithered(encoded: np.ndarray) -> np.ndarray:

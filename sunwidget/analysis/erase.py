@@ -20,6 +20,7 @@ from sunwidget.analysis.working import LUMINANCE, Working, encode, resize, smoot
 # Natural logarithms of light by which the network's glare exceeds the sky.
 _FELT = (0.03, 0.12)  # less is none, more is taken away in full
 _COLOURS = (0.06, 0.3)  # less leaves the sky its colour, more hides it
+_WHITENS = (0.15, 0.6)  # less leaves clouds to be told from the sky, more does not
 _HIDES = (0.3, 0.9)  # less leaves the sky its clouds, more hides them
 _REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow is the sky's
 
@@ -33,15 +34,22 @@ class Erased(NamedTuple):
         The copy; the photo's own where it shows no sun.
     mark : (h, w) float32
         Weight with which it replaces the photo once the sun has moved, [0, 1].
+    hidden : (h, w) float32
+        Where the copy's light is a guess and no more than its detail is known, [0, 1].
+    glow : (h, w) float32
+        Where glare or the sun's own air is so bright that whiteness tells no clouds, [0, 1].
     """
 
     working: Working
     mark: np.ndarray
+    hidden: np.ndarray
+    glow: np.ndarray
 
 
 def unerased(working: Working) -> Erased:
     """Return the copy of a photo that shows no sun."""
-    return Erased(working, np.zeros((working.height, working.width), np.float32))
+    nowhere = np.zeros((working.height, working.width), np.float32)
+    return Erased(working, nowhere, nowhere, nowhere)
 
 
 def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation) -> Erased:
@@ -85,7 +93,9 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     mark = enlarged(smoothstep(*_FELT, felt) * smoothstep(0.0, 0.5, near_sky))
     linear = np.maximum(working.linear + mark[..., None] * (clean - working.linear), 0)
     linear = linear.astype(np.float32)
-    return Erased(dataclasses.replace(working, linear=linear, encoded=encode(linear)), mark)
+    copy = dataclasses.replace(working, linear=linear, encoded=encode(linear))
+    glow = smoothstep(*_WHITENS, np.maximum(felt, -maps.clean.min(-1)))
+    return Erased(copy, mark, enlarged(smoothstep(*_FELT, felt)), enlarged(glow))
 
 
 def _risen(maps: SunMaps, sky: np.ndarray, light: SunObservation) -> np.ndarray:

@@ -1,7 +1,7 @@
 """How well the shipped network finds suns: recall, precision, place and size.
 
 ``python -m training.suns.evaluate --data ../shared/data/train [--train] [--misses]`` looks at the
-labelled photos that only judge (``--train``: at the others), whole, without the rest of the analysis.
+labelled photos that only judge (``--train``: at the others), without the rest of the analysis.
 """
 
 from __future__ import annotations
