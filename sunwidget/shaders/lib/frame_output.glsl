@@ -22,6 +22,7 @@ vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
   vec4 slow = kKnee + (1.0 - kKnee) * kBurns * over / (1.0 + over);
   vec4 level = min(plain + brighter * step(knee, r) * (slow - plain), vec4(0.9999));
   vec3 color = scene / luminance - 1.0;
+  color.g -= smoothstep(0.5, 0.8, level.a) * max(color.g - max(color.r, color.b), 0.0);  // no light is green
   float x = max(color.r, max(color.g, color.b)) * level.a / (1.0 - level.a);
   vec3 same_hue = level.a + level.a * inversesqrt(1.0 + x * x) * color;
   float warm = smoothstep(0.0, 0.8, color.r - color.b) * (1.0 - smoothstep(0.75, 1.0, level.a));

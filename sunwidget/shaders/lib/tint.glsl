@@ -4,6 +4,9 @@
 
 #include "lib/matched_sky.glsl"
 
+// Sunsets are red in parts: where they would end in grey some of it stays.
+const float kMostOfRed = 0.6;
+
 // Nearly the log of blue over red of the model's sky.
 float GetBlueness(vec3 matched) {
   vec3 sky = matched / sky_gain;
@@ -15,10 +18,13 @@ float GetLostTint(vec3 sky_before, vec3 sky_now) {
   float side = sign(sky_gain.b - sky_gain.r);
   float before = side * GetBlueness(sky_before);
   float lost = before - side * GetBlueness(sky_now);
-  return clamp(lost / max(before, 0.3), 0.0, 1.0) * smoothstep(0.0, 0.3, before);
+  float most = side > 0.0 ? 1.0 : kMostOfRed;
+  return most * clamp(lost / max(before, 0.3), 0.0, 1.0) * smoothstep(0.0, 0.3, before);
 }
 
+// The sky as bright as it is now.
 vec3 WithoutLostTint(vec3 sky_before, vec3 sky_now) {
-  vec3 tint = sky_gain / dot(sky_gain, vec3(0.2126, 0.7152, 0.0722));
-  return sky_now * mix(vec3(1.0), 1.0 / tint, GetLostTint(sky_before, sky_now));
+  vec3 weight = vec3(0.2126, 0.7152, 0.0722);
+  vec3 color = sky_now * mix(vec3(1.0), dot(sky_gain, weight) / sky_gain, GetLostTint(sky_before, sky_now));
+  return color * (dot(sky_now, weight) / dot(color, weight));
 }
