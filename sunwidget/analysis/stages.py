@@ -345,9 +345,9 @@ def unmix_clouds(
 
 
 def clearness(opacity: np.ndarray, sky: np.ndarray) -> np.ndarray:
-    """How clear each pixel is beside the clearest quarter of the sky, (h, w) in (0, 1]."""
+    """How clear each pixel is beside the clearest quarter of the sky, (h, w) in [0, 1]."""
     usual = float(np.quantile(opacity[sky], 0.25)) if sky.any() else 0.0
-    return np.asarray(1e-3 + 1 - smoothstep(0.05, 0.3, opacity - usual), np.float32)
+    return np.asarray(1 - smoothstep(0.05, 0.3, opacity - usual), np.float32)
 
 
 def inner(mask: np.ndarray) -> np.ndarray:

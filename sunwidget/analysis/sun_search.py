@@ -15,8 +15,8 @@ RADIUS_DEG = 0.2665  # apparent radius of the sun's disc, and of the moon's
 LEAST_CONFIDENCE = 0.5  # from which a sun is one
 SURE = 0.7  # the same where the sky is as dark as a night's
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate
-WEIGHTS = (0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
-RADIUS_SCALE = 1.0  # of the network's radius, to that which people draw
+WEIGHTS = (-15.912, 3.016, -0.572, -0.757, 1.555, 18.065)
+RADIUS_SCALE = 0.822  # of the network's radius, to that which people draw
 _NIGHT = 0.5  # a sun lights a tenth of its sky to more than this encoded luminance, a moon does not
 
 
