@@ -18,7 +18,8 @@ from sunwidget.analysis.clouds import ratio_index
 from sunwidget.analysis.fit import Response, SkyFit, fit_without_sky, model_sky, view_angles
 from sunwidget.analysis.frame_sun import Direction, Sample, observation
 from sunwidget.analysis.scene import Scene
-from sunwidget.analysis.stages import Steps, clouds_by_colour, fit_atmosphere
+from sunwidget.analysis.stages import Steps, clouds_by_colour, erased_for, fit_atmosphere
+from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.working import LUMINANCE, Working, resize
 from sunwidget.atmosphere.parameters import Atmosphere
 
@@ -54,8 +55,12 @@ def key_of(sample: Sample, shared: Scene, sun: Direction, source: str) -> Key:
     working = sample.working
     sky = np.asarray(resize(shared.sky, working.width, working.height), np.float32)
     seen = observation(sun, working, sky, shared.camera, shared.hints, source)
-    covers = clouds_by_colour(working, sky, shared.hints, seen.blot if seen.visible else None)
-    fit, _, _ = fit_atmosphere(working, sky, covers, shared.camera, seen, shared.hints, Steps(None))
+    erased = erased_for(working, look_for_sun(working), sky, seen)
+    mask = seen.blot if seen.visible else None
+    covers = clouds_by_colour(erased.working, sky, shared.hints, mask)
+    fit, _, _ = fit_atmosphere(
+        working, erased, sky, covers, shared.camera, seen, shared.hints, Steps(None)
+    )
     return Key(sample.number, fit, 0.05 + (fit.atmosphere.confidence or 0.0))
 
 

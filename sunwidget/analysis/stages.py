@@ -221,8 +221,9 @@ def sun_blot(
     if seed is None or not (0 <= seed[0] < working.width and 0 <= seed[1] < working.height):
         return None
     blot = sun_stage.METHODS[method](working, sky, seed[0], seed[1], focal)
-    found = isinstance(seed, Peak) and method != "flood_fill"  # the thesis' way stays as it is
-    return sun_stage.settled(blot, seed) if found else blot
+    if isinstance(seed, Peak) and method != "flood_fill":  # the thesis' way stays as it is
+        return sun_stage.settled(blot, seed)
+    return blot
 
 
 def _lens_unknown(photo: Photo, hints: Hints) -> bool:
@@ -331,7 +332,7 @@ def unmix_clouds(
     """Return ``covers`` with opacity and shade un-mixed from the fitted sky."""
     of_sky, of_all = cloud_stage.veil(erased.working, sky, camera, fitted, sun_seen=sun_seen)
     # Where the matte is soft, twigs darken the sky as a cloud would: continue the clouds from
-    # around them. Round the sun whiteness tells nothing, and clear sky more of it than a cloud's edge.
+    # around them. Round the sun whiteness tells nothing: there the clear sky goes on.
     weight = np.asarray(inner(sky > 0.98), np.float32)
     filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), weight)
     if erased.glow.any():
