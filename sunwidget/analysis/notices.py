@@ -7,6 +7,7 @@ from typing import Self
 import numpy as np
 
 from sunwidget.analysis import sun as sun_stage
+from sunwidget.analysis.confidence import UNKNOWN
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
@@ -128,14 +129,15 @@ def _about_sun(
         )
     if sun is None and hints.sun_outside:
         return Notice(
-            f"The sun is said not to be in {photo.name}. Its place is assumed{_sure(fit)}; "
-            "pass sun=(x, y) in pixels if you know it (outside the picture is fine).",
+            f"The sun is said not to be in {photo.name}{_untold(fit)}. Its place is "
+            f"assumed{_sure(fit)}; pass sun=(x, y) in pixels if you know it (outside the picture "
+            "is fine).",
             "told_outside",
         )
     if sun is None:
         return Notice(
-            f"No sun found in {photo.name}. Its place is assumed{_sure(fit)}; click where it is, "
-            "or pass sun=(x, y) in pixels (outside the picture is fine).",
+            f"No sun found in {photo.name}{_untold(fit)}. Its place is assumed{_sure(fit)}; "
+            "click where it is, or pass sun=(x, y) in pixels (outside the picture is fine).",
             "unseen_sun",
         )
     if sun.kind == "moon":
@@ -203,6 +205,11 @@ def _about_horizon(
 
 def _sure(fit: SkyFit | None) -> str:
     return "" if fit is None else f" ({100 * fit.sun_confidence:.0f} % sure)"
+
+
+def _untold(fit: SkyFit | None) -> str:
+    said = fit is not None and fit.sun_spread < UNKNOWN
+    return "" if said else ", and the photo does not tell where it is"
 
 
 def _sky_below(sky: np.ndarray, horizon: Horizon, camera: Camera) -> bool:
