@@ -27,7 +27,7 @@ from sunwidget.analysis.confidence import (
     likeliest_sun,
     spread_of_angles,
 )
-from sunwidget.analysis.working import LUMINANCE, Working
+from sunwidget.analysis.working import LUMINANCE, Working, encode, saturation
 from sunwidget.atmosphere.constants import SPECTRAL_TO_REC709
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.sky import SkyTable
@@ -44,6 +44,8 @@ _CONTRASTS = (0.7, 0.85, 1.0, 1.15)
 _SAMPLES = 250
 _ANGSTROM, _ALBEDO = 1.3, 0.9
 _LARGEST_ERROR = 0.1
+_GREY = 0.05  # median HSI saturation below which a sky is overcast (overcast.py)
+_NIGHT = 0.02  # median display light below which a sky's colours are noise and lamps
 DEFAULT_SHOULDER = 0.9
 
 
@@ -95,7 +97,7 @@ class SkyFit:
         How likely that sun is near the true one, [0, 1]: 1 when it was given.
     sun_spread : float
         Degrees round that sun within which the true one lies, four times of five: 0 when it was
-        given, 180 where no sky tells.
+        given, 180 where the sky does not tell.
     """
 
     atmosphere: Atmosphere
@@ -185,6 +187,9 @@ def fit_sky(
         sun, sure_of_sun, spread = _search_sun(
             display, where, assumed[0], lambda share: done(searched * share)
         )
+        dark = np.median(display @ LUMINANCE) < _NIGHT
+        if dark or np.median(saturation(encode(display))) < _GREY:
+            spread = 180.0  # what the colours of a night or of an overcast sky fit is chance
 
     # First the air under a middling response, then the response under the likeliest airs.
     candidates = [
