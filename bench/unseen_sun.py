@@ -178,6 +178,8 @@ def apart(one: Any, other: Any) -> Any:
 
 def report(name: str, answers: list[Answer]) -> None:
     """Print a row of the table."""
+    if not answers:
+        return
     true, found, spread = (np.array([a[k] for a in answers]) for k in range(3))
     angle = apart(true.T, found.T)
     turn = np.abs((found[:, 0] - true[:, 0] + 180) % 360 - 180)
