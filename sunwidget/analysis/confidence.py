@@ -4,6 +4,9 @@ Two questions. Will the fitted sky change with the sun as the photo's would? Is 
 photo does not show it, where the fit puts it? Each answer is a logistic regression (as Platt
 1999, "Probabilistic outputs for support vector machines") on what the fit saw;
 ``bench/confidence.py`` draws the skies, fits the weights and prints how often it is right.
+
+And within how many degrees of there does it lie? What every direction that was tried misses the
+sky by gives a posterior; ``bench/unseen_sun.py`` fits its two weights to real photos.
 """
 
 from __future__ import annotations
@@ -21,6 +24,20 @@ GOOD_SUN = 35.0
 # Bias, then the weights of ``features_of_fit`` and of ``features_of_sun``.
 FIT_WEIGHTS = (-0.78, -1.73, 0.49, -0.19, -0.33, 3.26)
 SUN_WEIGHTS = (1.07, 2.26, 0.34, 0.05)
+# By how many e-folds a direction's odds fall with a misfit of 0.01.
+SUN_ODDS = 2.0
+# A sun just outside the picture leaves a glow in it (von Mises), and half of the time the brightest
+# sky is one: chosen, since labelled suns all stand near their picture.
+_NARROW, _GLOWS = 6.0, 0.5
+UNKNOWN = 90.0
+"""Degrees of spread (``likeliest_sun``) from which the photo does not tell where the sun is."""
+
+TURNS = np.arange(-150.0, 181, 30)
+HEIGHTS = np.array([-2.0, 2.0, 8.0, 18.0, 35.0, 60.0])
+"""Azimuths and elevations that the search tries: each with each."""
+
+_FINE_TURNS = np.arange(-170.0, 181, 10)
+_FINE_HEIGHTS = np.array([-2.0, 0.0, 2.0, 5.0, 8.0, 13.0, 18.0, 26.0, 35.0, 47.0, 60.0])
 _CLOSE = 0.15  # how much worse than the best an air may be and still be one of the likely ones
 
 
@@ -51,9 +68,7 @@ class Evidence:
 
 def spread_of_angles(azimuth: np.ndarray, elevation: np.ndarray, sun: tuple[float, float]) -> float:
     """Return between which angles from the sun the sky is seen: degrees between the deciles."""
-    az, el, height = np.radians(azimuth - sun[0]), np.radians(elevation), np.radians(sun[1])
-    cosine = np.sin(el) * np.sin(height) + np.cos(el) * np.cos(height) * np.cos(az)
-    low, high = np.quantile(np.degrees(np.arccos(np.clip(cosine, -1, 1))), (0.1, 0.9))
+    low, high = np.quantile(_angles(azimuth, elevation, sun), (0.1, 0.9))
     return float(high - low)
 
 
@@ -90,8 +105,9 @@ def features_of_sun(
     turns = np.array([_turn(sun[0], best[0]) for sun in errors])
     values = np.array(list(errors.values()))
     elsewhere = values[turns > GOOD_SUN]
-    margin = float(elsewhere.min() / max(errors[best], 1e-4) - 1) if elsewhere.size else 0.0
-    return np.array([min(margin, 2.0), np.log2(max(errors[best], 0.002) / 0.02), abs(best[0]) / 90])
+    own = errors[min(errors, key=lambda sun: _turn(sun[0], best[0]) + abs(sun[1] - best[1]))]
+    margin = float(elsewhere.min() / max(own, 1e-4) - 1) if elsewhere.size else 0.0
+    return np.array([min(margin, 2.0), np.log2(max(own, 0.002) / 0.02), abs(best[0]) / 90])
 
 
 def confidence_of_fit(evidence: Evidence) -> float:
@@ -110,6 +126,51 @@ def confidence_of_sun(best: tuple[float, float], errors: dict[tuple[float, float
         The misfit of each direction that was tried.
     """
     return probability(SUN_WEIGHTS, features_of_sun(best, errors))
+
+
+def posterior_of_sun(
+    errors: dict[tuple[float, float], float], towards: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return azimuths, elevations and probabilities (n,) of where an unseen sun may be.
+
+    Before its colours are asked, the sky says by its brightest part where the sun is, or nothing,
+    and each step of elevation is as likely as the next.
+
+    Parameters
+    ----------
+    errors : dict
+        The misfit of each of ``TURNS`` and ``HEIGHTS``.
+    towards : float
+        Azimuth of the brightest sky, degrees.
+    """
+    misfits = np.array([[errors[a, h] for a in TURNS] for h in HEIGHTS])
+    misfits = np.array([np.interp(_FINE_TURNS, TURNS, row, period=360) for row in misfits])
+    misfits = np.array([np.interp(_FINE_HEIGHTS, HEIGHTS, column) for column in misfits.T]).T
+    glow = np.exp(_NARROW * (np.cos(np.radians(_FINE_TURNS - towards)) - 1))
+    before = _GLOWS * glow / glow.sum() + (1 - _GLOWS) / glow.size
+    likely = before * np.exp(-SUN_ODDS * (misfits - misfits.min()) / 0.01)
+    azimuth, elevation = np.meshgrid(_FINE_TURNS, _FINE_HEIGHTS)
+    return azimuth.ravel(), elevation.ravel(), (likely / likely.sum()).ravel()
+
+
+def likeliest_sun(
+    errors: dict[tuple[float, float], float], towards: float
+) -> tuple[tuple[float, float], float]:
+    """Return where an unseen sun most likely is, and within how many degrees, 4 times of 5.
+
+    Takes what ``posterior_of_sun`` takes.
+    """
+    azimuth, elevation, likely = posterior_of_sun(errors, towards)
+    best = float(azimuth[likely.argmax()]), float(elevation[likely.argmax()])
+    angle = _angles(azimuth, elevation, best)
+    order = np.argsort(angle)
+    return best, float(np.interp(0.8, np.cumsum(likely[order]), angle[order]))
+
+
+def _angles(azimuth: np.ndarray, elevation: np.ndarray, sun: tuple[float, float]) -> np.ndarray:
+    az, el, height = np.radians(azimuth - sun[0]), np.radians(elevation), np.radians(sun[1])
+    cosine = np.sin(el) * np.sin(height) + np.cos(el) * np.cos(height) * np.cos(az)
+    return np.asarray(np.degrees(np.arccos(np.clip(cosine, -1, 1))))
 
 
 def _turn(one: float, other: float) -> float:

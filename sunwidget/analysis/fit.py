@@ -18,13 +18,16 @@ from typing import TypeVar
 import numpy as np
 
 from sunwidget.analysis.confidence import (
+    HEIGHTS,
+    TURNS,
     Evidence,
     confidence_of_fit,
     confidence_of_sun,
     doubt,
+    likeliest_sun,
     spread_of_angles,
 )
-from sunwidget.analysis.working import LUMINANCE, Working
+from sunwidget.analysis.working import LUMINANCE, Working, encode, saturation
 from sunwidget.atmosphere.constants import SPECTRAL_TO_REC709
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.sky import SkyTable
@@ -41,6 +44,8 @@ _CONTRASTS = (0.7, 0.85, 1.0, 1.15)
 _SAMPLES = 250
 _ANGSTROM, _ALBEDO = 1.3, 0.9
 _LARGEST_ERROR = 0.1
+_GREY = 0.05  # median HSI saturation below which a sky is overcast (overcast.py)
+_NIGHT = 0.02  # median display light below which a sky's colours are noise and lamps
 DEFAULT_SHOULDER = 0.9
 
 
@@ -90,6 +95,9 @@ class SkyFit:
         Degrees; the given sun, or the one that explains the sky best.
     sun_confidence : float
         How likely that sun is near the true one, [0, 1]: 1 when it was given.
+    sun_spread : float
+        Degrees round that sun within which the true one lies, four times of five: 0 when it was
+        given, 180 where the sky does not tell.
     """
 
     atmosphere: Atmosphere
@@ -98,6 +106,7 @@ class SkyFit:
     glare: tuple[float, float, float]
     sun: tuple[float, float]
     sun_confidence: float = 1.0
+    sun_spread: float = 0.0
 
     def model(self, azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
         """Return the matched clear sky (..., 3) in scene-linear light, without glare."""
@@ -132,6 +141,7 @@ def fit_sky(
     assumed: tuple[float, float],
     done: Done = lambda _share: None,
     sure_of_sun: float = 1.0,
+    spread: float = 0.0,
 ) -> SkyFit:
     """Fit model and camera to the clear sky of a photo.
 
@@ -151,6 +161,8 @@ def fit_sky(
         Told now and then what share of the work is done, 0 to 1; what it raises ends the fit.
     sure_of_sun : float
         How likely ``sun`` is near the true one, [0, 1], when it was not given but found.
+    spread : float
+        The ``sun_spread`` that it was found with.
 
     Returns
     -------
@@ -172,9 +184,12 @@ def fit_sky(
     searched = 0.0
     if sun is None:
         searched = 0.5
-        sun, sure_of_sun = _search_sun(
-            display, where, assumed, lambda share: done(searched * share)
+        sun, sure_of_sun, spread = _search_sun(
+            display, where, assumed[0], lambda share: done(searched * share)
         )
+        dark = np.median(display @ LUMINANCE) < _NIGHT
+        if dark or np.median(saturation(encode(display))) < _GREY:
+            spread = 180.0  # what the colours of a night or of an overcast sky fit is chance
 
     # First the air under a middling response, then the response under the likeliest airs.
     candidates = [
@@ -223,6 +238,7 @@ def fit_sky(
         (0.0, 3.0, 2.0),
         sun,
         sure_of_sun,
+        spread,
     )
 
 
@@ -264,17 +280,13 @@ def _compare(
 def _search_sun(
     display: np.ndarray,
     where: tuple[np.ndarray, np.ndarray],
-    assumed: tuple[float, float],
+    towards: float,
     done: Done,
-) -> tuple[tuple[float, float], float]:
-    """Direction of an unseen sun, and how sure it is: coarse search from the assumed one."""
+) -> tuple[tuple[float, float], float, float]:
+    """Direction of an unseen sun, how sure it is, and its spread; ``towards`` the sky is bright."""
     step = max(1, display.shape[0] // 120)
     display, where = display[::step], (where[0][::step], where[1][::step])
     response = Response()
-    around = np.arange(-150.0, 181, 30)
-    # Suns of one height are marched together: they share the air's table.
-    rings = [(np.array([assumed[0]]), assumed[1])]
-    rings += [(around, height) for height in (-2.0, 2.0, 8.0, 18.0, 35.0, 60.0)]
     airs = [
         Atmosphere(
             aerosol_optical_depth=depth,
@@ -285,23 +297,20 @@ def _search_sun(
         for depth in (0.03, 0.12)
     ]
 
-    def march(task: tuple[Atmosphere, tuple[np.ndarray, float]]) -> np.ndarray:
-        air, (azimuths, height) = task
-        return model_sky(air, where[0] - azimuths[:, None], where[1], (0.0, height))
+    def march(task: tuple[Atmosphere, float]) -> np.ndarray:
+        # Suns of one height are marched together: they share the air's table.
+        air, height = task
+        return model_sky(air, where[0] - TURNS[:, None], where[1], (0.0, height))
 
-    tasks = list(itertools.product(airs, rings))
+    tasks = list(itertools.product(airs, HEIGHTS.tolist()))
     errors: dict[tuple[float, float], float] = {}
     found = _side_by_side(march, tasks, done)
-    for (_, (azimuths, height)), skies in zip(tasks, found, strict=True):
-        for azimuth, sky in zip(azimuths, skies, strict=True):
-            candidate = float(azimuth), float(height)
+    for (_, height), skies in zip(tasks, found, strict=True):
+        for azimuth, sky in zip(TURNS.tolist(), skies, strict=True):
             error, _ = _compare(display, sky, response)
-            # The sky must speak clearly to overrule the assumption.
-            if candidate == assumed:
-                error *= 0.9
-            errors[candidate] = min(error, errors.get(candidate, np.inf))
-    best = min(errors, key=lambda candidate: errors[candidate])
-    return best, confidence_of_sun(best, errors)
+            errors[azimuth, height] = min(error, errors.get((azimuth, height), np.inf))
+    best, spread = likeliest_sun(errors, towards)
+    return best, confidence_of_sun(best, errors), spread
 
 
 def fit_without_sky(light: np.ndarray, sky: np.ndarray, sun: tuple[float, float]) -> SkyFit:
@@ -315,4 +324,4 @@ def fit_without_sky(light: np.ndarray, sky: np.ndarray, sun: tuple[float, float]
     gain = max(level, 1e-3) / max(float(overhead @ LUMINANCE) * 0.5, 1e-9)
     # Nothing was compared: the defaults are sure of nothing.
     atmosphere = atmosphere.replace(confidence=0.0)
-    return SkyFit(atmosphere, response, (gain, gain, gain), (0.0, 3.0, 2.0), sun, 0.0)
+    return SkyFit(atmosphere, response, (gain, gain, gain), (0.0, 3.0, 2.0), sun, 0.0, 180.0)

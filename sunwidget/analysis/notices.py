@@ -7,6 +7,7 @@ from typing import Self
 import numpy as np
 
 from sunwidget.analysis import sun as sun_stage
+from sunwidget.analysis.confidence import UNKNOWN
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
@@ -128,14 +129,15 @@ def _about_sun(
         )
     if sun is None and hints.sun_outside:
         return Notice(
-            f"The sun is said not to be in {photo.name}. Its place is assumed{_sure(fit)}; "
-            "pass sun=(x, y) in pixels if you know it (outside the picture is fine).",
+            f"The sun is said not to be in {photo.name}{_untold(fit)}. Its place is "
+            f"assumed{_within(fit)}; pass sun=(x, y) in pixels if you know it (outside the picture "
+            "is fine).",
             "told_outside",
         )
     if sun is None:
         return Notice(
-            f"No sun found in {photo.name}. Its place is assumed{_sure(fit)}; click where it is, "
-            "or pass sun=(x, y) in pixels (outside the picture is fine).",
+            f"No sun found in {photo.name}{_untold(fit)}. Its place is assumed{_within(fit)}; "
+            "click where it is, or pass sun=(x, y) in pixels (outside the picture is fine).",
             "unseen_sun",
         )
     if sun.kind == "moon":
@@ -201,8 +203,15 @@ def _about_horizon(
     return None
 
 
-def _sure(fit: SkyFit | None) -> str:
-    return "" if fit is None else f" ({100 * fit.sun_confidence:.0f} % sure)"
+def _untold(fit: SkyFit | None) -> str:
+    unknown = fit is not None and fit.sun_spread >= UNKNOWN
+    return ", and the photo does not tell where it is" if unknown else ""
+
+
+def _within(fit: SkyFit | None) -> str:
+    if fit is None or fit.sun_spread >= UNKNOWN:
+        return ""
+    return f" (within {fit.sun_spread:.0f}°, four times of five)"
 
 
 def _sky_below(sky: np.ndarray, horizon: Horizon, camera: Camera) -> bool:

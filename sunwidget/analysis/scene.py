@@ -258,6 +258,14 @@ class Scene:
         return 1.0 if self.fitted is None else self.fitted.sun_confidence
 
     @property
+    def sun_spread(self) -> float:
+        """Degrees within which an unseen sun lies of where it is put, four times of five.
+
+        0 where it is seen or told.
+        """
+        return 0.0 if self.sun is not None or self.fitted is None else self.fitted.sun_spread
+
+    @property
     def automatic(self) -> dict[str, float]:
         """The value that each automatic parameter of ``Edit`` takes in this photo."""
         azimuth, elevation = (

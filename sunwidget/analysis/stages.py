@@ -298,6 +298,7 @@ def fit_atmosphere(
             *(small, small_sky, veil.opacity, camera, fitted.sun, assumed),
             done=step.between(0.88, 0.9),
             sure_of_sun=fitted.sun_confidence,
+            spread=fitted.sun_spread,
         )
     if visible:
         fitted = _glare_of(fitted, working, erased, sky, camera)

@@ -9,10 +9,15 @@ from relight_scenes import known_photo
 import sunwidget as sw
 from sunwidget.analysis.confidence import (
     GOOD_SUN,
+    HEIGHTS,
+    TURNS,
+    UNKNOWN,
     Evidence,
     confidence_of_fit,
     confidence_of_sun,
     doubt,
+    likeliest_sun,
+    posterior_of_sun,
     spread_of_angles,
 )
 from sunwidget.analysis.fit import fit_sky, model_sky, view_angles
@@ -52,6 +57,29 @@ def test_a_sun_that_stands_out_is_surer_than_one_among_equals():
     flat = dict.fromkeys(suns, 0.02)
     sharp = flat | {(30.0, 20.0): 0.004}
     assert confidence_of_sun((30.0, 20.0), sharp) > confidence_of_sun((30.0, 20.0), flat) + 0.1
+
+
+def misfits(best=None, least=0.004):
+    """Misfits of all directions: equal but for that of ``best``."""
+    errors = {(float(a), float(h)): 0.03 for h in HEIGHTS for a in TURNS}
+    return errors | ({} if best is None else {best: least})
+
+
+def test_the_posterior_is_a_probability_that_follows_the_misfits():
+    azimuth, elevation, likely = posterior_of_sun(misfits((90.0, 18.0)), 90.0)
+    assert likely.sum() == pytest.approx(1)
+    assert (azimuth[likely.argmax()], elevation[likely.argmax()]) == (90, 18)
+    # What the sky does not tell, its brightest side does.
+    azimuth, elevation, likely = posterior_of_sun(misfits(), -60.0)
+    assert azimuth[likely.argmax()] == -60
+    assert np.ptp(likely[azimuth == -60]) < 1e-9
+
+
+def test_the_spread_grows_as_the_misfits_level_out_and_at_last_the_photo_does_not_tell():
+    best = (90.0, 18.0)
+    spreads = [likeliest_sun(misfits(best, least), 90.0)[1] for least in (1e-3, 0.02, 0.03)]
+    assert 0 < spreads[0] < spreads[1] < spreads[2] <= 180
+    assert spreads[0] < UNKNOWN <= spreads[2]
 
 
 def fitted(photo, *, told, assumed=(0.0, 30.0)):
@@ -104,8 +132,10 @@ def test_on_known_skies_the_surer_fits_are_the_better_ones():
 def test_a_sun_that_is_told_is_sure_and_one_that_is_guessed_is_not():
     photo = known_photo(clouds=False)
     assert fitted(photo, told=True).sun_confidence == 1
-    guessed = fitted(photo, told=False).sun_confidence
-    assert 0 < guessed < 1
+    assert fitted(photo, told=True).sun_spread == 0
+    guessed = fitted(photo, told=False)
+    assert 0 < guessed.sun_confidence < 1
+    assert 0 < guessed.sun_spread < 180
     assert GOOD_SUN < 90
 
 
@@ -115,6 +145,23 @@ def test_an_unseen_sun_stays_a_guess_when_the_sky_is_fitted_again_without_its_cl
     scene = sw.analyze(above, sky=np.ones(above.shape[:2], np.float32), refine="none")
     assert scene.sun is None
     assert 0 < scene.sun_confidence < 1
+    assert scene.sun_spread > 0
+
+
+def test_unseen_suns_of_known_skies_lie_within_the_spread_four_times_of_five():
+    suns = [(-150, 20), (-100, 8), (-60, 45), (-35, 4), (50, 12), (80, 30), (130, 50), (170, 15)]
+    inside = []
+    for sun in suns:
+        photo = known_photo(sun=sun, clouds=False)
+        fit = fitted(photo, told=False, assumed=(0.0, 30.0))
+        inside.append(angle_between(fit.sun, sun) <= fit.sun_spread)
+    assert np.mean(inside) >= 0.7
+
+
+def angle_between(one, other):
+    """Degrees between two directions."""
+    (a, h), (b, k) = np.radians(one), np.radians(other)
+    return np.degrees(np.arccos(np.sin(h) * np.sin(k) + np.cos(h) * np.cos(k) * np.cos(a - b)))
 
 
 def test_a_photo_without_sky_is_sure_of_nothing_and_says_what_to_do():
@@ -122,7 +169,9 @@ def test_a_photo_without_sky_is_sure_of_nothing_and_says_what_to_do():
     scene = sw.analyze(land, sky=np.zeros((60, 90), np.float32), refine="none")
     assert scene.atmosphere.confidence == 0
     assert scene.sun_confidence == 0
-    assert any("0 % sure" in notice and "click" in notice for notice in scene.warnings)
+    assert scene.sun_spread == 180
+    told = "does not tell where it is. Its place is assumed; click"
+    assert any(told in notice for notice in scene.warnings)
 
 
 def test_a_doubtful_sky_is_told_with_what_to_do():
@@ -133,3 +182,17 @@ def test_a_doubtful_sky_is_told_with_what_to_do():
     scene = sw.analyze(picture, sky=sky, refine="none")
     assert scene.atmosphere.confidence < 0.3
     assert any("changes with the sun is a guess" in notice for notice in scene.warnings)
+
+
+def test_a_grey_sky_does_not_tell_where_the_sun_is_and_a_clear_one_does():
+    random = np.random.default_rng(3)
+    grey = np.clip(170 + random.normal(0, 4, (80, 120, 1)), 0, 255).repeat(3, 2).astype(np.uint8)
+    clear = known_photo(sun=(40.0, 50.0), clouds=False).bytes
+    sky = np.zeros((80, 120), np.float32)
+    sky[:50] = 1
+    night = (grey * 0.1).astype(np.uint8)
+    for picture, untold in ((grey, True), (night, True), (clear, False)):
+        scene = sw.analyze(picture, sky=sky, refine="none", sun="outside", horizon=53)
+        assert (scene.sun_spread >= UNKNOWN) is untold
+        assert any("does not tell where it is" in text for text in scene.warnings) is untold
+        assert any(f"within {scene.sun_spread:.0f}°" in text for text in scene.warnings) != untold
