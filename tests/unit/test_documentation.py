@@ -134,9 +134,10 @@ def test_every_method_of_the_frame_is_told_in_a_page(docs, root):
     assert all(f"`{name}`" in index for name in RENDER_METHODS)
 
 
-def test_the_model_card_is_of_the_network_that_ships(root):
+@pytest.mark.parametrize("name", ["sky.onnx", "suns.onnx"])
+def test_the_model_card_is_of_the_networks_that_ship(root, name):
     folder = root / "sunwidget" / "analysis" / "models"
-    network = (folder / "sky.onnx").read_bytes()
+    network = (folder / name).read_bytes()
     card = (folder / "MODEL_CARD.md").read_text("utf-8")
     assert hashlib.sha256(network).hexdigest() in card
     assert f"{len(network) / 1e6:.1f} MB" in card
