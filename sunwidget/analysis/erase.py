@@ -70,7 +70,7 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     rows, columns = maps.clean.shape[:2]
     small_sky = resize(sky, columns, rows)
     seen = np.log(resize(working.linear, columns, rows) + LIGHT_FLOOR)
-    glare = _risen(maps, small_sky, light)
+    glare = _risen(maps, seen, small_sky, light)
     felt = glare.max(-1)
     blot = resize(light.blot, columns, rows)
     if float((blot * felt).sum()) < _HIDES[0] * float(blot.sum()):
@@ -98,10 +98,13 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     return Erased(copy, mark, enlarged(smoothstep(*_FELT, felt)), enlarged(glow))
 
 
-def _risen(maps: SunMaps, sky: np.ndarray, light: SunObservation) -> np.ndarray:
+def _risen(
+    maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservation
+) -> np.ndarray:
     """Return by how much the glare exceeds the glow farther out, (h, w, 3), log of light.
 
-    How much of a wide glow is the sky's own no picture tells, and the fitted sky has one.
+    How much of a wide glow is the sky's own no picture tells, and the fitted sky has one. And there
+    is no more glare than by what the picture (``seen``, log of light) is brighter than farther out.
     """
     rows, columns = sky.shape
     width, height = light.size
@@ -111,8 +114,12 @@ def _risen(maps: SunMaps, sky: np.ndarray, light: SunObservation) -> np.ndarray:
     )
     reach = _REACH + _REACH_OF_DISC * light.radius_px / width
     beyond = smoothstep(0.7 * reach, reach, away) * np.maximum(sky, 1e-3)
-    wide = fill_by_pyramid(maps.clean, beyond.astype(np.float32))
-    return np.maximum(wide - maps.clean, 0) * (1 - smoothstep(0.8 * reach, reach, away))[..., None]
+    beyond = beyond.astype(np.float32)
+    near = 1 - smoothstep(0.8 * reach, reach, away)
+    glare = np.maximum(fill_by_pyramid(maps.clean, beyond) - maps.clean, 0) * near[..., None]
+    brighter = np.maximum((seen - _continued(seen, beyond)) @ LUMINANCE, 0)
+    share = np.minimum(brighter / np.maximum(glare @ LUMINANCE, 1e-6), 1)
+    return glare * share[..., None]
 
 
 def _continued(values: np.ndarray, weight: np.ndarray) -> np.ndarray:

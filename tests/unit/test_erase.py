@@ -6,18 +6,20 @@ import pytest
 from sunwidget.analysis.erase import erase, unerased
 from sunwidget.analysis.sun import SunObservation
 from sunwidget.analysis.sun_network import LIGHT_FLOOR, SunMaps
-from sunwidget.analysis.working import Working
+from sunwidget.analysis.working import Working, encode
 from sunwidget.photo import open_photo
 
 SIZE = (160, 128)  # width, height
 SMALL = (32, 40)  # rows, columns of the network's maps
 
 
-def picture(level=0.3):
-    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
-    grain = 0.02 * np.sin(1.9 * columns) * np.sin(1.7 * rows)
-    code = np.clip(level + grain, 0, 1)[..., None] * np.array([0.7, 0.85, 1.0])
-    return Working.of(open_photo(np.round(255 * code).astype(np.uint8)))
+def picture(strength=0.0):
+    """A grainy sky with a glow of e to the ``strength`` round the sun's place."""
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    grain = 1 + 0.1 * np.sin(1.9 * columns) * np.sin(1.7 * rows)
+    near = np.exp(-np.square(np.hypot(columns - 80, rows - 40) / 16))
+    light = (0.1 + LIGHT_FLOOR) * grain * np.exp(strength * near) - LIGHT_FLOOR
+    return Working.of(open_photo(encode(light[..., None] * np.array([0.7, 0.85, 1.0]))))
 
 
 def maps(clean):
@@ -52,7 +54,7 @@ def glow(strength):
 
 
 def test_little_glare_is_taken_from_the_light_and_leaves_the_detail():
-    working = picture()
+    working = picture(0.25)
     linear = erase(working, maps(glow(0.25)), sky(), light(blot())).working.linear
     box = slice(36, 44), slice(56, 64)  # 20 px beside the sun: e^-1.56 of the strength
     change = np.log((linear[box] + LIGHT_FLOOR) / (working.linear[box] + LIGHT_FLOOR))
@@ -60,8 +62,14 @@ def test_little_glare_is_taken_from_the_light_and_leaves_the_detail():
     assert linear[box].std() > 0.7 * working.linear[box].std()
 
 
+def test_no_more_is_taken_than_the_sky_is_brighter_than_farther_out():
+    working = picture()  # without a glow, whatever the network says
+    linear = erase(working, maps(glow(0.25)), sky(), light(blot())).working.linear
+    assert np.abs(linear - working.linear).mean() < 0.1 * working.linear.std()
+
+
 def test_far_from_the_sun_the_photo_stays_to_the_bit():
-    working = picture()
+    working = picture(1.5)
     erased = erase(working, maps(glow(1.5)), sky(), light(blot()))
     assert erased.mark[40, 80] == pytest.approx(1)
     far = slice(90, None)

@@ -158,10 +158,16 @@ def add_sun(scene: np.ndarray, sky: np.ndarray, random: Random, water: int | Non
     d = np.hypot(dx, dy).astype(np.float32)
     around = scene[max(int(y) - 6, 0) : int(y) + 7, max(int(x) - 6, 0) : int(x) + 7].mean((0, 1))
     color = sun_color(random, around)
-    kind = random.choice(["burnt", "limb", "veiled"], p=[0.6, 0.25, 0.15])
+    kind = random.choice(["burnt", "limb", "veiled", "small"], p=[0.45, 0.22, 0.13, 0.2])
     glare = np.zeros_like(d)
     disc = np.zeros((height, width, 3), np.float32)
-    if kind == "burnt":
+    if kind == "small":  # a clear day's sun before a good lens, with hardly any glare
+        radius, sharp = log_uniform(random, 0.004, 0.02), 0.0
+        softness = random.uniform(0.3, 1.0) * radius
+        rim = np.minimum((d - radius) / (0.3 * softness), 50)
+        glare += log_uniform(random, 1.2, 12) / (1 + np.exp(rim))
+        glare += log_uniform(random, 0.03, 0.6) * (1 + (d / (3 * radius)) ** 2) ** -1.5
+    elif kind == "burnt":
         radius, sharp = log_uniform(random, 0.006, 0.085), 0.0
         b, c = log_uniform(random, 0.004, 0.06), random.uniform(0.7, 2.2)
         peak = (1 + (radius / b) ** 2) ** c
@@ -185,9 +191,11 @@ def add_sun(scene: np.ndarray, sky: np.ndarray, random: Random, water: int | Non
     # Measured on photos with a sun, light above the core's edge: .77 at 2 % of the width, .56 at
     # 5 %, .40 at 10 %, .27 at 20 %, .19 at 30 %.
     outside = np.maximum(d - radius, 0)
-    glare += random.beta(1.3, 1.3) * (
-        1 + (outside / log_uniform(random, 0.03, 0.3)) ** 2
-    ) ** -random.uniform(0.5, 1.6)
+    glare += (
+        random.beta(1.3, 1.3)
+        * (0.3 if kind == "small" else 1.0)
+        * (1 + (outside / log_uniform(random, 0.03, 0.3)) ** 2) ** -random.uniform(0.5, 1.6)
+    )
     if random.random() < 0.3:
         glare += starburst(dx, dy, d, random)
     tint = 1 - (1 - color) * random.uniform(0.4, 1.0)
