@@ -41,7 +41,6 @@ class Backdrop:
 LONG_SIDE = 256
 _DETAILED = 512  # the longer side where a sun was erased: the photo's clouds there come from here
 _MODEL_SIDE = 80
-_CLOUDS = 0.025  # in longer sides: what is finer beside the sun is cloud and not glare
 
 
 def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> Backdrop:
@@ -69,8 +68,9 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     display = np.asarray(resize(working.linear, *size), np.float32)
     matte = np.asarray(resize(sky, *size), np.float32)
     mark = np.asarray(resize(erased.mark, *size), np.float32)
-    # What the camera clipped says little, but for what was found behind the sun.
-    clipped = smoothstep(0.90, 0.97, display.max(-1)) * (1 - mark)
+    # What the camera clipped says little. Beside an erased sun it counts as it is shown, or what
+    # fills the gap would end at an edge.
+    clipped = smoothstep(0.90, 0.97, display.max(-1)) * (not mark.any())
     model = matched_sky(fit, camera, size)
     log_residual = _log_residual(fit.response.scene_light(display), model)
     # What the glare hides goes on as the model does, which knows how bright the air was round the
@@ -78,22 +78,10 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     known = 1 - np.asarray(resize(erased.hidden, *size), np.float32)
     weight = np.asarray((matte > 0.98) * (1 - clipped) * known, np.float32)
     filled = fill_by_pyramid(log_residual, weight)
-    if erased.mark.any():
-        filled += (1 - known)[..., None] * _detail(log_residual, matte)
+    filled += ((1 - known) * resize(erased.detail, *size))[..., None]
     beyond = fit.response.display_light(model * np.exp(filled))
     sky_light = beyond + weight[..., None] * (display - beyond)
     return Backdrop(_dithered(np.sqrt(np.clip(sky_light, 0, 1))), mark)
-
-
-def _detail(values: np.ndarray, matte: np.ndarray) -> np.ndarray:
-    """Return what of a sky's values (h, w, 3) departs from their mean round about."""
-    import cv2
-
-    inside = (matte > 0.98).astype(np.float32)
-    reach = _CLOUDS * max(matte.shape)
-    mean = cv2.GaussianBlur(values * inside[..., None], (0, 0), reach)
-    share = cv2.GaussianBlur(inside, (0, 0), reach)
-    return inside[..., None] * (values - mean / np.maximum(share, 1e-3)[..., None])
 
 
 def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:

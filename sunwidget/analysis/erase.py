@@ -22,6 +22,7 @@ _FELT = (0.03, 0.12)  # less is none, more is taken away in full
 _COLOURS = (0.06, 0.3)  # less leaves the sky its colour, more hides it
 _WHITENS = (0.15, 0.6)  # less leaves clouds to be told from the sky, more does not
 _HIDES = (0.3, 0.9)  # less leaves the sky its clouds, more hides them
+_CLOUDS = 0.02  # in longer sides: what is finer beside the sun is cloud and not glare
 _REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow is the sky's
 
 
@@ -38,18 +39,21 @@ class Erased(NamedTuple):
         Where the copy's light is a guess and no more than its detail is known, [0, 1].
     glow : (h, w) float32
         Where glare or the sun's own air is so bright that whiteness tells no clouds, [0, 1].
+    detail : (h, w) float32
+        Log of the photo's light over its mean round about: clouds, where the glare leaves any.
     """
 
     working: Working
     mark: np.ndarray
     hidden: np.ndarray
     glow: np.ndarray
+    detail: np.ndarray
 
 
 def unerased(working: Working) -> Erased:
     """Return the copy of a photo that shows no sun."""
     nowhere = np.zeros((working.height, working.width), np.float32)
-    return Erased(working, nowhere, nowhere, nowhere)
+    return Erased(working, nowhere, nowhere, nowhere, nowhere)
 
 
 def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation) -> Erased:
@@ -95,12 +99,22 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     linear = linear.astype(np.float32)
     copy = dataclasses.replace(working, linear=linear, encoded=encode(linear))
     glow = smoothstep(*_WHITENS, np.maximum(felt, -maps.clean.min(-1)))
-    return Erased(copy, mark, enlarged(smoothstep(*_FELT, felt)), enlarged(glow))
+    detail = keep[..., 0] * _detail(there @ LUMINANCE, sky)
+    return Erased(copy, mark, enlarged(smoothstep(*_FELT, felt)), enlarged(glow), detail)
 
 
-def _risen(
-    maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservation
-) -> np.ndarray:
+def _detail(values: np.ndarray, sky: np.ndarray) -> np.ndarray:
+    """Return what of a sky's values (h, w) departs from their mean round about."""
+    import cv2
+
+    inside = (sky > 0.98).astype(np.float32)
+    reach = _CLOUDS * max(sky.shape)
+    mean = cv2.GaussianBlur(values * inside, (0, 0), reach)
+    share = cv2.GaussianBlur(inside, (0, 0), reach)
+    return np.asarray(inside * (values - mean / np.maximum(share, 1e-3)), np.float32)
+
+
+def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservation) -> np.ndarray:
     """Return by how much the glare exceeds the glow farther out, (h, w, 3), log of light.
 
     How much of a wide glow is the sky's own no picture tells, and the fitted sky has one. And there
