@@ -12,11 +12,11 @@ from sunwidget.analysis.sun_network import SunMaps
 from sunwidget.analysis.working import LUMINANCE, Working
 
 RADIUS_DEG = 0.2665  # apparent radius of the sun's disc, and of the moon's
-LEAST_CONFIDENCE = 0.5  # from which a sun is one
+LEAST_CONFIDENCE = 0.45  # from which a sun is one
 SURE = 0.7  # the same where the sky is as dark as a night's
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate
-WEIGHTS = (-15.912, 3.016, -0.572, -0.757, 1.555, 18.065)
-RADIUS_SCALE = 0.822  # of the network's radius, to that which people draw
+WEIGHTS = (-15.364, 3.017, -0.699, -0.976, 1.707, 17.486)
+RADIUS_SCALE = 0.786  # of the network's radius, to that which people draw
 _NIGHT = 0.5  # a sun lights a tenth of its sky to more than this encoded luminance, a moon does not
 
 
@@ -54,7 +54,9 @@ def features_of(maps: SunMaps, working: Working) -> np.ndarray:
     radius = float(maps.radius[row, column])
     columns, rows = np.arange(width) - column, np.arange(height)[:, None] - row
     away = np.hypot(columns, rows) / width
-    elsewhere = maps.probability[away > max(0.08, 2 * radius)]
+    # Its glints on water stand below it and speak for it.
+    glints = (rows > 0) & (np.abs(columns) < 0.12 * width)
+    elsewhere = maps.probability[(away > max(0.08, 2 * radius)) & ~glints]
     p = np.clip([maps.probability[row, column], elsewhere.max(initial=0.0)], 1e-6, 1 - 1e-6)
     erased = maps.clean.mean(-1)
     core = float(erased[away <= max(0.012, 0.7 * radius)].min())

@@ -57,12 +57,12 @@ def main() -> None:
     judged = [p for p in labels() if p.test != options.train and p.kind != "drop"]
     results = [look(photo, options.data) for photo in judged]
     discs = [r for r in results if r.photo.kind == "disc"]
-    for least in (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8):
+    for least in (0.3, LEAST_CONFIDENCE, 0.6, 0.7, 0.8):
         found = [r for r in results if r.peak.confidence >= least]
         recall = np.mean([r.right and r.peak.confidence >= least for r in discs])
         precision = np.mean([r.right for r in found]) if found else np.nan
         print(
-            f"{least:.1f}: recall {recall:.3f} of {len(discs)} discs, "
+            f"{least:.2f}: recall {recall:.3f} of {len(discs)} discs, "
             f"precision {precision:.3f} of {len(found)} found in {len(results)} photos"
         )
     hit = [r for r in discs if r.right]
