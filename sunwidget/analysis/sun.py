@@ -159,15 +159,11 @@ METHODS: dict[str, Callable[[Working, np.ndarray, float, float, float], Blot]] =
 
 def settled(blot: Blot, peak: Peak) -> Blot:
     """Return a blot that grew from a found sun; where it grew into cloud or glow, a plain disc."""
-    import cv2
-
     near = math.hypot(blot.x - peak.x, blot.y - peak.y) < max(0.7 * peak.radius, 3)
     if near and 0.5 * peak.radius < blot.radius < 1.6 * peak.radius:
         return blot
-    disc = np.zeros(blot.mask.shape, np.float32)
-    scale = 16  # cv2 draws in sixteenths of a pixel
-    centre = round((peak.x - 0.5) * scale), round((peak.y - 0.5) * scale)
-    cv2.circle(disc, centre, max(round(peak.radius * scale), 1), 1.0, -1, cv2.LINE_AA, 4)
+    away = _away(blot.mask.shape, peak.x, peak.y)
+    disc = np.clip(peak.radius + 0.5 - away, 0, 1).astype(np.float32)
     return Blot(peak.x, peak.y, peak.radius, disc)
 
 
@@ -180,17 +176,24 @@ def field_of_view_of(blot: Blot, peak: Peak, working: Working, assumed: float) -
     area = float(blot.mask.sum())
     if peak.sharpness < _SHARP or blot.radius < _LEAST_LIMB or peak.confidence < 0.5:
         return None
-    y, x = np.mgrid[: working.height, : working.width] + 0.5
-    away = np.hypot(x - blot.x, y - blot.y) / blot.radius
+    away = _away(blot.mask.shape, blot.x, blot.y) / blot.radius
     luminance = working.encoded @ LUMINANCE
-    inside, outside = (away > 0.7) & (away < 0.9), (away > 1.15) & (away < 1.35)
-    if float(np.median(luminance[inside]) - np.median(luminance[outside])) < _LIMB_STEP:
+    inside = float(np.median(luminance[(away > 0.7) & (away < 0.9)]))
+    outside = float(np.median(luminance[(away > 1.2) & (away < 1.4)]))
+    if inside - outside < _LIMB_STEP:
         return None
     if area > 1.4 * math.pi * blot.radius**2:
         return None
-    focal = blot.radius / math.tan(math.radians(RADIUS_DEG))
+    # Half way between the two sides of the limb.
+    disc = np.count_nonzero((luminance > (inside + outside) / 2) & (away < 1.4))
+    focal = math.sqrt(disc / math.pi) / math.tan(math.radians(RADIUS_DEG))
     degrees = 2 * math.degrees(math.atan(0.5 * working.height / focal))
     return max(degrees, 1.0) if degrees < 0.7 * assumed else None
+
+
+def _away(shape: tuple[int, ...], x: float, y: float) -> np.ndarray:
+    """Return the distance in pixels of each pixel of a map (h, w) from a place."""
+    return np.hypot(np.arange(shape[1]) + 0.5 - x, np.arange(shape[0])[:, None] + 0.5 - y)
 
 
 def in_sky(blot: Blot, sky: np.ndarray, least: float = 0.6) -> np.ndarray:
