@@ -87,9 +87,9 @@ def test_a_ring_marks_the_found_sun_and_says_how_sure_that_is(editor, scene):
     label.wait_for(state="hidden")
 
 
-def test_a_sun_that_nothing_measured_has_no_percentage(page, coast):
-    assert coast.sun.confidence == 1
-    page.evaluate("(state) => showEditor(state)", widget_state(SunEditor(coast).wait(120)))
+def test_a_sun_that_is_sure_has_no_percentage(page, coast):
+    told = dataclasses.replace(coast, sun=dataclasses.replace(coast.sun, confidence=1.0))
+    page.evaluate("(state) => showEditor(state)", widget_state(SunEditor(told).wait(120)))
     page.locator(".sunwidget.sw-live").wait_for()
     assert page.locator(RING).get_attribute("aria-label") == "The photo’s sun"
 
