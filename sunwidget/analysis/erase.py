@@ -98,7 +98,9 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     linear = np.maximum(working.linear + mark[..., None] * (clean - working.linear), 0)
     linear = linear.astype(np.float32)
     copy = dataclasses.replace(working, linear=linear, encoded=encode(linear))
-    glow = smoothstep(*_WHITENS, np.maximum(felt, -maps.clean.min(-1)))
+    away, reach = _distance(light, small_sky.shape)
+    near = 1 - smoothstep(1.5 * reach, 2.5 * reach, away)
+    glow = near * smoothstep(*_WHITENS, np.maximum(felt, -maps.clean.min(-1)))
     detail = keep[..., 0] * _detail(there @ LUMINANCE, sky)
     return Erased(copy, mark, enlarged(smoothstep(*_FELT, felt)), enlarged(glow), detail)
 
@@ -120,13 +122,7 @@ def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservati
     How much of a wide glow is the sky's own no picture tells, and the fitted sky has one. And there
     is no more glare than by what the picture (``seen``, log of light) is brighter than farther out.
     """
-    rows, columns = sky.shape
-    width, height = light.size
-    away = np.hypot(
-        (np.arange(columns) + 0.5) / columns - light.x / width,
-        ((np.arange(rows)[:, None] + 0.5) / rows - light.y / height) * height / width,
-    )
-    reach = _REACH + _REACH_OF_DISC * light.radius_px / width
+    away, reach = _distance(light, sky.shape)
     beyond = smoothstep(0.7 * reach, reach, away) * np.maximum(sky, 1e-3)
     beyond = beyond.astype(np.float32)
     near = 1 - smoothstep(0.8 * reach, reach, away)
@@ -134,6 +130,17 @@ def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservati
     brighter = np.maximum((seen - _continued(seen, beyond)) @ LUMINANCE, 0)
     share = np.minimum(brighter / np.maximum(glare @ LUMINANCE, 1e-6), 1)
     return glare * share[..., None]
+
+
+def _distance(light: SunObservation, shape: tuple[int, ...]) -> tuple[np.ndarray, float]:
+    """Return the distance of each place of a map (h, w) from the sun, and its glare's, in widths."""
+    rows, columns = shape
+    width, height = light.size
+    away = np.hypot(
+        (np.arange(columns) + 0.5) / columns - light.x / width,
+        ((np.arange(rows)[:, None] + 0.5) / rows - light.y / height) * height / width,
+    )
+    return away, _REACH + _REACH_OF_DISC * light.radius_px / width
 
 
 def _continued(values: np.ndarray, weight: np.ndarray) -> np.ndarray:

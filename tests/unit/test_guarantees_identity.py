@@ -137,7 +137,7 @@ SHOWN = {
     "auto_exposure": {"sun_elevation": 2},
     "shading": {"land_facing": 1},
     "cast_shadows": {"sun_azimuth": 20, "sun_elevation": 2},
-    "cloud_shadows": {"sun_azimuth": 0, "sun_elevation": 30},
+    "cloud_shadows": {"sun_azimuth": 25, "sun_elevation": 20},
     "light_shafts": {"aerosol_optical_depth": 0.5, "sun_azimuth": -20, "sun_elevation": 14},
     "grain": {"auto_exposure": 0},
     "added_cloud_size": {"added_clouds": 0.5},
