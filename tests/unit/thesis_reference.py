@@ -70,9 +70,7 @@ def thesis_frame(scene, edit, *, literal=None, sky="model"):
         return np.minimum(transfer(response.display_light(light), own, target), 4.0)
 
     first, moved = (matched(light) for light in plain)
-    bright = ((source, plain[0]), (now, plain[1]))
-    glare = (light_with_glare(scene, values, source, light) for values, light in bright)
-    sky_first, sky_now = (matched(light) for light in glare)
+    sky_first, sky_now = first, moved
     disc = drawn_disc(scene, now) * np.array(known["sky_gain"])
     mask = np.minimum(disc @ LUMINANCE, 1.0)[..., None]  # F'
     sky_now = sky_now + mask * (response.display_light(disc) - sky_now)
@@ -222,25 +220,6 @@ def look_up(view, azimuth, elevation):
     mie = 3 / (8 * np.pi) * (1 - g * g) * (1 + nu**2)
     mie = mie / ((2 + g * g) * np.maximum(1 + g * g - 2 * g * nu, 1e-6) ** 1.5)
     return value * (described[1] * (rayleigh + 0.04) + described[2] * mie)
-
-
-def light_with_glare(scene, values, source, sky):
-    """Add the camera's glare round the sun, as measured in the photo; scene-linear."""
-    height, width, power = scene.uniforms()["glare_profile"]
-    sun = beam(scene, values, risen=False)
-    ratio = sun.sum() / max(beam(scene, source, risen=False).sum(), 1e-6)
-    ratio = min(ratio, sky_irradiance(scene, values).sum() / sky_irradiance(scene, source).sum())
-    angle = angle_from_sun(scene, values)
-    glare = height * (1 + (angle / max(width, 0.1)) ** 2) ** -power
-    color = sun * np.array(scene.uniforms()["sky_gain"])
-    color = color / (color @ LUMINANCE)
-    return sky + visible(scene, values) * ratio * glare[..., None] * color
-
-
-def sky_irradiance(scene, values):
-    """Light of the sky on the ground, (3,) linear Rec. 709: the frame's own sum over its sky."""
-    texel = render_pass_of(scene, values, "light_edit")[0, 0]
-    return np.maximum(spectral_to_rec709(texel), 1e-9)
 
 
 def drawn_disc(scene, values):
