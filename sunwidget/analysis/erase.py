@@ -133,7 +133,7 @@ def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservati
 
 
 def _distance(light: SunObservation, shape: tuple[int, ...]) -> tuple[np.ndarray, float]:
-    """Return the distance of each place of a map (h, w) from the sun, and its glare's, in widths."""
+    """Return each place's distance from the sun on a map (h, w), and its glare's; in widths."""
     rows, columns = shape
     width, height = light.size
     away = np.hypot(

@@ -89,10 +89,10 @@ def cloud_white_of(photo):
 
 def test_the_drawn_clouds_are_found_and_little_else():
     known, scene = known_photo(), known_scene()
-    away = scene.without_sun.glow < 0.3  # nearer to the sun whiteness tells nothing
+    away = scene.without_sun.glow < 0.45  # nearer to the sun whiteness tells nothing
     thick = (known.opacity > 0.8) & away
     clear = (known.opacity == 0) & (known.sky > 0) & away
-    assert thick.sum() > 20
+    assert thick.sum() > 12
     # Drawn opacity is 0.85; so hazy a sky is nearly as white as its clouds, and the un-mixing then
     # prefers to see no cloud (0.33 measured).
     assert np.median(scene.clouds[thick]) > 0.25
