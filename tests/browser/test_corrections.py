@@ -344,7 +344,8 @@ def test_notes_can_be_put_away_and_brought_back(editor, state):
     notes = editor.locator(".sw-note span")
     first = "The horizon is a <b>guess</b>. Drag it."
     rows = [{"about": "horizon", "text": first}, {"about": "", "text": "No lens."}]
-    scene = {**state["_scene"], "notes": rows, "revision": 5}
+    sure = {**state["_scene"]["sun"], "confidence": 1}  # of which no note is made
+    scene = {**state["_scene"], "sun": sure, "notes": rows, "revision": 5}
     editor.evaluate("(scene) => model.receive({ _scene: scene })", scene)
     editor.get_by_text(first, exact=True).wait_for()
     assert notes.all_text_contents() == [first, "No lens."]
