@@ -210,7 +210,10 @@ def in_sky(blot: Blot, sky: np.ndarray, least: float = 0.6) -> np.ndarray:
     if ring.sum() < 1 or float((ring * sky).sum() / ring.sum()) < least:
         return np.zeros_like(sky)
     # A setting sun is cut by what lies below the sky.
-    below = np.arange(sky.shape[0]) > np.nonzero(((ring > 0) & (sky > 0.5)).any(1))[0].max()
+    rows = np.flatnonzero(((ring > 0) & (sky > 0.5)).any(1))
+    if not rows.size:
+        return np.zeros_like(sky)
+    below = np.arange(sky.shape[0]) > rows[-1]
     blot = blot._replace(mask=np.where(below[:, None], 0, blot.mask).astype(np.float32))
     grown = cv2.dilate(blot.mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
     return np.clip(cv2.GaussianBlur(grown, (0, 0), reach / 6), 0, 1).astype(np.float32)
