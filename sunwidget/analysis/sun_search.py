@@ -89,8 +89,12 @@ def peak_of(maps: SunMaps, working: Working) -> Peak:
 def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:
     """Return the sun that the photo shows, or None; a dark sky's disc is rather the moon."""
     peak = peak_of(maps, working)
-    dark = night(working.encoded @ LUMINANCE, sky)
-    return peak if peak.confidence >= (SURE if dark else LEAST_CONFIDENCE) else None
+    if not night(working.encoded @ LUMINANCE, sky):
+        return peak if peak.confidence >= LEAST_CONFIDENCE else None
+    # So dark a sky round the sun itself is red; one that is blue is lit by the moon.
+    red, _, blue = np.median(working.encoded[sky > 0.5], axis=0)
+    moonlit = red <= blue and find_moon(working, sky) is not None
+    return peak if peak.confidence >= SURE and not moonlit else None
 
 
 def night(luminance: np.ndarray, sky: np.ndarray) -> bool:

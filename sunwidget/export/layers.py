@@ -140,7 +140,7 @@ def _over(below: Floats, wanted: Floats, opacity: Floats, dtype: Any) -> NDArray
     """Return the layer (h, W, 4) that makes ``wanted`` of ``below``, at least this opaque."""
     bounded = dtype.kind != "f"
     # Less than a level apart is the same.
-    same = np.float32(1 / np.iinfo(dtype).max) if bounded else np.float32(1e-4)
+    same = np.float32(1 / np.iinfo(dtype).max) if bounded else np.float32(1e-5)
     apart = wanted - below
     need = (-apart - same) / np.maximum(below, _LEAST)
     if bounded:

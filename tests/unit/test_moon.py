@@ -135,7 +135,7 @@ def test_a_night_photos_own_moon_moves_like_a_sun():
 
 
 def test_a_found_moon_is_where_the_light_comes_from():
-    known = known_photo(sun=(-6.0, 12.0), clouds=False, level=0.02, noise=0.0)
+    known = known_photo(sun=(-6.0, 12.0), clouds=False, level=0.02, noise=0.0, tint=(0.4, 0.7, 1.4))
     picture = np.round(known.code * 255).astype(np.uint8)
     scene = sw.analyze(picture, sky=known.sky, fov=known.camera.fov_vertical_deg,
                        horizon=known.camera.horizon_row())  # fmt: skip

@@ -28,6 +28,7 @@ class Drawn:
     radius: float  # of the bright core, in widths
     sharp: float  # 1 a limb, 0 a bloomed core
     seen: float  # share of the core that nothing hides
+    water: int | None = None  # first row of the water put under it
 
 
 def _srgb(x: np.ndarray) -> np.ndarray:
@@ -240,6 +241,45 @@ def burnt_radius(
     return float(ended[0]) / width if len(ended) else expected
 
 
+def twigs(scene: np.ndarray, sky: np.ndarray, random: Random) -> tuple[np.ndarray, np.ndarray]:
+    """Hang dark branches, leaves and wires before the sky: the light, and the sky that is left."""
+    height, width = sky.shape
+    cover = np.zeros((height * 2, width * 2), np.uint8)
+    start = random.uniform(0, 2, 2) * (width, height)
+    turn = random.uniform(0, 2 * np.pi)
+    for _ in range(int(random.integers(2, 40))):
+        place, angle = start + random.normal(0, 0.15 * width, 2), turn + random.normal(0, 0.7)
+        points = [place]
+        for _ in range(int(random.integers(2, 7))):
+            angle += random.normal(0, 0.35)
+            step = log_uniform(random, 0.03, 0.2) * width
+            points.append(points[-1] + step * np.array([np.cos(angle), np.sin(angle)]))
+        line = np.array(points, np.int32)[:, None]
+        cv2.polylines(cover, [line], False, 255, int(random.integers(1, 7)), cv2.LINE_AA)
+        if random.random() < 0.3:
+            for x, y in line[:, 0]:
+                axes = (int(random.integers(2, 9)), int(random.integers(1, 5)))
+                cv2.ellipse(cover, (int(x), int(y)), axes, np.degrees(angle), 0, 360, 255, -1)
+    alpha = cv2.resize(cover, (width, height), interpolation=cv2.INTER_AREA) / np.float32(255)
+    dark = (random.uniform(0.003, 0.06) * random.uniform(0.7, 1.3, 3)).astype(np.float32)
+    return scene + alpha[..., None] * (dark - scene), sky * (1 - alpha)
+
+
+def pale_shapes(scene: np.ndarray, sky: np.ndarray, random: Random) -> np.ndarray:
+    """Put round pale clouds into a sky, as bright as its brightest and without any glare."""
+    height, width = scene.shape[:2]
+    columns, rows = np.arange(width) + 0.5, np.arange(height)[:, None] + 0.5
+    white = np.float32(np.quantile(scene @ LUMINANCE, 0.98) * random.uniform(0.9, 1.6))
+    for _ in range(int(random.integers(1, 5))):
+        x, y = random.uniform(0, width), random.uniform(0, 0.8 * height)
+        size = log_uniform(random, 0.01, 0.15) * width
+        flat, soft = random.uniform(1, 3), log_uniform(random, 0.05, 1.0)
+        d = np.hypot(columns - x, (rows - y) * flat) / size
+        alpha = np.clip((1 - d) / soft + 0.5, 0, 1) * random.uniform(0.4, 1) * sky
+        scene = scene + alpha[..., None].astype(np.float32) * (white - scene)
+    return scene.astype(np.float32)
+
+
 def night_lights(scene: np.ndarray, sky: np.ndarray, random: Random) -> np.ndarray:
     """A dark picture with a moon in its sky, or lamps below it: no suns."""
     height, width = sky.shape
@@ -254,7 +294,7 @@ def night_lights(scene: np.ndarray, sky: np.ndarray, random: Random) -> np.ndarr
         d = np.hypot(columns - column, rows - row) / width
         radius = log_uniform(random, 0.004, 0.05 if moon else 0.012)
         disc = np.clip((radius - d) * width + 0.5, 0, 1) * log_uniform(random, 0.6, 4)
-        halo = log_uniform(random, 0.02, 0.5) * (1 + (d / (2 * radius)) ** 2) ** -1.5
+        halo = log_uniform(random, 0.003, 0.5) * (1 + (d / (2 * radius)) ** 2) ** -1.5
         color = np.array([1, random.uniform(0.75, 1), random.uniform(0.4, 1)], np.float32)
         scene = scene + ((disc + halo)[..., None] * color).astype(np.float32)
     return scene
@@ -301,7 +341,7 @@ def compose(rgb: np.ndarray, sky: np.ndarray, random: Random) -> Drawn:
     w = random.uniform(0.05, 0.95)
     scene = cv2.log(1 - np.float32(w) * np.minimum(shown, np.float32(0.985))) / np.float32(-w)
     water = None
-    if (sky > 0.5).mean() > 0.55 and random.random() < 0.3:
+    if (sky > 0.5).mean() > 0.55 and random.random() < 0.4:
         scene, sky, water = sea(scene, sky, random)
     draw = random.random()
     if draw < 0.5:  # evening: warm towards the horizon, dim above
@@ -316,15 +356,25 @@ def compose(rgb: np.ndarray, sky: np.ndarray, random: Random) -> Drawn:
     if draw > 0.35 and draw < 0.65:  # a grading
         scene = scene * np.exp(random.normal(0, 0.3, 3)).astype(np.float32)
     scene = (scene * 2.0 ** random.normal(-0.4, 0.6)).astype(np.float32)
-    if random.random() < 0.08:
+    if random.random() < 0.1:
         scene = night_lights(scene, sky, random)
         image, _ = camera(scene, scene, random)
         return Drawn(image, image, None, 0.0, 0.0, 0.0)
     if (sky > 0.5).mean() < 0.04:
         image, clean = camera(scene, scene, random)
         return Drawn(image, clean, None, 0.0, 0.0, 0.0)
+    if random.random() < 0.12:
+        scene = pale_shapes(scene, sky, random)
+    if random.random() < 0.1:
+        scene, sky = twigs(scene, sky, random)
+        if (sky > 0.5).mean() < 0.04:
+            image, clean = camera(scene, scene, random)
+            return Drawn(image, clean, None, 0.0, 0.0, 0.0)
+    if random.random() < 0.06:  # nothing more: not every pale shape is a sun
+        image, clean = camera(scene, scene, random)
+        return Drawn(image, clean, None, 0.0, 0.0, 0.0)
     total, place, radius, sharp, seen = add_sun(scene, sky, random, water)
     image, clean = camera(total, scene, random)
     if sharp < 0.5:
         radius = burnt_radius(image, sky, place, radius)
-    return Drawn(image, clean, place, radius, sharp, seen)
+    return Drawn(image, clean, place, radius, sharp, seen, water)

@@ -151,6 +151,8 @@ def drawn(photo: np.ndarray, size: tuple[int, int], random: np.random.Generator)
     sky = cv2.GaussianBlur((part[..., 3] > 127).astype(np.float32), (0, 0), 0.6)
     result = compose(np.ascontiguousarray(part[..., :3]), sky, random)
     image = spoil(result.image, random)
+    if result.water is not None:  # its glints are to go, too
+        sky[result.water :] = np.maximum(sky[result.water :], 0.6)
     return example(image, sky, result.place, result.radius, result.sharp, result.clean, result.seen)
 
 
