@@ -15,6 +15,7 @@ from training.data import read_pair
 from training.suns.compose import LUMINANCE, compose, spoil, to_linear
 from training.suns.labels import Photo, labels
 from training.suns.model import LIGHT_FLOOR, QUARTER
+from training.suns.water import UNKNOWN, outlines, water_map
 
 FOLDERS = ("landscape-pseudo", "weather-pseudo", "camvid", "sea-sky", "skyreplace-example")
 TEXTURES = "opensky"
@@ -30,6 +31,8 @@ class Split:
     sunless: list[str]
     skies: list[str]  # those without a sun that have sky enough to draw one in
     textures: list[str]
+    watery: list[str]  # with an outline of water
+    dry: list[str]  # known to have none
 
 
 def split(root: Path) -> Split:
@@ -45,23 +48,24 @@ def split(root: Path) -> Split:
     trained = [p for p in known.values() if not p.test and p.kind != "drop"]
     textures = [f"{TEXTURES}/{p.name}" for p in sorted((root / TEXTURES).glob("*.jpg"))]
     skies = [f for f in sunless if (read(root, f)[::4, ::4, 3] > 191).mean() > 0.06]
-    return Split(trained, sunless, skies, textures)
+    outlined = [p.file for p in trained if p.file in outlines()]
+    watery = [f for f in outlined if outlines()[f][0]]
+    watery += [f for f in sunless if f.startswith("sea-sky")][::4]
+    dry = [f for f in outlined if not outlines()[f][0]]
+    return Split(trained, sunless, skies, textures, watery, dry)
 
 
 def read(root: Path, file: str) -> np.ndarray:
-    """A photo (h, w, 4) uint8: sRGB and its sky mask (255 sky, 128 unknown)."""
+    """A photo (h, w, 5) uint8: sRGB, and masks of its sky and its water (255; 128 unknown)."""
     folder, name = file.split("/")
     if folder == TEXTURES:
         photo = read_pair(root / folder / name, None)
-        scale = 512 / max(photo.shape)
-        return (
-            photo
-            if scale >= 1
-            else cv2.resize(photo, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
-        )
-    return read_pair(
-        root / folder / "images" / name, root / folder / "masks" / f"{Path(name).stem}.png"
-    )
+        scale = min(1.0, 512 / max(photo.shape))
+        photo = cv2.resize(photo, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    else:
+        mask = root / folder / "masks" / f"{Path(name).stem}.png"
+        photo = read_pair(root / folder / "images" / name, mask)
+    return np.dstack([photo, water_map(file, photo[..., 3])])
 
 
 def random_box(
@@ -81,7 +85,8 @@ def cut(photo: np.ndarray, box: tuple[int, int, int, int], size: tuple[int, int]
     top, left, h, w = box
     part = np.ascontiguousarray(photo[top : top + h, left : left + w])
     how = cv2.INTER_AREA if h > size[0] else cv2.INTER_LINEAR
-    return cv2.resize(part, size[::-1], interpolation=how)
+    layers = part[..., :3], part[..., 3:]  # OpenCV resizes no more than four at a time
+    return np.dstack([cv2.resize(each, size[::-1], interpolation=how) for each in layers])
 
 
 def tone(rgb: np.ndarray, random: np.random.Generator) -> np.ndarray:
@@ -110,8 +115,12 @@ def example(
     sharp: float,
     clean: np.ndarray | None,
     seen: float = 1.0,
+    water: np.ndarray | None = None,
 ) -> dict[str, np.ndarray]:
-    """Image (uint8) and targets; ``clean`` None where the sky without the sun is not known."""
+    """Image (uint8) and targets; ``clean`` None where the sky without the sun is not known.
+
+    ``water`` (h, w) uint8: 255, 0, or what lies between where it is not known.
+    """
     height, width = image.shape[0] // QUARTER, image.shape[1] // QUARTER
     heat = np.zeros((height, width), np.float32)
     weight = np.ones((height, width), np.float32)
@@ -131,6 +140,11 @@ def example(
         target = small_log(clean) - small_log(image.astype(np.float32) / 255)
         small = cv2.resize(sky.astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
         clean_weight = (0.15 + 0.85 * small) * (1 + 2 * np.minimum(np.abs(target).mean(-1), 1))
+    water = np.full(sky.shape, UNKNOWN, np.uint8) if water is None else water
+    wet, dry = (
+        cv2.resize(mask.astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
+        for mask in (water > 191, water < 64)
+    )
     return {
         "image": image.transpose(2, 0, 1),
         "heat": heat[None],
@@ -141,6 +155,8 @@ def example(
         "sharp": np.full((1, 1, 1), sharp, np.float32),
         "clean": np.ascontiguousarray(target.transpose(2, 0, 1), np.float32),
         "clean_weight": clean_weight[None].astype(np.float32),
+        "water": wet[None],
+        "water_weight": (wet + dry > 0.95).astype(np.float32)[None],
     }
 
 
@@ -150,10 +166,20 @@ def drawn(photo: np.ndarray, size: tuple[int, int], random: np.random.Generator)
     part = part[:, ::-1] if random.random() < 0.5 else part
     sky = cv2.GaussianBlur((part[..., 3] > 127).astype(np.float32), (0, 0), 0.6)
     result = compose(np.ascontiguousarray(part[..., :3]), sky, random)
-    image = spoil(result.image, random)
+    image, water = spoil(result.image, random), part[..., 4].copy()
     if result.water is not None:  # its glints are to go, too
         sky[result.water :] = np.maximum(sky[result.water :], 0.6)
-    return example(image, sky, result.place, result.radius, result.sharp, result.clean, result.seen)
+        water[result.water :] = 255
+    return example(
+        image,
+        sky,
+        result.place,
+        result.radius,
+        result.sharp,
+        result.clean,
+        result.seen,
+        water,
+    )
 
 
 def real(
@@ -174,18 +200,18 @@ def real(
     if random.random() < 0.5:
         part, x = part[:, ::-1], 1 - x
     image = tone(part[..., :3], random)
-    sky = (part[..., 3] > 127).astype(np.float32)
+    sky, water = (part[..., 3] > 127).astype(np.float32), part[..., 4]
     if not has_sun:
-        return example(image, sky, None, 0.0, np.nan, image.astype(np.float32) / 255)
+        return example(image, sky, None, 0.0, np.nan, image.astype(np.float32) / 255, water=water)
     if label.kind == "glow":  # its place is neither a sun nor none, elsewhere there is none
         place = x * size[1], y * size[0]
-        return example(image, sky, place, 0.1, np.nan, None, 0.0)
+        return example(image, sky, place, 0.1, np.nan, None, 0.0, water)
     radius = label.r * width / w
     if not (-2 * radius < x < 1 + 2 * radius and -2 * radius < y < 1 + 2 * radius):
-        return example(image, sky, None, 0.0, np.nan, None)
+        return example(image, sky, None, 0.0, np.nan, None, water=water)
     inside = 0 < x < 1 and 0 < y < 1
     place = x * size[1], y * size[0]
-    return example(image, sky, place, radius, np.nan, None, 1.0 if inside else 0.0)
+    return example(image, sky, place, radius, np.nan, None, 1.0 if inside else 0.0, water)
 
 
 class Batches(IterableDataset):
@@ -202,17 +228,21 @@ class Batches(IterableDataset):
         photos = split(self.root)
         suns = [p for p in photos.labelled if p.is_sun]
         others = [p for p in photos.labelled if not p.is_sun]
+        by_file = {p.file: p for p in photos.labelled}
 
         def one(size: tuple[int, int]) -> dict[str, np.ndarray]:
             draw = random.random()
-            if draw < 0.5:
+            if draw < 0.42:
                 file = str(
                     random.choice(photos.textures if random.random() < 0.12 else photos.skies)
                 )
                 return drawn(read(self.root, file), size, random)
-            if draw < 0.7 and suns:
+            if draw < 0.62 and photos.watery:
+                file = str(random.choice(photos.watery if draw < 0.54 else photos.dry))
+                return real(read(self.root, file), by_file.get(file), size, random)
+            if draw < 0.78 and suns:
                 label = suns[int(random.integers(len(suns)))]
-            elif draw < 0.87 and others:
+            elif draw < 0.9 and others:
                 label = others[int(random.integers(len(others)))]
             else:
                 file = str(random.choice(photos.sunless))

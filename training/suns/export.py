@@ -3,7 +3,8 @@
 ``python -m training.suns.export --checkpoint build/suns/last.pt``
 
 Contract: ``image`` float32 ``(1, 3, H, W)``, RGB, sRGB-encoded in [0, 1] -> ``sun`` and ``clean``,
-float32 ``(1, 3, H/4, W/4)`` (training/suns/model.py). H and W are multiples of 32.
+float32 ``(1, 3, H/4, W/4)``, and ``water``, ``(1, 1, H/4, W/4)`` (training/suns/model.py). H and W
+are multiples of 32.
 """
 
 from __future__ import annotations
@@ -47,7 +48,8 @@ def main() -> None:
     torch.set_num_threads(1)
     network = SunMaps(load(options.checkpoint, options.data)).eval()
     picture = torch.rand(1, 3, 224, 320)
-    options.out.write_bytes(to_onnx(network, picture, ["sun", "clean"], "Suns and clean skies"))
+    names = ["sun", "clean", "water"]
+    options.out.write_bytes(to_onnx(network, picture, names, "Suns, clean skies and water"))
 
 
 if __name__ == "__main__":

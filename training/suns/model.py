@@ -21,10 +21,11 @@ LIGHT_FLOOR = 0.01
 
 
 class SunNet(nn.Module):
-    """``(N, 3, H, W)`` sRGB in [0, 1] -> ``(N, 6, H/4, W/4)``; H, W multiples of 32.
+    """``(N, 3, H, W)`` sRGB in [0, 1] -> ``(N, 7, H/4, W/4)``; H, W multiples of 32.
 
     Channels: logit of the sun's centre; log radius of its core in widths of the picture; logit of
-    a sharp limb; and log(clean + floor) - log(photo + floor) of display-linear R, G, B.
+    a sharp limb; log(clean + floor) - log(photo + floor) of display-linear R, G, B; and logit of
+    water, which mirrors the sun.
     """
 
     def __init__(self) -> None:
@@ -43,6 +44,7 @@ class SunNet(nn.Module):
         self.to_quarter = Merge(48, 32, 32)
         self.sun = nn.Sequential(conv(32, 24), nn.Conv2d(24, 3, 1))
         self.clean = nn.Sequential(conv(32, 32), nn.Conv2d(32, 3, 1))
+        self.water = nn.Sequential(conv(32, 24), nn.Conv2d(24, 1, 1))
         nn.init.constant_(self.sun[1].bias, -4.0)
         nn.init.zeros_(self.clean[1].weight)  # starts as: nothing to erase
         nn.init.zeros_(self.clean[1].bias)
@@ -53,24 +55,25 @@ class SunNet(nn.Module):
         sixteenth = self.sixteenth(eighth)
         x = self.to_sixteenth(self.deep(sixteenth), sixteenth)
         x = self.to_quarter(self.to_eighth(x, eighth), quarter)
-        return torch.cat([self.sun(x), self.clean(x)], 1)
+        return torch.cat([self.sun(x), self.clean(x), self.water(x)], 1)
 
 
 class SunMaps(nn.Module):
-    """The shipped graph: ``image`` in; ``sun`` (centre, radius, sharpness) and ``clean`` out.
+    """The shipped graph: ``image`` in; ``sun``, ``clean`` and ``water`` out.
 
     ``sun`` is ``(N, 3, H/4, W/4)``: probability, radius in widths, probability of a sharp limb.
     ``clean`` is ``(N, 3, H/4, W/4)``: log of clean over photo, display-linear with the floor.
+    ``water`` is ``(N, 1, H/4, W/4)``: probability.
     """
 
     def __init__(self, network: SunNet) -> None:
         super().__init__()
         self.network = network
 
-    def forward(self, image: Tensor) -> tuple[Tensor, Tensor]:
+    def forward(self, image: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         out = self.network(image)
         sun = torch.cat([out[:, :1].sigmoid(), out[:, 1:2].exp(), out[:, 2:3].sigmoid()], 1)
-        return sun, out[:, 3:]
+        return sun, out[:, 3:6], out[:, 6:].sigmoid()
 
 
 def losses(out: Tensor, target: dict[str, Tensor]) -> dict[str, Tensor]:
@@ -78,11 +81,11 @@ def losses(out: Tensor, target: dict[str, Tensor]) -> dict[str, Tensor]:
 
     Parameters
     ----------
-    out : (N, 6, h, w)
+    out : (N, 7, h, w)
     target : dict
         ``heat`` (N, 1, h, w) in [0, 1], exactly 1 at a centre; ``heat_weight`` alike;
         ``radius``, ``sharp`` (N, 1, 1, 1), NaN where unknown; ``clean`` (N, 3, h, w) and
-        ``clean_weight`` (N, 1, h, w).
+        ``clean_weight`` (N, 1, h, w); ``water`` (N, 1, h, w) in [0, 1] and ``water_weight`` alike.
     """
     heat, weight = target["heat"], target["heat_weight"]
     at = (heat > 0.999).float() * weight
@@ -101,10 +104,12 @@ def losses(out: Tensor, target: dict[str, Tensor]) -> dict[str, Tensor]:
     limb = F.binary_cross_entropy_with_logits(
         out[:, 2:3], torch.nan_to_num(sharp).expand_as(heat), reduction="none"
     )
-    wrong = (out[:, 3:] - target["clean"]).abs() * target["clean_weight"]
+    wrong = (out[:, 3:6] - target["clean"]).abs() * target["clean_weight"]
+    wet = F.binary_cross_entropy_with_logits(out[:, 6:], target["water"], reduction="none")
     return {
         "centre": (hit.sum() + miss.sum()) / count,
         "radius": (off * known_radius).sum() / known_radius.sum().clamp(min=1),
         "sharp": 0.3 * (limb * known_sharp).sum() / known_sharp.sum().clamp(min=1),
         "clean": 6 * wrong.sum() / (3 * target["clean_weight"].sum()).clamp(min=1),
+        "water": (wet * target["water_weight"]).sum() / target["water_weight"].sum().clamp(min=1),
     }

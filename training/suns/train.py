@@ -41,6 +41,8 @@ class Training:
             self.spent, self.step = state["spent"], state["step"]
         elif options.start:
             state = torch.load(options.start, weights_only=True)
+            for key in ("network", "average"):  # outputs that it did not have start afresh
+                state[key] = self.network.state_dict() | state[key]
         else:
             return
         self.network.load_state_dict(state["network"])
