@@ -42,7 +42,7 @@ def analyze(
     horizon_method: str = "water_line",
     sun_method: str = "disc_fit",
     depth: Any = "fused",
-    water: Any = "streaks",
+    water: Any = "network",
     strokes: tuple[Stroke, ...] = (),
     progress: Progress | None = None,
 ) -> Scene:

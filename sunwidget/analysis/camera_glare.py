@@ -16,7 +16,12 @@ import numpy as np
 
 from sunwidget.analysis.fit import Response, SkyFit
 from sunwidget.analysis.working import LUMINANCE
-from sunwidget.atmosphere.constants import SPECTRAL_TO_REC709, WAVELENGTHS, solar_irradiance
+from sunwidget.atmosphere.constants import (
+    SPECTRAL_TO_REC709,
+    SUN_ANGULAR_RADIUS_DEG,
+    WAVELENGTHS,
+    solar_irradiance,
+)
 from sunwidget.atmosphere.optics import camera_height, transmittance_to_top
 from sunwidget.camera import Camera
 
@@ -25,7 +30,6 @@ Profile = tuple[float, float, float]
 # Of cameras that are not known, in units of a picture's width and of the light of its middle grey:
 # with lib/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
 _CORE, _LEVEL, _POWER = 0.02, 23.0, 1.3
-_SUN_RADIUS = 0.2665  # degrees
 _LEAST, _MOST = 0.1, 3.0  # of that, whatever was measured
 _WIDTHS = (0.4, 0.7, 1.1, 1.6, 2.4, 3.6, 5.5)  # degrees
 # The sky shows between clouds and rays: in a ring the darker third is sky and glare alone.
@@ -44,7 +48,7 @@ def glare_profile(fit: SkyFit, camera: Camera) -> Profile:
         Glare is as wide as the picture, and no narrower than the sun's disc.
     """
     width = math.degrees(camera.width / camera.focal)
-    core = math.hypot(_CORE * width, _SUN_RADIUS)
+    core = math.hypot(_CORE * width, SUN_ANGULAR_RADIUS_DEG)
     usual = (
         _LEVEL
         * float(fit.response.scene_light(np.array(0.5)))

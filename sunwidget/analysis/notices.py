@@ -6,12 +6,12 @@ from typing import Self
 
 import numpy as np
 
-from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis.confidence import UNKNOWN
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.sun import SunObservation
+from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
 from sunwidget.camera import Camera, Point
 from sunwidget.photo import Photo
 
@@ -149,7 +149,7 @@ def _about_sun(
             "treated as a sun.",
         )
     if sun.visible:
-        true = camera.focal * np.tan(np.radians(sun_stage.RADIUS_DEG))
+        true = camera.focal * np.tan(np.radians(SUN_ANGULAR_RADIUS_DEG))
         covered = float(sun.blot.mean())
         if covered > 0.02 and covered * camera.width * camera.height > 60 * np.pi * true**2:
             return Notice(

@@ -164,7 +164,7 @@ def complete(
     )
 
     step("water", 0.95, "Looking for water")
-    water = _water(working, sky, horizon.scaled(1 / zoom_x, 1 / zoom_y), hints)
+    water = _water(working, sky, horizon.scaled(1 / zoom_x, 1 / zoom_y), maps, hints)
     scene = dataclasses.replace(
         base,
         sky=matte,
@@ -247,11 +247,13 @@ def _horizon(working: Working, sky: np.ndarray, hints: Hints, width: int) -> Hor
     return find(sky, working.encoded).scaled(*working.zoom)
 
 
-def _water(working: Working, sky: np.ndarray, horizon: Horizon, hints: Hints) -> np.ndarray:
+def _water(
+    working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps, hints: Hints
+) -> np.ndarray:
     """Return the given or found water, (h, w) float32; a given map keeps its size."""
     if hints.water is not None:
         return hints.water
-    found = METHODS["water"][hints.method("water")](working, sky, horizon)
+    found = METHODS["water"][hints.method("water")](working, sky, horizon, maps)
     return np.asarray(found, np.float32)
 
 

@@ -13,13 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.sun_search import RADIUS_DEG, Peak, find, find_moon, night
+from sunwidget.analysis.sun_search import Peak, find, find_moon, night
 from sunwidget.analysis.working import LUMINANCE, Working, resize
+from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
 from sunwidget.camera import Camera, Point
 
 __all__ = [
     "METHODS",
-    "RADIUS_DEG",
     "Blot",
     "Peak",
     "SunObservation",
@@ -124,7 +124,7 @@ def disc_fit(working: Working, sky: np.ndarray, x: float, y: float, focal: float
     """
     import cv2
 
-    true_radius = focal * math.tan(math.radians(RADIUS_DEG))
+    true_radius = focal * math.tan(math.radians(SUN_ANGULAR_RADIUS_DEG))
     luminance = cv2.GaussianBlur(working.encoded @ LUMINANCE, (0, 0), 0.8)
     height, width = luminance.shape
     column, row = min(max(int(x), 0), width - 1), min(max(int(y), 0), height - 1)
@@ -186,7 +186,7 @@ def field_of_view_of(blot: Blot, peak: Peak, working: Working, assumed: float) -
         return None
     # Half way between the two sides of the limb.
     disc = np.count_nonzero((luminance > (inside + outside) / 2) & (away < 1.4))
-    focal = math.sqrt(disc / math.pi) / math.tan(math.radians(RADIUS_DEG))
+    focal = math.sqrt(disc / math.pi) / math.tan(math.radians(SUN_ANGULAR_RADIUS_DEG))
     degrees = 2 * math.degrees(math.atan(0.5 * working.height / focal))
     return max(degrees, 1.0) if degrees < 0.7 * assumed else None
 

@@ -1,4 +1,4 @@
-"""The bundled network that looks for the sun, and at the sky behind it (models/MODEL_CARD.md)."""
+"""The network that looks for the sun, the sky behind it, and water (models/MODEL_CARD.md)."""
 
 from __future__ import annotations
 
@@ -32,12 +32,15 @@ class SunMaps(NamedTuple):
     clean : (h, w, 3) float32
         log(c + LIGHT_FLOOR) - log(x + LIGHT_FLOOR), x the photo in display-linear light and c the
         same without the sun, its halo and what the lens made of it; at most 0.
+    water : (h, w) float32
+        Probability of water, which may mirror the sun.
     """
 
     probability: np.ndarray
     radius: np.ndarray
     sharpness: np.ndarray
     clean: np.ndarray
+    water: np.ndarray
 
 
 def look_for_sun(working: Working) -> SunMaps:
@@ -53,9 +56,10 @@ def look_for_sun(working: Working) -> SunMaps:
         max(2, round(side * scale / _STRIDE)) * _STRIDE for side in (working.width, working.height)
     )
     image = np.clip(resize(working.encoded, width, height), 0, 1).transpose(2, 0, 1)[None]
-    found, clean = _network().run(None, {"image": np.ascontiguousarray(image, np.float32)})
+    found, clean, water = _network().run(None, {"image": np.ascontiguousarray(image, np.float32)})
     probability, radius, sharpness = found[0]
-    return SunMaps(probability, radius, sharpness, np.minimum(clean[0], 0).transpose(1, 2, 0))
+    log_ratio = np.minimum(clean[0], 0).transpose(1, 2, 0)
+    return SunMaps(probability, radius, sharpness, log_ratio, water[0, 0])
 
 
 @lru_cache(maxsize=1)

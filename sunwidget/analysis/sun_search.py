@@ -11,7 +11,6 @@ from sunwidget.analysis.confidence import probability
 from sunwidget.analysis.sun_network import SunMaps
 from sunwidget.analysis.working import LUMINANCE, Working
 
-RADIUS_DEG = 0.2665  # apparent radius of the sun's disc, and of the moon's
 LEAST_CONFIDENCE = 0.45  # from which a sun is one
 SURE = 0.7  # the same where the sky is as dark as a night's
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate

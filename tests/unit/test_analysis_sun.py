@@ -13,6 +13,7 @@ from sunwidget.analysis.frame_sun import seen_sun
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.working import Working
+from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
 from sunwidget.camera import Camera
 from sunwidget.photo import open_photo
 
@@ -118,7 +119,7 @@ def test_disc_fit_centres_on_the_blot_even_when_clicked_off_centre():
 
 def test_disc_fit_is_never_smaller_than_the_true_disc():
     blot = sun.disc_fit(evening(), SKY, 100.0, 60.0, CAMERA.focal)
-    assert blot.radius >= CAMERA.focal * math.tan(math.radians(sun.RADIUS_DEG)) - 1e-9
+    assert blot.radius >= CAMERA.focal * math.tan(math.radians(SUN_ANGULAR_RADIUS_DEG)) - 1e-9
 
 
 def test_flood_fill_takes_what_is_as_bright_as_the_seed_and_connected_to_it():

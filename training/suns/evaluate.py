@@ -1,4 +1,4 @@
-"""How well the shipped network finds suns: recall, precision, place and size.
+"""How well the shipped network finds suns (recall, precision, place and size) and water.
 
 ``python -m training.suns.evaluate --data ../shared/data/train [--train] [--misses]`` looks at the
 labelled photos that only judge (``--train``: at the others), without the rest of the analysis.
@@ -19,6 +19,9 @@ from sunwidget.analysis.working import Working
 from sunwidget.photo import open_photo
 from training.suns.calibrate import miss, near
 from training.suns.labels import Photo, labels
+from training.suns.water import UNKNOWN, outlines, water_map
+
+WET = 0.005  # of a picture's known pixels, from which it has water
 
 
 @dataclass
@@ -43,6 +46,33 @@ def look(photo: Photo, data: Path) -> Result:
     peak = peak_of(look_for_sun(working), working)
     off = miss(photo, peak.x, peak.y, working)
     return Result(photo, peak, off, peak.radius / working.width / photo.r)
+
+
+def water_of(photo: Photo, data: Path) -> tuple[int, int, int, int]:
+    """Pixels of outlined water, of it found, of both together, and of known pixels called so."""
+    folder, name = photo.file.split("/")
+    maps = look_for_sun(Working.of(open_photo(data / folder / "images" / name)))
+    mask = cv2.imread(str(data / folder / "masks" / f"{Path(name).stem}.png"), 0)
+    size = maps.water.shape[::-1]
+    sky = cv2.resize(mask, size, interpolation=cv2.INTER_AREA)
+    truth = water_map(photo.file, mask)
+    truth = cv2.resize(truth, size, interpolation=cv2.INTER_NEAREST)
+    found = (maps.water > 0.5) & (sky < 128) & (truth != UNKNOWN)
+    wet = truth == 255
+    return int(wet.sum()), int((found & wet).sum()), int((found | wet).sum()), int(found.sum())
+
+
+def tell_of_water(judged: list[Photo], data: Path) -> None:
+    """Print how well outlined water is found."""
+    counts = np.array([water_of(p, data) for p in judged if p.file in outlines()], float)
+    size = counts[:, 2].max()
+    wet = counts[:, 0] > WET * size
+    overlap = counts[wet, 1] / counts[wet, 2]
+    print(
+        f"water in {wet.sum()} photos: IoU {overlap.mean():.3f} (mean), {np.median(overlap):.3f} "
+        f"(median), above .7 in {np.mean(overlap > 0.7):.0%}; "
+        f"of {(~wet).sum()} without, {np.mean(counts[~wet, 3] > 0.01 * size):.0%} have some"
+    )
 
 
 def main() -> None:
@@ -72,6 +102,10 @@ def main() -> None:
         f"centre off by {np.median(off):.2f} radii (median), {np.mean(off < 0.5):.0%} within half"
     )
     print(f"radius over label {np.quantile(size, [0.1, 0.5, 0.9]).round(2)} (deciles, median)")
+    limb = np.array([r.peak.sharpness > 0.6 for r in hit])
+    within = np.mean(np.abs(size[limb] - 1) < 0.2)
+    print(f"of {limb.sum()} taken for discs with a limb {within:.0%} within a fifth")
+    tell_of_water(judged, options.data)
     if options.misses:
         for r in results:
             said = r.peak.confidence >= LEAST_CONFIDENCE
