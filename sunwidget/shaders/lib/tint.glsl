@@ -6,6 +6,10 @@
 
 // Sunsets are red in parts: where they would end in grey some of it stays.
 const float kMostOfRed = 0.6;
+// How far the model's colour has turned (length of the log of its channels, as bright) when the photo's
+// own has faded.
+const float kTurned = 1.2;
+const float kFadedAhead = 0.5;
 
 // Nearly the log of blue over red of the model's sky.
 float GetBlueness(vec3 matched) {
@@ -27,4 +31,21 @@ vec3 WithoutLostTint(vec3 sky_before, vec3 sky_now) {
   vec3 weight = vec3(0.2126, 0.7152, 0.0722);
   vec3 color = sky_now * mix(vec3(1.0), dot(sky_gain, weight) / sky_gain, GetLostTint(sky_before, sky_now));
   return color * (dot(sky_now, weight) / dot(color, weight));
+}
+
+// What the photo's sky has beyond the model, `sky` over `before`, is light, which stays, and colour, which
+// fades as far as the model's own colour moves away: deep blue times yellow would be green. `relit` is
+// `sky` times `ratio`.
+vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacity, vec3 sky_before, vec3 sky_now) {
+  vec3 weight = vec3(0.2126, 0.7152, 0.0722);
+  vec3 now = before * ratio;
+  vec3 turn = log(ratio * (dot(before, weight) / dot(now, weight)));
+  vec3 own = log(max(sky, vec3(1e-6)) / max(before, vec3(1e-6)));
+  // What lies on the way may stay: blue in the red sky of a sunset, when the sun goes.
+  float along = dot(own - dot(own, vec3(1.0 / 3.0)), turn) / max(length(turn), 1e-3);
+  float faded = smoothstep(0.0, kTurned, length(turn)) * mix(1.0, kFadedAhead, smoothstep(0.0, 1.0, along));
+  faded = max(faded, (1.0 - opacity) * GetLostTint(sky_before, sky_now));
+  now += (1.0 - opacity) * (WithoutLostTint(sky_before, sky_now) * (dot(now, weight) / dot(sky_now, weight)) - now);
+  vec3 model = now * (dot(sky, weight) / dot(before, weight));
+  return relit + faded * (model - relit);
 }
