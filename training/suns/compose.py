@@ -29,6 +29,7 @@ class Drawn:
     sharp: float  # 1 a limb, 0 a bloomed core
     seen: float  # share of the core that nothing hides
     water: int | None = None  # first row of the water put under it
+    ground: int | None = None  # the same of dry ground
 
 
 def _srgb(x: np.ndarray) -> np.ndarray:
@@ -127,6 +128,40 @@ def sea(scene: np.ndarray, sky: np.ndarray, random: Random) -> tuple[np.ndarray,
     out[row:] = blur * shade[..., None] * random.uniform(0.85, 1.1, 3).astype(np.float32)
     alpha = np.where(np.arange(height)[:, None] < row, np.float32(1), np.float32(0))
     return out, np.broadcast_to(alpha, sky.shape).copy(), row
+
+
+def plain(scene: np.ndarray, sky: np.ndarray, random: Random) -> tuple[np.ndarray, np.ndarray, int]:
+    """Put flat dry ground under a picture that is mostly sky: never as blue as water is."""
+    height, width = sky.shape
+    row = int(height * random.uniform(0.4, 0.8))
+    below = np.arange(1, height - row + 1, dtype=np.float32)[:, None]
+    away = height * log_uniform(random, 0.3, 3) / below  # in eye heights, or so
+    across = (np.arange(width, dtype=np.float32)[None] - random.uniform(0, width)) / width * away
+    texture = np.zeros((height - row, width), np.float32)
+    noise = random.standard_normal((256, 256)).astype(np.float32)
+    turn = random.uniform(0, np.pi)
+    for scale in log_uniform(random, 4, 40) * 4.0 ** np.arange(4):
+        u, v = scale * across, np.broadcast_to(scale * away, texture.shape)
+        u, v = np.cos(turn) * u - np.sin(turn) * v, np.sin(turn) * u + np.cos(turn) * v
+        # What is finer than a pixel averages out.
+        fine = np.minimum(1, 0.5 * height / (scale * away * away)).astype(np.float32)
+        texture += fine * cv2.remap(
+            noise, (u % 255).astype(np.float32), (v % 255).astype(np.float32), cv2.INTER_LINEAR
+        )
+    texture *= random.uniform(0.0, 0.5) / max(float(texture.std()), 1e-6)
+    if random.random() < 0.3:  # furrows, planks, ruts
+        texture += random.uniform(0.1, 0.5) * np.sin(across * log_uniform(random, 5, 60))
+    level = float(np.median(scene[:row] @ LUMINANCE)) * log_uniform(random, 0.08, 0.9)
+    green, blue = random.uniform(0.7, 1.3), random.uniform(0.25, 0.85)
+    albedo = np.array([1, green, min(green, 1) * blue], np.float32)
+    off = across / away - random.uniform(-0.5, 0.5)
+    glow = 1 + random.uniform(0, 2) * np.exp(-(off**2) / 0.1)
+    ground = level * (np.exp(texture) * glow)[..., None] * albedo
+    haze = np.exp(-below / height * log_uniform(random, 3, 60))[..., None]
+    out = scene.copy()
+    out[row:] = ground + haze * (scene[max(row - 3, 0) : row].mean((0, 1)) - ground)
+    alpha = np.where(np.arange(height)[:, None] < row, np.float32(1), np.float32(0))
+    return out.astype(np.float32), np.broadcast_to(alpha, sky.shape).copy(), row
 
 
 def column_on_water(x: float, row: int, height: int, width: int, random: Random) -> np.ndarray:
@@ -340,9 +375,13 @@ def compose(rgb: np.ndarray, sky: np.ndarray, random: Random) -> Drawn:
     shown = to_linear(rgb.astype(np.float32) / 255)
     w = random.uniform(0.05, 0.95)
     scene = cv2.log(1 - np.float32(w) * np.minimum(shown, np.float32(0.985))) / np.float32(-w)
-    water = None
-    if (sky > 0.5).mean() > 0.55 and random.random() < 0.4:
-        scene, sky, water = sea(scene, sky, random)
+    water = ground = None
+    if (sky > 0.5).mean() > 0.55:
+        under = random.random()
+        if under < 0.4:
+            scene, sky, water = sea(scene, sky, random)
+        elif under < 0.7:
+            scene, sky, ground = plain(scene, sky, random)
     draw = random.random()
     if draw < 0.5:  # evening: warm towards the horizon, dim above
         inside = np.flatnonzero((sky > 0.5).any(1))
@@ -377,4 +416,4 @@ def compose(rgb: np.ndarray, sky: np.ndarray, random: Random) -> Drawn:
     image, clean = camera(total, scene, random)
     if sharp < 0.5:
         radius = burnt_radius(image, sky, place, radius)
-    return Drawn(image, clean, place, radius, sharp, seen, water)
+    return Drawn(image, clean, place, radius, sharp, seen, water, ground)

@@ -170,6 +170,8 @@ def drawn(photo: np.ndarray, size: tuple[int, int], random: np.random.Generator)
     if result.water is not None:  # its glints are to go, too
         sky[result.water :] = np.maximum(sky[result.water :], 0.6)
         water[result.water :] = 255
+    if result.ground is not None:
+        water[result.ground :] = 0
     return example(
         image,
         sky,

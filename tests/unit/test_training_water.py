@@ -1,0 +1,43 @@
+"""Outlines of water, as the network learns from them."""
+
+import numpy as np
+import pytest
+
+from training.suns import water
+
+SEA = "landscape-pseudo/sea.jpg"
+
+
+@pytest.fixture
+def outlined(tmp_path, monkeypatch):
+    """Two outlined photos: a sea with a rock in it, and a meadow."""
+    path = tmp_path / "water.csv"
+    sea = f'{SEA},"0,50 100,50 100,100 0,100","40,70 60,70 60,90 40,90"'
+    path.write_text(f"file,water,without\n{sea}\nlandscape-pseudo/dry.jpg,,\n")
+    known = water.outlines(path)
+    monkeypatch.setattr(water, "outlines", lambda: known)
+
+
+def sky(rows):
+    return np.repeat((np.arange(100) < rows)[:, None] * np.uint8(255), 200, axis=1)
+
+
+def test_inside_of_an_outline_is_water_but_for_what_stands_in_it(outlined):
+    found = water.water_map(SEA, sky(40))
+    assert found[60, 20] == found[95, 199] == 255
+    assert found[80, 100] == 0
+    assert found[45, 100] == 0
+
+
+def test_beside_an_outline_nothing_is_known_but_the_sky(outlined):
+    found = water.water_map(SEA, sky(50))
+    assert found[51, 100] == water.UNKNOWN
+    assert found[49].max() == 0
+
+
+def test_a_photo_without_a_polygon_has_none_and_one_not_listed_is_unknown(outlined):
+    assert water.water_map("landscape-pseudo/dry.jpg", sky(30)).max() == 0
+    other = water.water_map("landscape-pseudo/other.jpg", sky(30))
+    assert other[:30].max() == 0
+    assert (other[30:] == water.UNKNOWN).all()
+    assert (water.water_map("sea-sky/1.jpg", sky(30))[30:] == 255).all()
