@@ -19,6 +19,7 @@ from sunwidget.color import strips
 
 TOLERANCE = 0.004  # of the height: how far a sea horizon strays from a line
 MAXIMUM_ROLL = 20.0
+_WET = 0.6  # probability from which the sky lies on water
 LEVEL_ROW = 0.52  # of the height: where the horizon lies when a level camera sees none
 
 
@@ -123,6 +124,33 @@ def water_line(sky: np.ndarray, encoded: np.ndarray) -> Horizon:
         if 0.005 < e.row - row < 0.03 and e.strength > own + 0.03 and abs(e.roll - line.roll) < 1
     ]
     return _from_edge(near[0], sky, max(line.confidence, 0.7)) if near else line
+
+
+def behind_water(found: Horizon, sky: np.ndarray, water: np.ndarray) -> Horizon:
+    """Return the line along which sky lies on water, or else the horizon that was found.
+
+    Parameters
+    ----------
+    found : Horizon
+        In the pixels of the maps.
+    sky, water : (h, w) float32
+        Sky matte, and the probability of water.
+    """
+    height, width = sky.shape
+    columns, border = skyline(sky)
+    if columns.size < 2:
+        return found
+    depths = np.linspace(0.01, 0.05, 5)[:, None] * height
+    rows = np.minimum(border + depths, height - 1).astype(int)
+    wet = water[rows, columns.astype(int)].min(axis=0) > _WET
+    if wet.sum() < 0.25 * width:
+        return found
+    columns, border = columns[wet] - width / 2, border[wet]
+    row, slope, share = _best_line(columns, border, height, width)
+    if share * width < 0.6 * columns.size:
+        return found
+    roll = math.degrees(math.atan(slope))
+    return Horizon(row, roll, max(0.8, found.confidence), "water_line")
 
 
 METHODS: dict[str, Callable[[np.ndarray, np.ndarray], Horizon]] = {

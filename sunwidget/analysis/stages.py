@@ -134,7 +134,7 @@ def complete(
         camera = Camera(*photo.size, lens or camera.fov_vertical_deg)
 
     step("horizon", 0.8, "Fitting the horizon")
-    horizon = _horizon(working, sky, hints, photo.width)
+    horizon = _horizon(working, sky, maps, hints, photo.width)
     camera = Camera.from_horizon(
         *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll
     )
@@ -239,12 +239,16 @@ def erased_for(
     return erase(working, maps, sky, light)
 
 
-def _horizon(working: Working, sky: np.ndarray, hints: Hints, width: int) -> Horizon:
+def _horizon(working: Working, sky: np.ndarray, maps: SunMaps, hints: Hints, width: int) -> Horizon:
     """Return the hinted or found horizon, in pixels of the photo."""
     if hints.horizon is not None:
         return horizon_stage.from_hint(hints.horizon, width)
-    find = horizon_stage.METHODS[hints.method("horizon")]
-    return find(sky, working.encoded).scaled(*working.zoom)
+    method = hints.method("horizon")
+    horizon = horizon_stage.METHODS[method](sky, working.encoded)
+    if method == "water_line":
+        water = resize(maps.water, working.width, working.height)
+        horizon = horizon_stage.behind_water(horizon, sky, water)
+    return horizon.scaled(*working.zoom)
 
 
 def _water(

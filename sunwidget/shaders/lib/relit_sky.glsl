@@ -72,7 +72,8 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec3 sky_be
   float extreme = smoothstep(2.5, 4.0, abs(log2(GetLuminance(ratio) * gain)));
   vec3 relit = sky * ratio;
   relit += extreme * moved * (clean * ratio - relit);
-  relit = WithModelsColor(relit, sky, mix(sky_before, cloud_before, opacity), ratio, opacity, sky_before, sky_now);
+  vec3 model = mix(sky_before, cloud_before, opacity * min(cloud_strength, 1.0));
+  relit = WithModelsColor(relit, sky, model, ratio, opacity, sky_before, sky_now);
   // What the air brightens round the new sun is drawn in a camera's range, from a bright sky on; less so
   // where the photo's own sun or moon told how bright that is.
   float level = gain * GetLuminance(relit);
