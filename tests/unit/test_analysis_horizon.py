@@ -107,6 +107,22 @@ def test_texture_is_no_straight_edge_and_a_faint_one_across_all_of_it_is():
     assert edge.roll == 0
 
 
+def test_where_sky_lies_on_water_is_the_horizon_whatever_rises_beside_it():
+    sky = sky_above(100.0)
+    height, width = sky.shape
+    sky[40:, : width // 2] = 0  # a cliff beside the sea
+    guess = horizon.Horizon(130.0)
+    sea = np.zeros_like(sky)
+    sea[100:, width // 2 :] = 0.9
+    found = horizon.behind_water(guess, sky, sea)
+    assert found.row == pytest.approx(100, abs=1)
+    assert abs(found.roll) < 0.5
+    assert found.confidence >= 0.8
+    pond = np.zeros_like(sky)
+    pond[120:, width // 2 :] = 0.9  # with a shore behind it
+    assert horizon.behind_water(guess, sky, pond) is guess
+
+
 def test_less_of_a_line_and_more_roll_are_less_sure():
     def confidence(width, roll):
         sky = sky_above(200, roll)

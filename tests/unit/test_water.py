@@ -9,8 +9,12 @@ import pytest
 from relight_scenes import sample_scene
 
 import sunwidget as sw
+from sunwidget.analysis import water
+from sunwidget.analysis.horizon import Horizon
+from sunwidget.analysis.sun_network import SunMaps
 from sunwidget.analysis.working import Working
 from sunwidget.camera import Camera
+from sunwidget.photo import open_photo
 
 SIZE = (240, 160)
 ROW = 90  # of the horizon
@@ -41,22 +45,53 @@ def shore(ground="sea"):
     return np.round(np.clip(picture, 0, 1) * 255).astype(np.uint8)
 
 
+SKY = (np.arange(SIZE[1])[:, None] < ROW).astype(np.float32) * np.ones(SIZE[0], np.float32)
+
+
 @functools.cache
 def scene(ground="sea", **hints):
-    """The shore, analysed with its sky told, so that no network runs."""
-    sky = (np.arange(SIZE[1])[:, None] < ROW).astype(np.float32) * np.ones(SIZE[0], np.float32)
-    return sw.analyze(shore(ground), sky=sky, refine="none", horizon=float(ROW), fov=40.0, **hints)
+    """The shore, analysed with its sky and its water told."""
+    told = {"sky": SKY, "refine": "none", "horizon": float(ROW), "fov": 40.0}
+    told["water"] = 1 - SKY if ground == "sea" else "none"
+    return sw.analyze(shore(ground), **(told | hints))
 
 
-def test_the_sea_is_water_and_the_sky_is_not():
-    water = scene().water
-    assert water[ROW + 3 :].mean() > 0.95
-    assert water[: ROW - 2].max() == 0
+def found(probability, picture=None):
+    """What becomes of the network's probabilities (h, w) at a quarter of the size."""
+    plain = np.zeros(probability.shape, np.float32)
+    clean = np.zeros((*probability.shape, 3), np.float32)
+    maps = SunMaps(plain, plain, plain, clean, probability)
+    working = Working.of(open_photo(shore() if picture is None else picture))
+    return water.METHODS["network"](working, SKY, Horizon(float(ROW)), maps)
 
 
-@pytest.mark.parametrize("ground", ["meadow", "sand", "road"])
-def test_land_is_no_water(ground):
-    assert scene(ground).water.max() == 0
+@pytest.fixture
+def sea():
+    """The network is sure of the sea, and of a part of the sky."""
+    probability = np.full((SIZE[1] // 4, SIZE[0] // 4), 0.9, np.float32)
+    probability[: ROW // 8] = 0.05
+    return probability
+
+
+def test_the_sea_is_water_and_the_sky_is_not(sea):
+    assert found(sea)[ROW + 3 :].mean() > 0.95
+    assert found(sea)[: ROW - 2].max() == 0
+
+
+def test_what_the_network_hardly_believes_and_specks_are_no_water(sea):
+    assert found(np.where(sea > 0.5, np.float32(0.45), 0)).max() == 0
+    speck = np.zeros_like(sea)
+    speck[30, 20] = 1
+    assert found(speck).max() == 0
+
+
+def test_a_burnt_column_between_water_is_water_and_a_dark_pier_is_not(sea):
+    sea[ROW // 4 :, 28:32] = 0.1
+    for shade, wet in ((255, True), (10, False)):
+        picture = shore().copy()
+        picture[ROW:, 112:128] = shade
+        middle = found(sea, picture)[ROW + 10 : -10, 116:124]
+        assert (middle.mean() > 0.7) == wet
 
 
 def test_none_calls_nothing_water():
@@ -66,10 +101,9 @@ def test_none_calls_nothing_water():
 def test_a_given_map_is_taken_at_its_word_but_for_the_sky():
     given = np.zeros((SIZE[1], SIZE[0]), np.float32)
     given[ROW - 20 :, :100] = 1
-    sky = (np.arange(SIZE[1])[:, None] < ROW).astype(np.float32) * np.ones(SIZE[0], np.float32)
     photo = shore("meadow")
-    found = sw.analyze(photo, sky=sky, refine="none", horizon=float(ROW), fov=40.0, water=given)
-    assert np.array_equal(found.water, np.minimum(given, 1 - found.sky))
+    told = sw.analyze(photo, sky=SKY, refine="none", horizon=float(ROW), fov=40.0, water=given)
+    assert np.array_equal(told.water, np.minimum(given, 1 - told.sky))
 
 
 def test_the_coast_sample_has_water_and_the_meadow_has_none():
@@ -156,9 +190,8 @@ def glittering():
 
 @functools.cache
 def sunny():
-    """``glittering``, analysed with sky, horizon and sun told."""
-    sky = (np.arange(SIZE[1])[:, None] < ROW).astype(np.float32) * np.ones(SIZE[0], np.float32)
-    told = {"sky": sky, "refine": "none", "horizon": float(ROW), "fov": 40.0}
+    """``glittering``, analysed with sky, water, horizon and sun told."""
+    told = {"sky": SKY, "water": 1 - SKY, "refine": "none", "horizon": float(ROW), "fov": 40.0}
     return sw.analyze(glittering(), sun=(150, 40), **told)
 
 
