@@ -52,6 +52,7 @@ def split(root: Path) -> Split:
     watery = [f for f in outlined if outlines()[f][0]]
     watery += [f for f in sunless if f.startswith("sea-sky")][::4]
     dry = [f for f in outlined if not outlines()[f][0]]
+    dry += [f for f in sunless if f.startswith("camvid")]
     return Split(trained, sunless, skies, textures, watery, dry)
 
 
@@ -231,13 +232,14 @@ class Batches(IterableDataset):
         suns = [p for p in photos.labelled if p.is_sun]
         others = [p for p in photos.labelled if not p.is_sun]
         by_file = {p.file: p for p in photos.labelled}
+        dry = sorted(set(photos.dry) & set(photos.skies))
 
         def one(size: tuple[int, int]) -> dict[str, np.ndarray]:
             draw = random.random()
             if draw < 0.36:
-                file = str(
-                    random.choice(photos.textures if random.random() < 0.12 else photos.skies)
-                )
+                kind = random.random()
+                skies = dry if kind < 0.4 else photos.skies  # a sun on dry land, too
+                file = str(random.choice(photos.textures if kind < 0.12 else skies))
                 return drawn(read(self.root, file), size, random)
             if draw < 0.7 and photos.watery:
                 file = str(random.choice(photos.watery if draw < 0.52 else photos.dry))
