@@ -106,7 +106,7 @@ def _with_glints(
     between = np.maximum(closed(water, _COLUMN, 0), closed(np.maximum(water, sky), 0, _GAP))
     light = working.encoded @ LUMINANCE
     share = water.sum(axis=1)
-    rows = np.flatnonzero(share > 1)
+    rows = np.flatnonzero(share > 0)
     level = (light * water).sum(axis=1)[rows] / share[rows]
     level = np.interp(np.arange(len(share)), rows, level)
     brighter = smoothstep(0.0, 0.1, light - level[:, None])

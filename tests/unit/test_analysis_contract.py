@@ -102,7 +102,7 @@ def test_the_path_of_a_mask_is_the_mask(tmp_path):
         ({"sun_method": "guess"}, r"choose one of .*disc_fit"),
         ({"horizon_method": "guess"}, r"choose one of .*robust_line"),
         ({"depth": "sonar"}, r"choose one of .*ground_plane"),
-        ({"water": "moat"}, r"choose one of .*streaks"),
+        ({"water": "moat"}, r"choose one of .*network"),
         ({"water": ["none"]}, r"water= takes a mask array"),
         ({"water": np.zeros((160, 30))}, r"shapes must agree"),
     ],

@@ -145,7 +145,8 @@ def glinting(scene, edit):
     glints = render_pass(scene, edit, "mirror_ratio")[..., 3]
     size = scene.camera.width, scene.camera.height
     glints = cv2.resize(glints, size, interpolation=cv2.INTER_LINEAR)
-    return (scene.water > 0.02) & (glints > 0.002)
+    # The frame reads the water from a smaller map.
+    return (cv2.dilate(scene.water, np.ones((5, 5), np.uint8)) > 0.02) & (glints > 2e-4)
 
 
 def encode(light):
