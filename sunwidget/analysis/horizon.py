@@ -1,7 +1,7 @@
 """Horizon: the line that the earth would draw behind everything that stands on it (thesis 3.1.2).
 
-``METHODS`` maps a name to a function ``(sky, encoded) -> Horizon`` in the pixels of the sky map;
-``encoded`` is the photo at its size.
+``METHODS`` maps a name to a function ``(sky, encoded, water) -> Horizon`` in the pixels of the sky
+map; ``encoded`` is the photo at its size, ``water`` the probability that the network gives it.
 """
 
 from __future__ import annotations
@@ -61,7 +61,9 @@ def from_hint(hint: float | tuple[Point, Point], width: int) -> Horizon:
     return Horizon(float(hint), 0.0, 1.0, "hint")
 
 
-def row_argmax(sky: np.ndarray, encoded: np.ndarray | None = None) -> Horizon:
+def row_argmax(
+    sky: np.ndarray, encoded: np.ndarray | None = None, water: np.ndarray | None = None
+) -> Horizon:
     """Take the row with most vertical edges of the sky mask (thesis equations 3.3 and 3.4).
 
     One degree of roll spreads a horizon over many rows and hides it from this method.
@@ -73,7 +75,9 @@ def row_argmax(sky: np.ndarray, encoded: np.ndarray | None = None) -> Horizon:
     return Horizon(row + 1.0, 0.0, float(edges[row] / sky.shape[1]), "row_argmax")
 
 
-def robust_line(sky: np.ndarray, encoded: np.ndarray | None = None) -> Horizon:
+def robust_line(
+    sky: np.ndarray, encoded: np.ndarray | None = None, water: np.ndarray | None = None
+) -> Horizon:
     """Fit a line with roll to the lower edge of the sky.
 
     Whatever stands on the earth can only push the skyline up, so a skyline below the line
@@ -92,7 +96,13 @@ def robust_line(sky: np.ndarray, encoded: np.ndarray | None = None) -> Horizon:
     return Horizon(max(lowest, LEVEL_ROW * height), 0.0, min(0.2, share), "assumed")
 
 
-def water_line(sky: np.ndarray, encoded: np.ndarray) -> Horizon:
+def water_line(sky: np.ndarray, encoded: np.ndarray, water: np.ndarray | None = None) -> Horizon:
+    """Return the far end of water: where sky lies on it, or by the picture's own edges."""
+    line = _far_end(sky, encoded)
+    return line if water is None else behind_water(line, sky, water)
+
+
+def _far_end(sky: np.ndarray, encoded: np.ndarray) -> Horizon:
     """Fit the line as ``robust_line`` does, then look for the far end of water.
 
     A far shore lifts the skyline off the water: a straight edge a little under the skyline wins,
@@ -153,7 +163,7 @@ def behind_water(found: Horizon, sky: np.ndarray, water: np.ndarray) -> Horizon:
     return Horizon(row, roll, max(0.8, found.confidence), "water_line")
 
 
-METHODS: dict[str, Callable[[np.ndarray, np.ndarray], Horizon]] = {
+METHODS: dict[str, Callable[[np.ndarray, np.ndarray, np.ndarray], Horizon]] = {
     "row_argmax": row_argmax,
     "robust_line": robust_line,
     "water_line": water_line,

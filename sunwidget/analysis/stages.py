@@ -243,12 +243,9 @@ def _horizon(working: Working, sky: np.ndarray, maps: SunMaps, hints: Hints, wid
     """Return the hinted or found horizon, in pixels of the photo."""
     if hints.horizon is not None:
         return horizon_stage.from_hint(hints.horizon, width)
-    method = hints.method("horizon")
-    horizon = horizon_stage.METHODS[method](sky, working.encoded)
-    if method == "water_line":
-        water = resize(maps.water, working.width, working.height)
-        horizon = horizon_stage.behind_water(horizon, sky, water)
-    return horizon.scaled(*working.zoom)
+    find = horizon_stage.METHODS[hints.method("horizon")]
+    water = resize(maps.water, working.width, working.height)
+    return find(sky, working.encoded, water).scaled(*working.zoom)
 
 
 def _water(

@@ -22,6 +22,7 @@ from sunwidget.analysis.clouds import INDICES
 from sunwidget.analysis.maps import MAPS, levels, scene_map, shares_of
 from sunwidget.analysis.notices import Notice
 from sunwidget.analysis.scene import Scene
+from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.working import resize
 from sunwidget.edit import PARAMETERS, Parameter
 from sunwidget.photo import Photo, open_photo
@@ -235,9 +236,10 @@ def other_horizons(scene: Scene) -> dict[str, tuple[float, float]]:
     """
     working = scene.working
     sky = resize(scene.sky, working.width, working.height)
+    water = resize(look_for_sun(working).water, working.width, working.height)
     rows = {}
     for name, method in horizon.METHODS.items():
-        found = method(sky, working.encoded).scaled(*working.zoom)
+        found = method(sky, working.encoded, water).scaled(*working.zoom)
         if found.source != name or name == scene.horizon.source or found.confidence == 0:
             continue
         rise = math.tan(math.radians(found.roll)) * scene.width / 2
