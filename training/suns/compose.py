@@ -395,23 +395,17 @@ def compose(rgb: np.ndarray, sky: np.ndarray, random: Random) -> Drawn:
     if draw > 0.35 and draw < 0.65:  # a grading
         scene = scene * np.exp(random.normal(0, 0.3, 3)).astype(np.float32)
     scene = (scene * 2.0 ** random.normal(-0.4, 0.6)).astype(np.float32)
-    if random.random() < 0.1:
+    night = random.random() < 0.1
+    if night:
         scene = night_lights(scene, sky, random)
-        image, _ = camera(scene, scene, random)
-        return Drawn(image, image, None, 0.0, 0.0, 0.0)
-    if (sky > 0.5).mean() < 0.04:
-        image, clean = camera(scene, scene, random)
-        return Drawn(image, clean, None, 0.0, 0.0, 0.0)
-    if random.random() < 0.12:
+    elif random.random() < 0.12:
         scene = pale_shapes(scene, sky, random)
-    if random.random() < 0.1:
+    if not night and random.random() < 0.1:
         scene, sky = twigs(scene, sky, random)
-        if (sky > 0.5).mean() < 0.04:
-            image, clean = camera(scene, scene, random)
-            return Drawn(image, clean, None, 0.0, 0.0, 0.0)
-    if random.random() < 0.06:  # nothing more: not every pale shape is a sun
+    # Some have nothing more: not every pale shape is a sun.
+    if night or (sky > 0.5).mean() < 0.04 or random.random() < 0.06:
         image, clean = camera(scene, scene, random)
-        return Drawn(image, clean, None, 0.0, 0.0, 0.0)
+        return Drawn(image, clean, None, 0.0, 0.0, 0.0, water, ground)
     total, place, radius, sharp, seen = add_sun(scene, sky, random, water)
     image, clean = camera(total, scene, random)
     if sharp < 0.5:
