@@ -32,6 +32,7 @@ class Result:
     peak: Peak
     off: float  # widths
     size: float  # radius over the label's
+    water: tuple[float, float, float] | None  # where it is outlined, see ``water_of``
 
     @property
     def right(self) -> bool:
@@ -43,35 +44,35 @@ def look(photo: Photo, data: Path) -> Result:
     """Look at one labelled photo."""
     folder, name = photo.file.split("/")
     working = Working.of(open_photo(data / folder / "images" / name))
-    peak = peak_of(look_for_sun(working), working)
+    maps = look_for_sun(working)
+    peak = peak_of(maps, working)
     off = miss(photo, peak.x, peak.y, working)
-    return Result(photo, peak, off, peak.radius / working.width / photo.r)
+    size = peak.radius / working.width / photo.r
+    mask = data / folder / "masks" / f"{Path(name).stem}.png"
+    water = water_of(photo, maps.water, mask) if photo.file in outlines() else None
+    return Result(photo, peak, off, size, water)
 
 
-def water_of(photo: Photo, data: Path) -> tuple[int, int, int, int]:
-    """Pixels of outlined water, of it found, of both together, and of known pixels called so."""
-    folder, name = photo.file.split("/")
-    maps = look_for_sun(Working.of(open_photo(data / folder / "images" / name)))
-    mask = cv2.imread(str(data / folder / "masks" / f"{Path(name).stem}.png"), 0)
-    size = maps.water.shape[::-1]
-    sky = cv2.resize(mask, size, interpolation=cv2.INTER_AREA)
-    truth = water_map(photo.file, mask)
-    truth = cv2.resize(truth, size, interpolation=cv2.INTER_NEAREST)
-    found = (maps.water > 0.5) & (sky < 128) & (truth != UNKNOWN)
-    wet = truth == 255
-    return int(wet.sum()), int((found & wet).sum()), int((found | wet).sum()), int(found.sum())
+def water_of(photo: Photo, probability: np.ndarray, mask: Path) -> tuple[float, float, float]:
+    """Shares of the known pixels: outlined water, water found, and both at once."""
+    sky = cv2.imread(str(mask), cv2.IMREAD_GRAYSCALE)
+    size = probability.shape[::-1]
+    truth = cv2.resize(water_map(photo.file, sky), size, interpolation=cv2.INTER_NEAREST)
+    known = truth != UNKNOWN
+    land = cv2.resize(sky, size, interpolation=cv2.INTER_AREA) < 128
+    wet, found = truth[known] == 255, ((probability > 0.5) & land)[known]
+    return float(wet.mean()), float(found.mean()), float((wet & found).mean())
 
 
-def tell_of_water(judged: list[Photo], data: Path) -> None:
-    """Print how well outlined water is found."""
-    counts = np.array([water_of(p, data) for p in judged if p.file in outlines()], float)
-    size = counts[:, 2].max()
-    wet = counts[:, 0] > WET * size
-    overlap = counts[wet, 1] / counts[wet, 2]
+def tell_of_water(shares: np.ndarray) -> None:
+    """Print how well outlined water is found; ``shares`` (n, 3) are those of ``water_of``."""
+    outlined, found, both = shares.T
+    wet = outlined > WET
+    overlap = both[wet] / (outlined + found - both)[wet]
     print(
         f"water in {wet.sum()} photos: IoU {overlap.mean():.3f} (mean), {np.median(overlap):.3f} "
         f"(median), above .7 in {np.mean(overlap > 0.7):.0%}; "
-        f"of {(~wet).sum()} without, {np.mean(counts[~wet, 3] > 0.01 * size):.0%} have some"
+        f"of {(~wet).sum()} without, {np.mean(found[~wet] > 0.01):.0%} have some"
     )
 
 
@@ -105,7 +106,7 @@ def main() -> None:
     limb = np.array([r.peak.sharpness > 0.6 for r in hit])
     within = np.mean(np.abs(size[limb] - 1) < 0.2)
     print(f"of {limb.sum()} taken for discs with a limb {within:.0%} within a fifth")
-    tell_of_water(judged, options.data)
+    tell_of_water(np.array([r.water for r in results if r.water is not None]))
     if options.misses:
         for r in results:
             said = r.peak.confidence >= LEAST_CONFIDENCE
