@@ -74,10 +74,10 @@ def _believed(maps: SunMaps, working: Working, sky: np.ndarray) -> np.ndarray:
     import cv2
 
     height, width = maps.water.shape
-    light, above = resize(working.linear, width, height), resize(sky, width, height) > 0.5
+    light, inside_sky = resize(working.linear, width, height), resize(sky, width, height) > 0.5
     redness = np.log((light[..., 0] + _DARK) / (light[..., 2] + _DARK))
-    reddest = float(np.quantile(redness[above], 0.95)) if above.any() else np.inf
-    patches = (maps.water > _EDGE[0]).astype(np.uint8) * (1 - above.astype(np.uint8))
+    reddest = float(np.quantile(redness[inside_sky], 0.95)) if inside_sky.any() else np.inf
+    patches = ((maps.water > _EDGE[0]) & ~inside_sky).astype(np.uint8)
     count, labels = cv2.connectedComponents(patches, connectivity=4)
     kept = np.zeros(count, bool)
     for patch in range(1, count):

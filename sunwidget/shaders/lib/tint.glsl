@@ -3,6 +3,7 @@
 // loses so much of it, or it would turn teal.
 
 #include "lib/matched_sky.glsl"
+#include "lib/srgb.glsl"
 
 // Sunsets are red in parts: where they would end in grey some of it stays.
 const float kMostOfRed = 0.6;
@@ -28,24 +29,22 @@ float GetLostTint(vec3 sky_before, vec3 sky_now) {
 
 // The sky as bright as it is now.
 vec3 WithoutLostTint(vec3 sky_before, vec3 sky_now) {
-  vec3 weight = vec3(0.2126, 0.7152, 0.0722);
-  vec3 color = sky_now * mix(vec3(1.0), dot(sky_gain, weight) / sky_gain, GetLostTint(sky_before, sky_now));
-  return color * (dot(sky_now, weight) / dot(color, weight));
+  vec3 color = sky_now * mix(vec3(1.0), GetLuminance(sky_gain) / sky_gain, GetLostTint(sky_before, sky_now));
+  return color * (GetLuminance(sky_now) / GetLuminance(color));
 }
 
 // What the photo's sky has beyond the model, `sky` over `before`, is light, which stays, and colour, which
 // fades as far as the model's own colour moves away: deep blue times yellow would be green. `relit` is
 // `sky` times `ratio`.
 vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacity, vec3 sky_before, vec3 sky_now) {
-  vec3 weight = vec3(0.2126, 0.7152, 0.0722);
   vec3 now = before * ratio;
-  vec3 turn = log(ratio * (dot(before, weight) / dot(now, weight)));
+  vec3 turn = log(ratio * (GetLuminance(before) / GetLuminance(now)));
   vec3 own = log(max(sky, vec3(1e-6)) / max(before, vec3(1e-6)));
   // What lies on the way may stay: blue in the red sky of a sunset, when the sun goes.
   float along = dot(own - dot(own, vec3(1.0 / 3.0)), turn) / max(length(turn), 1e-3);
   float faded = smoothstep(0.0, kTurned, length(turn)) * mix(1.0, kFadedAhead, smoothstep(0.0, 1.0, along));
   faded = max(faded, (1.0 - opacity) * GetLostTint(sky_before, sky_now));
-  now += (1.0 - opacity) * (WithoutLostTint(sky_before, sky_now) * (dot(now, weight) / dot(sky_now, weight)) - now);
-  vec3 model = now * (dot(sky, weight) / dot(before, weight));
+  now += (1.0 - opacity) * (WithoutLostTint(sky_before, sky_now) * (GetLuminance(now) / GetLuminance(sky_now)) - now);
+  vec3 model = now * (GetLuminance(sky) / GetLuminance(before));
   return relit + faded * (model - relit);
 }
