@@ -31,7 +31,8 @@ class Backdrop:
     field : (h, w, 3) float32
         Root of display-linear light, [0, 1].
     glare : (h, w) float32
-        Weight with which the sky behind replaces the photo once the sun has moved, [0, 1].
+        Weight with which the sky behind replaces the photo once the sun has moved, [0, 1]; on
+        land the share of its light that goes then.
     """
 
     field: np.ndarray
@@ -81,7 +82,9 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     filled += ((1 - known) * resize(erased.detail, *size))[..., None]
     beyond = fit.response.display_light(model * np.exp(filled))
     sky_light = beyond + weight[..., None] * (display - beyond)
-    return Backdrop(_dithered(np.sqrt(np.clip(sky_light, 0, 1))), mark)
+    on_land = np.asarray(resize(erased.on_land, *size), np.float32)
+    glare = np.where(matte > 0.98, mark, np.maximum(mark * (matte > 0.02), on_land))
+    return Backdrop(_dithered(np.sqrt(np.clip(sky_light, 0, 1))), glare)
 
 
 def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:

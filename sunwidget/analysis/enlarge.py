@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import math
 
 import numpy as np
@@ -99,11 +101,22 @@ def pixels_of(first: int, last: int, zoom: float) -> slice:
 
 def raise_to(matte: np.ndarray, least: np.ndarray, zoom: tuple[float, float]) -> None:
     """Raise a map (H, W) in place to a smaller one (h, w) where that is not 0."""
-    rows, columns = np.flatnonzero(least.any(axis=1)), np.flatnonzero(least.any(axis=0))
+    for part in _touched(least, zoom):
+        np.maximum(matte[part], enlarged_part(least, zoom, part), out=matte[part])
+
+
+def take_from(matte: np.ndarray, share: np.ndarray, zoom: tuple[float, float]) -> None:
+    """Take a share, a smaller map (h, w), from a map (H, W) in place."""
+    for part in _touched(share, zoom):
+        matte[part] *= 1 - enlarged_part(share, zoom, part)
+
+
+def _touched(small: np.ndarray, zoom: tuple[float, float]) -> Iterator[Box]:
+    """Yield the part of the photo where a small map is not 0, if there is one."""
+    rows, columns = np.flatnonzero(small.any(axis=1)), np.flatnonzero(small.any(axis=0))
     if not rows.size:
         return
     # Interpolation spreads it by a pixel.
-    top, bottom = max(rows[0] - 1, 0), min(rows[-1] + 2, least.shape[0])
-    left, right = max(columns[0] - 1, 0), min(columns[-1] + 2, least.shape[1])
-    part = pixels_of(top, bottom, zoom[1]), pixels_of(left, right, zoom[0])
-    np.maximum(matte[part], enlarged_part(least, zoom, part), out=matte[part])
+    top, bottom = max(rows[0] - 1, 0), min(rows[-1] + 2, small.shape[0])
+    left, right = max(columns[0] - 1, 0), min(columns[-1] + 2, small.shape[1])
+    yield pixels_of(top, bottom, zoom[1]), pixels_of(left, right, zoom[0])

@@ -22,6 +22,7 @@ _FELT = (0.03, 0.12)  # less is none, more is taken away in full
 _COLOURS = (0.06, 0.3)  # less leaves the sky its colour, more hides it
 _WHITENS = (0.15, 0.6)  # less leaves clouds to be told from the sky, more does not
 _HIDES = (0.3, 0.9)  # less leaves the sky its clouds, more hides them
+_GAP = 0.06  # in longer sides: half of the widest gap in the glare
 _CLOUDS = 0.02  # in longer sides: what is finer beside the sun is cloud and not glare
 _REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow is the sky's
 
@@ -35,6 +36,8 @@ class Erased(NamedTuple):
         The copy; the photo's own where it shows no sun.
     mark : (h, w) float32
         Weight with which it replaces the photo once the sun has moved, [0, 1].
+    on_land : (h, w) float32
+        Share of the land's light that is the sun's glare before it, [0, 1].
     hidden : (h, w) float32
         Where the copy's light is a guess and no more than its detail is known, [0, 1].
     glow : (h, w) float32
@@ -45,6 +48,7 @@ class Erased(NamedTuple):
 
     working: Working
     mark: np.ndarray
+    on_land: np.ndarray
     hidden: np.ndarray
     glow: np.ndarray
     detail: np.ndarray
@@ -53,7 +57,7 @@ class Erased(NamedTuple):
 def unerased(working: Working) -> Erased:
     """Return the copy of a photo that shows no sun."""
     nowhere = np.zeros((working.height, working.width), np.float32)
-    return Erased(working, nowhere, nowhere, nowhere, nowhere)
+    return Erased(working, nowhere, nowhere, nowhere, nowhere, nowhere)
 
 
 def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation) -> Erased:
@@ -75,7 +79,7 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     small_sky = resize(sky, columns, rows)
     seen = np.log(resize(working.linear, columns, rows) + LIGHT_FLOOR)
     glare = _risen(maps, seen, small_sky, light)
-    felt = glare.max(-1)
+    felt = _without_gaps(glare.max(-1))
     blot = resize(light.blot, columns, rows)
     if float((blot * felt).sum()) < _HIDES[0] * float(blot.sum()):
         # A moon, and a sun that only a person sees, the network leaves where it is.
@@ -102,7 +106,13 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     near = 1 - smoothstep(1.5 * reach, 2.5 * reach, away)
     glow = near * smoothstep(*_WHITENS, np.maximum(felt, -maps.clean.min(-1)))
     detail = keep[..., 0] * _detail(there @ LUMINANCE, sky)
-    return Erased(copy, mark, enlarged(smoothstep(*_FELT, felt)), enlarged(glow), detail)
+    glare, land = map(enlarged, _before_land(maps, seen, 1 - small_sky, light))
+    # Of the burnt disc behind which land lies nothing is left.
+    burnt = _round_about(light.blot) * np.maximum(there @ LUMINANCE - land, 0)
+    before_land = 1 - np.exp(-np.maximum(glare, burnt)).astype(np.float32)
+    return Erased(
+        copy, mark, before_land, enlarged(smoothstep(*_FELT, felt)), enlarged(glow), detail
+    )
 
 
 def _detail(values: np.ndarray, sky: np.ndarray) -> np.ndarray:
@@ -122,14 +132,40 @@ def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservati
     How much of a wide glow is the sky's own no picture tells, and the fitted sky has one. And there
     is no more glare than by what the picture (``seen``, log of light) is brighter than farther out.
     """
-    away, reach = _distance(light, sky.shape)
-    beyond = smoothstep(0.7 * reach, reach, away) * np.maximum(sky, 1e-3)
-    beyond = beyond.astype(np.float32)
-    near = 1 - smoothstep(0.8 * reach, reach, away)
+    near, beyond = _parts(light, sky)
     glare = np.maximum(fill_by_pyramid(maps.clean, beyond) - maps.clean, 0) * near[..., None]
     brighter = np.maximum((seen - _continued(seen, beyond)) @ LUMINANCE, 0)
     share = np.minimum(brighter / np.maximum(glare @ LUMINANCE, 1e-6), 1)
     return glare * share[..., None]
+
+
+def _without_gaps(felt: np.ndarray) -> np.ndarray:
+    """Close what is less than all round it: where a camera clipped, less seems to have risen."""
+    import cv2
+
+    side = 2 * round(_GAP * max(felt.shape)) + 1
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))
+    return np.asarray(cv2.morphologyEx(felt.astype(np.float32), cv2.MORPH_CLOSE, kernel))
+
+
+def _before_land(
+    maps: SunMaps, seen: np.ndarray, land: np.ndarray, light: SunObservation
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the glare before the land, and the land's light without: (h, w) logs of luminance.
+
+    Land has no glow of its own: what is as bright as farther out has no glare before it.
+    """
+    near, beyond = _parts(light, smoothstep(0.9, 1.0, land))  # no skyline, which holds sky
+    level = _continued(seen, beyond) @ LUMINANCE
+    glare = np.minimum(-(maps.clean @ LUMINANCE) * near, seen @ LUMINANCE - level)
+    return np.maximum(glare, 0), level
+
+
+def _parts(light: SunObservation, part: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return weights (h, w) of what the glare reaches, and of what of ``part`` lies beyond."""
+    away, reach = _distance(light, part.shape)
+    beyond = smoothstep(0.7 * reach, reach, away) * np.maximum(part, 1e-3)
+    return 1 - smoothstep(0.8 * reach, reach, away), beyond.astype(np.float32)
 
 
 def _distance(light: SunObservation, shape: tuple[int, ...]) -> tuple[np.ndarray, float]:

@@ -24,7 +24,7 @@ from sunwidget.analysis.camera_glare import angle_to_sun, measured_glare
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.depth_view import View
-from sunwidget.analysis.enlarge import raise_to
+from sunwidget.analysis.enlarge import raise_to, take_from
 from sunwidget.analysis.erase import Erased, erase, unerased
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fill import fill_by_pyramid
@@ -128,6 +128,9 @@ def complete(
         disc = sun_stage.in_sky(blot, sky) if peak is None else sun_stage.in_sky(blot, sky, 0.25)
         sky = np.maximum(sky, disc)
         raise_to(matte, disc, working.zoom)
+        foot = sun_stage.foot(blot, sky)
+        sky = sky * (1 - foot)
+        take_from(matte, foot, working.zoom)
 
     if peak is not None and blot is not None and _lens_unknown(photo, hints):
         lens = sun_stage.field_of_view_of(blot, peak, working, camera.fov_vertical_deg)

@@ -35,6 +35,7 @@ __all__ = [
 ]
 
 _SHARP = 0.6  # of the network, from which a core is a disc with a limb
+_EVEN = 0.3  # rise over run up to which the skyline beside a low sun goes on behind it
 _LIMB_STEP = 0.15  # encoded luminance between the two sides of a limb
 _LEAST_LIMB = 6.0  # working pixels of radius
 TOLERANCE = 0.03  # M of Algorithm 1: encoded luminance around the seed's
@@ -217,6 +218,31 @@ def in_sky(blot: Blot, sky: np.ndarray, least: float = 0.6) -> np.ndarray:
     blot = blot._replace(mask=np.where(below[:, None], 0, blot.mask).astype(np.float32))
     grown = cv2.dilate(blot.mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
     return np.clip(cv2.GaussianBlur(grown, (0, 0), reach / 6), 0, 1).astype(np.float32)
+
+
+def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
+    """Return where a low sun's glare over an even skyline is no sky, (h, w) float32 in [0, 1].
+
+    A setting sun burns a notch into the sea or the hills before it. Between the skylines left and
+    right of it, where they are below its centre and even, nothing below their line is sky.
+    """
+    none = np.zeros_like(sky)
+    wide = math.ceil(3 * blot.radius) + 3
+    first, last = math.floor(blot.x) - wide, math.ceil(blot.x) + wide
+    if first - wide < 0 or last + wide > sky.shape[1]:
+        return none
+    # Of each column the row below its last pixel of sky.
+    ends = (sky[:, first - wide : last + wide] > 0.5) * np.arange(1, sky.shape[0] + 1)[:, None]
+    skyline = ends.max(axis=0)
+    left, right = skyline[:wide], skyline[-wide:]
+    uneven = max(np.ptp(left), np.ptp(right)) > max(2, _EVEN * wide)
+    steep = abs(float(left.mean() - right.mean())) > _EVEN * (last - first)
+    if min(left.min(), right.min()) <= blot.y or uneven or steep:
+        return none
+    line = np.interp(np.arange(first, last), [first, last], [left.mean(), right.mean()])
+    below = np.arange(sky.shape[0])[:, None] + 0.5 - line
+    none[:, first:last] = np.clip(below, 0, 1)
+    return none
 
 
 def observe(

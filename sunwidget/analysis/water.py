@@ -92,7 +92,7 @@ def _believed(maps: SunMaps, working: Working, sky: np.ndarray) -> np.ndarray:
 def _with_glints(
     working: Working, sky: np.ndarray, ground: np.ndarray, water: np.ndarray
 ) -> np.ndarray:
-    """Add what is as bright as the water beside it and lies between water, or water and sky.
+    """Add what lies between water, or water and sky, and is as bright.
 
     So the sun's burnt column, where nothing tells what it shines on.
     """
@@ -103,14 +103,15 @@ def _with_glints(
         kernel = kernel.astype(np.uint8)
         return cv2.morphologyEx(image, cv2.MORPH_CLOSE, kernel, borderType=cv2.BORDER_REFLECT)
 
-    between = np.maximum(closed(water, _COLUMN, 0), closed(np.maximum(water, sky), 0, _GAP))
     light = working.encoded @ LUMINANCE
     share = water.sum(axis=1)
     rows = np.flatnonzero(share > 0)
     level = (light * water).sum(axis=1)[rows] / share[rows]
     level = np.interp(np.arange(len(share)), rows, level)
-    brighter = smoothstep(0.0, 0.1, light - level[:, None])
-    return np.asarray(np.maximum(water, between * brighter * ground), np.float32)
+    glints = closed(water, _COLUMN, 0) * smoothstep(0.0, 0.1, light - level[:, None])
+    # The last of the water below the sky is thinner than the network's map; land there is darker.
+    far = closed(np.maximum(water, sky), 0, _GAP) * smoothstep(0.6, 0.8, light / level[:, None])
+    return np.asarray(np.maximum(water, np.maximum(glints, far) * ground), np.float32)
 
 
 def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:

@@ -23,6 +23,7 @@ uniform sampler2D retouched;
 uniform sampler2D scene_light;
 uniform sampler2D sky_source;
 uniform sampler2D sky_behind;
+uniform sampler2D own_sky;
 uniform sampler2D mirror_ratio;
 uniform sampler2D veil;
 
@@ -79,22 +80,26 @@ void main() {
   vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(term[0].w < 0.0));
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   vec3 disc = GetDisc(view, GetDescribedSun());
-  change += matte * GetSkyChange(behind, clean, opacity, glare, sky_before, sky_now, view, disc);
+  change += matte * GetSkyChange(behind, clean, opacity, glare, ReadBilinear(own_sky, place).r, sky_before, sky_now, view, disc);
 #endif
 
 #ifndef SKY_ALONE
+  float water = water_strength * land_marks.r;
+  // What the old sun's glare put before the land goes with it.
+  vec3 land = front * (1.0 - glare * term[0].y * (1.0 - land_marks.r));
   float upright = GetUprightness(view);
-  float shine = GetMirrorShare(front, GetLitBefore(upright), land_marks.g);
+  float shine = GetMirrorShare(land, GetLitBefore(upright), land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
-  vec3 air = GetAirChange(place, land_marks.b, front, land_ratio);
-  vec3 land_change = GetLandChange(front, land_ratio, shine, mirror.rgb, air);
-  vec3 water_change = GetWaterChange(front, clean, land_marks.g, glare, mirror, air);
-  land_change += water_strength * land_marks.r * (water_change - land_change);
+  vec3 air = GetAirChange(place, land_marks.b, land, land_ratio + water * (mirror.rgb - land_ratio));
+  vec3 land_change = GetLandChange(front, land, land_ratio, GetLitNow(upright), shine, mirror.rgb, air);
+  vec3 horizon = texelFetch(air_edit, ivec2(GetAirColumn(place), 0), 0).rgb;
+  vec3 water_change = GetWaterChange(front, clean, land_marks.g, glare, mirror, air, horizon);
+  land_change += water * (water_change - land_change);
   change += (1.0 - matte) * land_change;
 #endif
 
-  change += GetVeil(scene + change, view, ReadBilinear(veil, place), matte);
+  change += GetVeil(scene + change, view, ReadBilinear(veil, place).rgb, matte);
   change += mix(land_strength, sky_strength, matte) * GetNight() * GetRodShift(scene + change);
   // What was filled where the old sun hid the sky gets the grain of the rest.
   float filled = matte * glare * term[0].y * min(sky_strength, 1.0);

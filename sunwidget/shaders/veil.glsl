@@ -1,27 +1,22 @@
 // What the camera and the air between put before the whole picture: light shafts and lens flare, now
-// minus with the photo's own sun. Soft, so a quarter of the size is enough. Alpha: the luminance of the
-// old sun's glare as it lies on the relit land. The new sun's is too sharp for this size (lib/veil.glsl).
+// minus with the photo's own sun. Soft, so a quarter of the size is enough; the new sun's glare is too
+// sharp for that (lib/veil.glsl).
 
 #include "lib/picture.glsl"
 #include "lib/sky.glsl"
 #include "lib/matched_sky.glsl"
 #include "lib/daylight.glsl"
 #include "lib/srgb.glsl"
-#include "lib/camera_glare.glsl"
 #include "lib/flare.glsl"
 
 uniform sampler2D terms;
 uniform sampler2D light_before;
 uniform sampler2D light_edit;
-uniform sampler2D visibility_source;
 uniform sampler2D visibility_edit;
 uniform sampler2D shafts_source;
 uniform sampler2D shafts_edit;
 uniform float sun_azimuth;
 uniform float sun_elevation;
-uniform float source_sun_azimuth;
-uniform float source_sun_elevation;
-uniform float glow;
 uniform float light_shafts;
 uniform float lens_flare;
 uniform vec2 pass_size;
@@ -30,11 +25,8 @@ out vec4 result;
 
 void main() {
   vec2 place = gl_FragCoord.xy / pass_size;
-  vec3 view = GetViewDirection(place);
   vec4 first = texelFetch(terms, ivec2(0), 0);
-  vec3 sun_before = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
-  float glowing_before = texelFetch(visibility_source, ivec2(0), 0).g;
   float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
   // The gain of each channel was fitted to the sky and holds what that sky had of its own; what is
   // added gets the sun's colour and the gain of all three.
@@ -42,9 +34,8 @@ void main() {
   vec3 beam_before = gain * GetLightTexel(light_before, 1);
   vec3 beam_now = gain * GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
 
-  // What the old sun's veil put into the photo was relit with the land and goes as it is by now.
+  // What the old sun's shafts put into the photo was relit with the land and goes as it is by now.
   float relit = GetLuminance(texelFetch(terms, ivec2(3, 0), 0).rgb) / max(GetLuminance(texelFetch(terms, ivec2(1, 0), 0).rgb), 1e-20);
-  float old = glow * glowing_before * GetGlareStrength(GetLuminance(GetLightTexel(light_before, 1))) * GetCameraGlare(view, sun_before);
 
   float shaft_before = ReadBilinear(shafts_source, place).r;
   float shaft_now = ReadBilinear(shafts_edit, place).r;
@@ -58,5 +49,5 @@ void main() {
   float flaring = lens_flare * first.y * visible_now * step(0.0, at.z);
   vec3 flare = flaring * beam_now * GetFlare((place - 0.5) * scale_of_place, (at.xy - 0.5) * scale_of_place);
 
-  result = first.x * vec4(shafts + flare, first.y * relit * old);
+  result = vec4(first.x * (shafts + flare), 0.0);
 }

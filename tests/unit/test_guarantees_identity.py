@@ -6,6 +6,7 @@ import pytest
 from relight_scenes import SAMPLES, known_photo, known_scene, sample_scene
 
 import sunwidget as sw
+from sunwidget.analysis.working import LUMINANCE
 from sunwidget.edit import NUMBERS, Edit
 from sunwidget.renderer import render, render_pass
 
@@ -106,7 +107,11 @@ def test_cloud_strength_zero_relights_clouds_as_the_sky_behind_them():
     plain = (scene.sky == 1) & (scene.surface()[..., 0] < 1e-4) & (scene.clouds > 0.2)
     plain &= np.abs(np.log2(ratio.mean(-1))) < 2
     assert plain.sum() > 30
-    expected = scene_to_display(scene, light * ratio)
+    # Light that the photo's sky has beside the model fades, too (GetFadedLight, lib/relit_sky.glsl).
+    own = cv2.resize(render_pass(scene, moved, "own_sky")[..., 0], scene.sky.shape[::-1])
+    change = np.log(now[..., :3] @ LUMINANCE / (before[..., :3] @ LUMINANCE))
+    faded = np.exp(-(change**2 / (change**2 + 1)) * own / np.sqrt(1 + (own / 0.7) ** 2))
+    expected = scene_to_display(scene, light * ratio * faded[..., None])
     actual = render(scene, moved, dtype="float32")
     assert np.abs(actual - expected)[plain].max() < 0.03
 

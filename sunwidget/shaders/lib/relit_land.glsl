@@ -3,23 +3,45 @@
 #include "lib/terms.glsl"
 #include "lib/response.glsl"
 #include "lib/land.glsl"
+#include "lib/tint.glsl"
+
+// Scene-linear light from which the land's own colour is known.
+const float kDarkLand = 0.15;
+// How much of the colour of land whose light has turned is its light's.
+const float kLitColor = 0.35;
 
 uniform float land_strength;
 uniform int colour_loss;  // 0 keeping luminance, 1 as eq. 3.8 of the thesis
 
-// The share of the light that is a mirror image follows `mirror_ratio`; `air` is what the air before
-// it adds (air.glsl).
-vec3 GetLandChange(vec3 light, vec3 land_ratio, float mirror, vec3 mirror_ratio, vec3 air) {
+// The more its light turns the less of the land's own colour is known; and what is dark in the photo is half
+// noise and half the lens' glare: it gets the colour of its light, `lit`, and becomes less bright than the rest.
+vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit) {
+  float level = GetLuminance(land);
+  float dark = 1.0 - smoothstep(0.0, kDarkLand, GetLuminance(before));
+  float lift = max(log2(max(term[0].x * level, 1e-9) / max(GetLuminance(before), 1e-9)), 0.0);
+  float guessed = max(kLitColor * GetTurned(ratio, before), dark * lift * lift / (lift * lift + 4.0));
+  land += guessed * (lit * (level / GetLuminance(lit)) - land);
+  return land * exp2(-dark * lift * lift / (lift + 3.0));
+}
+
+// `clean` is the land's light without the old sun's glare, `lit` what falls on it now; the share of it that is a mirror image follows
+// `mirror_ratio`, and `air` is what the air before it adds (air.glsl).
+vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirror, vec3 mirror_ratio, vec3 air) {
   land_ratio += mirror * (mirror_ratio - land_ratio);
-  vec3 land = max(abs(term[0].w) * land_ratio * light + air, vec3(0.0));
+  vec3 land = max(abs(term[0].w) * land_ratio * clean + air, vec3(0.0));
   float luminance = GetLuminance(land);
   // (C / L - 1) s + 1, or (C / L)^s, times L with s = 1 - term[0].z.
   vec3 colour = max(land / max(luminance, 1e-9), vec3(1e-4));
   vec3 lost = colour_loss == 1 ? luminance * (pow(colour, vec3(1.0 - term[0].z)) - colour) : term[0].z * (vec3(luminance) - land);
   land = max(land + step(1e-9, abs(term[0].z)) * lost, vec3(0.0));
+  land = WithoutGuesses(land, max(clean, vec3(1e-6)), land_ratio, lit);
   return land_strength * (term[0].x * land - light);
 }
 
 vec3 GetLitBefore(float upright) {
   return mix(term[1].rgb, term[2].rgb, upright);
+}
+
+vec3 GetLitNow(float upright) {
+  return mix(term[3].rgb, term[4].rgb, upright);
 }

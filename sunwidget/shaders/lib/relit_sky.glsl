@@ -3,51 +3,37 @@
 #include "lib/terms.glsl"
 #include "lib/described_sky.glsl"
 #include "lib/response.glsl"
-#include "lib/forward_lobe.glsl"
+#include "lib/cloud_light.glsl"
 #include "lib/tint.glsl"
 
 uniform float sky_strength;
 uniform float cloud_strength;
-uniform float silver_lining;
 uniform float sun_visible;  // whether the photo shows its sun, 0 or 1
 
-// Height of the sun (sine) under which clouds of two kilometres lose it, and high thin ones do not.
-const float kSetsForLow = -0.045;
-const float kStandsForLow = -0.004;
-// Share of the sun's light that is left on low clouds then: it has been scattered there.
-const float kAfterglow = 0.4;
 // Height of the sun under which it lights clouds from below.
 const float kGrazing = 0.05;
 // Their share of the sun's light when it stands at the horizon.
 const float kUnderlit = 0.7;
+// Logs of light: by how much the model's changes when half of what the photo's has of its own has faded, and
+// the most that does.
+const float kLightFades = 1.0;
+const float kMostFaded = 0.7;
 const float kFarthest = 1.8;  // stops
 const float kBrightAir = 0.4;  // scene-linear
 const float kAirRange = 0.5;
 const float kKnownAirRange = 0.9;
 
-// A cloud's share of full sunlight, by how bright the photo shows it: its light is what is left of the
-// sky's when what lies beyond it is taken away. Inside a cloud the light is scattered sunlight, too, and
-// one map's brightness is no measurement: the share stays near its mean. `sky` is without detail,
-// or a cloud's bright parts would lose more than its dark ones and leave a flat grey.
-float GetSunlitShare(vec3 sky, vec3 sky_before, vec3 ambient, vec3 direct, float opacity) {
-  float cloud = GetLuminance(sky - (1.0 - opacity) * sky_before) / max(opacity, 0.5);
-  float share = (cloud - GetLuminance(ambient)) / max(GetLuminance(direct), 1e-9);
-  float known = smoothstep(0.3, 0.9, opacity) * smoothstep(0.1, 0.5, GetLuminance(direct) / GetLuminance(ambient));
-  return mix(1.0, 0.6 + 0.4 * clamp(share, 0.0, 1.0), known);
-}
-
-// Light of a cloud of this opacity: the sky's and its share of the sun's, what a thin one sends on
-// towards the viewer (a silver lining), and what comes through it from the sky beyond.
-vec3 GetCloud(vec3 ambient, vec3 direct, float share, vec3 sky_beyond, vec3 sun, vec3 view, float opacity) {
-  float low = mix(kAfterglow, 1.0, smoothstep(kSetsForLow, kStandsForLow, sun.y));
-  float lit = share * mix(1.0, low, opacity * opacity);
-  float lobe = 0.25 * silver_lining * GetForwardLobe(dot(sun, view)) * (1.0 - opacity);
-  return mix(ambient + (lit + lobe) * direct, sky_beyond, 0.7 * (1.0 - opacity) + 0.15);
+// What the photo's sky is brighter than the model, `own` (own_sky.glsl), fades as the model's light changes: a haze
+// that the model does not know, or knows too well, leaves with the sun. No more of it than is believable.
+float GetFadedLight(float own, float change) {
+  float share = change * change / (change * change + kLightFades * kLightFades);
+  return exp(-share * own * inversesqrt(1.0 + own * own / (kMostFaded * kMostFaded)));
 }
 
 // `light` of the photo's sky becomes the light under the new sun. `clean` is the sky without the
-// old sun (sky_behind.glsl), `mark` where the old sun's glare lies, `disc` the new disc.
-vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec3 sky_before, vec3 sky_now,
+// old sun (sky_behind.glsl), `mark` where the old sun's glare lies, `own` by how much the sky is brighter than the
+// model, `disc` the new disc.
+vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, float own, vec3 sky_before, vec3 sky_now,
                   vec3 view, vec3 disc) {
   float gain = term[0].x;
   float moved = term[0].y;
@@ -74,6 +60,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec3 sky_be
   relit += extreme * moved * (clean * ratio - relit);
   vec3 model = mix(sky_before, cloud_before, opacity * min(cloud_strength, 1.0));
   relit = WithModelsColor(relit, sky, model, ratio, opacity, sky_before, sky_now);
+  relit *= GetFadedLight(own, log(GetLuminance(model * ratio) / GetLuminance(model)));
   // What the air brightens round the new sun is drawn in a camera's range, from a bright sky on; less so
   // where the photo's own sun or moon told how bright that is.
   float level = gain * GetLuminance(relit);

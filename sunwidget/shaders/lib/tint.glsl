@@ -33,16 +33,25 @@ vec3 WithoutLostTint(vec3 sky_before, vec3 sky_now) {
   return color * (GetLuminance(sky_now) / GetLuminance(color));
 }
 
+// How a ratio turns a colour, as bright: log of its channels.
+vec3 GetTurn(vec3 ratio, vec3 color) {
+  return log(ratio * (GetLuminance(color) / GetLuminance(color * ratio)));
+}
+
+float GetTurned(vec3 ratio, vec3 color) {
+  return smoothstep(0.0, kTurned, length(GetTurn(ratio, color)));
+}
+
 // What the photo's sky has beyond the model, `sky` over `before`, is light, which stays, and colour, which
 // fades as far as the model's own colour moves away: deep blue times yellow would be green. `relit` is
 // `sky` times `ratio`.
 vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacity, vec3 sky_before, vec3 sky_now) {
   vec3 now = before * ratio;
-  vec3 turn = log(ratio * (GetLuminance(before) / GetLuminance(now)));
+  vec3 turn = GetTurn(ratio, before);
   vec3 own = log(max(sky, vec3(1e-6)) / max(before, vec3(1e-6)));
   // What lies on the way may stay: blue in the red sky of a sunset, when the sun goes.
   float along = dot(own - dot(own, vec3(1.0 / 3.0)), turn) / max(length(turn), 1e-3);
-  float faded = smoothstep(0.0, kTurned, length(turn)) * mix(1.0, kFadedAhead, smoothstep(0.0, 1.0, along));
+  float faded = GetTurned(ratio, before) * mix(1.0, kFadedAhead, smoothstep(0.0, 1.0, along));
   faded = max(faded, (1.0 - opacity) * GetLostTint(sky_before, sky_now));
   now += (1.0 - opacity) * (WithoutLostTint(sky_before, sky_now) * (GetLuminance(now) / GetLuminance(sky_now)) - now);
   vec3 model = now * (GetLuminance(sky) / GetLuminance(before));

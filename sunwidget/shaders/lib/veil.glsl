@@ -3,19 +3,19 @@
 #include "lib/relit_sky.glsl"
 #include "lib/relit_land.glsl"
 
-// Glare that leaves the land with the old sun, and shadows in the haze, take no more than this share of
-// what is there: the model may know more of them than the photo holds.
+// Shadows in the haze take no more than this share of what is there: the model may know more of them than
+// the photo holds.
 const float kMostTaken = 0.4;
 // Much of a glare is lit air, and that lies behind the land: this share of it comes from the lens.
 const float kLensShare = 0.25;
 
-// `veil` of the exposure of `light` (veil.glsl); `matte` is the pixel's share of sky. The sky's old glare
-// has gone with what hid the sky behind it.
-vec3 GetVeil(vec3 light, vec3 view, vec4 veil, float matte) {
+// `veil` of the exposure of `light` (veil.glsl); `matte` is the pixel's share of sky. The old sun's glare
+// has gone with what hid sky and land behind it.
+vec3 GetVeil(vec3 light, vec3 view, vec3 veil, float matte) {
   vec3 color = UnpackColor(described[0].w);
   float glare = term[0].y * described[3].y * GetCameraGlare(view, GetDescribedSun());
-  vec3 added = max(veil.rgb, vec3(0.0)) + glare * mix(kLensShare, 1.0, matte) * color;
-  vec3 taken = mix(land_strength, sky_strength, matte) * min(veil.rgb, vec3(0.0)) - (1.0 - matte) * land_strength * kLensShare * veil.a * color;
+  vec3 added = max(veil, vec3(0.0)) + glare * mix(kLensShare, 1.0, matte) * color;
+  vec3 taken = mix(land_strength, sky_strength, matte) * min(veil, vec3(0.0));
   vec3 most = kMostTaken * max(light, vec3(1e-6));
   return mix(land_strength, sky_strength, matte) * added + taken * most / (most - taken);
 }

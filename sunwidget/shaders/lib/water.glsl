@@ -3,7 +3,10 @@
 
 #include "lib/waves.glsl"
 #include "lib/relit_land.glsl"
-#include "lib/matched_sky.glsl"
+#include "lib/tint.glsl"
+
+// How much of the colour of water that has turned is that of the sky at the horizon.
+const float kMirroredColor = 0.7;
 
 uniform sampler2D terms;
 uniform float water_strength;
@@ -26,14 +29,18 @@ float GetGlitterChange() {
 
 // `light` of the photo's water becomes the light under the new sun. `clean` is the water without the
 // old glints (water_behind.glsl), `mark` where those lie, `sparkle` what waves make of
-// the new ones, `mirror` what mirror_ratio.glsl says.
-vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirror, vec3 air) {
+// the new ones, `mirror` what mirror_ratio.glsl says, `sky` the new one at the horizon.
+vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirror, vec3 air, vec3 sky) {
   float changed = GetGlitterChange();
   vec3 calm = light + changed * mark * (clean - light);
   float shown = mirror.a * DecodeSparkle(sparkle);
   // The sun's own colour: what tints the photo's sky would dye what is nearly white.
   vec3 sun = texelFetch(terms, ivec2(12, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
   vec3 glints = changed * shown / (1.0 + shown / kBrightest) * sun;
-  vec3 relit = max(calm * mirror.rgb + air, vec3(0.0)) + glints;
+  vec3 relit = max(calm * mirror.rgb + air, vec3(0.0));
+  // As in the sky (lib/tint.glsl): colour that the photo's water has beyond the model's fades.
+  float level = GetLuminance(relit);
+  relit += kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))) * (sky * (level / GetLuminance(sky)) - relit);
+  relit += glints;
   return land_strength * (term[0].x * relit - light);
 }

@@ -1,0 +1,56 @@
+// How much brighter than the model, clouds included, the photo's sky without its sun is: log of luminance, slowly
+// varying. Drawn once a photo.
+
+#define PHOTOS_OWN_LIGHT
+#include "lib/picture.glsl"
+#include "lib/sky.glsl"
+#include "lib/matched_sky.glsl"
+#include "lib/daylight.glsl"
+#include "lib/cloud_light.glsl"
+#include "lib/response.glsl"
+
+uniform sampler2D layers;
+uniform sampler2D backdrop;
+uniform sampler2D sky_view;
+uniform sampler2D light_before;
+uniform float source_sun_azimuth;
+uniform float source_sun_elevation;
+uniform vec2 pass_size;
+
+out vec4 result;
+
+const float kReach = 0.1;  // two deviations, in longer sides of the picture
+const int kTaps = 6;       // on either side
+
+// The model's light where `opacity` of a pixel is cloud.
+vec3 GetModel(vec2 place, vec3 light, float opacity) {
+  vec3 view = GetViewDirection(place);
+  vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
+  vec3 scale = sky_gain * GetLightScale(photo_light);
+  vec3 ambient = scale * GetCloudRadiance(light_before, 0.0);
+  vec3 direct = scale * GetCloudRadiance(light_before, 1.0) - ambient;
+  vec3 sky = GetMatchedSky(sky_view, view);
+  float share = GetSunlitShare(light, sky, ambient - direct, direct, opacity);
+  return mix(sky, GetCloud(ambient - direct, direct, share, sky, sun, view, opacity), opacity);
+}
+
+void main() {
+  vec2 place = gl_FragCoord.xy / pass_size;
+  vec2 pace = kReach / float(kTaps) * max(frame_size.x, frame_size.y) / frame_size;
+  float sum = 0.0;
+  float total = 1e-6;
+  for (int i = -kTaps; i <= kTaps; ++i) {
+    for (int j = -kTaps; j <= kTaps; ++j) {
+      vec2 tap = place + vec2(i, j) * pace;
+      vec4 layer = ReadPicture(layers, tap);
+      float inside = step(0.0, tap.x) * step(tap.x, 1.0) * step(0.0, tap.y) * step(tap.y, 1.0);
+      float weight = inside * layer.r * layer.r * exp(-2.0 * float(i * i + j * j) / float(kTaps * kTaps));
+      if (weight < 1e-4) continue;
+      vec3 light = GetBackdropLight(ReadBilinear(backdrop, tap).rgb);
+      vec3 model = GetModel(tap, light, min(layer.g / layer.r, 1.0));
+      sum += weight * log(max(GetLuminance(light), 1e-6) / max(GetLuminance(model), 1e-6));
+      total += weight;
+    }
+  }
+  result = vec4(sum / total);
+}
