@@ -245,7 +245,7 @@ MAPS: tuple[SceneMap, ...] = (
         "glare",
         "Old sun's glare",
         lambda scene: scene.glare,
-        "Where the photo says nothing about the sky behind: filled once the sun has moved.",
+        "Where the photo says nothing about the sky behind, and what of the land's light is glare.",
         PATCH,
     ),
     SceneMap(

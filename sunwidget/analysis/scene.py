@@ -68,7 +68,8 @@ class Scene:
     backdrop : (h, w, 3) float32
         The photo without its sun, the sky gone on over the land; root of display-linear light.
     glare : (h, w) float32
-        Where the backdrop replaces the photo once the sun has moved.
+        Where the backdrop replaces the photo once the sun has moved; on land the share of light
+        that goes then.
     assumed_sun : (azimuth, elevation)
         Degrees; where the sun, or the moon that lights a night, is while ``sun`` is None.
     response : dict
@@ -333,7 +334,7 @@ class Scene:
         """Return glare, water, glitter, log-depth of the land: (H, W, 4) float32 in [0, 1].
 
         Glare is where the photo says nothing about the sky behind: the old sun's clipped core
-        and its halo, fading outwards. The log-depth (depth_level.py) is dithered; in the sky it
+        and its halo, fading outwards; on land its share of the light. The log-depth (depth_level.py) is dithered; in the sky it
         is that of the nearest land. ``size`` and ``rows`` as for ``layers``.
         """
         width, height = size or (self.width, self.height)

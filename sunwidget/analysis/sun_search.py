@@ -14,8 +14,8 @@ from sunwidget.analysis.working import LUMINANCE, Working
 LEAST_CONFIDENCE = 0.45  # from which a sun is one
 SURE = 0.7  # the same where the sky is as dark as a night's
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate
-WEIGHTS = (6.345, 3.433, -0.66, 0.598, 1.559, -4.25)
-RADIUS_SCALE = 0.744  # of the network's radius, to that which people draw
+WEIGHTS = (4.325, 3.654, -0.778, 0.098, 1.988, -1.354)
+RADIUS_SCALE = 0.775  # of the network's radius, to that which people draw
 _NIGHT = 0.5  # a sun lights a tenth of its sky to more than this encoded luminance, a moon does not
 
 

@@ -144,6 +144,32 @@ def test_a_burnt_disc_that_the_sky_surrounds_belongs_to_the_sky():
     assert disc[:, 200:].max() == 0
 
 
+def skyline(left, right, notch):
+    """A sky (100, 160) down to a slope between two rows, into which the sun burnt a notch."""
+    rows, columns = np.mgrid[:100, :160] + 0.5
+    end = left + (right - left) * columns / 160
+    burnt = np.hypot(columns - 80, rows - 50) < 8
+    return ((rows < end) | (burnt & notch)).astype(np.float32)
+
+
+def test_the_notch_that_a_setting_sun_burns_into_an_even_skyline_is_no_sky():
+    blot = sun.Blot(80, 50, 6.0, skyline(0, 0, notch=True))
+    for left, right in ((52, 52), (49, 57)):
+        notched = skyline(left, right, notch=True)
+        mended = notched * (1 - sun.foot(blot, notched))
+        assert np.abs(mended - skyline(left, right, notch=False)).sum() < 12
+        assert np.abs(notched - skyline(left, right, notch=False)).sum() > 40
+
+
+def test_a_sun_in_a_gap_of_the_skyline_keeps_its_sky():
+    high = skyline(40, 40, notch=True)  # hills left and right of it
+    assert not sun.foot(sun.Blot(80, 50, 6.0, high), high).any()
+    uneven = skyline(55, 55, notch=True)
+    uneven[:70, 40:50] = 1
+    uneven[:90, 45:48] = 1
+    assert not sun.foot(sun.Blot(80, 50, 6.0, uneven), uneven).any()
+
+
 def test_a_lamp_between_houses_does_not_become_sky():
     blot = sun.disc_fit(evening(disc=(90.5, 60.5)), SKY, 90.5, 60.5, CAMERA.focal)
     assert sun.in_sky(blot, np.zeros_like(SKY)).max() == 0

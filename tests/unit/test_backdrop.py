@@ -1,5 +1,7 @@
 """The sky behind the old sun as the frame reads it: photo without sun over model, mark, dither."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from relight_scenes import known_photo
@@ -8,7 +10,9 @@ from sunwidget.analysis.backdrop import LONG_SIDE, behind_sun, matched_sky
 from sunwidget.analysis.erase import Erased, unerased
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.working import Working
+from sunwidget.edit import Edit
 from sunwidget.photo import open_photo
+from sunwidget.renderer import render, render_pass
 
 
 def exact_fit(photo, sun=None):
@@ -85,3 +89,19 @@ def test_the_field_is_small_and_in_range():
 def test_the_matched_sky_has_the_size_asked_for():
     photo = known_photo(clouds=False)
     assert matched_sky(exact_fit(photo), photo.camera, (60, 40)).shape == (40, 60, 3)
+
+
+def test_what_the_sky_is_brighter_than_the_model_is_told_and_leaves_with_its_light():
+    scene = known_photo(clouds=False).analyze()
+    half = np.arange(scene.backdrop.shape[1]) > scene.backdrop.shape[1] // 2
+    darker = np.where(half[:, None], 0.8 * scene.backdrop, scene.backdrop).astype(np.float32)
+    other = dataclasses.replace(scene, backdrop=darker)
+    own, lost = (render_pass(one, Edit(), "own_sky")[:28, :, 0] for one in (scene, other))
+    assert np.abs(own).max() < 0.1
+    assert np.abs(lost - own)[:, :24].max() < 0.01
+    assert -0.7 < (lost - own)[:, 44:].mean() < -0.4  # 2 log 0.8, and what the response makes of it
+    # The less the backdrop has the more is given back, where the model's light changes.
+    moved = Edit(sun_elevation=-4)
+    gained = render(other, moved, dtype="float32") / render(scene, moved, dtype="float32")
+    assert gained[2:20, 90:].mean() > 1.2
+    assert np.array_equal(render(other), render(scene))

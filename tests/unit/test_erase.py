@@ -97,3 +97,29 @@ def test_a_sun_that_only_a_person_sees_is_covered_by_its_surroundings():
     assert erased.mark[40, 80] == pytest.approx(1)
     assert np.abs(erased.working.encoded[40, 80] - 80 / 255).max() < 0.02
     assert erased.mark[100, 20] == 0
+
+
+def hill(glowing):
+    """Dark land from row 60 on, with glare before it below the sun, and the sky's weight."""
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    near = np.exp(-np.square(np.hypot(columns - 80, rows - 60) / 12))
+    light = np.where(rows < 60, 0.3, 0.02 + glowing * near)
+    above = np.broadcast_to(rows < 60, light.shape).astype(np.float32)
+    return Working.of(open_photo(encode(light[..., None] * np.array([1.0, 0.6, 0.3])))), above
+
+
+def test_the_glare_before_the_land_is_a_share_of_its_light():
+    working, above = hill(glowing=0.2)
+    clean = np.zeros((*SMALL, 3))
+    clean[14:20, 14:26] = -2.0
+    share = erase(working, maps(clean), above, light(blot())).on_land
+    assert 0.25 < share[70, 80] < 0.9
+    assert share[70, 20] < 0.05  # beside it
+    assert share[120].max() < 0.05
+
+
+def test_land_as_bright_as_farther_out_has_no_glare_before_it():
+    working, above = hill(glowing=0.0)
+    clean = np.full((*SMALL, 3), -2.0)
+    share = erase(working, maps(clean), above, light(0 * blot())).on_land
+    assert share[66:].max() < 0.1

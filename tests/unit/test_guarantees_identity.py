@@ -107,7 +107,7 @@ def test_cloud_strength_zero_relights_clouds_as_the_sky_behind_them():
     plain = (scene.sky == 1) & (scene.surface()[..., 0] < 1e-4) & (scene.clouds > 0.2)
     plain &= np.abs(np.log2(ratio.mean(-1))) < 2
     assert plain.sum() > 30
-    # Light that the photo's sky has beside the model fades, too (GetFadedLight, lib/relit_sky.glsl).
+    # Light that the sky has beside the model fades, too (GetFadedLight, lib/relit_sky.glsl).
     own = cv2.resize(render_pass(scene, moved, "own_sky")[..., 0], scene.sky.shape[::-1])
     change = np.log(now[..., :3] @ LUMINANCE / (before[..., :3] @ LUMINANCE))
     faded = np.exp(-(change**2 / (change**2 + 1)) * own / np.sqrt(1 + (own / 0.7) ** 2))

@@ -153,6 +153,21 @@ def test_more_haze_veils_distant_land_and_never_darkens_below_zero():
     assert (hazy[far] / clear[far]).mean() > (hazy[near] / clear[near]).mean()
 
 
+def test_dark_land_that_a_new_sun_lights_loses_its_red_and_exposure_leaves_it():
+    known = known_photo(sun=(8.0, 1.5), size=SIZE, clouds=False)
+    land = known.sky < 0.01
+    scene = known.analyze(np.where(land[..., None], np.uint8((24, 7, 5)), known.bytes))
+
+    def redness(picture):
+        light = picture[land].mean(0)
+        return np.log(light[0] / light[1])
+
+    seen = redness(scene.photo.light())
+    behind = render(scene, Edit(sun_azimuth=170, sun_elevation=35), dtype="float32")
+    assert redness(behind) < 0.7 * seen
+    assert redness(render(scene, Edit(exposure=2), dtype="float32")) > 0.95 * seen
+
+
 def test_colour_loss_by_luminance_and_by_power_keep_the_luminance_alike():
     scene, _ = street()
     land = scene.sky < 0.01

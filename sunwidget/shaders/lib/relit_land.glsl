@@ -11,6 +11,7 @@ const float kDarkLand = 0.15;
 const float kLitColor = 0.35;
 
 uniform float land_strength;
+uniform float exposure;
 uniform int colour_loss;  // 0 keeping luminance, 1 as eq. 3.8 of the thesis
 
 // The more its light turns the less of the land's own colour is known; and what is dark in the photo is half
@@ -18,7 +19,7 @@ uniform int colour_loss;  // 0 keeping luminance, 1 as eq. 3.8 of the thesis
 vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit) {
   float level = GetLuminance(land);
   float dark = 1.0 - smoothstep(0.0, kDarkLand, GetLuminance(before));
-  float lift = max(log2(max(term[0].x * level, 1e-9) / max(GetLuminance(before), 1e-9)), 0.0);
+  float lift = max(log2(max(term[0].x * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
   float guessed = max(kLitColor * GetTurned(ratio, before), dark * lift * lift / (lift * lift + 4.0));
   land += guessed * (lit * (level / GetLuminance(lit)) - land);
   return land * exp2(-dark * lift * lift / (lift + 3.0));
