@@ -22,7 +22,7 @@ _FELT = (0.03, 0.12)  # less is none, more is taken away in full
 _COLOURS = (0.06, 0.3)  # less leaves the sky its colour, more hides it
 _WHITENS = (0.15, 0.6)  # less leaves clouds to be told from the sky, more does not
 _HIDES = (0.3, 0.9)  # less leaves the sky its clouds, more hides them
-_GAP = 0.06  # in longer sides: half of the widest gap in the glare
+_GAP = 0.03  # in longer sides: half of the widest gap in the glare
 _CLOUDS = 0.02  # in longer sides: what is finer beside the sun is cloud and not glare
 _REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow is the sky's
 
@@ -106,13 +106,8 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     near = 1 - smoothstep(1.5 * reach, 2.5 * reach, away)
     glow = near * smoothstep(*_WHITENS, np.maximum(felt, -maps.clean.min(-1)))
     detail = keep[..., 0] * _detail(there @ LUMINANCE, sky)
-    glare, land = map(enlarged, _before_land(maps, seen, 1 - small_sky, light))
-    # Of the burnt disc behind which land lies nothing is left.
-    burnt = _round_about(light.blot) * np.maximum(there @ LUMINANCE - land, 0)
-    before_land = 1 - np.exp(-np.maximum(glare, burnt)).astype(np.float32)
-    return Erased(
-        copy, mark, before_land, enlarged(smoothstep(*_FELT, felt)), enlarged(glow), detail
-    )
+    hidden, whitened = enlarged(smoothstep(*_FELT, felt)), enlarged(glow)
+    return Erased(copy, mark, before_land(working, maps, sky, light), hidden, whitened, detail)
 
 
 def _detail(values: np.ndarray, sky: np.ndarray) -> np.ndarray:
@@ -148,17 +143,32 @@ def _without_gaps(felt: np.ndarray) -> np.ndarray:
     return np.asarray(cv2.morphologyEx(felt.astype(np.float32), cv2.MORPH_CLOSE, kernel))
 
 
-def _before_land(
-    maps: SunMaps, seen: np.ndarray, land: np.ndarray, light: SunObservation
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the glare before the land, and the land's light without: (h, w) logs of luminance.
+def before_land(
+    working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation
+) -> np.ndarray:
+    """Return the share of a small copy's light that is the sun's glare before land, (h, w).
 
     Land has no glow of its own: what is as bright as farther out has no glare before it.
     """
-    near, beyond = _parts(light, smoothstep(0.9, 1.0, land))  # no skyline, which holds sky
-    level = _continued(seen, beyond) @ LUMINANCE
-    glare = np.minimum(-(maps.clean @ LUMINANCE) * near, seen @ LUMINANCE - level)
-    return np.maximum(glare, 0), level
+    import cv2
+
+    rows, columns = maps.clean.shape[:2]
+    land = smoothstep(0.9, 1.0, 1 - resize(sky, columns, rows))  # no skyline, which holds sky
+    small = resize(working.linear, columns, rows)
+    near, beyond = _parts(light, land)
+    level = np.log(np.maximum(_continued(small, beyond) @ LUMINANCE, 0) + LIGHT_FLOOR)
+    brighter = np.log(small @ LUMINANCE + LIGHT_FLOOR) - level
+    glare = np.minimum(-(maps.clean @ LUMINANCE) * near, brighter)
+
+    size = working.width, working.height
+    glare, level = (
+        cv2.resize(values.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
+        for values in (np.maximum(glare, 0), level)
+    )
+    # Of the burnt disc behind which land lies nothing is left.
+    there = np.log(working.luminance + LIGHT_FLOOR)
+    burnt = _round_about(light.blot) * np.maximum(there - level, 0)
+    return np.asarray(1 - np.exp(-np.maximum(glare, burnt)), np.float32)
 
 
 def _parts(light: SunObservation, part: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

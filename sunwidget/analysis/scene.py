@@ -229,7 +229,12 @@ class Scene:
         column = None if elevation > 15 else column_of(self.camera, azimuth)
         if self.sun is not None:
             column = column_of(self.camera, self.sun.azimuth)
-        return glitter(self.working, self.small_sky, self.small_water, column)
+        zone = glitter(self.working, self.small_sky, self.small_water, column)
+        # Glare before water goes with its glints; what is glare before land glints no more.
+        glare = resize(self.glare, self.working.width, self.working.height) * (1 - self.small_sky)
+        wet = np.maximum(zone, glare)
+        dry = zone * (1 - glare)
+        return (dry + self.small_water * (wet - dry)).astype(np.float32)
 
     @cached_property
     def shown(self) -> refine.Decision:
@@ -334,8 +339,9 @@ class Scene:
         """Return glare, water, glitter, log-depth of the land: (H, W, 4) float32 in [0, 1].
 
         Glare is where the photo says nothing about the sky behind: the old sun's clipped core
-        and its halo, fading outwards; on land its share of the light. The log-depth (depth_level.py) is dithered; in the sky it
-        is that of the nearest land. ``size`` and ``rows`` as for ``layers``.
+        and its halo, fading outwards; on land its share of the light. The log-depth
+        (depth_level.py) is dithered; in the sky it is that of the nearest land. ``size`` and
+        ``rows`` as for ``layers``.
         """
         width, height = size or (self.width, self.height)
         level = depth_level.to_level(self._log_depth(width, height, rows))

@@ -25,7 +25,7 @@ from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.depth_view import View
 from sunwidget.analysis.enlarge import raise_to, take_from
-from sunwidget.analysis.erase import Erased, erase, unerased
+from sunwidget.analysis.erase import Erased, before_land, erase, unerased
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.fit import SkyFit, fit_sky
@@ -125,7 +125,8 @@ def complete(
     blot = sun_blot(working, sky, seed or peak, camera.focal / zoom_y, hints.method("sun"))
     if blot is not None and ours:
         # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
-        disc = sun_stage.in_sky(blot, sky) if peak is None else sun_stage.in_sky(blot, sky, 0.25)
+        least = 0.6 if peak is None else 0.25
+        disc = sun_stage.in_sky(blot, sky, working.encoded, least)
         sky = np.maximum(sky, disc)
         raise_to(matte, disc, working.zoom)
         foot = sun_stage.foot(blot, sky)
@@ -156,7 +157,7 @@ def complete(
         blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
         light = sun_stage.observe(seed, blot, sky, camera, working)
 
-    erased = erased_for(working, maps, sky, light)
+    erased = erased_for(working, maps, sky, light, blot)
 
     step("clouds", 0.81, "Finding clouds")
     covers = clouds_by_colour(erased.working, sky, hints, None if blot is None else blot.mask)
@@ -234,12 +235,23 @@ def _lens_unknown(photo: Photo, hints: Hints) -> bool:
 
 
 def erased_for(
-    working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation | None
+    working: Working,
+    maps: SunMaps,
+    sky: np.ndarray,
+    light: SunObservation | None,
+    blot: Blot | None = None,
 ) -> Erased:
-    """Return the photo without the sun or moon that it shows; as it is where it shows none."""
-    if light is None or not light.visible:
+    """Return the photo without the sun or moon that it shows; as it is where it shows none.
+
+    Of one that shines through trees, where the mask knows no sky, the glare goes.
+    """
+    if light is not None and light.visible:
+        return erase(working, maps, sky, light)
+    if light is None or blot is None or not blot.mask.any():
         return unerased(working)
-    return erase(working, maps, sky, light)
+    radius = blot.radius * working.zoom[1]
+    through = dataclasses.replace(light, blot=blot.mask, radius_px=radius)
+    return unerased(working)._replace(on_land=before_land(working, maps, sky, through))
 
 
 def _horizon(working: Working, sky: np.ndarray, maps: SunMaps, hints: Hints, width: int) -> Horizon:

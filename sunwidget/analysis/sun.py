@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sunwidget.analysis.sun_search import Peak, find, find_moon, night
-from sunwidget.analysis.working import LUMINANCE, Working, resize
+from sunwidget.analysis.working import LUMINANCE, Working, resize, smoothstep
 from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
 from sunwidget.camera import Camera, Point
 
@@ -197,10 +197,11 @@ def _away(shape: tuple[int, ...], x: float, y: float) -> np.ndarray:
     return np.hypot(np.arange(shape[1]) + 0.5 - x, np.arange(shape[0])[:, None] + 0.5 - y)
 
 
-def in_sky(blot: Blot, sky: np.ndarray, least: float = 0.6) -> np.ndarray:
+def in_sky(blot: Blot, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6) -> np.ndarray:
     """Return the blot with a soft rim, (h, w) float32; zeros unless sky surrounds it.
 
-    ``least`` is the share of its surroundings that must be sky.
+    What is much darker than the disc, as twigs before it, is left out. ``least`` is the share of
+    its surroundings that must be sky.
     """
     import cv2
 
@@ -217,7 +218,10 @@ def in_sky(blot: Blot, sky: np.ndarray, least: float = 0.6) -> np.ndarray:
     below = np.arange(sky.shape[0]) > rows[-1]
     blot = blot._replace(mask=np.where(below[:, None], 0, blot.mask).astype(np.float32))
     grown = cv2.dilate(blot.mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
-    return np.clip(cv2.GaussianBlur(grown, (0, 0), reach / 6), 0, 1).astype(np.float32)
+    soft = np.clip(cv2.GaussianBlur(grown, (0, 0), reach / 6), 0, 1)
+    luminance = encoded @ LUMINANCE
+    usual = float(np.median(luminance[blot.mask > 0.5])) if (blot.mask > 0.5).any() else 0.0
+    return np.asarray(soft * smoothstep(0.5, 0.7, luminance / max(usual, 1e-3)), np.float32)
 
 
 def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:

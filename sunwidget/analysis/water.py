@@ -21,6 +21,7 @@ _REDDER = 0.17  # log of red over blue: of 41 patches of water none was redder t
 _DARK = 0.004  # linear light that counts as noise
 _BURNT = 0.9  # linear light from which a pixel has lost its colour
 _COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
+_SUN = 0.3  # probability from which there is a sun whose column may be twice as wide
 _GAP = 0.02  # and half of the gap between water and sky
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
 _RADIUS = 5  # px of the working copy: how far the edge of the mask follows the picture
@@ -57,7 +58,7 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     water = smoothstep(*_EDGE, resize(_believed(maps, working, sky), width, height)) * ground
     if water.mean() < _LEAST:
         return np.zeros_like(sky)
-    return soft_edged(working, sky, _with_glints(working, sky, ground, water))
+    return soft_edged(working, sky, _with_glints(working, sky, ground, water, maps))
 
 
 METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]] = {
@@ -90,11 +91,11 @@ def _believed(maps: SunMaps, working: Working, sky: np.ndarray) -> np.ndarray:
 
 
 def _with_glints(
-    working: Working, sky: np.ndarray, ground: np.ndarray, water: np.ndarray
+    working: Working, sky: np.ndarray, ground: np.ndarray, water: np.ndarray, maps: SunMaps
 ) -> np.ndarray:
     """Add what lies between water, or water and sky, and is as bright.
 
-    So the sun's burnt column, where nothing tells what it shines on.
+    So the sun's burnt column, where nothing tells what it shines on: the widest one below the sun.
     """
     import cv2
 
@@ -108,10 +109,22 @@ def _with_glints(
     rows = np.flatnonzero(share > 0)
     level = (light * water).sum(axis=1)[rows] / share[rows]
     level = np.interp(np.arange(len(share)), rows, level)
-    glints = closed(water, _COLUMN, 0) * smoothstep(0.0, 0.1, light - level[:, None])
+    brighter = smoothstep(0.0, 0.1, light - level[:, None])
     # The last of the water below the sky is thinner than the network's map; land there is darker.
-    far = closed(np.maximum(water, sky), 0, _GAP) * smoothstep(0.6, 0.8, light / level[:, None])
-    return np.asarray(np.maximum(water, np.maximum(glints, far) * ground), np.float32)
+    as_bright = smoothstep(0.6, 0.8, light / level[:, None])
+    found = np.maximum(water, closed(water, _COLUMN, 0) * brighter * ground)
+    below = _below_sun(maps, water.shape[1])
+    found = np.maximum(found, closed(found, 2 * _COLUMN, 0) * below * as_bright * ground)
+    far = closed(np.maximum(found, sky), 0, _GAP) * as_bright * ground
+    return np.asarray(np.maximum(found, far), np.float32)
+
+
+def _below_sun(maps: SunMaps, width: int) -> np.ndarray:
+    """Return the columns, (width,) bool, that a found sun's column of glints may take."""
+    row, column = np.unravel_index(int(maps.probability.argmax()), maps.probability.shape)
+    seen = float(maps.probability[row, column]) > _SUN
+    away = np.abs((np.arange(width) + 0.5) / width - (column + 0.5) / maps.probability.shape[1])
+    return np.asarray(seen & (away < 2 * _COLUMN))
 
 
 def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:
@@ -125,6 +138,9 @@ def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarr
     import cv2
 
     rough = resize(water, working.width, working.height).astype(np.float32)
+    # Where it ends at the sky the sky's matte is its edge.
+    near = cv2.dilate(rough, np.ones((2 * _RADIUS + 1, 2 * _RADIUS + 1), np.uint8))
+    rough = np.maximum(rough, near * sky)
     guide = np.sqrt(np.clip(working.luminance, 0, 1)).astype(np.float32)
 
     def mean(image: np.ndarray) -> np.ndarray:

@@ -84,9 +84,10 @@ void main() {
 #endif
 
 #ifndef SKY_ALONE
-  float water = water_strength * land_marks.r;
+  float wet = smoothstep(0.2, 0.8, land_marks.r);  // the edge of a mask is softer than a shore
+  float water = water_strength * wet;
   // What the old sun's glare put before the land goes with it.
-  vec3 land = front * (1.0 - glare * term[0].y * (1.0 - land_marks.r));
+  vec3 land = front * (1.0 - glare * term[0].y * (1.0 - wet));
   float upright = GetUprightness(view);
   float shine = GetMirrorShare(land, GetLitBefore(upright), land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);

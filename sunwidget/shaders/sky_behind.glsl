@@ -33,7 +33,7 @@ void main() {
     vec4 open = ReadBilinear(clear_sky, place);
     sky = GetEditedSky(sky, model * DecodeResidual(open.rgb), sky, layer, open.a, 1.0, ReadAddedLayer(place));
   }
-  float water = smoothstep(0.0, 0.2, ReadPixel(surface, place).g) * (1.0 - smoothstep(0.0, 0.2, levels.r));
+  float water = smoothstep(0.2, 0.5, ReadPixel(surface, place).g) * (1.0 - smoothstep(0.0, 0.2, levels.r));
   vec4 calm = texelFetch(water_behind, texel, 0);
   levels.b += water * (calm.a - levels.b);
   result = vec4(mix(sky, calm.rgb, water), PackLevels(levels));

@@ -137,11 +137,15 @@ def test_flood_fill_takes_what_is_as_bright_as_the_seed_and_connected_to_it():
 
 
 def test_a_burnt_disc_that_the_sky_surrounds_belongs_to_the_sky():
-    blot = sun.disc_fit(evening(disc=(90.5, 60.5)), SKY, 90.5, 60.5, CAMERA.focal)
+    working = evening(disc=(90.5, 60.5))
+    blot = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
     hole = SKY * (1 - blot.mask)
-    disc = sun.in_sky(blot, hole)
+    disc = sun.in_sky(blot, hole, working.encoded)
     assert (disc[blot.mask > 0] > 0.5).all()
     assert disc[:, 200:].max() == 0
+    twig = working.encoded.copy()
+    twig[:, 90] = 0.1
+    assert sun.in_sky(blot, hole, twig)[:, 90].max() == 0
 
 
 def skyline(left, right, notch):
@@ -171,8 +175,9 @@ def test_a_sun_in_a_gap_of_the_skyline_keeps_its_sky():
 
 
 def test_a_lamp_between_houses_does_not_become_sky():
-    blot = sun.disc_fit(evening(disc=(90.5, 60.5)), SKY, 90.5, 60.5, CAMERA.focal)
-    assert sun.in_sky(blot, np.zeros_like(SKY)).max() == 0
+    working = evening(disc=(90.5, 60.5))
+    blot = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
+    assert sun.in_sky(blot, np.zeros_like(SKY), working.encoded).max() == 0
 
 
 def test_the_observed_angles_are_those_of_the_camera_at_the_suns_pixel():
