@@ -158,12 +158,12 @@ def before_land(
     near, beyond = _parts(light, land)
     level = np.log(np.maximum(_continued(small, beyond) @ LUMINANCE, 0) + LIGHT_FLOOR)
     brighter = np.log(small @ LUMINANCE + LIGHT_FLOOR) - level
-    glare = np.minimum(-(maps.clean @ LUMINANCE) * near, brighter)
+    glare = np.maximum(np.minimum(-(maps.clean @ LUMINANCE) * near, brighter), 0)
 
     size = working.width, working.height
     glare, level = (
         cv2.resize(values.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
-        for values in (np.maximum(glare, 0), level)
+        for values in (glare, level)
     )
     # Of the burnt disc behind which land lies nothing is left.
     there = np.log(working.luminance + LIGHT_FLOOR)

@@ -86,9 +86,8 @@ void main() {
 #ifndef SKY_ALONE
   float wet = smoothstep(0.2, 0.8, land_marks.r);  // the edge of a mask is softer than a shore
   float water = water_strength * wet;
-  // What the old sun's glare put before the land goes with it.
-  vec3 land = front * (1.0 - glare * term[0].y * (1.0 - wet));
   float upright = GetUprightness(view);
+  vec3 land = WithoutGlare(front, glare * term[0].y * (1.0 - wet), GetLitBefore(upright));
   float shine = GetMirrorShare(land, GetLitBefore(upright), land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);

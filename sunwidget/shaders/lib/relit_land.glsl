@@ -7,12 +7,20 @@
 
 // Scene-linear light from which the land's own colour is known.
 const float kDarkLand = 0.15;
+// Albedo of dark land.
+const float kDarkAlbedo = 0.2;
 // How much of the colour of land whose light has turned is its light's.
 const float kLitColor = 0.35;
 
 uniform float land_strength;
 uniform float exposure;
 uniform int colour_loss;  // 0 keeping luminance, 1 as eq. 3.8 of the thesis
+
+// What the old sun's glare put before the land goes with it, but no more than leaves dark land in its light:
+// along the skyline the share is the sky's, and would leave a black line.
+vec3 WithoutGlare(vec3 light, float share, vec3 lit_before) {
+  return max(light * (1.0 - share), min(light, kDarkAlbedo / 3.14159265 * lit_before));
+}
 
 // The more its light turns the less of the land's own colour is known; and what is dark in the photo is half
 // noise and half the lens' glare: it gets the colour of its light, `lit`, and becomes less bright than the rest.
