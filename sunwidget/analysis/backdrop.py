@@ -82,6 +82,7 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     filled += ((1 - known) * resize(erased.detail, *size))[..., None]
     beyond = fit.response.display_light(model * np.exp(filled))
     sky_light = beyond + weight[..., None] * (display - beyond)
+    # A pixel of the skyline shows sky, too, and has one mark for both.
     on_land = np.asarray(resize(erased.on_land, *size), np.float32)
     glare = np.where(matte > 0.98, mark, np.maximum(mark * smoothstep(0.0, 0.2, matte), on_land))
     return Backdrop(_dithered(np.sqrt(np.clip(sky_light, 0, 1))), glare)

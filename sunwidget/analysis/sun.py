@@ -29,6 +29,7 @@ __all__ = [
     "find",
     "find_moon",
     "flood_fill",
+    "foot",
     "in_sky",
     "observe",
     "settled",
@@ -220,7 +221,8 @@ def in_sky(blot: Blot, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6)
     grown = cv2.dilate(blot.mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
     soft = np.clip(cv2.GaussianBlur(grown, (0, 0), reach / 6), 0, 1)
     luminance = encoded @ LUMINANCE
-    usual = float(np.median(luminance[blot.mask > 0.5])) if (blot.mask > 0.5).any() else 0.0
+    inside = luminance[blot.mask > 0.5]
+    usual = float(np.median(inside)) if inside.size else 0.0
     return np.asarray(soft * smoothstep(0.5, 0.7, luminance / max(usual, 1e-3)), np.float32)
 
 
@@ -230,11 +232,11 @@ def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
     A setting sun burns a notch into the sea or the hills before it. Between the skylines left and
     right of it, where they are below its centre and even, nothing below their line is sky.
     """
-    none = np.zeros_like(sky)
+    no_sky = np.zeros_like(sky)
     wide = math.ceil(3 * blot.radius) + 3
     first, last = math.floor(blot.x) - wide, math.ceil(blot.x) + wide
     if first - wide < 0 or last + wide > sky.shape[1]:
-        return none
+        return no_sky
     # Of each column the row below its last pixel of sky.
     ends = (sky[:, first - wide : last + wide] > 0.5) * np.arange(1, sky.shape[0] + 1)[:, None]
     skyline = ends.max(axis=0)
@@ -242,11 +244,11 @@ def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
     uneven = max(np.ptp(left), np.ptp(right)) > max(2, _EVEN * wide)
     steep = abs(float(left.mean() - right.mean())) > _EVEN * (last - first)
     if min(left.min(), right.min()) <= blot.y or uneven or steep:
-        return none
+        return no_sky
     line = np.interp(np.arange(first, last), [first, last], [left.mean(), right.mean()])
     below = np.arange(sky.shape[0])[:, None] + 0.5 - line
-    none[:, first:last] = np.clip(below, 0, 1)
-    return none
+    no_sky[:, first:last] = np.clip(below, 0, 1)
+    return no_sky
 
 
 def observe(

@@ -87,8 +87,9 @@ void main() {
   float wet = smoothstep(0.2, 0.8, land_marks.r);  // the edge of a mask is softer than a shore
   float water = water_strength * wet;
   float upright = GetUprightness(view);
-  vec3 land = WithoutGlare(front, glare * term[0].y * (1.0 - wet), GetLitBefore(upright));
-  float shine = GetMirrorShare(land, GetLitBefore(upright), land_marks.g);
+  vec3 lit_before = GetLitBefore(upright);
+  vec3 land = WithoutGlare(front, glare * term[0].y * (1.0 - wet), lit_before);
+  float shine = GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
   vec3 air = GetAirChange(place, land_marks.b, land, land_ratio + water * (mirror.rgb - land_ratio));

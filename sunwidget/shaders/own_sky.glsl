@@ -22,19 +22,19 @@ out vec4 result;
 const float kReach = 0.1;  // two deviations, in longer sides of the picture
 const int kTaps = 6;       // on either side
 
-// The model's light where `opacity` of a pixel is cloud.
-vec3 GetModel(vec2 place, vec3 light, float opacity) {
+// The model's light where `opacity` of a pixel is cloud, lit by the sky (`ambient`) and the sun (`direct`).
+vec3 GetModel(vec2 place, vec3 light, float opacity, vec3 ambient, vec3 direct) {
   vec3 view = GetViewDirection(place);
   vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
-  vec3 scale = sky_gain * GetLightScale(photo_light);
-  vec3 ambient = scale * GetCloudRadiance(light_before, 0.0);
-  vec3 direct = scale * GetCloudRadiance(light_before, 1.0) - ambient;
   vec3 sky = GetMatchedSky(sky_view, view);
-  float share = GetSunlitShare(light, sky, ambient - direct, direct, opacity);
-  return mix(sky, GetCloud(ambient - direct, direct, share, sky, sun, view, opacity), opacity);
+  float share = GetSunlitShare(light, sky, ambient, direct, opacity);
+  return mix(sky, GetCloud(ambient, direct, share, sky, sun, view, opacity), opacity);
 }
 
 void main() {
+  vec3 scale = sky_gain * GetLightScale(photo_light);
+  vec3 white = scale * GetCloudRadiance(light_before, 0.0);
+  vec3 direct = scale * GetCloudRadiance(light_before, 1.0) - white;
   vec2 place = gl_FragCoord.xy / pass_size;
   vec2 pace = kReach / float(kTaps) * max(frame_size.x, frame_size.y) / frame_size;
   float sum = 0.0;
@@ -47,7 +47,7 @@ void main() {
       float weight = inside * layer.r * layer.r * exp(-2.0 * float(i * i + j * j) / float(kTaps * kTaps));
       if (weight < 1e-4) continue;
       vec3 light = GetBackdropLight(ReadBilinear(backdrop, tap).rgb);
-      vec3 model = GetModel(tap, light, min(layer.g / layer.r, 1.0));
+      vec3 model = GetModel(tap, light, min(layer.g / layer.r, 1.0), white - direct, direct);
       sum += weight * log(max(GetLuminance(light), 1e-6) / max(GetLuminance(model), 1e-6));
       total += weight;
     }

@@ -56,11 +56,14 @@ def scene(ground="sea", **hints):
     return sw.analyze(shore(ground), **(told | hints))
 
 
-def found(probability, picture=None):
+def found(probability, picture=None, sun_column=None):
     """What becomes of the network's probabilities (h, w) at a quarter of the size."""
     plain = np.zeros(probability.shape, np.float32)
     clean = np.zeros((*probability.shape, 3), np.float32)
-    maps = SunMaps(plain, plain, plain, clean, probability)
+    sun = plain.copy()
+    if sun_column is not None:
+        sun[ROW // 8, sun_column] = 0.9
+    maps = SunMaps(sun, plain, plain, clean, probability)
     working = Working.of(open_photo(shore() if picture is None else picture))
     return water.METHODS["network"](working, SKY, Horizon(float(ROW)), maps)
 
@@ -92,6 +95,22 @@ def test_a_burnt_column_between_water_is_water_and_a_dark_pier_is_not(sea):
         picture[ROW:, 112:128] = shade
         middle = found(sea, picture)[ROW + 10 : -10, 116:124]
         assert (middle.mean() > 0.7) == wet
+
+
+def test_a_wide_column_is_water_below_a_sun_only(sea):
+    sea[ROW // 4 :, 23:37] = 0.1  # a quarter of the width
+    middle = slice(ROW + 10, -10), slice(116, 124)
+    assert found(sea, sun_column=30)[middle].mean() > 0.7
+    assert found(sea)[middle].max() < 0.3
+    assert found(sea, sun_column=2)[middle].max() < 0.3
+
+
+def test_the_last_of_the_water_reaches_the_sky_and_a_dark_shore_does_not(sea):
+    sea[: ROW // 4 + 2] = 0.05
+    assert found(sea)[ROW + 1 : ROW + 5].mean() > 0.7
+    far = shore().copy()
+    far[ROW : ROW + 6] = 10
+    assert found(sea, far)[ROW + 1 : ROW + 5].mean() < 0.3
 
 
 def test_none_calls_nothing_water():

@@ -1,4 +1,4 @@
-// The light of the photo's clouds, as relit.
+// The light of the photo's clouds under a sun: for what the frame relights and for what the photo is compared with.
 
 #include "lib/srgb.glsl"
 #include "lib/forward_lobe.glsl"
@@ -10,6 +10,7 @@ const float kSetsForLow = -0.045;
 const float kStandsForLow = -0.004;
 // Share of the sun's light that is left on low clouds then: it has been scattered there.
 const float kAfterglow = 0.4;
+
 // A cloud's share of full sunlight, by how bright the photo shows it: its light is what is left of the
 // sky's when what lies beyond it is taken away. Inside a cloud the light is scattered sunlight, too, and
 // one map's brightness is no measurement: the share stays near its mean. `sky` is without detail,

@@ -33,8 +33,8 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit) {
   return land * exp2(-dark * lift * lift / (lift + 3.0));
 }
 
-// `clean` is the land's light without the old sun's glare, `lit` what falls on it now; the share of it that is a mirror image follows
-// `mirror_ratio`, and `air` is what the air before it adds (air.glsl).
+// `clean` is the land's light without the old sun's glare, `lit` what falls on it now; the share of it that is a
+// mirror image follows `mirror_ratio`, and `air` is what the air before it adds (air.glsl).
 vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirror, vec3 mirror_ratio, vec3 air) {
   land_ratio += mirror * (mirror_ratio - land_ratio);
   vec3 land = max(abs(term[0].w) * land_ratio * clean + air, vec3(0.0));
