@@ -14,6 +14,7 @@ import numpy as np
 from sunwidget.analysis.erase import Erased
 from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.fit import SkyFit, view_angles
+from sunwidget.analysis.sky_detail import DETAILED
 from sunwidget.analysis.working import resize, smoothstep
 from sunwidget.camera import Camera
 from sunwidget.layout import size_within
@@ -40,7 +41,6 @@ class Backdrop:
 
 
 LONG_SIDE = 256
-_DETAILED = 512  # the longer side where a sun was erased: the photo's clouds there come from here
 _MODEL_SIDE = 80
 
 
@@ -64,7 +64,7 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     """
     working = erased.working
     size = size_within(
-        (working.width, working.height), _DETAILED if erased.mark.any() else LONG_SIDE
+        (working.width, working.height), DETAILED if erased.mark.any() else LONG_SIDE
     )
     display = np.asarray(resize(working.linear, *size), np.float32)
     matte = np.asarray(resize(sky, *size), np.float32)
@@ -75,11 +75,11 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     model = matched_sky(fit, camera, size)
     log_residual = _log_residual(fit.response.scene_light(display), model)
     # What the glare hides goes on as the model does, which knows how bright the air was round the
-    # sun: the frame takes that away with the old sun.
+    # sun: the frame takes that away with the old sun. Its clouds go on as those beside it.
     known = 1 - np.asarray(resize(erased.hidden, *size), np.float32)
     weight = np.asarray((matte > 0.98) * (1 - clipped) * known, np.float32)
-    filled = fill_by_pyramid(log_residual, weight)
-    filled += ((1 - known) * resize(erased.detail, *size))[..., None]
+    detail = resize(erased.detail, *size)
+    filled = fill_by_pyramid(log_residual - detail, weight) + detail
     beyond = fit.response.display_light(model * np.exp(filled))
     sky_light = beyond + weight[..., None] * (display - beyond)
     # A pixel of the skyline shows sky, too, and has one mark for both.

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sunwidget.analysis.fill import fill_by_pyramid
+from sunwidget.analysis.sky_detail import sky_detail
 from sunwidget.analysis.sun import SunObservation
 from sunwidget.analysis.sun_network import LIGHT_FLOOR, SunMaps
 from sunwidget.analysis.working import LUMINANCE, Working, encode, resize, smoothstep
@@ -23,7 +24,6 @@ _COLOURS = (0.06, 0.3)  # less leaves the sky its colour, more hides it
 _WHITENS = (0.15, 0.6)  # less leaves clouds to be told from the sky, more does not
 _HIDES = (0.3, 0.9)  # less leaves the sky its clouds, more hides them
 _GAP = 0.03  # in longer sides: half of the widest gap in the glare
-_CLOUDS = 0.02  # in longer sides: what is finer beside the sun is cloud and not glare
 _REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow is the sky's
 
 
@@ -42,8 +42,8 @@ class Erased(NamedTuple):
         Where the copy's light is a guess and no more than its detail is known, [0, 1].
     glow : (h, w) float32
         Where glare or the sun's own air is so bright that whiteness tells no clouds, [0, 1].
-    detail : (h, w) float32
-        Log of the photo's light over its mean round about: clouds, where the glare leaves any.
+    detail : (h', w', 3) float32
+        Log of the sky's light over its mean round about: its clouds (sky_detail.py).
     """
 
     working: Working
@@ -57,7 +57,8 @@ class Erased(NamedTuple):
 def unerased(working: Working) -> Erased:
     """Return the copy of a photo that shows no sun."""
     nowhere = np.zeros((working.height, working.width), np.float32)
-    return Erased(working, nowhere, nowhere, nowhere, nowhere, nowhere)
+    nothing = np.zeros((working.height, working.width, 3), np.float32)
+    return Erased(working, nowhere, nowhere, nowhere, nowhere, nothing)
 
 
 def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation) -> Erased:
@@ -105,20 +106,9 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     away, reach = _distance(light, small_sky.shape)
     near = 1 - smoothstep(1.5 * reach, 2.5 * reach, away)
     glow = near * smoothstep(*_WHITENS, np.maximum(felt, -maps.clean.min(-1)))
-    detail = keep[..., 0] * _detail(there @ LUMINANCE, sky)
     hidden, whitened = enlarged(smoothstep(*_FELT, felt)), enlarged(glow)
+    detail = sky_detail(there, sky, hidden, keep[..., 0])
     return Erased(copy, mark, before_land(working, maps, sky, light), hidden, whitened, detail)
-
-
-def _detail(values: np.ndarray, sky: np.ndarray) -> np.ndarray:
-    """Return what of a sky's values (h, w) departs from their mean round about."""
-    import cv2
-
-    inside = (sky > 0.98).astype(np.float32)
-    reach = _CLOUDS * max(sky.shape)
-    mean = cv2.GaussianBlur(values * inside, (0, 0), reach)
-    share = cv2.GaussianBlur(inside, (0, 0), reach)
-    return np.asarray(inside * (values - mean / np.maximum(share, 1e-3)), np.float32)
 
 
 def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservation) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Continuing a picture smoothly over what is not known (push-pull pyramid).
+"""Continuing a picture over what is not known: smoothly (push-pull pyramid), and with texture.
 
 Gortler et al. 1996, "The Lumigraph", section 3.4.2.
 """
@@ -8,6 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from sunwidget.analysis.working import resize
+
+_RAGGED = 3.0  # rows over which the edge that a texture is mirrored at is smoothed
 
 
 def fill_by_pyramid(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -40,3 +42,60 @@ def fill_by_pyramid(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
     below = cv2.GaussianBlur(below, (0, 0), 1.0).reshape(values.shape)
     share = weight[..., None]
     return (share * values + (1 - share) * below).astype(np.float32)
+
+
+def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Continue a texture along its rows: each gap shows what lies left and right of it, mirrored.
+
+    Skies are layered, and a mirrored layer goes on without a step.
+
+    Parameters
+    ----------
+    values : (h, w, c) float32
+        A texture of mean 0.
+    beside : (h, w) float32
+        0 in the gaps, 1 beside them.
+    known : (h, w) float32
+        1 where the texture is known.
+
+    Returns
+    -------
+    (h, w, c) float32
+        ``values`` beside the gaps; near 0 where neither side shows what the gap needs.
+    """
+    import cv2
+
+    rows, columns = known.shape
+    at = np.arange(columns, dtype=np.float32)
+    inside = beside > 0.5
+    left_edge = np.maximum.accumulate(np.where(inside, at, -columns), 1)
+    right_edge = np.minimum.accumulate(np.where(inside, at, 2 * columns)[:, ::-1], 1)[:, ::-1]
+    from_left = (right_edge - at) / np.maximum(right_edge - left_edge, 1)
+    from_left = np.where(left_edge < 0, 0, np.where(right_edge >= columns, 1, from_left))
+    texture = np.dstack([values * known[..., None], known]).astype(np.float32)
+    row = np.broadcast_to(np.arange(rows, dtype=np.float32)[:, None], (rows, columns))
+    sides = []
+    for edge, share in ((left_edge, from_left), (right_edge, 1 - from_left)):
+        # A ragged edge would shear what is mirrored at it.
+        edge = cv2.GaussianBlur(edge.astype(np.float32), (0, 0), sigmaX=1e-3, sigmaY=_RAGGED)
+        seen = cv2.remap(texture, 2 * edge - at, row, cv2.INTER_LINEAR, borderValue=0)
+        sides.append(seen * (share * ~inside)[..., None])
+    # Two textures that know nothing of each other add as their squares do, like ones as they are.
+    (left, of_left), (right, of_right) = ((seen[..., :-1], seen[..., -1:]) for seen in sides)
+    alike = _likeness(left * of_right, right * of_left)
+    squares = of_left**2 + of_right**2 + 2 * alike * of_left * of_right
+    whole = np.minimum(of_left + of_right, 1) / np.maximum(np.sqrt(squares), 1e-3)
+    texture = np.asarray(whole * (left + right), np.float32)
+    # Above and below, rows that are mirrored meet rows that are not: the step between them fades
+    # into the gap (Perez et al. 2003, "Poisson image editing").
+    gap = (~inside).astype(np.float32)
+    rim = cv2.dilate(gap, np.ones((3, 3), np.uint8)) * known * inside
+    step = values - fill_by_pyramid(texture, gap)
+    texture = texture + fill_by_pyramid(step, rim.astype(np.float32))
+    return np.where(inside[..., None], values, texture)
+
+
+def _likeness(one: np.ndarray, other: np.ndarray) -> float:
+    """Return the correlation of two textures of mean 0, not below 0."""
+    strength = float(np.sqrt((one**2).sum() * (other**2).sum()))
+    return max(float((one * other).sum()), 0.0) / max(strength, 1e-9)

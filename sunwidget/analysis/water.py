@@ -23,6 +23,7 @@ _BURNT = 0.9  # linear light from which a pixel has lost its colour
 _COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
 _SUN = 0.3  # probability from which there is a sun whose column may be twice as wide
 _GAP = 0.02  # and half of the gap between water and sky
+_STRIP = 0.005  # the same of a gap above the horizon
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
 _RADIUS = 5  # px of the working copy: how far the edge of the mask follows the picture
 _EPSILON = 1e-4
@@ -115,8 +116,10 @@ def _with_glints(
     found = np.maximum(water, closed(water, _COLUMN, 0) * brighter * ground)
     below = _below_sun(maps, water.shape[1])
     found = np.maximum(found, closed(found, 2 * _COLUMN, 0) * below * as_bright * ground)
-    far = closed(np.maximum(found, sky), 0, _GAP) * as_bright * ground
-    return np.asarray(np.maximum(found, far), np.float32)
+    found = np.maximum(found, closed(np.maximum(found, sky), 0, _GAP) * as_bright * ground)
+    # The horizon is known to a few rows.
+    strip = closed(np.maximum(found, sky), 0, _STRIP) * as_bright * (1 - sky)
+    return np.asarray(np.maximum(found, strip), np.float32)
 
 
 def _below_sun(maps: SunMaps, width: int) -> np.ndarray:
@@ -137,10 +140,10 @@ def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarr
     """
     import cv2
 
-    rough = resize(water, working.width, working.height).astype(np.float32)
+    found = resize(water, working.width, working.height).astype(np.float32)
     # Where it ends at the sky the sky's matte is its edge.
-    near = cv2.dilate(rough, np.ones((2 * _RADIUS + 1, 2 * _RADIUS + 1), np.uint8))
-    rough = np.maximum(rough, near * sky)
+    near = cv2.dilate(found, np.ones((2 * _RADIUS + 1, 2 * _RADIUS + 1), np.uint8))
+    rough = np.maximum(found, near * sky)
     guide = np.sqrt(np.clip(working.luminance, 0, 1)).astype(np.float32)
 
     def mean(image: np.ndarray) -> np.ndarray:
@@ -149,4 +152,7 @@ def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarr
     middle, share = mean(guide), mean(rough)
     slope = (mean(guide * rough) - middle * share) / (mean(guide * guide) - middle**2 + _EPSILON)
     fine = mean(slope) * guide + mean(share - slope * middle)
-    return np.clip(1.5 * (fine - 0.5) + 0.5, 0, 1).astype(np.float32) * (1 - sky)
+    fine = np.clip(1.5 * (fine - 0.5) + 0.5, 0, 1)
+    # Burnt by a low sun water and sky look alike, and the filter would leave a strip of land.
+    strip = cv2.morphologyEx(np.maximum(fine, sky), cv2.MORPH_CLOSE, np.ones((2 * _RADIUS + 1, 1)))
+    return np.asarray(np.maximum(fine, np.minimum(strip, found)) * (1 - sky), np.float32)

@@ -88,12 +88,13 @@ void main() {
   float water = water_strength * wet;
   float upright = GetUprightness(view);
   vec3 lit_before = GetLitBefore(upright);
-  vec3 land = WithoutGlare(front, glare * term[0].y * (1.0 - wet), lit_before);
+  float gone = glare * term[0].y * (1.0 - wet);
+  vec3 land = WithoutGlare(front, gone, lit_before);
   float shine = GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
   vec3 air = GetAirChange(place, land_marks.b, land, land_ratio + water * (mirror.rgb - land_ratio));
-  vec3 land_change = GetLandChange(front, land, land_ratio, GetLitNow(upright), shine, mirror.rgb, air);
+  vec3 land_change = GetLandChange(front, land, land_ratio, GetLitNow(upright), shine, mirror.rgb, air, gone);
   vec3 horizon = texelFetch(air_edit, ivec2(GetAirColumn(place), 0), 0).rgb;
   vec3 water_change = GetWaterChange(front, clean, land_marks.g, glare, mirror, air, horizon);
   land_change += water * (water_change - land_change);

@@ -7,7 +7,7 @@ import pytest
 from relight_scenes import known_photo
 
 from sunwidget.analysis.backdrop import LONG_SIDE, behind_sun, matched_sky
-from sunwidget.analysis.erase import Erased, unerased
+from sunwidget.analysis.erase import unerased
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.working import Working
 from sunwidget.edit import Edit
@@ -27,7 +27,7 @@ def exact_fit(photo, sun=None):
 
 def behind(photo, mark=None):
     working = Working.of(open_photo(photo.bytes))
-    erased = unerased(working) if mark is None else Erased(working, mark, *(4 * (0 * mark,)))
+    erased = unerased(working) if mark is None else unerased(working)._replace(mark=mark)
     return behind_sun(erased, photo.sky, photo.camera, exact_fit(photo))
 
 
@@ -62,7 +62,7 @@ def test_what_was_found_behind_the_sun_counts_although_it_is_bright():
     plain = behind_sun(unerased(white), photo.sky, photo.camera, fit)
     mark = np.zeros(bright.shape[:2], np.float32)
     mark[8:22, 8:32] = 1
-    found = behind_sun(Erased(white, mark, *(4 * (0 * mark,))), photo.sky, photo.camera, fit)
+    found = behind_sun(unerased(white)._replace(mark=mark), photo.sky, photo.camera, fit)
     assert found.field[15, 20].mean() > plain.field[15, 20].mean() + 0.02
     assert found.glare[15, 20] == pytest.approx(1)
 

@@ -1,9 +1,9 @@
-"""Continuing a picture over what is not known: push-pull."""
+"""Continuing a picture over what is not known: push-pull, and a mirrored texture."""
 
 import numpy as np
 import pytest
 
-from sunwidget.analysis.fill import fill_by_pyramid
+from sunwidget.analysis.fill import fill_by_pyramid, mirrored
 
 ROWS, COLUMNS = np.mgrid[:60, :90]
 
@@ -44,3 +44,32 @@ def test_a_constant_stays_constant_under_any_weight():
 def test_no_weight_at_all_gives_zeros_not_nan(shape):
     filled = fill_by_pyramid(np.ones((*shape, 3), np.float32), np.zeros(shape, np.float32))
     assert np.array_equal(filled, np.zeros((*shape, 3), np.float32))
+
+
+def bands():
+    """A texture layered as skies are, of mean 0."""
+    wave = np.sin(ROWS / 3.0) + 0.3 * np.sin(COLUMNS / 5.0)
+    return np.repeat(wave[..., None], 3, -1).astype(np.float32)
+
+
+@pytest.mark.parametrize("radius", [7, 12, 18])
+def test_layers_go_on_through_a_gap(radius):
+    beside = hole(radius)
+    broken = np.where(beside[..., None] > 0, bands(), 9).astype(np.float32)
+    continued = mirrored(broken, beside, beside)
+    assert np.array_equal(continued[beside > 0], bands()[beside > 0])
+    gap = beside == 0
+    assert np.corrcoef(continued[gap].ravel(), bands()[gap].ravel())[0, 1] > 0.85
+    assert 0.75 < continued[gap].std() / bands()[gap].std() < 1.3
+
+
+def test_a_gap_at_the_pictures_side_shows_its_other_side():
+    beside = (COLUMNS > 30).astype(np.float32)
+    continued = mirrored(bands(), beside, beside)
+    assert np.allclose(continued[:, 10], bands()[:, 52], atol=0.1)  # 31 is the first known
+
+
+def test_where_nothing_is_known_no_texture_is_made_up():
+    beside = hole(10)
+    continued = mirrored(bands(), beside, 0 * beside)
+    assert np.abs(continued[beside == 0]).max() < 1e-3

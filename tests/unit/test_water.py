@@ -56,7 +56,7 @@ def scene(ground="sea", **hints):
     return sw.analyze(shore(ground), **(told | hints))
 
 
-def found(probability, picture=None, sun_column=None):
+def found(probability, picture=None, sun_column=None, horizon=ROW):
     """What becomes of the network's probabilities (h, w) at a quarter of the size."""
     plain = np.zeros(probability.shape, np.float32)
     clean = np.zeros((*probability.shape, 3), np.float32)
@@ -65,7 +65,7 @@ def found(probability, picture=None, sun_column=None):
         sun[ROW // 8, sun_column] = 0.9
     maps = SunMaps(sun, plain, plain, clean, probability)
     working = Working.of(open_photo(shore() if picture is None else picture))
-    return water.METHODS["network"](working, SKY, Horizon(float(ROW)), maps)
+    return water.METHODS["network"](working, SKY, Horizon(float(horizon)), maps)
 
 
 @pytest.fixture
@@ -111,6 +111,12 @@ def test_the_last_of_the_water_reaches_the_sky_and_a_dark_shore_does_not(sea):
     far = shore().copy()
     far[ROW : ROW + 6] = 10
     assert found(sea, far)[ROW + 1 : ROW + 5].mean() < 0.3
+
+
+def test_a_horizon_a_row_too_low_leaves_no_strip_of_land(sea):
+    picture = shore().copy()
+    picture[: ROW + 6] = 240  # sky and far water burnt alike
+    assert found(sea, picture, horizon=ROW + 1)[ROW:].min() > 0.7
 
 
 def test_none_calls_nothing_water():

@@ -24,18 +24,22 @@ vec3 WithoutGlare(vec3 light, float share, vec3 lit_before) {
 
 // The more its light turns the less of the land's own colour is known; and what is dark in the photo is half
 // noise and half the lens' glare: it gets the colour of its light, `lit`, and becomes less bright than the rest.
-vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit) {
+// So does what the old sun's glare, of which `glare` was the share, has coloured.
+vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   float level = GetLuminance(land);
   float dark = 1.0 - smoothstep(0.0, kDarkLand, GetLuminance(before));
   float lift = max(log2(max(term[0].x * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
-  float guessed = max(kLitColor * GetTurned(ratio, before), dark * lift * lift / (lift * lift + 4.0));
-  land += guessed * (lit * (level / GetLuminance(lit)) - land);
+  float turned = GetTurned(ratio, before);
+  float guessed = max(max(glare, kLitColor * turned), dark * lift * lift / (lift * lift + 4.0));
+  // A balance that a red sky has bent is not that of another light.
+  vec3 color = lit * mix(vec3(1.0), GetLuminance(sky_gain) / sky_gain, kMostOfRed * turned);
+  land += guessed * (color * (level / GetLuminance(color)) - land);
   return land * exp2(-dark * lift * lift / (lift + 3.0));
 }
 
 // `clean` is the land's light without the old sun's glare, `lit` what falls on it now; the share of it that is a
-// mirror image follows `mirror_ratio`, and `air` is what the air before it adds (air.glsl).
-vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirror, vec3 mirror_ratio, vec3 air) {
+// mirror image follows `mirror_ratio`, `air` is what the air before it adds (air.glsl), `glare` the share that went.
+vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirror, vec3 mirror_ratio, vec3 air, float glare) {
   land_ratio += mirror * (mirror_ratio - land_ratio);
   vec3 land = max(abs(term[0].w) * land_ratio * clean + air, vec3(0.0));
   float luminance = GetLuminance(land);
@@ -43,7 +47,7 @@ vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirr
   vec3 colour = max(land / max(luminance, 1e-9), vec3(1e-4));
   vec3 lost = colour_loss == 1 ? luminance * (pow(colour, vec3(1.0 - term[0].z)) - colour) : term[0].z * (vec3(luminance) - land);
   land = max(land + step(1e-9, abs(term[0].z)) * lost, vec3(0.0));
-  land = WithoutGuesses(land, max(clean, vec3(1e-6)), land_ratio, lit);
+  land = WithoutGuesses(land, max(clean, vec3(1e-6)), land_ratio, lit, glare);
   return land_strength * (term[0].x * land - light);
 }
 

@@ -1,0 +1,81 @@
+"""A sky's clouds, told from its slow light: what the sun's glare hides is borrowed from beside it.
+
+Of what the glare only brightens the photo keeps what is finer than a halo; the rest of the clouds
+there, and all of them where the camera clipped, are those left and right of it, mirrored.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sunwidget.analysis.fill import fill_by_pyramid, mirrored
+from sunwidget.analysis.working import resize
+from sunwidget.layout import size_within
+
+DETAILED = 512
+"""Longer side of the map, in pixels."""
+
+# In longer sides.
+_FINE = 0.02  # what is finer is cloud and not glare, also in the glare
+_COARSE = 0.04  # what is coarser is the sky's slow light
+_SKYLINE = 0.006  # half as far clouds are not believed beside the skyline: it holds twigs
+_FADE, _FADE_AT_SIDE = 0.01, 0.06  # how softly ends what may be borrowed
+
+
+def sky_detail(
+    logs: np.ndarray, sky: np.ndarray, hidden: np.ndarray, keep: np.ndarray
+) -> np.ndarray:
+    """Return the log of a sky's light over its mean round about.
+
+    Parameters
+    ----------
+    logs : (h, w, 3) float32
+        Natural logarithm of the photo's light.
+    sky : (h, w) float32
+        Sky matte.
+    hidden : (h, w) float32
+        Where glare changes the light, [0, 1].
+    keep : (h, w) float32
+        How far the photo's fine detail counts all the same, [0, 1].
+
+    Returns
+    -------
+    (h', w', 3) float32
+        At no more than ``DETAILED`` pixels a side; slowly continued over what is no sky.
+    """
+    import cv2
+
+    size = size_within((sky.shape[1], sky.shape[0]), DETAILED)
+    logs, sky, hidden, keep = (resize(values, *size) for values in (logs, sky, hidden, keep))
+    side = max(size)
+    skyline = np.ones(2 * (2 * round(_SKYLINE * side) + 1,), np.uint8)
+    clear = np.asarray(sky > 0.98, np.uint8)
+    clear = cv2.erode(clear, skyline, borderType=cv2.BORDER_CONSTANT, borderValue=0)
+    beside = np.asarray(hidden < 0.1, np.float32)
+    borrowed = _soft_edged(cv2.dilate(clear, skyline, iterations=2), side)
+
+    def clouds(reach: float, known: np.ndarray) -> np.ndarray:
+        share = cv2.GaussianBlur(known, (0, 0), reach * side)[..., None]
+        mean = cv2.GaussianBlur(logs * known[..., None], (0, 0), reach * side)
+        return logs - mean / np.maximum(share, 1e-3)
+
+    def without_glare(reach: float) -> np.ndarray:
+        known = clear * beside
+        continued = fill_by_pyramid(clouds(reach, known), known)
+        return mirrored(continued, beside, beside * borrowed)
+
+    inside = np.asarray(sky > 0.98, np.float32)
+    own = inside[..., None] * clouds(_FINE, inside)
+    kept = (keep * (1 - beside))[..., None] * (own - without_glare(_FINE))
+    return np.asarray(without_glare(_COARSE) + kept, np.float32)
+
+
+def _soft_edged(part: np.ndarray, side: int) -> np.ndarray:
+    """Let a part (h, w) of a picture fade towards its edge, more so towards the picture's sides."""
+    import cv2
+
+    columns = part.shape[1]
+    from_side = np.minimum(np.arange(columns) + 1, columns - np.arange(columns))
+    inwards = np.minimum(cv2.distanceTransform(part, cv2.DIST_L2, 5) / (_FADE * side), 1)
+    soft = inwards * np.minimum(from_side / (_FADE_AT_SIDE * side), 1)
+    return np.asarray(soft, np.float32)
