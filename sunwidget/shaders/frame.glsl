@@ -80,7 +80,7 @@ void main() {
   vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(term[0].w < 0.0));
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   vec3 disc = GetDisc(view, GetDescribedSun());
-  change += matte * GetSkyChange(behind, clean, opacity, glare, ReadBilinear(own_sky, place).r, sky_before, sky_now, view, disc);
+  change += matte * GetSkyChange(behind, clean, opacity, glare, ReadBilinear(own_sky, place).rg, sky_before, sky_now, view, disc);
 #endif
 
 #ifndef SKY_ALONE

@@ -1,5 +1,5 @@
-// How much brighter than the model, clouds included, the photo's sky without its sun is: log of luminance, slowly
-// varying. Drawn once a photo.
+// How much brighter than the model, clouds included, the photo's sky without its sun is, slowly varying: log of
+// luminance. Second, by how much more that is round the sun than as high elsewhere. Drawn once a photo.
 
 #define PHOTOS_OWN_LIGHT
 #include "lib/picture.glsl"
@@ -21,6 +21,11 @@ out vec4 result;
 
 const float kReach = 0.1;  // two deviations, in longer sides of the picture
 const int kTaps = 6;       // on either side
+const float kRoundSun = 0.05;  // one less the cosine of 18 degrees
+const int kColumns = 12;
+const int kRows = 2;  // above and below
+const float kRowsApart = 0.04;
+const float kFewest = 1.0;  // taps' weight that tells half of what lies elsewhere
 
 // The model's light where `opacity` of a pixel is cloud, lit by the sky (`ambient`) and the sun (`direct`).
 vec3 GetModel(vec2 place, vec3 light, float opacity, vec3 ambient, vec3 direct) {
@@ -29,6 +34,25 @@ vec3 GetModel(vec2 place, vec3 light, float opacity, vec3 ambient, vec3 direct) 
   vec3 sky = GetMatchedSky(sky_view, view);
   float share = GetSunlitShare(light, sky, ambient, direct, opacity);
   return mix(sky, GetCloud(ambient, direct, share, sky, sun, view, opacity), opacity);
+}
+
+float GetWeight(vec2 tap) {
+  float inside = step(0.0, tap.x) * step(tap.x, 1.0) * step(0.0, tap.y) * step(tap.y, 1.0);
+  float matte = ReadPicture(layers, tap).r;
+  return inside * matte * matte;
+}
+
+// Log of luminance, photo over model.
+float GetOwn(vec2 tap, vec3 ambient, vec3 direct) {
+  vec4 layer = ReadPicture(layers, tap);
+  vec3 light = GetBackdropLight(ReadBilinear(backdrop, tap).rgb);
+  vec3 model = GetModel(tap, light, min(layer.g / layer.r, 1.0), ambient, direct);
+  return log(max(GetLuminance(light), 1e-6) / max(GetLuminance(model), 1e-6));
+}
+
+float GetNearness(vec2 place) {
+  vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
+  return exp((dot(GetViewDirection(place), sun) - 1.0) / kRoundSun);
 }
 
 void main() {
@@ -42,15 +66,27 @@ void main() {
   for (int i = -kTaps; i <= kTaps; ++i) {
     for (int j = -kTaps; j <= kTaps; ++j) {
       vec2 tap = place + vec2(i, j) * pace;
-      vec4 layer = ReadPicture(layers, tap);
-      float inside = step(0.0, tap.x) * step(tap.x, 1.0) * step(0.0, tap.y) * step(tap.y, 1.0);
-      float weight = inside * layer.r * layer.r * exp(-2.0 * float(i * i + j * j) / float(kTaps * kTaps));
+      float weight = GetWeight(tap) * exp(-2.0 * float(i * i + j * j) / float(kTaps * kTaps));
       if (weight < 1e-4) continue;
-      vec3 light = GetBackdropLight(ReadBilinear(backdrop, tap).rgb);
-      vec3 model = GetModel(tap, light, min(layer.g / layer.r, 1.0), white - direct, direct);
-      sum += weight * log(max(GetLuminance(light), 1e-6) / max(GetLuminance(model), 1e-6));
+      sum += weight * GetOwn(tap, white - direct, direct);
       total += weight;
     }
   }
-  result = vec4(sum / total);
+  float own = sum / total;
+
+  float elsewhere = 0.0;
+  float known = 0.0;
+  for (int i = 0; i < kColumns; ++i) {
+    for (int j = -kRows; j <= kRows; ++j) {
+      vec2 tap = vec2((float(i) + 0.5) / float(kColumns), place.y + kRowsApart * float(j));
+      float far = 1.0 - GetNearness(tap);
+      float weight = GetWeight(tap) * far * far * exp(-0.5 * float(j * j));
+      if (weight < 1e-4) continue;
+      elsewhere += weight * GetOwn(tap, white - direct, direct);
+      known += weight;
+    }
+  }
+  elsewhere /= max(known, 1e-4);
+  float more = GetNearness(place) * known / (known + kFewest) * (own - elsewhere);
+  result = vec4(own, more, 0.0, 0.0);
 }

@@ -105,3 +105,26 @@ def test_what_the_sky_is_brighter_than_the_model_is_told_and_leaves_with_its_lig
     gained = render(other, moved, dtype="float32") / render(scene, moved, dtype="float32")
     assert gained[2:20, 90:].mean() > 1.2
     assert np.array_equal(render(other), render(scene))
+
+
+def test_a_glow_round_the_photos_sun_leaves_with_it():
+    scene = known_photo(clouds=False).analyze()
+    x, y = scene.camera.pixel(*known_photo().sun)
+    rows, columns = np.mgrid[: scene.backdrop.shape[0], : scene.backdrop.shape[1]]
+    zoom = scene.backdrop.shape[1] / scene.photo.width
+    near = np.exp(
+        -np.square(np.hypot(columns - x * zoom, rows - y * zoom) / (0.08 * rows.shape[1]))
+    )
+    glowing = np.minimum(scene.backdrop * (1 + 0.3 * near[..., None]), 1).astype(np.float32)
+    other = dataclasses.replace(scene, backdrop=glowing)
+    one, more = (render_pass(s, Edit(), "own_sky")[:28, :, 1] for s in (scene, other))
+    column = round(64 * x / scene.photo.width)
+    assert (more - one)[:, column].max() > 0.1
+    assert np.abs(more - one)[:, [0, 63]].max() < 0.05
+    away, close = Edit(sun_azimuth=90, sun_elevation=35), Edit(sun_azimuth=known_photo().sun[0] + 1)
+    dimmed = [
+        np.log(render(other, edit, dtype="float32") / render(scene, edit, dtype="float32")).min()
+        for edit in (away, close)
+    ]
+    assert dimmed[0] < -0.1
+    assert dimmed[1] > dimmed[0] / 2

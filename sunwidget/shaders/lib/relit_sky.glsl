@@ -18,22 +18,32 @@ const float kUnderlit = 0.7;
 // the most that does.
 const float kLightFades = 1.0;
 const float kMostFaded = 0.7;
+// Cosines of the angles between old and new sun at which the glow round the old one is gone, and still whole.
+const float kFarAway = 0.77;
+const float kNotAway = 0.99;
+const float kMostGone = 1.2;  // log of light
 const float kFarthest = 1.8;  // stops
 const float kBrightAir = 0.4;  // scene-linear
 const float kAirRange = 0.5;
 const float kKnownAirRange = 0.9;
 
+float GetBounded(float log_light, float most) {
+  return log_light * inversesqrt(1.0 + log_light * log_light / (most * most));
+}
+
 // What the photo's sky is brighter than the model, `own` (own_sky.glsl), fades as the model's light changes: a haze
-// that the model does not know, or knows too well, leaves with the sun. No more of it than is believable.
-float GetFadedLight(float own, float change) {
+// that the model does not know, or knows too well, leaves with the sun. No more of it than is believable. What is
+// more round the photo's sun than as high elsewhere is gone where the sun is.
+float GetFadedLight(vec2 own, float change, vec3 sun_before, vec3 sun_now) {
   float share = change * change / (change * change + kLightFades * kLightFades);
-  return exp(-share * own * inversesqrt(1.0 + own * own / (kMostFaded * kMostFaded)));
+  float away = sun_visible * (1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now)));
+  return exp(-share * GetBounded(own.r, kMostFaded) - max(away - share, 0.0) * GetBounded(own.g, kMostGone));
 }
 
 // `light` of the photo's sky becomes the light under the new sun. `clean` is the sky without the
-// old sun (sky_behind.glsl), `mark` where the old sun's glare lies, `own` by how much the sky is brighter than the
-// model, `disc` the new disc.
-vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, float own, vec3 sky_before, vec3 sky_now,
+// old sun (sky_behind.glsl), `mark` where the old sun's glare lies, `own` what the sky has
+// beyond the model, `disc` the new disc.
+vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec2 own, vec3 sky_before, vec3 sky_now,
                   vec3 view, vec3 disc) {
   float gain = term[0].x;
   float moved = term[0].y;
@@ -60,7 +70,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, float own, 
   relit += extreme * moved * (clean * ratio - relit);
   vec3 model = mix(sky_before, cloud_before, opacity * min(cloud_strength, 1.0));
   relit = WithModelsColor(relit, sky, model, ratio, opacity, sky_before, sky_now);
-  relit *= GetFadedLight(own, log(GetLuminance(model * ratio) / GetLuminance(model)));
+  relit *= GetFadedLight(own, log(GetLuminance(model * ratio) / GetLuminance(model)), sun_before, sun_now);
   // What the air brightens round the new sun is drawn in a camera's range, from a bright sky on; less so
   // where the photo's own sun or moon told how bright that is.
   float level = gain * GetLuminance(relit);
