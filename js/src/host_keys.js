@@ -1,4 +1,7 @@
-/** Keys that are pressed in a widget are the widget's: JupyterLab would insert cells at them. */
+/**
+ * Keys that are pressed in a widget are the widget's: JupyterLab would insert cells at them. Only
+ * the one that saves the notebook stays the host's.
+ */
 
 const MARK = "data-lm-suppress-shortcuts";
 
@@ -17,4 +20,22 @@ export function keepKeys(root, signal) {
     ({ target }) => /** @type {Element} */ (target).setAttribute(MARK, "true"),
     { signal },
   );
+  window.addEventListener(
+    "keydown",
+    (event) => {
+      if (!isSaving(event) || !root.contains(/** @type {Node} */ (event.target))) return;
+      const marked = [root, ...root.querySelectorAll(`[${MARK}]`)];
+      for (const node of marked) node.removeAttribute(MARK);
+      // JupyterLab looks as soon as the key is on its way.
+      setTimeout(() => {
+        for (const node of marked) node.setAttribute(MARK, "true");
+      });
+    },
+    { signal, capture: true },
+  );
+}
+
+/** @param {KeyboardEvent} event */
+function isSaving({ key, ctrlKey, metaKey, altKey }) {
+  return (ctrlKey || metaKey) && !altKey && key.toLowerCase() === "s";
 }

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from sunwidget.analysis.working import resize
+from sunwidget.analysis.working import resize, smoothstep
 
+_LAYERED = 0.25  # correlation of left and right from which a texture is layered
 _RAGGED = 3.0  # rows over which the edge that a texture is mirrored at is smoothed
 
 
@@ -47,7 +48,8 @@ def fill_by_pyramid(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
 def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.ndarray:
     """Continue a texture along its rows: each gap shows what lies left and right of it, mirrored.
 
-    Skies are layered, and a mirrored layer goes on without a step.
+    Most skies are layered, and a mirrored layer goes on without a step. Where left and right are
+    not alike there are no layers: the gap stays smooth, since scraps of clouds would look torn.
 
     Parameters
     ----------
@@ -61,7 +63,7 @@ def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.nd
     Returns
     -------
     (h, w, c) float32
-        ``values`` beside the gaps; near 0 where neither side shows what the gap needs.
+        ``values`` beside the gaps; near 0 where no layers are seen on both sides of the gap.
     """
     import cv2
 
@@ -80,11 +82,12 @@ def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.nd
         edge = cv2.GaussianBlur(edge.astype(np.float32), (0, 0), sigmaX=1e-3, sigmaY=_RAGGED)
         seen = cv2.remap(texture, 2 * edge - at, row, cv2.INTER_LINEAR, borderValue=0)
         sides.append(seen * (share * ~inside)[..., None])
-    # Two textures that know nothing of each other add as their squares do, like ones as they are.
     (left, of_left), (right, of_right) = ((seen[..., :-1], seen[..., -1:]) for seen in sides)
     alike = _likeness(left * of_right, right * of_left)
+    # Two textures that know nothing of each other add as their squares do, like ones as they are.
     squares = of_left**2 + of_right**2 + 2 * alike * of_left * of_right
     whole = np.minimum(of_left + of_right, 1) / np.maximum(np.sqrt(squares), 1e-3)
+    whole = whole * smoothstep(0.0, _LAYERED, alike)
     texture = np.asarray(whole * (left + right), np.float32)
     # Above and below, rows that are mirrored meet rows that are not: the step between them fades
     # into the gap (Perez et al. 2003, "Poisson image editing").

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from sunwidget.analysis.fill import fill_by_pyramid, mirrored
-from sunwidget.analysis.working import resize
+from sunwidget.analysis.working import LUMINANCE, resize
 from sunwidget.layout import size_within
 
 DETAILED = 512
@@ -20,6 +20,8 @@ _FINE = 0.02  # what is finer is cloud and not glare, also in the glare
 _COARSE = 0.04  # what is coarser is the sky's slow light
 _SKYLINE = 0.006  # half as far clouds are not believed beside the skyline: it holds twigs
 _FADE, _FADE_AT_SIDE = 0.01, 0.06  # how softly ends what may be borrowed
+
+_GRAIN = 1.0  # pixels of the map: what is borrowed leaves its grain behind
 
 
 def sky_detail(
@@ -62,12 +64,15 @@ def sky_detail(
     def without_glare(reach: float) -> np.ndarray:
         known = clear * beside
         continued = fill_by_pyramid(clouds(reach, known), known)
-        return mirrored(continued, beside, beside * borrowed)
+        found = mirrored(continued, beside, beside * borrowed)
+        # The frame gives what is filled the photo's grain; it shall not have two.
+        plain = cv2.GaussianBlur(found, (0, 0), _GRAIN)
+        return np.where(beside[..., None] > 0, found, plain)
 
     inside = np.asarray(sky > 0.98, np.float32)
-    own = inside[..., None] * clouds(_FINE, inside)
-    kept = (keep * (1 - beside))[..., None] * (own - without_glare(_FINE))
-    return np.asarray(without_glare(_COARSE) + kept, np.float32)
+    own = (inside[..., None] * clouds(_FINE, inside) - without_glare(_FINE)) @ LUMINANCE
+    kept = keep * hidden * own
+    return np.asarray(without_glare(_COARSE) + kept[..., None], np.float32)
 
 
 def _soft_edged(part: np.ndarray, side: int) -> np.ndarray:

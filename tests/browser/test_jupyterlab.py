@@ -219,6 +219,8 @@ def test_no_edit_is_lost_when_the_kernel_restarts_and_the_page_is_loaded_again(
         assert steps[:2] == [set(), {"sun_azimuth"}]
         assert kept["versions"] == {"warm": kept["edit"]}
 
+        # Wherever the focus is, this saves the notebook.
+        editor.get_by_role("slider", name="Elevation").focus()
         page.keyboard.press("Control+s")
         page.wait_for_timeout(1500)
         page.reload()
