@@ -101,7 +101,7 @@ def test_what_the_sky_is_brighter_than_the_model_is_told_and_leaves_with_its_lig
     assert np.abs(lost - own)[:, :24].max() < 0.01
     assert -0.7 < (lost - own)[:, 44:].mean() < -0.4  # 2 log 0.8, and what the response makes of it
     # The less the backdrop has the more is given back, where the model's light changes.
-    moved = Edit(sun_elevation=-4)
+    moved = Edit(sun_elevation=-4, cloud_strength=0)  # the photo itself has not become darker
     gained = render(other, moved, dtype="float32") / render(scene, moved, dtype="float32")
     assert gained[2:20, 90:].mean() > 1.2
     assert np.array_equal(render(other), render(scene))
@@ -128,3 +128,18 @@ def test_a_glow_round_the_photos_sun_leaves_with_it():
     ]
     assert dimmed[0] < -0.1
     assert dimmed[1] > dimmed[0] / 2
+
+
+def test_a_bright_rim_and_a_dark_one_fade_as_the_light_goes():
+    photo = known_photo(clouds=False)
+    scene, rims = photo.analyze(), photo.bytes.copy()
+    rims[10:14, 20:60] = np.clip(rims[10:14, 20:60] * 1.25, 0, 250).astype(rims.dtype)
+    rims[18:22, 20:60] = (rims[18:22, 20:60] * 0.8).astype(rims.dtype)
+    other = dataclasses.replace(scene, photo=open_photo(rims))
+    contrast = {}
+    for elevation in (None, -4):
+        edit = Edit() if elevation is None else Edit(sun_elevation=elevation)
+        ratio = np.log(render(other, edit, dtype="float32") / render(scene, edit, dtype="float32"))
+        contrast[elevation] = ratio[11:13, 30:50].mean(), ratio[19:21, 30:50].mean()
+    assert 0 < contrast[-4][0] < 0.7 * contrast[None][0]
+    assert 0.95 * contrast[None][1] < contrast[-4][1] < 0

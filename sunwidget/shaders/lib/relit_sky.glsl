@@ -18,6 +18,9 @@ const float kUnderlit = 0.7;
 // the most that does.
 const float kLightFades = 1.0;
 const float kMostFaded = 0.7;
+// How much of a pixel's own light fades: of what is brighter than round about, and of what is darker.
+const float kRimsFade = 0.8;
+const float kShadeFades = 0.5;
 // Cosines of the angles between old and new sun at which the glow round the old one is gone, and still whole.
 const float kFarAway = 0.77;
 const float kNotAway = 0.99;
@@ -31,13 +34,16 @@ float GetBounded(float log_light, float most) {
   return log_light * inversesqrt(1.0 + log_light * log_light / (most * most));
 }
 
-// What the photo's sky is brighter than the model, `own` (own_sky.glsl), fades as the model's light changes: a haze
-// that the model does not know, or knows too well, leaves with the sun. No more of it than is believable. What is
-// more round the photo's sun than as high elsewhere is gone where the sun is.
-float GetFadedLight(vec2 own, float change, vec3 sun_before, vec3 sun_now) {
+// The part of the light that fades as the model's light changes by `change`, as a factor. What the photo's sky is
+// brighter than the model round about, `own.r` (own_sky.glsl), is a haze that the model does not know, or knows too
+// well; what is more of it round the photo's sun than as high elsewhere, `own.g`, is gone where the sun is. `local` is
+// what a pixel has beyond both: the sun on a cloud's edge, which would stay a rim, and what un-mixing took for cloud.
+// No more goes than is believable.
+float GetFadedLight(vec2 own, float local, float change, vec3 sun_before, vec3 sun_now) {
   float share = change * change / (change * change + kLightFades * kLightFades);
   float away = sun_visible * (1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now)));
-  return exp(-share * GetBounded(own.r, kMostFaded) - max(away - share, 0.0) * GetBounded(own.g, kMostGone));
+  float fades = GetBounded(own.r, kMostFaded) + (local > 0.0 ? kRimsFade : kShadeFades) * GetBounded(local, 1.0);
+  return exp(-share * fades - max(away - share, 0.0) * GetBounded(own.g, kMostGone));
 }
 
 // `light` of the photo's sky becomes the light under the new sun. `clean` is the sky without the
@@ -70,7 +76,9 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec2 own, v
   relit += extreme * moved * (clean * ratio - relit);
   vec3 model = mix(sky_before, cloud_before, opacity * min(cloud_strength, 1.0));
   relit = WithModelsColor(relit, sky, model, ratio, opacity, sky_before, sky_now);
-  relit *= GetFadedLight(own, log(GetLuminance(model * ratio) / GetLuminance(model)), sun_before, sun_now);
+  float local = log(max(GetLuminance(sky), 1e-6) / max(GetLuminance(model), 1e-6)) - own.r;
+  local *= min(cloud_strength, 1.0);
+  relit *= GetFadedLight(own, local, log(GetLuminance(model * ratio) / GetLuminance(model)), sun_before, sun_now);
   // What the air brightens round the new sun is drawn in a camera's range, from a bright sky on; less so
   // where the photo's own sun or moon told how bright that is.
   float level = gain * GetLuminance(relit);
