@@ -117,9 +117,9 @@ def _with_glints(
     below = _below_sun(maps, water.shape[1])
     found = np.maximum(found, closed(found, 2 * _COLUMN, 0) * below * as_bright * ground)
     found = np.maximum(found, closed(np.maximum(found, sky), 0, _GAP) * as_bright * ground)
-    # The horizon is known to a few rows.
-    strip = closed(np.maximum(found, sky), 0, _STRIP) * as_bright * (1 - sky)
-    return np.asarray(np.maximum(found, strip), np.float32)
+    # The horizon is known to a few rows; what lies between sky and sky is no water.
+    strip = closed(np.maximum(found, sky), 0, _STRIP) - closed(sky, 0, _STRIP)
+    return np.asarray(np.maximum(found, np.maximum(strip, 0) * as_bright), np.float32)
 
 
 def _below_sun(maps: SunMaps, width: int) -> np.ndarray:

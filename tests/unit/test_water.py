@@ -119,6 +119,13 @@ def test_a_horizon_a_row_too_low_leaves_no_strip_of_land(sea):
     assert found(sea, picture, horizon=ROW + 1)[ROW:].min() > 0.7
 
 
+def test_a_cleft_in_the_sky_is_no_water(sea, monkeypatch):
+    cloud = SKY.copy()
+    cloud[10:12, 20:60] = 0  # what the matte took for land
+    monkeypatch.setitem(globals(), "SKY", cloud)
+    assert found(sea)[:20].max() == 0
+
+
 def test_none_calls_nothing_water():
     assert scene(water="none").water.max() == 0
 
