@@ -16,6 +16,7 @@ out vec4 result;
 
 const int kPlaces = 6;
 const float kHighestWave = 0.6;  // of natural logarithm
+const float kRock = 0.4;
 
 // Inside the picture, mirrored at its sides.
 float Reflect(float x) {
@@ -39,6 +40,8 @@ void main() {
     vec2 marks = ReadPixel(surface, at).gb;
     float weight = smoothstep(0.5, 1.0, marks.x) * (1.0 - marks.y) * (1.0 - marks.y);
     float wave = GetBrightness(GetSceneLight(ReadPixel(photo, at).rgb), ReadBilinear(water_level, at).rgb);
+    // Rocks that the mask calls water stand out more than waves do.
+    weight /= 1.0 + wave * wave * wave * wave / (kRock * kRock * kRock * kRock);
     sum += weight * clamp(wave, -kHighestWave, kHighestWave);
     squares += weight * weight;
   }
