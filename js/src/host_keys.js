@@ -36,6 +36,6 @@ export function keepKeys(root, signal) {
 }
 
 /** @param {KeyboardEvent} event */
-function isSaving({ key, ctrlKey, metaKey, altKey }) {
-  return (ctrlKey || metaKey) && !altKey && key.toLowerCase() === "s";
+function isSaving({ key, ctrlKey, metaKey, altKey, shiftKey }) {
+  return (ctrlKey || metaKey) && !altKey && !shiftKey && key.toLowerCase() === "s";
 }

@@ -57,8 +57,7 @@ class Erased(NamedTuple):
 def unerased(working: Working) -> Erased:
     """Return the copy of a photo that shows no sun."""
     nowhere = np.zeros((working.height, working.width), np.float32)
-    nothing = np.zeros((working.height, working.width, 3), np.float32)
-    return Erased(working, nowhere, nowhere, nowhere, nowhere, nothing)
+    return Erased(working, nowhere, nowhere, nowhere, nowhere, np.zeros((1, 1, 3), np.float32))
 
 
 def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation) -> Erased:

@@ -9,7 +9,9 @@ import numpy as np
 
 from sunwidget.analysis.working import resize, smoothstep
 
-_LAYERED = 0.25  # correlation of left and right from which a texture is layered
+_LAYERED = (
+    0.25  # correlation of left and right from which a texture goes on in full; at 0 none does
+)
 _RAGGED = 3.0  # rows over which the edge that a texture is mirrored at is smoothed
 
 
@@ -54,11 +56,11 @@ def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.nd
     Parameters
     ----------
     values : (h, w, c) float32
-        A texture of mean 0.
+        A texture of mean 0; finite in the gaps, too.
     beside : (h, w) float32
         0 in the gaps, 1 beside them.
     known : (h, w) float32
-        1 where the texture is known.
+        How far the texture is known, [0, 1].
 
     Returns
     -------
@@ -69,19 +71,19 @@ def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.nd
 
     rows, columns = known.shape
     at = np.arange(columns, dtype=np.float32)
-    inside = beside > 0.5
-    left_edge = np.maximum.accumulate(np.where(inside, at, -columns), 1)
-    right_edge = np.minimum.accumulate(np.where(inside, at, 2 * columns)[:, ::-1], 1)[:, ::-1]
-    from_left = (right_edge - at) / np.maximum(right_edge - left_edge, 1)
-    from_left = np.where(left_edge < 0, 0, np.where(right_edge >= columns, 1, from_left))
+    outside = beside > 0.5
+    left_edge = np.maximum.accumulate(np.where(outside, at, -columns), 1)
+    right_edge = np.minimum.accumulate(np.where(outside, at, 2 * columns)[:, ::-1], 1)[:, ::-1]
+    share_of_left = (right_edge - at) / np.maximum(right_edge - left_edge, 1)
+    share_of_left = np.where(left_edge < 0, 0, np.where(right_edge >= columns, 1, share_of_left))
     texture = np.dstack([values * known[..., None], known]).astype(np.float32)
     row = np.broadcast_to(np.arange(rows, dtype=np.float32)[:, None], (rows, columns))
     sides = []
-    for edge, share in ((left_edge, from_left), (right_edge, 1 - from_left)):
+    for edge, share in ((left_edge, share_of_left), (right_edge, 1 - share_of_left)):
         # A ragged edge would shear what is mirrored at it.
         edge = cv2.GaussianBlur(edge.astype(np.float32), (0, 0), sigmaX=1e-3, sigmaY=_RAGGED)
         seen = cv2.remap(texture, 2 * edge - at, row, cv2.INTER_LINEAR, borderValue=0)
-        sides.append(seen * (share * ~inside)[..., None])
+        sides.append(seen * (share * ~outside)[..., None])
     (left, of_left), (right, of_right) = ((seen[..., :-1], seen[..., -1:]) for seen in sides)
     alike = _likeness(left * of_right, right * of_left)
     # Two textures that know nothing of each other add as their squares do, like ones as they are.
@@ -91,11 +93,11 @@ def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.nd
     texture = np.asarray(whole * (left + right), np.float32)
     # Above and below, rows that are mirrored meet rows that are not: the step between them fades
     # into the gap (Perez et al. 2003, "Poisson image editing").
-    gap = (~inside).astype(np.float32)
-    rim = cv2.dilate(gap, np.ones((3, 3), np.uint8)) * known * inside
+    gap = (~outside).astype(np.float32)
+    rim = cv2.dilate(gap, np.ones((3, 3), np.uint8)) * known * outside
     step = values - fill_by_pyramid(texture, gap)
     texture = texture + fill_by_pyramid(step, rim.astype(np.float32))
-    return np.where(inside[..., None], values, texture)
+    return np.where(outside[..., None], values, texture)
 
 
 def _likeness(one: np.ndarray, other: np.ndarray) -> float:

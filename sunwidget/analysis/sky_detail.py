@@ -18,7 +18,7 @@ DETAILED = 512
 # In longer sides.
 _FINE = 0.02  # what is finer is cloud and not glare, also in the glare
 _COARSE = 0.04  # what is coarser is the sky's slow light
-_SKYLINE = 0.006  # half as far clouds are not believed beside the skyline: it holds twigs
+_SKYLINE = 0.006  # so near to the skyline, which holds twigs, clouds are not believed
 _FADE, _FADE_AT_SIDE = 0.01, 0.06  # how softly ends what may be borrowed
 
 _GRAIN = 1.0  # pixels of the map: what is borrowed leaves its grain behind
@@ -50,16 +50,18 @@ def sky_detail(
     size = size_within((sky.shape[1], sky.shape[0]), DETAILED)
     logs, sky, hidden, keep = (resize(values, *size) for values in (logs, sky, hidden, keep))
     side = max(size)
-    skyline = np.ones(2 * (2 * round(_SKYLINE * side) + 1,), np.uint8)
+    reach = 2 * round(_SKYLINE * side) + 1
+    skyline = np.ones((reach, reach), np.uint8)
     clear = np.asarray(sky > 0.98, np.uint8)
     clear = cv2.erode(clear, skyline, borderType=cv2.BORDER_CONSTANT, borderValue=0)
     beside = np.asarray(hidden < 0.1, np.float32)
-    borrowed = _soft_edged(cv2.dilate(clear, skyline, iterations=2), side)
+    # They go on to the skyline, and as far over it, so that the gap has them down to the land.
+    borrowed = _fading(cv2.dilate(clear, skyline, iterations=2), side)
 
     def clouds(reach: float, known: np.ndarray) -> np.ndarray:
         share = cv2.GaussianBlur(known, (0, 0), reach * side)[..., None]
         mean = cv2.GaussianBlur(logs * known[..., None], (0, 0), reach * side)
-        return logs - mean / np.maximum(share, 1e-3)
+        return logs - mean / np.maximum(share, 1e-6)
 
     def without_glare(reach: float) -> np.ndarray:
         known = clear * beside
@@ -75,12 +77,12 @@ def sky_detail(
     return np.asarray(without_glare(_COARSE) + kept[..., None], np.float32)
 
 
-def _soft_edged(part: np.ndarray, side: int) -> np.ndarray:
+def _fading(part: np.ndarray, side: int) -> np.ndarray:
     """Let a part (h, w) of a picture fade towards its edge, more so towards the picture's sides."""
     import cv2
 
     columns = part.shape[1]
+    fade, at_side = _FADE * side, _FADE_AT_SIDE * side
     from_side = np.minimum(np.arange(columns) + 1, columns - np.arange(columns))
-    inwards = np.minimum(cv2.distanceTransform(part, cv2.DIST_L2, 5) / (_FADE * side), 1)
-    soft = inwards * np.minimum(from_side / (_FADE_AT_SIDE * side), 1)
-    return np.asarray(soft, np.float32)
+    inwards = np.minimum(cv2.distanceTransform(part, cv2.DIST_L2, 5), fade) / fade
+    return np.asarray(inwards * np.minimum(from_side / at_side, 1), np.float32)

@@ -155,4 +155,5 @@ def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarr
     fine = np.clip(1.5 * (fine - 0.5) + 0.5, 0, 1)
     # Burnt by a low sun water and sky look alike, and the filter would leave a strip of land.
     strip = cv2.morphologyEx(np.maximum(fine, sky), cv2.MORPH_CLOSE, np.ones((2 * _RADIUS + 1, 1)))
-    return np.asarray(np.maximum(fine, np.minimum(strip, found)) * (1 - sky), np.float32)
+    burnt = smoothstep(_BURNT / 2, _BURNT, working.linear.max(-1))
+    return np.asarray(np.maximum(fine, np.minimum(strip, found) * burnt) * (1 - sky), np.float32)

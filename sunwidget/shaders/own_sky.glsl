@@ -1,5 +1,5 @@
 // How much brighter than the model, clouds included, the photo's sky without its sun is, slowly varying: log of
-// luminance. Second, by how much more that is round the sun than as high elsewhere. Drawn once a photo.
+// luminance. Second, by how much more that is round the sun than elsewhere in the same rows. Drawn once a photo.
 
 #define PHOTOS_OWN_LIGHT
 #include "lib/picture.glsl"
@@ -24,7 +24,7 @@ const int kTaps = 6;       // on either side
 const float kRoundSun = 0.05;  // one less the cosine of 18 degrees
 const int kColumns = 12;
 const int kRows = 2;  // above and below
-const float kRowsApart = 0.04;
+const float kRowsApart = 0.04;  // of longer sides
 const float kFewest = 1.0;  // taps' weight that tells half of what lies elsewhere
 
 // The model's light where `opacity` of a pixel is cloud, lit by the sky (`ambient`) and the sun (`direct`).
@@ -74,11 +74,12 @@ void main() {
   }
   float own = sum / total;
 
+  float rows_apart = kRowsApart * max(frame_size.x, frame_size.y) / frame_size.y;
   float elsewhere = 0.0;
   float known = 0.0;
   for (int i = 0; i < kColumns; ++i) {
     for (int j = -kRows; j <= kRows; ++j) {
-      vec2 tap = vec2((float(i) + 0.5) / float(kColumns), place.y + kRowsApart * float(j));
+      vec2 tap = vec2((float(i) + 0.5) / float(kColumns), place.y + rows_apart * float(j));
       float far = 1.0 - GetNearness(tap);
       float weight = GetWeight(tap) * far * far * exp(-0.5 * float(j * j));
       if (weight < 1e-4) continue;

@@ -16,7 +16,7 @@ out vec4 result;
 
 const int kPlaces = 6;
 const float kHighestWave = 0.6;  // of natural logarithm
-const float kRock = 0.4;
+const float kRock = 0.4;  // the same; so far from the water's light half is believed
 
 // Inside the picture, mirrored at its sides.
 float Reflect(float x) {

@@ -126,6 +126,16 @@ def test_a_cleft_in_the_sky_is_no_water(sea, monkeypatch):
     assert found(sea)[:20].max() == 0
 
 
+def test_a_dark_shore_below_a_bright_sky_stays_land():
+    picture = shore().copy()
+    picture[ROW : ROW + 8] = 0
+    mask = np.zeros_like(SKY)
+    mask[ROW + 6 :] = 1  # reaches two rows into the shore
+    edge = water.soft_edged(Working.of(open_photo(picture)), SKY, mask)
+    assert edge[ROW : ROW + 8].max() < 0.8
+    assert edge[ROW + 20 :].min() > 0.9
+
+
 def test_none_calls_nothing_water():
     assert scene(water="none").water.max() == 0
 

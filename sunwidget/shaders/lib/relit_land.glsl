@@ -31,7 +31,7 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   float lift = max(log2(max(term[0].x * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
   float turned = GetTurned(ratio, before);
   float guessed = max(max(glare, kLitColor * turned), dark * lift * lift / (lift * lift + 4.0));
-  // A balance that a red sky has bent is not that of another light.
+  // A balance that the photo's light has bent is not that of another light.
   vec3 color = lit * mix(vec3(1.0), GetLuminance(sky_gain) / sky_gain, kMostOfRed * turned);
   land += guessed * (color * (level / GetLuminance(color)) - land);
   return land * exp2(-dark * lift * lift / (lift + 3.0));

@@ -9,6 +9,7 @@
 uniform float sky_strength;
 uniform float cloud_strength;
 uniform float sun_visible;  // whether the photo shows its sun, 0 or 1
+uniform float source_sun_visibility;
 
 // Height of the sun under which it lights clouds from below.
 const float kGrazing = 0.05;
@@ -38,10 +39,11 @@ float GetBounded(float log_light, float most) {
 // brighter than the model round about, `own.r` (own_sky.glsl), is a haze that the model does not know, or knows too
 // well; what is more of it round the photo's sun than as high elsewhere, `own.g`, is gone where the sun is. `local` is
 // what a pixel has beyond both: the sun on a cloud's edge, which would stay a rim, and what un-mixing took for cloud.
-// No more goes than is believable.
+// No more goes than is believable, and what went by `share` does not go again by `away`.
 float GetFadedLight(vec2 own, float local, float change, vec3 sun_before, vec3 sun_now) {
   float share = change * change / (change * change + kLightFades * kLightFades);
-  float away = sun_visible * (1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now)));
+  float away = 1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now));
+  away = sun_visible * max(away, source_sun_visibility - sun_visibility);
   float fades = GetBounded(own.r, kMostFaded) + (local > 0.0 ? kRimsFade : kShadeFades) * GetBounded(local, 1.0);
   return exp(-share * fades - max(away - share, 0.0) * GetBounded(own.g, kMostGone));
 }
@@ -76,7 +78,9 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec2 own, v
   relit += extreme * moved * (clean * ratio - relit);
   vec3 model = mix(sky_before, cloud_before, opacity * min(cloud_strength, 1.0));
   relit = WithModelsColor(relit, sky, model, ratio, opacity, sky_before, sky_now);
-  float local = log(max(GetLuminance(sky), 1e-6) / max(GetLuminance(model), 1e-6)) - own.r;
+  // Of what is drawn, not of the photo: where the model stands in for it there is no rim to fade.
+  vec3 whole = mix(sky_before, cloud_before, opacity);
+  float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
   local *= min(cloud_strength, 1.0);
   relit *= GetFadedLight(own, local, log(GetLuminance(model * ratio) / GetLuminance(model)), sun_before, sun_now);
   // What the air brightens round the new sun is drawn in a camera's range, from a bright sky on; less so
