@@ -75,3 +75,12 @@ def test_where_nothing_is_known_no_texture_is_made_up():
     beside = hole(10)
     continued = mirrored(bands(), beside, 0 * beside)
     assert np.abs(continued[beside == 0]).max() < 1e-3
+
+
+def test_what_lies_above_a_gap_fades_into_it():
+    values = np.repeat(np.where(ROWS < 20, 1.0, 0.0)[..., None], 3, -1).astype(np.float32)
+    beside = np.where((ROWS >= 20) & (ROWS < 50) & (abs(COLUMNS - 45) < 25), 0, 1)
+    continued = mirrored(values, beside.astype(np.float32), np.ones_like(beside, np.float32))
+    middle = continued[20:50, 45, 0]
+    assert middle[0] > 0.5
+    assert middle[15] < 0.6 * middle[0]

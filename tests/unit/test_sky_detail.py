@@ -54,3 +54,10 @@ def test_a_skyline_is_not_borrowed():
     sky = np.where(twigs, 0, 1).astype(np.float32)
     found = detail(np.where(twigs, -5.0, SLOW), sky=sky)
     assert np.abs(found[HIDDEN > 0]).max() < 0.1
+
+
+def test_what_the_mask_takes_for_sky_beside_the_skyline_is_not_borrowed():
+    sky = np.where(ROWS < 120, 1, 0).astype(np.float32)
+    twigs = (ROWS >= 118) & (ROWS < 120)
+    found = detail(np.where(ROWS < 118, SLOW, -5.0), sky=sky)
+    assert np.abs(found[twigs & (HIDDEN > 0)]).max() < 0.3
