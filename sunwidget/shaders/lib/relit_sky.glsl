@@ -9,7 +9,6 @@
 uniform float sky_strength;
 uniform float cloud_strength;
 uniform float sun_visible;  // whether the photo shows its sun, 0 or 1
-uniform float source_sun_visibility;
 
 // Height of the sun under which it lights clouds from below.
 const float kGrazing = 0.05;
@@ -42,8 +41,7 @@ float GetBounded(float log_light, float most) {
 // No more goes than is believable, and what went by `share` does not go again by `away`.
 float GetFadedLight(vec2 own, float local, float change, vec3 sun_before, vec3 sun_now) {
   float share = change * change / (change * change + kLightFades * kLightFades);
-  float away = 1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now));
-  away = sun_visible * max(away, source_sun_visibility - sun_visibility);
+  float away = sun_visible * (1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now)));
   float fades = GetBounded(own.r, kMostFaded) + (local > 0.0 ? kRimsFade : kShadeFades) * GetBounded(local, 1.0);
   return exp(-share * fades - max(away - share, 0.0) * GetBounded(own.g, kMostGone));
 }
