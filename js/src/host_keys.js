@@ -1,6 +1,6 @@
 /**
  * Keys that are pressed in a widget are the widget's: JupyterLab would insert cells at them. Only
- * the one that saves the notebook stays the host's.
+ * the one that saves the notebook stays the host's. And none is lost with the focus.
  */
 
 const MARK = "data-lm-suppress-shortcuts";
@@ -33,6 +33,35 @@ export function keepKeys(root, signal) {
     },
     { signal, capture: true },
   );
+}
+
+/**
+ * A control that is disabled while it has the focus drops it, and the keys that follow are lost:
+ * the root takes it, and gives it back when the control is enabled again.
+ *
+ * @param {HTMLElement} root
+ * @param {AbortSignal} signal
+ */
+export function keepFocus(root, signal) {
+  root.tabIndex = -1;
+  /** @type {HTMLElement | null} */
+  let waiting = null;
+  const seen = new MutationObserver((changes) => {
+    for (const { target } of changes) {
+      const node = /** @type {HTMLElement} */ (target);
+      const { activeElement } = /** @type {Document | ShadowRoot} */ (root.getRootNode());
+      if (node.matches(":disabled")) {
+        if (activeElement !== node) continue;
+        waiting = node;
+        root.focus({ preventScroll: true });
+      } else if (waiting === node) {
+        if (activeElement === root) node.focus({ preventScroll: true });
+        waiting = null;
+      }
+    }
+  });
+  seen.observe(root, { subtree: true, attributeFilter: ["disabled"] });
+  signal.addEventListener("abort", () => seen.disconnect());
 }
 
 /** @param {KeyboardEvent} event */

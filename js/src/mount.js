@@ -1,7 +1,7 @@
 /** The anywidget module of a widget: its view in an element of the host's, and how it goes. */
 
 import { errorText } from "./error_text.js";
-import { keepKeys } from "./host_keys.js";
+import { keepFocus, keepKeys } from "./host_keys.js";
 
 /** @typedef {import("./types.js").Model} Model */
 
@@ -21,6 +21,7 @@ export const widget = (name, label, kind, View) => ({
     const root = document.createElement("div");
     root.className = `sunwidget ${kind}`;
     keepKeys(root, controller.signal);
+    keepFocus(root, controller.signal);
     root.setAttribute("role", "group");
     root.setAttribute("aria-label", label);
     el.append(root);

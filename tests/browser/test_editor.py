@@ -175,6 +175,22 @@ def test_a_preset_is_a_chip_that_stays_pressed_while_it_holds(editor, state):
     assert trait(editor, "sun_elevation") is None
 
 
+def test_a_button_that_is_disabled_at_its_press_does_not_take_the_keys_with_it(editor):
+    editor.locator(".sw-sun").focus()
+    editor.keyboard.press("ArrowUp")
+    moved = trait(editor, "sun_elevation")
+    assert moved is not None
+    undo = editor.get_by_role("button", name="Undo").first
+    undo.focus()
+    editor.keyboard.press("Enter")
+    assert undo.is_disabled()
+    assert trait(editor, "sun_elevation") is None
+    editor.evaluate("() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))")
+    editor.keyboard.press("Control+Shift+z")
+    assert trait(editor, "sun_elevation") == moved
+    assert undo.evaluate("(node) => node === document.activeElement")
+
+
 def test_a_typed_value_is_clamped_and_nonsense_is_refused(editor):
     field = editor.get_by_label("Elevation, value")
     field.fill("500")

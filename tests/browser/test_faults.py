@@ -190,8 +190,6 @@ def test_another_tool_in_the_middle_of_a_drag_gives_the_drag_up(editor, key):
     assert editor.errors == []
 
 
-# The key after Save is lost now and then: the button that is disabled drops the focus.
-@pytest.mark.flaky(reruns=4)
 def test_a_kernel_that_goes_ends_what_it_was_asked_and_the_stroke_that_was_begun(editor):
     editor.get_by_role("button", name="Save", exact=True).click()
     editor.keyboard.press("4")

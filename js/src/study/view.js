@@ -29,7 +29,6 @@ export class View {
   constructor(model, root, signal) {
     this.model = model;
     this.root = root;
-    root.tabIndex = -1; // keys work wherever in it the focus is
     this.pictures = new Pictures(model.get("_pictures"), signal);
     this.ties = Boolean(model.get("_ties"));
     this.rater = String(model.get("rater"));
