@@ -171,9 +171,8 @@ def walk(page: Any, address: str, folder: Path) -> None:
         restore.first.click()
     tour.step("edit-restored")
 
-    page.get_by_role("menuitem", name="File").first.click()
-    page.get_by_role("menuitem", name="Save Notebook").first.click()
-    page.wait_for_timeout(4000)
+    keys.press("Control+s")
+    page.wait_for_timeout(2000)
     page.reload()
     page.locator(".sunwidget").first.wait_for()
     tour.ready()

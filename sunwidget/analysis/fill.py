@@ -9,9 +9,7 @@ import numpy as np
 
 from sunwidget.analysis.working import resize, smoothstep
 
-_LAYERED = (
-    0.25  # correlation of left and right from which a texture goes on in full; at 0 none does
-)
+_LAYERED = 0.25  # correlation of left and right from which all of a texture goes on; at 0 none
 _RAGGED = 3.0  # rows over which the edge that a texture is mirrored at is smoothed
 
 

@@ -59,6 +59,7 @@ void main() {
   vec3 scale = sky_gain * GetLightScale(photo_light);
   vec3 white = scale * GetCloudRadiance(light_before, 0.0);
   vec3 direct = scale * GetCloudRadiance(light_before, 1.0) - white;
+  vec3 ambient = white - direct;
   vec2 place = gl_FragCoord.xy / pass_size;
   vec2 pace = kReach / float(kTaps) * max(frame_size.x, frame_size.y) / frame_size;
   float sum = 0.0;
@@ -68,7 +69,7 @@ void main() {
       vec2 tap = place + vec2(i, j) * pace;
       float weight = GetWeight(tap) * exp(-2.0 * float(i * i + j * j) / float(kTaps * kTaps));
       if (weight < 1e-4) continue;
-      sum += weight * GetOwn(tap, white - direct, direct);
+      sum += weight * GetOwn(tap, ambient, direct);
       total += weight;
     }
   }
@@ -83,7 +84,7 @@ void main() {
       float far = 1.0 - GetNearness(tap);
       float weight = GetWeight(tap) * far * far * exp(-0.5 * float(j * j));
       if (weight < 1e-4) continue;
-      elsewhere += weight * GetOwn(tap, white - direct, direct);
+      elsewhere += weight * GetOwn(tap, ambient, direct);
       known += weight;
     }
   }

@@ -11,6 +11,8 @@ const float kDarkLand = 0.15;
 const float kDarkAlbedo = 0.2;
 // How much of the colour of land whose light has turned is its light's.
 const float kLitColor = 0.35;
+// How much of the photo's balance that light has lost then.
+const float kBalanceGone = 0.6;
 
 uniform float land_strength;
 uniform float exposure;
@@ -32,7 +34,7 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   float turned = GetTurned(ratio, before);
   float guessed = max(max(glare, kLitColor * turned), dark * lift * lift / (lift * lift + 4.0));
   // A balance that the photo's light has bent is not that of another light.
-  vec3 color = lit * mix(vec3(1.0), GetLuminance(sky_gain) / sky_gain, kMostOfRed * turned);
+  vec3 color = WithoutBalance(lit, kBalanceGone * turned);
   land += guessed * (color * (level / GetLuminance(color)) - land);
   return land * exp2(-dark * lift * lift / (lift + 3.0));
 }

@@ -36,7 +36,7 @@ float GetBounded(float log_light, float most) {
 
 // The part of the light that fades as the model's light changes by `change`, as a factor. What the photo's sky is
 // brighter than the model round about, `own.r` (own_sky.glsl), is a haze that the model does not know, or knows too
-// well; what is more of it round the photo's sun than as high elsewhere, `own.g`, is gone where the sun is. `local` is
+// well; what is more of it round the photo's sun than elsewhere in its rows, `own.g`, is gone where the sun is. `local` is
 // what a pixel has beyond both: the sun on a cloud's edge, which would stay a rim, and what un-mixing took for cloud.
 // No more goes than is believable, and what went by `share` does not go again by `away`.
 float GetFadedLight(vec2 own, float local, float change, vec3 sun_before, vec3 sun_now) {

@@ -27,9 +27,14 @@ float GetLostTint(vec3 sky_before, vec3 sky_now) {
   return most * clamp(lost / max(before, 0.3), 0.0, 1.0) * smoothstep(0.0, 0.3, before);
 }
 
+// Takes a share of the photo's balance out of a light, which then differs in brightness.
+vec3 WithoutBalance(vec3 light, float share) {
+  return light * mix(vec3(1.0), GetLuminance(sky_gain) / sky_gain, share);
+}
+
 // The sky as bright as it is now.
 vec3 WithoutLostTint(vec3 sky_before, vec3 sky_now) {
-  vec3 color = sky_now * mix(vec3(1.0), GetLuminance(sky_gain) / sky_gain, GetLostTint(sky_before, sky_now));
+  vec3 color = WithoutBalance(sky_now, GetLostTint(sky_before, sky_now));
   return color * (GetLuminance(sky_now) / GetLuminance(color));
 }
 
