@@ -5,6 +5,7 @@
 #include "lib/response.glsl"
 #include "lib/cloud_light.glsl"
 #include "lib/tint.glsl"
+#include "lib/low_sun.glsl"
 
 uniform float sky_strength;
 uniform float cloud_strength;
@@ -81,6 +82,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec2 own, v
   float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
   local *= min(cloud_strength, 1.0);
   relit *= GetFadedLight(own, local, log(GetLuminance(model * ratio) / GetLuminance(model)), sun_before, sun_now);
+  relit *= GetLowSunChange(opacity, view, sun_before, sun_now);
   // What the air brightens round the new sun is drawn in a camera's range, from a bright sky on; less so
   // where the photo's own sun or moon told how bright that is.
   float level = gain * GetLuminance(relit);

@@ -1,0 +1,1 @@
+"""What photos teach about the light of skies."""
