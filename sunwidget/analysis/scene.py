@@ -302,6 +302,7 @@ class Scene:
             "sun_visible": float(self.sun is not None and self.sun.visible),
             "photo_light": float(self.lit_by_moon),
             "water_roughness": self._water_roughness(),
+            "sky_share": float(sky.mean()),
             "sun_mask_share": min(1.0, blot / max(float(sky.mean()), 1 / sky.size)),
             "photo_sky_mean": own.mean,
             "photo_sky_deviation": own.deviation,

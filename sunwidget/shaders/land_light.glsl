@@ -9,6 +9,7 @@
 #include "lib/soft_cosine.glsl"
 #include "lib/land.glsl"
 #include "lib/gloss.glsl"
+#include "lib/sky_seen.glsl"
 
 uniform sampler2D land_terms;
 uniform sampler2D land_shape;
@@ -88,5 +89,10 @@ void main() {
   vec4 sun_share = mean + vec2(cast_shadows, cloud_shadows).xyxy * (here - mean);
   vec3 before = GetIrradiance(0, normal, sure, upright, source_land_facing, view, sun_share.x * sun_share.y);
   vec3 now = GetIrradiance(8, normal, sure, upright, land_facing, view, sun_share.z * sun_share.w);
-  result = vec4(GetRatio(now, before), shape.a);
+  vec3 ratio = GetRatio(now, before);
+  vec3 level = GetIrradiance(0, normal, 0.0, 0.5, source_land_facing, view, mean.x * mean.y);
+  vec3 level_now = GetIrradiance(8, normal, 0.0, 0.5, land_facing, view, mean.z * mean.w);
+  vec3 as_one = GetRatio(level_now, level);
+  as_one = mix(pow(as_one, vec3(kRestraint)), vec3(1.0), equal(as_one, vec3(1.0)));
+  result = vec4(as_one + GetSkySeen() * (ratio - as_one), shape.a);
 }

@@ -16,6 +16,7 @@
 #include "lib/daylight.glsl"
 #include "lib/response.glsl"
 #include "lib/camera_glare.glsl"
+#include "lib/sky_seen.glsl"
 
 uniform sampler2D columns;
 uniform sampler2D land_terms;
@@ -92,7 +93,7 @@ float GetDayStops() {
 
 float GetStops() {
   float night = GetNightStops(GetMeter(meter_edit).r) - GetNightStops(GetMeter(meter_source).r);
-  return exposure + auto_exposure * (GetDayStops() - night);
+  return exposure + mix(kRestraint, 1.0, GetSkySeen()) * auto_exposure * (GetDayStops() - night);
 }
 
 // The glare of a sun in a picture that is exposed for it: with another exposure it is as much brighter.

@@ -3,6 +3,7 @@
 #include "lib/atmosphere.glsl"
 #include "lib/extinction.glsl"
 #include "lib/tint.glsl"
+#include "lib/sky_seen.glsl"
 
 uniform sampler2D air_source;
 uniform sampler2D air_edit;
@@ -39,5 +40,5 @@ vec3 GetAirChange(vec2 place, float log_depth, vec3 light, vec3 gain) {
   vec3 change = share_now * WithoutLostTint(air_before, air_now) / max(before, vec3(1e-12));
   vec3 given = held * change + (believed * before - held) * max(change - 1.0, 0.0);
   vec3 taken = gain * held;
-  return aerial_perspective * mix(given - taken, vec3(0.0), equal(given, taken));
+  return GetSkySeen() * aerial_perspective * mix(given - taken, vec3(0.0), equal(given, taken));
 }

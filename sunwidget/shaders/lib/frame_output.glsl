@@ -6,6 +6,7 @@
 
 // From here on highlights roll off: display-linear.
 const float kKnee = 0.5;
+const float kInk = 0.0025;
 const float kBurns = 1.06;  // of the way to white, at infinity: the sun itself burns
 
 // Display-linear light as a good camera draws highlights. What is `brighter` than it was, 0 to 1, leaves the
@@ -30,6 +31,13 @@ vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
   return plain.rgb + changed * bright * (mix(same_hue, level.rgb, warm) - plain.rgb);
 }
 
+// What has become darker does not drown in black, as it does not in a good print. Display-linear.
+vec3 GetToe(vec3 light, vec3 before) {
+  float level = max(GetLuminance(before), 1e-9);
+  float now = max(GetLuminance(light), 0.0);
+  return vec3(max(1.0 - now / level, 0.0) * min(level, kInk) * exp(-now / kInk));
+}
+
 // Written as a difference, so that what did not change adds exactly nothing. What was `filled`
 // gets the photo's noise (lib/grain.glsl).
 void WriteChange(vec3 display, vec3 scene, vec3 change, float filled, vec2 pixel) {
@@ -40,6 +48,6 @@ void WriteChange(vec3 display, vec3 scene, vec3 change, float filled, vec2 pixel
   vec3 share = abs(change) / max(max(now, scene), vec3(1e-9));
   float most = max(share.r, max(share.g, share.b));
   vec3 light = GetRolledOff(now, max(1.0 - old * old, 0.0), most * most / (most * most + 0.01));
-  light += GetGrain(light, filled, pixel);
+  light += GetToe(light, representable) + GetGrain(light, filled, pixel);
   WriteFrame(display, touched * (light - representable), pixel);
 }

@@ -32,9 +32,10 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   float dark = 1.0 - smoothstep(0.0, kDarkLand, GetLuminance(before));
   float lift = max(log2(max(term[0].x * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
   float turned = GetTurned(ratio, before);
-  float guessed = max(max(glare, kLitColor * turned), dark * lift * lift / (lift * lift + 4.0));
+  float risen = GetRisen(term[9].rgb, GetDescribedSun());
+  float guessed = max(max(glare, kLitColor * max(turned, risen)), dark * lift * lift / (lift * lift + 4.0));
   // A balance that the photo's light has bent is not that of another light.
-  vec3 color = WithoutBalance(lit, kBalanceGone * turned);
+  vec3 color = WithoutBalance(lit, max(kBalanceGone * turned, risen * GetEveningsBalance()));
   land += guessed * (color * (level / GetLuminance(color)) - land);
   return land * exp2(-dark * lift * lift / (lift + 3.0));
 }
