@@ -59,7 +59,7 @@ const float kBrightSky = 0.35;
 const float kProtection = 0.9;
 
 // Cameras and phones lift land that has become darker than this (stops) by this share of the rest.
-const float kDark = -2.0;
+const float kDark = -1.2;
 const float kLift = 0.7;
 
 // A moon is 20 EV brighter than the sky it lights and would burn to a white hole; it is drawn so

@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import random
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
 import cv2
@@ -52,7 +53,7 @@ def profile(picture: np.ndarray, sky: np.ndarray, x: float, y: float) -> np.ndar
     rows, columns = np.mgrid[: len(picture), :WIDTH] + 0.5
     away = np.hypot(columns / WIDTH - x, (rows - y * len(picture)) / WIDTH)
     found = np.full((len(DISTANCES) - 1, 3), np.nan)
-    for i, (near, far) in enumerate(zip(DISTANCES, DISTANCES[1:], strict=False)):
+    for i, (near, far) in enumerate(pairwise(DISTANCES)):
         here = inside & (away >= near) & (away < far)
         if here.sum() >= FEWEST:
             found[i] = np.median(picture[here], 0)

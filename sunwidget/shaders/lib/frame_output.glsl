@@ -6,7 +6,7 @@
 
 // From here on highlights roll off: display-linear.
 const float kKnee = 0.5;
-const float kInk = 0.0025;
+const float kInk = 0.0035;
 const float kBurns = 1.06;  // of the way to white, at infinity: the sun itself burns
 
 // Display-linear light as a good camera draws highlights. What is `brighter` than it was, 0 to 1, leaves the
@@ -31,11 +31,11 @@ vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
   return plain.rgb + changed * bright * (mix(same_hue, level.rgb, warm) - plain.rgb);
 }
 
-// What has become darker does not drown in black, as it does not in a good print. Display-linear.
-vec3 GetToe(vec3 light, vec3 before) {
+// What has become darker does not drown in black, as it does not in a good print: the darker, the more is added, up to
+// kInk, and never so much that what loses light gains. Display-linear.
+float GetToe(vec3 light, vec3 before) {
   float level = max(GetLuminance(before), 1e-9);
-  float now = max(GetLuminance(light), 0.0);
-  return vec3(max(1.0 - now / level, 0.0) * min(level, kInk) * exp(-now / kInk));
+  return kInk * level / (level + kInk) * max(1.0 - max(GetLuminance(light), 0.0) / level, 0.0);
 }
 
 // Written as a difference, so that what did not change adds exactly nothing. What was `filled`

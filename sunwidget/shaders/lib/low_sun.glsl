@@ -4,7 +4,7 @@
 // Log2 of colour, as bright, round the sun and far from it.
 const vec3 kRoundLowSun = vec3(0.42, -0.08, -1.21);
 const vec3 kFarFromLowSun = vec3(0.38, -0.12, -0.17);
-const float kDarker = 0.6;  // far from it, log2 of light
+const float kDarker = 0.6;  // far from it, log2 of light; photos say 1
 const float kRoundLow = 0.05;  // one less the cosine of 18 degrees
 // The share of it that is taken: photos are of the finest evenings. Of clear sky, and of cloud.
 const float kFinest = 0.3;
@@ -23,5 +23,6 @@ vec3 GetLowSunLight(float lowness, float cosine) {
 vec3 GetLowSunChange(float opacity, vec3 view, vec3 sun_before, vec3 sun_now) {
   float before = GetLowness(sun_before);
   float now = GetLowness(sun_now);
-  return exp2(mix(kFinest, kFinestClouds, opacity) * (GetLowSunLight(now, dot(view, sun_now)) - GetLowSunLight(min(before, now), dot(view, sun_before))));
+  vec3 change = GetLowSunLight(now, dot(view, sun_now)) - GetLowSunLight(min(before, now), dot(view, sun_before));
+  return exp2(mix(kFinest, kFinestClouds, opacity) * change);
 }

@@ -21,13 +21,13 @@ const float kLightFades = 1.0;
 const float kMostFaded = 0.7;
 // How much of a pixel's own light fades: of what is brighter than round about, and of what is darker.
 const float kRimsFade = 0.8;
-const float kShadeFades = 0.75;
+const float kShadeFades = 0.5;
 // Cosines of the angles between old and new sun at which the glow round the old one is gone, and still whole.
 const float kFarAway = 0.77;
 const float kNotAway = 0.99;
 const float kMostGone = 1.2;  // log of light
 // Light of a cloud, over the model's, from which it is not all shade; how much of the colour of shade is the sky's.
-const float kShaded = 0.3;
+const float kShaded = 0.2;
 const float kShadesColor = 0.7;
 const float kFarthest = 1.8;  // stops
 const float kBrightAir = 0.4;  // scene-linear
@@ -78,11 +78,12 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec2 own, v
   float extreme = smoothstep(2.5, 4.0, abs(log2(GetLuminance(ratio) * gain)));
   vec3 relit = sky * ratio;
   relit += extreme * moved * (clean * ratio - relit);
-  vec3 model = mix(sky_before, cloud_before, opacity * min(cloud_strength, 1.0));
-  relit = WithModelsColor(relit, sky, model, ratio, opacity, sky_before, sky_now,
+  float cloud = opacity * min(cloud_strength, 1.0);
+  vec3 model = mix(sky_before, cloud_before, cloud);
+  relit = WithModelsColor(relit, sky, model, ratio, opacity, cloud, sky_before, sky_now,
                           GetRisen(sun_before, sun_now));
   // What of a cloud lies in shade has the sky's colour, and the more so the more the sun's differs.
-  float shaded = opacity * (1.0 - smoothstep(kShaded, 1.0, GetLuminance(clean) / GetLuminance(cloud_before)));
+  float shaded = cloud * (1.0 - smoothstep(kShaded, 0.8, GetLuminance(clean) / GetLuminance(cloud_before)));
   vec3 shade = WithoutBalance(term[7].rgb - term[8].rgb, GetVividness());
   shade *= GetLuminance(relit) / GetLuminance(shade);
   relit += kShadesColor * shaded * GetTurned(ratio, model) * (shade - relit);
@@ -91,7 +92,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec2 own, v
   float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
   local *= min(cloud_strength, 1.0);
   relit *= GetFadedLight(own, local, log(GetLuminance(model * ratio) / GetLuminance(model)), sun_before, sun_now);
-  relit *= GetLowSunChange(opacity - shaded, view, sun_before, sun_now);
+  relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
   // What the air brightens round the new sun is drawn in a camera's range, from a bright sky on; less so
   // where the photo's own sun or moon told how bright that is.
   float level = gain * GetLuminance(relit);

@@ -73,8 +73,8 @@ float GetTurned(vec3 ratio, vec3 color) {
 // What the photo's sky has beyond the model, `sky` over `before`, is light, which stays, and colour, which
 // fades as far as the model's own colour moves away: deep blue times yellow would be green. `relit` is
 // `sky` times `ratio`.
-vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacity, vec3 sky_before, vec3 sky_now,
-                     float risen) {
+vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacity, float cloud, vec3 sky_before,
+                     vec3 sky_now, float risen) {
   vec3 now = before * ratio;
   vec3 turn = GetTurn(ratio, before);
   vec3 own = log(max(sky, vec3(1e-6)) / max(before, vec3(1e-6)));
@@ -83,7 +83,7 @@ vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacit
   float faded = GetTurned(ratio, before) * mix(1.0, kFadedAhead, smoothstep(0.0, 1.0, along));
   faded = max(faded, (1.0 - opacity) * GetLostTint(sky_before, sky_now));
   now += (1.0 - opacity) * (WithoutLostTint(sky_before, sky_now) * (GetLuminance(now) / GetLuminance(sky_now)) - now);
-  vec3 day = WithoutBalance(now, max(risen * GetEveningsBalance(), opacity * GetVividness()));
+  vec3 day = WithoutBalance(now, max(risen * GetEveningsBalance(), cloud * GetVividness()));
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
   // What is bluer than that was no evening's colour.
