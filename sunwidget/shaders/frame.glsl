@@ -91,7 +91,7 @@ void main() {
   float gone = glare * term[0].y * (1.0 - wet);
   vec3 land = WithoutGlare(front, gone, lit_before);
   gone = min(gone, max(1.0 - GetLuminance(land) / max(GetLuminance(front), 1e-6), 0.0));
-  float shine = GetSkySeen() * (1.0 - upright) * GetMirrorShare(land, lit_before, land_marks.g);
+  float shine = GetSkySeen() * (1.0 - upright / kMostUpright) * GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
   vec3 air = GetAirChange(place, land_marks.b, land, land_ratio + water * (mirror.rgb - land_ratio));

@@ -90,9 +90,10 @@ void main() {
   vec3 before = GetIrradiance(0, normal, sure, upright, source_land_facing, view, sun_share.x * sun_share.y);
   vec3 now = GetIrradiance(8, normal, sure, upright, land_facing, view, sun_share.z * sun_share.w);
   vec3 ratio = GetRatio(now, before);
-  vec3 level = GetIrradiance(0, normal, 0.0, 0.5, source_land_facing, view, mean.x * mean.y);
-  vec3 level_now = GetIrradiance(8, normal, 0.0, 0.5, land_facing, view, mean.z * mean.w);
-  vec3 as_one = GetRatio(level_now, level);
+  vec3 down = vec3(0.0, -1.0, 0.0);  // where nothing gleams
+  vec3 plain_before = GetIrradiance(0, normal, 0.0, 0.5, source_land_facing, down, mean.x * mean.y);
+  vec3 plain_now = GetIrradiance(8, normal, 0.0, 0.5, land_facing, down, mean.z * mean.w);
+  vec3 as_one = GetRatio(plain_now, plain_before);
   as_one = mix(pow(as_one, vec3(kRestraint)), vec3(1.0), equal(as_one, vec3(1.0)));
   result = vec4(as_one + GetSkySeen() * (ratio - as_one), shape.a);
 }

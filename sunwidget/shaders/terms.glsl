@@ -118,6 +118,7 @@ float GetLandLevel(int first, vec2 share) {
 float GetLift() {
   vec4 share = texelFetch(land_terms, ivec2(16, 0), 0);
   float stops = auto_exposure * GetDayStops() + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
+  stops *= mix(kRestraint, 1.0, GetSkySeen());
   return auto_exposure * kLift * (log2(1.0 + exp2(kDark - stops)) - log2(1.0 + exp2(kDark)));
 }
 

@@ -113,7 +113,7 @@ def test_cloud_strength_zero_relights_clouds_as_the_sky_behind_them():
     faded = np.exp(-(change**2 / (change**2 + 1)) * own / np.sqrt(1 + (own / 0.7) ** 2))
     expected = scene_to_display(scene, light * ratio * faded[..., None])
     actual = render(scene, moved, dtype="float32")
-    # What photos teach of a low sun (lib/low_sun.glsl) is .02 of it.
+    # What photos teach of a low sun (lib/low_sun.glsl) is .015 of it.
     assert np.abs(actual - expected)[plain].max() < 0.045
 
 

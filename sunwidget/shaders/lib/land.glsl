@@ -1,8 +1,10 @@
 // How much of the land's light is its own, and how much is a mirror image.
 
+const float kMostUpright = 0.8;
+
 // What rises above the horizon stands upright.
 float GetUprightness(vec3 view) {
-  return 0.8 * smoothstep(-0.005, 0.02, view.y);
+  return kMostUpright * smoothstep(-0.005, 0.02, view.y);
 }
 
 // What exceeds white paint in this light is a mirror image of the sky and the sun (wet road, glass,

@@ -10,6 +10,7 @@ const float kRoundLow = 0.05;  // one less the cosine of 18 degrees
 const float kFinest = 0.3;
 const float kFinestClouds = 0.8;
 
+// From one degree below the horizon to ten above, whole between two and three.
 float GetLowness(vec3 sun) {
   return smoothstep(-0.02, 0.03, sun.y) * (1.0 - smoothstep(0.06, 0.17, sun.y));
 }
@@ -20,9 +21,11 @@ vec3 GetLowSunLight(float lowness, float cosine) {
 
 // Factor for a sky in the direction of `view`. Of what a photo with a low sun has of it itself no more goes than
 // comes elsewhere: when its sun rises, lib/tint.glsl turns its colours.
-vec3 GetLowSunChange(float opacity, vec3 view, vec3 sun_before, vec3 sun_now) {
-  float before = GetLowness(sun_before);
-  float now = GetLowness(sun_now);
+// `lit` is the share of cloud that stands in its light.
+vec3 GetLowSunChange(float lit, vec3 view, vec3 sun_before, vec3 sun_now) {
+  float before = GetLowness(sun_before) * (1.0 - photo_light);
+  float now = GetLowness(sun_now) * (1.0 - GetMoon());
+  if (before == now && sun_before == sun_now) return vec3(1.0);
   vec3 change = GetLowSunLight(now, dot(view, sun_now)) - GetLowSunLight(min(before, now), dot(view, sun_before));
-  return exp2(mix(kFinest, kFinestClouds, opacity) * change);
+  return exp2(mix(kFinest, kFinestClouds, lit) * change);
 }

@@ -1,6 +1,7 @@
 // How a pixel's land changes with the sun (method "ratio"): by the ratio of irradiances.
 
 #include "lib/terms.glsl"
+#include "lib/described_sky.glsl"
 #include "lib/response.glsl"
 #include "lib/land.glsl"
 #include "lib/tint.glsl"

@@ -16,9 +16,11 @@ const float kEveningGone = 0.95;
 // What stood in its sky was haze and cloud, and is paler by day than clear air.
 const float kPale = 0.5;
 const vec2 kRises = vec2(0.08, 0.25);  // sine of the sun's height
-// Log2 of red over blue: the balances of 95 in 100 photos of a day are below, those of an evening hold its light, too.
+// The balances of 95 in 100 photos of a day lie within these, those of an evening hold its light, too. Log2 of red over
+// blue, and of green over both.
 const float kReddest = 0.4;
-const float kBluest = 0.5;  // of half of them
+const vec2 kGreens = vec2(-0.25, 0.45);
+const float kBluest = 0.5;  // log2 of blue over red: more than that of half of them
 
 // Nearly the log of blue over red of the model's sky.
 float GetBlueness(vec3 matched) {
@@ -46,14 +48,19 @@ vec3 WithoutLostTint(vec3 sky_before, vec3 sky_now) {
   return color * (GetLuminance(sky_now) / GetLuminance(color));
 }
 
-// 0 unless a low sun has risen.
+// 0 unless a sun that was low or below the horizon has risen.
 float GetRisen(vec3 sun_before, vec3 sun_now) {
-  return max(smoothstep(kRises.x, kRises.y, sun_now.y) - smoothstep(kRises.x, kRises.y, sun_before.y), 0.0);
+  if (sun_now.y <= sun_before.y) return 0.0;
+  return (1.0 - photo_light) * (1.0 - GetMoon())
+      * max(smoothstep(kRises.x, kRises.y, sun_now.y) - smoothstep(kRises.x, kRises.y, sun_before.y), 0.0);
 }
 
 // What of the photo's balance was the evening's light.
 float GetEveningsBalance() {
-  return smoothstep(kReddest, 3.0 * kReddest, log2(sky_gain.r / sky_gain.b));
+  vec3 gain = log2(sky_gain);
+  float green = gain.g - 0.5 * (gain.r + gain.b);
+  float beyond = max(gain.r - gain.b - kReddest, max(green - kGreens.y, kGreens.x - green));
+  return smoothstep(0.0, 0.8, beyond);
 }
 
 // What of it was a deeper blue than air's: none of it is a cloud's.
@@ -83,11 +90,12 @@ vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacit
   float faded = GetTurned(ratio, before) * mix(1.0, kFadedAhead, smoothstep(0.0, 1.0, along));
   faded = max(faded, (1.0 - opacity) * GetLostTint(sky_before, sky_now));
   now += (1.0 - opacity) * (WithoutLostTint(sky_before, sky_now) * (GetLuminance(now) / GetLuminance(sky_now)) - now);
-  vec3 day = WithoutBalance(now, max(risen * GetEveningsBalance(), cloud * GetVividness()));
+  float lost = 1.0 - (1.0 - opacity) * GetLostTint(sky_before, sky_now);  // of which some has gone already
+  vec3 day = WithoutBalance(now, max(lost * risen * GetEveningsBalance(), cloud * GetVividness()));
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
   // What is bluer than that was no evening's colour.
-  float warmer = smoothstep(0.0, 0.5, log(max(relit.r, 1e-9) * model.b / max(relit.b * model.r, 1e-9)));
+  float warmer = smoothstep(0.0, 0.5, log(max(relit.r * model.b, 1e-12) / max(relit.b * model.r, 1e-12)));
   faded = max(faded, kEveningGone * risen * warmer);
   return relit + faded * (model - relit);
 }

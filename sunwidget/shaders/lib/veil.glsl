@@ -2,6 +2,7 @@
 
 #include "lib/relit_sky.glsl"
 #include "lib/relit_land.glsl"
+#include "lib/sky_seen.glsl"
 
 // Shadows in the haze take no more than this share of what is there: the model may know more of them than
 // the photo holds.
