@@ -293,6 +293,7 @@ class Scene:
     def _uniforms(self) -> dict[str, Any]:
         small, sky = self.working, self.small_sky
         blot = 0.0 if self.sun is None else float(self.sun.blot.mean())
+        share = float(sky.mean())
         own = match.statistics_of_lab(small.lab, sky)
         found: dict[str, Any] = {
             "camera_right": self.camera.right,
@@ -302,8 +303,8 @@ class Scene:
             "sun_visible": float(self.sun is not None and self.sun.visible),
             "photo_light": float(self.lit_by_moon),
             "water_roughness": self._water_roughness(),
-            "sky_share": float(sky.mean()),
-            "sun_mask_share": min(1.0, blot / max(float(sky.mean()), 1 / sky.size)),
+            "sky_share": share,
+            "sun_mask_share": min(1.0, blot / max(share, 1 / sky.size)),
             "photo_sky_mean": own.mean,
             "photo_sky_deviation": own.deviation,
             "photo_sky_linear_mean": _weighted_mean(small.linear, sky),

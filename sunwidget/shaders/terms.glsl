@@ -93,7 +93,7 @@ float GetDayStops() {
 
 float GetStops() {
   float night = GetNightStops(GetMeter(meter_edit).r) - GetNightStops(GetMeter(meter_source).r);
-  return exposure + mix(kRestraint, 1.0, GetSkySeen()) * auto_exposure * (GetDayStops() - night);
+  return exposure + GetRestraint() * auto_exposure * (GetDayStops() - night);
 }
 
 // The glare of a sun in a picture that is exposed for it: with another exposure it is as much brighter.
@@ -118,7 +118,7 @@ float GetLandLevel(int first, vec2 share) {
 float GetLift() {
   vec4 share = texelFetch(land_terms, ivec2(16, 0), 0);
   float stops = auto_exposure * GetDayStops() + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
-  stops *= mix(kRestraint, 1.0, GetSkySeen());
+  stops *= GetRestraint();
   return auto_exposure * kLift * (log2(1.0 + exp2(kDark - stops)) - log2(1.0 + exp2(kDark)));
 }
 

@@ -1,7 +1,5 @@
 """What photos show beyond a clear sky: low suns, evenings that end, clouds, no sky at all."""
 
-import functools
-
 import numpy as np
 from relight_scenes import known_photo, known_scene
 
@@ -19,18 +17,13 @@ def balance(light):
     return red - blue, green - (red + blue) / 2
 
 
-@functools.cache
-def scene_of(**drawn):
-    photo = known_photo(**drawn)
-    return photo, photo.analyze()
-
-
 def rendered(scene, edit):
     return render(scene, edit, dtype="float32")
 
 
 def test_a_low_sun_reddens_clouds_more_than_clear_sky_and_greens_nothing():
-    photo, scene = scene_of(sun=(8.0, 40.0), size=(240, 160))
+    photo = known_photo(sun=(8.0, 40.0), size=(240, 160))
+    scene = photo.analyze()
     frame = rendered(scene, LOW)
     cloud, clear = photo.opacity > 0.85, (photo.opacity == 0) & (photo.sky > 0)
     (cloud_red, cloud_green), (clear_red, clear_green) = (
@@ -44,14 +37,16 @@ def test_a_low_sun_reddens_clouds_more_than_clear_sky_and_greens_nothing():
 
 
 def test_the_colours_of_an_evening_go_as_the_sun_rises():
-    photo, scene = scene_of(sun=(8.0, 4.0), tint=(2.0, 1.0, 0.5), size=(240, 160))
+    photo = known_photo(sun=(8.0, 4.0), tint=(2.0, 1.0, 0.5), size=(240, 160))
+    scene = photo.analyze()
     sky = photo.sky > 0
     assert balance(photo.linear[sky])[0] > 2
     assert balance(rendered(scene, HIGH)[sky])[0] < -0.4
 
 
 def test_clouds_in_a_deep_blue_sky_are_grey_at_dusk():
-    photo, scene = scene_of(sun=(8.0, 40.0), tint=(0.4, 1.0, 2.0), size=(240, 160))
+    photo = known_photo(sun=(8.0, 40.0), tint=(0.4, 1.0, 2.0), size=(240, 160))
+    scene = photo.analyze()
     cloud = photo.opacity > 0.85
     assert -1.4 < balance(rendered(scene, DUSK)[cloud])[0] < -0.3
 

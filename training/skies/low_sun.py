@@ -21,6 +21,7 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
+from sunwidget.color import srgb_to_linear
 from training.suns.labels import Photo, labels
 
 WIDTH = 512
@@ -29,12 +30,6 @@ HEIGHTS = {0.7: (-0.03, 0.03), 3: (0.03, 0.07), 6: (0.07, 0.13), 10: (0.13, 0.2)
 REACH = 0.3  # widths
 FEWEST = 200  # pixels that tell a colour
 SEED = 16
-
-
-def linear(code: np.ndarray) -> np.ndarray:
-    """Linear light of sRGB codes, 0 to 255."""
-    x = code.astype(np.float64) / 255
-    return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
 
 
 def small(picture: np.ndarray) -> np.ndarray:
@@ -123,7 +118,8 @@ def main() -> None:
     true, edited = real(asked.data), ours(asked.data, asked.photos)
     for height in HEIGHTS:
         medians = [np.nanmedian(each[height], 0) for each in (true, edited)]
-        lacks = np.log2(linear(medians[0]) / linear(medians[1]))
+        true_light, edited_light = (srgb_to_linear(each / 255) for each in medians)
+        lacks = np.log2(true_light / edited_light)
         near, far = fitted(lacks)
         print(f"{height} degrees: {len(true[height])} photos, {len(edited[height])} edits")
         print(np.hstack([*medians, lacks]).round(2))

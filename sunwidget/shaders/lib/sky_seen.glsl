@@ -11,3 +11,8 @@ const float kSomeSky = 0.03;
 float GetSkySeen() {
   return smoothstep(kNoSky, kSomeSky, sky_share);
 }
+
+// Of the stops by which light and exposure change.
+float GetRestraint() {
+  return mix(kRestraint, 1.0, GetSkySeen());
+}

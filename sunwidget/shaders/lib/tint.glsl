@@ -88,10 +88,11 @@ vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacit
   // What lies on the way may stay: blue in the red sky of a sunset, when the sun goes.
   float along = dot(own - dot(own, vec3(1.0 / 3.0)), turn) / max(length(turn), 1e-3);
   float faded = GetTurned(ratio, before) * mix(1.0, kFadedAhead, smoothstep(0.0, 1.0, along));
-  faded = max(faded, (1.0 - opacity) * GetLostTint(sky_before, sky_now));
+  float lost = (1.0 - opacity) * GetLostTint(sky_before, sky_now);
+  faded = max(faded, lost);
   now += (1.0 - opacity) * (WithoutLostTint(sky_before, sky_now) * (GetLuminance(now) / GetLuminance(sky_now)) - now);
-  float lost = 1.0 - (1.0 - opacity) * GetLostTint(sky_before, sky_now);  // of which some has gone already
-  vec3 day = WithoutBalance(now, max(lost * risen * GetEveningsBalance(), cloud * GetVividness()));
+  // Some of the balance has gone with the lost tint.
+  vec3 day = WithoutBalance(now, max((1.0 - lost) * risen * GetEveningsBalance(), cloud * GetVividness()));
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
   // What is bluer than that was no evening's colour.
