@@ -145,9 +145,11 @@ def before_land(
     land = smoothstep(0.9, 1.0, 1 - resize(sky, columns, rows))  # no skyline, which holds sky
     small = resize(working.linear, columns, rows)
     near, beyond = _parts(light, land)
-    level = np.log(np.maximum(_continued(small, beyond) @ LUMINANCE, 0) + LIGHT_FLOOR)
-    brighter = np.log(small @ LUMINANCE + LIGHT_FLOOR) - level
-    glare = np.maximum(np.minimum(-(maps.clean @ LUMINANCE) * near, brighter), 0)
+    level = np.log(np.maximum(_continued(small, beyond), 0) + LIGHT_FLOOR)
+    brighter = np.log(small + LIGHT_FLOOR) - level
+    # An evening's glare is red: it is in the channel that has most of it that it shows.
+    glare = np.maximum(np.minimum(-maps.clean * near[..., None], brighter), 0).max(-1)
+    level = level @ LUMINANCE
 
     size = working.width, working.height
     glare, level = (

@@ -75,20 +75,19 @@ void main() {
   }
   float own = sum / total;
 
-  float rows_apart = kRowsApart * max(frame_size.x, frame_size.y) / frame_size.y;
   float elsewhere = 0.0;
   float known = 0.0;
   for (int i = 0; i < kColumns; ++i) {
-    for (int j = -kRows; j <= kRows; ++j) {
-      vec2 tap = vec2((float(i) + 0.5) / float(kColumns), place.y + rows_apart * float(j));
+    for (int j = 0; j < kColumns; ++j) {
+      vec2 tap = (vec2(i, j) + 0.5) / float(kColumns);
       float far = 1.0 - GetNearness(tap);
-      float weight = GetWeight(tap) * far * far * exp(-0.5 * float(j * j));
+      float weight = GetWeight(tap) * far * far;
       if (weight < 1e-4) continue;
       elsewhere += weight * GetOwn(tap, ambient, direct);
       known += weight;
     }
   }
   elsewhere /= max(known, 1e-4);
-  float more = GetNearness(place) * known / (known + kFewest) * (own - elsewhere);
+  float more = known / (known + kFewest) * (own - elsewhere);
   result = vec4(own, more, 0.0, 0.0);
 }
