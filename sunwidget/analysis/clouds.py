@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from sunwidget.analysis.backdrop import matched_sky
+from sunwidget.analysis.depth_field import guided
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.overcast import believable, overcast
@@ -30,6 +31,9 @@ MAXIMUM: float = parameter("cloud_ratio_max").default
 
 # Heinle's 30 of 255 levels between blue and red lie where the ratio has its default m_min.
 _DIFFERENCE_SCALE = 30 / 255 / (1 - MINIMUM)
+
+_REACH, _REACH_OF_SHADE = 0.015, 0.004  # longer sides: colours are stored coarser than light
+_NO_EDGE = 1e-3  # squared contrast of the encoded picture
 
 # Logistic regression on (red / blue, (B - R) / (B + R), saturation, blue), encoded values: bias
 # and weights as written by training/clouds.py, which draws veiled skies of our own atmosphere.
@@ -179,11 +183,11 @@ def veil(
     if not sun_seen:
         everywhere = np.maximum(everywhere, overcast(working, sky))
     opacity = everywhere * sky
-    reach = smoothing_radius(working)
-    smooth = np.clip(smoothed(working.encoded, opacity, reach), 0, 1)
+    smooth = np.clip(smoothed(working.encoded, opacity, smoothing_radius(working)), 0, 1)
     # Shade weighs by opacity: where there is hardly any cloud it is noise.
-    weight = cv2.blur(opacity, (2 * reach + 1, 2 * reach + 1)) + 1e-3
-    level = cv2.blur(opacity * shade, (2 * reach + 1, 2 * reach + 1)) + 1e-3
+    side = 2 * max(2, round(_REACH_OF_SHADE * max(working.width, working.height))) + 1
+    weight = cv2.blur(opacity, (side, side)) + 1e-3
+    level = cv2.blur(opacity * shade, (side, side)) + 1e-3
     none = np.zeros_like(sky)
     return (
         Clouds((smooth * sky).astype(np.float32), none, level / weight),
@@ -193,14 +197,12 @@ def veil(
 
 def smoothing_radius(working: Working) -> int:
     """Half side in working pixels of the filter that ties opacity to the picture."""
-    return max(2, round(0.004 * max(working.width, working.height)))
+    return max(3, round(_REACH * max(working.width, working.height)))
 
 
 def smoothed(encoded: np.ndarray, opacity: np.ndarray, radius: int) -> np.ndarray:
     """Tie an opacity (h, w) to the picture's edges (guided filter)."""
-    import cv2
-
-    return np.asarray(cv2.ximgproc.guidedFilter(encoded, opacity, radius, 2e-4))
+    return guided(encoded, opacity, radius, _NO_EDGE)
 
 
 def within(clouds: Clouds, sky: np.ndarray) -> Clouds:

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from sunwidget.edit import Stroke
 
 SIDE = 128  # working pixels of a tile
-MARGIN = 2 * RADIUS + 4  # around it: the guided filter sees two radii, interpolation a pixel
+MARGIN = 36  # around it: the guided filters see two radii, interpolation a pixel
 
 
 class _Tile(NamedTuple):
