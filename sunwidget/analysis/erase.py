@@ -24,6 +24,7 @@ _COLOURS = (0.06, 0.3)  # less leaves the sky its colour, more hides it
 _WHITENS = (0.15, 0.6)  # less leaves clouds to be told from the sky, more does not
 _HIDES = (0.3, 0.9)  # less leaves the sky its clouds, more hides them
 _GAP = 0.03  # in longer sides: half of the widest gap in the glare
+_WHITE, _LARGEST_RIM = 0.97, 0.03  # encoded; longer sides
 _REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow is the sky's
 
 
@@ -84,6 +85,9 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     if float((blot * felt).sum()) < _HIDES[0] * float(blot.sum()):
         # A moon, and a sun that only a person sees, the network leaves where it is.
         felt = np.maximum(felt, _round_about(blot))
+    # Of what is burnt to white nothing is known.
+    white = resize((working.encoded.min(-1) > _WHITE).astype(np.float32), columns, rows)
+    felt = np.maximum(felt, _round_about(blot * white, _LARGEST_RIM))
     known = (1 - smoothstep(*_COLOURS, felt)) * smoothstep(0.8, 1.0, small_sky)
     behind = _continued(seen - glare, known.astype(np.float32))
     clouds = (seen - glare - behind) @ LUMINANCE * (1 - smoothstep(*_HIDES, felt))
@@ -195,10 +199,14 @@ def _continued(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
     return layers + fill_by_pyramid((values - layers).astype(np.float32), weight)
 
 
-def _round_about(blot: np.ndarray) -> np.ndarray:
-    """Return a disc's pixels with its rim and glow, (h, w) float32 in [0, 1]."""
+def _round_about(blot: np.ndarray, largest: float = 1.0) -> np.ndarray:
+    """Return a disc's pixels with its rim and glow, (h, w) float32 in [0, 1].
+
+    They reach three radii, of a disc larger than ``largest`` (longer sides) three of those.
+    """
     import cv2
 
     radius = max(1.0, float(np.sqrt(blot.sum() / np.pi)))
+    radius = min(radius, largest * max(blot.shape))
     away = cv2.distanceTransform((blot < 0.5).astype(np.uint8), cv2.DIST_L2, 5)
     return np.asarray(1 - smoothstep(0.5 * radius + 1, 2 * radius + 3, away), np.float32)
