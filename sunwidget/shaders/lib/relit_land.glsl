@@ -17,6 +17,7 @@ const float kBalanceGone = 0.6;
 // Under their light 75 in 100 warm pixels of the land of day photos are no redder: log of red over green, and over blue.
 const vec2 kReddestLand = vec2(0.77, 1.6);
 
+uniform vec3 photo_land_linear_mean;
 uniform float land_strength;
 uniform float exposure;
 uniform int colour_loss;  // 0 keeping luminance, 1 as eq. 3.8 of the thesis
@@ -38,17 +39,19 @@ vec3 WithoutGlow(vec3 land, vec3 lit) {
 
 // The more its light turns the less of the land's own colour is known; and what is dark in the photo is half
 // noise and half the lens' glare: it gets the colour of its light, `lit`, and becomes less bright than the rest.
-// So does what the old sun's glare, of which `glare` was the share, has coloured.
+// What the old sun's glare, of which `glare` was the share, has coloured gets that of the land at large.
 vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   float level = GetLuminance(land);
   float dark = 1.0 - smoothstep(0.0, kDarkLand, GetLuminance(before));
   float lift = max(log2(max(term[0].x * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
   float turned = GetTurned(ratio, before);
   float risen = GetRisen(term[9].rgb, GetDescribedSun());
-  float guessed = max(max(glare, kLitColor * max(turned, risen)), dark * lift * lift / (lift * lift + 4.0));
+  float guessed = max(kLitColor * max(turned, risen), dark * lift * lift / (lift * lift + 4.0));
   // A balance that the photo's light has bent is not that of another light.
   vec3 color = WithoutBalance(lit, max(kBalanceGone * turned, risen * GetEveningsBalance()));
   land += guessed * (color * (level / GetLuminance(color)) - land);
+  vec3 usual = mix(color, photo_land_linear_mean * ratio, smoothstep(0.0, kDarkLand, GetLuminance(photo_land_linear_mean)));
+  land += glare * (usual * (level / GetLuminance(usual)) - land);
   land = mix(land, WithoutGlow(land, color), max(turned, risen));
   return land * exp2(-dark * lift * lift / (lift + 3.0));
 }
