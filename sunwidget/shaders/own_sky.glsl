@@ -32,6 +32,7 @@ vec3 GetModel(vec2 place, vec3 light, float opacity, vec3 ambient, vec3 direct) 
   vec3 view = GetViewDirection(place);
   vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   vec3 sky = GetMatchedSky(sky_view, view);
+  opacity = GetKnownOpacity(opacity, sun);
   float share = GetSunlitShare(light, sky, ambient, direct, opacity);
   return mix(sky, GetCloud(ambient, direct, share, sky, sun, view, opacity), opacity);
 }

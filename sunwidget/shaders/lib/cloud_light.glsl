@@ -4,12 +4,21 @@
 #include "lib/forward_lobe.glsl"
 
 uniform float silver_lining;
+uniform float sun_visible;  // whether the photo shows its sun, 0 or 1
 
 // Height of the sun (sine) under which clouds of two kilometres lose it, and high thin ones do not.
 const float kSetsForLow = -0.045;
 const float kStandsForLow = -0.004;
+// Sines of a seen sun's height: below the first, sky and clouds are of one colour.
+const vec2 kTellsClouds = vec2(0.1, 0.25);
 // Share of the sun's light that is left on low clouds then: it has been scattered there.
 const float kAfterglow = 0.4;
+
+// How much of a cloud's opacity is believed when it is lit. Round a low sun colours tell no cloud from clear air, and
+// what changes like its air changes alike.
+float GetKnownOpacity(float opacity, vec3 sun_before) {
+  return opacity * (1.0 - sun_visible * (1.0 - smoothstep(kTellsClouds.x, kTellsClouds.y, sun_before.y)));
+}
 
 // A cloud's share of full sunlight, by how bright the photo shows it: its light is what is left of the
 // sky's when what lies beyond it is taken away. Inside a cloud the light is scattered sunlight, too, and

@@ -9,7 +9,6 @@
 
 uniform float sky_strength;
 uniform float cloud_strength;
-uniform float sun_visible;  // whether the photo shows its sun, 0 or 1
 
 // Height of the sun under which it lights clouds from below.
 const float kGrazing = 0.05;
@@ -53,7 +52,7 @@ float GetFadedLight(vec2 own, float local, float change, vec3 sun_before, vec3 s
 // `light` of the photo's sky becomes the light under the new sun. `clean` is the sky without the
 // old sun (sky_behind.glsl), `mark` where the old sun's glare lies, `own` what the sky has
 // beyond the model, `disc` the new disc.
-vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec2 own, vec3 sky_before, vec3 sky_now,
+vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec3 sky_before, vec3 sky_now,
                   vec3 view, vec3 disc) {
   float gain = term[0].x;
   float moved = term[0].y;
@@ -62,6 +61,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec2 own, v
   vec3 ambient = term[5].rgb - term[6].rgb;
   vec3 sun_before = term[9].rgb;
   vec3 sun_now = GetDescribedSun();
+  float opacity = GetKnownOpacity(cover, sun_before);
   float share = GetSunlitShare(clean, sky_before, ambient, term[6].rgb, opacity);
   // From below a sun at the horizon reaches what was in the shade.
   float grazing = smoothstep(0.0, kGrazing, sun_before.y) - smoothstep(0.0, kGrazing, sun_now.y);
@@ -99,6 +99,6 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float opacity, float mark, vec2 own, v
   float kept = max(kBrightAir, GetLuminance(light));
   relit *= level > kept ? pow(level / kept, mix(kAirRange, kKnownAirRange, max(sun_visible, photo_light)) - 1.0) : 1.0;
   // The new disc, behind clouds; the matte hides it behind land.
-  relit += moved * (1.0 - opacity) * (1.0 - opacity) * disc;
+  relit += moved * (1.0 - cover) * (1.0 - cover) * disc;
   return sky_strength * (gain * relit - light);
 }
