@@ -61,6 +61,17 @@ def from_hint(hint: float | tuple[Point, Point], width: int) -> Horizon:
     return Horizon(float(hint), 0.0, 1.0, "hint")
 
 
+def below_sun(found: Horizon, x: float, y: float, radius: float, width: int) -> Horizon:
+    """Lower a horizon that a sun at (x, y), which is seen, would lie under; all in pixels.
+
+    A setting one may lie under it by its ``radius``.
+    """
+    beneath = y - radius - found.row - math.tan(math.radians(found.roll)) * (x - width / 2)
+    if beneath <= 0:
+        return found
+    return Horizon(found.row + beneath + radius, found.roll, min(found.confidence, 0.2), "assumed")
+
+
 def row_argmax(
     sky: np.ndarray, encoded: np.ndarray | None = None, water: np.ndarray | None = None
 ) -> Horizon:

@@ -171,9 +171,8 @@ def _about_air(
     first = "Click the sun" if sun is None else "Check the sun"
     why = "it shows too little clear sky, or one that no atmosphere explains"
     return Notice(
-        f"How the sky of {photo.name} changes with the sun is a guess "
-        f"({100 * sureness:.0f} % sure): {why}. {first} and the horizon, then set the haze by "
-        "hand.",
+        f"How the sky of {photo.name} changes with the sun is a guess: {why}. {first} and the "
+        "horizon, then set the haze by hand.",
         "air",
         f"How this sky changes with the sun is a guess: {why}. See that sun and horizon are "
         "right, then set the haze by hand.",

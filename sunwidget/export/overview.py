@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sunwidget.analysis.maps import MAPS, SceneMap, ramp_colours, shares_of
+from sunwidget.analysis.notices import UNSURE
 from sunwidget.export import lettering
 
 if TYPE_CHECKING:
@@ -132,21 +133,22 @@ def _facts(scene: Scene) -> str:
     sky = 100 * float(np.mean(scene.sky))
     parts = [f"{scene.width} x {scene.height}, sky {sky:.0f} %"]
     if scene.sun is None:
-        parts.append(f"no sun found, its place {100 * scene.sun_confidence:.0f} % sure")
+        parts.append("no sun found, its place assumed")
     else:
         side = "left" if scene.sun.azimuth < 0 else "right"
         where = "" if scene.sun.visible else " (not seen)"
         what = f"{scene.sun.kind} {abs(scene.sun.azimuth):.1f}° {side}"
         parts.append(f"{what}, {scene.sun.elevation:.1f}° up{where}")
     horizon = scene.horizon
-    sure = "guessed" if horizon.confidence < 0.3 else f"{100 * horizon.confidence:.0f} % sure"
+    sure = "guessed" if horizon.confidence < 0.3 else "found"
     parts.append(
         f"horizon at {100 * horizon.row / scene.height:.0f} % of the height, "
         f"roll {horizon.roll:.1f}° ({horizon.source}, {sure})"
     )
     parts.append(f"field of view {scene.camera.fov_vertical_deg:.0f}°")
     if scene.atmosphere.confidence is not None:
-        parts.append(f"atmosphere {100 * scene.atmosphere.confidence:.0f} % sure")
+        fits = "fits" if scene.atmosphere.confidence >= UNSURE else "a guess"
+        parts.append(f"atmosphere {fits}")
     return " · ".join(parts)
 
 

@@ -274,7 +274,8 @@ def test_what_other_methods_see_is_shown_beside_the_horizon(page, coast):
 def test_a_guessed_horizon_is_dashed_and_a_given_one_is_not(editor, state):
     tool = editor.locator(".sw-horizon-tool")
     choose(editor, "Set the horizon")
-    for confidence, guessed, said in ((0.1, True, "Guessed"), (0.9, False, "Found, 90 % sure")):
+    expected = ((0.1, True, "Guessed"), (0.4, False, "Found, unsure"), (0.9, False, "Found ·"))
+    for confidence, guessed, said in expected:
         horizon = {**state["_scene"]["horizon"], "confidence": confidence}
         scene = {**state["_scene"], "horizon": horizon, "revision": confidence}
         editor.evaluate("(scene) => model.receive({ _scene: scene })", scene)
@@ -332,7 +333,7 @@ def test_the_histogram_counts_the_sky_and_its_lines_set_the_thresholds(editor, s
 def test_how_sure_the_atmosphere_is_stands_under_the_picture(editor, state):
     scene = {**state["_scene"], "sureness": 0.804, "revision": 21}
     editor.evaluate("(scene) => model.receive({ _scene: scene })", scene)
-    said = editor.get_by_text("Atmosphere: 80 % sure", exact=True)
+    said = editor.get_by_text("Atmosphere: fits well", exact=True)
     said.wait_for()
     editor.evaluate(
         "(scene) => model.receive({ _scene: scene })", {**scene, "sureness": None, "revision": 22}

@@ -7,7 +7,7 @@ from relight_scenes import SAMPLES, known_photo, known_scene, sample_scene
 
 import sunwidget as sw
 from sunwidget.analysis.camera_glare import angle_to_sun
-from sunwidget.analysis.working import LUMINANCE
+from sunwidget.analysis.working import LUMINANCE, smoothstep
 from sunwidget.edit import NUMBERS, Edit
 from sunwidget.renderer import render, render_pass
 
@@ -109,9 +109,17 @@ def test_cloud_strength_zero_relights_clouds_as_the_sky_behind_them():
     plain &= np.abs(np.log2(ratio.mean(-1))) < 2
     assert plain.sum() > 30
     # Light that the sky has beside the model fades, too (GetFadedLight, lib/relit_sky.glsl).
-    own = cv2.resize(render_pass(scene, moved, "own_sky")[..., 0], scene.sky.shape[::-1])
+    own, more = np.moveaxis(
+        cv2.resize(render_pass(scene, moved, "own_sky")[..., :2], scene.sky.shape[::-1]), -1, 0
+    )
     change = np.log(now[..., :3] @ LUMINANCE / (before[..., :3] @ LUMINANCE))
-    faded = np.exp(-(change**2 / (change**2 + 1)) * own / np.sqrt(1 + (own / 0.7) ** 2))
+    share = change**2 / (change**2 + 1)
+    turned = away_from(scene, -15, 3)[int(scene.sun.y), int(scene.sun.x)]
+    gone = 1 - smoothstep(0.77, 0.99, np.cos(np.radians(turned)))
+    faded = np.exp(
+        -share * own / np.sqrt(1 + (own / 0.7) ** 2)
+        - np.maximum(gone - share, 0) * more / np.sqrt(1 + (more / 1.2) ** 2)
+    )
     # So does a low sun redden what lies about it (GetLowSunChange, lib/low_sun.glsl).
     near = np.exp((np.cos(np.radians(away_from(scene, -15, 3))) - 1) / 0.05)[..., None]
     far = np.array([0.38, -0.12, -0.17]) - 0.6

@@ -4,7 +4,10 @@ import { sunText } from "../angle_text.js";
 import { element } from "../controls/element.js";
 
 const SURENESS =
-  "How likely the sky that was fitted to the photo changes with the sun as the real one";
+  "Whether the sky that was fitted to the photo will change with the sun as the real one would";
+
+/** Of a probability. A percentage would promise more than it says. @param {number} share */
+const wordOf = (share) => (share >= 0.6 ? "fits well" : share >= 0.3 ? "fits roughly" : "a guess");
 
 export class Foot {
   constructor() {
@@ -17,7 +20,7 @@ export class Foot {
   showScene(scene) {
     const { sureness = null } = scene ?? {};
     this.sureness.textContent =
-      typeof sureness === "number" ? `Atmosphere: ${Math.round(100 * sureness)} % sure` : "";
+      typeof sureness === "number" ? `Atmosphere: ${wordOf(sureness)}` : "";
   }
 
   /** @param {number} azimuth degrees @param {number} elevation degrees */

@@ -16,6 +16,7 @@ const ENDS = [0.12, 0.88]; // fractions of the width in sight at which the handl
 const GRAB = 40; // CSS pixels round a handle that take hold of it
 const EDGE = 16; // CSS pixels from the stage's edge at which an outside handle waits
 const GUESSED = 0.3; // confidence below which the line was not really seen
+const UNSURE = 0.5; // and below which it may be that of a roof or hill (analysis/notices.py)
 
 /** What the kernel's methods are called here. @type {Record<string, string>} */
 const OTHERS = { row_argmax: "thesis row", robust_line: "skyline", water_line: "water line" };
@@ -253,7 +254,7 @@ export class HorizonTool {
     if (this.view.state.values.horizon_hint) return `Set by hand · ${tilt}${out}`;
     const { confidence = 0 } = scene?.horizon ?? {};
     if (confidence < GUESSED) return `Guessed: drag it to where it is${out}`;
-    return `Found, ${Math.round(100 * confidence)} % sure · ${tilt}${out}`;
+    return `${confidence < UNSURE ? "Found, unsure" : "Found"} · ${tilt}${out}`;
   }
 
   /** @param {ReturnType<import("./stage.js").Stage["rectangle"]>} box */
