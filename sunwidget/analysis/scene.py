@@ -304,6 +304,7 @@ class Scene:
             "photo_light": float(self.lit_by_moon),
             "water_roughness": self._water_roughness(),
             "sky_share": share,
+            "photo_key": _key(self.without_sun.working.luminance),
             "sun_mask_share": min(1.0, blot / max(share, 1 / sky.size)),
             "photo_sky_mean": own.mean,
             "photo_sky_deviation": own.deviation,
@@ -417,6 +418,11 @@ class Scene:
         if edit.fov_hint is not None:
             changes["fov"] = edit.fov_hint
         return dataclasses.replace(self.hints, **changes)
+
+
+def _key(luminance: np.ndarray) -> float:
+    """Return the mean log2 of a display-linear luminance, black as a dark shadow."""
+    return float(np.log2(np.maximum(luminance, 2.0**-7)).mean())
 
 
 def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:

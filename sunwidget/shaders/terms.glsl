@@ -17,6 +17,7 @@
 #include "lib/response.glsl"
 #include "lib/camera_glare.glsl"
 #include "lib/sky_seen.glsl"
+#include "lib/tint.glsl"
 
 uniform sampler2D columns;
 uniform sampler2D land_terms;
@@ -40,6 +41,7 @@ uniform float colourfulness;
 uniform float exposure;
 uniform float auto_exposure;
 uniform float glow;
+uniform float photo_key;  // mean log2 of the luminance of the photo without its sun, display-linear
 
 out vec4 result;
 
@@ -57,6 +59,11 @@ const vec2 kNightBegins = vec2(5.9, -5.06);
 // this (display-linear).
 const float kBrightSky = 0.35;
 const float kProtection = 0.9;
+
+// A photo is dark because of a low sun in it, or of the evening. When that has risen, it is exposed as half of the photos
+// of a day are, but for no more than is in it.
+const float kDayKey = -2.95;
+const float kMostHidden = 2.0;
 
 // Cameras and phones lift land that has become darker than this (stops) by this share of the rest.
 const float kDark = -1.2;
@@ -87,7 +94,9 @@ float GetStopsTooBright(float level) {
 float GetDayStops() {
   vec2 before = GetMeter(meter_source);
   vec2 now = GetMeter(meter_edit);
-  float stops = before.r - now.r;
+  float risen = GetRisen(GetSunDirection(source_sun_azimuth, source_sun_elevation),
+                         GetSunDirection(sun_azimuth, sun_elevation));
+  float stops = before.r - now.r + risen * clamp(kDayKey - photo_key, 0.0, kMostHidden);
   return stops - (GetStopsTooBright(now.g + stops) - GetStopsTooBright(before.g));
 }
 
