@@ -226,12 +226,18 @@ def in_sky(blot: Blot, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6)
     return np.asarray(soft * smoothstep(0.5, 0.7, luminance / max(usual, 1e-3)), np.float32)
 
 
+_BURNS = 0.75  # radii beyond the disc
+
+
 def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
     """Return where a low sun's glare over an even skyline is no sky, (h, w) float32 in [0, 1].
 
     A setting sun burns a notch into the sea or the hills before it. Between the skylines left and
-    right of it, where they are below its centre and even, nothing below their line is sky.
+    right of it, where they are below its centre, nothing below their line is sky: where they are
+    uneven, as trees are, nothing of what is burnt.
     """
+    import cv2
+
     no_sky = np.zeros_like(sky)
     wide = math.ceil(3 * blot.radius) + 3
     first, last = math.floor(blot.x) - wide, math.ceil(blot.x) + wide
@@ -243,11 +249,15 @@ def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
     left, right = skyline[:wide], skyline[-wide:]
     uneven = max(np.ptp(left), np.ptp(right)) > max(2, _EVEN * wide)
     steep = abs(float(left.mean() - right.mean())) > _EVEN * (last - first)
-    if min(left.min(), right.min()) <= blot.y or uneven or steep:
+    if min(left.mean(), right.mean()) <= blot.y:
         return no_sky
     line = np.interp(np.arange(first, last), [first, last], [left.mean(), right.mean()])
     below = np.arange(sky.shape[0])[:, None] + 0.5 - line
     no_sky[:, first:last] = np.clip(below, 0, 1)
+    if uneven or steep:
+        side = 2 * math.ceil(_BURNS * blot.radius + 2) + 1
+        burnt = cv2.dilate(blot.mask, np.ones((side, side), np.uint8))
+        no_sky *= cv2.GaussianBlur(burnt, (0, 0), 1.0)
     return no_sky
 
 
