@@ -25,6 +25,11 @@ float GetFresnel(float cosine) {
   return 0.02 + 0.98 * square * square * x;
 }
 
+// Steep slopes are commoner than normally distributed ones (their peakedness): a share of the waves is so much
+// rougher, or the column would end like a ruler.
+const float kWide = 0.2;
+const float kWider = 6.0;
+
 // Radiance of the glints towards the viewer per unit of the sun's irradiance, 1/sr. `wind` in m/s,
 // `towards` its direction in degrees from the heading; `view` goes from the viewer to the water.
 float GetGlint(vec3 sun, vec3 view, float wind, float towards) {
@@ -35,7 +40,8 @@ float GetGlint(vec3 sun, vec3 view, float wind, float towards) {
   vec2 turned = vec2(dot(slope, along), dot(slope, vec2(along.y, -along.x)));
   vec2 variance = GetSlopeVariance(wind);
   vec2 square = turned * turned / variance;
-  float density = exp(-0.5 * (square.x + square.y)) / (6.2831853 * sqrt(variance.x * variance.y));
+  float exponent = -0.5 * (square.x + square.y);
+  float density = mix(exp(exponent), exp(exponent / kWider) / kWider, kWide) / (6.2831853 * sqrt(variance.x * variance.y));
   float steepness = rise * rise;
   return GetFresnel(dot(facet, sun)) * density / (4.0 * GetFacing(view, wind) * steepness * steepness);
 }

@@ -19,7 +19,7 @@ uniform float source_wind_direction;
 
 // Brightest a pixel of glints gets, as radiance per unit of the sun's light, 1/sr. Far below what one
 // facet shows of the sun: no pixel is as small, and a camera would show no more.
-const float kBrightest = 1.0;
+const float kBrightest = 0.4;
 
 // How far the glints are others than the photo's, 0 to 1: with the sun, the wind and their slider.
 float GetGlitterChange() {
