@@ -15,8 +15,8 @@ uniform vec2 tile_origin;
 out vec4 result;
 
 const int kPlaces = 6;
-const float kHighestWave = 0.6;  // of natural logarithm
-const float kRock = 0.4;  // the same; so far from the water's light half is believed
+const float kHighestWave = 0.35;  // of natural logarithm
+const float kRock = 0.2;  // the same; so far from the water's light half is believed
 
 // Inside the picture, mirrored at its sides.
 float Reflect(float x) {
