@@ -35,6 +35,7 @@ LAYERS = ("sky", "clouds", "land", "matte")
 _FILLED_EDGE = 512
 # The matte from which on a pixel shows the sky alone.
 _SKY_FROM, _SKY_ALONE = 0.9, 1.0
+_BRIGHTEST = np.float32(16)  # of a layer in floats, display light
 _LEAST = np.float32(1e-6)
 
 
@@ -143,8 +144,8 @@ def _over(below: Floats, wanted: Floats, opacity: Floats, dtype: Any) -> NDArray
     same = np.float32(1 / np.iinfo(dtype).max) if bounded else np.float32(1e-5)
     apart = wanted - below
     need = (-apart - same) / np.maximum(below, _LEAST)
-    if bounded:
-        need = np.maximum(need, (apart - same) / np.maximum(1 - below, _LEAST))
+    room = np.maximum(1 - below, _LEAST) if bounded else _BRIGHTEST
+    need = np.maximum(need, (apart - same) / room)
     alpha = np.clip(np.maximum(opacity, need.max(axis=-1)), 0, 1)
     if bounded:
         top = np.float32(np.iinfo(dtype).max)

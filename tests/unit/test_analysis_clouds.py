@@ -66,6 +66,18 @@ def test_saturation_does_not_call_a_red_sunset_cloud_as_the_ratio_does():
     assert clouds.METHODS["saturation"](red, SKY).opacity.max() == 0
 
 
+def test_opacity_follows_the_pictures_edge_where_it_is_softer():
+    # JPEG stores colours at half the size: opacity is told by them, and the edge by the light.
+    columns = np.arange(120)[None] + 0.0 * np.arange(80)[:, None]
+    edge = (columns >= 60).astype(np.float32)
+    picture = np.float32([0.2, 0.4, 0.8]) + edge[..., None] * np.float32([0.7, 0.5, 0.1])
+    soft = np.float32(np.clip((columns - 52) / 16, 0, 1))
+    tied = clouds.smoothed(picture, soft, 6)
+    assert tied[40, 58] < 0.3
+    assert tied[40, 61] > 0.7
+    assert soft[40, 58] > 0.35
+
+
 def test_outside_the_sky_there_is_no_cloud():
     found = clouds.METHODS["learned"](sky_of(WHITE), 0 * SKY)
     assert found.opacity.max() == 0

@@ -174,6 +174,18 @@ def test_thesis_row_is_the_one_with_most_edges_and_roll_hides_it():
     assert rolled < 0.15
 
 
+def test_a_seen_sun_lies_above_the_horizon_but_for_its_own_radius():
+    line = horizon.Horizon(60.0, 0.0, 0.7, "robust_line")
+    assert horizon.below_sun(line, 50, 40, 4, 100) is line
+    assert horizon.below_sun(line, 50, 63, 4, 100) is line  # it sets
+    lowered = horizon.below_sun(line, 50, 80, 4, 100)
+    assert lowered.row == 80
+    assert (lowered.confidence, lowered.source) == (0.2, "assumed")
+    rolled = horizon.below_sun(horizon.Horizon(60.0, 10.0, 0.7, "robust_line"), 90, 80, 2, 100)
+    slope = math.tan(math.radians(10))
+    assert rolled.row + slope * 40 == pytest.approx(80)
+
+
 def test_two_hinted_points_are_a_line_and_a_row_is_level():
     found = horizon.from_hint(((0.0, 100.0), (640.0, 140.0)), 640)
     assert found.row == pytest.approx(120)

@@ -168,10 +168,18 @@ def test_the_notch_that_a_setting_sun_burns_into_an_even_skyline_is_no_sky():
 def test_a_sun_in_a_gap_of_the_skyline_keeps_its_sky():
     high = skyline(40, 40, notch=True)  # hills left and right of it
     assert not sun.foot(sun.Blot(80, 50, 6.0, high), high).any()
-    uneven = skyline(55, 55, notch=True)
-    uneven[:70, 40:50] = 1
-    uneven[:90, 45:48] = 1
-    assert not sun.foot(sun.Blot(80, 50, 6.0, uneven), uneven).any()
+
+
+def test_among_trees_only_what_is_burnt_is_no_notch():
+    trees = skyline(55, 55, notch=True)
+    trees[:70, 40:50] = 1
+    trees[:90, 45:48] = 1
+    burnt = (np.hypot(*(np.mgrid[:100, :160] + 0.5 - np.array([50, 80])[:, None, None])) < 8) * 1.0
+    gone = sun.foot(sun.Blot(80, 50, 8.0, np.float32(burnt)), trees)
+    assert gone[62, 80] > 0.5
+    assert gone[:50].max() < 0.1
+    assert gone[:, :60].max() == 0
+    assert gone[85, 80] == 0
 
 
 def test_a_lamp_between_houses_does_not_become_sky():

@@ -99,6 +99,27 @@ def test_a_sun_that_only_a_person_sees_is_covered_by_its_surroundings():
     assert erased.mark[100, 20] == 0
 
 
+def test_of_what_is_burnt_to_white_nothing_is_known_whatever_the_network_says():
+    code = np.full((SIZE[1], SIZE[0], 3), 80, np.uint8)
+    code[blot() > 0] = 255
+    clean = np.zeros((*SMALL, 3))
+    clean[7:13, 17:24] = -0.5  # not enough by far
+    burnt = erase(Working.of(open_photo(code)), maps(clean), sky(), light(blot()))
+    assert np.abs(burnt.working.encoded[40, 80] - 80 / 255).max() < 0.05
+    assert burnt.glow[40, 80] == pytest.approx(1)
+
+
+def test_a_red_glow_before_dark_land_counts_though_it_is_hardly_brighter():
+    working, above = hill(glowing=0.0)
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    near = np.exp(-np.square(np.hypot(columns - 80, rows - 66) / 8)) * (rows >= 60)
+    linear = working.linear + np.float32([0.3, 0, 0]) * np.float32(near)[..., None]
+    working = Working.of(open_photo(linear))
+    clean = np.zeros((*SMALL, 3))
+    clean[14:20, 14:26, 0] = -2.0
+    assert erase(working, maps(clean), above, light(blot())).on_land[66, 80] > 0.4
+
+
 def hill(glowing):
     """Dark land from row 60 on, with glare before it below the sun, and the sky's weight."""
     rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5

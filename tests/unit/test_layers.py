@@ -109,6 +109,14 @@ def test_tiff_holds_layers_as_named_pages(tmp_path, scene):
     assert Edit.from_dict(again.recipe) == EDIT
 
 
+def test_a_layer_of_floats_that_only_brightens_is_not_lost_where_it_is_clear():
+    scene, picture, clear = drawn_scene(Edit())
+    scene.clouds = scene.clouds * 0
+    bright = picture + np.float32(0.3)
+    layers = layers_of(scene, Edit(sun_elevation=3), bright, lambda edit: clear)
+    assert np.abs(composite(layers) - bright).max() <= 2e-4
+
+
 def test_exr_holds_layers_as_channels(tmp_path, scene):
     OpenEXR = pytest.importorskip("OpenEXR")
     path = save((scene, EDIT), tmp_path / "out.exr", layers=True, bit_depth=32)

@@ -1,5 +1,7 @@
 """What photos show beyond a clear sky: low suns, evenings that end, clouds, no sky at all."""
 
+import dataclasses
+
 import numpy as np
 from relight_scenes import known_photo, known_scene
 
@@ -42,6 +44,59 @@ def test_the_colours_of_an_evening_go_as_the_sun_rises():
     sky = photo.sky > 0
     assert balance(photo.linear[sky])[0] > 2
     assert balance(rendered(scene, HIGH)[sky])[0] < -0.4
+
+
+def test_an_evening_of_one_channel_does_not_turn_violet_as_the_sun_rises():
+    photo = known_photo(sun=(8.0, 4.0), tint=(6.0, 1.0, 0.05), size=(240, 160))
+    red, green = balance(rendered(photo.analyze(), HIGH)[photo.sky > 0])
+    assert -1.5 < red < 1.5
+    assert green > -0.3
+
+
+def test_a_dark_evening_is_exposed_as_a_day_when_its_sun_has_risen():
+    scene = known_photo(sun=(8.0, 4.0)).analyze()
+    told = scene.uniforms()["photo_key"]
+    dark = dataclasses.replace(scene, response=scene.response | {"photo_key": -4.2})
+
+    def key(scene, edit):
+        return np.log2(np.maximum(rendered(scene, edit), 2**-7)).mean()
+
+    assert -3.5 < told < -1.5
+    assert key(dark, HIGH) > key(scene, HIGH) + 0.5
+    assert key(dark, DUSK) == key(scene, DUSK)
+
+
+def test_leaves_that_glowed_before_a_low_sun_are_not_red_by_day():
+    photo = known_photo(sun=(8.0, 4.0))
+    picture = photo.linear.copy()
+    land = (photo.sky == 0) & (np.arange(120) > 60)
+    picture[land] = (0.3, 0.03, 0.004)
+    scene = photo.analyze(np.uint8(255 * picture ** (1 / 2.2)))
+    red, green, _ = rendered(scene, HIGH)[land].mean(0)
+    assert red / green < 3.5
+
+
+def test_round_a_seen_low_sun_clouds_change_as_the_sky_does_and_by_day_as_clouds():
+    def turned_by_clouds(height):
+        scene = known_photo(sun=(8.0, height)).analyze()
+        clear = dataclasses.replace(scene, cloud_map=np.zeros_like(scene.cloud_map))
+        away = Edit(sun_azimuth=70, sun_elevation=20, glow=0, auto_exposure=0)
+        sky = scene.sky > 0.98
+        return np.abs(rendered(scene, away) - rendered(clear, away))[sky].mean()
+
+    assert turned_by_clouds(3.0) < 0.2 * turned_by_clouds(30.0)
+
+
+def test_white_land_glints_only_before_a_low_sun():
+    photo = known_photo(sun=(8.0, 40.0))
+    picture = photo.linear.copy()
+    snow = (photo.sky == 0) & (np.arange(120) > 60)
+    picture[snow] = 1.0
+    code = np.uint8(255 * picture ** (1 / 2.2))
+    seen = photo.analyze(code)
+    behind = dataclasses.replace(seen, sun=None, assumed_sun=(170.0, 40.0))
+    assert behind.surface()[..., 2][snow].max() == 0
+    assert seen.surface()[..., 2][snow].max() > 0.5
 
 
 def test_clouds_in_a_deep_blue_sky_are_grey_at_dusk():
