@@ -34,7 +34,7 @@ float GetLostTint(vec3 sky_before, vec3 sky_now) {
   float before = side * GetBlueness(sky_before);
   float lost = before - side * GetBlueness(sky_now);
   float most = side > 0.0 ? 1.0 : kMostOfRed;
-  return most * clamp(lost / max(before, 0.3), 0.0, 1.0) * smoothstep(0.0, 0.3, before);
+  return most * clamp(lost / max(before, 0.3), 0.0, 1.0) * smoothstep(-0.4, 0.6, before);
 }
 
 // Takes a share of the photo's balance out of a light, which then differs in brightness.
