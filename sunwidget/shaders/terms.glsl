@@ -41,6 +41,7 @@ uniform float colourfulness;
 uniform float exposure;
 uniform float auto_exposure;
 uniform float glow;
+uniform vec3 photo_land_linear_mean;
 uniform float photo_key;  // mean log2 of the luminance of the photo without its sun, display-linear
 
 out vec4 result;
@@ -68,6 +69,9 @@ const float kMostHidden = 2.0;
 // Cameras and phones lift land that has become darker than this (stops) by this share of the rest.
 const float kDark = -1.2;
 const float kLift = 0.7;
+// And hold back land that would be brighter than nine in ten photos of a day have it (log2 of its mean, display-linear).
+const float kBrightLand = -1.65;
+const float kHeldBack = 0.8;
 
 // A moon is 20 EV brighter than the sky it lights and would burn to a white hole; it is drawn so
 // bright, of white, and dimmed less by the air, as when a second, short exposure is laid over.
@@ -123,12 +127,19 @@ float GetLandLevel(int first, vec2 share) {
   return GetLuminance(sky + share.x * share.y * cosine * texelFetch(land_terms, ivec2(first + 6, 0), 0).rgb);
 }
 
-// Stops by which a camera lifts land that has become dark.
+// Log2 of how far land of this mean is over what is held back.
+float GetTooBright(float level) {
+  return log2(1.0 + exp2(2.0 * (level - kBrightLand))) / 2.0;
+}
+
+// Stops by which a camera lifts land that has become dark, and holds back what has become bright.
 float GetLift() {
   vec4 share = texelFetch(land_terms, ivec2(16, 0), 0);
   float stops = auto_exposure * GetDayStops() + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
   stops *= GetRestraint();
-  return auto_exposure * kLift * (log2(1.0 + exp2(kDark - stops)) - log2(1.0 + exp2(kDark)));
+  float lift = kLift * (log2(1.0 + exp2(kDark - stops)) - log2(1.0 + exp2(kDark)));
+  float level = log2(max(GetLuminance(photo_land_linear_mean), 1e-4));
+  return auto_exposure * (lift - kHeldBack * (GetTooBright(level + stops) - GetTooBright(level)));
 }
 
 // log2 of the radiance in the middle of a disc at this height, without its limb's darkening.
