@@ -305,7 +305,8 @@ class Scene:
             "photo_light": float(self.lit_by_moon),
             "water_roughness": self._water_roughness(),
             "sky_share": share,
-            "photo_key": _key(self.without_sun.working.luminance),
+            "photo_key": _key(self.without_sun.working.luminance, np.ones_like(sky)),
+            "photo_sky_key": _key(self.without_sun.working.luminance, sky),
             "sun_mask_share": min(1.0, blot / max(share, 1 / sky.size)),
             "photo_sky_mean": own.mean,
             "photo_sky_deviation": own.deviation,
@@ -421,9 +422,10 @@ class Scene:
         return dataclasses.replace(self.hints, **changes)
 
 
-def _key(luminance: np.ndarray) -> float:
-    """Return the mean log2 of a display-linear luminance, black as a dark shadow."""
-    return float(np.log2(np.maximum(luminance, 2.0**-7)).mean())
+def _key(luminance: np.ndarray, weight: np.ndarray) -> float:
+    """Return the weighted mean log2 of a display-linear luminance, black as a dark shadow."""
+    logs = np.log2(np.maximum(luminance, 2.0**-7))
+    return float((logs * weight).sum() / max(float(weight.sum()), 1e-6))
 
 
 def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:

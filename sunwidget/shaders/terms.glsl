@@ -42,6 +42,7 @@ uniform float exposure;
 uniform float auto_exposure;
 uniform float glow;
 uniform vec3 photo_land_linear_mean;
+uniform float photo_sky_key;  // the same of its sky
 uniform float photo_key;  // mean log2 of the luminance of the photo without its sun, display-linear
 
 out vec4 result;
@@ -65,6 +66,9 @@ const float kProtection = 0.9;
 // of a day are, but for no more than is in it.
 const float kDayKey = -2.95;
 const float kMostHidden = 2.0;
+// Its sky then is as bright as that of half of the blue and white skies of a day, for no more stops than these.
+const float kDaySky = -1.9;
+const float kMostOfSky = 1.5;
 
 // Cameras and phones lift land that has become darker than this (stops) by this share of the rest.
 const float kDark = -1.2;
@@ -104,9 +108,17 @@ float GetDayStops() {
   return stops - (GetStopsTooBright(now.g + stops) - GetStopsTooBright(before.g));
 }
 
+// By how much the sky, and what mirrors it, is lifted beyond the land.
+float GetSkyLift() {
+  float risen = GetRisen(GetSunDirection(source_sun_azimuth, source_sun_elevation),
+                         GetSunDirection(sun_azimuth, sun_elevation));
+  float level = photo_sky_key + GetMeter(meter_edit).g - GetMeter(meter_source).g + GetDayStops();
+  return GetSkySeen() * auto_exposure * risen * clamp(kDaySky - level, 0.0, kMostOfSky);
+}
+
 float GetStops() {
   float night = GetNightStops(GetMeter(meter_edit).r) - GetNightStops(GetMeter(meter_source).r);
-  return exposure + GetRestraint() * auto_exposure * (GetDayStops() - night);
+  return exposure + GetRestraint() * auto_exposure * (GetDayStops() - night) + GetSkyLift();
 }
 
 // The glare of a sun in a picture that is exposed for it: with another exposure it is as much brighter.
@@ -139,7 +151,7 @@ float GetLift() {
   stops *= GetRestraint();
   float lift = kLift * (log2(1.0 + exp2(kDark - stops)) - log2(1.0 + exp2(kDark)));
   float level = log2(max(GetLuminance(photo_land_linear_mean), 1e-4));
-  return auto_exposure * (lift - kHeldBack * (GetTooBright(level + stops) - GetTooBright(level)));
+  return auto_exposure * (lift - kHeldBack * (GetTooBright(level + stops) - GetTooBright(level))) - GetSkyLift();
 }
 
 // log2 of the radiance in the middle of a disc at this height, without its limb's darkening.
