@@ -230,8 +230,8 @@ class Scene:
         if self.sun is not None:
             column = column_of(self.camera, self.sun.azimuth)
         zone = glitter(self.working, self.small_sky, self.small_water, column)
-        # Glare before water goes with its glints; what is glare before land glints no more, and what
-        # is white on land in another light is snow.
+        # Glare before water goes with its glints; what is glare before land glints no more. White
+        # land in the light of another sun is snow.
         glare = resize(self.glare, self.working.width, self.working.height) * (1 - self.small_sky)
         wet = np.maximum(zone, glare)
         dry = zone * (1 - glare) * (column is not None)

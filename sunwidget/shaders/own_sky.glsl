@@ -1,5 +1,5 @@
 // How much brighter than the model, clouds included, the photo's sky without its sun is, slowly varying: log of
-// luminance. Second, by how much more that is round the sun than elsewhere in the same rows. Drawn once a photo.
+// luminance. Second, by how much more that is than elsewhere in the sky, away from the sun. Drawn once a photo.
 
 #define PHOTOS_OWN_LIGHT
 #include "lib/picture.glsl"
@@ -21,10 +21,7 @@ out vec4 result;
 
 const float kReach = 0.1;  // two deviations, in longer sides of the picture
 const int kTaps = 6;       // on either side
-const float kRoundSun = 0.05;  // one less the cosine of 18 degrees
-const int kColumns = 12;
-const int kRows = 2;  // above and below
-const float kRowsApart = 0.04;  // of longer sides
+const int kElsewhere = 12;  // columns and rows of taps all over the picture
 const float kFewest = 1.0;  // taps' weight that tells half of what lies elsewhere
 
 // The model's light where `opacity` of a pixel is cloud, lit by the sky (`ambient`) and the sun (`direct`).
@@ -51,12 +48,8 @@ float GetOwn(vec2 tap, vec3 ambient, vec3 direct) {
   return log(max(GetLuminance(light), 1e-6) / max(GetLuminance(model), 1e-6));
 }
 
-float GetNearness(vec2 place) {
-  vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
-  return exp((dot(GetViewDirection(place), sun) - 1.0) / kRoundSun);
-}
-
 void main() {
+  vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   vec3 scale = sky_gain * GetLightScale(photo_light);
   vec3 white = scale * GetCloudRadiance(light_before, 0.0);
   vec3 direct = scale * GetCloudRadiance(light_before, 1.0) - white;
@@ -78,10 +71,10 @@ void main() {
 
   float elsewhere = 0.0;
   float known = 0.0;
-  for (int i = 0; i < kColumns; ++i) {
-    for (int j = 0; j < kColumns; ++j) {
-      vec2 tap = (vec2(i, j) + 0.5) / float(kColumns);
-      float far = 1.0 - GetNearness(tap);
+  for (int i = 0; i < kElsewhere; ++i) {
+    for (int j = 0; j < kElsewhere; ++j) {
+      vec2 tap = (vec2(i, j) + 0.5) / float(kElsewhere);
+      float far = 1.0 - GetNearness(GetViewDirection(tap), sun);
       float weight = GetWeight(tap) * far * far;
       if (weight < 1e-4) continue;
       elsewhere += weight * GetOwn(tap, ambient, direct);

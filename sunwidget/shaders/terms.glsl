@@ -98,22 +98,23 @@ float GetStopsTooBright(float level) {
   return kProtection * log2(1.0 + exp2(over));
 }
 
+float GetRisen() {
+  return GetRisen(GetSunDirection(source_sun_azimuth, source_sun_elevation),
+                  GetSunDirection(sun_azimuth, sun_elevation));
+}
+
 // What a fully automatic exposure does by day: it follows the mean, and holds back for a bright sky.
 float GetDayStops() {
   vec2 before = GetMeter(meter_source);
   vec2 now = GetMeter(meter_edit);
-  float risen = GetRisen(GetSunDirection(source_sun_azimuth, source_sun_elevation),
-                         GetSunDirection(sun_azimuth, sun_elevation));
-  float stops = before.r - now.r + risen * clamp(kDayKey - photo_key, 0.0, kMostHidden);
+  float stops = before.r - now.r + GetRisen() * clamp(kDayKey - photo_key, 0.0, kMostHidden);
   return stops - (GetStopsTooBright(now.g + stops) - GetStopsTooBright(before.g));
 }
 
 // By how much the sky, and what mirrors it, is lifted beyond the land.
 float GetSkyLift() {
-  float risen = GetRisen(GetSunDirection(source_sun_azimuth, source_sun_elevation),
-                         GetSunDirection(sun_azimuth, sun_elevation));
   float level = photo_sky_key + GetMeter(meter_edit).g - GetMeter(meter_source).g + GetDayStops();
-  return GetSkySeen() * auto_exposure * risen * clamp(kDaySky - level, 0.0, kMostOfSky);
+  return GetSkySeen() * auto_exposure * GetRisen() * clamp(kDaySky - level, 0.0, kMostOfSky);
 }
 
 float GetStops() {

@@ -24,7 +24,6 @@ const float kShadeFades = 0.5;
 // Cosines of the angles between old and new sun at which the glow round the old one is gone, and still whole.
 const float kFarAway = 0.77;
 const float kNotAway = 0.99;
-const float kRoundSun = 0.05;  // one less the cosine of 18 degrees
 const float kMostGone = 1.2;  // log of light
 // Light of a cloud, over the model's, from which it is not all shade; how much of the colour of shade is the sky's.
 const float kShaded = 0.2;
@@ -40,7 +39,7 @@ float GetBounded(float log_light, float most) {
 
 // The part of the light that fades as the model's light changes by `change`, as a factor. What the photo's sky is
 // brighter than the model round about, `own.r` (own_sky.glsl), is a haze that the model does not know, or knows too
-// well; what is more of it round the photo's sun than elsewhere in its rows, `own.g`, is gone where the sun is. `local` is
+// well; what is more of it than elsewhere in its sky, `own.g`, is gone where the sun is. `local` is
 // what a pixel has beyond both: the sun on a cloud's edge, which would stay a rim, and what un-mixing took for cloud.
 // No more goes than is believable, and what went by `share` does not go again by `away`.
 float GetFadedLight(vec2 own, float local, float change, vec3 sun_before, vec3 sun_now) {
@@ -82,7 +81,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec
   float cloud = opacity * min(cloud_strength, 1.0);
   vec3 model = mix(sky_before, cloud_before, cloud);
   relit = WithModelsColor(relit, sky, model, ratio, opacity, cloud, sky_before, sky_now,
-                          GetRisen(sun_before, sun_now), sun_visible * exp((dot(view, sun_before) - 1.0) / kRoundSun));
+                          GetRisen(sun_before, sun_now), sun_visible * GetNearness(view, sun_before));
   // What of a cloud lies in shade has the sky's colour, and the more so the more the sun's differs.
   float shaded = cloud * (1.0 - smoothstep(kShaded, 0.8, GetLuminance(clean) / GetLuminance(cloud_before)));
   vec3 shade = WithoutBalance(term[7].rgb - term[8].rgb, GetVividness());
