@@ -140,8 +140,8 @@ def complete(
     step("horizon", 0.8, "Fitting the horizon")
     horizon = _horizon(working, sky, maps, hints, photo.width)
     if blot is not None and hints.horizon is None:
-        disc = (blot.x * zoom_x, blot.y * zoom_y, blot.radius * zoom_y)
-        horizon = horizon_stage.below_sun(horizon, *disc, photo.width)
+        seen_at = (blot.x * zoom_x, blot.y * zoom_y, blot.radius * zoom_y)
+        horizon = horizon_stage.below_sun(horizon, *seen_at, photo.width)
     camera = Camera.from_horizon(
         *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll
     )
