@@ -139,8 +139,10 @@ def complete(
 
     step("horizon", 0.8, "Fitting the horizon")
     horizon = _horizon(working, sky, maps, hints, photo.width)
-    if blot is not None and hints.horizon is None:
-        seen_at = (blot.x * zoom_x, blot.y * zoom_y, blot.radius * zoom_y)
+    sure = seed is not None and horizon.confidence >= SURE_HORIZON
+    if blot is not None and hints.horizon is None and not sure:
+        x, y = seed or (blot.x, blot.y)
+        seen_at = (x * zoom_x, y * zoom_y, blot.radius * zoom_y)
         horizon = horizon_stage.below_sun(horizon, *seen_at, photo.width)
     camera = Camera.from_horizon(
         *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll

@@ -249,7 +249,10 @@ def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
     left, right = skyline[:wide], skyline[-wide:]
     uneven = max(np.ptp(left), np.ptp(right)) > max(2, _EVEN * wide)
     steep = abs(float(left.mean() - right.mean())) > _EVEN * (last - first)
-    if min(left.mean(), right.mean()) <= blot.y:
+    if uneven or steep:
+        near = math.ceil(wide / 3)
+        left, right = left[-near:], right[:near]
+    if min(left.min(), right.min()) <= blot.y:
         return no_sky
     line = np.interp(np.arange(first, last), [first, last], [left.mean(), right.mean()])
     below = np.arange(sky.shape[0])[:, None] + 0.5 - line

@@ -94,7 +94,8 @@ void main() {
   float shine = GetSkySeen() * (1.0 - upright / kMostUpright) * GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
-  vec3 air = GetAirChange(place, land_marks.b, land, land_ratio + water * (mirror.rgb - land_ratio));
+  vec3 lifted = abs(term[0].w) * land_ratio;
+  vec3 air = GetAirChange(place, land_marks.b, land, lifted + water * (mirror.rgb - lifted));
   vec3 land_change = GetLandChange(front, land, land_ratio, GetLitNow(upright), shine, mirror.rgb, air, gone);
   vec3 horizon = texelFetch(air_edit, ivec2(GetAirColumn(place), 0), 0).rgb;
   vec3 water_change = GetWaterChange(front, clean, land_marks.g, glare, mirror, air, horizon);

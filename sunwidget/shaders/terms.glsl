@@ -42,8 +42,8 @@ uniform float exposure;
 uniform float auto_exposure;
 uniform float glow;
 uniform vec3 photo_land_linear_mean;
-uniform float photo_sky_key;  // the same of its sky
 uniform float photo_key;  // mean log2 of the luminance of the photo without its sun, display-linear
+uniform float photo_sky_key;  // the same of its sky
 
 out vec4 result;
 
@@ -129,7 +129,7 @@ vec3 GetGlare() {
   float visible = texelFetch(visibility_edit, ivec2(0), 0).g;
   // Cameras balance their white half way. A red tint of the photo dyes the sun's light, a blue one its sky.
   vec3 color = sqrt(beam * (sky_gain.r > sky_gain.b ? sky_gain : vec3(1.0)));
-  return glow * visible * exp2(GetStops() - GetDayStops()) * GetGlareStrength(light) * color / GetLuminance(color);
+  return glow * visible * exp2(GetStops() - GetSkyLift() - GetDayStops()) * GetGlareStrength(light) * color / GetLuminance(color);
 }
 
 // Light of the land, lying and upright, by its part of land_terms.glsl: luminance.

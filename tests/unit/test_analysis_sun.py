@@ -172,8 +172,8 @@ def test_a_sun_in_a_gap_of_the_skyline_keeps_its_sky():
 
 def test_among_trees_only_what_is_burnt_is_no_notch():
     trees = skyline(55, 55, notch=True)
-    trees[:70, 40:50] = 1
-    trees[:90, 45:48] = 1
+    trees[:70, 28:38] = 1
+    trees[:90, 33:36] = 1
     burnt = (np.hypot(*(np.mgrid[:100, :160] + 0.5 - np.array([50, 80])[:, None, None])) < 8) * 1.0
     gone = sun.foot(sun.Blot(80, 50, 8.0, np.float32(burnt)), trees)
     assert gone[62, 80] > 0.5

@@ -43,7 +43,7 @@ def test_the_colours_of_an_evening_go_as_the_sun_rises():
     scene = photo.analyze()
     sky = photo.sky > 0
     assert balance(photo.linear[sky])[0] > 2
-    assert balance(rendered(scene, HIGH)[sky])[0] < -0.4
+    assert balance(rendered(scene, HIGH)[sky])[0] < -0.3
 
 
 def test_an_evening_of_one_channel_does_not_turn_violet_as_the_sun_rises():
@@ -64,6 +64,41 @@ def test_a_dark_evening_is_exposed_as_a_day_when_its_sun_has_risen():
     assert -3.5 < told < -1.5
     assert key(dark, HIGH) > key(scene, HIGH) + 0.25
     assert key(dark, DUSK) == key(scene, DUSK)
+
+
+def test_a_dark_evenings_sky_is_lifted_and_its_land_is_not():
+    scene = known_photo(sun=(8.0, 4.0)).analyze()
+    dark = dataclasses.replace(scene, response=scene.response | {"photo_sky_key": -4.0})
+    sky, land = scene.sky > 0.98, scene.sky < 0.02
+    ratio = rendered(dark, HIGH) / rendered(scene, HIGH)
+    assert np.median(ratio[sky]) > 1.1
+    assert np.median(ratio[land]) < 1.05
+    assert np.array_equal(rendered(dark, DUSK), rendered(scene, DUSK))
+
+
+def test_bright_land_is_held_back_and_dark_land_is_not():
+    scene = known_photo(sun=(8.0, 4.0)).analyze()
+    land = scene.sky < 0.02
+
+    def level(mean):
+        told = {"photo_land_linear_mean": (mean, mean, mean)}
+        changed = dataclasses.replace(scene, response=scene.response | told)
+        return rendered(changed, HIGH)[land].mean()
+
+    assert level(0.5) < 0.8 * level(0.1)
+    assert level(0.02) > 0.9 * level(0.01)
+
+
+def test_no_sky_turns_greener_than_it_was():
+    photo = known_photo(sun=(8.0, 4.0), tint=(2.0, 1.2, 0.3), size=(240, 160))
+    scene = photo.analyze()
+    sky = scene.sky > 0.98
+    red, green, blue = np.moveaxis(photo.linear, -1, 0)
+    own = np.maximum(green / np.maximum(np.maximum(red, blue), 1e-3), 1.0)
+    for edit in (DUSK, LOW, HIGH):
+        red, green, blue = np.moveaxis(rendered(scene, edit), -1, 0)
+        greener = green - own * np.maximum(red, blue)
+        assert np.quantile(greener[sky], 0.99) < 0.02
 
 
 def test_leaves_that_glowed_before_a_low_sun_are_not_red_by_day():

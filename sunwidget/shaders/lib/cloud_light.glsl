@@ -24,7 +24,8 @@ float GetNearness(vec3 view, vec3 sun) {
 // How much of a cloud's opacity is believed when it is lit. Round a low sun colours tell no cloud from clear air, and
 // what changes like its air changes alike.
 float GetKnownOpacity(float opacity, vec3 sun_before) {
-  return opacity * (1.0 - sun_visible * (1.0 - smoothstep(kTellsClouds.x, kTellsClouds.y, sun_before.y)));
+  float sun_seen = sun_visible * (1.0 - photo_light);
+  return opacity * (1.0 - sun_seen * (1.0 - smoothstep(kTellsClouds.x, kTellsClouds.y, sun_before.y)));
 }
 
 // A cloud's share of full sunlight, by how bright the photo shows it: its light is what is left of the

@@ -1,6 +1,6 @@
 // The sun's glints on level water that wind roughens, after Cox & Munk 1954 ("Measurement of the
 // roughness of the sea surface from photographs of the sun's glitter", JOSA 44, p. 838): normally
-// distributed slopes, a little wider along the wind than across.
+// distributed slopes (kWide of them steeper), a little wider along the wind than across.
 
 // Mean square slopes along and across the wind (their equations for a clean surface); the first has
 // a floor for swell and for the sun's own size, which keeps a calm from being a mirror. All of it by how
@@ -27,7 +27,7 @@ float GetFresnel(float cosine) {
 
 // Steep slopes are commoner than normally distributed ones (their peakedness): a share of the waves is so much
 // rougher, or the column would end like a ruler.
-const float kWide = 0.2;
+const float kWide = 0.1;
 const float kWider = 6.0;
 
 // Radiance of the glints towards the viewer per unit of the sun's irradiance, 1/sr. `wind` in m/s,
@@ -38,7 +38,7 @@ float GetGlint(vec3 sun, vec3 view, float wind, float towards) {
   vec2 slope = facet.xz / rise;
   vec2 along = vec2(sin(radians(towards)), cos(radians(towards)));
   vec2 turned = vec2(dot(slope, along), dot(slope, vec2(along.y, -along.x)));
-  vec2 variance = GetSlopeVariance(wind);
+  vec2 variance = GetSlopeVariance(wind) / mix(1.0, kWider, kWide);  // in all as many as Cox and Munk's
   vec2 square = turned * turned / variance;
   float exponent = -0.5 * (square.x + square.y);
   float density = mix(exp(exponent), exp(exponent / kWider) / kWider, kWide) / (6.2831853 * sqrt(variance.x * variance.y));

@@ -4,7 +4,7 @@ const float kMostUpright = 0.8;
 
 // What rises above the horizon stands upright.
 float GetUprightness(vec3 view) {
-  return kMostUpright * smoothstep(-0.15, 0.08, view.y);
+  return kMostUpright * smoothstep(-0.06, 0.05, view.y);
 }
 
 // What exceeds white paint in this light is a mirror image of the sky and the sun (wet road, glass,

@@ -50,7 +50,9 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   // A balance that the photo's light has bent is not that of another light.
   vec3 color = WithoutBalance(lit, max(kBalanceGone * turned, risen * GetEveningsBalance()));
   land += guessed * (color * (level / GetLuminance(color)) - land);
-  vec3 usual = mix(color, photo_land_linear_mean * ratio, smoothstep(0.0, kDarkLand, GetLuminance(photo_land_linear_mean)));
+  vec3 mean = GetSceneLight(photo_land_linear_mean);
+  vec3 usual = mix(color / GetLuminance(color), mean * ratio / max(GetLuminance(mean * ratio), 1e-9),
+                   smoothstep(0.0, kDarkLand, GetLuminance(mean)));
   land += glare * (usual * (level / GetLuminance(usual)) - land);
   land = mix(land, WithoutGlow(land, color), max(turned, risen));
   return land * exp2(-dark * lift * lift / (lift + 3.0));

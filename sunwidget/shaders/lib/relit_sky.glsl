@@ -9,6 +9,7 @@
 
 uniform float sky_strength;
 uniform float cloud_strength;
+uniform float added_clouds;
 
 // Height of the sun under which it lights clouds from below.
 const float kGrazing = 0.05;
@@ -61,7 +62,8 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec
   vec3 ambient = term[5].rgb - term[6].rgb;
   vec3 sun_before = term[9].rgb;
   vec3 sun_now = GetDescribedSun();
-  float opacity = GetKnownOpacity(cover, sun_before);
+  // Clouds that a person has added are known.
+  float opacity = mix(GetKnownOpacity(cover, sun_before), cover, smoothstep(0.0, 0.05, added_clouds));
   float share = GetSunlitShare(clean, sky_before, ambient, term[6].rgb, opacity);
   // From below a sun at the horizon reaches what was in the shade.
   float grazing = smoothstep(0.0, kGrazing, sun_before.y) - smoothstep(0.0, kGrazing, sun_now.y);

@@ -41,7 +41,7 @@ float GetLostTint(vec3 sky_before, vec3 sky_now) {
 
 // Takes a share of the photo's balance out of a light, which then differs in brightness.
 vec3 WithoutBalance(vec3 light, float share) {
-  return light * pow(GetLuminance(sky_gain) / sky_gain, vec3(share));
+  return share > 0.0 ? light * pow(GetLuminance(sky_gain) / sky_gain, vec3(share)) : light;
 }
 
 // The sky as bright as it is now.
