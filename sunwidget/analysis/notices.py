@@ -102,10 +102,12 @@ def _about_sky(photo: Photo, share: float, doubted: float) -> Notice | None:
         )
     if share < NO_SKY:
         return Notice(
-            f"No sky found in {photo.name} ({100 * share:.1f} % of pixels). "
-            "Draw a sky stroke or pass sky=mask.",
+            f"No sky found in {photo.name} ({100 * share:.1f} % of pixels): nothing tells what "
+            "light it stands in, so all of it changes alike, and a little. Draw a sky stroke or "
+            "pass sky=mask.",
             "sky",
-            "No sky was found. If there is some, paint over it.",
+            "No sky was found. Nothing tells what light the picture stands in, so all of it "
+            "changes alike, and a little. If there is some sky, paint over it.",
         )
     return None
 
