@@ -83,7 +83,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec
   float cloud = opacity * min(cloud_strength, 1.0);
   vec3 model = mix(sky_before, cloud_before, cloud);
   relit = WithModelsColor(relit, sky, model, ratio, opacity, cloud, sky_before, sky_now,
-                          GetRisen(sun_before, sun_now), sun_visible * GetNearness(view, sun_before));
+                          GetRisen(sun_before, sun_now));
   // What of a cloud lies in shade has the sky's colour, and the more so the more the sun's differs.
   float shaded = cloud * (1.0 - smoothstep(kShaded, 0.8, GetLuminance(clean) / GetLuminance(cloud_before)));
   vec3 shade = WithoutBalance(term[7].rgb - term[8].rgb, GetVividness());

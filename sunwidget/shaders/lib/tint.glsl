@@ -11,8 +11,6 @@ const float kMostOfRed = 0.6;
 // own has faded.
 const float kTurned = 1.2;
 const float kFadedAhead = 0.5;
-// Round the photo's own sun the model turns more than beside it: what fills its place keeps the colour of that.
-const float kRoundSunKept = 0.5;
 // When a low sun has risen so much of the colours of its evening has.
 const float kEveningGone = 0.95;
 // What stood in its sky was haze and cloud, and is paler by day than clear air.
@@ -83,14 +81,13 @@ float GetTurned(vec3 ratio, vec3 color) {
 // fades as far as the model's own colour moves away: deep blue times yellow would be green. `relit` is
 // `sky` times `ratio`.
 vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacity, float cloud, vec3 sky_before,
-                     vec3 sky_now, float risen, float near) {
+                     vec3 sky_now, float risen) {
   vec3 now = before * ratio;
   vec3 turn = GetTurn(ratio, before);
   vec3 own = log(max(sky, vec3(1e-6)) / max(before, vec3(1e-6)));
   // What lies on the way may stay: blue in the red sky of a sunset, when the sun goes.
   float along = dot(own - dot(own, vec3(1.0 / 3.0)), turn) / max(length(turn), 1e-3);
   float faded = GetTurned(ratio, before) * mix(1.0, kFadedAhead, smoothstep(0.0, 1.0, along));
-  faded *= 1.0 - kRoundSunKept * near;
   float lost = (1.0 - opacity) * GetLostTint(sky_before, sky_now);
   faded = max(faded, lost);
   now += (1.0 - opacity) * (WithoutLostTint(sky_before, sky_now) * (GetLuminance(now) / GetLuminance(sky_now)) - now);
