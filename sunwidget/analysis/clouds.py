@@ -19,7 +19,7 @@ from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.overcast import believable, overcast
 from sunwidget.analysis.unmix import cloud_white, unmix
-from sunwidget.analysis.working import Working, saturation
+from sunwidget.analysis.working import LONG_SIDE, Working, saturation
 from sunwidget.camera import Camera
 from sunwidget.edit import parameter
 
@@ -33,6 +33,8 @@ MAXIMUM: float = parameter("cloud_ratio_max").default
 _DIFFERENCE_SCALE = 30 / 255 / (1 - MINIMUM)
 
 _REACH, _REACH_OF_SHADE = 0.015, 0.004  # longer sides: colours are stored coarser than light
+LARGEST_RADIUS = round(_REACH * LONG_SIDE)
+"""Most that ``smoothing_radius`` returns."""
 _NO_EDGE = 1e-3  # squared contrast of the encoded picture
 
 # Logistic regression on (red / blue, (B - R) / (B + R), saturation, blue), encoded values: bias

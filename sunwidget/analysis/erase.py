@@ -149,11 +149,11 @@ def before_land(
     land = smoothstep(0.9, 1.0, 1 - resize(sky, columns, rows))  # no skyline, which holds sky
     small = resize(working.linear, columns, rows)
     near, beyond = _parts(light, land)
-    level = np.maximum(_continued(small, beyond), 0)
-    brighter = np.log(small + LIGHT_FLOOR) - np.log(level + LIGHT_FLOOR)
+    plain = np.maximum(_continued(small, beyond), 0)
+    brighter = np.log(small + LIGHT_FLOOR) - np.log(plain + LIGHT_FLOOR)
     # An evening's glare is red: it is in the channel that has most of it that it shows.
     glare = np.maximum(np.minimum(-maps.clean * near[..., None], brighter), 0).max(-1)
-    level = np.log(level @ LUMINANCE + LIGHT_FLOOR)
+    level = np.log(plain @ LUMINANCE + LIGHT_FLOOR)
 
     size = working.width, working.height
     glare, level = (

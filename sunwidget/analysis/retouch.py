@@ -40,7 +40,8 @@ if TYPE_CHECKING:
     from sunwidget.edit import Stroke
 
 SIDE = 128  # working pixels of a tile
-MARGIN = 36  # around it: the guided filters see two radii, interpolation a pixel
+# Around it: the guided filters see two radii, interpolation a pixel.
+MARGIN = 2 * max(RADIUS, cloud_stage.LARGEST_RADIUS) + 4
 
 
 class _Tile(NamedTuple):

@@ -46,6 +46,7 @@ _ANALYSED_CLOUDS = {
 }
 
 _DEPTH_EDGE = 2048
+_SHADOW = 2.0**-7  # display-linear luminance below which a picture's key is no lower
 
 
 @dataclass(frozen=True, eq=False)
@@ -295,6 +296,7 @@ class Scene:
         small, sky = self.working, self.small_sky
         blot = 0.0 if self.sun is None else float(self.sun.blot.mean())
         share = float(sky.mean())
+        logs = np.log2(np.maximum(self.without_sun.working.luminance, _SHADOW))
         own = match.statistics_of_lab(small.lab, sky)
         found: dict[str, Any] = {
             "camera_right": self.camera.right,
@@ -305,8 +307,8 @@ class Scene:
             "photo_light": float(self.lit_by_moon),
             "water_roughness": self._water_roughness(),
             "sky_share": share,
-            "photo_key": _key(self.without_sun.working.luminance, np.ones_like(sky)),
-            "photo_sky_key": _key(self.without_sun.working.luminance, sky),
+            "photo_key": float(logs.mean()),
+            "photo_sky_key": float((logs * sky).sum() / max(float(sky.sum()), 1e-6)),
             "sun_mask_share": min(1.0, blot / max(share, 1 / sky.size)),
             "photo_sky_mean": own.mean,
             "photo_sky_deviation": own.deviation,
@@ -420,12 +422,6 @@ class Scene:
         if edit.fov_hint is not None:
             changes["fov"] = edit.fov_hint
         return dataclasses.replace(self.hints, **changes)
-
-
-def _key(luminance: np.ndarray, weight: np.ndarray) -> float:
-    """Return the weighted mean log2 of a display-linear luminance, black as a dark shadow."""
-    logs = np.log2(np.maximum(luminance, 2.0**-7))
-    return float((logs * weight).sum() / max(float(weight.sum()), 1e-6))
 
 
 def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:

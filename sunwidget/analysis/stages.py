@@ -138,12 +138,7 @@ def complete(
         camera = Camera(*photo.size, lens or camera.fov_vertical_deg)
 
     step("horizon", 0.8, "Fitting the horizon")
-    horizon = _horizon(working, sky, maps, hints, photo.width)
-    sure = seed is not None and horizon.confidence >= SURE_HORIZON
-    if blot is not None and hints.horizon is None and not sure:
-        x, y = seed or (blot.x, blot.y)
-        seen_at = (x * zoom_x, y * zoom_y, blot.radius * zoom_y)
-        horizon = horizon_stage.below_sun(horizon, *seen_at, photo.width)
+    horizon = _horizon(working, sky, maps, hints, photo.width, seed, blot)
     camera = Camera.from_horizon(
         *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll
     )
@@ -259,13 +254,28 @@ def erased_for(
     return unerased(working)._replace(on_land=before_land(working, maps, sky, through))
 
 
-def _horizon(working: Working, sky: np.ndarray, maps: SunMaps, hints: Hints, width: int) -> Horizon:
-    """Return the hinted or found horizon, in pixels of the photo."""
+def _horizon(
+    working: Working,
+    sky: np.ndarray,
+    maps: SunMaps,
+    hints: Hints,
+    width: int,
+    seed: Point | None,
+    blot: Blot | None,
+) -> Horizon:
+    """Return the hinted horizon, or the found one below the sun that is seen; in photo's pixels.
+
+    A sun that was pointed at (``seed``) says less than a horizon that is plain to see.
+    """
     if hints.horizon is not None:
         return horizon_stage.from_hint(hints.horizon, width)
     find = horizon_stage.METHODS[hints.method("horizon")]
     water = resize(maps.water, working.width, working.height)
-    return find(sky, working.encoded, water).scaled(*working.zoom)
+    found: Horizon = find(sky, working.encoded, water).scaled(*working.zoom)
+    if blot is None or (seed is not None and found.confidence >= SURE_HORIZON):
+        return found
+    (x, y), (zoom_x, zoom_y) = seed or (blot.x, blot.y), working.zoom
+    return horizon_stage.below_sun(found, x * zoom_x, y * zoom_y, blot.radius * zoom_y, width)
 
 
 def _water(

@@ -7,6 +7,7 @@
 #include "lib/matched_sky.glsl"
 #include "lib/daylight.glsl"
 #include "lib/cloud_light.glsl"
+#include "lib/nearness.glsl"
 #include "lib/response.glsl"
 
 uniform sampler2D layers;
@@ -74,7 +75,7 @@ void main() {
   for (int i = 0; i < kElsewhere; ++i) {
     for (int j = 0; j < kElsewhere; ++j) {
       vec2 tap = (vec2(i, j) + 0.5) / float(kElsewhere);
-      float far = 1.0 - GetNearness(GetViewDirection(tap), sun);
+      float far = 1.0 - GetNearness(dot(GetViewDirection(tap), sun));
       float weight = GetWeight(tap) * far * far;
       if (weight < 1e-4) continue;
       elsewhere += weight * GetOwn(tap, ambient, direct);

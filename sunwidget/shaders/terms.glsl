@@ -92,10 +92,15 @@ float GetNightStops(float meter) {
   return kNightKey * (1.0 - smoothstep(kNightBegins.y, kNightBegins.x, luminance));
 }
 
+// Stops by which one exceeds another, softly: 1 where they are alike.
+float GetExcess(float stops) {
+  return log2(1.0 + exp2(stops));
+}
+
 // How far the sky's bright side, log2 of display white, is over what a camera lets pass.
 float GetStopsTooBright(float level) {
   float over = level - log2(GetSceneLight(vec3(kBrightSky)).g);
-  return kProtection * log2(1.0 + exp2(over));
+  return kProtection * GetExcess(over);
 }
 
 float GetRisen() {
@@ -142,7 +147,7 @@ float GetLandLevel(int first, vec2 share) {
 
 // Log2 of how far land of this mean is over what is held back.
 float GetTooBright(float level) {
-  return log2(1.0 + exp2(2.0 * (level - kBrightLand))) / 2.0;
+  return GetExcess(2.0 * (level - kBrightLand)) / 2.0;
 }
 
 // Stops by which a camera lifts land that has become dark, and holds back what has become bright.
@@ -150,7 +155,7 @@ float GetLift() {
   vec4 share = texelFetch(land_terms, ivec2(16, 0), 0);
   float stops = auto_exposure * GetDayStops() + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
   stops *= GetRestraint();
-  float lift = kLift * (log2(1.0 + exp2(kDark - stops)) - log2(1.0 + exp2(kDark)));
+  float lift = kLift * (GetExcess(kDark - stops) - GetExcess(kDark));
   float level = log2(max(GetLuminance(photo_land_linear_mean), 1e-4));
   return auto_exposure * (lift - kHeldBack * (GetTooBright(level + stops) - GetTooBright(level))) - GetSkyLift();
 }

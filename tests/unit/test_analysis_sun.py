@@ -170,6 +170,13 @@ def test_a_sun_in_a_gap_of_the_skyline_keeps_its_sky():
     assert not sun.foot(sun.Blot(80, 50, 6.0, high), high).any()
 
 
+def test_a_sun_over_a_valley_keeps_the_sky_below_it():
+    rows, columns = np.mgrid[:200, :240] + 0.5
+    valley = np.float32(rows < 120 - 1.4 * np.abs(columns - 120))
+    disc = np.float32(np.hypot(columns - 120, rows - 55) < 8)
+    assert not sun.foot(sun.Blot(120, 55, 8.0, disc), valley).any()
+
+
 def test_among_trees_only_what_is_burnt_is_no_notch():
     trees = skyline(55, 55, notch=True)
     trees[:70, 28:38] = 1

@@ -14,13 +14,6 @@ const vec2 kTellsClouds = vec2(0.1, 0.25);
 // Share of the sun's light that is left on low clouds then: it has been scattered there.
 const float kAfterglow = 0.4;
 
-const float kRoundSun = 0.05;  // one less the cosine of 18 degrees
-
-// 1 at the sun, and hardly anything 40 degrees from it.
-float GetNearness(vec3 view, vec3 sun) {
-  return exp((dot(view, sun) - 1.0) / kRoundSun);
-}
-
 // How much of a cloud's opacity is believed when it is lit. Round a low sun colours tell no cloud from clear air, and
 // what changes like its air changes alike.
 float GetKnownOpacity(float opacity, vec3 sun_before) {

@@ -1,11 +1,12 @@
 // What photos of a low sun show beyond a clear sky's model: haze and clouds on the way redden its light, and
 // cameras are exposed for the bright part. Learned by training/skies/low_sun.py.
 
+#include "lib/nearness.glsl"
+
 // Log2 of colour, as bright, round the sun and far from it.
 const vec3 kRoundLowSun = vec3(0.42, -0.08, -1.21);
 const vec3 kFarFromLowSun = vec3(0.38, -0.12, -0.17);
 const float kDarker = 0.6;  // far from it, log2 of light; photos say 1
-const float kRoundLow = 0.05;  // one less the cosine of 18 degrees
 // The share of it that is taken: photos are of the finest evenings. Of clear sky, and of cloud.
 const float kFinest = 0.3;
 const float kFinestClouds = 0.8;
@@ -16,7 +17,7 @@ float GetLowness(vec3 sun) {
 }
 
 vec3 GetLowSunLight(float lowness, float cosine) {
-  return lowness * mix(kFarFromLowSun - kDarker, kRoundLowSun, exp((cosine - 1.0) / kRoundLow));
+  return lowness * mix(kFarFromLowSun - kDarker, kRoundLowSun, GetNearness(cosine));
 }
 
 // Factor for a sky in the direction of `view`. Of what a photo with a low sun has of it itself no more goes than

@@ -46,7 +46,8 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   float lift = max(log2(max(term[0].x * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
   float turned = GetTurned(ratio, before);
   float risen = GetRisen(term[9].rgb, GetDescribedSun());
-  float guessed = max(kLitColor * max(turned, risen), dark * lift * lift / (lift * lift + 4.0));
+  float another = max(turned, risen);  // how far its light is another
+  float guessed = max(kLitColor * another, dark * lift * lift / (lift * lift + 4.0));
   // A balance that the photo's light has bent is not that of another light.
   vec3 color = WithoutBalance(lit, max(kBalanceGone * turned, risen * GetEveningsBalance()));
   land += guessed * (color * (level / GetLuminance(color)) - land);
@@ -54,7 +55,7 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   vec3 usual = mix(color / GetLuminance(color), mean * ratio / max(GetLuminance(mean * ratio), 1e-9),
                    smoothstep(0.0, kDarkLand, GetLuminance(mean)));
   land += glare * (usual * (level / GetLuminance(usual)) - land);
-  land = mix(land, WithoutGlow(land, color), max(turned, risen));
+  land = mix(land, WithoutGlow(land, color), another);
   return land * exp2(-dark * lift * lift / (lift + 3.0));
 }
 
