@@ -1,0 +1,227 @@
+"""Batches: worlds photographed anew each time, and real photos with masks of sky and water."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Iterator
+from pathlib import Path
+
+import cv2
+import numpy as np
+import torch
+from torch import Tensor
+from torch.utils.data import IterableDataset
+
+from training.data import FOLDERS, barred, held_out, read_pair
+from training.land import photograph
+from training.suns.water import UNKNOWN, water_map
+from training.worlds import CLASSES
+
+Random = np.random.Generator
+Batch = dict[str, Tensor]
+
+SHAPES = ((2, 3), (2, 3), (3, 4), (1, 1), (3, 2), (4, 3), (3, 5))  # rows to columns
+_KEPT = 400  # worlds in memory
+_FEW_SUNS = 0.6  # chance that a low sun's picture is taken over a high one's: both matter
+
+
+def sizes(area: int) -> list[tuple[int, int]]:
+    """Return rows and columns of all shapes, multiples of 32, of about ``area`` pixels."""
+    found = []
+    for high, wide in SHAPES:
+        side = np.sqrt(area / (high * wide))
+        found.append((32 * max(3, round(high * side / 32)), 32 * max(3, round(wide * side / 32))))
+    return found
+
+
+class Worlds:
+    """The worlds of a folder, read when asked for; new files are found as they come."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._files: list[Path] = []
+        self._kept: OrderedDict[Path, dict[str, np.ndarray]] = OrderedDict()
+        self.look()
+
+    def look(self) -> int:
+        """Look for new files; return how many there are."""
+        self._files = sorted(self._folder.glob("*.npz"))
+        return len(self._files)
+
+    def __len__(self) -> int:
+        return len(self._files)
+
+    def __getitem__(self, index: int) -> dict[str, np.ndarray]:
+        path = self._files[index]
+        if path not in self._kept:
+            with np.load(path) as file:
+                self._kept[path] = dict(file)
+            if len(self._kept) > _KEPT:
+                self._kept.popitem(last=False)
+        return self._kept[path]
+
+
+def sample(world: dict[str, np.ndarray], rows: int, columns: int, random: Random) -> dict:
+    """Return one photo of a world with its truth, as arrays."""
+    sun = int(random.integers(len(world["light"])))
+    shape = world["depth"].shape
+    box = photograph.box(random, shape, rows, columns)
+    depth = world["depth"].astype(np.float32)
+    light = world["light"][sun].astype(np.float32)
+    light = photograph.with_air(light, depth, world["air"][sun] / world["scale"][sun], random)
+    light = photograph.glare(light, random)
+    image = photograph.develop(box.of(light, cv2.INTER_AREA), random)
+    sky = (world["matter"] == 0).astype(np.float32)
+    half = photograph.Box(
+        box.top, box.left, box.height, box.width, rows // 2, columns // 2, box.mirrored
+    )
+    solid = half.of(1 - sky, cv2.INTER_AREA)
+    matter = half.of(world["matter"], cv2.INTER_NEAREST)
+    normal = world["normal"].astype(np.float32) / 127
+    water = world["matter"] == 1
+    normal[water] = _up(world["camera"])
+    normal = half.of(normal, cv2.INTER_AREA)
+    if box.mirrored:
+        normal = normal * np.float32([-1, 1, 1])
+    normal /= np.maximum(np.linalg.norm(normal, axis=-1, keepdims=True), 1e-3)
+    level = half.of(np.where(np.isfinite(depth), depth, 0) * (1 - sky), cv2.INTER_AREA)
+    land = 1 - box.of(sky, cv2.INTER_AREA)
+    return {
+        "image": image.transpose(2, 0, 1),
+        "sky": box.of(sky, cv2.INTER_AREA)[None],
+        "sunlit": box.of(world["sunlit"][sun].astype(np.float32) / 255, cv2.INTER_AREA)[None],
+        "land": ((land > 0.95) * np.where(box.of(water.astype(np.float32)) > 0.5, 0.1, 1.0))[None],
+        "solid": (solid > 0.95)[None],
+        "normal": normal.transpose(2, 0, 1),
+        "depth": (level / np.maximum(solid, 0.5))[None],
+        "openness": half.of(world["openness"].astype(np.float32) / 255, cv2.INTER_AREA)[None],
+        "matter": matter,
+        "view": _view(world, sun, box),
+        **_others(world, random, box, half),
+    }
+
+
+def _others(
+    world: dict[str, np.ndarray], random: Random, box: photograph.Box, half: photograph.Box
+) -> dict[str, np.ndarray]:
+    """Return what of two of the world's suns, chosen by chance, reaches each place."""
+    suns, passed = [], []
+    for sun in random.permutation(len(world["light"]))[:2]:
+        azimuth, elevation, covered = (float(v) for v in world["suns"][sun])
+        known = float(not covered and elevation > 0)
+        suns.append((-azimuth if box.mirrored else azimuth, np.sin(elevation), known))
+        passed.append(half.of(world["sunlit"][sun].astype(np.float32) / 255, cv2.INTER_AREA)[None])
+    return {"suns": np.float32(suns), "passed": np.stack(passed)}
+
+
+def _up(camera: np.ndarray) -> np.ndarray:
+    """Return the world's up in the camera's right, up and towards it."""
+    _, pitch, roll, _ = camera
+    up, towards = np.cos(pitch), -np.sin(pitch)  # before the roll
+    return np.float32([np.sin(roll) * up, np.cos(roll) * up, towards])
+
+
+def _view(world: dict[str, np.ndarray], sun: int, box: photograph.Box) -> np.ndarray:
+    fov, pitch, roll, _ = (float(v) for v in world["camera"])
+    rows, columns = world["depth"].shape
+    focal = 0.5 * rows / np.tan(fov / 2)
+    # The horizon's row below the middle of the picture, turned with the roll about it.
+    middle = 0.5 * rows + focal * np.tan(pitch) * np.cos(roll) ** -1
+    aside = box.left + box.width / 2 - columns / 2
+    row = (middle + np.tan(roll) * aside - box.top) / box.height - 0.5
+    azimuth, elevation, covered = (float(v) for v in world["suns"][sun])
+    sign = -1 if box.mirrored else 1
+    flat = np.cos(elevation)
+    way = sign * flat * np.sin(azimuth), np.sin(elevation), flat * np.cos(azimuth)
+    shining = float(not covered and elevation > 0)
+    slope = sign * np.tan(roll)
+    return np.float32([row, slope, np.log2(focal / box.height), *way, shining])
+
+
+class WorldBatches(IterableDataset):
+    """Endless batches of worlds, each of one shape; ``__iter__`` yields dicts of tensors."""
+
+    def __init__(self, folder: Path, area: int, count: int, seed: int) -> None:
+        self._folder, self._area, self._count, self._seed = folder, area, count, seed
+
+    def __iter__(self) -> Iterator[Batch]:
+        cv2.setNumThreads(1)
+        random, worlds = np.random.default_rng(self._seed), Worlds(self._folder)
+        for number in range(10**9):
+            if number % 20 == 0:
+                worlds.look()
+            rows, columns = sizes(self._area)[random.integers(len(SHAPES))]
+            picked = random.integers(len(worlds), size=self._count)
+            items = [sample(worlds[i], rows, columns, random) for i in picked]
+            yield stack(items)
+
+
+def stack(items: list[dict]) -> Batch:
+    """Return samples as one batch; pictures stay uint8, the rest is float32 or int64."""
+    batch = {}
+    for key in items[0]:
+        values = np.stack([item[key] for item in items])
+        kind = {"image": np.uint8, "matter": np.int64}.get(key, np.float32)
+        batch[key] = torch.from_numpy(values.astype(kind))
+    return batch
+
+
+class PhotoBatches(IterableDataset):
+    """Endless batches of real photos: ``image``, ``sky``, ``water`` (N, 1, H, W), 128 unknown."""
+
+    def __init__(self, root: Path, area: int, count: int, seed: int) -> None:
+        self._root, self._area, self._count, self._seed = root, area, count, seed
+
+    def __iter__(self) -> Iterator[Batch]:
+        cv2.setNumThreads(1)
+        random = np.random.default_rng(self._seed)
+        pairs = photos(self._root)
+        weights = np.array([FOLDERS[folder] for folder, *_ in pairs])
+        weights /= weights.sum()
+        while True:
+            rows, columns = sizes(self._area)[random.integers(len(SHAPES))]
+            picked = random.choice(len(pairs), self._count, p=weights)
+            yield stack([_photo(*pairs[i], rows, columns, random) for i in picked])
+
+
+def photos(root: Path, *, held: bool = False) -> list[tuple[str, Path, Path]]:
+    """Return folder, picture and mask of all photos to learn from (or of the held-out ones)."""
+    found = []
+    for folder in FOLDERS:
+        names = barred(root / folder)
+        for image in sorted((root / folder / "images").glob("*.jpg")):
+            mask = root / folder / "masks" / f"{image.stem}.png"
+            if image.name not in names and mask.exists() and held_out(folder, image.stem) == held:
+                found.append((folder, image, mask))
+    return found
+
+
+def _photo(
+    folder: str, image: Path, mask: Path, rows: int, columns: int, random: Random
+) -> dict[str, np.ndarray]:
+    pair = read_pair(image, mask)
+    box = photograph.box(random, pair.shape[:2], rows, columns)
+    sky = pair[..., 3]
+    water = water_map(f"{folder}/{image.name}", sky)
+    picture = box.of(pair[..., :3], cv2.INTER_AREA)
+    if random.random() < 0.5:
+        gain = np.exp(random.normal(0, 0.12, 3) + random.normal(0, 0.25))
+        picture = np.clip(picture * gain, 0, 255).astype(np.uint8)
+    return {
+        "image": picture.transpose(2, 0, 1),
+        "sky": box.of(sky, cv2.INTER_NEAREST)[None],
+        "water": box.of(water, cv2.INTER_NEAREST)[None],
+    }
+
+
+WATER = CLASSES.index("water")
+__all__ = [
+    "UNKNOWN",
+    "WATER",
+    "PhotoBatches",
+    "WorldBatches",
+    "Worlds",
+    "photos",
+    "sample",
+    "stack",
+]

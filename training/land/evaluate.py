@@ -1,0 +1,95 @@
+"""How well the network sees worlds of families that it never saw.
+
+``python -m training.land.evaluate --worlds …`` runs the ONNX file that ships. Every world is
+photographed twice by a seed.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+import onnxruntime
+
+from training.land.data import WATER, Worlds, sample
+from training.land.export import AREA, OUT
+
+
+def _size(shape: tuple[int, int], area: int) -> tuple[int, int]:
+    scale = (area / (shape[0] * shape[1])) ** 0.5
+    rows, columns = (max(2, round(side * scale / 32)) * 32 for side in shape)
+    return rows, columns
+
+
+def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) -> dict[str, float]:
+    """Return the figures of quality over all worlds of a folder."""
+    random = np.random.default_rng(7)
+    names = [output.name for output in session.get_outputs()]
+    lit, wet, sky = np.zeros(2), np.zeros(2), np.zeros(2)
+    rows: dict[str, list[float]] = {}
+    for world in (worlds[i] for i in range(len(worlds)) for _ in range(2)):
+        truth = sample(world, *_size(world["depth"].shape, area), random)
+        image = (truth["image"][None] / 255).astype(np.float32)
+        found = dict(zip(names, (x[0] for x in session.run(None, {"image": image})), strict=True))
+        land = truth["land"][0] > 0.5
+        if truth["view"][6] > 0:
+            lit += _overlap(found["sunlit"][0] > 0.5, truth["sunlit"][0] > 0.5, land)
+        sky += _overlap(found["sky"][0] > 0.5, truth["sky"][0] > 0.5, np.ones_like(land))
+        wet += _overlap(found["matter"].argmax(0) == WATER, truth["matter"] == WATER, True)
+        solid = truth["solid"][0] & (truth["matter"] != WATER)
+        if solid.sum() < 200:
+            continue
+        cosine = (found["normal"] * truth["normal"]).sum(0)[solid]
+        level = (found["depth"] - truth["depth"])[0][solid]
+        level = level - np.median(level)
+        view = found["view"]
+        way = view[3:6] / np.linalg.norm(view[3:6])
+        one = {
+            "normal, median degrees": float(
+                np.degrees(np.arccos(np.clip(np.median(cosine), -1, 1)))
+            ),
+            "depth within 25 %": float((np.abs(level) < np.log2(1.25)).mean()),
+            "openness, mean error": float(
+                np.abs(found["openness"] - truth["openness"])[0][solid].mean()
+            ),
+            "matter right": float((found["matter"].argmax(0) == truth["matter"])[solid].mean()),
+            "horizon, rows of 1": float(abs(view[0] - truth["view"][0])),
+            "focal length, log2": float(abs(view[2] - truth["view"][2])),
+            "sunshine right": float((view[6] > 0) == (truth["view"][6] > 0)),
+        }
+        if truth["view"][6] > 0:
+            angle = np.arccos(np.clip(way @ truth["view"][3:6], -1, 1))
+            one["sun, degrees"] = float(np.degrees(angle))
+        for name, value in one.items():
+            rows.setdefault(name, []).append(value)
+    figures = {
+        name: float(np.median(v) if "right" not in name and "within" not in name else np.mean(v))
+        for name, v in rows.items()
+    }
+    figures |= {
+        "sunlit, IoU": lit[0] / lit[1],
+        "water, IoU": wet[0] / max(wet[1], 1),
+        "sky, IoU": sky[0] / sky[1],
+    }
+    return figures
+
+
+def _overlap(found: np.ndarray, truth: np.ndarray, where: np.ndarray | bool) -> np.ndarray:
+    """Return the sizes of intersection and union."""
+    return np.array([(found & truth & where).sum(), ((found | truth) & where).sum()], float)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--worlds", type=Path, required=True)
+    parser.add_argument("--network", type=Path, default=OUT)
+    parser.add_argument("--area", type=int, default=AREA)
+    options = parser.parse_args()
+    session = onnxruntime.InferenceSession(options.network, providers=["CPUExecutionProvider"])
+    for name, value in measure(session, Worlds(options.worlds), options.area).items():
+        print(f"{name:26} {value:.3f}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,203 @@
+"""Trains LandNet for a given wall-clock time on a CPU, on worlds and real photos together.
+
+``python -m training.land.train --worlds build/worlds --data ../shared/data/train --minutes 60
+--out build/land``
+
+Begins from the shipped sky network (or, with ``--start``, another checkpoint); running it again
+with the same ``--out`` resumes. The learning rate follows elapsed time. Worlds that are made
+meanwhile are learned from as they come. What is exported is a moving average of the weights.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import torch
+import torch.nn.functional as F
+from torch import Tensor
+from torch.utils.data import DataLoader, IterableDataset
+
+from training.data import typical
+from training.land.data import UNKNOWN, WATER, Batch, PhotoBatches, WorldBatches
+from training.land.model import LandNet, losses
+from training.model import SkyNet
+from training.restore import restore
+from training.train import Average, optimiser, prepare, rate, save
+
+SKY = Path("sunwidget/analysis/models/sky.onnx")
+AREAS = ((0.0, 40_000, 10), (0.55, 62_000, 7), (0.85, 92_000, 5))
+"""From which share of the time on: pixels of a picture, pictures of a batch of either kind."""
+PEAK_RATE = 1.2e-3
+PHOTOS_EVERY = 3  # steps: worlds have more to tell, and the trunk knows photos
+TEACHES_FROM = 250  # steps, from which on the moving average is worth listening to
+SAVE_SECONDS = 240
+
+
+def photo_losses(out: dict[str, Tensor], batch: Batch) -> dict[str, Tensor]:
+    """Return the losses of a batch of real photos: what is sky, and what is water."""
+    sky, water = batch["sky"], batch["water"]
+    known = (sky != UNKNOWN).float()
+    entropy = F.binary_cross_entropy_with_logits(out["sky"], sky / 255, reduction="none")
+    small_sky = F.avg_pool2d(sky / 255, 2)
+    sure = (F.avg_pool2d(known, 2) > 0.99) * ((small_sky < 0.02) | (small_sky > 0.98))
+    matter = out["matter"].log_softmax(1)
+    clear, rest = matter[:, :1], _log_rest(matter, 0)
+    kind = -torch.where(small_sky > 0.5, clear, rest) * sure
+    wet = F.max_pool2d(water, 2)
+    told = ((wet == 255) & (-F.max_pool2d(-water, 2) == 255)) | (wet == 0)
+    lake = -torch.where(wet == 255, matter[:, WATER : WATER + 1], _log_rest(matter, WATER)) * told
+    return {
+        "sky": (entropy * known).sum() / known.sum().clamp(min=1),
+        "matter": 0.5 * kind.sum() / sure.sum().clamp(min=1),
+        "water": 0.7 * lake.sum() / told.sum().clamp(min=1),
+    }
+
+
+def _log_rest(matter: Tensor, index: int) -> Tensor:
+    """Return the log of what is left beside one class of log shares (N, C, h, w)."""
+    others = torch.cat([matter[:, :index], matter[:, index + 1 :]], 1)
+    return others.logsumexp(1, keepdim=True)
+
+
+def consistency(student: dict[str, Tensor], teacher: dict[str, Tensor]) -> Tensor:
+    """Return how unlike two views of the same photos are; ``teacher`` saw them mirrored."""
+    back = {k: v.flip(3) for k, v in teacher.items() if v.ndim == 4}
+    back["normal"] = back["normal"] * torch.tensor([-1.0, 1, 1]).view(1, 3, 1, 1)
+    solid = 1 - back["matter"].softmax(1)[:, :1]
+    level = (student["depth"] - back["depth"]) * solid
+    level = level - level.sum((1, 2, 3), keepdim=True) / solid.sum((1, 2, 3), keepdim=True).clamp(
+        min=1
+    )
+    lit = F.binary_cross_entropy_with_logits(student["sunlit"], back["sunlit"].sigmoid())
+    normal = (1 - (student["normal"] * back["normal"]).sum(1, keepdim=True)) * solid
+    share = (student["openness"].sigmoid() - back["openness"].sigmoid()).abs() * solid
+    return lit + normal.mean() + 0.2 * (level.abs() * solid).mean() + share.mean()
+
+
+def loader(dataset: IterableDataset) -> Iterator[Batch]:
+    """Return batches that another process makes."""
+    return iter(
+        DataLoader(
+            dataset,
+            batch_size=None,
+            num_workers=1,
+            prefetch_factor=4,
+            multiprocessing_context="spawn",
+        )
+    )
+
+
+class Training:
+    """One run: network, moving average, optimiser and clock."""
+
+    def __init__(self, options: argparse.Namespace) -> None:
+        self.options = options
+        self.network = LandNet().to(memory_format=torch.channels_last)
+        self.optimise = optimiser(self.network)
+        self.average, self.teacher = Average(self.network, 0.997), LandNet().eval()
+        self.spent, self.step = 0.0, 0
+        self.sums: dict[str, float] = {}
+        self.checkpoint = options.out / "last.pt"
+        if self.checkpoint.exists():
+            self._resume(self.checkpoint)
+        elif options.start is not None:
+            state = torch.load(options.start, weights_only=True)["average"]
+            self.network.load_state_dict(state, strict=False)  # heads that it lacks begin anew
+        else:
+            trunk = SkyNet()
+            restore(trunk, SKY, typical(options.data, options.cache, 192, 96))
+            self.network.load_state_dict(trunk.state_dict(), strict=False)
+        if not self.checkpoint.exists():
+            self.average = Average(self.network, 0.997)
+
+    def _resume(self, path: Path) -> None:
+        state = torch.load(path, weights_only=True)
+        self.network.load_state_dict(state["network"])
+        self.optimise.load_state_dict(state["optimiser"])
+        self.average.state, self.average.steps = state["average"], state["step"]
+        self.spent, self.step = state["spent"], state["step"]
+
+    def run(self) -> None:
+        whole = self.options.minutes * 60
+        for i, (_, area, count) in enumerate(AREAS):
+            end = AREAS[i + 1][0] if i + 1 < len(AREAS) else 1.0
+            if self.spent < end * whole:
+                self._stage(area, count, end * whole, whole)
+        self._save()
+
+    def _stage(self, area: int, count: int, until: float, whole: float) -> None:
+        seed = self.step + 1
+        worlds = loader(WorldBatches(self.options.worlds, area, count, seed))
+        photos = loader(PhotoBatches(self.options.data, area, count, seed))
+        saved = clock = time.monotonic()
+        while self.spent < until:
+            self._learn(next(worlds), photos, rate(self.spent / whole, PEAK_RATE))
+            now = time.monotonic()
+            self.spent, clock = self.spent + now - clock, now
+            if now - saved > SAVE_SECONDS:
+                self._save()
+                saved = now
+
+    def _learn(self, world: Batch, photos: Iterator[Batch], speed: float) -> None:
+        for group in self.optimise.param_groups:
+            group["lr"] = speed
+        self.network.train()
+        self.optimise.zero_grad()
+        found = losses(self.network.maps(prepare(world["image"])), world)
+        sum(found.values()).backward()
+        self._count("", found)
+        if self.step % PHOTOS_EVERY == 0:
+            self._learn_from_photos(next(photos))
+        torch.nn.utils.clip_grad_norm_(self.network.parameters(), 5.0)
+        self.optimise.step()
+        self.average.update(self.network)
+        self.step += 1
+
+    def _learn_from_photos(self, photo: Batch) -> None:
+        image = prepare(photo["image"])
+        out = self.network.maps(image)
+        found = photo_losses(out, photo)
+        if self.step > TEACHES_FROM:
+            self.teacher.load_state_dict(self.average.state)
+            with torch.no_grad():
+                seen = self.teacher.maps(image.flip(3))
+            found["alike"] = consistency(out, seen)
+        sum(found.values()).backward()
+        self._count("photo_", found)
+
+    def _count(self, prefix: str, found: dict[str, Tensor]) -> None:
+        for name, value in found.items():
+            key = prefix + name
+            self.sums[key] = 0.98 * self.sums.get(key, value.item()) + 0.02 * value.item()
+
+    def _save(self) -> None:
+        state = {"network": self.network.state_dict(), "optimiser": self.optimise.state_dict()}
+        state |= {"average": self.average.state, "spent": self.spent, "step": self.step}
+        save(self.checkpoint, **state)
+        line = {k: round(v, 3) for k, v in self.sums.items()}
+        print(f"{self.spent / 60:.1f} min, step {self.step}: {json.dumps(line)}", flush=True)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--worlds", type=Path, required=True)
+    parser.add_argument("--data", type=Path, required=True)
+    parser.add_argument("--cache", type=Path, default=Path("build/pack"))
+    parser.add_argument("--minutes", type=float, default=60)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--start", type=Path)
+    parser.add_argument("--threads", type=int, default=1)
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    options.cache.mkdir(parents=True, exist_ok=True)
+    torch.set_num_threads(options.threads)
+    torch.manual_seed(1)
+    Training(options).run()
+
+
+if __name__ == "__main__":
+    main()
