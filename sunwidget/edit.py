@@ -252,11 +252,11 @@ class Edit:
         "How much colour the land loses when the sun's disc is hidden (thesis eq. 3.8).")
     colour_loss: str = _choice("luminance", COLOUR_LOSSES, "Colour loss by", "land",
         "luminance, which it keeps, or power, as in eq. 3.8 of the thesis.", advanced=True)
-    shading: float = _number(0.7, (0, 1), 0.01, "", "Shading", "land",
+    shading: float = _number(1.0, (0, 1), 0.01, "", "Shading", "land",
         "How far the light follows the slope of the land; 0 is exactly off.")
     gloss: float = _number(1.0, (0, 1), 0.01, "", "Gleam", "land",
         "How far rough ground gleams towards the sun; 0 is exactly off.")
-    cast_shadows: float = _number(0.5, (0, 1), 0.01, "", "Cast shadows", "land",
+    cast_shadows: float = _number(1.0, (0, 1), 0.01, "", "Cast shadows", "land",
         "How far shadows in the land leave the old sun and follow the new one; 0 is exactly off.")
     cloud_shadows: float = _number(0.5, (0, 1), 0.01, "", "Cloud shadows", "land",
         "How far the clouds' shadows on the land follow the sun; 0 is exactly off.")

@@ -73,7 +73,7 @@ def in_kernel(photo: Path, what: str) -> Rows:
     for name, seconds in scene.timings.items():
         yield Row(f"analyse: {name}", f"    {name}", seconds, "s")
     state = widget_state(sw.SunEditor(scene).wait())
-    for name in ("_photo", "_layers", "_surface", "_backdrop", "_clear_sky"):
+    for name in ("_photo", "_layers", "_surface", "_backdrop", "_clear_sky", "_relief", "_rise"):
         size = len(state[name]) * 3 / 4 / 1e6
         yield Row(f"message {name}", f"  kernel → page: {name[1:]}", size, "MB")
 

@@ -113,6 +113,7 @@ class FixedCamera:
             scene,
             response=response,
             known_depth=_depth_as_it_is(scene),
+            known_land=scene.land,
             unstroked=None,
             memory=Memory(),
         )

@@ -31,6 +31,7 @@ Scale = tuple[Any, Any]  # mean and deviation, each a number or three
 INSTEAD = {
     "sky": "sky=mask, the path of an .onnx file, or sky='skyline'",
     "sun": "sun=(x, y)",
+    "land": "nothing else yet: the picture is not lit anew without it",
     "depth": "depth=an array of metres, the path of an .onnx file, or depth='fused'",
 }
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis import depth_level, match, refine
+from sunwidget.analysis import depth_level, match, refine, relief
 from sunwidget.analysis.camera_glare import glare_profile
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
@@ -22,6 +22,7 @@ from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.glitter import column_of, glitter, roughness
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
+from sunwidget.analysis.land_network import LandMaps, look_at_land
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.noise import noise_level
 from sunwidget.analysis.retouch import stroked
@@ -94,6 +95,8 @@ class Scene:
         The small photo without its sun; None before it was looked for.
     known_depth : DepthField or None
         The depth of the same view, found on other pictures of it (analysis/fixed_camera.py).
+    known_land : LandMaps or None
+        How the land of the same view lies, alike.
     """
 
     photo: Photo = field(repr=False)
@@ -123,6 +126,7 @@ class Scene:
     unstroked: Scene | None = field(default=None, repr=False)
     erased: Erased | None = field(default=None, repr=False)
     known_depth: DepthField | None = field(default=None, repr=False)
+    known_land: LandMaps | None = field(default=None, repr=False)
     memory: Memory = field(default_factory=Memory, repr=False)
 
     @property
@@ -184,6 +188,35 @@ class Scene:
     def sureness(self) -> np.ndarray:
         """How sure it is that each pixel is sky or is land: (H, W) float32 in (0, 1]."""
         return resize(self.decision.sureness, self.width, self.height)
+
+    @cached_property
+    def land(self) -> LandMaps:
+        """What the network sees of the land; asked when it is first needed."""
+        maps = look_at_land(self.working)
+        if self.known_land is not None:
+            # The network sees whether the sun shines; how the land lies is known better.
+            maps = self.known_land._replace(sunlit=maps.sunlit, view=maps.view)
+        return relief.on_land(maps, self.small_sky)
+
+    @property
+    def relief(self) -> np.ndarray:
+        """How the land lies and what light reaches it, (h, w, 4) float32 (analysis/relief.py)."""
+        told = None
+        if self.hints.depth is not None:
+            size = self.working.width, self.working.height
+            told = relief.normals(self.depth_field.log_metres(*size, self.working), self.camera)
+        return relief.encoded(self.land, self.working, told)
+
+    @cached_property
+    def rise(self) -> np.ndarray:
+        """From which height on a sun reaches places on land, (2 h, w, 4) float32 (relief.py).
+
+        Of a depth that somebody told nothing is expected: it tells what hides a sun.
+        """
+        maps = self.land
+        if self.hints.depth is not None:
+            maps = maps._replace(rise=np.full_like(maps.rise, -np.inf))
+        return relief.encoded_rise(maps)
 
     @cached_property
     def depth(self) -> np.ndarray:

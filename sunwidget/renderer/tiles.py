@@ -107,6 +107,8 @@ def scene_textures(scene: Scene, size: Size) -> dict[str, Array]:
         **_picture(scene, size),
         "backdrop": quantise_map(scene.backdrop),
         "clear_sky": quantise_map(clear_sky(scene)),
+        "relief": quantise_map(scene.relief),
+        "rise": quantise_map(scene.rise),
     }
 
 

@@ -3,16 +3,18 @@
 //
 // Land: a march through the log-depth from a point towards the sun, in steps even in the picture at
 // first and even in log-depth later (after McGuire & Mara, "Efficient GPU Screen-Space Ray
-// Tracing", JCGT 2014). Only ratios of
+// Tracing", JCGT 2014), and no more than the photo lets expect (lib/rise.glsl). Only ratios of
 // depths matter, so the unknown scale of the depth does not. What hides the sun counts softly, the
 // more so the farther along the ray it stands: a penumbra, and no jump when the sun moves.
 // Clouds: where the ray leaves through the clouds' layer is seen from the camera elsewhere in the sky.
 
 #include "lib/picture.glsl"
 #include "lib/land_depth.glsl"
+#include "lib/rise.glsl"
 #include "lib/sky.glsl"
 
 uniform sampler2D openness;
+uniform sampler2D veil_opacity;
 uniform sampler2D land_depth;
 uniform float sun_azimuth;
 uniform float sun_elevation;
@@ -85,7 +87,8 @@ float GetCloudHiding(vec3 position, vec3 sun) {
   vec3 seen = GetPlaceOfDirection(leaves);
   vec2 outside = max(-seen.xy, seen.xy - 1.0);
   float inside = step(0.0, seen.z) * (1.0 - smoothstep(-0.05, 0.1, max(outside.x, outside.y)));
-  return kCloudShade * inside * ReadBilinear(openness, seen.xy).b;
+  float veil = texelFetch(veil_opacity, ivec2(0), 0).r;
+  return kCloudShade * inside * max(ReadBilinear(openness, seen.xy).b - veil, 0.0) / max(1.0 - veil, 0.1);
 }
 
 void main() {
@@ -95,5 +98,5 @@ void main() {
   float hidden = GetLandHiding(place, level, GetCameraDirection(sun));
   vec3 view = GetViewDirection(place);
   float along = exp2(16.0 * level) / max(dot(view, vec3(camera_right.z, camera_up.z, camera_forward.z)), 0.1);
-  result = vec4(1.0 - hidden, 1.0 - GetCloudHiding(along * view, sun), 0.0, 1.0);
+  result = vec4(min(1.0 - hidden, GetExpectedSun(place, sun)), 1.0 - GetCloudHiding(along * view, sun), 0.0, 1.0);
 }

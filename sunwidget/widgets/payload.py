@@ -103,7 +103,15 @@ def encode_maps(scene: Scene) -> dict[str, bytes]:
         layers, surface = pool.map(encoded, (scene.layers, scene.surface))
     backdrop = encode_png(quantise_map(scene.backdrop))
     behind = encode_png(quantise_map(clear_sky(scene)))
-    return {"_layers": layers, "_surface": surface, "_backdrop": backdrop, "_clear_sky": behind}
+    relief = encode_png(quantise_map(scene.relief))
+    return {
+        "_layers": layers,
+        "_surface": surface,
+        "_backdrop": backdrop,
+        "_clear_sky": behind,
+        "_relief": relief,
+        "_rise": encode_png(quantise_map(scene.rise)),
+    }
 
 
 def encode_map(scene: Scene, name: str) -> bytes:

@@ -97,8 +97,11 @@ def test_a_lower_sun_never_lights_the_land_of_a_photo_more(scene):
         return
     levels, openings = [], []
     for elevation in (40, 12, 1, -5):
-        # The camera's glare lies before the land, and a low sun is near it.
-        edit = Edit(sun_elevation=elevation, auto_exposure=0, glow=0)
+        # Glare and air lie before the land, and a low sun is near them; slopes that face it gain by it,
+        # and so may land that comes out of a shadow.
+        before = ("glow", "aerial_perspective", "light_shafts", "shading")
+        off = dict.fromkeys(("auto_exposure", *before, "cast_shadows", "cloud_shadows"), 0)
+        edit = Edit(sun_elevation=elevation, **off)
         levels.append((render(scene, edit, dtype="float32")[land] @ LUMINANCE).mean())
         openings.append(render_pass(scene, edit, "visibility_edit")[0, 0, 0])
     # A sun that comes out from behind a cloud as it sinks may well light the land more.

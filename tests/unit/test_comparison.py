@@ -67,7 +67,8 @@ def test_recipes_that_correct_the_photo_alike_share_their_maps(scene):
     cameras = [row["scene"]["camera"] for row in compare._scenes]
     assert len(cameras) == 2
     assert cameras[0] != cameras[1]
-    assert set(compare._scenes[0]) == {"scene", "_layers", "_surface", "_backdrop", "_clear_sky"}
+    maps = {"_layers", "_surface", "_backdrop", "_clear_sky", "_relief", "_rise"}
+    assert set(compare._scenes[0]) == {"scene", *maps}
 
 
 def test_a_photo_that_is_analysed_already_is_not_analysed_again(monkeypatch):

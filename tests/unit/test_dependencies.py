@@ -9,7 +9,14 @@ import tomllib
 import pytest
 
 # Import names that a distribution does not tell by itself.
-TOLD_HERE = {"OpenEXR": "openexr", "torch": "torch", "onnx": "onnx", "atheris": "atheris"}
+TOLD_HERE = {
+    "OpenEXR": "openexr",
+    "torch": "torch",
+    "onnx": "onnx",
+    "atheris": "atheris",
+    "bpy": "bpy",
+    "mathutils": "bpy",
+}
 
 # What works without being imported by us, and where it is asked for.
 ASKED_FOR_OTHERWISE = {

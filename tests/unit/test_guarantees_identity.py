@@ -173,8 +173,8 @@ SHOWN = {
 }
 
 
-# A bare plain under small clouds shades nothing and mirrors nothing.
-ON_COAST = {"cast_shadows", "cloud_shadows", "water_strength", "glitter"}
+# A bare plain under small clouds shades nothing, mirrors nothing and has no light to lose.
+ON_COAST = {"cast_shadows", "cloud_shadows", "colourfulness", "water_strength", "glitter"}
 
 
 @pytest.mark.parametrize("parameter", NUMBERS, ids=lambda p: p.name)

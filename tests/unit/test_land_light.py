@@ -51,17 +51,17 @@ def places(test):
 
 
 def test_normals_of_a_plain_and_of_a_wall():
-    shape = maps(Edit(), "land_shape")
-    ground = places(lambda z, y, x: (z < 12) & (y < 0.95) & (x > 0.05) & (x < 0.95))
-    wall = places(lambda z, y, x: (z == WALL) & (x > 0.65) & (x < 0.95) & (y < 0.68) & (y > 0.6))
-    assert ground.sum() > 50
-    assert wall.sum() > 5
-    sure = np.linalg.norm(shape[..., :3], axis=-1)
-    assert np.median(sure[ground]) > 0.6
-    assert np.median(sure[wall]) > 0.6
-    normal = shape[..., :3] / np.maximum(sure, 1e-6)[..., None]
-    assert np.median(normal[ground][:, 1]) > 0.95
-    assert np.median(-normal[wall][:, 2]) > 0.95
+    scene, depth = street()
+    slope = 2 * scene.relief[..., :2] - 1
+    rows, columns = ((np.arange(n) + 0.5) / n for n in depth.shape)
+    y, x = np.meshgrid(rows, columns, indexing="ij")
+    ground = (depth < 12) & (y < 0.95) & (x > 0.05) & (x < 0.95)
+    wall = (depth == WALL) & (x > 0.65) & (x < 0.95) & (y < 0.68) & (y > 0.6)
+    assert ground.sum() > 500
+    assert wall.sum() > 50
+    camera = scene.camera
+    assert np.median(slope[ground], 0) == pytest.approx((camera.up[0], -camera.up[1]), abs=0.05)
+    assert np.median(slope[wall], 0) == pytest.approx((0, 0), abs=0.15)
 
 
 def test_the_wall_shades_the_plain_on_its_side_of_the_sun_and_no_other():
@@ -78,7 +78,7 @@ def test_land_that_leaves_the_old_shadow_brightens_and_loses_its_blue():
     # The photo's own sun, at 14 degrees, stands behind the wall.
     moved = Edit(sun_azimuth=12, sun_elevation=60, gloss=0)
     cast, even = (
-        maps(moved.replace(cast_shadows=value), "land_light")[behind_the_wall()][:, :3].mean(0)
+        maps(moved.replace(cast_shadows=value), "land_shade")[behind_the_wall()][:, :3].mean(0)
         for value in (1, 0)
     )
     assert cast @ LUMINANCE > 1.3 * (even @ LUMINANCE)
@@ -99,16 +99,16 @@ def test_a_slope_towards_the_sun_gains_by_shading():
     moved = Edit(sun_azimuth=175, sun_elevation=10, gloss=0, cast_shadows=0)
     wall = places(lambda z, y, x: (z == WALL) & (x > 0.65) & (x < 0.95) & (y > 0.68))
     assert wall.any()
-    slanted = (maps(moved, "land_light")[wall][:, :3] @ LUMINANCE).mean()
-    lying = (maps(moved.replace(shading=0), "land_light")[wall][:, :3] @ LUMINANCE).mean()
+    slanted = (maps(moved, "land_shade")[wall][:, :3] @ LUMINANCE).mean()
+    lying = (maps(moved.replace(shading=0), "land_shade")[wall][:, :3] @ LUMINANCE).mean()
     assert slanted > 1.1 * lying
 
 
 def test_ground_gleams_below_the_sun():
     moved = Edit(sun_azimuth=-18, sun_elevation=6, cast_shadows=0)
-    row = maps(moved, "land_light")[-8, :, :3] @ LUMINANCE
+    row = maps(moved, "land_shade")[-8, :, :3] @ LUMINANCE
     left, right = row[:8].mean(), row[-8:].mean()
-    dull = maps(moved.replace(gloss=0), "land_light")[-8, :, :3] @ LUMINANCE
+    dull = maps(moved.replace(gloss=0), "land_shade")[-8, :, :3] @ LUMINANCE
     assert left > 1.2 * right
     assert dull[:8].mean() < 1.1 * dull[-8:].mean()
 

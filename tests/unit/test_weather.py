@@ -156,7 +156,7 @@ def test_a_picture_without_sky_changes_as_one():
     photo = known_photo()
     scene = photo.analyze(sky=np.zeros_like(photo.sky), sun=None)
     land = photo.sky == 0
-    before, now = rendered(scene, Edit()), rendered(scene, LOW)
+    before, now = rendered(scene, Edit()), rendered(scene, DUSK)
     ratio = np.log2(now[land] / before[land])
     assert (ratio.std(0) < 0.05).all()
     assert np.abs(ratio.mean(0)).max() > 0.2
