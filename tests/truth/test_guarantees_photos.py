@@ -97,8 +97,8 @@ def test_a_lower_sun_never_lights_the_land_of_a_photo_more(scene):
         return
     levels, openings = [], []
     for elevation in (40, 12, 1, -5):
-        # Glare and air lie before the land, and a low sun is near them; slopes that face it gain by it,
-        # and so may land that comes out of a shadow.
+        # Glare and air lie before the land, and a low sun is near them; slopes that face it gain by
+        # it, and so may land that comes out of a shadow.
         before = ("glow", "aerial_perspective", "light_shafts", "shading")
         off = dict.fromkeys(("auto_exposure", *before, "cast_shadows", "cloud_shadows"), 0)
         edit = Edit(sun_elevation=elevation, **off)

@@ -3,9 +3,10 @@
 ``python -m training.land.train --worlds build/worlds --data ../shared/data/train --minutes 60
 --out build/land``
 
-Begins from the shipped sky network (or, with ``--start``, another checkpoint); running it again
-with the same ``--out`` resumes. The learning rate follows elapsed time. Worlds that are made
-meanwhile are learned from as they come. What is exported is a moving average of the weights.
+Begins from the shipped sky network (or, with ``--start``, a checkpoint or ``land.onnx`` itself);
+running it again with the same ``--out`` resumes. The learning rate follows elapsed time. Worlds
+that are made meanwhile are learned from as they come. What is exported is a moving average of the
+weights.
 """
 
 from __future__ import annotations
@@ -104,6 +105,8 @@ class Training:
         self.checkpoint = options.out / "last.pt"
         if self.checkpoint.exists():
             self._resume(self.checkpoint)
+        elif options.start is not None and options.start.suffix == ".onnx":
+            restore(self.network, options.start, typical(options.data, options.cache, 192, 96))
         elif options.start is not None:
             state = torch.load(options.start, weights_only=True)["average"]
             self.network.load_state_dict(state, strict=False)  # heads that it lacks begin anew
