@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.onnx_file import session
+from sunwidget.analysis.onnx_file import bundled_session
 from sunwidget.analysis.working import Working, resize
 
 BUNDLED = Path(__file__).parent / "models" / "land.onnx"
 AREA = 92_000  # pixels of the picture that the network sees
-MATTER = ("sky", "water", "vegetation", "ground", "rock", "snow", "building", "object")
-"""What a pixel may show, in the order of ``LandMaps.matter``."""
 _STRIDE = 32
 
 
 class LandMaps(NamedTuple):
-    """What the network says; all but ``sunlit`` at half of the size at which it sees the photo.
+    """What is used of its answers; all but ``sunlit`` at half of the size that the network sees.
 
     Parameters
     ----------
@@ -29,28 +25,17 @@ class LandMaps(NamedTuple):
         Share of the sun's disc that the surface sees, [0, 1]; 0 without sunshine.
     normal : (h/2, w/2, 3) float32
         Unit normals: to the camera's right, up, and towards it.
-    log_depth : (h/2, w/2) float32
-        ln(metres) along the optical axis, but for a constant.
     rise : (h/2, w/2, 8) float32
         Sine of the height from which a sun may be expected to reach the place, for bearings of 0,
         45 … 315 degrees clockwise from the camera's heading.
     openness : (h/2, w/2) float32
         Share of an even sky's light, weighed by the cosine, that reaches the surface, [0, 1].
-    matter : (h/2, w/2, 8) float32
-        Share of each of ``MATTER``.
-    view : (8,) float32
-        Row of the horizon in heights below the middle, its slope, log2 of the focal length in
-        heights, direction of the sun (right, up, ahead), logit of sunshine, and the log of the
-        variance of that direction.
     """
 
     sunlit: np.ndarray
     normal: np.ndarray
-    log_depth: np.ndarray
     rise: np.ndarray
     openness: np.ndarray
-    matter: np.ndarray
-    view: np.ndarray
 
 
 def look_at_land(working: Working) -> LandMaps:
@@ -72,29 +57,13 @@ def _look(working: Working) -> LandMaps:
         max(2, round(side * scale / _STRIDE)) * _STRIDE for side in (working.width, working.height)
     )
     image = np.clip(resize(working.encoded, width, height), 0, 1).transpose(2, 0, 1)[None]
-    found = _network().run(
-        ["sunlit", "normal", "depth", "rise", "openness", "matter", "view"],
+    found = bundled_session(BUNDLED, "land").run(
+        ["sunlit", "normal", "rise", "openness"],
         {"image": np.ascontiguousarray(image, np.float32)},
     )
-    sunlit, normal, depth, rise, openness, matter, view = (output[0] for output in found)
-    return LandMaps(
-        sunlit[0],
-        normal.transpose(1, 2, 0),
-        depth[0] * np.float32(np.log(2)),
-        rise.transpose(1, 2, 0),
-        openness[0],
-        matter.transpose(1, 2, 0),
-        view,
-    )
+    sunlit, normal, rise, openness = (output[0] for output in found)
+    return LandMaps(sunlit[0], normal.transpose(1, 2, 0), rise.transpose(1, 2, 0), openness[0])
 
 
 # Strokes and hints make new scenes of the same small copy.
 _seen: WeakKeyDictionary[Working, LandMaps] = WeakKeyDictionary()
-
-
-@lru_cache(maxsize=1)
-def _network() -> Any:
-    if not BUNDLED.is_file():
-        raise AnalysisError(f"No land network at {BUNDLED}. Reinstall sunwidget.")
-    stat = BUNDLED.stat()
-    return session(str(BUNDLED), (stat.st_mtime_ns, stat.st_size), "land")

@@ -31,7 +31,6 @@ Scale = tuple[Any, Any]  # mean and deviation, each a number or three
 INSTEAD = {
     "sky": "sky=mask, the path of an .onnx file, or sky='skyline'",
     "sun": "sun=(x, y)",
-    "land": "nothing else yet: the picture is not lit anew without it",
     "depth": "depth=an array of metres, the path of an .onnx file, or depth='fused'",
 }
 
@@ -181,9 +180,9 @@ class Opened:
         )
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=8)  # three are our own
 def session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
-    """Open a file once; ``finds`` is a key of ``INSTEAD``, for the errors.
+    """Open a file once; ``finds`` is for the errors, a key of ``INSTEAD`` where one can do without.
 
     Raises
     ------
@@ -195,9 +194,9 @@ def session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
     try:
         onnxruntime = onnx_runtime()
     except ImportError as error:
+        without = f" Without it pass {INSTEAD[finds]}." if finds in INSTEAD else ""
         raise AnalysisError(
-            f"A {finds} network needs onnxruntime (pip install onnxruntime). "
-            f"Without it pass {INSTEAD[finds]}."
+            f"A {finds} network needs onnxruntime (pip install onnxruntime).{without}"
         ) from error
     options = onnxruntime.SessionOptions()
     # Two gain as much as more; a batch's worker leaves OpenCV fewer, and so they share the cores.
@@ -209,7 +208,21 @@ def session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
             path, sess_options=options, providers=["CPUExecutionProvider"]
         )
     except Exception as error:  # onnxruntime's exceptions share no public base class
+        way_out = f"Pass {INSTEAD[finds]}." if finds in INSTEAD else "Reinstall sunwidget."
         raise AnalysisError(
-            f"{path} is not an ONNX network that can be read: {str(error)[:200]}. "
-            f"Pass {INSTEAD[finds]}."
+            f"{path} is not an ONNX network that can be read: {str(error)[:200]}. {way_out}"
         ) from error
+
+
+def bundled_session(path: Path, finds: str) -> Any:
+    """Open a network that ships with the package, once.
+
+    Raises
+    ------
+    AnalysisError
+        When the file or onnxruntime is missing.
+    """
+    if not path.is_file():
+        raise AnalysisError(f"No {finds} network at {path}. Reinstall sunwidget.")
+    stat = path.stat()
+    return session(str(path), (stat.st_mtime_ns, stat.st_size), finds)

@@ -195,7 +195,7 @@ class Scene:
         maps = look_at_land(self.working)
         if self.known_land is not None:
             # The network sees whether the sun shines; how the land lies is known better.
-            maps = self.known_land._replace(sunlit=maps.sunlit, view=maps.view)
+            maps = self.known_land._replace(sunlit=maps.sunlit)
         return relief.on_land(maps, self.small_sky)
 
     @property

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.onnx_file import session
+from sunwidget.analysis.onnx_file import bundled_session
 from sunwidget.analysis.working import Working, resize
 
 BUNDLED = Path(__file__).parent / "models" / "suns.onnx"
@@ -56,15 +54,9 @@ def look_for_sun(working: Working) -> SunMaps:
         max(2, round(side * scale / _STRIDE)) * _STRIDE for side in (working.width, working.height)
     )
     image = np.clip(resize(working.encoded, width, height), 0, 1).transpose(2, 0, 1)[None]
-    found, clean, water = _network().run(None, {"image": np.ascontiguousarray(image, np.float32)})
+    found, clean, water = bundled_session(BUNDLED, "sun").run(
+        None, {"image": np.ascontiguousarray(image, np.float32)}
+    )
     probability, radius, sharpness = found[0]
     log_ratio = np.minimum(clean[0], 0).transpose(1, 2, 0)
     return SunMaps(probability, radius, sharpness, log_ratio, water[0, 0])
-
-
-@lru_cache(maxsize=1)
-def _network() -> Any:
-    if not BUNDLED.is_file():
-        raise AnalysisError(f"No sun network at {BUNDLED}. Reinstall sunwidget.")
-    stat = BUNDLED.stat()
-    return session(str(BUNDLED), (stat.st_mtime_ns, stat.st_size), "sun")
