@@ -23,7 +23,7 @@ def restore(network: SkyNet, path: Path, photos: list[tuple[Tensor, ...]]) -> No
 
     ``photos`` are batches whose first item is uint8 ``(N, 3, S, S)``.
 
-    The head of the deep supervision is not in the file and keeps its random start.
+    What is not in the file, as the head of the deep supervision, keeps its random start.
     """
     values = {
         i.name.removesuffix("_half").removeprefix("network."): torch.tensor(
@@ -40,6 +40,7 @@ def restore(network: SkyNet, path: Path, photos: list[tuple[Tensor, ...]]) -> No
         if isinstance(layer, nn.Sequential)
         for i in range(len(layer) - 1)
         if isinstance(layer[i], nn.Conv2d) and isinstance(layer[i + 1], nn.BatchNorm2d)
+        if f"{name}.{i}.bias" in values
     ]
     network.eval()
     with torch.no_grad():

@@ -14,6 +14,7 @@ from torch.utils.data import IterableDataset
 
 from training.data import FOLDERS, barred, held_out, read_pair
 from training.land import photograph
+from training.land.model import SUN_HEIGHTS, SUN_TURNS
 from training.suns.water import UNKNOWN, water_map
 from training.worlds import CLASSES
 
@@ -97,6 +98,8 @@ def sample(world: dict[str, np.ndarray], rows: int, columns: int, random: Random
         "openness": half.of(world["openness"].astype(np.float32) / 255, cv2.INTER_AREA)[None],
         "matter": matter,
         "view": _view(world, sun, box),
+        "sun": shares(world["suns"][sun], mirrored=box.mirrored),
+        **_facing(world, sun, half),
         **_others(world, random, box, half),
     }
 
@@ -104,14 +107,23 @@ def sample(world: dict[str, np.ndarray], rows: int, columns: int, random: Random
 def _others(
     world: dict[str, np.ndarray], random: Random, box: photograph.Box, half: photograph.Box
 ) -> dict[str, np.ndarray]:
-    """Return what of two of the world's suns, chosen by chance, reaches each place."""
+    """Return what of the light of two of the world's suns, chosen by chance, falls on each place."""
     suns, passed = [], []
-    for sun in random.permutation(len(world["light"]))[:2]:
+    for sun in random.permutation(len(world["sunlit"]))[:2]:
         azimuth, elevation, covered = (float(v) for v in world["suns"][sun])
+        flat = np.cos(elevation)
+        right = flat * np.sin(azimuth) * (-1 if box.mirrored else 1)
         known = float(not covered and elevation > 0)
-        suns.append((-azimuth if box.mirrored else azimuth, np.sin(elevation), known))
-        passed.append(half.of(world["sunlit"][sun].astype(np.float32) / 255, cv2.INTER_AREA)[None])
+        suns.append((right, np.sin(elevation), flat * np.cos(azimuth), known))
+        light = _cosine(world, sun) * world["sunlit"][sun] / np.float32(255)
+        passed.append(half.of(light, cv2.INTER_AREA)[None])
     return {"suns": np.float32(suns), "passed": np.stack(passed)}
+
+
+def _cosine(world: dict[str, np.ndarray], sun: int) -> np.ndarray:
+    """Return the cosine between normal and sun, (H, W), no less than 0."""
+    normal = world["normal"].astype(np.float32) / 127
+    return np.maximum(normal @ to_sun(world["camera"], world["suns"][sun]), 0)
 
 
 def _up(camera: np.ndarray) -> np.ndarray:
@@ -129,13 +141,39 @@ def _view(world: dict[str, np.ndarray], sun: int, box: photograph.Box) -> np.nda
     middle = 0.5 * rows + focal * np.tan(pitch) * np.cos(roll) ** -1
     aside = box.left + box.width / 2 - columns / 2
     row = (middle + np.tan(roll) * aside - box.top) / box.height - 0.5
-    azimuth, elevation, covered = (float(v) for v in world["suns"][sun])
-    sign = -1 if box.mirrored else 1
-    flat = np.cos(elevation)
-    way = sign * flat * np.sin(azimuth), np.sin(elevation), flat * np.cos(azimuth)
+    _, elevation, covered = (float(v) for v in world["suns"][sun])
+    slope = (-1 if box.mirrored else 1) * np.tan(roll)
     shining = float(not covered and elevation > 0)
-    slope = sign * np.tan(roll)
-    return np.float32([row, slope, np.log2(focal / box.height), *way, shining])
+    return np.float32([row, slope, np.log2(focal / box.height), shining])
+
+
+def shares(sun: np.ndarray, *, mirrored: bool) -> np.ndarray:
+    """Return a sun (azimuth, elevation, radians, …) as shares of the nearest of the grid, (72,)."""
+    azimuth, elevation = np.degrees(sun[:2])
+    step = float(SUN_TURNS[1] - SUN_TURNS[0])
+    apart = (SUN_TURNS.numpy() - (-azimuth if mirrored else azimuth) + 180) % 360 - 180
+    turns = np.maximum(1 - np.abs(apart) / step, 0)
+    heights = SUN_HEIGHTS.numpy()
+    rows = [np.interp(elevation, heights, one) for one in np.eye(len(heights))]
+    return np.outer(rows, turns).astype(np.float32).ravel()
+
+
+def _facing(world: dict[str, np.ndarray], sun: int, half: photograph.Box) -> dict[str, np.ndarray]:
+    """Return the cosine between normal and sun, and where it lights what."""
+    lit = half.of(world["sunlit"][sun].astype(np.float32) / 255, cv2.INTER_AREA)
+    facing = half.of(_cosine(world, sun), cv2.INTER_AREA)
+    return {"facing": facing[None], "faced": np.maximum(2 * lit - 1, 0)[None]}
+
+
+def to_sun(camera: np.ndarray, sun: np.ndarray) -> np.ndarray:
+    """Return the unit vector to a sun in the camera's right, up and towards it."""
+    (_, pitch, roll, _), (azimuth, elevation) = camera, sun[:2]
+    right = np.cos(elevation) * np.sin(azimuth)
+    ahead, high = np.cos(elevation) * np.cos(azimuth), np.sin(elevation)
+    up = np.cos(pitch) * high - np.sin(pitch) * ahead
+    towards = -np.cos(pitch) * ahead - np.sin(pitch) * high
+    turn, aside = np.cos(roll), np.sin(roll)
+    return np.float32([turn * right + aside * up, turn * up - aside * right, towards])
 
 
 class WorldBatches(IterableDataset):

@@ -14,6 +14,7 @@ import onnxruntime
 
 from training.land.data import WATER, Worlds, sample
 from training.land.export import AREA, OUT
+from training.land.model import SUN_HEIGHTS, SUN_TURNS
 
 
 def _size(shape: tuple[int, int], area: int) -> tuple[int, int]:
@@ -33,7 +34,7 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
         image = (truth["image"][None] / 255).astype(np.float32)
         found = dict(zip(names, (x[0] for x in session.run(None, {"image": image})), strict=True))
         land = truth["land"][0] > 0.5
-        if truth["view"][6] > 0:
+        if truth["view"][3] > 0:
             lit += _overlap(found["sunlit"][0] > 0.5, truth["sunlit"][0] > 0.5, land)
         sky += _overlap(found["sky"][0] > 0.5, truth["sky"][0] > 0.5, np.ones_like(land))
         wet += _overlap(found["matter"].argmax(0) == WATER, truth["matter"] == WATER, True)
@@ -44,7 +45,6 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
         level = (found["depth"] - truth["depth"])[0][solid]
         level = level - np.median(level)
         view = found["view"]
-        way = view[3:6] / np.linalg.norm(view[3:6])
         one = {
             "normal, median degrees": float(
                 np.degrees(np.arccos(np.clip(np.median(cosine), -1, 1)))
@@ -56,11 +56,16 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
             "matter right": float((found["matter"].argmax(0) == truth["matter"])[solid].mean()),
             "horizon, rows of 1": float(abs(view[0] - truth["view"][0])),
             "focal length, log2": float(abs(view[2] - truth["view"][2])),
-            "sunshine right": float((view[6] > 0) == (truth["view"][6] > 0)),
+            "sunshine right": float((view[3] > 0) == (truth["view"][3] > 0)),
         }
-        if truth["view"][6] > 0:
-            angle = np.arccos(np.clip(way @ truth["view"][3:6], -1, 1))
-            one["sun, degrees"] = float(np.degrees(angle))
+        if truth["view"][3] > 0:
+            one["sun, degrees"] = _angle(likeliest(found["sun"]), likeliest(truth["sun"]))
+            one["sun, log share"] = float(truth["sun"] @ np.log(found["sun"] + 1e-9))
+            faced = truth["faced"][0] > 0.5
+            if faced.sum() > 100:
+                one["facing, mean error"] = float(
+                    np.abs(found["facing"] - truth["facing"])[0][faced].mean()
+                )
         for name, value in one.items():
             rows.setdefault(name, []).append(value)
     figures = {
@@ -73,6 +78,20 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
         "sky, IoU": sky[0] / sky[1],
     }
     return figures
+
+
+def likeliest(shares: np.ndarray) -> np.ndarray:
+    """Return the mean direction (x right, y ahead, z up) of shares of suns, (72,)."""
+    turns, heights = np.radians(SUN_TURNS.numpy()), np.radians(SUN_HEIGHTS.numpy())
+    azimuth, elevation = np.meshgrid(turns, heights)
+    flat = np.cos(elevation)
+    ways = np.stack([flat * np.sin(azimuth), flat * np.cos(azimuth), np.sin(elevation)], -1)
+    return shares @ ways.reshape(-1, 3)
+
+
+def _angle(one: np.ndarray, other: np.ndarray) -> float:
+    cosine = one @ other / max(np.linalg.norm(one) * np.linalg.norm(other), 1e-9)
+    return float(np.degrees(np.arccos(np.clip(cosine, -1, 1))))
 
 
 def _overlap(found: np.ndarray, truth: np.ndarray, where: np.ndarray | bool) -> np.ndarray:

@@ -17,11 +17,14 @@ STRIDE = 32
 """Height and width of the input must be multiples of this (pixels)."""
 HALF = 2
 """The maps but ``sunlit`` and ``sky`` are smaller than the input by this factor."""
-BEARINGS = 8
-"""Directions, from the camera's heading on clockwise, for which ``rise`` is told."""
-SOFTNESS = 0.08
-"""Sine of the sun's height over which it rises above what hides it."""
+TRANSFER = 12
+"""Functions of a sun's direction of which ``transfer`` holds the shares (``of_suns``)."""
 MATTER = len(CLASSES)
+SUN_TURNS = torch.arange(-150.0, 181, 30)
+SUN_HEIGHTS = torch.tensor([-2.0, 2.0, 8.0, 18.0, 35.0, 60.0])
+"""Azimuths from the camera's heading and elevations of ``sun``, degrees; as in
+sunwidget/analysis/confidence.py."""
+SUNS = len(SUN_TURNS) * len(SUN_HEIGHTS)
 
 
 class LandNet(SkyNet):
@@ -29,20 +32,23 @@ class LandNet(SkyNet):
 
     ``sky``, ``sunlit`` (N, 1, H, W) logits; at half the size ``normal`` (N, 3, h, w) unit vectors
     to the camera's right, up and towards it; ``depth`` (N, 1, h, w) log2 of metres but for a
-    constant; ``rise`` (N, 8, h, w) sine of the height from which a sun in each of ``BEARINGS``
-    reaches the place; ``openness`` (N, 1, h, w) and ``matter`` (N, 8, h, w) logits; ``view``
-    (N, 8): row of the horizon in heights from the middle down, its slope, log2 of the focal length
-    in heights, three numbers of the sun's direction (right, up, ahead), logit of sunshine, and log
-    variance of the direction.
+    constant; ``transfer`` (N, 12, h, w), whose product with ``of_suns`` is what of any sun's light
+    may be expected to fall on the place, by the light that falls on what faces it; ``openness``, ``facing`` (N, 1, h, w; the cosine between the normal and the
+    photo's sun, where it shines) and ``matter`` (N, 8, h, w) logits; ``view`` (N, 4): row of the
+    horizon in heights from the middle down, its slope, log2 of the focal length in heights, and
+    logit of sunshine; ``sun`` (N, 72) logits of where the photo's sun is, by ``SUN_HEIGHTS`` and
+    within each of them by ``SUN_TURNS``.
     """
 
     def __init__(self) -> None:
         super().__init__()
         self.shape = nn.Sequential(conv(64, 64), nn.Conv2d(64, 4 * 4, 3, padding=1))
         self.kind = nn.Sequential(conv(64, 48), nn.Conv2d(48, 4 * (MATTER + 1), 3, padding=1))
-        self.rise = nn.Sequential(conv(64, 48), nn.Conv2d(48, 4 * BEARINGS, 3, padding=1))
+        self.transfer = nn.Sequential(conv(64, 64), nn.Conv2d(64, 4 * TRANSFER, 3, padding=1))
         self.lit = nn.Sequential(conv(32, 32), nn.Conv2d(32, 4, 3, padding=1))
-        self.view = nn.Sequential(nn.Linear(224 + 96, 128), nn.ReLU(), nn.Linear(128, 8))
+        self.facing = nn.Sequential(conv(64, 32), nn.Conv2d(32, 4, 3, padding=1))
+        self.view = nn.Sequential(nn.Linear(224 + 96, 128), nn.ReLU(), nn.Linear(128, 4))
+        self.sun = nn.Sequential(nn.Linear(224 + 96, 160), nn.ReLU(), nn.Linear(160, SUNS))
 
     def maps(self, image: Tensor) -> dict[str, Tensor]:
         half = self.stem(image * 4.0 - 2.0)
@@ -64,10 +70,12 @@ class LandNet(SkyNet):
             "sunlit": F.pixel_shuffle(self.lit(x2), 2),
             "normal": F.normalize(shape[:, :3], dim=1, eps=1e-4),
             "depth": 4 * shape[:, 3:] + 5,
-            "rise": F.pixel_shuffle(self.rise(x4), 2) + 0.3,
+            "transfer": F.pixel_shuffle(self.transfer(x4), 2),
             "openness": kind[:, :1],
+            "facing": F.pixel_shuffle(self.facing(x4), 2),
             "matter": kind[:, 1:],
             "view": self.view(seen),
+            "sun": self.sun(seen),
         }
 
     def forward(self, image: Tensor) -> Tensor:
@@ -77,7 +85,9 @@ class LandNet(SkyNet):
 class LandMaps(nn.Module):
     """The shipped graph: ``image`` in; maps of ``LandNet``, logits made shares in [0, 1]."""
 
-    OUTPUTS = ("sky", "sunlit", "normal", "depth", "rise", "openness", "matter", "view")
+    OUTPUTS = (
+        "sky", "sunlit", "normal", "depth", "transfer", "openness", "facing", "matter", "view", "sun",
+    )  # fmt: skip
 
     def __init__(self, network: LandNet) -> None:
         super().__init__()
@@ -87,16 +97,24 @@ class LandMaps(nn.Module):
         m = self.network.maps(image)
         return (
             m["sky"].sigmoid(), m["sunlit"].sigmoid(), m["normal"], m["depth"],
-            m["rise"], m["openness"].sigmoid(), m["matter"].softmax(1), m["view"],
+            m["transfer"], m["openness"].sigmoid(), m["facing"].sigmoid(), m["matter"].softmax(1),
+            m["view"], m["sun"].softmax(1),
         )  # fmt: skip
 
 
-def towards(rise: Tensor, azimuth: Tensor) -> Tensor:
-    """Return the height at one bearing of each picture, (N, 1, h, w); ``azimuth`` (N,) radians."""
-    at = azimuth[:, None] / (2 * torch.pi) * BEARINGS - torch.arange(BEARINGS, device=rise.device)
-    apart = (at + BEARINGS / 2) % BEARINGS - BEARINGS / 2
-    weight = (1 - apart.abs()).clamp(min=0)
-    return (rise * weight[:, :, None, None]).sum(1, keepdim=True)
+def of_suns(suns: Tensor) -> Tensor:
+    """Return the functions of directions (..., 3: right, up, ahead) that light is made of, (..., 12).
+
+    Linear ones for the cosine, square ones for shadows, and roots, since low suns set fast.
+    """
+    x, up, y = suns.unbind(-1)
+    z = up.clamp(min=0)
+    low = z.sqrt()
+    along, across = x * x - y * y, 2 * x * y
+    return torch.stack(
+        [torch.ones_like(x), x, y, z, low, x * low, y * low, along, across, along * z, across * z, z * z],
+        -1,
+    )  # fmt: skip
 
 
 def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tensor]:
@@ -104,9 +122,10 @@ def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tenso
 
     ``target`` holds, at the input's size: ``sky``, ``sunlit`` (N, 1, H, W) in [0, 1]; ``land``
     alike, 1 where light is asked for; at half of it ``solid`` (N, 1, h, w), 1 on land, ``normal``,
-    ``depth`` (0 in the sky), ``openness``, ``matter`` (N, h, w) int; ``view`` (N, 7) without the
-    variance. ``passed`` (N, 2, 1, h, w) is what of two suns reaches each place, ``suns`` (N, 2, 3)
-    their azimuths, sines of the elevation, and whether anything is known of them.
+    ``depth`` (0 in the sky), ``openness``, ``facing``, ``faced`` (weight of ``facing``, [0, 1]),
+    ``matter`` (N, h, w) int; ``view`` (N, 4), of sunshine 0 or 1; ``sun`` (N, 72) shares. ``passed``
+    (N, 2, 1, h, w) is what of two suns falls on each place, ``suns`` (N, 2, 4) their directions,
+    and whether anything is known of them.
     """
     land, solid = target["land"], target["solid"]
     lit = F.binary_cross_entropy_with_logits(out["sunlit"], target["sunlit"], reduction="none")
@@ -123,25 +142,27 @@ def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tenso
     dry = solid * (target["matter"] > 1)[:, None]
     passed = 0.0
     for i in range(2):
-        azimuth, height, known = target["suns"][:, i].unbind(1)
-        level_ = (height[:, None, None, None] - towards(out["rise"], azimuth)) / SOFTNESS
-        miss = F.binary_cross_entropy_with_logits(level_, target["passed"][:, i], reduction="none")
+        direction, known = target["suns"][:, i, :3], target["suns"][:, i, 3]
+        told = torch.einsum("nkhw,nk->nhw", out["transfer"], of_suns(direction))[:, None]
+        told = F.leaky_relu(told, 0.1)  # less than no light is none
         weight = dry * known[:, None, None, None]
+        miss = (told - target["passed"][:, i]) ** 2
         passed = passed + (miss * weight).sum() / weight.sum().clamp(min=1)
     open_ = (out["openness"].sigmoid() - target["openness"]).abs() * solid
+    cosine_ = F.binary_cross_entropy_with_logits(out["facing"], target["facing"], reduction="none")
     view, truth = out["view"], target["view"]
-    way, shining = truth[:, 3:6], truth[:, 6:7]
-    spread = view[:, 7:].clamp(-6, 2)
-    off = ((view[:, 3:6] - way) ** 2).sum(1, keepdim=True)
+    shining = truth[:, 3]
+    where = -(target["sun"] * out["sun"].log_softmax(1)).sum(1)
     return {
         "sunlit": 2 * (lit * land).sum() / land.sum().clamp(min=1),
         "sky": F.binary_cross_entropy_with_logits(out["sky"], target["sky"]),
         "normal": 2 * ((1 - cosine) * solid).sum() / count,
         "depth": 0.7 * (apart.abs()).sum() / count + 0.5 * steps + 0.03 * shift.abs().mean(),
-        "rise": 0.7 * passed,
+        "transfer": 8 * passed,
         "openness": 2 * open_.sum() / count,
         "matter": 0.5 * F.cross_entropy(out["matter"], target["matter"]),
         "view": F.smooth_l1_loss(view[:, :3], truth[:, :3], beta=0.1)
-        + 0.1 * F.binary_cross_entropy_with_logits(view[:, 6:7], shining)
-        + 0.1 * (shining * (off * torch.exp(-spread) + 3 * spread) / 2).mean(),
+        + 0.1 * F.binary_cross_entropy_with_logits(view[:, 3], shining),
+        "facing": (cosine_ * target["faced"]).sum() / target["faced"].sum().clamp(min=1),
+        "sun": 0.1 * (shining * where).sum() / shining.sum().clamp(min=1),
     }

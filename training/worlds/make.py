@@ -27,7 +27,7 @@ from training.worlds.sky import Clouds, Sky, Sun
 
 _AREA = 52_000  # pixels of a picture
 _SHAPES = (3 / 2, 3 / 2, 4 / 3, 16 / 9, 1.0, 2 / 3, 3 / 4)
-_SUNS = 4
+_PICTURES, _MORE = 4, 4  # suns to take photos by, and to measure what they light
 _OVERCAST = 0.1
 _BLOCKED = 2.5  # metres: half of the height of what is seen; views of a wall or a bush are left out
 
@@ -49,21 +49,22 @@ def _view(random: Random, world: World) -> View:
 
 def _suns(random: Random, view: View) -> list[Sun]:
     covered = random.random() < _OVERCAST
-    suns = []
-    for i in range(2 if covered else _SUNS):
-        low, high = ((-3, 0.5), (0.6, 8), (8, 30), (30, 65))[
-            random.choice(4, p=(0.1, 0.35, 0.32, 0.23) if i else (0.03, 0.27, 0.4, 0.3))
-        ]
-        elevation = random.uniform(low, high)
-        azimuth = random.uniform(-np.pi, np.pi)
-        if random.random() < 0.4:
-            azimuth = random.uniform(-1.1, 1.1) * view.half_angle
-        suns.append(Sun(float(azimuth), float(np.radians(elevation)), covered))
-    return suns
+    return [_sun(random, view, covered=covered, first=not i) for i in range(2 if covered else 4)]
 
 
-def make(family: str, seed: int) -> dict[str, np.ndarray] | None:
-    """Return a world's maps and pictures, or None where something stands before the camera."""
+def _sun(random: Random, view: View, *, covered: bool = False, first: bool = False) -> Sun:
+    low, high = ((-3, 0.5), (0.6, 8), (8, 30), (30, 65))[
+        random.choice(4, p=(0.03, 0.27, 0.4, 0.3) if first else (0.1, 0.35, 0.32, 0.23))
+    ]
+    elevation = random.uniform(low, high)
+    azimuth = random.uniform(-np.pi, np.pi)
+    if random.random() < 0.4:
+        azimuth = random.uniform(-1.1, 1.1) * view.half_angle
+    return Sun(float(azimuth), float(np.radians(elevation)), covered)
+
+
+def make(family: str, seed: int, pictures: int = _PICTURES) -> dict[str, np.ndarray] | None:
+    """Return a world's maps, and pictures under its first suns; None where something is in the way."""
     number = list(families.TRAINING | families.TEST).index(family)
     random = np.random.default_rng([seed, number])
     world = (families.TRAINING | families.TEST)[family](random)
@@ -80,7 +81,10 @@ def make(family: str, seed: int) -> dict[str, np.ndarray] | None:
             render.put(data, (x, y, z), turned, size)
     cover = 1.0 if suns[0].covered else float(random.choice([0.0, random.uniform(0.1, 0.75)]))
     sky = Sky(random, Clouds.drawn(random, cover))
-    maps = render.measure(sky, suns, view, clear=_BLOCKED)
+    pictures = min(pictures, len(suns))
+    others = np.random.default_rng([seed, number, 1])
+    suns += [_sun(others, view) for _ in range(_MORE)]
+    maps = render.measure(sky, suns, view, pictures=pictures, clear=_BLOCKED)
     if maps is None:
         return None
     maps["suns"] = np.array([(s.azimuth, s.elevation, s.covered) for s in suns], np.float32)
@@ -110,6 +114,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--part", default="0/1")
     parser.add_argument("--families", nargs="*", default=list(families.TRAINING))
+    parser.add_argument("--pictures", type=int, default=_PICTURES, help="suns to photograph by")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     part, parts = map(int, options.part.split("/"))
@@ -121,7 +126,7 @@ def main() -> None:
         start = time.monotonic()
         try:
             with _silent():
-                maps = make(family, seed)
+                maps = make(family, seed, options.pictures)
         # One world that cannot be built must not stop a night's work.
         except Exception:  # noqa: BLE001
             traceback.print_exc()

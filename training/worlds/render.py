@@ -18,7 +18,7 @@ from training.worlds.materials import Palette
 from training.worlds.mesh import Mesh
 from training.worlds.sky import Sky, Sun
 
-_SAMPLES, _SUN_SAMPLES, _OPEN_SAMPLES = 10, 4, 8
+_SAMPLES, _SUN_SAMPLES, _OPEN_SAMPLES = 8, 4, 8
 _GRAZING = 0.03  # cosine below which light is not asked for
 _COLUMNS, _ABOVE = 24, 9000.0  # of the air at the horizon; metres, over all land
 _FAR = 40_000.0  # metres; beyond it is sky
@@ -121,19 +121,22 @@ def look(view: View) -> bpy.types.Object:
 
 
 def measure(
-    sky: Sky, suns: Sequence[Sun], view: View, *, clear: float = 0.0
+    sky: Sky, suns: Sequence[Sun], view: View, *, pictures: int, clear: float = 0.0
 ) -> dict[str, np.ndarray] | None:
-    """Render a view under all suns; None if less than ``clear`` metres before it is to be seen.
+    """Render a view; None if less than ``clear`` metres before it is to be seen.
+
+    The first ``pictures`` P of the S suns are photographed, of the others only what they light is
+    measured, which costs a tenth.
 
     Returns
     -------
     dict
-        ``light`` (S, H, W, 3) float16, scene-linear, each frame by its own ``scale`` (S,): radiance
+        ``light`` (P, H, W, 3) float16, scene-linear, each frame by its own ``scale`` (P,): radiance
         is light × scale; ``sunlit`` (S, H, W) uint8, share of the sun's disc that a surface sees;
         ``openness`` (H, W) uint8, share of a white sky's light that reaches it; ``depth`` (H, W)
         float16, log2 of metres along the view axis, inf in the sky; ``normal`` (H, W, 3) int8, ×127
         in the camera's right, up and towards it; ``albedo`` (H, W, 3) uint8, ×255 linear;
-        ``matter`` (H, W) uint8, index into ``CLASSES``; ``air`` (S, 24, 3) float32, radiance
+        ``matter`` (H, W) uint8, index into ``CLASSES``; ``air`` (P, 24, 3) float32, radiance
         of the sky at the horizon, by columns of the view.
     """
     camera = look(view)
@@ -143,7 +146,7 @@ def measure(
         return None
     light, scales = [], []
     maps: dict[str, np.ndarray] = {}
-    for sun in suns:
+    for sun in suns[:pictures]:
         sky.set(sun)
         passes = _render(_SAMPLES, denoise=True)
         radiance = np.clip(np.nan_to_num(passes["Combined"][..., :3]), 0, None)
@@ -154,7 +157,7 @@ def measure(
             maps = _maps(passes, camera)
     maps["light"], maps["scale"] = np.stack(light), np.array(scales, np.float32)
     maps |= _lit(sky, suns)
-    maps["air"] = _air(sky, suns, view)
+    maps["air"] = _air(sky, suns[:pictures], view)
     return maps
 
 

@@ -57,6 +57,9 @@ class Sky:
         self.world = bpy.data.worlds.new("sky")
         bpy.context.scene.world = self.world
         self.world.use_nodes = True
+        # What Blender chooses for an overcast sky takes four seconds a picture and shows no more.
+        self.world.cycles.sampling_method = "MANUAL"
+        self.world.cycles.sample_map_resolution = 256
         self.air = float(np.exp(random.normal(0, 0.15)))
         self.aerosol = float(np.exp(random.normal(0.0, 0.7)))
         self.ozone = float(random.uniform(0.6, 1.5))
