@@ -11,10 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import onnxruntime
+import torch
 
 from training.land.data import WATER, Worlds, sample
 from training.land.export import AREA, OUT
-from training.land.model import SUN_HEIGHTS, SUN_TURNS
+from training.land.model import SUN_HEIGHTS, SUN_TURNS, of_suns, openness
 
 
 def _size(shape: tuple[int, int], area: int) -> tuple[int, int]:
@@ -45,14 +46,14 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
         level = (found["depth"] - truth["depth"])[0][solid]
         level = level - np.median(level)
         view = found["view"]
+        open_ = openness(torch.from_numpy(found["transfer"])[None])[0, 0].numpy()
         one = {
             "normal, median degrees": float(
                 np.degrees(np.arccos(np.clip(np.median(cosine), -1, 1)))
             ),
             "depth within 25 %": float((np.abs(level) < np.log2(1.25)).mean()),
-            "openness, mean error": float(
-                np.abs(found["openness"] - truth["openness"])[0][solid].mean()
-            ),
+            "openness, mean error": float(np.abs(open_ - truth["openness"][0])[solid].mean()),
+            "light of other suns, squared error": _of_others(found["transfer"], truth, solid),
             "matter right": float((found["matter"].argmax(0) == truth["matter"])[solid].mean()),
             "horizon, rows of 1": float(abs(view[0] - truth["view"][0])),
             "focal length, log2": float(abs(view[2] - truth["view"][2])),
@@ -69,7 +70,7 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
         for name, value in one.items():
             rows.setdefault(name, []).append(value)
     figures = {
-        name: float(np.median(v) if "right" not in name and "within" not in name else np.mean(v))
+        name: float(np.nanmedian(v) if "right" not in name and "within" not in name else np.mean(v))
         for name, v in rows.items()
     }
     figures |= {
@@ -78,6 +79,16 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
         "sky, IoU": sky[0] / sky[1],
     }
     return figures
+
+
+def _of_others(transfer: np.ndarray, truth: dict, solid: np.ndarray) -> float:
+    errors = []
+    for sun, light in zip(truth["suns"], truth["passed"], strict=True):
+        if sun[3]:
+            parts = of_suns(torch.from_numpy(sun[:3])).numpy()
+            told = np.clip(np.tensordot(parts, transfer, 1), 0, 1)
+            errors.append(((told - light[0]) ** 2)[solid].mean())
+    return float(np.mean(errors)) if errors else float("nan")
 
 
 def likeliest(shares: np.ndarray) -> np.ndarray:

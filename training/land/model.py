@@ -33,7 +33,7 @@ class LandNet(SkyNet):
     ``sky``, ``sunlit`` (N, 1, H, W) logits; at half the size ``normal`` (N, 3, h, w) unit vectors
     to the camera's right, up and towards it; ``depth`` (N, 1, h, w) log2 of metres but for a
     constant; ``transfer`` (N, 12, h, w), whose product with ``of_suns`` is what of any sun's light
-    may be expected to fall on the place, by the light that falls on what faces it; ``openness``, ``facing`` (N, 1, h, w; the cosine between the normal and the
+    may be expected to fall on the place, by the light that falls on what faces it; ``facing`` (N, 1, h, w; the cosine between the normal and the
     photo's sun, where it shines) and ``matter`` (N, 8, h, w) logits; ``view`` (N, 4): row of the
     horizon in heights from the middle down, its slope, log2 of the focal length in heights, and
     logit of sunshine; ``sun`` (N, 72) logits of where the photo's sun is, by ``SUN_HEIGHTS`` and
@@ -43,7 +43,7 @@ class LandNet(SkyNet):
     def __init__(self) -> None:
         super().__init__()
         self.shape = nn.Sequential(conv(64, 64), nn.Conv2d(64, 4 * 4, 3, padding=1))
-        self.kind = nn.Sequential(conv(64, 48), nn.Conv2d(48, 4 * (MATTER + 1), 3, padding=1))
+        self.kind = nn.Sequential(conv(64, 48), nn.Conv2d(48, 4 * MATTER, 3, padding=1))
         self.transfer = nn.Sequential(conv(64, 64), nn.Conv2d(64, 4 * TRANSFER, 3, padding=1))
         self.lit = nn.Sequential(conv(32, 32), nn.Conv2d(32, 4, 3, padding=1))
         self.facing = nn.Sequential(conv(64, 32), nn.Conv2d(32, 4, 3, padding=1))
@@ -60,7 +60,6 @@ class LandNet(SkyNet):
         x4 = self.to_quarter(self.to_eighth(x16, eighth), quarter)
         x2 = self.to_half(x4, half)
         shape = F.pixel_shuffle(self.shape(x4), 2)
-        kind = F.pixel_shuffle(self.kind(x4), 2)
         rows = x16.shape[2]
         # Where in the picture something is matters for the horizon: means of upper and lower part.
         up, down = x16[:, :, : rows // 2].mean((2, 3)), x16[:, :, rows // 2 :].mean((2, 3))
@@ -71,9 +70,8 @@ class LandNet(SkyNet):
             "normal": F.normalize(shape[:, :3], dim=1, eps=1e-4),
             "depth": 4 * shape[:, 3:] + 5,
             "transfer": F.pixel_shuffle(self.transfer(x4), 2),
-            "openness": kind[:, :1],
             "facing": F.pixel_shuffle(self.facing(x4), 2),
-            "matter": kind[:, 1:],
+            "matter": F.pixel_shuffle(self.kind(x4), 2),
             "view": self.view(seen),
             "sun": self.sun(seen),
         }
@@ -86,7 +84,7 @@ class LandMaps(nn.Module):
     """The shipped graph: ``image`` in; maps of ``LandNet``, logits made shares in [0, 1]."""
 
     OUTPUTS = (
-        "sky", "sunlit", "normal", "depth", "transfer", "openness", "facing", "matter", "view", "sun",
+        "sky", "sunlit", "normal", "depth", "transfer", "facing", "matter", "view", "sun",
     )  # fmt: skip
 
     def __init__(self, network: LandNet) -> None:
@@ -97,8 +95,8 @@ class LandMaps(nn.Module):
         m = self.network.maps(image)
         return (
             m["sky"].sigmoid(), m["sunlit"].sigmoid(), m["normal"], m["depth"],
-            m["transfer"], m["openness"].sigmoid(), m["facing"].sigmoid(), m["matter"].softmax(1),
-            m["view"], m["sun"].softmax(1),
+            m["transfer"], m["facing"].sigmoid(), m["matter"].softmax(1), m["view"],
+            m["sun"].softmax(1),
         )  # fmt: skip
 
 
@@ -115,6 +113,15 @@ def of_suns(suns: Tensor) -> Tensor:
         [torch.ones_like(x), x, y, z, low, x * low, y * low, along, across, along * z, across * z, z * z],
         -1,
     )  # fmt: skip
+
+
+def openness(transfer: Tensor) -> Tensor:
+    """Return the share of an even sky's light that reaches each place, (N, 1, h, w).
+
+    The mean over the sky, weighed as on lying ground, of what its parts throw there.
+    """
+    one, height, root, square = (transfer[:, i : i + 1] for i in (0, 3, 4, 11))
+    return 2 * one + height + 4 / 3 * root + 2 / 3 * square
 
 
 def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tensor]:
@@ -148,7 +155,7 @@ def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tenso
         weight = dry * known[:, None, None, None]
         miss = (told - target["passed"][:, i]) ** 2
         passed = passed + (miss * weight).sum() / weight.sum().clamp(min=1)
-    open_ = (out["openness"].sigmoid() - target["openness"]).abs() * solid
+    open_ = (openness(out["transfer"]) - target["openness"]).abs() * solid
     cosine_ = F.binary_cross_entropy_with_logits(out["facing"], target["facing"], reduction="none")
     view, truth = out["view"], target["view"]
     shining = truth[:, 3]

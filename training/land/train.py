@@ -24,7 +24,7 @@ from torch.utils.data import DataLoader, IterableDataset
 
 from training.data import typical
 from training.land.data import UNKNOWN, WATER, Batch, PhotoBatches, WorldBatches
-from training.land.model import LandNet, losses
+from training.land.model import LandNet, losses, of_suns
 from training.model import SkyNet
 from training.restore import restore
 from training.train import Average, optimiser, prepare, rate, save
@@ -36,6 +36,8 @@ PEAK_RATE = 1.2e-3
 PHOTOS_EVERY = 3  # steps: worlds have more to tell, and the trunk knows photos
 TEACHES_FROM = 250  # steps, from which on the moving average is worth listening to
 SAVE_SECONDS = 240
+MIRRORED = (of_suns(torch.tensor([-0.3, 0.5, 0.8])) * of_suns(torch.tensor([0.3, 0.5, 0.8]))).sign()
+"""How the functions of a sun change when left and right are exchanged."""
 
 
 def photo_losses(out: dict[str, Tensor], batch: Batch) -> dict[str, Tensor]:
@@ -75,7 +77,7 @@ def consistency(student: dict[str, Tensor], teacher: dict[str, Tensor]) -> Tenso
     )
     lit = F.binary_cross_entropy_with_logits(student["sunlit"], back["sunlit"].sigmoid())
     normal = (1 - (student["normal"] * back["normal"]).sum(1, keepdim=True)) * solid
-    share = (student["openness"].sigmoid() - back["openness"].sigmoid()).abs() * solid
+    share = (student["transfer"] - back["transfer"] * MIRRORED.view(1, -1, 1, 1)).abs() * solid
     return lit + normal.mean() + 0.2 * (level.abs() * solid).mean() + share.mean()
 
 
