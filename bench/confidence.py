@@ -91,9 +91,8 @@ def collect(count: int, seed: int) -> tuple[Known, Known]:
     for k in range(count):
         working, sky, clouds, camera, air, sun = draw(random)
         told = k % 2 == 0
-        guess = (sun[0] + random.normal(0, 60), random.uniform(15, 45))
         seen.clear()
-        found = fit.fit_sky(working, sky, clouds, camera, sun if told else None, guess)
+        found = fit.fit_sky(working, sky, clouds, camera, sun if told else None)
         if "fit" not in seen:
             continue
         fits.append(stage.features_of_fit(seen["fit"]))

@@ -29,8 +29,8 @@ import sunwidget as sw
 from sunwidget.analysis import confidence, fit
 from sunwidget.analysis import horizon as horizon_stage
 from sunwidget.analysis import sky as sky_stage
-from sunwidget.analysis import sun as sun_stage
 from sunwidget.analysis.hints import Hints
+from sunwidget.analysis.land_network import look_at_land
 from sunwidget.analysis.stages import FIT_SIDE, clouds_by_colour
 from sunwidget.analysis.working import Working, resize
 from sunwidget.camera import Camera
@@ -165,8 +165,8 @@ def search(case: Case) -> fit.SkyFit:
     hints = Hints(methods=(("clouds", "unmix"),))
     cover = clouds_by_colour(working, sky, hints, None)[0].opacity
     size = small.width, small.height
-    assumed = sun_stage.assume(small, resize(sky, *size), case.camera)
-    return fit.fit_sky(small, resize(sky, *size), resize(cover, *size), case.camera, None, assumed)
+    expected = look_at_land(working).sun
+    return fit.fit_sky(small, resize(sky, *size), resize(cover, *size), case.camera, None, expected)
 
 
 def apart(one: Any, other: Any) -> Any:
@@ -202,12 +202,12 @@ def stranger(case: Case) -> Answer:
 
 def learn(cases: Iterator[Case]) -> float:
     """Return the steepest odds under which at least four of five suns lie within the spread."""
-    searches: list[tuple[Direction, Any, float]] = []
+    searches: list[tuple[Direction, Any, np.ndarray]] = []
     likeliest, sun = fit.likeliest_sun, (0.0, 0.0)
 
-    def note(errors: Any, towards: float) -> tuple[Direction, float]:
-        searches.append((sun, errors, towards))
-        return likeliest(errors, towards)
+    def note(errors: Any, expected: np.ndarray) -> tuple[Direction, float]:
+        searches.append((sun, errors, expected))
+        return likeliest(errors, expected)
 
     fit.likeliest_sun = note
     for case in cases:
@@ -216,7 +216,7 @@ def learn(cases: Iterator[Case]) -> float:
     fit.likeliest_sun = likeliest
     for odds in np.arange(8.0, 0.0, -0.5):
         confidence.SUN_ODDS = float(odds)
-        found = [(s, likeliest(errors, towards)) for s, errors, towards in searches]
+        found = [(s, likeliest(errors, expected)) for s, errors, expected in searches]
         if np.mean([apart(s, best) <= spread for s, (best, spread) in found]) >= 0.8:
             break
     return float(confidence.SUN_ODDS)

@@ -32,7 +32,7 @@ export class Frame extends Surface {
   }
 
   /**
-   * @param {string} name scene texture: photo, layers, surface, backdrop, clear_sky, relief or rise
+   * @param {string} name scene texture: photo, layers, surface, backdrop, clear_sky, relief or transfer
    * @param {Pixels} pixels
    */
   setPicture(name, pixels) {

@@ -26,9 +26,8 @@ FIT_WEIGHTS = (-0.78, -1.73, 0.49, -0.19, -0.33, 3.26)
 SUN_WEIGHTS = (1.07, 2.26, 0.34, 0.05)
 # By how many e-folds a direction's odds fall with a misfit of 0.01.
 SUN_ODDS = 2.0
-# A sun just outside the picture leaves a glow in it (von Mises), and half of the time the brightest
-# sky is one: chosen, since labelled suns all stand near their picture.
-_NARROW, _GLOWS = 6.0, 0.5
+# Share of suns that stand where nothing in the picture lets expect them.
+_ANYWHERE = 0.1
 UNKNOWN = 90.0
 """Degrees of spread (``likeliest_sun``) from which the photo does not tell where the sun is."""
 
@@ -129,38 +128,39 @@ def confidence_of_sun(best: tuple[float, float], errors: dict[tuple[float, float
 
 
 def posterior_of_sun(
-    errors: dict[tuple[float, float], float], towards: float
+    errors: dict[tuple[float, float], float], expected: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return azimuths, elevations and probabilities (n,) of where an unseen sun may be.
-
-    Before its colours are asked, the sky says by its brightest part where the sun is, or nothing,
-    and each step of elevation is as likely as the next.
 
     Parameters
     ----------
     errors : dict
         The misfit of each of ``TURNS`` and ``HEIGHTS``.
-    towards : float
-        Azimuth of the brightest sky, degrees.
+    expected : (6, 12) float
+        Probability of each of ``HEIGHTS`` and ``TURNS`` before the sky's colours are asked.
     """
     misfits = np.array([[errors[a, h] for a in TURNS] for h in HEIGHTS])
-    misfits = np.array([np.interp(_FINE_TURNS, TURNS, row, period=360) for row in misfits])
-    misfits = np.array([np.interp(_FINE_HEIGHTS, HEIGHTS, column) for column in misfits.T]).T
-    glow = np.exp(_NARROW * (np.cos(np.radians(_FINE_TURNS - towards)) - 1))
-    before = _GLOWS * glow / glow.sum() + (1 - _GLOWS) / glow.size
-    likely = before * np.exp(-SUN_ODDS * (misfits - misfits.min()) / 0.01)
+    before = (1 - _ANYWHERE) * expected / expected.sum() + _ANYWHERE / expected.size
+    odds = _finer(np.log(before) - SUN_ODDS * (misfits - misfits.min()) / 0.01)
+    likely = np.exp(odds - odds.max())
     azimuth, elevation = np.meshgrid(_FINE_TURNS, _FINE_HEIGHTS)
     return azimuth.ravel(), elevation.ravel(), (likely / likely.sum()).ravel()
 
 
+def _finer(grid: np.ndarray) -> np.ndarray:
+    """Return values of each of ``HEIGHTS`` and ``TURNS`` on a finer grid."""
+    rows = [np.interp(_FINE_TURNS, TURNS, row, period=360) for row in grid]
+    return np.array([np.interp(_FINE_HEIGHTS, HEIGHTS, column) for column in np.transpose(rows)]).T
+
+
 def likeliest_sun(
-    errors: dict[tuple[float, float], float], towards: float
+    errors: dict[tuple[float, float], float], expected: np.ndarray
 ) -> tuple[tuple[float, float], float]:
     """Return where an unseen sun most likely is, and within how many degrees, 4 times of 5.
 
     Takes what ``posterior_of_sun`` takes.
     """
-    azimuth, elevation, likely = posterior_of_sun(errors, towards)
+    azimuth, elevation, likely = posterior_of_sun(errors, expected)
     best = float(azimuth[likely.argmax()]), float(elevation[likely.argmax()])
     angle = _angles(azimuth, elevation, best)
     order = np.argsort(angle)

@@ -138,7 +138,7 @@ def fit_sky(
     clouds: np.ndarray,
     camera: Camera,
     sun: tuple[float, float] | None,
-    assumed: tuple[float, float],
+    expected: np.ndarray | None = None,
     done: Done = lambda _share: None,
     sure_of_sun: float = 1.0,
     spread: float = 0.0,
@@ -155,8 +155,9 @@ def fit_sky(
         Of the photo (any size; only its angles are used).
     sun : (azimuth, elevation) or None
         The photo's own sun in degrees, or ``None`` to find it from the sky's colours.
-    assumed : (azimuth, elevation)
-        Where to start when the sky cannot tell.
+    expected : (6, 12) float, optional
+        Of a sun that is to be found: how likely each of ``confidence.HEIGHTS`` and ``TURNS`` is
+        before the sky's colours are asked; alike by default.
     done : callable, optional
         Told now and then what share of the work is done, 0 to 1; what it raises ends the fit.
     sure_of_sun : float
@@ -171,11 +172,13 @@ def fit_sky(
     """
     azimuth, elevation = view_angles(camera, working.width, working.height)
     light = working.linear
+    if expected is None:
+        expected = np.ones((HEIGHTS.size, TURNS.size))
     usable = (sky > 0.98) & (light.max(-1) < 0.95) & (elevation > 0.3)
     clear = usable & (clouds < 0.2)
     chosen = clear if clear.sum() >= 200 else usable
     if chosen.sum() < 60:
-        return fit_without_sky(light, sky, sun or assumed)
+        return fit_without_sky(light, sky, sun, expected)
     index = np.flatnonzero(chosen)
     # A regular stride, not a random draw: the same photo always gives the same fit.
     index = index[:: max(1, index.size // _SAMPLES)]
@@ -185,7 +188,7 @@ def fit_sky(
     if sun is None:
         searched = 0.5
         sun, sure_of_sun, spread = _search_sun(
-            display, where, assumed[0], lambda share: done(searched * share)
+            display, where, expected, lambda share: done(searched * share)
         )
         dark = np.median(display @ LUMINANCE) < _NIGHT
         if dark or np.median(saturation(encode(display))) < _GREY:
@@ -280,10 +283,10 @@ def _compare(
 def _search_sun(
     display: np.ndarray,
     where: tuple[np.ndarray, np.ndarray],
-    towards: float,
+    expected: np.ndarray,
     done: Done,
 ) -> tuple[tuple[float, float], float, float]:
-    """Direction of an unseen sun, how sure it is, and its spread; ``towards`` the sky is bright."""
+    """Direction of an unseen sun, how sure it is, and its spread."""
     step = max(1, display.shape[0] // 120)
     display, where = display[::step], (where[0][::step], where[1][::step])
     response = Response()
@@ -309,12 +312,17 @@ def _search_sun(
         for azimuth, sky in zip(TURNS.tolist(), skies, strict=True):
             error, _ = _compare(display, sky, response)
             errors[azimuth, height] = min(error, errors.get((azimuth, height), np.inf))
-    best, spread = likeliest_sun(errors, towards)
+    best, spread = likeliest_sun(errors, expected)
     return best, confidence_of_sun(best, errors), spread
 
 
-def fit_without_sky(light: np.ndarray, sky: np.ndarray, sun: tuple[float, float]) -> SkyFit:
+def fit_without_sky(
+    light: np.ndarray, sky: np.ndarray, sun: tuple[float, float] | None, expected: np.ndarray
+) -> SkyFit:
     """Defaults, exposed so that grey land under this sun has the land's mean light."""
+    if sun is None:
+        alike = dict.fromkeys(itertools.product(TURNS.tolist(), HEIGHTS.tolist()), 0.0)
+        sun, _ = likeliest_sun(alike, expected)
     response = Response()
     atmosphere = Atmosphere()
     overhead = model_sky(atmosphere, np.array([0.0]), np.array([45.0]), sun)[0]

@@ -18,6 +18,7 @@ from sunwidget.analysis.frame_sun import (
     seen_sun,
     track_of,
 )
+from sunwidget.analysis.land_network import look_at_land
 from sunwidget.analysis.stages import clouds_by_colour
 from sunwidget.analysis.working import Working, resize
 from sunwidget.frames import Clock, name_of, read_frame
@@ -81,15 +82,17 @@ def track_and_film(
         s._replace(seen=seen_sun(s.working, sky, shared.camera, shared.hints)) for s in samples
     ]
     lit = [s for s, ok in zip(samples, fixed.lit, strict=True) if ok] or samples
-    guess = shared.assumed_sun
-    track = track_of(samples, place, told, guess)
+    track = track_of(samples, place, told, shared.assumed_sun)
     if track.source == "assumed":
         searched = []
         for s in lit[:: max(1, len(lit) // 4)]:
             small = s.working.shrunk(_SEARCH_SIDE)
             size = small.width, small.height
             cover = resize(clouds_by_colour(s.working, sky, shared.hints, None)[0].opacity, *size)
-            searched.append(fit_sky(small, resize(sky, *size), cover, shared.camera, None, guess))
+            expected = look_at_land(s.working).sun
+            searched.append(
+                fit_sky(small, resize(sky, *size), cover, shared.camera, None, expected)
+            )
         suns = [fit.sun for fit in searched]
         guess = middle_direction(suns, [0.1 + fit.sun_confidence for fit in searched])
         track = track_of(samples, place, told, guess)

@@ -8,6 +8,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from sunwidget.analysis.confidence import HEIGHTS, TURNS
 from sunwidget.analysis.onnx_file import bundled_session
 from sunwidget.analysis.working import Working, resize
 
@@ -25,17 +26,46 @@ class LandMaps(NamedTuple):
         Share of the sun's disc that the surface sees, [0, 1]; 0 without sunshine.
     normal : (h/2, w/2, 3) float32
         Unit normals: to the camera's right, up, and towards it.
-    rise : (h/2, w/2, 8) float32
-        Sine of the height from which a sun may be expected to reach the place, for bearings of 0,
-        45 … 315 degrees clockwise from the camera's heading.
-    openness : (h/2, w/2) float32
-        Share of an even sky's light, weighed by the cosine, that reaches the surface, [0, 1].
+    facing : (h/2, w/2) float32
+        Cosine between the normal and the photo's sun, [0, 1], where that lights the surface.
+    transfer : (h/2, w/2, 12) float32
+        Shares of the functions of ``of_suns``: what of any sun's light falls on the surface.
+    sun : (6, 12) float32
+        Probability of where the photo's sun is, by ``confidence.HEIGHTS`` and ``TURNS``.
     """
 
     sunlit: np.ndarray
     normal: np.ndarray
-    rise: np.ndarray
-    openness: np.ndarray
+    facing: np.ndarray
+    transfer: np.ndarray
+    sun: np.ndarray
+
+
+def of_suns(direction: np.ndarray) -> np.ndarray:
+    """Return the functions of suns' directions by which light on land is told.
+
+    Parameters
+    ----------
+    direction : (..., 3)
+        Unit vectors: to the right, up, and ahead along the camera's heading.
+
+    Returns
+    -------
+    (..., 12)
+        As ``training/land/model.py`` and ``shaders/lib/transfer.glsl`` have them.
+    """
+    x, height, z = np.moveaxis(direction, -1, 0)
+    height = np.maximum(height, 0)
+    low = np.sqrt(height)
+    along, across = x * x - z * z, 2 * x * z
+    return np.stack(
+        [
+            *(np.ones_like(x), x, z, height),
+            *(low, x * low, z * low, along),
+            *(across, along * height, across * height, height * height),
+        ],
+        -1,
+    )
 
 
 def look_at_land(working: Working) -> LandMaps:
@@ -58,11 +88,17 @@ def _look(working: Working) -> LandMaps:
     )
     image = np.clip(resize(working.encoded, width, height), 0, 1).transpose(2, 0, 1)[None]
     found = bundled_session(BUNDLED, "land").run(
-        ["sunlit", "normal", "rise", "openness"],
+        ["sunlit", "normal", "facing", "transfer", "sun"],
         {"image": np.ascontiguousarray(image, np.float32)},
     )
-    sunlit, normal, rise, openness = (output[0] for output in found)
-    return LandMaps(sunlit[0], normal.transpose(1, 2, 0), rise.transpose(1, 2, 0), openness[0])
+    sunlit, normal, facing, transfer, sun = (output[0] for output in found)
+    return LandMaps(
+        sunlit[0],
+        normal.transpose(1, 2, 0),
+        facing[0],
+        transfer.transpose(1, 2, 0),
+        sun.reshape(HEIGHTS.size, TURNS.size),
+    )
 
 
 # Strokes and hints make new scenes of the same small copy.

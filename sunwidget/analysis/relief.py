@@ -6,26 +6,73 @@ import numpy as np
 
 from sunwidget.analysis.depth_field import guided
 from sunwidget.analysis.depth_level import fill_sky
-from sunwidget.analysis.land_network import LandMaps
+from sunwidget.analysis.land_network import LandMaps, of_suns
 from sunwidget.analysis.working import Working, resize
 from sunwidget.camera import Camera
 
 _EDGES, _NO_EDGE = 4, 4e-4  # pixels of the working copy; squared contrast that is no edge
+_LARGEST_SHARE = 2.0  # as in shaders/lib/transfer.glsl
 
 
-def encoded(maps: LandMaps, working: Working, normal: np.ndarray | None = None) -> np.ndarray:
+def encoded(maps: LandMaps, working: Working) -> np.ndarray:
     """Return the texture ``relief`` at working size, (h, w, 4) float32 in [0, 1].
 
-    The normal's right and up as (1 + n) / 2, what of the sun reaches the surface, and what of
-    the sky does (shaders/lib/relief.glsl). The edges of shadows are the picture's. Of a depth that
-    somebody told, ``normal`` (h, w, 3) is better known than the network's.
+    The normal's right and up as (1 + n) / 2, what of the sun reaches the surface, and the cosine
+    between normal and sun (shaders/lib/relief.glsl). The edges of shadows are the picture's.
     """
     width, height = working.width, working.height
-    normal = maps.normal if normal is None else normal
-    slope = resize(np.ascontiguousarray(0.5 + 0.5 * normal[..., :2]), width, height)
+    slope = resize(np.ascontiguousarray(0.5 + 0.5 * maps.normal[..., :2]), width, height)
     lit = guided(working.encoded, resize(maps.sunlit, width, height), _EDGES, _NO_EDGE)
-    openness = resize(maps.openness, width, height)
-    return np.clip(np.dstack([slope, lit, openness]), 0, 1).astype(np.float32)
+    facing = resize(maps.facing, width, height)
+    return np.clip(np.dstack([slope, lit, facing]), 0, 1).astype(np.float32)
+
+
+def encoded_transfer(maps: LandMaps) -> np.ndarray:
+    """Return the texture ``transfer``, (3 h, w, 4) float32 in [0, 1].
+
+    The shares' signed roots, four above four above four (shaders/lib/transfer.glsl).
+    """
+    root = np.sqrt(np.minimum(np.abs(maps.transfer) / _LARGEST_SHARE, 1))
+    code = (0.5 + 0.5 * np.copysign(root, maps.transfer)).astype(np.float32)
+    return np.concatenate(np.split(code, 3, axis=-1))
+
+
+def told_by_depth(
+    maps: LandMaps, log_depth: np.ndarray, camera: Camera, sun: tuple[float, float]
+) -> LandMaps:
+    """Return the maps for land whose depth somebody told: slopes are its own, shadows left out.
+
+    Parameters
+    ----------
+    maps : LandMaps
+    log_depth : (h, w) float32
+        ln(metres) along the optical axis.
+    camera : Camera
+        Of any size.
+    sun : (azimuth, elevation)
+        Of the photo, degrees.
+    """
+    rows, columns = maps.facing.shape
+    normal = resize(normals(log_depth, camera), columns, rows)
+    normal /= np.maximum(np.linalg.norm(normal, axis=-1, keepdims=True), 1e-6)
+    axes = np.array([camera.right, camera.up, camera.forward])
+    world = normal @ (axes * (1, -1, -1)).T.astype(np.float32)
+    # A grid over the sky; least squares of the cosine by the functions of suns.
+    azimuth, height = np.meshgrid(np.linspace(0, 2 * np.pi, 24, endpoint=False), _HEIGHTS)
+    suns = _directions(azimuth, height).reshape(-1, 3)
+    solve = np.linalg.pinv(of_suns(suns)).T.astype(np.float32)
+    transfer = np.maximum(world @ suns.T.astype(np.float32), 0) @ solve
+    facing = np.maximum(world @ _directions(*np.radians(sun)).astype(np.float32), 0)
+    return maps._replace(normal=normal, facing=facing, transfer=transfer)
+
+
+def _directions(azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
+    """Return unit vectors (..., 3) to the right, up and ahead; radians."""
+    flat = np.cos(elevation)
+    return np.stack([flat * np.sin(azimuth), np.sin(elevation), flat * np.cos(azimuth)], -1)
+
+
+_HEIGHTS = np.arcsin((np.arange(8) + 0.5) / 8)
 
 
 def on_land(maps: LandMaps, sky: np.ndarray) -> LandMaps:
@@ -41,8 +88,8 @@ def on_land(maps: LandMaps, sky: np.ndarray) -> LandMaps:
     return maps._replace(
         sunlit=filled(maps.sunlit),
         normal=filled(maps.normal),
-        rise=filled(maps.rise),
-        openness=filled(maps.openness),
+        facing=filled(maps.facing),
+        transfer=filled(maps.transfer),
     )
 
 
@@ -90,12 +137,3 @@ def _step(points: np.ndarray, log_depth: np.ndarray, axis: int) -> np.ndarray:
     before = np.pad(step, [*ends, (0, 0)], mode="edge")
     behind = np.pad(jump, ends, constant_values=np.inf)
     return np.where((ahead <= behind)[..., None], after, before)
-
-
-def encoded_rise(maps: LandMaps) -> np.ndarray:
-    """Return the texture ``rise``, (2 h, w, 4) float32 in [0, 1]: (sine + 0.25) / 1.5.
-
-    Bearings 0 to 3 lie above 4 to 7 (shaders/lib/rise.glsl).
-    """
-    code = np.clip((maps.rise + 0.25) / 1.5, 0, 1).astype(np.float32)
-    return np.concatenate([code[..., :4], code[..., 4:]])

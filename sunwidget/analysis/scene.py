@@ -191,32 +191,30 @@ class Scene:
 
     @cached_property
     def land(self) -> LandMaps:
-        """What the network sees of the land; asked when it is first needed."""
+        """What the network sees of the land; asked when it is first needed.
+
+        Of a depth that somebody told, slopes are that depth's.
+        """
         maps = look_at_land(self.working)
         if self.known_land is not None:
             # The network sees whether the sun shines; how the land lies is known better.
-            maps = self.known_land._replace(sunlit=maps.sunlit)
+            maps = self.known_land._replace(sunlit=maps.sunlit, facing=maps.facing)
+        if self.hints.depth is not None:
+            size = self.working.width, self.working.height
+            told = self.depth_field.log_metres(*size, self.working)
+            sun = self.automatic["sun_azimuth"], self.automatic["sun_elevation"]
+            maps = relief.told_by_depth(maps, told, self.camera, sun)
         return relief.on_land(maps, self.small_sky)
 
     @property
     def relief(self) -> np.ndarray:
         """How the land lies and what light reaches it, (h, w, 4) float32 (analysis/relief.py)."""
-        told = None
-        if self.hints.depth is not None:
-            size = self.working.width, self.working.height
-            told = relief.normals(self.depth_field.log_metres(*size, self.working), self.camera)
-        return relief.encoded(self.land, self.working, told)
+        return relief.encoded(self.land, self.working)
 
-    @cached_property
-    def rise(self) -> np.ndarray:
-        """From which height on a sun reaches places on land, (2 h, w, 4) float32 (relief.py).
-
-        Of a depth that somebody told nothing is expected: it tells what hides a sun.
-        """
-        maps = self.land
-        if self.hints.depth is not None:
-            maps = maps._replace(rise=np.full_like(maps.rise, -np.inf))
-        return relief.encoded_rise(maps)
+    @property
+    def transfer(self) -> np.ndarray:
+        """What of any sun's light falls on the land, (3 h, w, 4) float32 (analysis/relief.py)."""
+        return relief.encoded_transfer(self.land)
 
     @cached_property
     def depth(self) -> np.ndarray:

@@ -32,6 +32,7 @@ from sunwidget.analysis.fit import SkyFit, fit_sky
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
 from sunwidget.analysis.islands import fill_islands, grow_over_glow
+from sunwidget.analysis.land_network import look_at_land
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.notices import notices
 from sunwidget.analysis.sun import Blot, SunObservation
@@ -320,15 +321,15 @@ def fit_atmosphere(
     small = erased.working.shrunk(FIT_SIDE)
     small_sky = resize(sky, small.width, small.height)
     opacity = resize(covers[0].opacity, small.width, small.height)
-    assumed = sun_angles or sun_stage.assume(small, small_sky, camera)
+    expected = look_at_land(working).sun if sun is None else None
     fitted = fit_sky(
-        small, small_sky, opacity, camera, sun_angles, assumed, step.between(0.82, 0.87)
+        small, small_sky, opacity, camera, sun_angles, expected, step.between(0.82, 0.87)
     )
     if unmixed:
         # The colour of the clear sky tells the clouds, and without them it is known better.
         veil = cloud_stage.veil(small, small_sky, camera, fitted, sun_seen=visible)[0]
         fitted = fit_sky(
-            *(small, small_sky, veil.opacity, camera, fitted.sun, assumed),
+            *(small, small_sky, veil.opacity, camera, fitted.sun),
             done=step.between(0.88, 0.9),
             sure_of_sun=fitted.sun_confidence,
             spread=fitted.sun_spread,

@@ -23,7 +23,6 @@ __all__ = [
     "Blot",
     "Peak",
     "SunObservation",
-    "assume",
     "disc_fit",
     "field_of_view_of",
     "find",
@@ -309,28 +308,3 @@ def observe(
         "moon" if dark else "sun",
         1.0 if peak is None else peak.confidence,
     )
-
-
-def assume(working: Working, sky: np.ndarray, camera: Camera) -> tuple[float, float]:
-    """Guess azimuth and elevation of a sun that the photo does not show.
-
-    The sky is brightest towards the sun: the azimuth is that of the brightest part of the
-    sky, blurred; the elevation is that part's own when it is low and the sky darkens above it,
-    else 20° above the upper frame.
-    """
-    import cv2
-
-    height, width = sky.shape
-    luminance = np.log(np.maximum(working.luminance, 1e-3))
-    weight = (sky > 0.5).astype(np.float32)
-    top = camera.angles(camera.width / 2, 0)[1]
-    high = min(max(top + 20, 15.0), 75.0)
-    if weight.mean() < 0.005 or min(height, width) < 8:
-        return 0.0, high
-    blur = 0.08 * max(height, width)
-    share = cv2.GaussianBlur(weight, (0, 0), blur)
-    smooth = cv2.GaussianBlur(luminance * weight, (0, 0), blur) / np.maximum(share, 1e-3)
-    smooth = np.where((weight > 0) & (share > 0.02), smooth, -np.inf)
-    row, column = np.unravel_index(int(smooth.argmax()), smooth.shape)
-    azimuth, _ = camera.angles((column + 0.5) * working.zoom[0], (row + 0.5) * working.zoom[1])
-    return azimuth, high

@@ -108,7 +108,7 @@ def scene_textures(scene: Scene, size: Size) -> dict[str, Array]:
         "backdrop": quantise_map(scene.backdrop),
         "clear_sky": quantise_map(clear_sky(scene)),
         "relief": quantise_map(scene.relief),
-        "rise": quantise_map(scene.rise),
+        "transfer": quantise_map(scene.transfer),
     }
 
 

@@ -31,16 +31,27 @@ out vec4 result;
 
 const float kGroundAlbedo = 0.2;
 const float kCloudLight = 0.5;  // of that of a white cloud's sunlit side: most are seen from below
-const float kSunny = 0.6;       // of the sun that a land's relief lets expect: by so much its sky lets it through
+const float kSunny = 0.6;       // of the sunlight that a land's relief lets expect: by so much its sky lets it through
 const vec2 kTellsShine = vec2(0.0, 0.05);  // sine of the photo's sun's height from which its land tells that
 
 // A landscape is not lit as one point: the mean over its dry places. With hardly any land it is what the camera
-// itself sees of the sun. b is what of the photo's sun reaches it, as the photo shows.
-vec3 GetMean(sampler2D shadow, float visible) {
-  vec4 sum = 0.5 * vec4(visible, 1.0, visible, 1.0);
+// itself sees of the sun.
+vec2 GetMean(sampler2D shadow, float visible) {
+  vec3 sum = 0.5 * vec3(visible, 1.0, 1.0);
   for (int i = 0; i < kTaps; ++i) {
-    vec3 share = vec3(ReadBilinear(shadow, GetTap(i)).rg, ReadRelief(GetTap(i)).lit);
-    sum += GetDryLand(GetTap(i)) * vec4(share, 1.0);
+    sum += GetDryLand(GetTap(i)) * vec3(ReadBilinear(shadow, GetTap(i)).rg, 1.0);
+  }
+  return sum.xy / sum.z;
+}
+
+// Of the photo's sun: what reaches the land by what the photo shows, how much light it throws there, and how much
+// the land's relief lets expect.
+vec3 GetSeen(float visible) {
+  vec4 sum = 0.5 * vec4(visible, visible, visible, 1.0);
+  for (int i = 0; i < kTaps; ++i) {
+    Relief land = ReadRelief(GetTap(i));
+    float expected = ReadBilinear(shadow_source, GetTap(i)).b;
+    sum += GetDryLand(GetTap(i)) * vec4(land.lit, land.lit * land.facing, expected, 1.0);
   }
   return sum.xyz / sum.w;
 }
@@ -69,12 +80,13 @@ void main() {
   int index = int(gl_FragCoord.x);
   vec3 sun_before = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
-  vec3 seen = GetMean(shadow_source, texelFetch(visibility_source, ivec2(0), 0).r);
-  vec2 mean_before = seen.zy;
-  vec2 mean_now = GetMean(shadow_edit, texelFetch(visibility_edit, ivec2(0), 0).r).xy;
+  float visible = texelFetch(visibility_source, ivec2(0), 0).r;
+  vec3 seen = GetSeen(visible);
+  vec2 mean_before = vec2(seen.x, GetMean(shadow_source, visible).y);
+  vec2 mean_now = GetMean(shadow_edit, texelFetch(visibility_edit, ivec2(0), 0).r);
   // A sky that keeps the sun from the land in the photo keeps any sun from it.
   float tells = smoothstep(kTellsShine.x, kTellsShine.y, sun_before.y);
-  float sunny = min(seen.z / max(kSunny * seen.x, 1e-3), 1.0);
+  float sunny = min(seen.y / max(kSunny * seen.z, 1e-3), 1.0);
   float shine = 1.0 + tells * (sunny - 1.0);
   mean_now.x = mean_before.x + GetOtherShadows(sun_before, sun_now) * (shine * mean_now.x - mean_before.x);
   if (index == 16) {

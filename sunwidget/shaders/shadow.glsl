@@ -1,16 +1,16 @@
-// What of the sun reaches the land: r past other land, g past the clouds, both 1 where nothing is in
-// the way. A quarter of the size.
+// What of the sun reaches the land: r past other land that is seen, g past the clouds, both 1 where nothing is in
+// the way; b what of its light may be expected to fall on a place by all that the photo shows (lib/transfer.glsl), and
+// a what of an even sky's. A quarter of the size.
 //
 // Land: a march through the log-depth from a point towards the sun, in steps even in the picture at
 // first and even in log-depth later (after McGuire & Mara, "Efficient GPU Screen-Space Ray
-// Tracing", JCGT 2014), and no more than the photo lets expect (lib/rise.glsl). Only ratios of
-// depths matter, so the unknown scale of the depth does not. What hides the sun counts softly, the
+// Tracing", JCGT 2014). Only ratios of depths matter, so the unknown scale of the depth does not. What hides the sun counts softly, the
 // more so the farther along the ray it stands: a penumbra, and no jump when the sun moves.
 // Clouds: where the ray leaves through the clouds' layer is seen from the camera elsewhere in the sky.
 
 #include "lib/picture.glsl"
 #include "lib/land_depth.glsl"
-#include "lib/rise.glsl"
+#include "lib/transfer.glsl"
 #include "lib/sky.glsl"
 
 uniform sampler2D openness;
@@ -98,5 +98,6 @@ void main() {
   float hidden = GetLandHiding(place, level, GetCameraDirection(sun));
   vec3 view = GetViewDirection(place);
   float along = exp2(16.0 * level) / max(dot(view, vec3(camera_right.z, camera_up.z, camera_forward.z)), 0.1);
-  result = vec4(min(1.0 - hidden, GetExpectedSun(place, sun)), 1.0 - GetCloudHiding(along * view, sun), 0.0, 1.0);
+  Transfer land = ReadTransfer(place);
+  result = vec4(1.0 - hidden, 1.0 - GetCloudHiding(along * view, sun), GetSunlight(land, sun), GetOpenness(land));
 }

@@ -110,7 +110,7 @@ def encode_maps(scene: Scene) -> dict[str, bytes]:
         "_backdrop": backdrop,
         "_clear_sky": behind,
         "_relief": relief,
-        "_rise": encode_png(quantise_map(scene.rise)),
+        "_transfer": encode_png(quantise_map(scene.transfer)),
     }
 
 

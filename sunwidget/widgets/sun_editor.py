@@ -80,7 +80,7 @@ class SunEditor(PlaceClock, Exports):
     _backdrop = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _clear_sky = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _relief = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
-    _rise = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
+    _transfer = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _scene = traitlets.Dict().tag(sync=True, echo_update=False)
     # Which photo it is: its name, a fingerprint of its pixels, and a key of this editor.
     _source = traitlets.Dict().tag(sync=True, echo_update=False)
@@ -147,7 +147,7 @@ class SunEditor(PlaceClock, Exports):
             self._analyst = self._analyst_of(source, analysis)
             self._photo, self._status, self._scene = preview, OPENING, {}
             self._layers = self._surface = self._backdrop = b""
-            self._clear_sky = self._relief = self._rise = b""
+            self._clear_sky = self._relief = self._transfer = b""
             self._source = self._source_json(self._source["session"])
             aside = self._set_asides.pop(self._source["fingerprint"], None)
             self._take_up(**(aside or {"edit": start}))

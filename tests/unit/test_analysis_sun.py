@@ -225,15 +225,6 @@ def test_no_frame_shows_a_sun_that_is_said_not_to_be_in_the_picture():
     assert seen_sun(frame, SKY, CAMERA, dataclasses.replace(hints, sun="outside")) is None
 
 
-def test_the_assumed_sun_lies_to_the_brighter_side():
-    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
-    glow = np.clip(0.3 + 0.5 * columns / SIZE[0], 0, 1)[..., None] * np.ones(3)
-    working = Working.of(open_photo(np.round(255 * glow).astype(np.uint8)))
-    azimuth, elevation = sun.assume(working, SKY, CAMERA)
-    assert azimuth > 5
-    assert 10 <= elevation <= 80
-
-
 def night_sky(disc=True, post=False) -> Working:
     """A dark blue sky with a bright disc that lights hardly anything; on a post, a lamp."""
     rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5

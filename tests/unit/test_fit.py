@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
+from sunwidget.analysis.confidence import HEIGHTS, TURNS
 from sunwidget.analysis.fit import Response, fit_sky, view_angles
 from sunwidget.analysis.working import Working
 from sunwidget.photo import open_photo
 
 
-def fitted(photo, *, sun="told", assumed=(0.0, 30.0)):
+def fitted(photo, *, sun="told", expected=None):
     working = Working.of(open_photo(photo.bytes))
     return fit_sky(
         working,
@@ -17,7 +18,7 @@ def fitted(photo, *, sun="told", assumed=(0.0, 30.0)):
         photo.opacity,
         photo.camera,
         photo.sun if sun == "told" else None,
-        assumed,
+        expected,
     )
 
 
@@ -94,7 +95,7 @@ def test_the_same_photo_gives_the_same_fit():
 @pytest.mark.parametrize("side", [-60.0, 60.0])
 def test_an_unseen_sun_is_found_in_its_quadrant(side):
     photo = known_photo(sun=(side, 20.0), clouds=False)
-    azimuth, elevation = fitted(photo, sun="unseen", assumed=(0.0, 30.0)).sun
+    azimuth, elevation = fitted(photo, sun="unseen").sun
     assert np.sign(azimuth) == np.sign(side)
     assert 20 <= abs(azimuth) <= 130
     assert 2 <= elevation <= 60
@@ -102,8 +103,15 @@ def test_an_unseen_sun_is_found_in_its_quadrant(side):
 
 def test_a_sun_behind_the_camera_is_not_put_before_it():
     photo = known_photo(sun=(170.0, 25.0), clouds=False)
-    azimuth, _ = fitted(photo, sun="unseen", assumed=(150.0, 25.0)).sun
+    azimuth, _ = fitted(photo, sun="unseen", expected=around(150.0, 35.0)).sun
     assert abs(azimuth) > 90
+
+
+def around(azimuth, elevation):
+    """What is expected of a sun of which something else than the sky tells."""
+    far = np.abs((TURNS - azimuth + 180) % 360 - 180) / 60
+    high = np.abs(np.searchsorted(HEIGHTS, elevation) - np.arange(HEIGHTS.size))
+    return np.exp(-(far**2) - high[:, None] ** 2)
 
 
 @pytest.mark.parametrize("value", [0, 40, 255])
@@ -112,8 +120,8 @@ def test_a_photo_without_sky_has_finite_defaults(value):
     photo = known_photo(size=(60, 40))
     working = Working.of(open_photo(picture))
     nothing = np.zeros((40, 60), np.float32)
-    fit = fit_sky(working, nothing, nothing, photo.camera, None, (10.0, 30.0))
-    assert fit.sun == (10.0, 30.0)
+    fit = fit_sky(working, nothing, nothing, photo.camera, None, around(30.0, 35.0))
+    assert fit.sun == (30.0, 35.0)
     assert fit.atmosphere.residual is None
     assert np.isfinite(fit.gain).all()
     assert min(fit.gain) > 0
@@ -123,9 +131,7 @@ def test_a_photo_without_sky_has_finite_defaults(value):
 def test_a_burnt_out_sky_has_finite_defaults():
     photo = known_photo(size=(60, 40))
     working = Working.of(open_photo(np.full((40, 60, 3), 255, np.uint8)))
-    fit = fit_sky(
-        working, np.ones((40, 60), np.float32), 0 * photo.opacity, photo.camera, None, (0, 9)
-    )
+    fit = fit_sky(working, np.ones((40, 60), np.float32), 0 * photo.opacity, photo.camera, None)
     assert np.isfinite(fit.gain).all()
     assert min(fit.gain) > 0
 
@@ -140,7 +146,7 @@ def test_the_response_and_its_inverse_agree_below_the_shoulders_end(response):
 def test_a_fit_tells_how_far_it_is_and_ends_when_told_to():
     photo = known_photo(clouds=False)
     working = Working.of(open_photo(photo.bytes))
-    arguments = working, photo.sky, photo.opacity, photo.camera, None, (0.0, 40.0)
+    arguments = working, photo.sky, photo.opacity, photo.camera, None, None
     told = []
     fit_sky(*arguments, told.append)
     assert told == sorted(told)

@@ -2,10 +2,12 @@
 
 import functools
 
+import cv2
 import numpy as np
 import pytest
 from relight_scenes import known_photo
 
+from sunwidget.analysis.land_network import of_suns
 from sunwidget.camera import Camera
 from sunwidget.edit import Edit
 from sunwidget.renderer import render, render_pass
@@ -62,6 +64,29 @@ def test_normals_of_a_plain_and_of_a_wall():
     camera = scene.camera
     assert np.median(slope[ground], 0) == pytest.approx((camera.up[0], -camera.up[1]), abs=0.05)
     assert np.median(slope[wall], 0) == pytest.approx((0, 0), abs=0.15)
+
+
+def test_the_light_of_any_sun_on_a_told_plain_and_wall_is_the_cosine_in_both_languages():
+    scene, depth = street()
+    height, width = depth.shape
+    transfer = cv2.resize(scene.land.transfer, (width, height))
+    wall = (
+        (depth == WALL)
+        & (np.mgrid[:width] > 0.7 * width)
+        & (np.mgrid[:height] < 0.65 * height)[:, None]
+    )
+    for azimuth, elevation in ((0, 60), (150, 20), (-90, 5)):
+        a, e = np.radians((azimuth, elevation))
+        sun = np.array([np.cos(e) * np.sin(a), np.sin(e), np.cos(e) * np.cos(a)])
+        light = np.clip(transfer @ of_suns(sun), 0, 1)
+        assert np.median(light[depth < 8]) == pytest.approx(sun[1], abs=0.06)
+        assert np.median(light[wall]) == pytest.approx(max(-sun[2], 0), abs=0.12)
+        edit = Edit(sun_azimuth=azimuth, sun_elevation=elevation)
+        drawn = maps(edit, "shadow_edit")[..., 2]
+        expected = cv2.resize(light, drawn.shape[::-1])
+        near = places(lambda z, y, x: z < 12)
+        assert np.abs(drawn - expected)[near].max() < 0.04
+    assert np.median(maps(Edit(), "shadow_edit")[..., 3][near]) == pytest.approx(1, abs=0.1)
 
 
 def test_the_wall_shades_the_plain_on_its_side_of_the_sun_and_no_other():

@@ -11,7 +11,7 @@ from sunwidget.explorer.table import EXPLORER_PARAMETERS, MODELS
 from sunwidget.renderer import shader_source
 from sunwidget.renderer.shader_source import frame_graph, read_shader, resolve_includes
 
-SCENE_TEXTURES = {"photo", "layers", "surface", "backdrop", "clear_sky", "relief", "rise"}
+SCENE_TEXTURES = {"photo", "layers", "surface", "backdrop", "clear_sky", "relief", "transfer"}
 HOST_UNIFORMS = {
     "frame_size",
     "tile_origin",

@@ -107,7 +107,7 @@ def sample(world: dict[str, np.ndarray], rows: int, columns: int, random: Random
 def _others(
     world: dict[str, np.ndarray], random: Random, box: photograph.Box, half: photograph.Box
 ) -> dict[str, np.ndarray]:
-    """Return what of the light of two of the world's suns, chosen by chance, falls on each place."""
+    """Return what of the light of two of the world's suns, by chance, falls on each place."""
     suns, passed = [], []
     for sun in random.permutation(len(world["sunlit"]))[:2]:
         azimuth, elevation, covered = (float(v) for v in world["suns"][sun])

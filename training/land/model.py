@@ -33,11 +33,11 @@ class LandNet(SkyNet):
     ``sky``, ``sunlit`` (N, 1, H, W) logits; at half the size ``normal`` (N, 3, h, w) unit vectors
     to the camera's right, up and towards it; ``depth`` (N, 1, h, w) log2 of metres but for a
     constant; ``transfer`` (N, 12, h, w), whose product with ``of_suns`` is what of any sun's light
-    may be expected to fall on the place, by the light that falls on what faces it; ``facing`` (N, 1, h, w; the cosine between the normal and the
-    photo's sun, where it shines) and ``matter`` (N, 8, h, w) logits; ``view`` (N, 4): row of the
-    horizon in heights from the middle down, its slope, log2 of the focal length in heights, and
-    logit of sunshine; ``sun`` (N, 72) logits of where the photo's sun is, by ``SUN_HEIGHTS`` and
-    within each of them by ``SUN_TURNS``.
+    may be expected to fall on the place, by the light that falls on what faces it; ``facing``
+    (N, 1, h, w) logits of the cosine between the normal and the photo's sun, where it shines;
+    ``matter`` (N, 8, h, w) logits; ``view`` (N, 4): row of the horizon in heights from the middle
+    down, its slope, log2 of the focal length in heights, and logit of sunshine; ``sun`` (N, 72)
+    logits of where the photo's sun is, by ``SUN_HEIGHTS`` and within each by ``SUN_TURNS``.
     """
 
     def __init__(self) -> None:
@@ -101,18 +101,19 @@ class LandMaps(nn.Module):
 
 
 def of_suns(suns: Tensor) -> Tensor:
-    """Return the functions of directions (..., 3: right, up, ahead) that light is made of, (..., 12).
+    """Return the functions of directions by which light on land is told, (..., 12).
 
+    ``suns`` (..., 3) are unit vectors to the right, up, and ahead along the camera's heading.
     Linear ones for the cosine, square ones for shadows, and roots, since low suns set fast.
     """
     x, up, y = suns.unbind(-1)
     z = up.clamp(min=0)
     low = z.sqrt()
     along, across = x * x - y * y, 2 * x * y
-    return torch.stack(
-        [torch.ones_like(x), x, y, z, low, x * low, y * low, along, across, along * z, across * z, z * z],
-        -1,
-    )  # fmt: skip
+    linear = [torch.ones_like(x), x, y, z]
+    roots = [low, x * low, y * low]
+    squares = [along, across, along * z, across * z, z * z]
+    return torch.stack(linear + roots + squares, -1)
 
 
 def openness(transfer: Tensor) -> Tensor:
@@ -130,9 +131,9 @@ def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tenso
     ``target`` holds, at the input's size: ``sky``, ``sunlit`` (N, 1, H, W) in [0, 1]; ``land``
     alike, 1 where light is asked for; at half of it ``solid`` (N, 1, h, w), 1 on land, ``normal``,
     ``depth`` (0 in the sky), ``openness``, ``facing``, ``faced`` (weight of ``facing``, [0, 1]),
-    ``matter`` (N, h, w) int; ``view`` (N, 4), of sunshine 0 or 1; ``sun`` (N, 72) shares. ``passed``
-    (N, 2, 1, h, w) is what of two suns falls on each place, ``suns`` (N, 2, 4) their directions,
-    and whether anything is known of them.
+    ``matter`` (N, h, w) int; ``view`` (N, 4), of sunshine 0 or 1; ``sun`` (N, 72) shares.
+    ``passed`` (N, 2, 1, h, w) is what of two suns falls on each place, ``suns`` (N, 2, 4) their
+    directions, and whether anything is known of them.
     """
     land, solid = target["land"], target["solid"]
     lit = F.binary_cross_entropy_with_logits(out["sunlit"], target["sunlit"], reduction="none")

@@ -64,7 +64,7 @@ def _sun(random: Random, view: View, *, covered: bool = False, first: bool = Fal
 
 
 def make(family: str, seed: int, pictures: int = _PICTURES) -> dict[str, np.ndarray] | None:
-    """Return a world's maps, and pictures under its first suns; None where something is in the way."""
+    """Return a world's maps, and pictures under its first suns; None if its view is blocked."""
     number = list(families.TRAINING | families.TEST).index(family)
     random = np.random.default_rng([seed, number])
     world = (families.TRAINING | families.TEST)[family](random)

@@ -1,8 +1,9 @@
 // How the land's light changes from the photo's sun to the moved one, per surface: the ratio of irradiances
-//   E = E_sky(normal) + lit (cos+(normal, sun) + gloss) E_sun
-// where `lit` is what of the sun reaches the place past other land. In the photo that is seen (relief), so the
-// ratio is asked for twice, for a place in shadow and for one in the sun, and the frame, which has the shadows'
-// edges, chooses (lib/land_light.glsl). For the moved sun it is what the depth says (shadow.glsl).
+//   E = E_sky(normal) + (direct + gloss) E_sun
+// where `direct` is what of the sun's light falls on the place past other land, by what falls on a surface that faces
+// it. In the photo that is seen (relief), so the ratio is asked for twice, for a place in shadow and for one in the
+// sun, and the frame, which has the shadows' edges, chooses (lib/land_light.glsl). Of the moved sun it is what the
+// photo lets expect (lib/transfer.glsl), less where land that is seen stands before it (shadow.glsl).
 
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
@@ -27,7 +28,7 @@ uniform float source_land_facing;
 // Walls and slopes are smoother than the ground.
 const float kWallRoughness = 0.04;
 const float kAlike = 1e-6;
-const float kBelieved = 0.5;  // of the new shadows, over the landscape's mean: they are cast by a depth that is a guess
+const float kBelieved = 0.5;  // of the shadows that the depth casts: it is a guess
 const float kLeastOpen = 0.2;  // of what a slope sees of the sky: no wall stands all round a place that is seen
 
 vec3 GetTerm(int index) {
@@ -46,25 +47,34 @@ vec3 GetSkyIrradiance(int first, vec3 normal) {
 }
 
 // What of the sky a place does not see is land, lit as lying land is.
-vec3 GetOpenIrradiance(int first, Relief land) {
-  float most = 0.5 + 0.5 * land.normal.y;
-  float open = clamp(land.openness / max(most, 0.25), kLeastOpen, 1.0);
-  return mix(GetTerm(first + 5), GetSkyIrradiance(first, land.normal), open);
+vec3 GetOpenIrradiance(int first, vec3 normal, float openness) {
+  float most = 0.5 + 0.5 * normal.y;
+  float open = clamp(openness / max(most, 0.25), kLeastOpen, 1.0);
+  return mix(GetTerm(first + 5), GetSkyIrradiance(first, normal), open);
 }
 
-// `first` is the first texel of the state in land_terms.glsl; `known` how far the slope is believed.
-vec3 GetIrradiance(int first, Relief land, float known, float upright, float facing, vec3 view, float visible) {
+// What of one sun reaches a place.
+struct SunShare {
+  float past_land;
+  float past_clouds;
+  float direct;  // as above; believed as far as shadows and slopes are
+};
+
+// `first` is the first texel of the state in land_terms.glsl; `known` how far slope and shadows are believed.
+vec3 GetIrradiance(int first, Relief land, float openness, float known, float upright, float facing, vec3 view, SunShare share) {
   vec3 sun = GetTerm(first + 7);
   float stands = mix(facing, 1.0, upright);
   vec3 sky = mix(GetTerm(first), GetTerm(first + 4) + 0.5 * GetTerm(first + 5), stands);
   float cosine = mix(GetSoftCosine(sun.y, kRoughness), GetSoftCosine(-sun.z, kWallRoughness), stands);
-  sky += known * (GetOpenIrradiance(first, land) - sky);
+  sky += known * (GetOpenIrradiance(first, land.normal, openness) - sky);
   float lies = clamp(land.normal.y, 0.0, 1.0);
   float slope = GetSoftCosine(dot(land.normal, sun), mix(kWallRoughness, kRoughness, lies));
   cosine += known * (slope - cosine);
+  float direct = share.past_land * cosine;
+  direct += known * cast_shadows * (share.direct - direct);
   float flat_share = mix(1.0 - upright, lies * lies, known);
-  cosine += gloss * flat_share * GetGloss(view, sun);
-  return sky + visible * cosine * GetTerm(first + 6);
+  direct += share.past_land * gloss * flat_share * GetGloss(view, sun);
+  return sky + share.past_clouds * direct * GetTerm(first + 6);
 }
 
 // What of the photo's sun comes past clouds, and of the moved sun past land and past clouds, averaged with
@@ -101,19 +111,25 @@ LandLight GetLandLight(float lit) {
   float upright = GetUprightness(view);
   vec4 mean = texelFetch(land_terms, ivec2(16, 0), 0);
   vec3 here = GetSunShare(texel, level);
+  vec2 expected = texelFetch(shadow_edit, texel, 0).ba;  // light of the moved sun, and of an even sky
   float shine = texelFetch(land_terms, ivec2(15, 0), 0).a;
-  float expected = mean.z + kBelieved * (shine * here.y - mean.z);
-  float passed = lit + GetOtherShadows(GetTerm(7), GetTerm(15)) * (expected - lit);
-  vec4 share = vec4(lit, here.x, passed, here.z);
+  float other = GetOtherShadows(GetTerm(7), GetTerm(15));
+  float reaches = 1.0 + kBelieved * (here.y - 1.0);
+  vec4 share = vec4(lit, here.x, lit + other * (shine * reaches - lit), here.z);
   share = mean + vec2(cast_shadows, cloud_shadows).xyxy * (share - mean);
-  vec3 before = GetIrradiance(0, land, shading, upright, source_land_facing, view, share.x * share.y);
-  vec3 now = GetIrradiance(8, land, shading, upright, land_facing, view, share.z * share.w);
+  float direct = lit * land.facing;
+  SunShare old = SunShare(share.x, share.y, direct);
+  SunShare moved = SunShare(share.z, share.w, direct + other * (shine * reaches * expected.x - direct));
+  vec3 before = GetIrradiance(0, land, expected.y, shading, upright, source_land_facing, view, old);
+  vec3 now = GetIrradiance(8, land, expected.y, shading, upright, land_facing, view, moved);
   // A constant `lit` lets a compiler order the sums of the one otherwise than those of the other.
   now = mix(now, before, lessThan(abs(now - before), kAlike * before));
   vec3 ratio = GetRatio(now, before);
   vec3 down = vec3(0.0, -1.0, 0.0);  // where nothing gleams
-  vec3 plain_before = GetIrradiance(0, land, 0.0, 0.5, source_land_facing, down, mean.x * mean.y);
-  vec3 plain_now = GetIrradiance(8, land, 0.0, 0.5, land_facing, down, mean.z * mean.w);
+  SunShare all_before = SunShare(mean.x, mean.y, 0.0);
+  SunShare all_now = SunShare(mean.z, mean.w, 0.0);
+  vec3 plain_before = GetIrradiance(0, land, 1.0, 0.0, 0.5, source_land_facing, down, all_before);
+  vec3 plain_now = GetIrradiance(8, land, 1.0, 0.0, 0.5, land_facing, down, all_now);
   vec3 as_one = GetRatio(plain_now, plain_before);
   as_one = mix(pow(as_one, vec3(kRestraint)), vec3(1.0), equal(as_one, vec3(1.0)));
   return LandLight(before, as_one + GetSkySeen() * (ratio - as_one), level);

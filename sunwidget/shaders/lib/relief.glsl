@@ -1,12 +1,12 @@
 // How the land lies and what light falls on it in the photo (analysis/relief.py): R and G the normal's right and
-// up in camera coordinates, B what of the sun reaches it past land, A what of the sky does, weighed by the cosine.
+// up in camera coordinates, B what of the sun reaches it past land, A the cosine between normal and sun where it does.
 
 uniform sampler2D relief;
 
 struct Relief {
   vec3 normal;     // in world coordinates
   float lit;
-  float openness;
+  float facing;
 };
 
 Relief ReadRelief(vec2 place) {
