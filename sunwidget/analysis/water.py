@@ -25,6 +25,8 @@ _SUN = 0.3  # probability from which there is a sun whose column may be twice as
 _GAP = 0.02  # and half of the gap between water and sky
 _STRIP = 0.005  # the same of a gap above the horizon
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
+_SHORE = 0.02  # of the width: how far beyond the network's edge the shore may be
+_SHORE_SIDE = 384  # px of the copy on which it is looked for
 _RADIUS = 5  # px of the working copy: how far the edge of the mask follows the picture
 _EPSILON = 1e-4
 
@@ -59,6 +61,7 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     water = smoothstep(*_EDGE, resize(_believed(maps, working, sky), width, height)) * ground
     if water.mean() < _LEAST:
         return np.zeros_like(sky)
+    water = _to_the_shore(working, sky, water)
     return soft_edged(working, sky, _with_glints(working, sky, ground, water, maps))
 
 
@@ -89,6 +92,34 @@ def _believed(maps: SunMaps, working: Working, sky: np.ndarray) -> np.ndarray:
         seen = redness[colored if colored.any() else inside]
         kept[patch] = sure and float(np.median(seen)) < reddest + _REDDER
     return np.where(kept[labels], maps.water, 0).astype(np.float32)
+
+
+def _to_the_shore(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:
+    """Return the water with its edges where the colours change, within a band round the network's.
+
+    GrabCut (Rother et al. 2004) on a small copy; its map is coarse, and what it leaves of dark
+    water along a bank would be lit as land in shade is.
+    """
+    import cv2
+
+    small = working.shrunk(_SHORE_SIDE)
+    columns, rows = small.width, small.height
+    wet = resize(water, columns, rows) > 0.5
+    radius = max(2, round(_SHORE * columns))
+    round_ = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1,) * 2)
+    inside = cv2.erode(wet.astype(np.uint8), round_[::2, ::2]) > 0
+    outside = (cv2.dilate(wet.astype(np.uint8), round_) == 0) | (resize(sky, columns, rows) > 0.5)
+    if not inside.any() or not outside.any():
+        return water
+    label = np.where(wet, cv2.GC_PR_FGD, cv2.GC_PR_BGD).astype(np.uint8)
+    label[inside], label[outside] = cv2.GC_FGD, cv2.GC_BGD
+    cv2.setRNGSeed(1)
+    picture = np.rint(255 * np.clip(small.encoded[..., ::-1], 0, 1)).astype(np.uint8)
+    cv2.grabCut(
+        picture, label, None, np.zeros((1, 65)), np.zeros((1, 65)), 2, cv2.GC_INIT_WITH_MASK
+    )
+    found = np.isin(label, (cv2.GC_FGD, cv2.GC_PR_FGD)).astype(np.float32)
+    return resize(found, working.width, working.height) * (1 - sky)
 
 
 def _with_glints(

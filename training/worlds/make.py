@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from training.worlds import families, render
-from training.worlds.families import World
+from training.worlds.families.world import World
 from training.worlds.materials import Palette
 from training.worlds.mesh import Random
 from training.worlds.render import View

@@ -27,6 +27,7 @@ uniform float source_land_facing;
 
 // Walls and slopes are smoother than the ground.
 const float kWallRoughness = 0.04;
+const float kExpected = 0.4;  // of the light of the photo's sun: what its land lets expect, over what is seen of it
 const float kAlike = 1e-6;
 const float kBelieved = 0.5;  // of the shadows that the depth casts: it is a guess
 const float kLeastOpen = 0.2;  // of what a slope sees of the sky: no wall stands all round a place that is seen
@@ -117,7 +118,7 @@ LandLight GetLandLight(float lit) {
   float reaches = 1.0 + kBelieved * (here.y - 1.0);
   vec4 share = vec4(lit, here.x, lit + other * (shine * reaches - lit), here.z);
   share = mean + vec2(cast_shadows, cloud_shadows).xyxy * (share - mean);
-  float direct = lit * land.facing;
+  float direct = mix(lit * land.facing, texelFetch(shadow_source, texel, 0).b, kExpected);
   SunShare old = SunShare(share.x, share.y, direct);
   SunShare moved = SunShare(share.z, share.w, direct + other * (shine * reaches * expected.x - direct));
   vec3 before = GetIrradiance(0, land, expected.y, shading, upright, source_land_facing, view, old);
