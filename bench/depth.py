@@ -38,7 +38,8 @@ def scenes(folder: Path) -> Iterator[tuple[str, Path, np.ndarray, dict[str, Any]
         known = 0.5 * np.exp((code - 1) / 65533 * np.log(200_000))
         known[code >= 65535] = np.inf
         frame = next(f for f in facts["frames"] if not f.get("file_auto"))
-        yield f"sample {path.stem}", path.with_name(facts["jpeg"]), known, hints(facts, frame)
+        picture = facts.get("jpeg", frame["file"] + ".png")
+        yield f"sample {path.stem}", path.with_name(picture), known, hints(facts, frame)
 
 
 def hints(facts: dict[str, Any], frame: dict[str, Any]) -> dict[str, Any]:

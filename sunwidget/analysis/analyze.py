@@ -41,7 +41,7 @@ def analyze(
     clouds: str = "unmix",
     horizon_method: str = "water_line",
     sun_method: str = "disc_fit",
-    depth: Any = "fused",
+    depth: Any = "network",
     water: Any = "network",
     strokes: tuple[Stroke, ...] = (),
     progress: Progress | None = None,
@@ -94,7 +94,7 @@ def analyze(
         "clouds": clouds,
         "horizon": horizon_method,
         "sun": sun_method,
-        "depth": depth if isinstance(depth, str) and depth in METHODS["depth"] else "fused",
+        "depth": depth if isinstance(depth, str) and depth in METHODS["depth"] else "network",
         "water": water if isinstance(water, str) else "none",
     }
     for stage, name in methods.items():

@@ -24,6 +24,8 @@ class View:
 
     Parameters
     ----------
+    photo : Working
+        Of any size: what networks look at.
     working : Working
         At most ``SIDE`` pixels long.
     sky, water : (h, w) float32
@@ -36,6 +38,7 @@ class View:
         As fitted to the sky.
     """
 
+    photo: Working
     working: Working
     sky: np.ndarray
     water: np.ndarray
@@ -59,6 +62,7 @@ class View:
         doubt = 1 - float(np.clip(horizon.confidence, 0, 1))
         share = _LEAST_ERROR * (_LARGEST_ERROR / _LEAST_ERROR) ** doubt
         return cls(
+            working,
             small,
             resize(sky, *size),
             resize(water, *size),
@@ -81,16 +85,6 @@ class View:
     def fall(self) -> np.ndarray:
         """How far each ray falls, see ``fall_of``."""
         return fall_of(self.camera)
-
-    @cached_property
-    def horizon_rows(self) -> np.ndarray:
-        """Row of the horizon in each column: (w,) float64, may lie outside the picture."""
-        return np.asarray(self.camera.horizon_row(np.arange(self.shape[1]) + 0.5))
-
-    @cached_property
-    def first_ground(self) -> np.ndarray:
-        """First row below the horizon in each column: (w,) int, 0 … h."""
-        return np.clip(np.ceil(self.horizon_rows - 0.5).astype(int), 0, self.shape[0])
 
 
 def fall_of(camera: Camera) -> np.ndarray:

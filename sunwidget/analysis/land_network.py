@@ -24,6 +24,8 @@ class LandMaps(NamedTuple):
     ----------
     sunlit : (h, w) float32
         Share of the sun's disc that the surface sees, [0, 1]; 0 without sunshine.
+    log_depth : (h/2, w/2) float32
+        ln(metres) along the optical axis, but for a constant.
     normal : (h/2, w/2, 3) float32
         Unit normals: to the camera's right, up, and towards it.
     facing : (h/2, w/2) float32
@@ -35,6 +37,7 @@ class LandMaps(NamedTuple):
     """
 
     sunlit: np.ndarray
+    log_depth: np.ndarray
     normal: np.ndarray
     facing: np.ndarray
     transfer: np.ndarray
@@ -88,12 +91,13 @@ def _look(working: Working) -> LandMaps:
     )
     image = np.clip(resize(working.encoded, width, height), 0, 1).transpose(2, 0, 1)[None]
     found = bundled_session(BUNDLED, "land").run(
-        ["sunlit", "normal", "facing", "transfer", "sun"],
+        ["sunlit", "depth", "normal", "facing", "transfer", "sun"],
         {"image": np.ascontiguousarray(image, np.float32)},
     )
-    sunlit, normal, facing, transfer, sun = (output[0] for output in found)
+    sunlit, octaves, normal, facing, transfer, sun = (output[0] for output in found)
     return LandMaps(
         sunlit[0],
+        octaves[0] * np.float32(np.log(2)),
         normal.transpose(1, 2, 0),
         facing[0],
         transfer.transpose(1, 2, 0),

@@ -31,7 +31,7 @@ Scale = tuple[Any, Any]  # mean and deviation, each a number or three
 INSTEAD = {
     "sky": "sky=mask, the path of an .onnx file, or sky='skyline'",
     "sun": "sun=(x, y)",
-    "depth": "depth=an array of metres, the path of an .onnx file, or depth='fused'",
+    "depth": "depth=an array of metres, the path of an .onnx file, or depth='network'",
 }
 
 

@@ -1,6 +1,7 @@
 """Depth of the photo: its methods on drawn scenes of known depth, and how the frame gets it."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
-from sunwidget.analysis import depth, depth_contact, depth_ground, depth_haze, depth_level
+from sunwidget.analysis import depth, depth_ground, depth_level
 from sunwidget.analysis.depth_network import DepthNetwork, aligned
 from sunwidget.analysis.depth_view import View
 from sunwidget.analysis.errors import AnalysisError
@@ -80,68 +81,70 @@ def inner_of(wall):
     return cv2.erode(wall.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0
 
 
-@pytest.mark.parametrize("method", ["ground_plane", "fused"])
-def test_the_plain_the_wall_and_the_ridge_have_their_depths(plain, method):
-    _, metres, wall, view = plain
-    found, field = metres_of(method, view)
+@pytest.fixture
+def sees(plain, monkeypatch):
+    """Let the land network see the drawn plain as it is, but for a scale."""
+    _, metres, wall, _ = plain
     land = np.isfinite(metres)
-    near = land & ~wall & (metres < 200)
+    log_depth = depth_level.fill_sky(np.log(np.where(land, metres, 1)).astype(np.float32), land)
+    normal = np.zeros((HEIGHT, WIDTH, 3), np.float32)
+    normal[..., 2] = 1  # what stands faces the camera
+    normal[land & (metres < RIDGE) & ~wall] = CAMERA.up * np.array([1, -1, -1])
+
+    def see(times=1.0, noise=0.0):
+        rough = np.random.default_rng(3).normal(0, noise, log_depth.shape).astype(np.float32)
+        maps = SimpleNamespace(log_depth=log_depth + rough + np.log(times), normal=normal)
+        monkeypatch.setattr(depth, "look_at_land", lambda _: maps)
+
+    return see
+
+
+@pytest.mark.parametrize("times", [0.05, 1.0, 30.0])
+def test_the_plain_the_wall_and_the_ridge_have_their_depths(plain, sees, times):
+    _, metres, wall, view = plain
+    sees(times, noise=0.1)
+    found, field = metres_of("network", view)
+    near = np.isfinite(metres) & ~wall & (metres < 200)
     assert within(found[near], metres[near], 1.1) > 0.9
     inner = inner_of(wall)
-    assert within(found[inner], metres[inner], 1.35) > 0.95
-    # Its foot is at the horizon: contacts alone say only that it is far.
-    ridge = metres == RIDGE
-    assert np.median(found[ridge]) > {"ground_plane": 250, "fused": 1_000}[method]
+    assert within(found[inner], metres[inner], 1.2) > 0.95
+    ridge = (metres == RIDGE) & ~wall
+    assert np.median(found[ridge]) == pytest.approx(RIDGE, rel=0.25)
     assert 0 <= field.confidence.min() <= field.confidence.max() <= 1
-    # What stands nearer, on ground that is seen, is known better than the ridge.
-    assert np.median(field.confidence[inner]) > np.median(field.confidence[ridge])
+    # Ground that the plane tells is known better than what stands on it.
+    assert np.median(field.confidence[near]) > np.median(field.confidence[ridge])
 
 
-def test_the_contact_row_is_the_foot_of_the_wall(plain):
-    _, _, wall, view = plain
-    contacts = depth_contact.find(view)
-    assert contacts.probability.sum(axis=0) == pytest.approx(1)
-    columns = np.flatnonzero(wall.any(axis=0))[6:-6]
-    foot = HEIGHT - np.argmax(wall[::-1], axis=0)
-    mean = (contacts.probability * contacts.rows).sum(axis=0)
-    assert np.abs(mean - foot)[columns].max() < 6
-    away = np.flatnonzero(~wall.any(axis=0))
-    assert np.median(mean[away] - ROW) < 4
-
-
-def test_haze_tells_the_ridge_by_its_light(plain):
+def test_the_plane_is_nothing_but_ground(plain):
     _, metres, wall, view = plain
-    through = depth_haze.transmittance(view, depth_haze.airlight(view))
-    ridge = (metres == RIDGE) & ~wall
-    known = np.exp(-AIR.extinction_550 * RIDGE)  # 0.31
-    assert np.median(through[ridge]) == pytest.approx(known, abs=0.2)
-    assert np.median(through[wall]) > 0.9
-    found, field = metres_of("haze", view)
-    assert np.median(found[ridge]) == pytest.approx(RIDGE, rel=0.6)
-    # Haze says nothing of what is near.
-    assert np.median(field.confidence[ridge]) > 2 * np.median(field.confidence[wall])
+    found, _ = metres_of("ground_plane", view)
+    ground = np.isfinite(metres) & ~wall & (metres < 200)
+    assert within(found[ground], metres[ground], 1.05) > 0.98
+    assert found[metres == RIDGE].min() > 200
 
 
-def test_haze_moves_the_ridge_away_from_where_contacts_put_it(plain):
-    _, metres, wall, view = plain
-    ridge = (metres == RIDGE) & ~wall
-    error = {
-        method: abs(np.log(np.median(metres_of(method, view)[0][ridge]) / RIDGE))
-        for method in ("ground_plane", "fused")
-    }
-    assert error["fused"] < 0.8 * error["ground_plane"]
-
-
-def test_an_unsure_horizon_is_a_lower_confidence(plain):
+def test_without_ground_in_sight_the_network_tells_the_scale(plain, sees):
     *_, view = plain
-    sure = depth.fused(view).confidence.mean()
-    unsure = depth.fused(dataclasses.replace(view, horizon_error=8.0)).confidence.mean()
-    assert unsure < 0.9 * sure
+    above = dataclasses.replace(view, camera=Camera(WIDTH, HEIGHT, FOV, 40.0))
+    sees(1.0)
+    near = np.exp(depth.network(above).log_metres(WIDTH, HEIGHT, view.working))
+    sees(10.0)
+    far = np.exp(depth.network(above).log_metres(WIDTH, HEIGHT, view.working))
+    assert np.median(far[view.land] / near[view.land]) > 3
 
 
-def test_ground_has_no_terraces_at_any_size(plain):
+def test_an_unsure_horizon_is_a_lower_confidence(plain, sees):
     *_, view = plain
-    field = depth.fused(view)
+    sees()
+    sure = depth.network(view).confidence.mean()
+    unsure = depth.network(dataclasses.replace(view, horizon_error=8.0)).confidence.mean()
+    assert unsure < 0.95 * sure
+
+
+def test_ground_has_no_terraces_at_any_size(plain, sees):
+    *_, view = plain
+    sees()
+    field = depth.network(view)
     for scale in (0.5, 1, 3):
         width, height = round(WIDTH * scale), round(HEIGHT * scale)
         column = field.log_metres(width, height, view.working)[:, round(20 * scale)]
@@ -151,15 +154,7 @@ def test_ground_has_no_terraces_at_any_size(plain):
             * CAMERA.resized(width, height).focal
             / (np.arange(round(120 * scale), height) + 0.5 - ROW * scale)
         )
-        assert np.abs(ground - known).max() < 0.02
-
-
-def test_folds_are_levelled_and_steps_kept():
-    rng = np.random.default_rng(2)
-    truth = np.where(np.arange(200) < 90, 3.0, 5.0)
-    found = depth_contact.levelled(truth + rng.normal(0, 0.15, 200), np.full(200, 10.0), 15.0)
-    assert np.abs(np.diff(found[:85])).max() < 0.02
-    assert found[120] - found[60] == pytest.approx(2, abs=0.2)
+        assert np.abs(ground - known).max() < 0.05
 
 
 def test_levels_are_log_depth():
@@ -230,7 +225,7 @@ def test_a_given_array_is_the_depth():
 @pytest.mark.parametrize(
     ("value", "message"),
     [
-        ("stereo", "choose one of fused, ground_plane, haze"),
+        ("stereo", "choose one of network, ground_plane"),
         (3.0, "knows no method 3.0"),
         (object(), "knows no method"),
         (np.ones((4, 5, 2)), r"shape \(height, width\)"),
@@ -264,7 +259,7 @@ def test_pictures_of_odd_sizes_have_a_depth(method, shape):
 def test_a_photo_is_analysed_by_each_method():
     photo = open_photo(seascape(240, 160))
     base = sw.analyze(photo)
-    assert base.hints.method("depth") == "fused"
+    assert base.hints.method("depth") == "network"
     for method in depth.METHODS:
         assert np.isfinite(sw.analyze(photo, depth=method).surface()).all()
 

@@ -172,5 +172,5 @@ def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tenso
         "view": F.smooth_l1_loss(view[:, :3], truth[:, :3], beta=0.1)
         + 0.1 * F.binary_cross_entropy_with_logits(view[:, 3], shining),
         "facing": (cosine_ * target["faced"]).sum() / target["faced"].sum().clamp(min=1),
-        "sun": 0.1 * (shining * where).sum() / shining.sum().clamp(min=1),
+        "sun": 0.3 * (shining * where).sum() / shining.sum().clamp(min=1),
     }
