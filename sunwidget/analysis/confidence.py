@@ -25,9 +25,9 @@ GOOD_SUN = 35.0
 FIT_WEIGHTS = (-0.78, -1.73, 0.49, -0.19, -0.33, 3.26)
 SUN_WEIGHTS = (1.07, 2.26, 0.34, 0.05)
 # By how many e-folds a direction's odds fall with a misfit of 0.01.
-SUN_ODDS = 1.0
-# The power of what the land network says of a direction, and the share of suns of which it says nothing.
-_TRUST, _ANYWHERE = 1.3, 0.1
+SUN_ODDS = 2.0
+# Share of suns that stand where nothing in the picture lets expect them.
+_ANYWHERE = 0.1
 UNKNOWN = 90.0
 """Degrees of spread (``likeliest_sun``) from which the photo does not tell where the sun is."""
 
@@ -141,7 +141,7 @@ def posterior_of_sun(
     """
     misfits = np.array([[errors[a, h] for a in TURNS] for h in HEIGHTS])
     before = (1 - _ANYWHERE) * expected / expected.sum() + _ANYWHERE / expected.size
-    odds = _finer(_TRUST * np.log(before) - SUN_ODDS * (misfits - misfits.min()) / 0.01)
+    odds = _finer(np.log(before) - SUN_ODDS * (misfits - misfits.min()) / 0.01)
     likely = np.exp(odds - odds.max())
     azimuth, elevation = np.meshgrid(_FINE_TURNS, _FINE_HEIGHTS)
     return azimuth.ravel(), elevation.ravel(), (likely / likely.sum()).ravel()

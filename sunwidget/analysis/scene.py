@@ -335,6 +335,7 @@ class Scene:
             "camera_forward": self.camera.forward,
             "camera_focal": self.camera.focal / self.camera.height,
             "sun_visible": float(self.sun is not None and self.sun.visible),
+            "depth_told": float(self.hints.depth is not None),
             "photo_light": float(self.lit_by_moon),
             "water_roughness": self._water_roughness(),
             "sky_share": share,

@@ -1,8 +1,8 @@
-// What of the sun reaches the land: r past other land that is seen, g past the clouds, both 1 where nothing is in
-// the way; b what of its light may be expected to fall on a place by all that the photo shows (lib/transfer.glsl), and
-// a what of an even sky's. A quarter of the size.
+// What of the sun reaches the land: r past other land, g past the clouds, both 1 where nothing is in the way; b what
+// of its light may be expected to fall on a place by all that the photo shows (lib/transfer.glsl), and a what of an
+// even sky's. A quarter of the size.
 //
-// Land: a march through the log-depth from a point towards the sun, in steps even in the picture at
+// Past land: nothing but a depth that somebody told hides the sun there; b knows of other shadows, too. A march through the log-depth from a point towards the sun, in steps even in the picture at
 // first and even in log-depth later (after McGuire & Mara, "Efficient GPU Screen-Space Ray
 // Tracing", JCGT 2014). Only ratios of depths matter, so the unknown scale of the depth does not. What hides the sun counts softly, the
 // more so the farther along the ray it stands: a penumbra, and no jump when the sun moves.
@@ -18,6 +18,7 @@ uniform sampler2D veil_opacity;
 uniform sampler2D land_depth;
 uniform float sun_azimuth;
 uniform float sun_elevation;
+uniform float depth_told;  // whether somebody did, 0 or 1
 uniform vec2 pass_size;
 
 out vec4 result;
@@ -95,9 +96,10 @@ void main() {
   vec2 place = gl_FragCoord.xy / pass_size;
   vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
   float level = ReadLandDepth(land_depth, place).r;
-  float hidden = GetLandHiding(place, level, GetCameraDirection(sun));
   vec3 view = GetViewDirection(place);
   float along = exp2(16.0 * level) / max(dot(view, vec3(camera_right.z, camera_up.z, camera_forward.z)), 0.1);
   Transfer land = ReadTransfer(place);
-  result = vec4(1.0 - hidden, 1.0 - GetCloudHiding(along * view, sun), GetSunlight(land, sun), GetOpenness(land));
+  float hidden = depth_told > 0.0 ? GetLandHiding(place, level, GetCameraDirection(sun)) : 0.0;
+  float light = GetSunlight(land, sun) * (1.0 - hidden);
+  result = vec4(1.0 - hidden, 1.0 - GetCloudHiding(along * view, sun), light, GetOpenness(land));
 }

@@ -3,7 +3,8 @@
 // where `direct` is what of the sun's light falls on the place past other land, by what falls on a surface that faces
 // it. In the photo that is seen (relief), so the ratio is asked for twice, for a place in shadow and for one in the
 // sun, and the frame, which has the shadows' edges, chooses (lib/land_light.glsl). Of the moved sun it is what the
-// photo lets expect (lib/transfer.glsl), less where land that is seen stands before it (shadow.glsl).
+// photo lets expect (lib/transfer.glsl); of a depth that somebody told that knows slopes alone, and the shadows are
+// what the depth casts (shadow.glsl).
 
 #include "lib/picture.glsl"
 #include "lib/response.glsl"
@@ -29,7 +30,6 @@ uniform float source_land_facing;
 const float kWallRoughness = 0.04;
 const float kExpected = 0.4;  // of the light of the photo's sun: what its land lets expect, over what is seen of it
 const float kAlike = 1e-6;
-const float kBelieved = 0.5;  // of the shadows that the depth casts: it is a guess
 const float kLeastOpen = 0.2;  // of what a slope sees of the sky: no wall stands all round a place that is seen
 
 vec3 GetTerm(int index) {
@@ -115,12 +115,11 @@ LandLight GetLandLight(float lit) {
   vec2 expected = texelFetch(shadow_edit, texel, 0).ba;  // light of the moved sun, and of an even sky
   float shine = texelFetch(land_terms, ivec2(15, 0), 0).a;
   float other = GetOtherShadows(GetTerm(7), GetTerm(15));
-  float reaches = 1.0 + kBelieved * (here.y - 1.0);
-  vec4 share = vec4(lit, here.x, lit + other * (shine * reaches - lit), here.z);
+  vec4 share = vec4(lit, here.x, lit + other * (shine * here.y - lit), here.z);
   share = mean + vec2(cast_shadows, cloud_shadows).xyxy * (share - mean);
   float direct = mix(lit * land.facing, texelFetch(shadow_source, texel, 0).b, kExpected);
   SunShare old = SunShare(share.x, share.y, direct);
-  SunShare moved = SunShare(share.z, share.w, direct + other * (shine * reaches * expected.x - direct));
+  SunShare moved = SunShare(share.z, share.w, direct + other * (shine * expected.x - direct));
   vec3 before = GetIrradiance(0, land, expected.y, shading, upright, source_land_facing, view, old);
   vec3 now = GetIrradiance(8, land, expected.y, shading, upright, land_facing, view, moved);
   // A constant `lit` lets a compiler order the sums of the one otherwise than those of the other.
