@@ -46,14 +46,14 @@ def network(view: View) -> DepthField:
     seen = resize(maps.log_depth, columns, rows)
     up = np.array(view.camera.up, np.float32) * (1, -1, -1)
     slope = resize(maps.normal @ up.astype(np.float32), columns, rows)
-    lies = np.maximum(smoothstep(*_LYING, slope), view.water) * (view.fall > 0)
+    lies = smoothstep(*_LYING, slope) * (view.fall > 0)
     far = view.fall < 3 * view.horizon_error / view.camera.focal
     sure = view.land & (slope > _LYING[0]) & ~far
     if sure.mean() > _LEAST_GROUND:
         seen = seen + np.median((ground - seen)[sure])
     seen = _smoothed(view, np.minimum(seen, np.log(depth_ground.FAR)), view.land)
     apart = ((seen - ground) / (_STANDS + lies * (_LIES - _STANDS))) ** 2
-    share = apart / (1 + apart)
+    share = apart / (1 + apart) * (1 - view.water * (view.fall > 0))
     error = _mixed_error(view, ground, share, seen, np.float32(_SEEN_ERROR))
     return _field(view, share, seen, error)
 

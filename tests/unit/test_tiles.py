@@ -109,7 +109,7 @@ def test_reductions_of_a_copy_give_nearly_the_same_picture(monkeypatch):
     forget_pictures()
     # Normals of the land from depth in eight bits, and water by its sparkles, are what samples say.
     assert 0 < apart.mean() < 0.5
-    assert np.percentile(apart, 99) <= 5
+    assert np.percentile(apart, 99) <= 6
 
 
 @pytest.mark.parametrize("size", [(20_000, 100), (100, 20_000), (12_000, 9000), (1, 1)])
