@@ -15,6 +15,7 @@ from sunwidget.analysis.working import Working, resize
 BUNDLED = Path(__file__).parent / "models" / "land.onnx"
 AREA = 92_000  # pixels of the picture that the network sees
 _STRIDE = 32
+_WATER = 1  # of the kinds of matter
 
 
 class LandMaps(NamedTuple):
@@ -32,6 +33,8 @@ class LandMaps(NamedTuple):
         Cosine between the normal and the photo's sun, [0, 1], where that lights the surface.
     transfer : (h/2, w/2, 12) float32
         Shares of the functions of ``of_suns``: what of any sun's light falls on the surface.
+    water : (h/2, w/2) float32
+        Probability of water.
     sun : (6, 12) float32
         Probability of where the photo's sun is, by ``confidence.HEIGHTS`` and ``TURNS``.
     """
@@ -41,6 +44,7 @@ class LandMaps(NamedTuple):
     normal: np.ndarray
     facing: np.ndarray
     transfer: np.ndarray
+    water: np.ndarray
     sun: np.ndarray
 
 
@@ -91,16 +95,17 @@ def _look(working: Working) -> LandMaps:
     )
     image = np.clip(resize(working.encoded, width, height), 0, 1).transpose(2, 0, 1)[None]
     found = bundled_session(BUNDLED, "land").run(
-        ["sunlit", "depth", "normal", "facing", "transfer", "sun"],
+        ["sunlit", "depth", "normal", "facing", "transfer", "matter", "sun"],
         {"image": np.ascontiguousarray(image, np.float32)},
     )
-    sunlit, octaves, normal, facing, transfer, sun = (output[0] for output in found)
+    sunlit, octaves, normal, facing, transfer, matter, sun = (output[0] for output in found)
     return LandMaps(
         sunlit[0],
         octaves[0] * np.float32(np.log(2)),
         normal.transpose(1, 2, 0),
         facing[0],
         transfer.transpose(1, 2, 0),
+        matter[_WATER],
         sun.reshape(HEIGHTS.size, TURNS.size),
     )
 

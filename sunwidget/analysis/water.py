@@ -11,14 +11,15 @@ from collections.abc import Callable
 import numpy as np
 
 from sunwidget.analysis.horizon import Horizon, above
+from sunwidget.analysis.land_network import look_at_land
 from sunwidget.analysis.sun_network import SunMaps
 from sunwidget.analysis.working import LUMINANCE, Working, resize, smoothstep
 from sunwidget.camera import Camera
 
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is water in part
 _BELIEF = 0.7  # mean probability from which a patch is water
-_REDDER = 0.17  # log of red over blue: of 41 patches of water none was redder than its sky by more
-_DARK = 0.004  # linear light that counts as noise
+_WEIGHTS = (0.32, 0.89, 0.41)  # bias, and of the logits of the network of suns and of that of land
+_FLOOR = 1e-3  # of a probability
 _BURNT = 0.9  # linear light from which a pixel has lost its colour
 _COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
 _SUN = 0.3  # probability from which there is a sun whose column may be twice as wide
@@ -37,7 +38,7 @@ def none(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) -> 
 
 
 def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) -> np.ndarray:
-    """Find water as the network sees it, which also finds the sun that glints on it.
+    """Find water as the networks of suns and of land see it.
 
     Parameters
     ----------
@@ -58,7 +59,10 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     height, width = sky.shape
     camera = Camera.from_horizon(width, height, 50.0, horizon.row, roll=horizon.roll)
     ground = (1 - sky) * (1 - above(camera, width, height))
-    water = smoothstep(*_EDGE, resize(_believed(maps, working, sky), width, height)) * ground
+    land = look_at_land(working).water
+    small = (maps.water.shape[1], maps.water.shape[0])
+    likely = _believed(maps.water * resize(1 - sky, *small), resize(land, *small))
+    water = smoothstep(*_EDGE, resize(likely, width, height)) * ground
     if water.mean() < _LEAST:
         return np.zeros_like(sky)
     water = _to_the_shore(working, sky, water)
@@ -71,27 +75,25 @@ METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]
 }
 
 
-def _believed(maps: SunMaps, working: Working, sky: np.ndarray) -> np.ndarray:
-    """Return the probability (h, w) of the patches that are water on the whole.
-
-    Of those the network is sure, and they are no redder than all of the sky that they might mirror.
-    """
+def _believed(seen: np.ndarray, land: np.ndarray) -> np.ndarray:
+    """Return the probability (h, w) of the patches that are water on the whole."""
     import cv2
 
-    height, width = maps.water.shape
-    light, inside_sky = resize(working.linear, width, height), resize(sky, width, height) > 0.5
-    redness = np.log((light[..., 0] + _DARK) / (light[..., 2] + _DARK))
-    reddest = float(np.quantile(redness[inside_sky], 0.95)) if inside_sky.any() else np.inf
-    patches = ((maps.water > _EDGE[0]) & ~inside_sky).astype(np.uint8)
-    count, labels = cv2.connectedComponents(patches, connectivity=4)
-    kept = np.zeros(count, bool)
-    for patch in range(1, count):
-        inside = labels == patch
-        sure = float(maps.water[inside].mean()) > _BELIEF
-        colored = inside & (light.max(-1) < _BURNT)
-        seen = redness[colored if colored.any() else inside]
-        kept[patch] = sure and float(np.median(seen)) < reddest + _REDDER
-    return np.where(kept[labels], maps.water, 0).astype(np.float32)
+    likely = water_odds(seen, land)
+    count, labels = cv2.connectedComponents((likely > _EDGE[0]).astype(np.uint8), connectivity=4)
+    sums = np.bincount(labels.ravel(), likely.ravel(), count)
+    kept = sums > _BELIEF * np.bincount(labels.ravel(), minlength=count)
+    return np.where(kept[labels] & (labels > 0), likely, 0).astype(np.float32)
+
+
+def water_odds(seen: np.ndarray, land: np.ndarray) -> np.ndarray:
+    """Return the probability (h, w) of water by what two networks say, each (h, w) in [0, 1].
+
+    A logistic regression on their logits, fitted by ``training/land/calibrate_water.py``.
+    """
+    logits = [np.log((p + _FLOOR) / (1 - p + _FLOOR)) for p in (seen, land)]
+    score = _WEIGHTS[0] + _WEIGHTS[1] * logits[0] + _WEIGHTS[2] * logits[1]
+    return np.asarray(1 / (1 + np.exp(-score)), np.float32)
 
 
 def _to_the_shore(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:

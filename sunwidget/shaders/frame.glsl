@@ -27,13 +27,17 @@ uniform sampler2D own_sky;
 uniform sampler2D mirror_ratio;
 uniform sampler2D veil;
 
+const float kBlackestAlbedo = 0.06;
+
 // Share of a pixel's light that is sky. Where the matte is soft a pixel shows both, and twigs
 // before a bright sky are mostly sky: the light behind is known (sky_behind.glsl), and the rest is
 // the land's own, without the old sky's tint. Inside the sky it is the matte itself, and so it is
-// where the matte promises more sky than the pixel holds (it is wrong there) and in the glare.
-vec3 GetSkyShare(float matte, vec3 scene, vec3 behind, float glare) {
-  vec3 light = matte * behind;
-  float excess = GetLuminance(light) / max(GetLuminance(scene), 1e-6);
+// where the matte promises more sky than the pixel holds (it is wrong there) and in the glare. No land is black in its
+// light, `lit`: a matte that is a little wrong would leave a dark line along the skyline.
+vec3 GetSkyShare(float matte, vec3 scene, vec3 behind, float glare, vec3 lit) {
+  vec3 least = min((1.0 - matte) * kBlackestAlbedo / 3.14159265 * lit, (1.0 - matte) * scene);
+  vec3 light = min(matte * behind, scene - least);
+  float excess = matte * GetLuminance(behind) / max(GetLuminance(scene), 1e-6);
   float plain = max(smoothstep(0.85, 1.0, matte), smoothstep(0.9, 1.6, excess));
   return mix(min(light / max(scene, vec3(1e-6)), vec3(1.0)), vec3(matte), max(plain, glare));
 }
@@ -68,7 +72,7 @@ void main() {
 #else
   float matte = sky_marks.r;
   float glare = sky_marks.b;
-  vec3 share = GetSkyShare(matte, scene, clean, glare);
+  vec3 share = GetSkyShare(matte, scene, clean, glare, GetLitBefore(GetUprightness(view)));
   vec3 behind = scene * share / max(matte, 1e-4);
   vec3 front = scene * (1.0 - share) / max(1.0 - matte, 1e-4);
 #endif

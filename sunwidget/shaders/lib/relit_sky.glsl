@@ -42,12 +42,15 @@ float GetBounded(float log_light, float most) {
 // brighter than the model round about, `own.r` (own_sky.glsl), is a haze that the model does not know, or knows too
 // well; what is more of it than elsewhere in its sky, `own.g`, is gone where the sun is. `local` is
 // what a pixel has beyond both: the sun on a cloud's edge, which would stay a rim, and what un-mixing took for cloud.
-// No more goes than is believable, and what went by `share` does not go again by `away`.
-float GetFadedLight(vec2 own, float local, float change, vec3 sun_before, vec3 sun_now) {
+// No more goes than is believable, and what went by `share` does not go again by `away`. Round a sun that is not seen
+// the photo may lack the model's glow: what was not there cannot go.
+float GetFadedLight(vec2 own, float local, float change, vec3 view, vec3 sun_before, vec3 sun_now) {
   float share = change * change / (change * change + kLightFades * kLightFades);
-  float away = sun_visible * (1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now)));
-  float fades = GetBounded(own.r, kMostFaded) + (local > 0.0 ? kRimsFade : kShadeFades) * GetBounded(local, 1.0);
-  return exp(-share * fades - max(away - share, 0.0) * GetBounded(own.g, kMostGone));
+  float away = 1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now));
+  float gone = sun_visible * max(away - share, 0.0) * GetBounded(own.g, kMostGone);
+  float lacking = (1.0 - sun_visible) * GetNearness(dot(view, sun_before)) * min(own.g, 0.0);
+  float fades = GetBounded(own.r - lacking, kMostFaded) + (local > 0.0 ? kRimsFade : kShadeFades) * GetBounded(local, 1.0);
+  return exp(-share * fades - gone - away * lacking);
 }
 
 // `light` of the photo's sky becomes the light under the new sun. `clean` is the sky without the
@@ -82,18 +85,18 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec
   relit += extreme * moved * (clean * ratio - relit);
   float cloud = opacity * min(cloud_strength, 1.0);
   vec3 model = mix(sky_before, cloud_before, cloud);
-  relit = WithModelsColor(relit, sky, model, ratio, opacity, cloud, sky_before, sky_now,
-                          GetRisen(sun_before, sun_now));
+  float risen = GetRisen(sun_before, sun_now);
+  relit = WithModelsColor(relit, sky, model, ratio, opacity, cloud, sky_before, sky_now, risen);
   // What of a cloud lies in shade has the sky's colour, and the more so the more the sun's differs.
   float shaded = cloud * (1.0 - smoothstep(kShaded, 0.8, GetLuminance(clean) / GetLuminance(cloud_before)));
-  vec3 shade = WithoutBalance(term[7].rgb - term[8].rgb, GetVividness());
+  vec3 shade = WithoutBalance(term[7].rgb - term[8].rgb, max(GetVividness(), risen * GetEveningsBalance()));
   shade *= GetLuminance(relit) / GetLuminance(shade);
   relit += kShadesColor * shaded * GetTurned(ratio, model) * (shade - relit);
   // Of what is drawn, not of the photo: where the model stands in for it there is no rim to fade.
   vec3 whole = mix(sky_before, cloud_before, opacity);
   float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
   local *= min(cloud_strength, 1.0);
-  relit *= GetFadedLight(own, local, log(GetLuminance(model * ratio) / GetLuminance(model)), sun_before, sun_now);
+  relit *= GetFadedLight(own, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
   // What the air brightens round the new sun is drawn in a camera's range, from a bright sky on; less so
   // where the photo's own sun or moon told how bright that is.

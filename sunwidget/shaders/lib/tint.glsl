@@ -95,8 +95,9 @@ vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacit
   vec3 day = WithoutBalance(now, max((1.0 - lost) * risen * GetEveningsBalance(), cloud * GetVividness()));
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
-  // What is bluer than that was no evening's colour.
-  float warmer = smoothstep(0.0, 0.5, log(max(relit.r * model.b, 1e-12) / max(relit.b * model.r, 1e-12)));
+  // What is bluer than that, and no less green, was no evening's colour.
+  vec3 redder = log(max(relit.r * model, vec3(1e-12)) / max(relit * model.r, vec3(1e-12)));
+  float warmer = smoothstep(0.0, 0.5, max(redder.g, redder.b));
   faded = max(faded, kEveningGone * risen * warmer);
   vec3 turned = relit + faded * (model - relit);
   // No sky turns greener than it was.
