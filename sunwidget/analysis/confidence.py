@@ -11,6 +11,7 @@ sky by gives a posterior; ``bench/unseen_sun.py`` fits its two weights to real p
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +29,8 @@ SUN_WEIGHTS = (1.07, 2.26, 0.34, 0.05)
 SUN_ODDS = 2.0
 # Share of suns that stand where nothing in the picture lets expect them.
 _ANYWHERE = 0.1
+# By how much less likely a sun is where it would be seen: behind thick cloud it may not be.
+_OVERLOOKED = 0.01
 UNKNOWN = 90.0
 """Degrees of spread (``likeliest_sun``) from which the photo does not tell where the sun is."""
 
@@ -38,6 +41,9 @@ HEIGHTS = np.array([-2.0, 2.0, 8.0, 18.0, 35.0, 60.0])
 _FINE_TURNS = np.arange(-170.0, 181, 10)
 _FINE_HEIGHTS = np.array([-2.0, 0.0, 2.0, 5.0, 8.0, 13.0, 18.0, 26.0, 35.0, 47.0, 60.0])
 _CLOSE = 0.15  # how much worse than the best an air may be and still be one of the likely ones
+
+
+Seen = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -127,8 +133,13 @@ def confidence_of_sun(best: tuple[float, float], errors: dict[tuple[float, float
     return probability(SUN_WEIGHTS, features_of_sun(best, errors))
 
 
+def nowhere(azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
+    """Return that a sun would be seen in none of these directions, (n,)."""
+    return np.zeros(azimuth.shape, bool)
+
+
 def posterior_of_sun(
-    errors: dict[tuple[float, float], float], expected: np.ndarray
+    errors: dict[tuple[float, float], float], expected: np.ndarray, seen: Seen = nowhere
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return azimuths, elevations and probabilities (n,) of where an unseen sun may be.
 
@@ -138,13 +149,15 @@ def posterior_of_sun(
         The misfit of each of ``TURNS`` and ``HEIGHTS``.
     expected : (6, 12) float
         Probability of each of ``HEIGHTS`` and ``TURNS`` before the sky's colours are asked.
+    seen : callable, optional
+        Tells of azimuths and elevations (n,) where a sun would be seen: there it is not.
     """
     misfits = np.array([[errors[a, h] for a in TURNS] for h in HEIGHTS])
     before = (1 - _ANYWHERE) * expected / expected.sum() + _ANYWHERE / expected.size
     odds = _finer(np.log(before) - SUN_ODDS * (misfits - misfits.min()) / 0.01)
-    likely = np.exp(odds - odds.max())
-    azimuth, elevation = np.meshgrid(_FINE_TURNS, _FINE_HEIGHTS)
-    return azimuth.ravel(), elevation.ravel(), (likely / likely.sum()).ravel()
+    azimuth, elevation = (part.ravel() for part in np.meshgrid(_FINE_TURNS, _FINE_HEIGHTS))
+    likely = np.exp(odds - odds.max()).ravel() * np.where(seen(azimuth, elevation), _OVERLOOKED, 1)
+    return azimuth, elevation, likely / likely.sum()
 
 
 def _finer(grid: np.ndarray) -> np.ndarray:
@@ -154,13 +167,13 @@ def _finer(grid: np.ndarray) -> np.ndarray:
 
 
 def likeliest_sun(
-    errors: dict[tuple[float, float], float], expected: np.ndarray
+    errors: dict[tuple[float, float], float], expected: np.ndarray, seen: Seen = nowhere
 ) -> tuple[tuple[float, float], float]:
     """Return where an unseen sun most likely is, and within how many degrees, 4 times of 5.
 
     Takes what ``posterior_of_sun`` takes.
     """
-    azimuth, elevation, likely = posterior_of_sun(errors, expected)
+    azimuth, elevation, likely = posterior_of_sun(errors, expected, seen)
     best = float(azimuth[likely.argmax()]), float(elevation[likely.argmax()])
     angle = _angles(azimuth, elevation, best)
     order = np.argsort(angle)

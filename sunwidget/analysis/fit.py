@@ -21,6 +21,7 @@ from sunwidget.analysis.confidence import (
     HEIGHTS,
     TURNS,
     Evidence,
+    Seen,
     confidence_of_fit,
     confidence_of_sun,
     doubt,
@@ -46,6 +47,7 @@ _ANGSTROM, _ALBEDO = 1.3, 0.9
 _LARGEST_ERROR = 0.1
 _GREY = 0.05  # median HSI saturation below which a sky is overcast (overcast.py)
 _NIGHT = 0.02  # median display light below which a sky's colours are noise and lamps
+_HIDES = 10.0  # degrees: clouds hide a sun that is lower
 DEFAULT_SHOULDER = 0.9
 
 
@@ -188,7 +190,11 @@ def fit_sky(
     if sun is None:
         searched = 0.5
         sun, sure_of_sun, spread = _search_sun(
-            display, where, expected, lambda share: done(searched * share)
+            display,
+            where,
+            expected,
+            lambda *direction: would_be_seen(camera, sky, *direction),
+            lambda share: done(searched * share),
         )
         dark = np.median(display @ LUMINANCE) < _NIGHT
         if dark or np.median(saturation(encode(display))) < _GREY:
@@ -267,6 +273,21 @@ def view_angles(camera: Camera, width: int, height: int) -> tuple[np.ndarray, np
     return np.asarray(azimuth), np.asarray(elevation)
 
 
+def would_be_seen(
+    camera: Camera, sky: np.ndarray, azimuth: np.ndarray, elevation: np.ndarray
+) -> np.ndarray:
+    """Return whether a sun in each of these directions, (n,) degrees, would stand in plain view.
+
+    A low one may hide behind a bank of cloud. ``sky`` is the matte (h, w).
+    """
+    height, width = sky.shape
+    x, y = camera.pixel(azimuth, elevation)
+    column, row = x * width / camera.width, y * height / camera.height
+    inside = (elevation > _HIDES) & (0 <= column) & (column < width) & (0 <= row) & (row < height)
+    at = (np.where(inside, row, 0).astype(int), np.where(inside, column, 0).astype(int))
+    return np.asarray(inside & (sky[at] > 0.5))
+
+
 def _compare(
     display: np.ndarray, model: np.ndarray, response: Response
 ) -> tuple[float, np.ndarray]:
@@ -284,6 +305,7 @@ def _search_sun(
     display: np.ndarray,
     where: tuple[np.ndarray, np.ndarray],
     expected: np.ndarray,
+    seen: Seen,
     done: Done,
 ) -> tuple[tuple[float, float], float, float]:
     """Direction of an unseen sun, how sure it is, and its spread."""
@@ -312,7 +334,7 @@ def _search_sun(
         for azimuth, sky in zip(TURNS.tolist(), skies, strict=True):
             error, _ = _compare(display, sky, response)
             errors[azimuth, height] = min(error, errors.get((azimuth, height), np.inf))
-    best, spread = likeliest_sun(errors, expected)
+    best, spread = likeliest_sun(errors, expected, seen)
     return best, confidence_of_sun(best, errors), spread
 
 

@@ -89,7 +89,7 @@ void main() {
 
 #ifndef SKY_ALONE
   float wet = smoothstep(0.2, 0.8, land_marks.r);  // the edge of a mask is softer than a shore
-  float water = water_strength * wet;
+  float water = GetSkySeen() * water_strength * wet;  // what it would mirror is not known else
   float upright = GetUprightness(view);
   vec3 lit_before = GetLitBefore(upright);
   float gone = glare * term[0].y * (1.0 - wet);

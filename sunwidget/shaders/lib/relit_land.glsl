@@ -5,6 +5,7 @@
 #include "lib/response.glsl"
 #include "lib/land.glsl"
 #include "lib/tint.glsl"
+#include "lib/sky_seen.glsl"
 
 // Scene-linear light from which the land's own colour is known.
 const float kDarkLand = 0.15;
@@ -44,8 +45,9 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   float level = GetLuminance(land);
   float dark = 1.0 - smoothstep(0.0, kDarkLand, GetLuminance(before));
   float lift = max(log2(max(term[0].x * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
-  float turned = GetTurned(ratio, before);
-  float risen = GetRisen(term[9].rgb, GetDescribedSun());
+  // Without a sky nobody knows which light the land's colours stand in.
+  float turned = GetSkySeen() * GetTurned(ratio, before);
+  float risen = GetSkySeen() * GetRisen(term[9].rgb, GetDescribedSun());
   float another = max(turned, risen);  // how far its light is another
   float guessed = max(kLitColor * another, dark * lift * lift / (lift * lift + 4.0));
   // A balance that the photo's light has bent is not that of another light.
