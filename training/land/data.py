@@ -12,6 +12,7 @@ import torch
 from torch import Tensor
 from torch.utils.data import IterableDataset
 
+from training.augment import relight
 from training.data import FOLDERS, barred, held_out, read_pair
 from training.land import photograph
 from training.land.model import SUN_HEIGHTS, SUN_TURNS
@@ -23,7 +24,6 @@ Batch = dict[str, Tensor]
 
 SHAPES = ((2, 3), (2, 3), (3, 4), (1, 1), (3, 2), (4, 3), (3, 5))  # rows to columns
 _KEPT = 400  # worlds in memory
-_FEW_SUNS = 0.6  # chance that a low sun's picture is taken over a high one's: both matter
 
 
 def sizes(area: int) -> list[tuple[int, int]]:
@@ -245,6 +245,9 @@ def _photo(
     if random.random() < 0.5:
         gain = np.exp(random.normal(0, 0.12, 3) + random.normal(0, 0.25))
         picture = np.clip(picture * gain, 0, 255).astype(np.uint8)
+    target = np.where(box.of(sky, cv2.INTER_NEAREST) > 191, 255, 0).astype(np.uint8)
+    light = relight(picture.astype(np.float32) / 255, target, random)  # a third of them
+    picture = np.rint(255 * np.clip(light, 0, 1)).astype(np.uint8)
     return {
         "image": picture.transpose(2, 0, 1),
         "sky": box.of(sky, cv2.INTER_NEAREST)[None],
