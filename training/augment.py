@@ -152,7 +152,9 @@ def relight(image: np.ndarray, target: np.ndarray, random: Random) -> np.ndarray
         image = alpha * deep + (1 - alpha) * (image + share * (plain - image))
     elif draw < 0.33:  # glow around a low sun
         down, across = (np.linspace(0, 1, side, dtype=np.float32) for side in image.shape[:2])
-        distance = ((down - random.uniform(0.1, 0.7)) ** 2)[:, None] + (across - random.random()) ** 2
+        distance = ((down - random.uniform(0.1, 0.7)) ** 2)[:, None] + (
+            across - random.random()
+        ) ** 2
         glow = np.exp(-distance / random.uniform(0.005, 0.12))[..., None] * random.uniform(0.3, 1.0)
         image = image + glow * np.array(
             [1.0, random.uniform(0.6, 1.0), random.uniform(0.3, 1.0)], np.float32

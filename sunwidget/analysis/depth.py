@@ -54,7 +54,7 @@ def network(view: View) -> DepthField:
     seen = _smoothed(view, np.minimum(seen, np.log(depth_ground.FAR)), view.land)
     apart = ((seen - ground) / (_STANDS + lies * (_LIES - _STANDS))) ** 2
     share = apart / (1 + apart) * (1 - view.water * (view.fall > 0))
-    error = _mixed_error(view, ground, share, seen, np.float32(_SEEN_ERROR))
+    error = _mixed_error(view, ground, share, seen)
     return _field(view, share, seen, error)
 
 
@@ -138,11 +138,11 @@ def _smoothed(view: View, log_depth: np.ndarray, known: np.ndarray) -> np.ndarra
 
 
 def _mixed_error(
-    view: View, ground: np.ndarray, share: np.ndarray, log_depth: np.ndarray, error: np.ndarray
+    view: View, ground: np.ndarray, share: np.ndarray, log_depth: np.ndarray
 ) -> np.ndarray:
     """Return the standard error of a mixture of the ground and what departs from it."""
     apart = share * (1 - share) * (log_depth - ground) ** 2
-    squared = share * error**2 + (1 - share) * _ground_error(view) ** 2 + apart
+    squared = share * _SEEN_ERROR**2 + (1 - share) * _ground_error(view) ** 2 + apart
     return np.asarray(np.sqrt(squared))
 
 

@@ -45,6 +45,8 @@ _CONTRASTS = (0.7, 0.85, 1.0, 1.15)
 _SAMPLES = 250
 _ANGSTROM, _ALBEDO = 1.3, 0.9
 _LARGEST_ERROR = 0.1
+ANYWHERE = np.ones((HEIGHTS.size, TURNS.size))
+"""An unseen sun's ``expected`` where nothing is."""
 _GREY = 0.05  # median HSI saturation below which a sky is overcast (overcast.py)
 _NIGHT = 0.02  # median display light below which a sky's colours are noise and lamps
 _HIDES = 10.0  # degrees: clouds hide a sun that is lower
@@ -174,8 +176,7 @@ def fit_sky(
     """
     azimuth, elevation = view_angles(camera, working.width, working.height)
     light = working.linear
-    if expected is None:
-        expected = np.ones((HEIGHTS.size, TURNS.size))
+    expected = ANYWHERE if expected is None else expected
     usable = (sky > 0.98) & (light.max(-1) < 0.95) & (elevation > 0.3)
     clear = usable & (clouds < 0.2)
     chosen = clear if clear.sum() >= 200 else usable
@@ -283,7 +284,7 @@ def would_be_seen(
     height, width = sky.shape
     x, y = camera.pixel(azimuth, elevation)
     column, row = x * width / camera.width, y * height / camera.height
-    inside = (elevation > _HIDES) & (0 <= column) & (column < width) & (0 <= row) & (row < height)
+    inside = (elevation > _HIDES) & (column >= 0) & (column < width) & (row >= 0) & (row < height)
     at = (np.where(inside, row, 0).astype(int), np.where(inside, column, 0).astype(int))
     return np.asarray(inside & (sky[at] > 0.5))
 
@@ -339,10 +340,14 @@ def _search_sun(
 
 
 def fit_without_sky(
-    light: np.ndarray, sky: np.ndarray, sun: tuple[float, float] | None, expected: np.ndarray
+    light: np.ndarray,
+    sky: np.ndarray,
+    sun: tuple[float, float] | None,
+    expected: np.ndarray | None = None,
 ) -> SkyFit:
     """Defaults, exposed so that grey land under this sun has the land's mean light."""
     if sun is None:
+        expected = ANYWHERE if expected is None else expected
         alike = dict.fromkeys(itertools.product(TURNS.tolist(), HEIGHTS.tolist()), 0.0)
         sun, _ = likeliest_sun(alike, expected)
     response = Response()

@@ -19,10 +19,12 @@ _WATER = 1  # of the kinds of matter
 
 
 class LandMaps(NamedTuple):
-    """What is used of its answers; all but ``sunlit`` at half of the size that the network sees.
+    """Its answers; all but ``sky`` and ``sunlit`` at half of the size that the network sees.
 
     Parameters
     ----------
+    sky : (h, w) float32
+        Probability of sky.
     sunlit : (h, w) float32
         Share of the sun's disc that the surface sees, [0, 1]; 0 without sunshine.
     log_depth : (h/2, w/2) float32
@@ -39,6 +41,7 @@ class LandMaps(NamedTuple):
         Probability of where the photo's sun is, by ``confidence.HEIGHTS`` and ``TURNS``.
     """
 
+    sky: np.ndarray
     sunlit: np.ndarray
     log_depth: np.ndarray
     normal: np.ndarray
@@ -95,11 +98,12 @@ def _look(working: Working) -> LandMaps:
     )
     image = np.clip(resize(working.encoded, width, height), 0, 1).transpose(2, 0, 1)[None]
     found = bundled_session(BUNDLED, "land").run(
-        ["sunlit", "depth", "normal", "facing", "transfer", "matter", "sun"],
+        ["sky", "sunlit", "depth", "normal", "facing", "transfer", "matter", "sun"],
         {"image": np.ascontiguousarray(image, np.float32)},
     )
-    sunlit, octaves, normal, facing, transfer, matter, sun = (output[0] for output in found)
+    sky, sunlit, octaves, normal, facing, transfer, matter, sun = (output[0] for output in found)
     return LandMaps(
+        sky[0],
         sunlit[0],
         octaves[0] * np.float32(np.log(2)),
         normal.transpose(1, 2, 0),

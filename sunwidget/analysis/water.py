@@ -13,13 +13,12 @@ import numpy as np
 from sunwidget.analysis.horizon import Horizon, above
 from sunwidget.analysis.land_network import look_at_land
 from sunwidget.analysis.sun_network import SunMaps
-from sunwidget.analysis.working import LUMINANCE, Working, resize, smoothstep
+from sunwidget.analysis.working import LUMINANCE, Working, log_odds, resize, smoothstep
 from sunwidget.camera import Camera
 
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is water in part
 _BELIEF = 0.7  # mean probability from which a patch is water
-_WEIGHTS = (0.32, 0.89, 0.41)  # bias, and of the logits of the network of suns and of that of land
-_FLOOR = 1e-3  # of a probability
+WEIGHTS = (0.32, 0.89, 0.41)  # bias, and of the logits of the network of suns and of that of land
 _BURNT = 0.9  # linear light from which a pixel has lost its colour
 _COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
 _SUN = 0.3  # probability from which there is a sun whose column may be twice as wide
@@ -91,8 +90,7 @@ def water_odds(seen: np.ndarray, land: np.ndarray) -> np.ndarray:
 
     A logistic regression on their logits, fitted by ``training/land/calibrate_water.py``.
     """
-    logits = [np.log((p + _FLOOR) / (1 - p + _FLOOR)) for p in (seen, land)]
-    score = _WEIGHTS[0] + _WEIGHTS[1] * logits[0] + _WEIGHTS[2] * logits[1]
+    score = WEIGHTS[0] + WEIGHTS[1] * log_odds(seen) + WEIGHTS[2] * log_odds(land)
     return np.asarray(1 / (1 + np.exp(-score)), np.float32)
 
 

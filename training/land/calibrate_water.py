@@ -1,4 +1,4 @@
-"""Fits ``_WEIGHTS`` of sunwidget/analysis/water.py, and prints them and what they are worth.
+"""Fits ``WEIGHTS`` of sunwidget/analysis/water.py, and prints them and what they are worth.
 
 ``python -m training.land.calibrate_water --data ../shared/data/train``
 
@@ -89,7 +89,7 @@ def main() -> None:
             f"{name}: with water {len(wet)}, IoU {np.mean(wet):.3f}, missed {lost:.2f}; "
             f"without {len(dry)}, of which {wrong:.3f} get some"
         )
-    print(f"now {water._WEIGHTS}")
+    print(f"now {water.WEIGHTS}")
 
 
 if __name__ == "__main__":
