@@ -7,7 +7,13 @@ import pytest
 import sunwidget as sw
 from sunwidget.analysis import network_output, sky
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.sky_network import BUNDLED, NORMALISATIONS, SkyNetwork, calibrate
+from sunwidget.analysis.sky_network import (
+    BUNDLED,
+    NORMALISATIONS,
+    SkyNetwork,
+    bundled,
+    calibrate,
+)
 from sunwidget.analysis.working import Working
 from sunwidget.photo import open_photo
 
@@ -161,7 +167,7 @@ def test_the_scale_of_a_real_network_is_found(tmp_path, scale, layout):
     assert label == 0
     assert detected == NORMALISATIONS[scale]
     working = Working.of(sw.sample("harbour"))
-    assert np.allclose(SkyNetwork(path)(working), sky.network(working), atol=2e-3)
+    assert np.allclose(SkyNetwork(path)(working), bundled()(working), atol=2e-3)
 
 
 def test_the_scale_in_the_metadata_and_the_given_one_win(tmp_path):
@@ -350,3 +356,13 @@ def test_analyze_and_the_editor_take_a_network_and_its_label(tmp_path):
     assert np.array_equal(editor.scene.sky_coarse, scene.sky_coarse)
     with pytest.raises(AnalysisError, match="sky_label must be"):
         sw.analyze(picture(), sky=path, sky_label=-7)
+
+
+def test_the_land_network_has_a_say_by_day_and_none_by_night():
+    day = Working.of(sw.sample("harbour"))
+    night = Working.of(open_photo((sw.sample("harbour").encoded * 0.25).astype(np.uint8)))
+    alone = [bundled()(working) for working in (day, night)]
+    both = [sky.network(working) for working in (day, night)]
+    assert np.abs(both[0] - alone[0]).max() > 0.05
+    assert ((both[0] > 0.5) == (alone[0] > 0.5)).mean() > 0.98  # of the sample they know the same
+    assert np.allclose(both[1], alone[1], atol=1e-3)
