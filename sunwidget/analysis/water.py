@@ -17,8 +17,8 @@ from sunwidget.analysis.working import LUMINANCE, Working, log_odds, resize, smo
 from sunwidget.camera import Camera
 
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is water in part
-_BELIEF = 0.7  # mean probability from which a patch is water
-WEIGHTS = (0.32, 0.89, 0.41)  # bias, and of the logits of the network of suns and of that of land
+_BELIEF = 0.6  # mean probability from which a patch is water
+WEIGHTS = (-0.16, 0.84, 0.2)  # bias, and of the log odds of the network of suns and of that of land
 _BURNT = 0.9  # linear light from which a pixel has lost its colour
 _COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
 _SUN = 0.3  # probability from which there is a sun whose column may be twice as wide
