@@ -31,7 +31,7 @@ from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.fit import SkyFit, fit_sky
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.islands import fill_islands, grow_over_glow
+from sunwidget.analysis.islands import fill_islands
 from sunwidget.analysis.land_network import look_at_land
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.notices import notices
@@ -212,7 +212,6 @@ def _cut_out(base: Scene, step: Steps) -> tuple[np.ndarray, np.ndarray]:
     sky = resize(matte, working.width, working.height)
     coarse = resize(base.coarse_map, working.width, working.height)
     bound = fill_islands(sky, coarse)
-    bound = np.maximum(bound, grow_over_glow(np.maximum(sky, bound), coarse, working.encoded))
     if bound.any():
         sky = np.maximum(sky, bound)
         raise_to(matte, bound, working.zoom)

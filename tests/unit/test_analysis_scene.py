@@ -44,7 +44,7 @@ def test_sky_is_infinitely_far_and_the_ground_nears_towards_the_feet(scene):
     column = scene.depth[ROW + 5 :, WIDTH // 2]
     assert np.isfinite(column).all()
     assert (np.diff(column) <= 0).all()
-    assert column[0] > 3 * column[-1]
+    assert column[0] > 2 * column[-1]
 
 
 def test_hinted_sun_horizon_and_field_of_view_win():

@@ -28,13 +28,19 @@ float GetBlueness(vec3 matched) {
   return 2.0 * (sky.b - sky.r) / (sky.b + sky.r);
 }
 
+// From which blueness, or redness, of the sky before on a tint may be lost. Blue goes from white skies, too: at the
+// horizon it would turn them teal.
+const vec2 kBlueBefore = vec2(-1.2, 0.0);
+const vec2 kRedBefore = vec2(-0.4, 0.6);
+
 // 0 where the sky is as it was.
 float GetLostTint(vec3 sky_before, vec3 sky_now) {
   float side = sign(sky_gain.b - sky_gain.r);
   float before = side * GetBlueness(sky_before);
   float lost = before - side * GetBlueness(sky_now);
   float most = side > 0.0 ? 1.0 : kMostOfRed;
-  return most * clamp(lost / max(before, 0.3), 0.0, 1.0) * smoothstep(-0.4, 0.6, before);
+  vec2 from = side > 0.0 ? kBlueBefore : kRedBefore;
+  return most * clamp(lost / max(before, 0.3), 0.0, 1.0) * smoothstep(from.x, from.y, before);
 }
 
 // Takes a share of the photo's balance out of a light, which then differs in brightness.
