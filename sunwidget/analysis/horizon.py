@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -70,6 +70,15 @@ def below_sun(found: Horizon, x: float, y: float, radius: float, width: int) -> 
     if beneath <= 0:
         return found
     return Horizon(found.row + beneath + radius, found.roll, min(found.confidence, 0.2), "assumed")
+
+
+def expected(found: Horizon, sky: np.ndarray, row: float) -> Horizon:
+    """Guess it where the network of land does, but not above the lowest sky; all in pixels."""
+    _, border = skyline(sky)
+    if not border.size and sky.mean() > 0.5:
+        return found  # nothing but sky: it lies below the picture
+    lowest = float(np.quantile(border, 0.98)) if border.size else row
+    return replace(found, row=max(row, lowest))
 
 
 def row_argmax(

@@ -37,6 +37,8 @@ class LandMaps(NamedTuple):
         Shares of the functions of ``of_suns``: what of any sun's light falls on the surface.
     water : (h/2, w/2) float32
         Probability of water.
+    horizon : float
+        Its row at the picture's centre column, of the height; may lie outside [0, 1].
     sun : (6, 12) float32
         Probability of where the photo's sun is, by ``confidence.HEIGHTS`` and ``TURNS``.
     """
@@ -48,6 +50,7 @@ class LandMaps(NamedTuple):
     facing: np.ndarray
     transfer: np.ndarray
     water: np.ndarray
+    horizon: float
     sun: np.ndarray
 
 
@@ -98,10 +101,10 @@ def _look(working: Working) -> LandMaps:
     )
     image = np.clip(resize(working.encoded, width, height), 0, 1).transpose(2, 0, 1)[None]
     found = bundled_session(BUNDLED, "land").run(
-        ["sky", "sunlit", "depth", "normal", "facing", "transfer", "matter", "sun"],
+        ["sky", "sunlit", "depth", "normal", "facing", "transfer", "matter", "view", "sun"],
         {"image": np.ascontiguousarray(image, np.float32)},
     )
-    sky, sunlit, octaves, normal, facing, transfer, matter, sun = (output[0] for output in found)
+    sky, sunlit, octaves, normal, facing, transfer, matter, view, sun = (o[0] for o in found)
     return LandMaps(
         sky[0],
         sunlit[0],
@@ -110,6 +113,7 @@ def _look(working: Working) -> LandMaps:
         facing[0],
         transfer.transpose(1, 2, 0),
         matter[_WATER],
+        0.5 + float(view[0]),
         sun.reshape(HEIGHTS.size, TURNS.size),
     )
 

@@ -271,7 +271,11 @@ def _horizon(
         return horizon_stage.from_hint(hints.horizon, width)
     find = horizon_stage.METHODS[hints.method("horizon")]
     water = resize(maps.water, working.width, working.height)
-    found: Horizon = find(sky, working.encoded, water).scaled(*working.zoom)
+    found: Horizon = find(sky, working.encoded, water)
+    if found.source == "assumed":
+        row = look_at_land(working).horizon * working.height
+        found = horizon_stage.expected(found, sky, row)
+    found = found.scaled(*working.zoom)
     if blot is None or (seed is not None and found.confidence >= SURE_HORIZON):
         return found
     (x, y), (zoom_x, zoom_y) = seed or (blot.x, blot.y), working.zoom

@@ -39,6 +39,18 @@ def test_ships_and_islands_do_not_lift_the_horizon():
     assert 0.6 < found.confidence <= 1
 
 
+def test_an_unseen_horizon_is_where_it_is_expected_but_not_above_the_lowest_sky():
+    rows = np.where(np.arange(WIDTH) % 9 < 5, 150, 60)  # no line: teeth
+    sky = (np.arange(HEIGHT)[:, None] < rows).astype(np.float32)
+    guess = horizon.Horizon(187.2, confidence=0.1)
+    assert horizon.expected(guess, sky, 230.0).row == 230
+    assert horizon.expected(guess, sky, 90.0).row == pytest.approx(150, abs=1)
+    assert horizon.expected(guess, sky, 90.0).source == "assumed"
+    nothing_but_sky = np.ones((HEIGHT, WIDTH), np.float32)
+    assert horizon.expected(guess, nothing_but_sky, 90.0) == guess
+    assert horizon.expected(guess, 0 * nothing_but_sky, 90.0).row == 90
+
+
 def shore(mirrored: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """Trees on the far shore of a lake, row 212, roll 1: sky mask and picture.
 
