@@ -11,9 +11,7 @@ const float kMostOfRed = 0.6;
 // own has faded.
 const float kTurned = 1.2;
 const float kFadedAhead = 0.5;
-// When a low sun has risen so much of the colours of its evening has.
-const float kEveningGone = 0.95;
-// What stood in its sky was haze and cloud, and is paler by day than clear air.
+// What stood in the sky of a low sun was haze and cloud, and is paler by day than clear air.
 const float kPale = 0.5;
 const vec2 kRises = vec2(0.08, 0.25);  // sine of the sun's height
 // The balances of 95 in 100 photos of a day lie within these, those of an evening hold its light, too. Log2 of red over
@@ -101,10 +99,10 @@ vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacit
   vec3 day = WithoutBalance(now, max((1.0 - lost) * risen * GetEveningsBalance(), cloud * GetVividness()));
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
-  // What is bluer than that, and no less green, was no evening's colour.
+  // What is bluer than that, and no less green, was no evening's colour; violet was one's shade.
   vec3 redder = log(max(relit.r * model, vec3(1e-12)) / max(relit * model.r, vec3(1e-12)));
-  float warmer = smoothstep(0.0, 0.5, max(redder.g, redder.b));
-  faded = max(faded, kEveningGone * risen * warmer);
+  float warmer = smoothstep(0.0, 0.5, max(max(redder.g, redder.b), redder.g - 0.5 * redder.b));
+  faded = max(faded, risen * warmer);
   vec3 turned = relit + faded * (model - relit);
   // No sky turns greener than it was.
   float greenest = max(sky.g / max(max(sky.r, sky.b), 1e-6), 1.0);
