@@ -49,6 +49,7 @@ ANYWHERE = np.ones((HEIGHTS.size, TURNS.size))
 """An unseen sun's ``expected`` where nothing is."""
 _GREY = 0.05  # median HSI saturation below which a sky is overcast (overcast.py)
 _NIGHT = 0.02  # median display light below which a sky's colours are noise and lamps
+_BRIGHTEST = 0.9  # quantile of the sky's light from which it may hold an overlooked sun
 _HIDES = 10.0  # degrees: clouds hide a sun that is lower
 DEFAULT_SHOULDER = 0.9
 
@@ -190,11 +191,13 @@ def fit_sky(
     searched = 0.0
     if sun is None:
         searched = 0.5
+        bright = light @ LUMINANCE
+        dim = sky * (bright < np.quantile(bright[chosen], _BRIGHTEST))
         sun, sure_of_sun, spread = _search_sun(
             display,
             where,
             expected,
-            lambda *direction: would_be_seen(camera, sky, *direction),
+            lambda *direction: would_be_seen(camera, dim, *direction),
             lambda share: done(searched * share),
         )
         dark = np.median(display @ LUMINANCE) < _NIGHT
@@ -279,7 +282,8 @@ def would_be_seen(
 ) -> np.ndarray:
     """Return whether a sun in each of these directions, (n,) degrees, would stand in plain view.
 
-    A low one may hide behind a bank of cloud. ``sky`` is the matte (h, w).
+    A low one may hide behind a bank of cloud. ``sky`` is the matte (h, w), without its brightest
+    part: a disc that was overlooked is there.
     """
     height, width = sky.shape
     x, y = camera.pixel(azimuth, elevation)

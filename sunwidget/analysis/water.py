@@ -18,7 +18,9 @@ from sunwidget.camera import Camera
 
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is water in part
 _BELIEF = 0.6  # mean probability from which a patch is water
-WEIGHTS = (-0.16, 0.84, 0.2)  # bias, and of the log odds of the network of suns and of that of land
+WEIGHTS = (0.0, 0.67, 0.43)  # bias, and of the log odds of the network of suns and of that of land
+_REDDER = 0.4  # log of red over blue by which water is at most redder than its sky
+_DARK = 0.004  # linear light that counts as noise
 _BURNT = 0.9  # linear light from which a pixel has lost its colour
 _COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
 _SUN = 0.3  # probability from which there is a sun whose column may be twice as wide
@@ -60,7 +62,8 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     ground = (1 - sky) * (1 - above(camera, width, height))
     land = look_at_land(working).water
     small = (maps.water.shape[1], maps.water.shape[0])
-    likely = _believed(maps.water * resize(1 - sky, *small), resize(land, *small))
+    likely = water_odds(maps.water * resize(1 - sky, *small), resize(land, *small))
+    likely = _believed(likely, resize(working.linear, *small), resize(sky, *small))
     water = smoothstep(*_EDGE, resize(likely, width, height)) * ground
     if water.mean() < _LEAST:
         return np.zeros_like(sky)
@@ -74,15 +77,24 @@ METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]
 }
 
 
-def _believed(seen: np.ndarray, land: np.ndarray) -> np.ndarray:
-    """Return the probability (h, w) of the patches that are water on the whole."""
+def _believed(likely: np.ndarray, light: np.ndarray, sky: np.ndarray) -> np.ndarray:
+    """Return the probability (h, w) of the patches that are water on the whole.
+
+    They are no redder than all of the sky that they might mirror: a bare plain, say.
+    """
     import cv2
 
-    likely = water_odds(seen, land)
+    redness = np.log((light[..., 0] + _DARK) / (light[..., 2] + _DARK))
+    above = sky > 0.5
+    reddest = float(np.quantile(redness[above], 0.95)) if above.any() else np.inf
     count, labels = cv2.connectedComponents((likely > _EDGE[0]).astype(np.uint8), connectivity=4)
-    sums = np.bincount(labels.ravel(), likely.ravel(), count)
-    kept = sums > _BELIEF * np.bincount(labels.ravel(), minlength=count)
-    return np.where(kept[labels] & (labels > 0), likely, 0).astype(np.float32)
+    kept = np.zeros(count, bool)
+    for patch in range(1, count):
+        inside = labels == patch
+        colored = inside & (light.max(-1) < _BURNT)
+        own = float(np.median(redness[colored if colored.any() else inside]))
+        kept[patch] = likely[inside].mean() > _BELIEF and own < reddest + _REDDER
+    return np.where(kept[labels], likely, 0).astype(np.float32)
 
 
 def water_odds(seen: np.ndarray, land: np.ndarray) -> np.ndarray:
