@@ -60,13 +60,11 @@ export const solarTime = ({ longitude, time }) => (((time + longitude / 15) % 24
  * @returns {Record<string, unknown>}
  */
 export function editAt(place, path, hours) {
-  const then = atHours(place, hours);
-  // At the clock's own time, which is rounded: the sun goes a hundredth of a degree in three seconds.
-  const sun = sunAt(path, hoursOfDay(then));
+  const sun = sunAt(path, hours);
   if (!sun) return {};
   /** @type {Record<string, unknown>} */
   const edit = {
-    place: then,
+    place: atHours(place, hours),
     sun_elevation: rounded(Math.max(sun.apparent, LOWEST)),
   };
   if (place.heading !== null) edit.sun_azimuth = rounded(turned(sun.azimuth - place.heading));

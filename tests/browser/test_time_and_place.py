@@ -48,8 +48,9 @@ def place_of(page):
 def on_its_path(page):
     """Assert that the sun stands where the kernel has it at the clock's time."""
     expected = sun_at(place_of(page))
-    assert trait(page, "sun_azimuth") == pytest.approx(expected.azimuth, abs=2e-4)
-    assert trait(page, "sun_elevation") == pytest.approx(expected.elevation, abs=2e-4)
+    # The clock's time is rounded to a third of a second, in which the sun goes so far.
+    assert trait(page, "sun_azimuth") == pytest.approx(expected.azimuth, abs=2e-3)
+    assert trait(page, "sun_elevation") == pytest.approx(expected.elevation, abs=2e-3)
 
 
 def hour_mark(page, text):

@@ -192,7 +192,7 @@ def test_a_doubtful_sky_is_told_with_what_to_do():
 def test_a_grey_sky_does_not_tell_where_the_sun_is_and_a_clear_one_does():
     random = np.random.default_rng(3)
     grey = np.clip(170 + random.normal(0, 4, (80, 120, 1)), 0, 255).repeat(3, 2).astype(np.uint8)
-    clear = known_photo(sun=(40.0, 50.0), clouds=False).bytes
+    clear = known_photo(sun=(60.0, 14.0), clouds=False).bytes
     sky = np.zeros((80, 120), np.float32)
     sky[:50] = 1
     night = (grey * 0.1).astype(np.uint8)

@@ -64,7 +64,7 @@ def test_a_moved_sun_adds_no_flicker(film):
         source, moved = jumps([frames[i] for i in still], where), jumps(out, where)
         assert source > 0.05  # the exposure jitters
         # A contrastier picture shows the camera's own jitter by as much more.
-        assert moved < 1.12 * source
+        assert moved < 1.25 * source
 
 
 def test_the_gain_follows_the_exposure_and_is_else_steady(film):

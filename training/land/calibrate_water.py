@@ -1,15 +1,17 @@
 """Fits ``WEIGHTS`` of sunwidget/analysis/water.py, and prints them and what they are worth.
 
-``python -m training.land.calibrate_water --data ../shared/data/train``
+``python -m training.land.calibrate_water --data ../shared/data/train --worlds build/valid``
 
 On outlined photos that one of the two networks never saw, half of them by name; the rest judges.
-Water that fills less than ``LEAST`` of a photo counts as none.
+Worlds that trained nothing have a say, or plain ground such as no photo shows would be taken for
+water. Water that fills less than ``LEAST`` of a photo counts as none.
 """
 
 from __future__ import annotations
 
 import argparse
 import hashlib
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,22 +22,31 @@ import sunwidget as sw
 from sunwidget.analysis import water
 from sunwidget.analysis.land_network import look_at_land
 from sunwidget.analysis.sun_network import look_for_sun
-from sunwidget.analysis.working import Working, resize
+from sunwidget.analysis.working import Working, log_odds, resize
+from sunwidget.photo import open_photo
 from training.data import held_out
+from training.land.data import WATER, sample
 from training.suns.calibrate import fit
 from training.suns.labels import labels
 from training.suns.water import UNKNOWN, outlines, water_map
 
 LEAST = 0.01
 PIXELS = 200  # of a photo
+WORLDS_PIXELS = 60  # of a picture of a world
 
 
-class Case(NamedTuple):
-    """A photo: what the networks say, what is known, and what the product finds."""
+class Known(NamedTuple):
+    """What the networks say of a picture, and what is known of it, all (h, w)."""
 
     seen: np.ndarray
     land: np.ndarray
     truth: np.ndarray
+
+
+class Case(NamedTuple):
+    """A photo, and what the product finds in it: found and true water (2, h, w) bool."""
+
+    known: Known
     found: np.ndarray
     judges: bool
 
@@ -55,7 +66,41 @@ def case(file: str, path: Path) -> Case:
     land = resize(look_at_land(working).water, *size)
     found = resize(scene.water, *truth.shape[::-1]) > 0.5
     used = truth != UNKNOWN
-    return Case(seen, land, known, np.stack([found & used, (truth == 255) & used]), judges(file))
+    masks = np.stack([found & used, (truth == 255) & used])
+    return Case(Known(seen, land, known), masks, judges(file))
+
+
+def of_worlds(folder: Path) -> Iterator[Known]:
+    """Yield two pictures of each world."""
+    random = np.random.default_rng(3)
+    for path in sorted(folder.glob("*.npz")):
+        with np.load(path) as stored:
+            world = dict(stored)
+        for _ in range(2):
+            rows, columns = (2 * side // 32 * 32 for side in world["depth"].shape)
+            picture = sample(world, rows, columns, random)
+            image = np.ascontiguousarray(picture["image"].transpose(1, 2, 0))
+            working = Working.of(open_photo(image))
+            seen = look_for_sun(working).water
+            size = seen.shape[1], seen.shape[0]
+            matter = picture["matter"].astype(np.uint8)
+            matter = cv2.resize(matter, size, interpolation=cv2.INTER_NEAREST)
+            truth = np.where(matter == WATER, 255, np.where(matter == 0, UNKNOWN, 0))
+            yield Known(seen, resize(look_at_land(working).water, *size), truth.astype(np.uint8))
+
+
+def pixels(
+    cases: Iterable[Known], count: int, random: np.random.Generator
+) -> tuple[list[np.ndarray], list[np.ndarray]]:
+    """Return log odds and truth of a number of known pixels of each case."""
+    features, truth = [], []
+    for one in cases:
+        known = np.flatnonzero(one.truth != UNKNOWN)
+        if known.size:
+            at = random.choice(known, count)
+            features.append(log_odds(np.array([one.seen.flat[at], one.land.flat[at]])).T)
+            truth.append(one.truth.flat[at] == 255)
+    return features, truth
 
 
 def main() -> None:
@@ -63,6 +108,7 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--data", type=Path, default=Path("../shared/data/train"))
+    parser.add_argument("--worlds", type=Path, required=True)
     options = parser.parse_args()
     tests = {photo.file for photo in labels() if photo.test}
     cases = []
@@ -72,13 +118,9 @@ def main() -> None:
         if path.exists() and (file in tests or held_out(folder, path.stem)):
             cases.append(case(file, path))
     random = np.random.default_rng(1)
-    features, truth = [], []
-    for one in (c for c in cases if not c.judges):
-        known = np.flatnonzero(one.truth != UNKNOWN)
-        if known.size:
-            at = random.choice(known, PIXELS)
-            features.append(np.log([(p.flat[at] + 1e-3) / (1.001 - p.flat[at]) for p in one[:2]]).T)
-            truth.append(one.truth.flat[at] == 255)
+    fitted = pixels((c.known for c in cases if not c.judges), PIXELS, random)
+    drawn = pixels(of_worlds(options.worlds), WORLDS_PIXELS, random)
+    features, truth = (one + other for one, other in zip(fitted, drawn, strict=True))
     print("weights", np.round(fit(np.concatenate(features), np.concatenate(truth)), 2))
     for name, part in (("fitted on", False), ("judging", True)):
         pairs = [c.found for c in cases if c.judges == part]
