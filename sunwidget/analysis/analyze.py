@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from sunwidget.analysis import depth as depth_stage
+from sunwidget.analysis import patches
 from sunwidget.analysis import sky as sky_stage
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.hints import (
@@ -119,9 +120,10 @@ def analyze(
     decision = METHODS["refine"][refine](working, coarse)
     doubted = 0.0
     if sky is None:  # what a person names is taken at its word
-        kept = plausible(decision.sky, coarse, working)
-        doubted = float(np.mean((decision.sky > 0.5) & ~kept))
-        decision = decision._replace(sky=decision.sky * kept)
+        believed = np.float32(plausible(decision.sky, coarse, working))
+        kept = believed * patches.settle(decision.sky, coarse, working)
+        doubted = float(np.mean((decision.sky > 0.5) & (kept <= 0.5)))
+        decision = decision._replace(sky=kept)
     camera = Camera(photo.width, photo.height, hints.fov or photo.field_of_view.vertical)
     empty = np.zeros((1, 1), np.float32)
     start = Scene(

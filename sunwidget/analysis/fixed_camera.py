@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis import refine
+from sunwidget.analysis import patches, refine
 from sunwidget.analysis import sky as sky_stage
 from sunwidget.analysis.analyze import analyze
 from sunwidget.analysis.depth_field import DepthField
@@ -175,7 +175,9 @@ def _common_sky(small: list[Working], plate: Working, method: str) -> np.ndarray
     coarse = np.median(np.stack([sky_stage.network(w) for w in small]), axis=0)
     coarse = resize(np.asarray(coarse, np.float32), plate.width, plate.height)
     decision = refine.METHODS[method](plate, coarse)
-    kept = plausible(decision.sky, coarse, plate).astype(np.float32)
+    believed = np.float32(plausible(decision.sky, coarse, plate))
+    sky = believed * patches.settle(decision.sky, coarse, plate)
+    kept = np.float32((sky > 0.5) | (decision.sky <= 0.5))
     return np.asarray(coarse * resize(kept, plate.width, plate.height), np.float32)
 
 

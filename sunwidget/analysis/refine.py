@@ -173,14 +173,12 @@ def local_evidence(
     """
     import cv2
 
-    # Brightness, red against blue, green against magenta.
-    opponent = np.array([[1 / 3, 1 / 3, 1 / 3], [0.5, 0, -0.5], [-0.25, 0.5, -0.25]], np.float32)
-    colour = guide @ opponent.T
+    colour = opponent(guide)
     few = shrink(colour, SIDE)
 
     def learn(mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         inner = cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8))
-        return _local_moments(few, shrink(inner.astype(np.float32), SIDE), colour.shape)
+        return local_moments(few, shrink(inner.astype(np.float32), SIDE), colour.shape)
 
     mean, variance = learn(sky & (probability > doubt))
     difference = np.square(colour - mean)
@@ -195,7 +193,14 @@ def local_evidence(
     return np.asarray((channel_sum(ratio) + np.log(spread)) / 2, np.float32)
 
 
-def _local_moments(
+def opponent(picture: np.ndarray) -> np.ndarray:
+    """Return brightness, red against blue and green against magenta of a picture (h, w, 3)."""
+    return picture @ np.array(
+        [[1 / 3, 0.5, -0.25], [1 / 3, 0, 0.5], [1 / 3, -0.5, -0.25]], np.float32
+    )
+
+
+def local_moments(
     colour: np.ndarray, weight: np.ndarray, shape: tuple[int, ...]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Mean and variance of weighted colours near each pixel, from afar where none is near."""

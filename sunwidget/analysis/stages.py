@@ -31,7 +31,6 @@ from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.fit import SkyFit, fit_sky
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.islands import fill_islands
 from sunwidget.analysis.land_network import look_at_land
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.notices import notices
@@ -210,11 +209,6 @@ def _cut_out(base: Scene, step: Steps) -> tuple[np.ndarray, np.ndarray]:
     matte = matting.matte(photo, working, base.decision)
     step.within(0.6)
     sky = resize(matte, working.width, working.height)
-    coarse = resize(base.coarse_map, working.width, working.height)
-    bound = fill_islands(sky, coarse)
-    if bound.any():
-        sky = np.maximum(sky, bound)
-        raise_to(matte, bound, working.zoom)
     return sky, matte
 
 
