@@ -172,8 +172,9 @@ def _median_picture(photos: Sequence[Photo]) -> Photo:
 
 def _common_sky(small: list[Working], plate: Working, method: str) -> np.ndarray:
     """Return the sky's probability in the median picture, (h, w) float32."""
-    coarse = np.median(np.stack([sky_stage.network(w) for w in small]), axis=0)
-    coarse = resize(np.asarray(coarse, np.float32), plate.width, plate.height)
+    seen = np.stack([sky_stage.network(w) for w in small])
+    middle: np.ndarray = np.median(seen, axis=0).astype(np.float32)
+    coarse = resize(middle, plate.width, plate.height)
     decision = refine.METHODS[method](plate, coarse)
     believed = np.float32(plausible(decision.sky, coarse, plate))
     sky = believed * patches.settle(decision.sky, coarse, plate)
