@@ -172,13 +172,12 @@ def _median_picture(photos: Sequence[Photo]) -> Photo:
 
 def _common_sky(small: list[Working], plate: Working, method: str) -> np.ndarray:
     """Return the sky's probability in the median picture, (h, w) float32."""
-    seen = np.stack([sky_stage.network(w) for w in small])
-    middle: np.ndarray = np.median(seen, axis=0).astype(np.float32)
-    coarse = resize(middle, plate.width, plate.height)
+    coarse = np.median(np.stack([sky_stage.network(w) for w in small]), axis=0)
+    coarse = resize(np.asarray(coarse, np.float32), plate.width, plate.height)
     decision = refine.METHODS[method](plate, coarse)
     believed = np.float32(plausible(decision.sky, coarse, plate))
     sky = believed * patches.settle(decision.sky, coarse, plate)
-    kept = np.float32((sky > 0.5) | (decision.sky <= 0.5))
+    kept = ((sky > 0.5) | (decision.sky <= 0.5)).astype(np.float32)
     return np.asarray(coarse * resize(kept, plate.width, plate.height), np.float32)
 
 
