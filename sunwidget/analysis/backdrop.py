@@ -30,7 +30,7 @@ class Backdrop:
     Parameters
     ----------
     field : (h, w, 3) float32
-        Root of display-linear light, [0, 1].
+        Code of scene-linear light (``to_code``), [0, 1].
     glare : (h, w) float32
         Weight with which the sky behind replaces the photo once the sun has moved, [0, 1]; on
         land the share of its light that goes then.
@@ -38,6 +38,22 @@ class Backdrop:
 
     field: np.ndarray
     glare: np.ndarray
+
+
+_OCTAVES, _FINE = 10.0, 64.0  # as shaders/lib/response.glsl
+
+
+def to_code(light: np.ndarray) -> np.ndarray:
+    """Return codes in [0, 1] of scene-linear light up to 16; 8 bits tell 3 % of it.
+
+    Round a sun air is brighter than white, and darkens from there when the sun goes.
+    """
+    return np.asarray(np.clip(np.log2(1 + _FINE * np.maximum(light, 0)) / _OCTAVES, 0, 1))
+
+
+def to_light(code: np.ndarray) -> np.ndarray:
+    """Return the scene-linear light of codes: the inverse of ``to_code``."""
+    return np.asarray((np.exp2(_OCTAVES * np.asarray(code, np.float32)) - 1) / _FINE)
 
 
 LONG_SIDE = 256
@@ -73,19 +89,20 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     # fills the gap would end at an edge.
     clipped = smoothstep(0.90, 0.97, display.max(-1)) * (not mark.any())
     model = matched_sky(fit, camera, size)
-    log_residual = _log_residual(fit.response.scene_light(display), model)
+    seen = fit.response.scene_light(display)
+    log_residual = _log_residual(seen, model)
     # What the glare hides goes on as the model does, which knows how bright the air was round the
     # sun: the frame takes that away with the old sun. Its clouds go on as those beside it.
     known = 1 - np.asarray(resize(erased.hidden, *size), np.float32)
     weight = np.asarray((matte > 0.98) * (1 - clipped) * known, np.float32)
     detail = resize(erased.detail, *size)
     filled = fill_by_pyramid(log_residual - detail, weight) + detail
-    beyond = fit.response.display_light(model * np.exp(filled))
-    sky_light = beyond + weight[..., None] * (display - beyond)
+    beyond = model * np.exp(filled)
+    sky_light = beyond + weight[..., None] * (seen - beyond)
     # A pixel of the skyline shows sky, too, and has one mark for both.
     on_land = np.asarray(resize(erased.on_land, *size), np.float32)
     glare = np.where(matte > 0.98, mark, np.maximum(mark * smoothstep(0.0, 0.2, matte), on_land))
-    return Backdrop(_dithered(np.sqrt(np.clip(sky_light, 0, 1))), glare)
+    return Backdrop(_dithered(to_code(sky_light)), glare)
 
 
 def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:

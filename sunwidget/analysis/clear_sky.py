@@ -64,6 +64,7 @@ def _residual(scene: Scene, matte: np.ndarray, opacity: np.ndarray) -> np.ndarra
     burnt = np.clip((display.max(-1) - 0.9) / 0.07, 0, 1)
     inside = cv2.erode((matte > 0.98).astype(np.uint8), np.ones((3, 3))) > 0
     trust = inside * (1 - burnt) * np.exp(-np.square(near / _CLEAR))
+    trust *= 1 - resize(scene.without_sun.hidden, width, height)
     trust = trust.astype(np.float32)
 
     seen = scene.sun is not None and scene.sun.visible

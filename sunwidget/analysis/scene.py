@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis import depth_level, match, refine, relief
+from sunwidget.analysis import depth_level, haze_limit, match, refine, relief
 from sunwidget.analysis.camera_glare import glare_profile
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
@@ -68,7 +68,7 @@ class Scene:
     camera : Camera
     atmosphere : Atmosphere
     backdrop : (h, w, 3) float32
-        The photo without its sun, the sky gone on over the land; root of display-linear light.
+        The photo without its sun, the sky gone on over the land (``backdrop.to_code``).
     glare : (h, w) float32
         Where the backdrop replaces the photo once the sun has moved; on land the share of light
         that goes then.
@@ -251,6 +251,14 @@ class Scene:
         return resize_rows(self._log_depths[size], width, height, rows)
 
     @cached_property
+    def _haze_limit(self) -> np.ndarray | None:
+        # What somebody told about depth is not doubted.
+        if self.hints.depth is not None or self.fitted is None:
+            return None
+        land = self.small_sky < 0.5
+        return haze_limit.log_limit(self.without_sun.working, land, self.camera, self.fitted)
+
+    @cached_property
     def _log_depths(self) -> dict[tuple[int, int], np.ndarray]:
         return {}  # the last one by its size: strips of a large picture ask again and again
 
@@ -383,7 +391,11 @@ class Scene:
         ``rows`` as for ``layers``.
         """
         width, height = size or (self.width, self.height)
-        level = depth_level.to_level(self._log_depth(width, height, rows))
+        log_depth = self._log_depth(width, height, rows)
+        if self._haze_limit is not None:
+            limit = resize_rows(self._haze_limit, width, height, rows)
+            log_depth = np.minimum(log_depth, limit)
+        level = depth_level.to_level(log_depth)
         return np.stack(
             [
                 resize_rows(self.glare, width, height, rows),

@@ -38,7 +38,7 @@ from sunwidget.analysis.sun import Blot, SunObservation
 from sunwidget.analysis.sun_network import SunMaps, look_for_sun
 from sunwidget.analysis.sun_search import Peak
 from sunwidget.analysis.unmix import cloud_gain
-from sunwidget.analysis.working import Working, resize, smoothstep
+from sunwidget.analysis.working import Working, resize
 from sunwidget.camera import Camera, Point
 from sunwidget.layout import size_within
 from sunwidget.photo import Photo
@@ -364,23 +364,17 @@ def unmix_clouds(
     """Return ``covers`` with opacity and shade un-mixed from the fitted sky."""
     of_sky, of_all = cloud_stage.veil(erased.working, sky, camera, fitted, sun_seen=sun_seen)
     # Where the matte is soft, twigs darken the sky as a cloud would: continue the clouds from
-    # around them. Round the sun whiteness tells nothing: there the clear sky goes on.
+    # around them. Round the sun whiteness tells nothing: there clouds go on as beside it.
     weight = np.asarray(inner(sky > 0.98), np.float32)
     filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), weight)
     if erased.glow.any():
-        weight *= (1 - erased.glow) * clearness(of_sky.opacity, weight > 0.5)
+        weight *= 1 - erased.glow
         behind = fill_by_pyramid(of_sky.opacity[..., None], weight)[..., 0]
         filled[..., 0] += erased.glow * (behind - filled[..., 0])
     return (
         Clouds(filled[..., 0] * sky, covers[0].softness, filled[..., 1]),
         Clouds(of_all.opacity * (1 - erased.glow), covers[1].softness, of_all.shade),
     )
-
-
-def clearness(opacity: np.ndarray, sky: np.ndarray) -> np.ndarray:
-    """How clear each pixel is beside the clearest quarter of the sky, (h, w) in [0, 1]."""
-    usual = float(np.quantile(opacity[sky], 0.25)) if sky.any() else 0.0
-    return np.asarray(1 - smoothstep(0.05, 0.3, opacity - usual), np.float32)
 
 
 def inner(mask: np.ndarray) -> np.ndarray:

@@ -39,7 +39,10 @@ void main() {
 
   float shaft_before = ReadBilinear(shafts_source, place).r;
   float shaft_now = ReadBilinear(shafts_edit, place).r;
-  vec3 shafts = shaft_now * beam_now - shaft_before * relit * beam_before;
+  vec3 shafts = max(shaft_now, 0.0) * beam_now - max(shaft_before, 0.0) * relit * beam_before;
+  // Shadows in the haze may deepen. Where they go nothing comes instead: nobody saw that haze, and what lies in
+  // them is often the black of a silhouette.
+  shafts += min(min(shaft_now, 0.0) * beam_now - min(shaft_before, 0.0) * relit * beam_before, vec3(0.0));
   // Two texts of one formula need not agree to the bit.
   shafts = light_shafts * mix(shafts, vec3(0.0), bvec3(first.w < 0.0 && shaft_now == shaft_before));
 

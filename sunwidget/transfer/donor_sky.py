@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sunwidget.analysis.backdrop import matched_sky
+from sunwidget.analysis.backdrop import matched_sky, to_light
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.fit import SkyFit, view_angles
@@ -140,8 +140,7 @@ def donor_sky(donor: Scene, focal: float) -> DonorSky:
     sky = resize(donor.sky, *size)
     model = np.log(resize(matched_sky(donor.fitted, donor.camera, _small(size)), *size))
     residual = np.log(donor.fitted.response.scene_light(light)) - model
-    behind = np.square(resize(donor.backdrop, *size))
-    slow = np.log(donor.fitted.response.scene_light(behind)) - model
+    slow = np.log(np.maximum(to_light(resize(donor.backdrop, *size)), 1e-6)) - model
     glare = resize(donor.glare, *size)[..., None]
     sunless = residual + glare * (slow - residual)
     return DonorSky(

@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.analysis.fit import Response, model_sky, view_angles
+from sunwidget.analysis.fit import Response, SkyFit, model_sky, view_angles
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.camera import Camera
 
@@ -102,6 +102,17 @@ def known_photo(
     code = linear ** (1 / 2.2) + noise * random.standard_normal(linear.shape)
     linear = np.clip(code, 0, 1).astype(np.float32) ** np.float32(2.2)
     return KnownPhoto(linear, sky, opacity, camera, sun, atmosphere, response, gain)
+
+
+def exact_fit(photo, sun=None):
+    """Return the fit that a photo was drawn with."""
+    return SkyFit(
+        photo.atmosphere,
+        photo.response,
+        tuple(photo.gain),
+        (0.0, 3.0, 2.0),
+        sun or photo.sun,
+    )
 
 
 @functools.cache

@@ -4,25 +4,14 @@ import dataclasses
 
 import numpy as np
 import pytest
-from relight_scenes import known_photo
+from relight_scenes import exact_fit, known_photo
 
-from sunwidget.analysis.backdrop import LONG_SIDE, behind_sun, matched_sky
+from sunwidget.analysis.backdrop import LONG_SIDE, behind_sun, matched_sky, to_code, to_light
 from sunwidget.analysis.erase import unerased
-from sunwidget.analysis.fit import SkyFit
 from sunwidget.analysis.working import Working
 from sunwidget.edit import Edit
 from sunwidget.photo import open_photo
 from sunwidget.renderer import render, render_pass
-
-
-def exact_fit(photo, sun=None):
-    return SkyFit(
-        photo.atmosphere,
-        photo.response,
-        tuple(photo.gain),
-        (0.0, 3.0, 2.0),
-        sun or photo.sun,
-    )
 
 
 def behind(photo, mark=None):
@@ -32,7 +21,7 @@ def behind(photo, mark=None):
 
 
 def log_of(photo, backdrop):
-    light = photo.response.scene_light(np.square(backdrop.field))
+    light = np.maximum(to_light(backdrop.field), 1e-6)
     return np.log(light / matched_sky(exact_fit(photo), photo.camera, light.shape[1::-1]))
 
 
@@ -91,15 +80,27 @@ def test_the_matched_sky_has_the_size_asked_for():
     assert matched_sky(exact_fit(photo), photo.camera, (60, 40)).shape == (40, 60, 3)
 
 
+def with_light(scene, factor):
+    """Return the scene with another light in its backdrop."""
+    code = to_code(to_light(scene.backdrop) * factor)
+    return dataclasses.replace(scene, backdrop=code.astype(np.float32))
+
+
+def test_light_brighter_than_white_survives_its_code():
+    light = np.array([0, 0.01, 0.5, 1, 4.5, 15], np.float32)
+    code = np.round(to_code(light) * 255) / 255
+    assert to_light(code) == pytest.approx(light, rel=0.03, abs=1e-3)  # of eight bits
+    assert to_code(np.float32([-1, 99])) == pytest.approx([0, 1])
+
+
 def test_what_the_sky_is_brighter_than_the_model_is_told_and_leaves_with_its_light():
     scene = known_photo(clouds=False).analyze()
     half = np.arange(scene.backdrop.shape[1]) > scene.backdrop.shape[1] // 2
-    darker = np.where(half[:, None], 0.8 * scene.backdrop, scene.backdrop).astype(np.float32)
-    other = dataclasses.replace(scene, backdrop=darker)
+    other = with_light(scene, np.where(half, 0.58, 1.0)[None, :, None])
     own, lost = (render_pass(one, Edit(), "own_sky")[:28, :, 0] for one in (scene, other))
     assert np.abs(own).max() < 0.1
     assert np.abs(lost - own)[:, :24].max() < 0.01
-    assert -0.7 < (lost - own)[:, 44:].mean() < -0.4  # 2 log 0.8, and what the response makes of it
+    assert -0.7 < (lost - own)[:, 44:].mean() < -0.4  # log 0.58
     # The less the backdrop has the more is given back, where the model's light changes.
     moved = Edit(sun_elevation=-4, cloud_strength=0)  # the photo itself has not become darker
     gained = render(other, moved, dtype="float32") / render(scene, moved, dtype="float32")
@@ -115,8 +116,7 @@ def test_a_glow_round_the_photos_sun_leaves_with_it():
     near = np.exp(
         -np.square(np.hypot(columns - x * zoom, rows - y * zoom) / (0.08 * rows.shape[1]))
     )
-    glowing = np.minimum(scene.backdrop * (1 + 0.3 * near[..., None]), 1).astype(np.float32)
-    other = dataclasses.replace(scene, backdrop=glowing)
+    other = with_light(scene, 1 + 1.5 * near[..., None])
     one, more = (render_pass(s, Edit(), "own_sky")[:28, :, 1] for s in (scene, other))
     column = round(64 * x / scene.photo.width)
     assert (more - one)[:, column].max() > 0.1

@@ -129,6 +129,29 @@ def test_a_pillar_throws_a_shadow_into_the_haze_and_the_gap_beside_it_a_beam():
     assert shafts[behind].mean() < shafts[above].mean()
 
 
+def test_where_the_old_suns_shadows_in_the_haze_go_no_light_comes_instead():
+    scene = with_pillar(known_photo(clouds=False).analyze(), slice(52, 62))
+    far = Edit(sun_azimuth=-100, sun_elevation=40)
+    with_shafts, without = (
+        render(scene, far.replace(light_shafts=strength), dtype="float32") for strength in (1, 0)
+    )
+    old = render_pass(scene, far, "shafts_source")[..., 0]
+    assert old.min() < -1e-4
+    assert (with_shafts - without).max() < 1e-5
+
+
+def test_round_a_sun_behind_something_the_air_is_as_beside_it():
+    scene = known_photo(clouds=False).analyze()
+    seen = Edit(sun_azimuth=5, sun_elevation=6, aerosol_optical_depth=0.3)
+    lit, shaded = (
+        render_pass(scene, edit, "air_edit")[0] @ np.array([*LUMINANCE, 0])
+        for edit in (seen, seen.replace(sun_visibility=0))
+    )
+    assert lit.max() > 2 * lit.min()
+    assert shaded.max() < 1.01 * shaded.min()
+    assert (shaded <= 1.0001 * lit).all()
+
+
 def test_an_open_sky_and_an_evenly_closed_one_have_no_shafts():
     scene = known_photo(clouds=False).analyze(sky=np.ones((80, 120), np.float32))
     scene = dataclasses.replace(scene, glare=np.zeros_like(scene.glare))

@@ -59,7 +59,7 @@ class LandNet(SkyNet):
         x16 = self.to_sixteenth(deep, sixteenth)
         x4 = self.to_quarter(self.to_eighth(x16, eighth), quarter)
         x2 = self.to_half(x4, half)
-        shape = F.pixel_shuffle(self.shape(x4), 2)
+        shape = F.pixel_shuffle(self.shape(x4), 2).float()
         rows = x16.shape[2]
         # Where in the picture something is matters for the horizon: means of upper and lower part.
         up, down = x16[:, :, : rows // 2].mean((2, 3)), x16[:, :, rows // 2 :].mean((2, 3))

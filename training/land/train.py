@@ -32,7 +32,10 @@ from training.train import Average, optimiser, prepare, rate, save
 SKY = Path("sunwidget/analysis/models/sky.onnx")
 AREAS = ((0.0, 40_000, 10), (0.55, 62_000, 7), (0.85, 92_000, 5))
 """From which share of the time on: pixels of a picture, pictures of a batch of either kind."""
-PEAK_RATE = 1.2e-3
+AREAS_ON = ((0.0, 62_000, 7), (0.5, 92_000, 5))
+"""The same of a network that goes on from one that is trained."""
+PEAK_RATE, PEAK_RATE_ON = 1.2e-3, 5e-4
+KEPT, KEPT_ON = 0.997, 0.9993  # of the moving average of the weights, each step
 PHOTOS_EVERY = 3  # steps: worlds have more to tell, and the trunk knows photos
 TEACHES_FROM = 250  # steps, from which on the moving average is worth listening to
 SAVE_SECONDS = 240
@@ -101,7 +104,10 @@ class Training:
         self.options = options
         self.network = LandNet().to(memory_format=torch.channels_last)
         self.optimise = optimiser(self.network)
-        self.average, self.teacher = Average(self.network, 0.997), LandNet().eval()
+        on = options.start is not None
+        self.areas, self.peak = (AREAS_ON, PEAK_RATE_ON) if on else (AREAS, PEAK_RATE)
+        kept = KEPT_ON if on else KEPT
+        self.average, self.teacher = Average(self.network, kept), LandNet().eval()
         self.spent, self.step = 0.0, 0
         self.sums: dict[str, float] = {}
         self.checkpoint = options.out / "last.pt"
@@ -117,7 +123,7 @@ class Training:
             restore(trunk, SKY, typical(options.data, options.cache, 192, 96))
             self.network.load_state_dict(trunk.state_dict(), strict=False)
         if not self.checkpoint.exists():
-            self.average = Average(self.network, 0.997)
+            self.average = Average(self.network, kept)
 
     def _resume(self, path: Path) -> None:
         state = torch.load(path, weights_only=True)
@@ -128,8 +134,8 @@ class Training:
 
     def run(self) -> None:
         whole = self.options.minutes * 60
-        for i, (_, area, count) in enumerate(AREAS):
-            end = AREAS[i + 1][0] if i + 1 < len(AREAS) else 1.0
+        for i, (_, area, count) in enumerate(self.areas):
+            end = self.areas[i + 1][0] if i + 1 < len(self.areas) else 1.0
             if self.spent < end * whole:
                 self._stage(area, count, end * whole, whole)
         self._save()
@@ -140,7 +146,7 @@ class Training:
         photos = loader(PhotoBatches(self.options.data, area, count, seed))
         saved = clock = time.monotonic()
         while self.spent < until:
-            self._learn(next(worlds), photos, rate(self.spent / whole, PEAK_RATE))
+            self._learn(next(worlds), photos, rate(self.spent / whole, self.peak))
             now = time.monotonic()
             self.spent, clock = self.spent + now - clock, now
             if now - saved > SAVE_SECONDS:
@@ -152,7 +158,7 @@ class Training:
             group["lr"] = speed
         self.network.train()
         self.optimise.zero_grad()
-        found = losses(self.network.maps(prepare(world["image"])), world)
+        found = losses(self._maps(self.network, prepare(world["image"])), world)
         sum(found.values()).backward()
         self._count("", found)
         if self.step % PHOTOS_EVERY == 0:
@@ -162,14 +168,18 @@ class Training:
         self.average.update(self.network)
         self.step += 1
 
+    def _maps(self, network: LandNet, image: Tensor) -> dict[str, Tensor]:
+        with torch.autocast("cpu", torch.bfloat16, enabled=self.options.bfloat16):
+            return {name: value.float() for name, value in network.maps(image).items()}
+
     def _learn_from_photos(self, photo: Batch) -> None:
         image = prepare(photo["image"])
-        out = self.network.maps(image)
+        out = self._maps(self.network, image)
         found = photo_losses(out, photo)
         if self.step > TEACHES_FROM:
             self.teacher.load_state_dict(self.average.state)
             with torch.no_grad():
-                seen = self.teacher.maps(image.flip(3))
+                seen = self._maps(self.teacher, image.flip(3))
             found["alike"] = consistency(out, seen)
         sum(found.values()).backward()
         self._count("photo_", found)
@@ -196,6 +206,9 @@ def main() -> None:
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--start", type=Path)
     parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument(
+        "--bfloat16", action="store_true", help="twice as fast on CPUs that have it"
+    )
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     options.cache.mkdir(parents=True, exist_ok=True)

@@ -56,7 +56,9 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   vec3 mean = GetSceneLight(photo_land_linear_mean);
   vec3 usual = mix(color / GetLuminance(color), mean * ratio / max(GetLuminance(mean * ratio), 1e-9),
                    smoothstep(0.0, kDarkLand, GetLuminance(mean)));
-  land += glare * (usual * (level / GetLuminance(usual)) - land);
+  // That of an evening's land is its light's.
+  usual = mix(usual / GetLuminance(usual), color / GetLuminance(color), another);
+  land += glare * (usual * level - land);
   land = mix(land, WithoutGlow(land, color), another);
   return land * exp2(-dark * lift * lift / (lift + 3.0));
 }

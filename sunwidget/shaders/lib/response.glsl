@@ -21,9 +21,9 @@ vec3 GetSceneLight(vec3 display) {
   return pow(max(r, vec3(1e-6)), vec3(1.0 / response_contrast));
 }
 
-// What analysis/backdrop.py stores: the root of display-linear light.
+// What analysis/backdrop.py stores: scene-linear light up to 16.
 vec3 GetBackdropLight(vec3 code) {
-  return GetSceneLight(code * code);
+  return (exp2(10.0 * code) - 1.0) / 64.0;
 }
 
 vec3 GetDisplayLight(vec3 scene) {
