@@ -10,6 +10,9 @@ import numpy as np
 from sunwidget.analysis.working import resize, smoothstep
 
 _LAYERED = 0.25  # correlation of left and right from which all of a texture goes on; at 0 none
+_SEARCHED = 160  # pixels of the copy on which a place like a gap's is looked for
+_SURROUNDINGS = 0.04  # of its longer side: so wide is what is compared round a gap
+_ALL_KNOWN = 0.9  # share of such a place that is known
 _RAGGED = 3.0  # rows over which the edge that a texture is mirrored at is smoothed
 
 
@@ -87,8 +90,10 @@ def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.nd
     # Two textures that know nothing of each other add as their squares do, like ones as they are.
     squares = of_left**2 + of_right**2 + 2 * alike * of_left * of_right
     whole = np.minimum(of_left + of_right, 1) / np.maximum(np.sqrt(squares), 1e-3)
-    whole = whole * smoothstep(0.0, _LAYERED, alike)
-    texture = np.asarray(whole * (left + right), np.float32)
+    layered = smoothstep(0.0, _LAYERED, alike)
+    texture = np.asarray(layered * whole * (left + right), np.float32)
+    if layered < 1:
+        texture += (1 - layered) * transplanted(values, outside, known)
     # Above and below, rows that are mirrored meet rows that are not: the step between them fades
     # into the gap (Perez et al. 2003, "Poisson image editing").
     gap = (~outside).astype(np.float32)
@@ -96,6 +101,69 @@ def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.nd
     step = values - fill_by_pyramid(texture, gap)
     texture = texture + fill_by_pyramid(step, rim.astype(np.float32))
     return np.where(outside[..., None], values, texture)
+
+
+def transplanted(values: np.ndarray, outside: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Fill a gap with the texture of the place whose surroundings are most like the gap's.
+
+    One place for the whole gap, moved and perhaps mirrored, so that it stays one sky (as
+    Criminisi et al. 2004, "Region filling", choose each patch). It counts as far as the two
+    surroundings correlate.
+
+    Parameters
+    ----------
+    values : (h, w, c) float32
+        A texture of mean 0.
+    outside : (h, w) bool
+        False in the gap.
+    known : (h, w) float32
+        How far the texture is known, [0, 1].
+
+    Returns
+    -------
+    (h, w, c) float32
+        0 outside, and everywhere where no place is known that is large enough.
+    """
+    import cv2
+
+    nothing = np.zeros_like(values)
+    if outside.all() or not outside.any():
+        return nothing
+    scale = min(1.0, _SEARCHED / max(outside.shape))
+    size = tuple(max(4, round(n * scale)) for n in outside.shape[::-1])
+    gap = resize((~outside).astype(np.float32), *size) > 0.01
+    there = resize(known * outside, *size) > 0.5
+    grey = resize(values.mean(-1), *size)
+    side = 2 * max(2, round(_SURROUNDINGS * max(size))) + 1
+    ring = cv2.dilate(gap.astype(np.uint8), np.ones((side, side), np.uint8)) > 0
+    rows, columns = (np.flatnonzero(ring.any(axis)) for axis in (1, 0))
+    box = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    wanted = ring & ~gap & there
+    if not wanted.any():
+        return nothing
+    best = (0.0, 0, 0, False)
+    for flipped in (False, True):
+        image, clear = (a[:, ::-1] if flipped else a for a in (grey, there))
+        image, clear = np.ascontiguousarray(image), np.ascontiguousarray(clear, np.float32)
+        like = cv2.matchTemplate(
+            image, grey[box], cv2.TM_CCORR_NORMED, mask=wanted[box].astype(np.float32)
+        )
+        whole = (gap | wanted)[box].astype(np.float32)
+        share = cv2.matchTemplate(clear, whole, cv2.TM_CCORR) / whole.sum()
+        like = np.where((share > _ALL_KNOWN) & np.isfinite(like), like, -1)
+        row, column = np.unravel_index(int(like.argmax()), like.shape)
+        if like[row, column] > best[0]:
+            best = (float(like[row, column]), int(row), int(column), flipped)
+    likeness, row, column, flipped = best
+    if likeness <= 0:
+        return nothing
+    source = values[:, ::-1] if flipped else values
+    down, right = round((row - rows[0]) / scale), round((column - columns[0]) / scale)
+    move = np.float32([[1, 0, -right], [0, 1, -down]])
+    seen = cv2.warpAffine(
+        np.ascontiguousarray(source, np.float32), move, outside.shape[::-1], borderValue=0
+    )
+    return np.asarray(likeness * seen.reshape(values.shape) * ~outside[..., None], np.float32)
 
 
 def _likeness(one: np.ndarray, other: np.ndarray) -> float:

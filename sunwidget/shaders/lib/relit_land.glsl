@@ -15,6 +15,9 @@ const float kDarkAlbedo = 0.2;
 const float kLitColor = 0.35;
 // How much of the photo's balance that light has lost then.
 const float kBalanceGone = 0.6;
+// Albedo from which land is less bright than its light would have it when that turns, and the brightest: what the photo
+// has brighter glowed, and shines by no other light.
+const vec2 kWhitePaint = vec2(0.5, 0.9);
 // Under their light 75 in 100 warm pixels of the land of day photos are no redder: log of red over green, and over blue.
 const vec2 kReddestLand = vec2(0.77, 1.6);
 
@@ -23,10 +26,11 @@ uniform float land_strength;
 uniform float exposure;
 uniform int colour_loss;  // 0 keeping luminance, 1 as eq. 3.8 of the thesis
 
-// What the old sun's glare put before the land goes with it, but no more than leaves dark land in its light:
-// along the skyline the share is the sky's, and would leave a black line.
+// What the old sun's glare put before the land goes with it, but no more than leaves dark land in its light, or land as
+// dark as this landscape's: along the skyline the share is the sky's, and would leave a black line.
 vec3 WithoutGlare(vec3 light, float share, vec3 lit_before) {
-  return max(light * (1.0 - share), min(light, kDarkAlbedo / 3.14159265 * lit_before));
+  vec3 least = min(kDarkAlbedo / 3.14159265 * lit_before, GetSceneLight(photo_land_linear_mean));
+  return max(light * (1.0 - share), min(light, least));
 }
 
 // Leaves and mist that let a low sun through are redder than land can be in the light of another.
@@ -60,6 +64,10 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   usual = mix(usual / GetLuminance(usual), color / GetLuminance(color), another);
   land += glare * (usual * level - land);
   land = mix(land, WithoutGlow(land, color), another);
+  float albedo = 3.14159265 * level / max(GetLuminance(lit), 1e-9);
+  float beyond = max(albedo - kWhitePaint.x, 0.0) / (kWhitePaint.y - kWhitePaint.x);
+  float most = kWhitePaint.x + (kWhitePaint.y - kWhitePaint.x) * beyond / (1.0 + beyond);
+  land *= mix(1.0, min(most / max(albedo, 1e-6), 1.0), another);
   return land * exp2(-dark * lift * lift / (lift + 3.0));
 }
 
