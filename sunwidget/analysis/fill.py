@@ -108,7 +108,7 @@ def transplanted(values: np.ndarray, outside: np.ndarray, known: np.ndarray) -> 
 
     One place for the whole gap, moved and perhaps mirrored, so that it stays one sky (as
     Criminisi et al. 2004, "Region filling", choose each patch). It counts as far as the two
-    surroundings correlate.
+    surroundings correlate, and as its texture is as strong as that of the gap's surroundings.
 
     Parameters
     ----------
@@ -141,6 +141,8 @@ def transplanted(values: np.ndarray, outside: np.ndarray, known: np.ndarray) -> 
     wanted = ring & ~gap & there
     if not wanted.any():
         return nothing
+    strength = np.sqrt(np.square(grey[wanted]).mean()) + 1e-6
+    inside = gap[box].astype(np.float32)
     best = (0.0, 0, 0, False)
     for flipped in (False, True):
         image, clear = (a[:, ::-1] if flipped else a for a in (grey, there))
@@ -150,6 +152,10 @@ def transplanted(values: np.ndarray, outside: np.ndarray, known: np.ndarray) -> 
         )
         whole = (gap | wanted)[box].astype(np.float32)
         share = cv2.matchTemplate(clear, whole, cv2.TM_CCORR) / whole.sum()
+        # A cloud that the surroundings do not have would be a scrap in a clear sky.
+        squares = cv2.matchTemplate(np.square(image), inside, cv2.TM_CCORR) / inside.sum()
+        stronger = (np.sqrt(np.maximum(squares, 0)) + 1e-6) / strength
+        like = like * np.minimum(stronger, 1 / stronger)
         like = np.where((share > _ALL_KNOWN) & np.isfinite(like), like, -1)
         row, column = np.unravel_index(int(like.argmax()), like.shape)
         if like[row, column] > best[0]:

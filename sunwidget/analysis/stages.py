@@ -38,7 +38,7 @@ from sunwidget.analysis.sun import Blot, SunObservation
 from sunwidget.analysis.sun_network import SunMaps, look_for_sun
 from sunwidget.analysis.sun_search import Peak
 from sunwidget.analysis.unmix import cloud_gain
-from sunwidget.analysis.working import Working, resize
+from sunwidget.analysis.working import Working, resize, smoothstep
 from sunwidget.camera import Camera, Point
 from sunwidget.layout import size_within
 from sunwidget.photo import Photo
@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
 
 FIT_SIDE = 384
+_SURROUNDINGS = 0.05  # of the longer side: how far round a glow the sky tells what it hides
 SURE_HORIZON = 0.68  # confidence from which nothing below the horizon can be sky
 
 METHODS: dict[str, dict[str, Callable[..., Any]]] = {
@@ -368,13 +369,33 @@ def unmix_clouds(
     weight = np.asarray(inner(sky > 0.98), np.float32)
     filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), weight)
     if erased.glow.any():
+        # The clearer the surroundings are, the more it is the clear sky alone that goes on.
         weight *= 1 - erased.glow
-        behind = fill_by_pyramid(of_sky.opacity[..., None], weight)[..., 0]
+        clear = weight * _clearness(of_sky.opacity, weight > 0.5)
+        both = (fill_by_pyramid(of_sky.opacity[..., None], w)[..., 0] for w in (weight, clear))
+        cloudy, open_ = both
+        share = _round_glow(erased.glow, weight, clear)
+        behind = cloudy + share * (open_ - cloudy)
         filled[..., 0] += erased.glow * (behind - filled[..., 0])
     return (
         Clouds(filled[..., 0] * sky, covers[0].softness, filled[..., 1]),
         Clouds(of_all.opacity * (1 - erased.glow), covers[1].softness, of_all.shade),
     )
+
+
+def _clearness(opacity: np.ndarray, sky: np.ndarray) -> np.ndarray:
+    """How clear each pixel is beside the clearest quarter of the sky, (h, w) in [0, 1]."""
+    usual = float(np.quantile(opacity[sky], 0.25)) if sky.any() else 0.0
+    return np.asarray(1 - smoothstep(0.05, 0.3, opacity - usual), np.float32)
+
+
+def _round_glow(glow: np.ndarray, weight: np.ndarray, clear: np.ndarray) -> float:
+    """Return which share of what surrounds the glow (h, w) is clear sky."""
+    import cv2
+
+    side = 2 * max(1, round(_SURROUNDINGS * max(glow.shape))) + 1
+    near = cv2.dilate(glow, np.ones((side, side), np.uint8))
+    return float((near * clear).sum() / max(float((near * weight).sum()), 1e-6))
 
 
 def inner(mask: np.ndarray) -> np.ndarray:
