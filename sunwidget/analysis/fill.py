@@ -160,12 +160,12 @@ def transplanted(values: np.ndarray, outside: np.ndarray, known: np.ndarray) -> 
         row, column = np.unravel_index(int(like.argmax()), like.shape)
         if like[row, column] > best[0]:
             best = (float(like[row, column]), int(row), int(column), flipped)
-    likeness, row, column, flipped = best
+    likeness, top, left, flipped = best
     if likeness <= 0:
         return nothing
     source = values[:, ::-1] if flipped else values
-    down, right = round((row - rows[0]) / scale), round((column - columns[0]) / scale)
-    move = np.float32([[1, 0, -right], [0, 1, -down]])
+    down, right = round((top - rows[0]) / scale), round((left - columns[0]) / scale)
+    move = np.array([[1, 0, -right], [0, 1, -down]], np.float32)
     seen = cv2.warpAffine(
         np.ascontiguousarray(source, np.float32), move, outside.shape[::-1], borderValue=0
     )

@@ -17,7 +17,7 @@ from sunwidget.analysis.working import LUMINANCE, Working, log_odds, resize, smo
 from sunwidget.camera import Camera
 
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is water in part
-_BELIEF = 0.6  # mean probability from which a patch is water
+_BELIEF = 0.5  # mean probability from which a patch is water
 WEIGHTS = (0.06, 0.68, 0.44)  # bias, and of the log odds of the network of suns and of that of land
 _REDDER = 0.4  # log of red over blue by which water is at most redder than its sky
 _DARK = 0.004  # linear light that counts as noise
@@ -27,7 +27,7 @@ _SUN = 0.3  # probability from which there is a sun whose column may be twice as
 _GAP = 0.02  # and half of the gap between water and sky
 _STRIP = 0.005  # the same of a gap above the horizon
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
-_SHORE = 0.02  # of the width: how far beyond the network's edge the shore may be
+_SHORE = 0.04  # of the width: how far beyond the network's edge the shore may be
 _SHORE_SIDE = 384  # px of the copy on which it is looked for
 _RADIUS = 5  # px of the working copy: how far the edge of the mask follows the picture
 _EPSILON = 1e-4
