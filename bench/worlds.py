@@ -32,7 +32,11 @@ def pictures(world: dict[str, np.ndarray], name: str) -> list[np.ndarray]:
     """Return a world's photos, uint8 sRGB: one camera, one air, exposed each for itself."""
     depth = world["depth"].astype(np.float32)
     found = []
-    for light, air, scale in zip(world["light"], world["air"], world["scale"], strict=True):
+    count = len(
+        world["light"]
+    )  # suns that are photographed; of the others the light on land is known
+    airs, scales = world["air"][:count], world["scale"][:count]
+    for light, air, scale in zip(world["light"], airs, scales, strict=True):
         chance = np.random.default_rng(zlib.crc32(name.encode()))
         seen = with_air(light.astype(np.float32), depth, air / scale, chance)
         level = np.exp(np.log(np.maximum(seen @ LUMINANCE, 1e-6)).mean())
@@ -71,7 +75,8 @@ def measure(path: Path, options: argparse.Namespace) -> list[dict[str, Any]]:
     score = load_score()
     with np.load(path) as file:
         world = dict(file)
-    photos, suns = pictures(world, path.stem), world["suns"]
+    photos = pictures(world, path.stem)
+    suns = world["suns"][: len(photos)]
     height, width = world["depth"].shape
     fov, pitch, roll, _ = (float(v) for v in world["camera"])
     true = sw.Camera(width, height, np.degrees(fov), np.degrees(pitch), np.degrees(roll))

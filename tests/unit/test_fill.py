@@ -1,9 +1,10 @@
 """Continuing a picture over what is not known: push-pull, and a mirrored texture."""
 
+import cv2
 import numpy as np
 import pytest
 
-from sunwidget.analysis.fill import fill_by_pyramid, mirrored
+from sunwidget.analysis.fill import fill_by_pyramid, mirrored, transplanted
 
 ROWS, COLUMNS = np.mgrid[:60, :90]
 
@@ -84,3 +85,34 @@ def test_what_lies_above_a_gap_fades_into_it():
     middle = continued[20:50, 45, 0]
     assert middle[0] > 0.5
     assert middle[15] < 0.6 * middle[0]
+
+
+def spots(random):
+    """A texture of soft spots of mean 0, all over the picture."""
+    spots = cv2.GaussianBlur(random.standard_normal(ROWS.shape), (0, 0), 2.5)
+    return np.repeat((spots / spots.std())[..., None], 3, -1).astype(np.float32)
+
+
+def test_a_gap_is_filled_from_where_the_surroundings_are_like_its_own():
+    texture = spots(np.random.default_rng(3))
+    texture[:, 45:] = texture[:, :45]  # what stands at the left stands at the right, too
+    outside = np.hypot(COLUMNS - 67, ROWS - 30) >= 8
+    broken = np.where(outside[..., None], texture, 9).astype(np.float32)
+    filled = transplanted(broken, outside, outside.astype(np.float32))
+    gap = ~outside
+    assert not filled[outside].any()
+    assert np.corrcoef(filled[gap].ravel(), texture[gap].ravel())[0, 1] > 0.85  # to a pixel
+
+
+def test_a_gap_in_a_clear_sky_is_filled_with_clear_sky():
+    texture = 0.02 * spots(np.random.default_rng(4))
+    texture[:20] *= 50  # clouds above
+    outside = np.hypot(COLUMNS - 40, ROWS - 45) >= 9
+    filled = transplanted(texture, outside, outside.astype(np.float32))
+    assert np.abs(filled).max() < 0.1
+
+
+def test_a_gap_larger_than_what_is_known_stays_empty():
+    outside = np.hypot(COLUMNS - 40, ROWS - 30) >= 28
+    filled = transplanted(spots(np.random.default_rng(5)), outside, outside.astype(np.float32))
+    assert not filled.any()

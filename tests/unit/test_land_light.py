@@ -208,3 +208,13 @@ def test_colour_loss_by_luminance_and_by_power_keep_the_luminance_alike():
     assert spread["luminance"] < np.ptp(kept) / kept.mean()
     assert spread["power"] < np.ptp(kept) / kept.mean()
     assert pictures["luminance"] @ LUMINANCE == pytest.approx(kept @ LUMINANCE, rel=0.02)
+
+
+def test_land_that_glowed_before_a_low_sun_is_not_burnt_by_day():
+    known = known_photo(sun=(8.0, 2.0), clouds=False)
+    picture, land = known.bytes.copy(), known.sky < 0.5
+    picture[land] = 220
+    noon = Edit(sun_azimuth=70, sun_elevation=35, auto_exposure=0, glow=0)
+    day = render(known.analyze(picture), noon, dtype="float32")[land]
+    assert 0.8 < day.mean() < 0.95
+    assert day.max() < 0.99
