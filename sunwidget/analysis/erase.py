@@ -208,5 +208,9 @@ def _round_about(blot: np.ndarray, largest: float = 1.0) -> np.ndarray:
 
     radius = max(1.0, float(np.sqrt(blot.sum() / np.pi)))
     radius = min(radius, largest * max(blot.shape))
-    away = cv2.distanceTransform((blot < 0.5).astype(np.uint8), cv2.DIST_L2, 5)
+    if not blot.any():
+        return np.zeros(blot.shape, np.float32)
+    # On a small map a small disc fills no pixel.
+    outside = blot < 0.5 * min(float(blot.max()), 1.0)
+    away = cv2.distanceTransform(outside.astype(np.uint8), cv2.DIST_L2, 5)
     return np.asarray(1 - smoothstep(0.5 * radius + 1, 2 * radius + 3, away), np.float32)

@@ -17,7 +17,7 @@ from sunwidget.analysis.working import LUMINANCE, Working, log_odds, resize, smo
 from sunwidget.camera import Camera
 
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is water in part
-_BELIEF = 0.5  # mean probability from which a patch is water
+_BELIEF = 0.6  # mean probability from which a patch is water
 WEIGHTS = (0.06, 0.68, 0.44)  # bias, and of the log odds of the network of suns and of that of land
 _REDDER = 0.4  # log of red over blue by which water is at most redder than its sky
 _DARK = 0.004  # linear light that counts as noise

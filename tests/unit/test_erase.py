@@ -35,9 +35,9 @@ def sky():
     return np.ones(SIZE[::-1], np.float32)
 
 
-def blot():
+def blot(radius=6):
     rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
-    return (np.hypot(columns - 80, rows - 40) < 6).astype(np.float32)
+    return (np.hypot(columns - 80, rows - 40) < radius).astype(np.float32)
 
 
 def test_a_photo_without_a_sun_stays_the_same_object():
@@ -89,11 +89,12 @@ def test_a_core_is_filled_from_around_it():
     assert filled.min() > 0.05
 
 
-def test_a_sun_that_only_a_person_sees_is_covered_by_its_surroundings():
+@pytest.mark.parametrize("radius", [6, 1.5])  # of 1.5 it fills no pixel of the network's map
+def test_a_sun_that_only_a_person_sees_is_covered_by_its_surroundings(radius):
     code = np.full((SIZE[1], SIZE[0], 3), 80, np.uint8)
-    code[blot() > 0] = 255
+    code[blot(radius) > 0] = 255
     working = Working.of(open_photo(code))
-    erased = erase(working, maps(np.zeros((*SMALL, 3))), sky(), light(blot()))
+    erased = erase(working, maps(np.zeros((*SMALL, 3))), sky(), light(blot(radius)))
     assert erased.mark[40, 80] == pytest.approx(1)
     assert np.abs(erased.working.encoded[40, 80] - 80 / 255).max() < 0.02
     assert erased.mark[100, 20] == 0
