@@ -126,50 +126,55 @@ def transplanted(values: np.ndarray, outside: np.ndarray, known: np.ndarray) -> 
     """
     import cv2
 
-    nothing = np.zeros_like(values)
     if outside.all() or not outside.any():
-        return nothing
+        return np.zeros_like(values)
     scale = min(1.0, _SEARCHED / max(outside.shape))
     size = tuple(max(4, round(n * scale)) for n in outside.shape[::-1])
-    gap = resize((~outside).astype(np.float32), *size) > 0.01
-    there = resize(known * outside, *size) > 0.5
-    grey = resize(values.mean(-1), *size)
-    side = 2 * max(2, round(_SURROUNDINGS * max(size))) + 1
-    ring = cv2.dilate(gap.astype(np.uint8), np.ones((side, side), np.uint8)) > 0
-    rows, columns = (np.flatnonzero(ring.any(axis)) for axis in (1, 0))
+    likeness, down, right, flipped = _likest(
+        resize(values.mean(-1), *size),
+        resize(known * outside, *size) > 0.5,
+        resize((~outside).astype(np.float32), *size) > 0.01,
+    )
+    source = np.ascontiguousarray(values[:, ::-1] if flipped else values, np.float32)
+    move = np.array([[1, 0, -round(right / scale)], [0, 1, -round(down / scale)]], np.float32)
+    seen = cv2.warpAffine(source, move, outside.shape[::-1], borderValue=0)
+    return np.asarray(likeness * seen.reshape(values.shape) * ~outside[..., None], np.float32)
+
+
+def _likest(grey: np.ndarray, known: np.ndarray, gap: np.ndarray) -> tuple[float, int, int, bool]:
+    """Return how like a gap's the surroundings of the likest place are, [0, 1], and where it is.
+
+    So many rows down and columns to the right of the gap, in the picture or its mirror image. A
+    texture (h, w) of mean 0, where it is known, and the gap in it (h, w) bool.
+    """
+    import cv2
+
+    side = 2 * max(2, round(_SURROUNDINGS * max(gap.shape))) + 1
+    near = cv2.dilate(gap.astype(np.uint8), np.ones((side, side), np.uint8)) > 0
+    rows, columns = (np.flatnonzero(near.any(axis)) for axis in (1, 0))
     box = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-    wanted = ring & ~gap & there
-    if not wanted.any():
-        return nothing
-    strength = np.sqrt(np.square(grey[wanted]).mean()) + 1e-6
-    inside = gap[box].astype(np.float32)
+    ring = near & ~gap & known
     best = (0.0, 0, 0, False)
+    if not ring.any():
+        return best
+    strength = np.sqrt(np.square(grey[ring]).mean()) + 1e-6
+    around, inside = (mask[box].astype(np.float32) for mask in (ring, gap))
+    whole = np.maximum(around, inside)
     for flipped in (False, True):
-        image, clear = (a[:, ::-1] if flipped else a for a in (grey, there))
-        image, clear = np.ascontiguousarray(image), np.ascontiguousarray(clear, np.float32)
-        like = cv2.matchTemplate(
-            image, grey[box], cv2.TM_CCORR_NORMED, mask=wanted[box].astype(np.float32)
+        image, clear = (
+            np.ascontiguousarray(a[:, ::-1] if flipped else a, np.float32) for a in (grey, known)
         )
-        whole = (gap | wanted)[box].astype(np.float32)
-        share = cv2.matchTemplate(clear, whole, cv2.TM_CCORR) / whole.sum()
+        like = cv2.matchTemplate(image, grey[box], cv2.TM_CCORR_NORMED, mask=around)
         # A cloud that the surroundings do not have would be a scrap in a clear sky.
         squares = cv2.matchTemplate(np.square(image), inside, cv2.TM_CCORR) / inside.sum()
         stronger = (np.sqrt(np.maximum(squares, 0)) + 1e-6) / strength
         like = like * np.minimum(stronger, 1 / stronger)
-        like = np.where((share > _ALL_KNOWN) & np.isfinite(like), like, -1)
+        share = cv2.matchTemplate(clear, whole, cv2.TM_CCORR) / whole.sum()
+        like = np.where((share > _ALL_KNOWN) & np.isfinite(like), like, 0)
         row, column = np.unravel_index(int(like.argmax()), like.shape)
         if like[row, column] > best[0]:
-            best = (float(like[row, column]), int(row), int(column), flipped)
-    likeness, top, left, flipped = best
-    if likeness <= 0:
-        return nothing
-    source = values[:, ::-1] if flipped else values
-    down, right = round((top - rows[0]) / scale), round((left - columns[0]) / scale)
-    move = np.array([[1, 0, -right], [0, 1, -down]], np.float32)
-    seen = cv2.warpAffine(
-        np.ascontiguousarray(source, np.float32), move, outside.shape[::-1], borderValue=0
-    )
-    return np.asarray(likeness * seen.reshape(values.shape) * ~outside[..., None], np.float32)
+            best = (float(like[row, column]), int(row - rows[0]), int(column - columns[0]), flipped)
+    return best
 
 
 def _likeness(one: np.ndarray, other: np.ndarray) -> float:

@@ -372,10 +372,9 @@ def unmix_clouds(
         # The clearer the surroundings are, the more it is the clear sky alone that goes on.
         weight *= 1 - erased.glow
         clear = weight * _clearness(of_sky.opacity, weight > 0.5)
-        both = (fill_by_pyramid(of_sky.opacity[..., None], w)[..., 0] for w in (weight, clear))
-        cloudy, open_ = both
+        cloudy, open_ = (fill_by_pyramid(of_sky.opacity[..., None], w) for w in (weight, clear))
         share = _round_glow(erased.glow, weight, clear)
-        behind = cloudy + share * (open_ - cloudy)
+        behind = (cloudy + share * (open_ - cloudy))[..., 0]
         filled[..., 0] += erased.glow * (behind - filled[..., 0])
     return (
         Clouds(filled[..., 0] * sky, covers[0].softness, filled[..., 1]),

@@ -1,10 +1,13 @@
 """Land lies no farther than air could hide how dark it is."""
 
 import dataclasses
+import re
+from importlib.resources import files
 
 import numpy as np
 from relight_scenes import exact_fit, known_photo
 
+from sunwidget.analysis import haze_limit
 from sunwidget.analysis.haze_limit import log_limit
 from sunwidget.analysis.working import Working
 from sunwidget.photo import open_photo
@@ -53,3 +56,15 @@ def test_a_told_depth_is_not_doubted_and_a_guess_is():
     level = np.log2(40_000) / 16
     assert abs(told.surface()[..., 3][land].mean() - level) < 0.01
     assert guess.surface()[..., 3][land].max() < np.log2(5_000) / 16
+
+
+def test_the_air_is_the_shaders():
+    text = (files("sunwidget") / "shaders/lib/extinction.glsl").read_text("utf-8")
+    scattering, steps = (
+        [float(v) for v in re.search(rf"{name} = vec3\((.*)\)", text)[1].split(",")]
+        for name in ("kAirScattering", "kWavelengthSteps")
+    )
+    assert scattering == list(haze_limit._AIR_SCATTERING)
+    assert steps == list(haze_limit._STEPS)
+    air = (files("sunwidget") / "shaders/lib/air.glsl").read_text("utf-8")
+    assert f"kFarthestAir = {haze_limit._FARTHEST_AIR:.1f};" in air
