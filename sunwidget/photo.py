@@ -20,9 +20,11 @@ from sunwidget.color import SRGB, ColorProfile, strips
 from sunwidget.decode import Decoded
 from sunwidget.layout import PhotoError, PhotoWarning, size_within
 from sunwidget.photo_sources import decoded_from
+from sunwidget.png import cell_output
 
 __all__ = ["FieldOfView", "Photo", "PhotoError", "PhotoWarning", "open_photo"]
 
+_SHOWN_EDGE = 480  # pixels of the longer side, in a notebook
 _DECODED_AT_ONCE = 1 << 23  # pixels: 100 MB of light
 
 
@@ -88,6 +90,9 @@ class Photo:
     def __repr__(self) -> str:
         width, height = self.size
         return f"<Photo {self.name!r} {width}×{height}, {self.bit_depth} bit, {self.profile.name}>"
+
+    def _repr_mimebundle_(self, **_kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+        return cell_output(self.preview(_SHOWN_EDGE), repr(self), self.name)
 
     @property
     def size(self) -> tuple[int, int]:

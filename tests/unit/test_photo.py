@@ -1,3 +1,4 @@
+import base64
 import io
 import os
 import pickle
@@ -450,3 +451,13 @@ def test_a_photo_can_be_pickled_and_names_itself():
     assert isinstance(again, Photo)
     assert np.array_equal(again.pixels, photo.pixels)
     assert repr(photo) == "<Photo 'picture' 32×24, 16 bit, sRGB>"
+
+
+def test_a_notebook_shows_a_photo_as_a_small_picture_and_its_text():
+    photo = open_photo(np.full((300, 1200, 3), 70, np.uint8))
+    data, about = photo._repr_mimebundle_()
+    assert data["text/plain"] == repr(photo)
+    shown = open_photo(base64.b64decode(data["image/png"]))
+    assert shown.size == (480, 120)
+    assert (shown.encoded == 70).all()
+    assert about["image/png"] == {"width": 480, "height": 120, "alt": "array"}
