@@ -18,6 +18,7 @@ from sunwidget import exif as exif_tags
 from sunwidget import xmp as xmp_packet
 from sunwidget.color import SRGB, ColorProfile, strips
 from sunwidget.decode import Decoded
+from sunwidget.edit import Edit, EditError
 from sunwidget.layout import PhotoError, PhotoWarning, size_within
 from sunwidget.photo_sources import decoded_from
 from sunwidget.png import cell_output
@@ -58,8 +59,9 @@ class Photo:
         What the EXIF says about the shot.
     turned : bool
         True when EXIF orientation turned the picture by a quarter.
-    recipe : dict or None
-        Recipe of the edit that made this picture, when sunwidget wrote it.
+    recorded : dict or None
+        Recipe of the edit that made this picture as the file has it, to be written again;
+        ``recipe`` is the edit.
     notes : tuple of str
         Sentences about what could not be kept; also given as PhotoWarning.
     sun : (x, y) or None
@@ -78,7 +80,7 @@ class Photo:
     dpi: tuple[float, float] | None = None
     facts: exif_tags.CameraFacts = field(default_factory=exif_tags.CameraFacts)
     turned: bool = False
-    recipe: dict[str, Any] | None = None
+    recorded: dict[str, Any] | None = None
     notes: tuple[str, ...] = ()
     sun: tuple[float, float] | None = None
 
@@ -160,6 +162,17 @@ class Photo:
     def time(self) -> dt.datetime | None:
         """Time of the shot; naive local time when the file names no zone."""
         return self.facts.time
+
+    @cached_property
+    def recipe(self) -> Edit | None:
+        """The edit that made this picture, when sunwidget wrote it.
+
+        None, too, for a recipe that this version cannot read.
+        """
+        try:
+            return None if self.recorded is None else Edit.from_dict(self.recorded)
+        except EditError:
+            return None
 
     def preview(self, long_edge: int = 2048) -> NDArray[np.uint8]:
         """Return the picture as sRGB uint8 (h, w, 3), no longer than ``long_edge`` pixels.
@@ -248,6 +261,6 @@ def _photo(decoded: Decoded, name: str) -> Photo:
         dpi=decoded.dpi,
         facts=exif_tags.camera_facts(decoded.exif),
         turned=decoded.turned,
-        recipe=decoded.recipe or exif_tags.recipe(decoded.exif) or xmp_packet.recipe(decoded.xmp),
+        recorded=decoded.recipe or exif_tags.recipe(decoded.exif) or xmp_packet.recipe(decoded.xmp),
         notes=tuple(decoded.notes),
     )

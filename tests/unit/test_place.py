@@ -417,7 +417,7 @@ def test_a_time_on_the_command_line_puts_the_sun_there(pvlib, file, tmp_path):
     place = from_photo(scene.photo).place.replace(time=17.75)
     expected = sw.render(scene, sw.Edit().at(place))
     assert np.array_equal(np.asarray(Image.open(output)), expected)
-    assert sw.open(output).recipe["place"]["time"] == 17.75
+    assert sw.open(output).recipe.place.time == 17.75
     # Elsewhere the sun is elsewhere, at the photo's own time.
     flags = ["--place", "-33.9,18.4", "--date", "2024-12-21", "--heading", "200"]
     options = _parser().parse_args(["render", str(file), *flags, "-o", "x.png"])

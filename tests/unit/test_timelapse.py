@@ -76,11 +76,11 @@ def test_stills_keep_names_metadata_and_where_nothing_moves_every_bit(frames, tm
     first, last = sw.open(out / "f0.png"), sw.open(out / "f3.png")
     assert np.array_equal(first.encoded, sw.open(frames / "f0.png").encoded)
     assert np.abs(last.encoded.astype(int) - sw.open(frames / "f3.png").encoded).mean() > 3
-    assert last.recipe == MOVED.to_dict()
+    assert last.recipe == MOVED
     # Two thirds of the way from the frame's own sun to the asked one.
     own = frames_of_a_camera.film().row[2].automatic["sun_elevation"]
     recipe = sw.open(out / "f2.png").recipe
-    assert recipe["sun_elevation"] == pytest.approx(own + (4 - own) * 2 / 3, abs=0.01)
+    assert recipe.sun_elevation == pytest.approx(own + (4 - own) * 2 / 3, abs=0.01)
     with pytest.raises(FileExistsError, match="f0.png exists already"):
         timelapse(frames, MOVED, out)
 
@@ -108,7 +108,7 @@ def test_at_night_the_sun_stays_where_it_is(frames, tmp_path, monkeypatch):
         out = timelapse(frames, MOVED, tmp_path / "stills")
     assert np.array_equal(sw.open(out / "f3.png").encoded, sw.open(frames / "f3.png").encoded)
     own = frames_of_a_camera.film().row[2].automatic["sun_elevation"]
-    assert sw.open(out / "f2.png").recipe["sun_elevation"] == pytest.approx((own + 4) / 2, abs=0.01)
+    assert sw.open(out / "f2.png").recipe.sun_elevation == pytest.approx((own + 4) / 2, abs=0.01)
 
 
 @pytest.mark.parametrize(
