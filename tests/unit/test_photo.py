@@ -92,6 +92,15 @@ def test_a_missing_file_suggests_the_nearest_name(tmp_path):
         open_photo(tmp_path / "beech.jpg")
     with pytest.raises(PhotoError, match="no file"):
         open_photo(str(tmp_path / "nowhere" / "x.jpg"))
+    (tmp_path / "beach.json").write_text("{}")
+    with pytest.raises(PhotoError, match="Did you mean 'beach.jpg'"):
+        open_photo(tmp_path / "Beeach.JPG")
+
+
+def test_a_missing_file_suggests_nothing_that_only_ends_alike(tmp_path):
+    (tmp_path / "big12.jpg").write_bytes(b"")
+    with pytest.raises(PhotoError, match="Looked in"):
+        open_photo(tmp_path / "missing.jpg")
 
 
 def test_a_folder_is_refused(tmp_path):
