@@ -161,3 +161,27 @@ def test_the_command_line_makes_the_same_film(frames, tmp_path, capsys):
     assert out.read_bytes() == same.read_bytes()
     assert main([*words, "--heading", "30"]) == 2
     assert "--place" in capsys.readouterr().err
+
+
+@pytest.mark.filterwarnings("default")  # as outside of the tests
+@pytest.mark.parametrize(("lost", "status"), [(2, 0), (3, 1)])
+def test_the_command_line_fails_when_most_frames_cannot_be_used(
+    frames, tmp_path, capsys, monkeypatch, lost, status
+):
+    from sunwidget.cli import main
+
+    of = module.FrameScenes.of
+
+    def broken(sources, **options):
+        scenes = of(sources, **options)
+        type(scenes).troubles *= lost
+        return scenes
+
+    monkeypatch.setattr(module.FrameScenes, "of", broken)
+    out = tmp_path / "a.gif"
+    words = ["timelapse", str(frames), "-o", str(out), "--sun-elevation", "4"]
+    assert main(words) == status
+    assert out.exists()
+    said = capsys.readouterr().err
+    assert f"{lost} of 4 frames cannot be used" in said
+    assert (f"Most frames ({lost} of 4) could not be used" in said) == bool(status)
