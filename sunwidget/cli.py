@@ -8,12 +8,11 @@ failed, 130 after Ctrl-C, 143 after SIGTERM.
 from __future__ import annotations
 
 import argparse
-import re
 import sys
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from sunwidget.cli_batch import add_batch
 from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene
@@ -24,6 +23,7 @@ from sunwidget.cli_ending import (
     one_line,
     print_anything,
 )
+from sunwidget.cli_parser import Parser
 from sunwidget.cli_photo import Progress, add_methods, add_photo, refuse_existing, scene_of
 from sunwidget.cli_place import add_place
 from sunwidget.cli_render import add_render
@@ -32,24 +32,13 @@ from sunwidget.cli_timelapse import add_timelapse
 from sunwidget.cli_transfer import add_transfer
 
 
-class _Parser(argparse.ArgumentParser):
-    """An ArgumentParser whose errors are one line and whose flags are never guessed."""
-
-    def __init__(self, **options: Any) -> None:
-        super().__init__(allow_abbrev=False, **options)
-        # A sun left of the picture, --sun -300,200, is a value and no flag.
-        self._negative_number_matcher = re.compile(r"-\d[\d.,e+-]*$", re.IGNORECASE)
-        self.add_argument(
-            "--debug", action="store_true", default=argparse.SUPPRESS, help="show an error's stack"
-        )
-
-    def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {one_line(message)}\n")
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
     parser = _parser()
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if not arguments:
+        parser.print_help(sys.stderr)
+        return 2
     options = parser.parse_args(arguments)
     print_anything()
     try:
@@ -72,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     import sunwidget
 
-    parser = _Parser(prog="sunwidget", description="Move the sun in a photograph.")
+    parser = Parser(prog="sunwidget", description="Move the sun in a photograph.")
     parser.add_argument("--version", action="version", version=sunwidget.__version__)
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
 

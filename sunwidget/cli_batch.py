@@ -6,9 +6,9 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from sunwidget.cli_edit import add_edit, recipe
+from sunwidget.cli_edit import add_edit, recipe, told_unmoved
 from sunwidget.cli_photo import Progress, add_methods, given, methods_of_stages
-from sunwidget.edit import PARAMETERS
+from sunwidget.edit import PARAMETERS, Edit
 from sunwidget.export.batch.wish import Wish
 
 
@@ -85,6 +85,7 @@ def _batch(options: argparse.Namespace) -> int:
     if options.csv is not None:
         target(options.csv, overwrite=replaced)
     wish = Wish(recipe(options), options.preset, given(options, (p.name for p in PARAMETERS)))
+    told_unmoved(moved=wish != Wish(Edit()))
     saving = given(options, ("quality", "bit_depth"))
     if options.layers:
         saving["layers"] = True

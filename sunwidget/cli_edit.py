@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -76,6 +77,16 @@ def edit_of_flags(options: argparse.Namespace, prefix: str = "", start: Edit | N
     """Return ``start``, or the recipe, with the flags that were given, the flags winning."""
     start = recipe(options) if start is None else start
     return start.replace(**given(options, (p.name for p in PARAMETERS), prefix))
+
+
+def told_unmoved(*, moved: bool) -> None:
+    """Say it, unless an edit was given, when pictures are only to be written anew."""
+    if not moved:
+        print(
+            "sunwidget: Nothing moves, so the picture stays as it is: give --sun-elevation 3, "
+            "--preset sunset or --recipe FILE.",
+            file=sys.stderr,
+        )
 
 
 def edit_of_scene(options: argparse.Namespace, scene: Scene, edit: Edit) -> Edit:

@@ -9,16 +9,19 @@ from pathlib import Path
 from typing import Any, Self
 
 from sunwidget.cli_ending import one_line
+from sunwidget.cli_parser import Parser
+from sunwidget.cli_place import refuse_unplaced
 from sunwidget.edit import OUTSIDE
 from sunwidget.time_left import with_time_left
 
 _HINTS = ("sun", "horizon", "fov", "sky", "sky_label")
 
 
-def add_photo(parser: argparse.ArgumentParser) -> None:
+def add_photo(parser: Parser) -> None:
     """Add the photo and the hints that win over detection."""
     from sunwidget.analysis import sky
 
+    parser.several = "takes one photo."
     parser.add_argument("photo", help="picture file, or sample:NAME for a bundled one")
     parser.add_argument("--overwrite", action="store_true", help="replace existing files")
     hints = parser.add_argument_group("hints (win over detection)")
@@ -138,6 +141,7 @@ def scene_of(options: argparse.Namespace) -> Any:
     import sunwidget as sw
 
     photo = opened(options.photo)
+    refuse_unplaced(options, photo)
     hints = given(options, (*_HINTS, *methods_of_stages()))
     if "horizon" in hints:
         hints["horizon"] = _horizon(hints["horizon"])
@@ -146,7 +150,8 @@ def scene_of(options: argparse.Namespace) -> Any:
     with Progress("analysis") as progress:
         scene = sw.analyze(photo, progress=progress, **hints)
     for warning in scene.warnings:
-        print(f"sunwidget: {one_line(warning)}", file=sys.stderr)
+        words = getattr(warning, "flags", warning)  # of a Notice: what to do is a flag here
+        print(f"sunwidget: {one_line(words)}", file=sys.stderr)
     return scene
 
 

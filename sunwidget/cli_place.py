@@ -5,13 +5,16 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from sunwidget.edit import Edit
 from sunwidget.place import Place
+from sunwidget.recipe import read_recipe
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
+    from sunwidget.photo import Photo
+    from sunwidget.photo_place import PhotoPlace
 
 _TIME = re.compile(r"(\d{1,2})(?::([0-5]\d))?$")
 
@@ -80,12 +83,31 @@ def place_of(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
     ValueError
         When place, date or time are neither given nor known, or the heading cannot be found.
     """
+    told, values = _values(options, scene.photo, edit.place)
+    if values["heading"] is None or options.time is None:
+        for note in told.notes:
+            print(f"sunwidget: {note}", file=sys.stderr)
+    place = Place(**values)
+    own = told.values()
+    return place if place.heading is not None else _facing(scene, place, own["date"], own["time"])
+
+
+def refuse_unplaced(options: argparse.Namespace, photo: Photo) -> None:
+    """Fail before the analysis when the clock is asked for and place, day or time are unknown."""
+    if is_placed(options) or _whole_day(options):
+        recipe = None if options.recipe is None else read_recipe(options.recipe)
+        _values(options, photo, recipe.place if recipe else None)
+
+
+def _values(
+    options: argparse.Namespace, photo: Photo, place: Place | None
+) -> tuple[PhotoPlace, dict[str, Any]]:
+    """Return what the photo's file tells, and the fields of the Place that flags are to give."""
     from sunwidget.photo_place import from_photo
 
     latitude, longitude = options.coordinates or (None, None)
-    told = from_photo(scene.photo, longitude)
+    told = from_photo(photo, longitude)
     values = told.values()
-    own = values["date"], values["time"]
     given = {
         "latitude": latitude,
         "longitude": longitude,
@@ -93,20 +115,28 @@ def place_of(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
         "time": options.time,
         "heading": options.heading,
     }
-    known = vars(edit.place) if edit.place is not None else {}
+    known = vars(place) if place is not None else {}
     for source in (known, given):
         values |= {name: value for name, value in source.items() if value is not None}
     if values["time"] is None and values["longitude"] is not None and _whole_day(options):
         values["time"] = (12 - values["longitude"] / 15) % 24  # any hour while the sun is up
-    flags = {"latitude": "--place", "longitude": "--place", "date": "--date", "time": "--time"}
-    missing = sorted({flag for name, flag in flags.items() if values[name] is None})
+    _refuse_missing(values)
+    return told, values
+
+
+def _refuse_missing(values: dict[str, Any]) -> None:
+    needed = {
+        "latitude": ("the place", "--place LAT,LON"),
+        "date": ("the day", "--date YYYY-MM-DD"),
+        "time": ("the time", "--time HH:MM"),
+    }
+    missing = [words for name, words in needed.items() if values[name] is None]
     if missing:
-        raise ValueError(f"The photo's file does not tell it: give {' and '.join(missing)}.")
-    if values["heading"] is None or options.time is None:
-        for note in told.notes:
-            print(f"sunwidget: {note}", file=sys.stderr)
-    place = Place(**values)
-    return place if place.heading is not None else _facing(scene, place, *own)
+        what, flags = (" and ".join(words) for words in zip(*missing, strict=True))
+        raise ValueError(
+            f"Where the sun stands follows from place, day and time, and neither the photo's file "
+            f"nor a recipe tells {what}. Give {flags}."
+        )
 
 
 def _whole_day(options: argparse.Namespace) -> bool:

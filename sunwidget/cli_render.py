@@ -7,9 +7,10 @@ import time
 from pathlib import Path
 from typing import Any
 
-from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene, size
+from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene, size, told_unmoved
 from sunwidget.cli_photo import Progress, add_photo, refuse_existing, scene_to_draw
 from sunwidget.cli_place import add_place
+from sunwidget.edit import Edit
 from sunwidget.time_left import with_time_left
 
 
@@ -17,6 +18,7 @@ def add_render(commands: Any) -> None:
     """Add the command ``render`` to a parser's commands."""
     render = commands.add_parser("render", help="write the photo with its sun moved")
     add_photo(render)
+    render.several = "takes one photo; for many: sunwidget batch PHOTO … -o FOLDER."
     render.add_argument(
         "-o",
         "--output",
@@ -71,6 +73,7 @@ def _render(options: argparse.Namespace) -> int:
         check_map(options.environment)
     scene = scene_to_draw(options)
     edit = edit_of_scene(options, scene, edit)
+    told_unmoved(moved=edit != Edit())
     begin = time.perf_counter()
     with Progress("picture") as progress:
         sw.save(

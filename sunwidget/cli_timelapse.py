@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import datetime as dt
+import sys
+import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +16,7 @@ from sunwidget.cli_film import STEPS, add_film, add_steps, film_options
 from sunwidget.cli_photo import Progress, given
 from sunwidget.cli_place import coordinates
 from sunwidget.edit import Edit
-from sunwidget.export.timelapse import BROKEN, LOOPS
+from sunwidget.export.timelapse import BROKEN, LOOPS, FramesWarning
 from sunwidget.place import Place
 
 
@@ -72,7 +76,7 @@ def _timelapse(options: argparse.Namespace) -> int:
     import sunwidget as sw
 
     edit = _edit(options)
-    with Progress("time-lapse") as progress:
+    with _frames_lost() as lost, Progress("time-lapse") as progress:
         made = sw.timelapse(
             _frames(options.frames),
             edit,
@@ -86,6 +90,35 @@ def _timelapse(options: argparse.Namespace) -> int:
             **given(options, ("sky", "horizon", "fov")),
         )
     print(made)
+    return _status(lost)
+
+
+@contextlib.contextmanager
+def _frames_lost() -> Iterator[list[FramesWarning]]:
+    """Yield a list that gets what is warned of frames; it is shown at once all the same."""
+    lost: list[FramesWarning] = []
+    with warnings.catch_warnings():
+        show = warnings.showwarning
+
+        def note(message: Warning | str, *rest: Any, **more: Any) -> None:
+            if isinstance(message, FramesWarning):
+                lost.append(message)
+            show(message, *rest, **more)
+
+        warnings.showwarning = note
+        yield lost
+
+
+def _status(lost: list[FramesWarning]) -> int:
+    """Return 1, and say so, when more than half of the frames could not be used."""
+    for found in lost:
+        if found.unusable > found.count / 2:
+            print(
+                f"sunwidget: Most frames ({found.unusable} of {found.count}) could not be used; "
+                "the reasons are above.",
+                file=sys.stderr,
+            )
+            return 1
     return 0
 
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any, Literal, NamedTuple, Self
 
 from sunwidget.place import Place, sun_at
-from sunwidget.wording import shown
+from sunwidget.wording import called, shown
 
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
@@ -318,6 +318,9 @@ class Edit:
             value = checked(parameter, getattr(self, parameter.name))
             object.__setattr__(self, parameter.name, value)
 
+    def __repr__(self) -> str:
+        return called("Edit", self.changed())
+
     def replace(self, **changes: Any) -> Edit:
         """Return a copy with ``changes`` to the parameters that they name.
 
@@ -427,8 +430,7 @@ class Edit:
 
     def to_code(self) -> str:
         """Return runnable Python that builds this Edit (``import sunwidget as sw`` first)."""
-        arguments = [f"{name}={_code(value)}" for name, value in self.changed().items()]
-        return f"sw.Edit({', '.join(arguments)})"
+        return called("Edit", self.changed(), "sw.")
 
 
 def _table() -> tuple[Parameter, ...]:
@@ -587,12 +589,3 @@ def plain(value: Any) -> Any:
     if isinstance(value, tuple):
         return [plain(item) for item in value]
     return value
-
-
-def _code(value: Any) -> str:
-    if dataclasses.is_dataclass(value):
-        arguments = (f"{f.name}={_code(getattr(value, f.name))}" for f in fields(value))
-        return f"sw.{type(value).__name__}({', '.join(arguments)})"
-    if isinstance(value, tuple):
-        return f"({', '.join(map(_code, value))}{',' * (len(value) == 1)})"
-    return repr(value)

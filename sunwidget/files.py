@@ -144,9 +144,21 @@ def explained(path: Path) -> Iterator[None]:
 def _named(path: Any) -> Iterator[None]:
     try:
         yield
+    except PermissionError as error:
+        raise NotWrittenError(
+            f"{os.fspath(path)} cannot be written: the folder {_first_closed(path)} may not be "
+            "entered. Choose another one."
+        ) from error
     except (TypeError, ValueError, RuntimeError, OSError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise NotWrittenError(f"No file can be called {shown(path)}: {reason}.") from error
+        name = os.fspath(path) if isinstance(path, os.PathLike) else path
+        raise NotWrittenError(f"No file can be called {shown(name)}: {reason}.") from error
+
+
+def _first_closed(path: Any) -> Path:
+    """Return the outermost folder of a path that may not be entered."""
+    folders = Path(os.path.abspath(Path(path).expanduser())).parents  # noqa: PTH100 - as it is named
+    return next((p for p in reversed(folders) if not os.access(p, os.X_OK)), folders[0])
 
 
 def _refuse_closed(folder: Path, name: str) -> None:

@@ -18,11 +18,14 @@ from sunwidget import exif as exif_tags
 from sunwidget import xmp as xmp_packet
 from sunwidget.color import SRGB, ColorProfile, strips
 from sunwidget.decode import Decoded
+from sunwidget.edit import Edit, EditError
 from sunwidget.layout import PhotoError, PhotoWarning, size_within
 from sunwidget.photo_sources import decoded_from
+from sunwidget.png import cell_output
 
 __all__ = ["FieldOfView", "Photo", "PhotoError", "PhotoWarning", "open_photo"]
 
+_SHOWN_EDGE = 480  # pixels of the longer side, in a notebook
 _DECODED_AT_ONCE = 1 << 23  # pixels: 100 MB of light
 
 
@@ -56,8 +59,9 @@ class Photo:
         What the EXIF says about the shot.
     turned : bool
         True when EXIF orientation turned the picture by a quarter.
-    recipe : dict or None
-        Recipe of the edit that made this picture, when sunwidget wrote it.
+    recorded : dict or None
+        Recipe of the edit that made this picture as the file has it, to be written again;
+        ``recipe`` is the edit.
     notes : tuple of str
         Sentences about what could not be kept; also given as PhotoWarning.
     sun : (x, y) or None
@@ -76,7 +80,7 @@ class Photo:
     dpi: tuple[float, float] | None = None
     facts: exif_tags.CameraFacts = field(default_factory=exif_tags.CameraFacts)
     turned: bool = False
-    recipe: dict[str, Any] | None = None
+    recorded: dict[str, Any] | None = None
     notes: tuple[str, ...] = ()
     sun: tuple[float, float] | None = None
 
@@ -88,6 +92,9 @@ class Photo:
     def __repr__(self) -> str:
         width, height = self.size
         return f"<Photo {self.name!r} {width}×{height}, {self.bit_depth} bit, {self.profile.name}>"
+
+    def _repr_mimebundle_(self, **_kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+        return cell_output(self.preview(_SHOWN_EDGE), repr(self), self.name)
 
     @property
     def size(self) -> tuple[int, int]:
@@ -155,6 +162,17 @@ class Photo:
     def time(self) -> dt.datetime | None:
         """Time of the shot; naive local time when the file names no zone."""
         return self.facts.time
+
+    @cached_property
+    def recipe(self) -> Edit | None:
+        """The edit that made this picture, when sunwidget wrote it.
+
+        None, too, for a recipe that this version cannot read.
+        """
+        try:
+            return None if self.recorded is None else Edit.from_dict(self.recorded)
+        except EditError:
+            return None
 
     def preview(self, long_edge: int = 2048) -> NDArray[np.uint8]:
         """Return the picture as sRGB uint8 (h, w, 3), no longer than ``long_edge`` pixels.
@@ -243,6 +261,6 @@ def _photo(decoded: Decoded, name: str) -> Photo:
         dpi=decoded.dpi,
         facts=exif_tags.camera_facts(decoded.exif),
         turned=decoded.turned,
-        recipe=decoded.recipe or exif_tags.recipe(decoded.exif) or xmp_packet.recipe(decoded.xmp),
+        recorded=decoded.recipe or exif_tags.recipe(decoded.exif) or xmp_packet.recipe(decoded.xmp),
         notes=tuple(decoded.notes),
     )

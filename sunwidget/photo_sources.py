@@ -94,11 +94,21 @@ def _missing(path: Path) -> str:
     if path.is_symlink():
         return f"{path} is a link to {path.readlink()}, which is not there."
     try:
-        near = difflib.get_close_matches(path.name, (p.name for p in path.parent.iterdir()), n=1)
+        near = _nearest(path.name, [p.name for p in path.parent.iterdir()])
     except OSError:
         return f"There is no file {path}, nor a folder {path.parent}."
-    hint = f" Did you mean {near[0]!r}?" if near else f" Looked in {path.parent.absolute()}."
+    hint = f" Did you mean {near!r}?" if near else f" Looked in {path.parent.absolute()}."
     return f"There is no file {path}.{hint}"
+
+
+def _nearest(name: str, names: list[str]) -> str | None:
+    """Return the name that one may have meant, without regard to its ending and to capitals."""
+    ending = Path(name).suffix.casefold()
+    # Of those that differ in their ending alone the last counts: one with this ending.
+    names = sorted(names, key=lambda other: Path(other).suffix.casefold() == ending)
+    stems = {Path(other).stem.casefold(): other for other in names}
+    near = difflib.get_close_matches(Path(name).stem.casefold(), stems, n=1, cutoff=0.75)
+    return stems[near[0]] if near else None
 
 
 def _check_no_path(data: bytes) -> None:

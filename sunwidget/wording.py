@@ -1,8 +1,12 @@
-"""Values in messages: short, on one line, whatever they are."""
+"""Values in messages, short and on one line whatever they are, and as Python."""
 
 from __future__ import annotations
 
+import dataclasses
+from collections.abc import Mapping
 from typing import Any
+
+_READABLE = 1e6  # whole numbers below are written without a point
 
 
 def shown(value: Any, most: int = 80) -> str:
@@ -16,3 +20,21 @@ def shown(value: Any, most: int = 80) -> str:
 def printable(text: str) -> str:
     """Return a text without signs that a terminal obeys, such as escapes in a file's name."""
     return "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in text)
+
+
+def called(name: str, arguments: Mapping[str, Any], module: str = "") -> str:
+    """Return the Python that calls ``name``, in ``module`` ("sw."), with these arguments."""
+    parts = (f"{key}={_code(value, module)}" for key, value in arguments.items())
+    return f"{module}{name}({', '.join(parts)})"
+
+
+def _code(value: Any, module: str) -> str:
+    if dataclasses.is_dataclass(value):
+        arguments = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
+        return called(type(value).__name__, arguments, module)
+    if isinstance(value, float) and value.is_integer() and abs(value) < _READABLE:
+        return str(int(value))
+    if isinstance(value, tuple):
+        inner = ", ".join(_code(item, module) for item in value)
+        return f"({inner}{',' * (len(value) == 1)})"
+    return repr(value)

@@ -166,7 +166,7 @@ def _median_picture(photos: Sequence[Photo]) -> Photo:
         part = np.stack([photo.encoded[rows] for photo in photos])
         middle[rows] = np.median(part, axis=0)
     return dataclasses.replace(
-        first, encoded=middle, name="median of frames", alpha=None, sun=None, recipe=None
+        first, encoded=middle, name="median of frames", alpha=None, sun=None, recorded=None
     )
 
 

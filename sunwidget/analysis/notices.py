@@ -29,17 +29,25 @@ class Notice(str):
         What to do about it is known by this name, e.g. "horizon".
     plain : str
         The same for an editor, which has tools where Python has arguments.
+    flags : str
+        The same for the command line.
     """
 
-    __slots__ = ("about", "plain")
+    __slots__ = ("about", "flags", "plain")
     about: str
     plain: str
+    flags: str
 
-    def __new__(cls, text: str, about: str = "", plain: str = "") -> Self:
-        """Make a text with its subject; without ``plain`` both say the same."""
+    def __new__(cls, text: str, about: str = "", plain: str = "", flags: str = "") -> Self:
+        """Make a text with its subject; without ``plain`` and ``flags`` all say the same."""
         notice = super().__new__(cls, text)
-        notice.about, notice.plain = about, plain or text
+        notice.about, notice.plain, notice.flags = about, plain or text, flags or text
         return notice
+
+
+def _notice(fact: str, advice: str, about: str, plain: str, flags: str) -> Notice:
+    """Return a notice of one fact with the ``advice`` for Python and for the command line."""
+    return Notice(f"{fact} {advice}", about, plain, f"{fact} {flags}")
 
 
 def notices(
@@ -71,12 +79,13 @@ def notices(
         assumed = camera.fov_vertical_deg == photo.field_of_view.vertical
         how = "is assumed" if assumed else "follows from the size of the sun's disc"
         notes.append(
-            Notice(
-                f"{photo.name} names no focal length: {degrees} vertical field of view {how}. "
+            _notice(
+                f"{photo.name} names no focal length: {degrees} vertical field of view {how}.",
                 "Pass fov= in degrees.",
                 "field_of_view",
                 f"The photo does not say how wide its lens sees: {degrees} from top to bottom "
                 f"{how}.",
+                "Pass --fov DEG.",
             )
         )
     return tuple(note for note in notes if note is not None)
@@ -84,30 +93,34 @@ def notices(
 
 def _about_sky(photo: Photo, share: float, doubted: float) -> Notice | None:
     if share < NO_SKY and doubted > NO_SKY:
-        return Notice(
+        return _notice(
             f"No sky found in {photo.name}: what looked a little like it ({100 * doubted:.0f} % of "
-            "pixels) is rather a wall or ceiling. If it is sky, draw a sky stroke or pass "
-            "sky='network', which is not doubted.",
+            "pixels) is rather a wall or ceiling.",
+            "If it is sky, draw a sky stroke or pass sky='network', which is not doubted.",
             "sky",
             "No sky was found: what looked a little like it is rather a wall or ceiling. If it is "
             "sky, paint over it.",
+            "If it is sky, pass --sky network, which is not doubted, or a mask: --sky MASK.png.",
         )
     if doubted > NO_SKY:
-        return Notice(
+        return _notice(
             f"A patch of {photo.name} that looks like sky ({100 * doubted:.1f} % of pixels) was "
-            "left out as unlikely. Draw a sky stroke over it if it is sky.",
+            "left out as unlikely.",
+            "Draw a sky stroke over it if it is sky.",
             "sky",
             f"A patch that looks like sky ({100 * doubted:.1f} % of the picture) was left out as "
             "unlikely. If it is sky, paint over it.",
+            "If it is sky, pass --sky network, which is not doubted, or a mask: --sky MASK.png.",
         )
     if share < NO_SKY:
-        return Notice(
+        return _notice(
             f"No sky found in {photo.name} ({100 * share:.1f} % of pixels): nothing tells what "
-            "light it stands in, so all of it changes alike, and a little. Draw a sky stroke or "
-            "pass sky=mask.",
+            "light it stands in, so all of it changes alike, and a little.",
+            "Draw a sky stroke or pass sky=mask.",
             "sky",
             "No sky was found. Nothing tells what light the picture stands in, so all of it "
             "changes alike, and a little. If there is some sky, paint over it.",
+            "If there is some sky, pass a mask: --sky MASK.png.",
         )
     return None
 
@@ -120,48 +133,56 @@ def _about_sun(
     moon: Point | None,
     fit: SkyFit | None,
 ) -> Notice | None:
-    if sun is None and moon is not None:
-        return Notice(
-            f"The disc at ({moon[0] * photo.width:.0f}, {moon[1] * photo.height:.0f}) of "
-            f"{photo.name} is taken for the moon, as the sky round it is dark; it lights "
-            "the picture. If it is the sun, click it or pass sun=(x, y).",
-            "moon",
-            "The bright disc is taken for the moon, as the sky round it is dark; it lights the "
-            "picture.",
-        )
-    if sun is None and hints.sun_outside:
-        return Notice(
-            f"The sun is said not to be in {photo.name}{_untold(fit)}. Its place is "
-            f"assumed{_within(fit)}; pass sun=(x, y) in pixels if you know it (outside the picture "
-            "is fine).",
-            "told_outside",
-        )
     if sun is None:
-        return Notice(
-            f"No sun found in {photo.name}{_untold(fit)}. Its place is assumed{_within(fit)}; "
-            "click where it is, or pass sun=(x, y) in pixels (outside the picture is fine).",
-            "unseen_sun",
-        )
+        return _about_unseen_sun(photo, hints, moon, fit)
     if sun.kind == "moon":
-        return Notice(
+        return _notice(
             f"What was pointed at as the sun of {photo.name} stands in a night sky and may be the "
-            "moon. It is treated as a sun; if it is none, take the hint back.",
+            "moon. It is treated as a sun;",
+            "if it is none, take the hint back.",
             "night_sun",
             "What was pointed at as the sun stands in a night sky and may be the moon. It is "
             "treated as a sun.",
+            "if it is none, leave --sun out.",
         )
     if sun.visible:
         true = camera.focal * np.tan(np.radians(SUN_ANGULAR_RADIUS_DEG))
         covered = float(sun.blot.mean())
         if covered > 0.02 and covered * camera.width * camera.height > 60 * np.pi * true**2:
-            return Notice(
+            return _notice(
                 f"The sun's mask covers {100 * covered:.0f} % of {photo.name}, "
-                "far more than a sun. Click on its centre, or pass sun_method='disc_fit'.",
+                "far more than a sun.",
+                "Click on its centre, or pass sun_method='disc_fit'.",
                 "sun_mask",
                 f"What was taken for the sun covers {100 * covered:.0f} % of the picture, far "
                 "more than a sun. Point at its centre.",
+                "Pass its centre, --sun X,Y, or --sun-method disc_fit.",
             )
     return None
+
+
+def _about_unseen_sun(photo: Photo, hints: Hints, moon: Point | None, fit: SkyFit | None) -> Notice:
+    if moon is not None:
+        return _notice(
+            f"The disc at ({moon[0] * photo.width:.0f}, {moon[1] * photo.height:.0f}) of "
+            f"{photo.name} is taken for the moon, as the sky round it is dark; it lights "
+            "the picture.",
+            "If it is the sun, click it or pass sun=(x, y).",
+            "moon",
+            "The bright disc is taken for the moon, as the sky round it is dark; it lights the "
+            "picture.",
+            "If it is the sun, pass --sun X,Y.",
+        )
+    if hints.sun_outside:
+        fact = f"The sun is said not to be in {photo.name}{_untold(fit)}. Its place is "
+        fact += f"assumed{_within(fit)};"
+        known = "in pixels if you know it (outside the picture is fine)."
+        told = f"{fact} pass sun=(x, y) {known}"
+        return Notice(told, "told_outside", told, f"{fact} pass --sun X,Y {known}")
+    fact = f"No sun found in {photo.name}{_untold(fit)}. Its place is assumed{_within(fit)};"
+    pixels = "in pixels (outside the picture is fine)."
+    told = f"{fact} click where it is, or pass sun=(x, y) {pixels}"
+    return Notice(told, "unseen_sun", told, f"{fact} pass --sun X,Y {pixels}")
 
 
 def _about_air(
@@ -172,12 +193,13 @@ def _about_air(
         return None
     first = "Click the sun" if sun is None else "Check the sun"
     why = "it shows too little clear sky, or one that no atmosphere explains"
-    return Notice(
-        f"How the sky of {photo.name} changes with the sun is a guess: {why}. {first} and the "
-        "horizon, then set the haze by hand.",
+    return _notice(
+        f"How the sky of {photo.name} changes with the sun is a guess: {why}.",
+        f"{first} and the horizon, then set the haze by hand.",
         "air",
         f"How this sky changes with the sun is a guess: {why}. See that sun and horizon are "
         "right, then set the haze by hand.",
+        "Pass --sun X,Y and --horizon ROW, then set the haze: --aerosol-optical-depth N.",
     )
 
 
@@ -185,21 +207,23 @@ def _about_horizon(
     photo: Photo, sky: np.ndarray, horizon: Horizon, camera: Camera
 ) -> Notice | None:
     if horizon.confidence < 0.3:
-        return Notice(
-            f"The horizon of {photo.name} is a guess (row {horizon.row:.0f}). "
+        return _notice(
+            f"The horizon of {photo.name} is a guess (row {horizon.row:.0f}).",
             "Drag it, or pass horizon=row.",
             "horizon",
             "The horizon is a guess. Drag it to where it is.",
+            "Pass --horizon ROW.",
         )
     if horizon.confidence < 0.5 or _sky_below(sky, horizon, camera):
         # Thesis 5.1 and its figure: the sky is then drawn too far down, as in a sunset.
-        return Notice(
+        return _notice(
             f"The horizon of {photo.name} (row {horizon.row:.0f}) may be the edge of a roof or "
-            "hill, which lies too high and makes the light that of a lower sun. Drag it down if "
-            "so, or pass horizon=row.",
+            "hill, which lies too high and makes the light that of a lower sun.",
+            "Drag it down if so, or pass horizon=row.",
             "horizon",
             "The horizon may be the edge of a roof or hill, which lies too high and makes the "
             "light that of a lower sun. Drag it down if so.",
+            "If so, pass --horizon ROW, a row further down.",
         )
     return None
 

@@ -16,6 +16,7 @@ from sunwidget.analysis import depth_level, haze_limit, match, refine, relief
 from sunwidget.analysis.camera_glare import glare_profile
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
+from sunwidget.analysis.described import described
 from sunwidget.analysis.enlarge import resize_rows
 from sunwidget.analysis.erase import Erased, unerased
 from sunwidget.analysis.fit import SkyFit
@@ -50,7 +51,7 @@ _DEPTH_EDGE = 2048
 _SHADOW = 2.0**-7  # display-linear luminance below which a picture's key is no lower
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Scene:
     """A photo and what was found in it. Made by ``analyze``; never changes.
 
@@ -99,35 +100,38 @@ class Scene:
         How the land of the same view lies, alike.
     """
 
-    photo: Photo = field(repr=False)
-    sky: np.ndarray = field(repr=False)
-    coarse_map: np.ndarray = field(repr=False)
-    cloud_map: np.ndarray = field(repr=False)
-    softness_map: np.ndarray = field(repr=False)
-    sun: SunObservation | None = field(repr=False)
+    photo: Photo
+    sky: np.ndarray
+    coarse_map: np.ndarray
+    cloud_map: np.ndarray
+    softness_map: np.ndarray
+    sun: SunObservation | None
     horizon: Horizon
     camera: Camera
     atmosphere: Atmosphere
-    water_map: np.ndarray = field(repr=False)
-    backdrop: np.ndarray = field(repr=False)
-    glare: np.ndarray = field(repr=False)
+    water_map: np.ndarray
+    backdrop: np.ndarray
+    glare: np.ndarray
     assumed_sun: tuple[float, float]
     response: dict[str, Any]
     warnings: tuple[str, ...]
     hints: Hints
-    timings: dict[str, float] = field(repr=False)
-    working: Working = field(repr=False)
-    decision: refine.Decision = field(repr=False)
+    timings: dict[str, float]
+    working: Working
+    decision: refine.Decision
     doubted: float = 0.0
     moon: Point | None = None
-    shade: np.ndarray | None = field(default=None, repr=False)
-    fitted: SkyFit | None = field(default=None, repr=False)
-    everywhere: Clouds | None = field(default=None, repr=False)
-    unstroked: Scene | None = field(default=None, repr=False)
-    erased: Erased | None = field(default=None, repr=False)
-    known_depth: DepthField | None = field(default=None, repr=False)
-    known_land: LandMaps | None = field(default=None, repr=False)
-    memory: Memory = field(default_factory=Memory, repr=False)
+    shade: np.ndarray | None = None
+    fitted: SkyFit | None = None
+    everywhere: Clouds | None = None
+    unstroked: Scene | None = None
+    erased: Erased | None = None
+    known_depth: DepthField | None = None
+    known_land: LandMaps | None = None
+    memory: Memory = field(default_factory=Memory)
+
+    def __repr__(self) -> str:
+        return described(self)
 
     @property
     def width(self) -> int:

@@ -43,7 +43,7 @@ def told(
         camera = text(read.get(_SOFTWARE)) if read is not None else ""
         packet = xmp.record(packet, recipe, software(), before=camera)
     made_by = None if recipe is None else software()
-    known = recipe or photo.recipe
+    known = recipe or photo.recorded
     return {
         "icc": photo.icc,
         "exif": exif_tags.dump(read, size, known, made_by),

@@ -45,6 +45,15 @@ _OPTIONS = ("fps", "size", "easing", "loop", "quality", "format", "place", "time
 _LOOKING = 0.3  # of the work: what is done before the first frame is drawn
 
 
+class FramesWarning(PhotoWarning):
+    """Frames of a time-lapse that could not be used: ``unusable`` ones of ``count``."""
+
+    def __init__(self, words: str, unusable: int, count: int) -> None:
+        super().__init__(words)
+        self.unusable = unusable
+        self.count = count
+
+
 def timelapse(
     frames: Any,
     edit: Step | SunPath,
@@ -247,7 +256,7 @@ def _refuse_or_warn(troubles: Sequence[Trouble], count: int, broken: str, *, fil
     if broken == "stop":
         raise PhotoError(f"{words}. Leave them out, or pass broken='hold' or broken='skip'.")
     done = "the frame before each is shown again" if film and broken == "hold" else "left out"
-    warnings.warn(f"{words}; {done}.", PhotoWarning, stacklevel=3)
+    warnings.warn(FramesWarning(f"{words}; {done}.", len(troubles), count), stacklevel=3)
 
 
 def _check(*, fps: float, loop: str, quality: int, broken: str, hints: Mapping[str, Any]) -> None:

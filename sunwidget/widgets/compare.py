@@ -18,6 +18,7 @@ from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, parameter
 from sunwidget.files import target
 from sunwidget.photo import Photo, open_photo
+from sunwidget.png import encode_png
 from sunwidget.recipe import edit_of
 from sunwidget.widgets.analysed import OPENING, Analysed
 from sunwidget.widgets.analyst import Analyst
@@ -25,7 +26,6 @@ from sunwidget.widgets.edit_traits import AnswersRefusals, edit_traits
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.payload import (
     encode_maps,
-    encode_png,
     encode_preview,
     parameter_json,
     scene_json,

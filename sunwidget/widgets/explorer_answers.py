@@ -12,8 +12,8 @@ from sunwidget.atmosphere import measurements
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.explorer import table
 from sunwidget.explorer.values import effective_values
+from sunwidget.png import encode_png
 from sunwidget.time_left import Progress
-from sunwidget.widgets.payload import encode_png
 from sunwidget.widgets.requests import Action, Answer
 
 if TYPE_CHECKING:

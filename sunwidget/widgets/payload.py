@@ -26,6 +26,7 @@ from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.working import resize
 from sunwidget.edit import PARAMETERS, Parameter
 from sunwidget.photo import Photo, open_photo
+from sunwidget.png import encode_png
 from sunwidget.renderer.render import quantise_map
 from sunwidget.renderer.shader_source import frame_graph
 
@@ -36,18 +37,6 @@ THUMBNAIL_EDGE = 480
 _LOSSLESS_BYTES = 4_000_000
 _JPEG_QUALITY = 95
 _thumbnails: weakref.WeakKeyDictionary[Photo, bytes] = weakref.WeakKeyDictionary()
-
-
-def encode_png(image: NDArray[np.uint8]) -> bytes:
-    """Return an (H, W, 3), (H, W, 4) or (H, W) uint8 picture as PNG, fast rather than small."""
-    import cv2
-
-    bgr = image[..., [2, 1, 0, 3][: image.shape[2]]] if image.ndim == 3 else image
-    # Left to itself OpenCV tunes for speed: half the time of level 2, and about as small.
-    ok, data = cv2.imencode(".png", bgr)
-    if not ok:
-        raise RuntimeError(f"OpenCV could not encode a picture of shape {image.shape} as PNG.")
-    return bytes(data)
 
 
 def encode_preview(photo: Photo) -> bytes:

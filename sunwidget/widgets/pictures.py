@@ -11,6 +11,7 @@ from typing import Any
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, plain
 from sunwidget.files import target
+from sunwidget.png import encode_png
 from sunwidget.recipe import edit_of
 from sunwidget.time_left import Progress
 from sunwidget.widgets.analysed import Analysed
@@ -19,7 +20,6 @@ from sunwidget.widgets.history import NAMES, EditHistory
 from sunwidget.widgets.payload import (
     THUMBNAIL_EDGE,
     encode_picture,
-    encode_png,
     thumbnail,
     with_picture,
 )

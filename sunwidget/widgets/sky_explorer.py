@@ -33,11 +33,12 @@ from sunwidget.explorer import table
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
 from sunwidget.explorer.values import effective_values
 from sunwidget.files import target
+from sunwidget.png import encode_png
 from sunwidget.time_left import Progress
 from sunwidget.widgets.edit_traits import AnswersRefusals, edit_traits
 from sunwidget.widgets.explorer_answers import actions, bruneton_slice, scans
 from sunwidget.widgets.front_end import front_end
-from sunwidget.widgets.payload import encode_png, parameter_json
+from sunwidget.widgets.payload import parameter_json
 from sunwidget.widgets.requests import Action, Requests
 from sunwidget.widgets.standalone import explorer_page, write_page
 

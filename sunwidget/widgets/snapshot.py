@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import os
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ import numpy as np
 
 from sunwidget.edit import Edit
 from sunwidget.photo import Photo
-from sunwidget.widgets.payload import encode_png
+from sunwidget.png import cell_output, encode_png
 
 SNAPSHOT_EDGE = 1024
 
@@ -49,14 +48,5 @@ class Snapshot:
     def _repr_png_(self) -> bytes:
         return encode_png(self.pixels)
 
-    # PNG alone, not HTML as well: a notebook keeps every form that is offered.
     def _repr_mimebundle_(self, **_kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-        height, width = self.pixels.shape[:2]
-        alternative = f"{self.photo.name} with its sun moved"
-        return (
-            {
-                "text/plain": repr(self),
-                "image/png": base64.b64encode(self._repr_png_()).decode("ascii"),
-            },
-            {"image/png": {"width": width, "height": height, "alt": alternative}},
-        )
+        return cell_output(self.pixels, repr(self), f"{self.photo.name} with its sun moved")

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import traitlets
 
@@ -36,6 +36,13 @@ from sunwidget.widgets.place_clock import PlaceClock
 from sunwidget.widgets.requests import Action, Answer, Requests
 from sunwidget.widgets.sources import opened
 from sunwidget.widgets.uploads import Uploads, fingerprint
+
+
+class SunPlace(NamedTuple):
+    """Where the sun stands, in degrees as the parameters have them."""
+
+    azimuth: float
+    elevation: float
 
 
 class SunEditor(PlaceClock, Exports):
@@ -154,6 +161,21 @@ class SunEditor(PlaceClock, Exports):
             if aside and given:
                 self._step(start)
             self._analyst.ask(self.edit)
+
+    @property
+    def sun(self) -> SunPlace:
+        """Where the sun is now: (azimuth, elevation) in degrees.
+
+        As the traits ``sun_azimuth`` and ``sun_elevation`` say; where one is None, as found in the
+        photo, which waits for the analysis.
+        """
+        edit = self.edit
+        azimuth, elevation = edit.sun_azimuth, edit.sun_elevation
+        if azimuth is None or elevation is None:
+            found = self.scene.automatic
+            azimuth = found["sun_azimuth"] if azimuth is None else azimuth
+            elevation = found["sun_elevation"] if elevation is None else elevation
+        return SunPlace(azimuth, elevation)
 
     def cancel(self) -> None:
         """Stop the analysis, and what was asked for in the browser, at their next step.

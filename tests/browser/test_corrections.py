@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from chromium import connect, widget_state
 
+from sunwidget.png import encode_png
 from sunwidget.widgets import SunEditor
-from sunwidget.widgets.payload import encode_png
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 

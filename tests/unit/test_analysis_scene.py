@@ -1,6 +1,7 @@
 """analyze(): hints win, corrections replay, odd pictures warn instead of failing."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -45,6 +46,17 @@ def test_sky_is_infinitely_far_and_the_ground_nears_towards_the_feet(scene):
     assert np.isfinite(column).all()
     assert (np.diff(column) <= 0.1 * column[:-1]).all()
     assert column[0] > 2 * column[-1]
+
+
+def test_a_scene_says_what_it_is_in_three_short_lines(scene):
+    photo, found, shares = repr(scene).splitlines()
+    assert photo == f"<Scene of 'array', {WIDTH}×{HEIGHT}"
+    assert found.startswith(" sun at azimuth ")
+    assert found.endswith("field of view 40°")
+    assert re.fullmatch(r" sky 60 %, clouds \d+ %, water \d+ %>", shares)
+    assert max(map(len, (photo, found, shares))) < 100
+    hinted = sw.analyze(landscape(), sky=mask(), sun=(50, 30), fov=38)
+    assert "° (told); horizon in row" in repr(hinted)
 
 
 def test_hinted_sun_horizon_and_field_of_view_win():

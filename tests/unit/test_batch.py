@@ -62,11 +62,11 @@ def test_a_batch_makes_what_a_loop_makes(tmp_path):
     assert "not a picture" in report.failed[0].error
     done = report.done[0].output
     np.testing.assert_array_equal(sw.open(done).encoded, sw.open(plain).encoded)
-    assert sw.open(done).recipe == LOW.to_dict()
+    assert sw.open(done).recipe == LOW
     # A preset looks at each photo, and a limit of the size keeps the recipe.
     report = sw.batch(tmp_path, "sunset", tmp_path / "small", workers=0, long_edge=48)
     assert sw.open(report.done[0].output).size[0] == 48
-    assert sw.open(report.done[0].output).recipe["sun_elevation"] == pytest.approx(0.8)
+    assert sw.open(report.done[0].output).recipe.sun_elevation == pytest.approx(0.8)
 
 
 def test_a_second_run_skips_what_is_there(folder, quick):

@@ -1,3 +1,6 @@
+import contextlib
+import inspect
+import io
 import json
 import re
 import subprocess
@@ -11,6 +14,7 @@ from PIL import Image
 
 import sunwidget as sw
 from sunwidget import cli
+from sunwidget.analysis import notices
 from sunwidget.cli import main
 from sunwidget.cli_edit import edit_of_flags
 from sunwidget.cli_photo import flag, methods_of_stages, scene_of
@@ -51,6 +55,43 @@ def test_every_parameter_has_a_flag():
             for choice in p.choices:
                 options = parse("render", "x.jpg", "-o", "y.png", flag(p.name), choice)
                 assert getattr(edit_of_flags(options), p.name) == choice
+
+
+def test_the_command_alone_shows_its_help(capsys):
+    assert main([]) == 2
+    said = capsys.readouterr()
+    assert "timelapse" in said.err
+    assert said.out == ""
+
+
+def test_what_the_command_line_warns_of_names_its_own_flags(photo, tmp_path, capsys):
+    assert main(["analyze", photo, "-o", str(tmp_path / "maps"), "--sun", "outside"]) == 0
+    said = capsys.readouterr().err
+    assert "--sun X,Y in pixels" in said
+    assert "--fov DEG" in said
+    assert not re.search(r"\w=|[Cc]lick|Drag|stroke", said)
+
+
+def test_every_flag_in_a_warning_is_one():
+    known = parse_flags("render") | parse_flags("analyze")
+    named = set(re.findall(r"--[a-z][a-z-]+", inspect.getsource(notices)))
+    assert named >= {"--sun", "--horizon", "--fov", "--sky"}
+    assert named <= known
+
+
+def parse_flags(command):
+    with contextlib.redirect_stdout(io.StringIO()) as said, contextlib.suppress(SystemExit):
+        main([command, "--help"])
+    return set(re.findall(r"--[a-z][a-z-]+", said.getvalue()))
+
+
+def test_render_and_batch_say_when_nothing_moves(photo, tmp_path, capsys):
+    for command, output in (("render", "out.png"), ("batch", "folder")):
+        words = [command, photo, "-o", str(tmp_path / output)]
+        assert main([*words, *(["--workers", "0"] if command == "batch" else [])]) == 0
+        assert "Nothing moves" in capsys.readouterr().err
+    assert main(["render", photo, "-o", str(tmp_path / "moved.png"), "--exposure", "1"]) == 0
+    assert "Nothing moves" not in capsys.readouterr().err
 
 
 def test_every_number_has_an_end_in_a_sweep():
@@ -101,6 +142,15 @@ def test_flags_win_over_the_recipe(tmp_path):
         (["render", "x.jpg", "-o", "y.png", "--sun", "3"], "joined by commas"),
         (["render", "x.jpg", "-o", "y.png", "--sun", "inside"], "joined by commas"),
         (["render", "no-such-photo.jpg", "-o", "y.png"], "no file"),
+        (["render", "x.jpg", "--sun-elevaton", "3"], "Did you mean --sun-elevation?"),
+        (["render", "x.jpg", "-o", "y.png", "--horizn=3"], "Did you mean --horizon?"),
+        (["sweep", "x.jpg", "--to-sun-elevaton", "3"], "Did you mean --to-sun-elevation?"),
+        (["render", "x.jpg", "-o", "y.png", "--cloud-method", "unmixx"], "Did you mean unmix?"),
+        (["--verson"], "Did you mean --version?"),
+        (["rendr", "x.jpg"], "Did you mean render?"),
+        (["render", "a.jpg", "b.jpg"], "for many: sunwidget batch PHOTO … -o FOLDER"),
+        (["render", "-o", "y.png", "a.jpg", "b.jpg"], "for many: sunwidget batch"),
+        (["analyze", "-o", "maps", "a.jpg", "b.jpg"], "takes one photo. Too many: b.jpg"),
         (["render", "sample:beach", "-o", "y.png"], "no sample"),
         (["render", "x.jpg", "-o", "y.png", "--recipe", "no-such.json"], "no-such.json"),
         (["sweep", "x.jpg", "-o", "y.gif"], "Nothing moves"),

@@ -255,6 +255,13 @@ def test_a_recipe_comes_back_bit_for_bit(edit):
 @relaxed
 def test_code_builds_the_same_edit(edit):
     assert eval(edit.to_code(), {"sw": sw}) == edit
+    assert eval(repr(edit), vars(sw).copy()) == edit
+
+
+def test_an_edit_shows_only_what_it_changes():
+    assert repr(Edit()) == "Edit()"
+    assert repr(Edit(sun_elevation=3, exposure=-0.5)) == "Edit(sun_elevation=3, exposure=-0.5)"
+    assert Edit(sun_elevation=3).to_code() == "sw.Edit(sun_elevation=3)"
 
 
 def test_a_recipe_is_plain_json_and_names_only_what_changed():

@@ -5,6 +5,7 @@ byte beyond it, to whichever library writes.
 """
 
 import contextlib
+import errno
 import os
 import shutil
 import signal
@@ -143,6 +144,24 @@ def test_a_folder_that_may_not_be_written_to_is_named_before_any_work(tmp_path, 
     ):
         with pytest.raises((NotWrittenError, sw.AnalysisError), match=r"may not|Scene"):
             ask()
+
+
+@pytest.mark.parametrize("ask", [lambda path: target(path, overwrite=True), folder_target])
+def test_a_folder_that_may_not_be_entered_is_named_as_a_person_writes_it(
+    tmp_path, monkeypatch, ask
+):
+    def stat(path, **_options):
+        raise PermissionError(errno.EACCES, "Permission denied", str(path))
+
+    closed = tmp_path / "closed"
+    monkeypatch.setattr("os.access", lambda path, _mode: not str(path).startswith(str(closed)))
+    monkeypatch.setattr("pathlib.Path.stat", stat)
+    with pytest.raises(NotWrittenError) as refused:
+        ask(closed / "inner" / "a.png")
+    assert str(refused.value) == (
+        f"{closed / 'inner' / 'a.png'} cannot be written: the folder {closed} may not be entered. "
+        "Choose another one."
+    )
 
 
 def test_a_folder_with_the_name_of_a_frame_is_refused_and_kept(tmp_path):

@@ -106,7 +106,7 @@ def test_tiff_holds_layers_as_named_pages(tmp_path, scene):
     with pytest.warns(UserWarning, match="only the first is used"):
         again = open_photo(path)
     assert np.array_equal(again.encoded, picture)
-    assert Edit.from_dict(again.recipe) == EDIT
+    assert again.recipe == EDIT
 
 
 def test_a_layer_of_floats_that_only_brightens_is_not_lost_where_it_is_clear():

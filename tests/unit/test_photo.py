@@ -1,3 +1,4 @@
+import base64
 import io
 import os
 import pickle
@@ -91,6 +92,15 @@ def test_a_missing_file_suggests_the_nearest_name(tmp_path):
         open_photo(tmp_path / "beech.jpg")
     with pytest.raises(PhotoError, match="no file"):
         open_photo(str(tmp_path / "nowhere" / "x.jpg"))
+    (tmp_path / "beach.json").write_text("{}")
+    with pytest.raises(PhotoError, match="Did you mean 'beach.jpg'"):
+        open_photo(tmp_path / "Beeach.JPG")
+
+
+def test_a_missing_file_suggests_nothing_that_only_ends_alike(tmp_path):
+    (tmp_path / "big12.jpg").write_bytes(b"")
+    with pytest.raises(PhotoError, match="Looked in"):
+        open_photo(tmp_path / "missing.jpg")
 
 
 def test_a_folder_is_refused(tmp_path):
@@ -450,3 +460,13 @@ def test_a_photo_can_be_pickled_and_names_itself():
     assert isinstance(again, Photo)
     assert np.array_equal(again.pixels, photo.pixels)
     assert repr(photo) == "<Photo 'picture' 32×24, 16 bit, sRGB>"
+
+
+def test_a_notebook_shows_a_photo_as_a_small_picture_and_its_text():
+    photo = open_photo(np.full((300, 1200, 3), 70, np.uint8))
+    data, about = photo._repr_mimebundle_()
+    assert data["text/plain"] == repr(photo)
+    shown = open_photo(base64.b64decode(data["image/png"]))
+    assert shown.size == (480, 120)
+    assert (shown.encoded == 70).all()
+    assert about["image/png"] == {"width": 480, "height": 120, "alt": "array"}

@@ -417,7 +417,7 @@ def test_a_time_on_the_command_line_puts_the_sun_there(pvlib, file, tmp_path):
     place = from_photo(scene.photo).place.replace(time=17.75)
     expected = sw.render(scene, sw.Edit().at(place))
     assert np.array_equal(np.asarray(Image.open(output)), expected)
-    assert sw.open(output).recipe["place"]["time"] == 17.75
+    assert sw.open(output).recipe.place.time == 17.75
     # Elsewhere the sun is elsewhere, at the photo's own time.
     flags = ["--place", "-33.9,18.4", "--date", "2024-12-21", "--heading", "200"]
     options = _parser().parse_args(["render", str(file), *flags, "-o", "x.png"])
@@ -442,7 +442,11 @@ def test_the_command_line_says_what_is_missing(pvlib, tmp_path, capsys, scene):
     Image.fromarray(scene.photo.preview(96)).save(plain)
     output = ["-o", str(tmp_path / "x.png")]
     assert main(["render", str(plain), "--time", "12:00", *output]) == 2
-    assert "give --date and --place" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "tells the place and the day. Give --place LAT,LON and --date YYYY-MM-DD." in said
+    assert said.count("\n") == 1  # before the analysis, and so without what that warns of
+    assert main(["render", str(plain), "--place", "50,14", *output]) == 2
+    assert "Give --date YYYY-MM-DD and --time HH:MM." in capsys.readouterr().err
     known = ["--place", "50,14", "--date", "2024-06-21", "--time", "12:00"]
     assert main(["render", str(plain), *known, *output]) == 2
     assert "Give --heading" in capsys.readouterr().err

@@ -89,6 +89,17 @@ def test_a_history_that_is_none_is_refused_and_undo_goes_on(editor):
     assert editor.edit == sw.Edit()
 
 
+def test_the_suns_place_can_be_read_while_it_is_automatic(editor, scene):
+    found = scene.automatic["sun_azimuth"], scene.automatic["sun_elevation"]
+    assert editor.sun == found
+    editor.sun_elevation = 3
+    assert editor.sun == (found[0], 3)
+    editor.sun_azimuth = -4
+    assert (editor.sun.azimuth, editor.sun.elevation) == (-4, 3)
+    editor.reset()
+    assert editor.sun == found
+
+
 def test_an_unknown_keyword_gets_the_nearest_spelling(scene):
     with pytest.raises(TypeError, match="Did you mean 'sun_elevation'"):
         SunEditor(scene, sun_elevaton=3)

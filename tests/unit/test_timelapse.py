@@ -76,11 +76,11 @@ def test_stills_keep_names_metadata_and_where_nothing_moves_every_bit(frames, tm
     first, last = sw.open(out / "f0.png"), sw.open(out / "f3.png")
     assert np.array_equal(first.encoded, sw.open(frames / "f0.png").encoded)
     assert np.abs(last.encoded.astype(int) - sw.open(frames / "f3.png").encoded).mean() > 3
-    assert last.recipe == MOVED.to_dict()
+    assert last.recipe == MOVED
     # Two thirds of the way from the frame's own sun to the asked one.
     own = frames_of_a_camera.film().row[2].automatic["sun_elevation"]
     recipe = sw.open(out / "f2.png").recipe
-    assert recipe["sun_elevation"] == pytest.approx(own + (4 - own) * 2 / 3, abs=0.01)
+    assert recipe.sun_elevation == pytest.approx(own + (4 - own) * 2 / 3, abs=0.01)
     with pytest.raises(FileExistsError, match="f0.png exists already"):
         timelapse(frames, MOVED, out)
 
@@ -108,7 +108,7 @@ def test_at_night_the_sun_stays_where_it_is(frames, tmp_path, monkeypatch):
         out = timelapse(frames, MOVED, tmp_path / "stills")
     assert np.array_equal(sw.open(out / "f3.png").encoded, sw.open(frames / "f3.png").encoded)
     own = frames_of_a_camera.film().row[2].automatic["sun_elevation"]
-    assert sw.open(out / "f2.png").recipe["sun_elevation"] == pytest.approx((own + 4) / 2, abs=0.01)
+    assert sw.open(out / "f2.png").recipe.sun_elevation == pytest.approx((own + 4) / 2, abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -161,3 +161,27 @@ def test_the_command_line_makes_the_same_film(frames, tmp_path, capsys):
     assert out.read_bytes() == same.read_bytes()
     assert main([*words, "--heading", "30"]) == 2
     assert "--place" in capsys.readouterr().err
+
+
+@pytest.mark.filterwarnings("default")  # as outside of the tests
+@pytest.mark.parametrize(("lost", "status"), [(2, 0), (3, 1)])
+def test_the_command_line_fails_when_most_frames_cannot_be_used(
+    frames, tmp_path, capsys, monkeypatch, lost, status
+):
+    from sunwidget.cli import main
+
+    of = module.FrameScenes.of
+
+    def broken(sources, **options):
+        scenes = of(sources, **options)
+        type(scenes).troubles *= lost
+        return scenes
+
+    monkeypatch.setattr(module.FrameScenes, "of", broken)
+    out = tmp_path / "a.gif"
+    words = ["timelapse", str(frames), "-o", str(out), "--sun-elevation", "4"]
+    assert main(words) == status
+    assert out.exists()
+    said = capsys.readouterr().err
+    assert f"{lost} of 4 frames cannot be used" in said
+    assert (f"Most frames ({lost} of 4) could not be used" in said) == bool(status)

@@ -1,0 +1,34 @@
+"""Pictures as PNG, and as the output of a notebook's cell."""
+
+from __future__ import annotations
+
+import base64
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def encode_png(image: NDArray[np.uint8]) -> bytes:
+    """Return an (H, W, 3), (H, W, 4) or (H, W) uint8 picture as PNG, fast rather than small."""
+    import cv2
+
+    bgr = image[..., [2, 1, 0, 3][: image.shape[2]]] if image.ndim == 3 else image
+    # Left to itself OpenCV tunes for speed: half the time of level 2, and about as small.
+    ok, data = cv2.imencode(".png", bgr)
+    if not ok:
+        raise RuntimeError(f"OpenCV could not encode a picture of shape {image.shape} as PNG.")
+    return bytes(data)
+
+
+def cell_output(
+    image: NDArray[np.uint8], text: str, alternative: str
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return what ``_repr_mimebundle_`` is to: the (H, W, 3) picture, and ``text`` where none goes.
+
+    ``alternative`` says what it shows to who cannot see it.
+    """
+    height, width = image.shape[:2]
+    # PNG alone, not HTML as well: a notebook keeps every form that is offered.
+    data = {"text/plain": text, "image/png": base64.b64encode(encode_png(image)).decode("ascii")}
+    return data, {"image/png": {"width": width, "height": height, "alt": alternative}}
