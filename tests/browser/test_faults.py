@@ -208,6 +208,16 @@ def test_a_kernel_that_goes_ends_what_it_was_asked_and_the_stroke_that_was_begun
     assert editor.errors == []
 
 
+def test_right_after_a_shutdown_saving_says_what_is_the_matter(editor):
+    # As JupyterLab does before it tells its widgets that the kernel is gone.
+    editor.evaluate("() => { model.send = () => { throw new Error('Cannot send'); }; }")
+    editor.get_by_role("button", name="Save", exact=True).click()
+    editor.get_by_text("Saving failed: The kernel is gone. Run the cell again.").wait_for()
+    editor.locator("[data-kernel='lost']").wait_for()
+    assert editor.get_by_role("radio", name="Brush: sky").is_disabled()
+    assert editor.errors == []
+
+
 def test_a_screen_that_becomes_denser_shows_a_pixel_on_each_of_its_own(fresh_page, state):
     page = fresh_page
     page.evaluate(

@@ -5,7 +5,7 @@
  * when the analysis (`_scene`, `_layers`, `_surface`, `_backdrop`, `_clear_sky`, `_relief`, `_transfer`) has arrived.
  */
 
-import { Channel } from "../channel.js";
+import { Channel, GONE } from "../channel.js";
 import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
 import { ErrorMessage } from "../controls/error_message.js";
@@ -172,8 +172,9 @@ export class View {
     onKernelError(model, (text) => this.message.show(text), signal);
     this.cancelGesture = listenToPointer(this, signal);
     this.kernel.onChange(() => {
-      if (!this.kernel.answers) this.channel.lose("The kernel is gone. Run the cell again.");
+      if (!this.kernel.answers) this.channel.lose(GONE);
     });
+    this.channel.onGone = () => this.kernel.become("lost");
     this.root.addEventListener("keydown", (event) => onShortcut(this, event), { signal });
     signal.addEventListener("abort", () => {
       this.frame.dispose();
