@@ -281,3 +281,30 @@ def test_pictures_of_odd_sizes_are_shown_and_edited(page, size):
     assert trait(page, "sun_elevation") is not None
     assert page.locator(".sw-message:visible").count() == 0
     assert page.errors == []
+
+
+def test_a_crash_of_the_graphics_process_leaves_neither_picture_nor_presets_black(
+    browser, fresh_page, state
+):
+    page = fresh_page
+    shown(page, state)
+    bright = """() => [...document.querySelectorAll(".sw-canvas, .sw-thumbnail.sw-drawn")].filter(
+      (canvas) => {
+        const { width, height } = canvas;
+        const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+        return data.some((level, i) => i % 4 < 3 && level > 30);
+      }).length"""
+    page.wait_for_function("document.querySelectorAll('.sw-thumbnail.sw-drawn').length === 6")
+    page.evaluate(
+        """() => document.addEventListener("contextlost", () => (window.lost = true), true)"""
+    )
+    browser.new_browser_cdp_session().send("Browser.crashGpuProcess")
+    page.wait_for_function("window.lost")
+    # Seldom asked: the presets' pictures wait until the page has nothing to do.
+    for _ in range(15):
+        page.wait_for_timeout(2000)
+        if (seen := page.evaluate(bright)) == 7:
+            break
+    assert seen == 7
+    assert page.locator(".sw-message:visible").count() == 0
+    assert page.errors == []

@@ -115,11 +115,15 @@ export class Stage extends PictureStage {
     this.zoom.size = [width, height];
     this.node.style.setProperty("--sw-aspect", String(width / height));
     this.node.classList.add("sw-has-photo");
-    if (this.original.width) {
-      this.setOriginal(false);
-      this.setOriginal(true);
-    }
+    this.redrawOriginal();
     this.layOut();
+  }
+
+  /** The photo is another, or its canvas was emptied. */
+  redrawOriginal() {
+    if (!this.original.width) return;
+    this.setOriginal(false);
+    this.setOriginal(true);
   }
 
   /**

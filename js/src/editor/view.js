@@ -170,6 +170,9 @@ export class View {
     };
     onTraits(model, ["_status"], () => this.showStatus(), signal);
     onKernelError(model, (text) => this.message.show(text), signal);
+    // A crash of the graphics process has emptied what stands on canvases; their events do not bubble.
+    const redraw = () => this.redraw();
+    stage.node.addEventListener("contextrestored", redraw, { capture: true, signal });
     this.cancelGesture = listenToPointer(this, signal);
     this.kernel.onChange(() => {
       if (!this.kernel.answers) this.channel.lose(GONE);
@@ -269,6 +272,15 @@ export class View {
     this.brushRadius = Math.min(0.06, Math.max(0.003, radius));
     this.toolbar.show();
     this.drawOverlay();
+  }
+
+  /** The picture's canvases are empty. */
+  redraw() {
+    this.stage.redrawOriginal();
+    this.showMask();
+    this.inspector.scene = null; // whose map it had painted
+    void this.inspector.refresh();
+    this.loop.request();
   }
 
   /** Everything that follows from the state: controls at once, the frame with the next refresh. */
