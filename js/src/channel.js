@@ -22,6 +22,7 @@
 
 // A kernel that says nothing for so long was restarted or is gone.
 const SILENCE_MS = 180_000;
+export const GONE = "The kernel is gone. Run the cell again.";
 const SILENT = "The kernel does not answer. If it was restarted, run the cell again.";
 
 /** The person wants the answer no more. */
@@ -36,6 +37,8 @@ export class Channel {
     this.model = model;
     /** @type {Map<string, Pending>} */
     this.open = new Map();
+    /** @type {() => void} called when the host can send nothing: it has shut the kernel down */
+    this.onGone = () => {};
     /** @type {(message: any, buffers: DataView[]) => void} */
     const receive = (message, buffers) => this.receive(message, buffers);
     model.on("msg:custom", receive);
@@ -61,7 +64,12 @@ export class Channel {
     const id = crypto.randomUUID?.() ?? String(Math.random());
     return new Promise((resolve, reject) => {
       if (signal?.aborted) throw new Cancelled("Cancelled.");
-      this.model.send({ ...content, type: "request", id, action }, undefined, buffers);
+      try {
+        this.model.send({ ...content, type: "request", id, action }, undefined, buffers);
+      } catch {
+        this.onGone();
+        throw new Error(GONE);
+      }
       const outlives = content.in_folder === true;
       this.open.set(id, { resolve, reject, pieces: [], onProgress, outlives });
       this.watch(id);

@@ -20,10 +20,10 @@ export function stepName(from, to, { parameters, versions = [], presets = [] }) 
   const changed = parameters.filter(({ name }) => !equal(from[name], to[name]));
   const names = changed.map(({ name }) => name);
   if (changed.length === 0) return "Nothing";
+  const preset = presets.find(({ values }) => sets(values, names, to, parameters));
+  if (preset) return preset.label;
   if (changed.length === 1) return names[0] === "strokes" ? strokes(from, to) : named(changed[0]);
   if (names.every((name) => SUN.includes(name))) return "Sun moved";
-  const preset = presets.find(({ values }) => isSet(values, to));
-  if (preset) return preset.label;
   if (names.length > 2 && sameRecipe(to, {})) return "Reset";
   const version = versions.find(({ recipe }) => sameRecipe(recipe, to));
   if (version) return `“${version.name}”`;
@@ -34,10 +34,21 @@ export function stepName(from, to, { parameters, versions = [], presets = [] }) 
     : `${changed.length} values`;
 }
 
-/** @param {Record<string, unknown>} values @param {Edit} recipe */
-function isSet(values, recipe) {
-  const entries = Object.entries(values);
-  return entries.length > 1 && entries.every(([name, value]) => equal(recipe[name], value));
+/**
+ * Whether a preset made the step: nothing else changed, and all of it is set. Recipes leave defaults out.
+ *
+ * @param {Record<string, unknown>} values of the preset
+ * @param {string[]} changed
+ * @param {Edit} recipe
+ * @param {Parameter[]} parameters
+ */
+function sets(values, changed, recipe, parameters) {
+  const known = parameters.filter(({ name }) => name in values);
+  return (
+    known.length > 1 &&
+    changed.every((name) => name in values || SUN.includes(name)) &&
+    known.every((p) => equal(recipe[p.name] ?? p.default ?? null, values[p.name]))
+  );
 }
 
 /** @param {Edit} from @param {Edit} to */

@@ -79,14 +79,19 @@ test("with the kernel goes all that it was asked, at once", async () => {
   assert.equal(channel.open.size, 0);
 });
 
-test("what cannot be sent ends at once, and can be cancelled all the same", async () => {
+test("what cannot be sent ends at once in plain words, and can be cancelled all the same", async () => {
   const { model, channel } = open();
   const stop = new AbortController();
   const sent = channel.request("save", {}, undefined, [], stop.signal);
   model.send = () => {
-    throw new Error("Not connected.");
+    throw new Error("Cannot send");
   };
-  await assert.rejects(channel.request("save"), /Not connected/);
+  let gone = 0;
+  channel.onGone = () => {
+    gone += 1;
+  };
+  await assert.rejects(channel.request("save"), /The kernel is gone\. Run the cell again\./);
+  assert.equal(gone, 1);
   stop.abort();
   await assert.rejects(sent, /Cancelled/);
   assert.equal(channel.open.size, 0);

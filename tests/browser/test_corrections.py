@@ -271,6 +271,21 @@ def test_what_other_methods_see_is_shown_beside_the_horizon(page, coast):
     assert "thesis row" in said
 
 
+def test_names_of_lines_that_meet_do_not_lie_on_each_other(editor):
+    choose(editor, "Set the horizon")
+    editor.evaluate(
+        """() => {
+          const { id } = model.sent.findLast(({ action }) => action === "horizons");
+          const result = { row_argmax: [0.5, 0.5], robust_line: [0.5, 0.51], other: [0.5, 0.5] };
+          model.fire("msg:custom", { type: "response", id, result }, []);
+        }"""
+    )
+    names = editor.locator(".sw-horizon-other text")
+    names.nth(2).wait_for(state="attached")
+    tops = names.evaluate_all("(all) => all.map((text) => Number(text.getAttribute('y')))")
+    assert np.diff(sorted(tops)).min() >= 13
+
+
 def test_a_guessed_horizon_is_dashed_and_a_given_one_is_not(editor, state):
     tool = editor.locator(".sw-horizon-tool")
     choose(editor, "Set the horizon")

@@ -200,6 +200,16 @@ def test_a_typed_value_is_clamped_and_nonsense_is_refused(editor):
     field.press("Enter")
     assert trait(editor, "sun_elevation") == 90
     assert field.input_value() == "90.0"
+    assert editor.get_by_text("“high” is no number").is_visible(), "refused, and it is seen"
+    assert field.get_attribute("aria-invalid") == "true"
+    field.fill("12°")
+    field.press("Enter")
+    assert trait(editor, "sun_elevation") == 12
+    assert field.get_attribute("aria-invalid") is None
+    field = editor.get_by_label("Azimuth, value")
+    field.fill("190")
+    field.press("Enter")
+    assert trait(editor, "sun_azimuth") == -170
 
 
 def test_every_number_of_the_table_has_a_slider(editor, state):
@@ -246,6 +256,24 @@ def test_before_shows_the_photo_while_held(editor):
     editor.wait_for_timeout(500)  # longer than a click, which keeps it
     editor.mouse.up()
     assert editor.locator(".sunwidget.sw-before").count() == 0
+
+
+def test_before_that_is_kept_is_named_and_goes_with_the_next_edit(editor):
+    said = "getComputedStyle(document.querySelector('.sw-window'), '::after').content"
+    assert editor.evaluate(said) == "none"
+    editor.get_by_role("button", name="Before").click()
+    editor.get_by_role("button", name="Before", pressed=True).wait_for()
+    assert editor.evaluate(said) == '"Before"'
+    editor.get_by_role("slider", name="Sun", exact=True).focus()
+    assert editor.locator(".sunwidget.sw-before").count() == 1
+    editor.keyboard.press("ArrowUp")
+    editor.get_by_role("button", name="Before", pressed=False).wait_for()
+    assert editor.locator(".sunwidget.sw-before").count() == 0
+    # Held, it stays: who holds it wants to see the photo, whatever Python sets meanwhile.
+    editor.keyboard.down("b")
+    editor.evaluate("model.receive({sun_elevation: 20})")
+    assert editor.locator(".sunwidget.sw-before").count() == 1
+    editor.keyboard.up("b")
 
 
 def test_what_the_kernel_sets_is_shown(editor):

@@ -219,8 +219,10 @@ def test_what_is_asked_for_how_far_it_is_and_a_name_that_is_taken(
 def test_a_film_is_made_downloaded_and_shown(page, widget, coast):
     pytest.importorskip("imageio_ffmpeg")
     connect(page, widget)
-    page.get_by_role("button", name="Export", exact=True).first.click()
+    page.get_by_role("button", name="Export", exact=True).click()
+    page.get_by_role("button", name="Export the still").wait_for()  # named unlike what opened it
     page.get_by_role("tab", name="Film").click()
+    page.get_by_role("button", name="Export the film").wait_for()
     field(page, "Seconds").fill("0.5")
     field(page, "Frame rate").select_option("12")
     field(page, "Longer side").select_option("640")

@@ -208,6 +208,16 @@ def test_a_kernel_that_goes_ends_what_it_was_asked_and_the_stroke_that_was_begun
     assert editor.errors == []
 
 
+def test_right_after_a_shutdown_saving_says_what_is_the_matter(editor):
+    # As JupyterLab does before it tells its widgets that the kernel is gone.
+    editor.evaluate("() => { model.send = () => { throw new Error('Cannot send'); }; }")
+    editor.get_by_role("button", name="Save", exact=True).click()
+    editor.get_by_text("Saving failed: The kernel is gone. Run the cell again.").wait_for()
+    editor.locator("[data-kernel='lost']").wait_for()
+    assert editor.get_by_role("radio", name="Brush: sky").is_disabled()
+    assert editor.errors == []
+
+
 def test_a_screen_that_becomes_denser_shows_a_pixel_on_each_of_its_own(fresh_page, state):
     page = fresh_page
     page.evaluate(
@@ -269,5 +279,32 @@ def test_pictures_of_odd_sizes_are_shown_and_edited(page, size):
     canvas = page.locator(".sw-canvas")
     assert canvas.evaluate("canvas => [canvas.height, canvas.width]") == list(size)
     assert trait(page, "sun_elevation") is not None
+    assert page.locator(".sw-message:visible").count() == 0
+    assert page.errors == []
+
+
+def test_a_crash_of_the_graphics_process_leaves_neither_picture_nor_presets_black(
+    browser, fresh_page, state
+):
+    page = fresh_page
+    shown(page, state)
+    bright = """() => [...document.querySelectorAll(".sw-canvas, .sw-thumbnail.sw-drawn")].filter(
+      (canvas) => {
+        const { width, height } = canvas;
+        const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+        return data.some((level, i) => i % 4 < 3 && level > 30);
+      }).length"""
+    page.wait_for_function("document.querySelectorAll('.sw-thumbnail.sw-drawn').length === 6")
+    page.evaluate(
+        """() => document.addEventListener("contextlost", () => (window.lost = true), true)"""
+    )
+    browser.new_browser_cdp_session().send("Browser.crashGpuProcess")
+    page.wait_for_function("window.lost")
+    # Seldom asked: the presets' pictures wait until the page has nothing to do.
+    for _ in range(15):
+        page.wait_for_timeout(2000)
+        if (seen := page.evaluate(bright)) == 7:
+            break
+    assert seen == 7
     assert page.locator(".sw-message:visible").count() == 0
     assert page.errors == []

@@ -1,6 +1,9 @@
 /** A labelled slider with a value field, for one number of the parameter table. */
 
 import { element, setAttributes } from "./element.js";
+import { typedNumber } from "./typed_number.js";
+
+const REFUSED_MS = 4000;
 
 /**
  * @typedef {{
@@ -99,14 +102,28 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
     if (field.value !== shown) accept();
   });
 
+  const refused = element("span", { class: "sw-refused", role: "alert" });
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+  /** Say for a while that something was no number. @param {string} text "" takes it back */
+  const refuse = (text) => {
+    clearTimeout(timer);
+    setAttributes(field, { "aria-invalid": text ? "true" : null });
+    refused.textContent = text && `“${text}” is no number`;
+    if (!text) return refused.remove();
+    node.append(refused);
+    timer = setTimeout(() => refuse(""), REFUSED_MS);
+  };
+
   function accept() {
-    const value = Number(field.value.replace(",", ".").replace("−", "-"));
-    if (field.value.trim() === "" || !Number.isFinite(value)) {
+    const value = typedNumber(field.value, p);
+    refuse(value === null ? field.value.trim() : "");
+    if (value === null) {
       field.value = shown;
       return;
     }
     onBegin();
-    onInput(Math.min(p.maximum, Math.max(p.minimum, value)));
+    onInput(value);
     onCommit();
     field.value = shown; // also where a value out of range has changed nothing
   }

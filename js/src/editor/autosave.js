@@ -8,6 +8,7 @@
 import { KeptEdits } from "../kept_edits.js";
 import { checkRecipe } from "../recipe/check.js";
 import { sameRecipe } from "../same.js";
+import { stepName } from "../step_names.js";
 import { onTraits } from "../traits.js";
 
 /**
@@ -43,6 +44,7 @@ export function autosave(view, signal) {
   /** @type {Edit} what this photo began with here */
   let start = {};
   let counted = false; // among the living
+  let restored = false; // this photo's edit: still older ones are offered by the menu alone
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
 
@@ -73,24 +75,33 @@ export function autosave(view, signal) {
   };
 
   const offer = () => {
-    const entry = lost();
+    const entry = restored ? undefined : lost();
     if (!entry || entry.dismissed) {
       notices.hide("restore");
       return;
     }
     const given = Object.keys(start).length > 0;
     notices.show("restore", {
-      text: `Your last edit of this photo, ${ago(entry.saved)}, is kept${
-        given ? ", and differs from the one that was given" : ""
-      }.`,
+      text: `Your last edit of this photo (${called(entry)}, ${ago(entry.saved)}) is kept.${
+        given ? " It is another than the one that your code gives." : ""
+      }`,
       actions: [{ label: "Restore", run: restore }],
       onClose: () => source && store.dismiss(source.fingerprint),
     });
   };
 
+  /** @param {Entry} entry */
+  const called = (entry) => {
+    const { parameters, scene } = view;
+    const edit = lastOf(entry);
+    if (!Object.keys(edit).length) return entry.keyFrames.length ? "key frames" : "versions";
+    return stepName({}, edit, { parameters, versions: entry.versions, presets: scene?.presets });
+  };
+
   const restore = () => {
     const entry = lost();
     if (entry) state.takeUp(entry);
+    restored = true;
     offer();
   };
 
@@ -110,6 +121,7 @@ export function autosave(view, signal) {
     source = model.get("_source") ?? null;
     if (!source?.fingerprint) return;
     start = state.recipe();
+    restored = false;
     const { fingerprint, session } = source;
     const own = store.of(fingerprint).find((entry) => entry.session === session);
     const kept = state.kept();
@@ -203,11 +215,13 @@ function isLost(entry, here) {
     ...here.future,
     ...here.versions.map(({ recipe }) => recipe),
   ];
-  const last = Object.keys(entry.recipe).length ? entry.recipe : (entry.past.at(-1) ?? {});
-  return [last, ...entry.versions.map(({ recipe }) => recipe)].some(
+  return [lastOf(entry), ...entry.versions.map(({ recipe }) => recipe)].some(
     (recipe) => !sameRecipe(recipe, {}) && !reachable.some((known) => sameRecipe(recipe, known)),
   );
 }
+
+/** Its edit, or what it was before it was reset. @param {Kept} entry @returns {Edit} */
+const lastOf = ({ recipe, past }) => (Object.keys(recipe).length ? recipe : (past.at(-1) ?? {}));
 
 /**
  * An entry without values that the table does not take: another version may have written it.

@@ -124,7 +124,7 @@ export function exportFilm(view, job, signal) {
   };
   const player = filmPlayer(view, signal, film);
 
-  const target = exportTarget(() => {
+  const target = exportTarget("film", () => {
     if (![length, quality].every(({ node, input }) => node.hidden || input.reportValidity())) {
       return;
     }

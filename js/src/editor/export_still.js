@@ -40,7 +40,7 @@ export function exportStill(view, job) {
     if (size.select.value === "full") return null;
     return size.select.value === "preview" ? PREVIEW : Math.round(Number(edge.input.value));
   };
-  const target = exportTarget(() => {
+  const target = exportTarget("still", () => {
     if (![quality, edge].every(({ node, input }) => node.hidden || input.reportValidity())) return;
     const content = {
       ...target.content(),

@@ -12,8 +12,8 @@ import { inputField, selectField } from "../controls/named_field.js";
  *   size: [number, number], stills: Format[], films: Format[] }} Choices
  */
 
-/** @param {() => void} onExport */
-export function exportTarget(onExport) {
+/** @param {"still" | "film"} what @param {() => void} onExport */
+export function exportTarget(what, onExport) {
   const name = inputField("Name", { type: "text", spellcheck: "false", autocomplete: "off" });
   const ending = element("span", { class: "sw-export-ending" });
   name.input.after(ending);
@@ -23,6 +23,7 @@ export function exportTarget(onExport) {
     ["folder", "Notebook's folder"],
   ]);
   const go = element("button", { type: "submit", class: "sw-chip sw-primary" }, "Export");
+  go.setAttribute("aria-label", `Export the ${what}`); // another button opens the panel
   const hint = element("p", { class: "sw-hint" });
   const node = element("form", { class: "sw-export-target" }, name.node, where.node, go);
   let folder = "";

@@ -6,6 +6,7 @@
  */
 
 import { setAttributes, shape } from "../controls/element.js";
+import { labelRows } from "./label_rows.js";
 
 /**
  * @typedef {import("../types.js").Point} Point
@@ -16,6 +17,7 @@ const ENDS = [0.12, 0.88]; // fractions of the width in sight at which the handl
 const GRAB = 40; // CSS pixels round a handle that take hold of it
 const EDGE = 16; // CSS pixels from the stage's edge at which an outside handle waits
 const GUESSED = 0.3; // confidence below which the line was not really seen
+const LABEL = 13; // CSS pixels that the name of another line is high
 const UNSURE = 0.5; // and below which it may be that of a roof or hill (analysis/notices.py)
 
 /** What the kernel's methods are called here. @type {Record<string, string>} */
@@ -259,17 +261,24 @@ export class HorizonTool {
 
   /** @param {ReturnType<import("./stage.js").Stage["rectangle"]>} box */
   drawOthers(box) {
-    const lines = Object.entries(this.rows).map(([name, [left, right]]) => {
+    const end = Math.min(box.stageWidth, box.x + box.width) - 6;
+    const all = Object.entries(this.rows).map(([name, [left, right]]) => {
       const [y1, y2] = [box.y + left * box.height, box.y + right * box.height];
-      const end = Math.min(box.stageWidth, box.x + box.width) - 6;
-      const y = y1 + ((y2 - y1) * (end - box.x)) / box.width;
-      return shape(
+      const y = y1 + ((y2 - y1) * (end - box.x)) / box.width + LABEL;
+      return { name: OTHERS[name] ?? name, y1, y2, y };
+    });
+    const rows = labelRows(
+      all.map(({ y }) => y),
+      LABEL,
+    );
+    const lines = all.map(({ name, y1, y2 }, i) =>
+      shape(
         "g",
         { class: "sw-horizon-other" },
         shape("line", { x1: box.x, y1, x2: box.x + box.width, y2 }),
-        text(OTHERS[name] ?? name, end, y + 13),
-      );
-    });
+        text(name, end, rows[i]),
+      ),
+    );
     this.others.replaceChildren(...lines);
   }
 }

@@ -100,6 +100,7 @@ export function useRecipe(view, text) {
     const moved = state.history().past.length !== before;
     say(view, moved ? "Recipe taken over." : "This is the recipe already.", moved);
   } catch (error) {
+    view.notices.hide("recipe"); // what it says is of another recipe
     view.message.show(`Nothing was changed. ${errorText(error)}`);
   }
 }

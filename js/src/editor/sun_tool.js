@@ -97,15 +97,20 @@ export class SunTool {
    * @param {number} elevation degrees
    */
   moveTo(azimuth, elevation) {
+    this.view.state.set(this.edit(azimuth, elevation));
+  }
+
+  /** A direction as the edit holds it. @param {number} azimuth @param {number} elevation */
+  edit(azimuth, elevation) {
     const round = (/** @type {string} */ name, /** @type {number} */ value) => {
       const p = this.view.parameter(name);
       return Math.round(Math.min(p.maximum, Math.max(p.minimum, value)) * 1e4) / 1e4;
     };
     const turned = ((((azimuth + 180) % 360) + 360) % 360) - 180;
-    this.view.state.set({
+    return {
       sun_azimuth: round("sun_azimuth", turned),
       sun_elevation: round("sun_elevation", elevation),
-    });
+    };
   }
 
   /** @param {KeyboardEvent} event */
@@ -118,10 +123,12 @@ export class SunTool {
     if (!step) return;
     this.view.state.begin();
     if (this.track?.step(step)) return;
-    this.moveTo(
+    const { sun_azimuth, sun_elevation } = this.edit(
       this.view.value("sun_azimuth") + step[0],
       this.view.value("sun_elevation") + step[1],
     );
+    // What it does not move stays the photo's own.
+    this.view.state.set(step[0] ? { sun_azimuth } : { sun_elevation });
   }
 
   /** Where the sun is on the picture, or null behind the camera. @returns {Point | null} */

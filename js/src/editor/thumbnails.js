@@ -74,6 +74,12 @@ export function thumbnails(view, signal, node, read) {
     if (inSight) wake();
   });
   observer.observe(node);
+  // A crash of the graphics process empties canvases, too.
+  const onRestored = (/** @type {Event} */ { target }) => {
+    drawn.delete(/** @type {HTMLCanvasElement} */ (target));
+    wake();
+  };
+  node.addEventListener("contextrestored", onRestored, { capture: true, signal });
   signal.addEventListener("abort", () => {
     clearTimeout(timer);
     forget();

@@ -5,7 +5,7 @@
  * when the analysis (`_scene`, `_layers`, `_surface`, `_backdrop`, `_clear_sky`, `_relief`, `_transfer`) has arrived.
  */
 
-import { Channel } from "../channel.js";
+import { Channel, GONE } from "../channel.js";
 import { Announcer } from "../controls/announcer.js";
 import { element } from "../controls/element.js";
 import { ErrorMessage } from "../controls/error_message.js";
@@ -13,6 +13,7 @@ import { Frame } from "../frame.js";
 import { FrameLoop } from "../frame_loop.js";
 import { onKernelError } from "../kernel_errors.js";
 import { parameterOf } from "../parameter.js";
+import { sameRecipe } from "../same.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { onTraits } from "../traits.js";
@@ -85,6 +86,8 @@ export class View {
     this.work = null;
     /** @type {import("../types.js").Edit | null} what a film shows in place of the edit */
     this.passing = null;
+    /** @type {import("../types.js").Edit} the edit when "Before" was turned on */
+    this.hidden = {};
     /** @type {[number, number]} size of the full preview in pixels */
     this.size = [0, 0];
     /** @type {number | null} the pointer that drags */
@@ -167,10 +170,14 @@ export class View {
     };
     onTraits(model, ["_status"], () => this.showStatus(), signal);
     onKernelError(model, (text) => this.message.show(text), signal);
+    // A crash of the graphics process has emptied what stands on canvases; their events do not bubble.
+    const redraw = () => this.redraw();
+    stage.node.addEventListener("contextrestored", redraw, { capture: true, signal });
     this.cancelGesture = listenToPointer(this, signal);
     this.kernel.onChange(() => {
-      if (!this.kernel.answers) this.channel.lose("The kernel is gone. Run the cell again.");
+      if (!this.kernel.answers) this.channel.lose(GONE);
     });
+    this.channel.onGone = () => this.kernel.become("lost");
     this.root.addEventListener("keydown", (event) => onShortcut(this, event), { signal });
     signal.addEventListener("abort", () => {
       this.frame.dispose();
@@ -255,6 +262,7 @@ export class View {
 
   /** @param {boolean} on */
   setBefore(on) {
+    if (on) this.hidden = this.state.recipe();
     this.stage.setOriginal(on || this.split?.on === true);
     this.root.classList.toggle("sw-before", on);
   }
@@ -266,8 +274,19 @@ export class View {
     this.drawOverlay();
   }
 
+  /** The picture's canvases are empty. */
+  redraw() {
+    this.stage.redrawOriginal();
+    this.showMask();
+    this.inspector.scene = null; // whose map it had painted
+    void this.inspector.refresh();
+    this.loop.request();
+  }
+
   /** Everything that follows from the state: controls at once, the frame with the next refresh. */
   show() {
+    const { before } = this.toolbar;
+    if (before.isOn() && !sameRecipe(this.hidden, this.state.recipe())) before.letGo();
     this.panel.show();
     this.toolbar.show();
     for (const part of this.parts) part.show?.();

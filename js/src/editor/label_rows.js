@@ -1,0 +1,17 @@
+/**
+ * Where labels stand that are not to lie on each other: in their order, each at its row or as far
+ * below as those above it need.
+ *
+ * @param {number[]} rows wanted
+ * @param {number} height of a label
+ */
+export function labelRows(rows, height) {
+  const placed = [...rows];
+  let next = -Infinity;
+  const order = rows.map((_, i) => i).sort((a, b) => rows[a] - rows[b]);
+  for (const i of order) {
+    placed[i] = Math.max(rows[i], next);
+    next = placed[i] + height;
+  }
+  return placed;
+}
