@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from typing import Self
 
@@ -11,6 +12,7 @@ import traitlets
 from sunwidget.analysis.scene import Scene
 from sunwidget.photo import Photo
 from sunwidget.widgets.analyst import Analyst
+from sunwidget.widgets.output import unattended
 
 OPENING = {"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"}
 
@@ -39,6 +41,13 @@ class Analysed(anywidget.AnyWidget):
         """
         self._analyst.wait(timeout)
         return self
+
+    def _can_show_edits(self) -> bool:
+        """Return whether the scene is there; a cell that nobody attends to waits for it."""
+        if unattended():
+            with contextlib.suppress(Exception):  # the analysis failed: there is still the photo
+                self._analyst.wait()
+        return self._analyst.ready
 
     def _report(self, stage: str, fraction: float, message: str) -> None:
         with self._lock:

@@ -24,13 +24,13 @@ from sunwidget.widgets.analysed import OPENING, Analysed
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.edit_traits import AnswersRefusals, edit_traits
 from sunwidget.widgets.front_end import front_end
+from sunwidget.widgets.output import with_picture
 from sunwidget.widgets.payload import (
     encode_maps,
     encode_preview,
     parameter_json,
     scene_json,
     thumbnail,
-    with_picture,
 )
 from sunwidget.widgets.sources import opened
 from sunwidget.widgets.standalone import embedded_state, write_page
@@ -257,7 +257,7 @@ class Compare(Analysed, AnswersRefusals):
         """Return a small PNG: all pictures where they can be had at once, else the photo."""
         from sunwidget.renderer.gl_thread import RendererError
 
-        if self._analyst.ready:
+        if self._can_show_edits():
             try:
                 return encode_png(np.asarray(self.sheet(_SMALL_EDGE)))
             except RendererError:

@@ -5,7 +5,6 @@ The kernel keeps the full resolution; a preview's long edge has at most ``PREVIE
 
 from __future__ import annotations
 
-import base64
 import math
 import weakref
 from collections.abc import Callable, Iterable
@@ -69,15 +68,6 @@ def thumbnail(photo: Photo) -> bytes:
     if photo not in _thumbnails:
         _thumbnails[photo] = encode_png(photo.preview(THUMBNAIL_EDGE))
     return _thumbnails[photo]
-
-
-def with_picture(bundle: Any, picture: Callable[[], bytes]) -> Any:
-    """Return a display bundle with the PNG that viewers without widgets show, as GitHub does."""
-    if bundle is None:
-        return None
-    data, metadata = bundle
-    data["image/png"] = base64.b64encode(picture()).decode("ascii")
-    return data, metadata
 
 
 def encode_maps(scene: Scene) -> dict[str, bytes]:

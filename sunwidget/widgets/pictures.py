@@ -17,11 +17,11 @@ from sunwidget.time_left import Progress
 from sunwidget.widgets.analysed import Analysed
 from sunwidget.widgets.detail import detail
 from sunwidget.widgets.history import NAMES, EditHistory
+from sunwidget.widgets.output import with_picture
 from sunwidget.widgets.payload import (
     THUMBNAIL_EDGE,
     encode_picture,
     thumbnail,
-    with_picture,
 )
 from sunwidget.widgets.requests import Answer
 from sunwidget.widgets.snapshot import SNAPSHOT_EDGE, Snapshot
@@ -161,7 +161,7 @@ class Pictures(EditHistory, Analysed):
         from sunwidget.renderer.gl_thread import RendererError
 
         # The first frame of a session takes a second, which an untouched photo is not worth.
-        if self._analyst.ready and self.edit != Edit():
+        if self.edit != Edit() and self._can_show_edits():
             try:
                 return encode_png(self.render(size=self.photo.size_within(THUMBNAIL_EDGE)))
             except RendererError:

@@ -7,7 +7,6 @@ may run on any thread: JupyterLab sends messages to kernel subshells.
 
 from __future__ import annotations
 
-import base64
 import contextlib
 import datetime as dt
 import math
@@ -38,6 +37,7 @@ from sunwidget.time_left import Progress
 from sunwidget.widgets.edit_traits import AnswersRefusals, edit_traits
 from sunwidget.widgets.explorer_answers import actions, bruneton_slice, scans
 from sunwidget.widgets.front_end import front_end
+from sunwidget.widgets.output import with_picture
 from sunwidget.widgets.payload import parameter_json
 from sunwidget.widgets.requests import Action, Requests
 from sunwidget.widgets.standalone import explorer_page, write_page
@@ -121,7 +121,7 @@ class SkyExplorer(AnswersRefusals):
         self._lock = threading.RLock()
         self._browser_thread: int | None = None
         self._moving = False
-        self._picture: tuple[Any, str] | None = None
+        self._picture: tuple[Any, bytes] | None = None
         super().__init__(
             _scans=scans(),
             **parameters,
@@ -502,8 +502,8 @@ class SkyExplorer(AnswersRefusals):
         """Return what the browser can ask for, by name."""
         return actions(self)
 
-    def _static_picture(self) -> str:
-        """Return a small PNG in base64 for viewers that run no widgets."""
+    def _static_picture(self) -> bytes:
+        """Return a small PNG for viewers that run no widgets."""
         parameters = self.parameters()
         # Tables and paths take seconds to minutes, which no cell should wait for.
         for name in ("model", "compare"):
@@ -512,19 +512,8 @@ class SkyExplorer(AnswersRefusals):
         if self._picture is None or self._picture[0] != parameters:
             from sunwidget.explorer.draw import draw
 
-            picture = encode_png(draw(parameters, _PICTURE_SIZE))
-            self._picture = parameters, base64.b64encode(picture).decode("ascii")
+            self._picture = parameters, encode_png(draw(parameters, _PICTURE_SIZE))
         return self._picture[1]
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        bundle = super()._repr_mimebundle_(**kwargs)
-        if bundle is None:
-            return None
-        data, metadata = bundle
-        # GitHub, nbconvert and other viewers without widgets show this one. Without EGL there is
-        # none, and the widget works all the same.
-        from sunwidget.renderer.gl_thread import RendererError
-
-        with contextlib.suppress(RendererError):
-            data["image/png"] = self._static_picture()
-        return data, metadata
+        return with_picture(super()._repr_mimebundle_(**kwargs), self._static_picture)
