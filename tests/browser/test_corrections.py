@@ -276,7 +276,8 @@ def test_names_of_lines_that_meet_do_not_lie_on_each_other(editor):
     editor.evaluate(
         """() => {
           const { id } = model.sent.findLast(({ action }) => action === "horizons");
-          const result = { row_argmax: [0.5, 0.5], robust_line: [0.5, 0.51], water_line: [0.5, 0.5] };
+          const same = [0.5, 0.5];
+          const result = { row_argmax: same, robust_line: [0.5, 0.51], water_line: same };
           model.fire("msg:custom", { type: "response", id, result }, []);
         }"""
     )
