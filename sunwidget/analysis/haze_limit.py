@@ -20,6 +20,7 @@ _AIR_SCATTERING = np.array([7.5e-6, 1.17e-5, 2.32e-5])  # as shaders/lib/extinct
 _STEPS = np.array([0.154, -0.0026, -0.242])
 _FARTHEST_AIR = 15000.0  # as shaders/lib/air.glsl
 _NO_LAND = 1e6  # scene-linear light of what is not asked
+_ANYWHERE = 12.0  # ln(metres)
 _JUST_ABOVE = 0.6  # degrees over the horizon
 
 
@@ -40,7 +41,7 @@ def log_limit(working: Working, land: np.ndarray, camera: Camera, fit: SkyFit) -
     Returns
     -------
     (h, w) float32
-        ln(metres); infinite where the land is no darker than air.
+        ln(metres); 12, farther than all air that counts, where the land is no darker than air.
     """
     import cv2
 
@@ -62,7 +63,7 @@ def log_limit(working: Working, land: np.ndarray, camera: Camera, fit: SkyFit) -
     )
     bent = -np.log(np.maximum(1 - share, 1e-3)) / float(extinction @ LUMINANCE)
     metres = bent * _FARTHEST_AIR / np.maximum(_FARTHEST_AIR - bent, 1e-3)
-    limit = np.where(bent < _FARTHEST_AIR, np.log(np.maximum(metres, 1.0)), 12.0)
+    limit = np.where(bent < _FARTHEST_AIR, np.log(np.maximum(metres, 1.0)), _ANYWHERE)
     return resize(limit.astype(np.float32), working.width, working.height)
 
 
