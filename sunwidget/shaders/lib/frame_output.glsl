@@ -48,6 +48,6 @@ void WriteChange(vec3 display, vec3 scene, vec3 change, float filled, vec2 pixel
   vec3 share = abs(change) / max(max(now, scene), vec3(1e-9));
   float most = max(share.r, max(share.g, share.b));
   vec3 light = GetRolledOff(now, max(1.0 - old * old, 0.0), most * most / (most * most + 0.01));
-  light += GetToe(light, representable) + GetGrain(light, filled, pixel);
+  light += GetToe(light, representable) + GetGrain(light, representable, filled, pixel);
   WriteFrame(display, touched * (light - representable), pixel);
 }

@@ -5,15 +5,14 @@
 
 uniform float grain;         // strength, 0 = exactly off
 uniform float noise_level;   // deviation of the photo's encoded luminance at its own size
-uniform vec3 photo_sky_linear_mean;
 uniform float photo_height;  // pixels: a smaller frame averages the noise
 
 // What is new of display-linear `light` by noise. `filled` is how much of the photo, with its
-// noise, was replaced. A sky that became darker than the photo's took its noise down with it.
-vec3 GetGrain(vec3 light, float filled, vec2 pixel) {
+// noise, was replaced. What became darker than the photo was `before` took its noise down with it.
+vec3 GetGrain(vec3 light, vec3 before, float filled, vec2 pixel) {
   uvec2 at = uvec2(pixel);
   float kept = 1.0 - filled;
-  float level = GetLuminance(light) / max(GetLuminance(photo_sky_linear_mean), 1e-4);
+  float level = GetLuminance(light) / max(GetLuminance(before), 1e-4);
   float deviation = grain * noise_level * min(frame_size.y / max(photo_height, 1.0), 1.0)
       * sqrt(max(1.0 - kept * kept, 0.0)) * pow(clamp(level, 0.0, 1.0), 1.0 / 2.2);
   // Luminance has more of it than colour. Triangular noise has the deviation 0.41.
