@@ -262,6 +262,12 @@ class Edit:
         "How far the clouds' shadows on the land follow the sun; 0 is exactly off.")
     aerial_perspective: float = _number(1.0, (0, 1), 0.01, "", "Aerial perspective", "land",
         "How far the air before distant land follows the sun; 0 is exactly off.")
+    window_lights: float = _number(0.0, (0, 4), 0.05, "×", "Lit windows", "land",
+        "Light of lamps behind the windows that the photo shows, in units of a usual room's; it "
+        "drowns by day and shows at dusk. 0 is exactly off.")
+    window_temperature: float = _number(2900.0, (1700, 6500), 50, "K", "Lamps' colour", "land",
+        "Colour temperature of those lamps: candles 1900, bulbs 2900, cold tubes 5000.",
+        advanced=True)
     water_strength: float = _number(1.0, (0, 1), 0.01, "", "Water strength", "water",
         "How far water mirrors the changed sky; 0 lights it as land.")
     glitter: float = _number(1.0, (0, 3), 0.05, "", "Glitter", "water",

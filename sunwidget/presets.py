@@ -1,7 +1,7 @@
 """Presets: times of day as plain data, and the edits that they make of a photo.
 
-A preset sets the sun's place, which light there is, and the exposure; everything else of an edit
-(strokes, hints, strengths, the air) stays as it is.
+A preset sets the sun's place, which light there is, the exposure, and whether lamps behind windows
+are on; everything else of an edit (strokes, hints, strengths, the air) stays as it is.
 """
 
 from __future__ import annotations
@@ -48,12 +48,14 @@ def _preset(
     *,
     exposure: float = 0.0,
     light: str = "sun",
+    windows: float = 0.0,
     in_view: bool = True,
 ) -> Preset:
     parameters: dict[str, float | str] = {
         "sun_elevation": elevation,
         "light_source": light,
         "exposure": exposure,
+        "window_lights": windows,
     }
     return Preset(name, label, text, MappingProxyType(parameters), in_view)
 
@@ -68,6 +70,8 @@ PRESETS: tuple[Preset, ...] = (
     _preset("sunset", "Sunset", "The sun at the horizon.", 0.8, exposure=-0.6),
     _preset("blue_hour", "Blue hour", "The sun well below the horizon: an even, deep blue.", -5.5,
         exposure=-0.5),
+    _preset("dusk_lights", "Dusk, lights on", "Dusk, and lamps behind the windows that the photo "
+        "shows.", -4.5, exposure=-0.6, windows=1.0),
     _preset("moonlight", "Moonlight", "Night, with a full moon where the sun would be.", 18.0,
         light="moon"),
 )
@@ -135,7 +139,7 @@ def edit(name: str, scene: Scene, base: Edit | dict[str, Any] | None = None) -> 
 
     Parameters
     ----------
-    name : {"dawn", "golden_hour", "noon", "sunset", "blue_hour", "moonlight"}
+    name : {"dawn", "golden_hour", "noon", "sunset", "blue_hour", "dusk_lights", "moonlight"}
     scene : Scene
         What ``analyze`` returned.
     base : Edit or dict, optional

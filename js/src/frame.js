@@ -32,7 +32,7 @@ export class Frame extends Surface {
   }
 
   /**
-   * @param {string} name scene texture: photo, layers, surface, backdrop, clear_sky, relief or transfer
+   * @param {string} name scene texture: photo, layers, surface, backdrop, clear_sky, relief, transfer or lamps
    * @param {Pixels} pixels
    */
   setPicture(name, pixels) {

@@ -249,6 +249,13 @@ MAPS: tuple[SceneMap, ...] = (
         PATCH,
     ),
     SceneMap(
+        "panes",
+        "Windows",
+        lambda scene: scene.panes,
+        "How likely a pixel is glass of a window, behind which lamps can be lit.",
+        PATCH,
+    ),
+    SceneMap(
         "elevation",
         "Horizon",
         _elevation,

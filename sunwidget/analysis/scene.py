@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis import depth_level, haze_limit, match, refine, relief
+from sunwidget.analysis import depth_level, haze_limit, match, panes, refine, relief
 from sunwidget.analysis.camera_glare import glare_profile
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
@@ -219,6 +219,17 @@ class Scene:
     def transfer(self) -> np.ndarray:
         """What of any sun's light falls on the land, (3 h, w, 4) float32 (analysis/relief.py)."""
         return relief.encoded_transfer(self.land)
+
+    @cached_property
+    def panes(self) -> np.ndarray:
+        """Probability of glass of windows, (h, w) float32 in [0, 1] (analysis/panes.py)."""
+        pane = panes.probability(self.photo)
+        return pane * (1 - resize(self.sky, *pane.shape[::-1]))
+
+    @cached_property
+    def lamps(self) -> np.ndarray:
+        """Light behind the panes of windows, (h, w, 4) float32 (analysis/panes.py)."""
+        return panes.lamps(self.panes)
 
     @cached_property
     def depth(self) -> np.ndarray:

@@ -109,6 +109,7 @@ def scene_textures(scene: Scene, size: Size) -> dict[str, Array]:
         "clear_sky": quantise_map(clear_sky(scene)),
         "relief": quantise_map(scene.relief),
         "transfer": quantise_map(scene.transfer),
+        "lamps": quantise_map(scene.lamps),
     }
 
 

@@ -17,6 +17,7 @@
 #include "lib/air.glsl"
 #include "lib/night_vision.glsl"
 #include "lib/veil.glsl"
+#include "lib/lamps.glsl"
 #include "lib/frame_output.glsl"
 
 uniform sampler2D retouched;
@@ -104,6 +105,7 @@ void main() {
   vec3 horizon = texelFetch(air_edit, ivec2(GetAirColumn(place), 0), 0).rgb;
   vec3 water_change = GetWaterChange(front, clean, land_marks.g, glare, mirror, air, horizon);
   land_change += water * (water_change - land_change);
+  land_change += term[0].x * GetLampLight(place, 3.14159265 * GetLuminance(land) / max(GetLuminance(lit_before), 1e-6));
   change += (1.0 - matte) * land_change;
 #endif
 

@@ -90,6 +90,7 @@ def encode_maps(scene: Scene) -> dict[str, bytes]:
         "_clear_sky": behind,
         "_relief": relief,
         "_transfer": encode_png(quantise_map(scene.transfer)),
+        "_lamps": encode_png(quantise_map(scene.lamps)),
     }
 
 

@@ -88,6 +88,7 @@ class SunEditor(PlaceClock, Exports):
     _clear_sky = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _relief = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _transfer = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
+    _lamps = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _scene = traitlets.Dict().tag(sync=True, echo_update=False)
     # Which photo it is: its name, a fingerprint of its pixels, and a key of this editor.
     _source = traitlets.Dict().tag(sync=True, echo_update=False)
@@ -154,7 +155,7 @@ class SunEditor(PlaceClock, Exports):
             self._analyst = self._analyst_of(source, analysis)
             self._photo, self._status, self._scene = preview, OPENING, {}
             self._layers = self._surface = self._backdrop = b""
-            self._clear_sky = self._relief = self._transfer = b""
+            self._clear_sky = self._relief = self._transfer = self._lamps = b""
             self._source = self._source_json(self._source["session"])
             aside = self._set_asides.pop(self._source["fingerprint"], None)
             self._take_up(**(aside or {"edit": start}))
@@ -201,7 +202,7 @@ class SunEditor(PlaceClock, Exports):
 
         Parameters
         ----------
-        name : {"dawn", "golden_hour", "noon", "sunset", "blue_hour", "moonlight"}
+        name : {"dawn", "golden_hour", "noon", "sunset", "blue_hour", "dusk_lights", "moonlight"}
 
         Raises
         ------

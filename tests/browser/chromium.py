@@ -166,7 +166,15 @@ def connect(page, widget):
         if "changes" in sent:
             widget.set_state(sent["changes"])
             state = widget_state(widget.wait(120))
-            maps = ("_layers", "_surface", "_backdrop", "_clear_sky", "_relief", "_transfer")
+            maps = (
+                "_layers",
+                "_surface",
+                "_backdrop",
+                "_clear_sky",
+                "_relief",
+                "_transfer",
+                "_lamps",
+            )
             return {n: state[n] for n in ("_scene", *maps, "_status")}
         messages = []
 

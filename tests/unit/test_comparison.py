@@ -67,7 +67,7 @@ def test_recipes_that_correct_the_photo_alike_share_their_maps(scene):
     cameras = [row["scene"]["camera"] for row in compare._scenes]
     assert len(cameras) == 2
     assert cameras[0] != cameras[1]
-    maps = {"_layers", "_surface", "_backdrop", "_clear_sky", "_relief", "_transfer"}
+    maps = {"_layers", "_surface", "_backdrop", "_clear_sky", "_relief", "_transfer", "_lamps"}
     assert set(compare._scenes[0]) == {"scene", *maps}
 
 

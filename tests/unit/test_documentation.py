@@ -134,7 +134,7 @@ def test_every_method_of_the_frame_is_told_in_a_page(docs, root):
     assert all(f"`{name}`" in index for name in RENDER_METHODS)
 
 
-@pytest.mark.parametrize("name", ["sky.onnx", "suns.onnx", "land.onnx"])
+@pytest.mark.parametrize("name", ["sky.onnx", "suns.onnx", "land.onnx", "panes.onnx"])
 def test_the_model_card_is_of_the_networks_that_ship(root, name):
     folder = root / "sunwidget" / "analysis" / "models"
     network = (folder / name).read_bytes()

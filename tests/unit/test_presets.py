@@ -18,7 +18,7 @@ def with_sun_at(scene, azimuth, elevation):
 
 def test_all_presets_set_the_same_parameters_within_their_ranges():
     names = {frozenset(p.parameters) for p in presets.PRESETS}
-    assert names == {frozenset(("sun_elevation", "light_source", "exposure"))}
+    assert names == {frozenset(("sun_elevation", "light_source", "exposure", "window_lights"))}
     for preset in presets.PRESETS:
         assert sw.preset(preset.name, known_scene()).changed().keys() <= {
             "sun_azimuth",
@@ -34,7 +34,7 @@ def test_a_preset_leaves_all_else_and_forgets_the_preset_before(name):
     scene = known_scene()
     mine = Edit(strokes=(Stroke("sky", ((0.5, 0.1),)),), cloud_opacity=0.4, glow=2, fov_hint=45.0)
     once = sw.preset(name, scene, mine)
-    own = ("sun_azimuth", "sun_elevation", "light_source", "exposure")
+    own = ("sun_azimuth", "sun_elevation", "light_source", "exposure", "window_lights")
     for p in sw.PARAMETERS:
         assert p.name in own or getattr(once, p.name) == getattr(mine, p.name)
     for other in presets.NAMES:

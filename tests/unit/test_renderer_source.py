@@ -11,7 +11,16 @@ from sunwidget.explorer.table import EXPLORER_PARAMETERS, MODELS
 from sunwidget.renderer import shader_source
 from sunwidget.renderer.shader_source import frame_graph, read_shader, resolve_includes
 
-SCENE_TEXTURES = {"photo", "layers", "surface", "backdrop", "clear_sky", "relief", "transfer"}
+SCENE_TEXTURES = {
+    "photo",
+    "layers",
+    "surface",
+    "backdrop",
+    "clear_sky",
+    "relief",
+    "transfer",
+    "lamps",
+}
 HOST_UNIFORMS = {
     "frame_size",
     "tile_origin",

@@ -23,7 +23,7 @@ KINDS = (
     r"shaders/(lib/)?\w+\.glsl",
     r"shaders/\w+\.json",
     r"atmosphere/constants\.json",
-    r"analysis/models/(sky\.onnx|suns\.onnx|land\.onnx|MODEL_CARD\.md)",
+    r"analysis/models/(sky\.onnx|suns\.onnx|land\.onnx|panes\.onnx|MODEL_CARD\.md)",
     r"static/\w+\.(js|css)",
 )
 

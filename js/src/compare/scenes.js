@@ -10,7 +10,7 @@ import { decodePicture } from "../gl/texture.js";
 
 /** @typedef {import("../types.js").Scene & { revision: number }} Scene */
 
-const MAPS = ["layers", "surface", "backdrop", "clear_sky", "relief", "transfer"];
+const MAPS = ["layers", "surface", "backdrop", "clear_sky", "relief", "transfer", "lamps"];
 
 export class Scenes {
   /**

@@ -2,7 +2,7 @@
  * One view of a SunEditor: it draws from its own state, and the traits follow.
  *
  * The photo is shown as soon as its bytes are there; the composited frame fades in over it
- * when the analysis (`_scene`, `_layers`, `_surface`, `_backdrop`, `_clear_sky`, `_relief`, `_transfer`) has arrived.
+ * when the analysis (`_scene`, `_layers`, `_surface`, `_backdrop`, `_clear_sky`, `_relief`, `_transfer`, `_lamps`) has arrived.
  */
 
 import { Channel, GONE } from "../channel.js";

@@ -1,0 +1,1 @@
+"""The network that finds panes of windows: façades drawn by seed before real photos."""
