@@ -42,6 +42,13 @@ def add_render(commands: Any) -> None:
         help="of JPEG and WebP, 1 to 100 (default 95)",
     )
     render.add_argument(
+        "--headroom",
+        type=float,
+        default=0.0,
+        metavar="STOPS",
+        help="stops of light above white, 0 to 8: in a .jpg's gain map; in .exr, .hdr, 32-bit .tif",
+    )
+    render.add_argument(
         "--layers",
         action="store_true",
         help="also sky, clouds, land and matte: in a .tif or .exr, beside a .png or .webp",
@@ -61,11 +68,12 @@ def _render(options: argparse.Namespace) -> int:
     import sunwidget as sw
     from sunwidget.export.environment import check_map
     from sunwidget.export.formats import check_format
-    from sunwidget.renderer.render import checked_size
+    from sunwidget.renderer.render import checked_headroom, checked_size
 
     edit = edit_of_flags(options)  # what is wrong with it shows before the work
     refuse_existing(options.output, options.overwrite)
-    check_format(options.output, options.bit_depth, layers=options.layers)
+    headroom = checked_headroom(options.headroom)
+    check_format(options.output, options.bit_depth, layers=options.layers, headroom=headroom)
     if options.size is not None:
         checked_size(options.size)
     if options.environment is not None:
@@ -83,6 +91,7 @@ def _render(options: argparse.Namespace) -> int:
             bit_depth=options.bit_depth,
             quality=options.quality,
             layers=options.layers,
+            headroom=headroom,
             overwrite=options.overwrite,
             progress=with_time_left(progress),
         )

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from sunwidget import decode_raw, openexr, radiance, xmp
 from sunwidget import exif as exif_tags
+from sunwidget import gain_map as gain_maps
 from sunwidget.color import SRGB, ColorProfile
 from sunwidget.color_management import Coded, by_hints, by_profile, cmyk_to_srgb
 from sunwidget.decode_deep import by_opencv, is_deep, tiff_tags
@@ -63,6 +64,7 @@ class Decoded:
     turned: bool = False
     notes: list[str] = field(default_factory=list)
     recipe: dict[str, Any] | None = None
+    gain_map: gain_maps.GainMap | None = None
 
 
 def decode_bytes(data: bytes, name: str) -> Decoded:
@@ -143,9 +145,13 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
         _take(result, by_profile(result.codes, result.icc, name))
     elif icc is None:
         _take(result, by_hints(result.codes, metadata, image.info, name))
-    _turn_upright(result, way if way is not None else exif_tags.orientation(metadata))
+    way = way if way is not None else exif_tags.orientation(metadata)
+    _turn_upright(result, way)
     packet = image.info.get("xmp")
-    result.xmp = xmp.upright(packet.encode() if isinstance(packet, str) else packet)
+    packet = xmp.upright(packet.encode() if isinstance(packet, str) else packet)
+    result.xmp = xmp.without_gain_map(packet)  # told anew where it is written
+    if data is not None and (found_map := gain_maps.find(data, image)) is not None:
+        result.gain_map = found_map.turned(way)
     result.dpi = _dpi(image)
     return result
 

@@ -19,6 +19,7 @@ from sunwidget import xmp as xmp_packet
 from sunwidget.color import SRGB, ColorProfile, strips
 from sunwidget.decode import Decoded
 from sunwidget.edit import Edit, EditError
+from sunwidget.gain_map import GainMap
 from sunwidget.layout import PhotoError, PhotoWarning, size_within
 from sunwidget.photo_sources import decoded_from
 from sunwidget.png import cell_output
@@ -64,6 +65,9 @@ class Photo:
         ``recipe`` is the edit.
     notes : tuple of str
         Sentences about what could not be kept; also given as PhotoWarning.
+    gain_map : GainMap or None
+        How much brighter a screen may show the picture, as its file tells it. It takes no part in
+        the edit, and is saved again where nothing was moved.
     sun : (x, y) or None
         Where the sun stands in pixels, when sunwidget composed the picture and knows it
         (``replace_sky``); ``analyze`` takes it for a hint. May lie outside the picture.
@@ -82,6 +86,7 @@ class Photo:
     turned: bool = False
     recorded: dict[str, Any] | None = None
     notes: tuple[str, ...] = ()
+    gain_map: GainMap | None = None
     sun: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
@@ -263,4 +268,5 @@ def _photo(decoded: Decoded, name: str) -> Photo:
         turned=decoded.turned,
         recorded=decoded.recipe or exif_tags.recipe(decoded.exif) or xmp_packet.recipe(decoded.xmp),
         notes=tuple(decoded.notes),
+        gain_map=decoded.gain_map,
     )
