@@ -7,7 +7,14 @@ import time
 from pathlib import Path
 from typing import Any
 
-from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene, size, told_unmoved
+from sunwidget.cli_edit import (
+    add_edit,
+    add_headroom,
+    edit_of_flags,
+    edit_of_scene,
+    size,
+    told_unmoved,
+)
 from sunwidget.cli_photo import Progress, add_photo, refuse_existing, scene_to_draw
 from sunwidget.cli_place import add_place
 from sunwidget.edit import Edit
@@ -41,13 +48,7 @@ def add_render(commands: Any) -> None:
         metavar="N",
         help="of JPEG and WebP, 1 to 100 (default 95)",
     )
-    render.add_argument(
-        "--headroom",
-        type=float,
-        default=0.0,
-        metavar="STOPS",
-        help="stops of light above white, 0 to 8: in a .jpg's gain map; in .exr, .hdr, 32-bit .tif",
-    )
+    add_headroom(render)
     render.add_argument(
         "--layers",
         action="store_true",

@@ -107,7 +107,7 @@ def save(
         brighter than white, so that there is no gain map.
     """
     place = target(path, overwrite=overwrite)
-    headroom = _checked_headroom(headroom)
+    headroom = checked_headroom(headroom)
     form = check_format(place, bit_depth, layers=layers, headroom=headroom)
     check_quality(quality)
     names = LAYERS if layers and form.layers == "beside" else ()
@@ -194,12 +194,13 @@ class _Wanted(NamedTuple):
         return self.form.linear or bits == 32
 
 
-def _checked_headroom(headroom: Any) -> float:
+def checked_headroom(headroom: Any) -> float:
+    """Return stops of light above white; an EditError says what is wrong with others."""
     if type(headroom) in {int, float} and headroom == 0:
         return 0.0  # without the renderer, which pictures from elsewhere do not need
-    from sunwidget.renderer.render import checked_headroom
+    from sunwidget.renderer.render import checked_headroom as checked
 
-    return checked_headroom(headroom)
+    return checked(headroom)
 
 
 def _photo_of(like: Any) -> Photo | None:
