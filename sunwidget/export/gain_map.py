@@ -90,7 +90,7 @@ def map_between(
     -------
     GainMap or None
         Eight bits for all between its darkest and its brightest stop, one level of them no change
-        at all; None when nothing is brighter by a hundredth of a stop.
+        at all; None when nothing is brighter than white by a hundredth of a stop.
     """
     width, height = size
     stops = np.empty((height, width, 3), np.float16)
@@ -101,13 +101,13 @@ def map_between(
         base = np.clip(profile.linear(light), 0, 1) + offset
         other = np.maximum(profile.linear(brighter), 0) + offset
         gain = np.log2(other / base)
-        brightest = max(brightest, float(gain.max()))
+        brightest = max(brightest, float(other.max()))
         if read is not None:
             shown = (_decoded(read[rows], profile) + offset) * np.exp2(gain)
             wanted = other @ luminance
             gain += np.log2(wanted / np.maximum(shown @ luminance, offset / 8))[..., None]
         stops[rows] = gain
-    if brightest < _NOTHING:
+    if brightest < 2**_NOTHING:
         return None
     high = float(stops.max())
     low = min(max(float(stops.min()), _DARKEST), 0.0)
