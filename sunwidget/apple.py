@@ -6,6 +6,9 @@ h, a factor, and the map's levels g without their sRGB curve, light is multiplie
 
 from __future__ import annotations
 
+import contextlib
+import io
+import re
 import struct
 from dataclasses import replace
 from typing import Any
@@ -14,11 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.color import srgb_to_linear
-from sunwidget.gain_map import GainMap, packed
+from sunwidget.exif import quiet
+from sunwidget.gain_map import GainMap, packed, pictures_behind
 
 _EXIF, _MAKER_NOTE = 0x8769, 0x927C
 _HEAD = b"Apple iOS\0"
 _HEADROOM, _GAIN = 0x21, 0x30  # tags of the maker note
+_IN_XMP = re.compile(rb"HDRGainMapHeadroom(?:>|=[\"'])([\d.]+)")  # of the map, in newer files
+_MARK = b"HDRGainMapVersion"
 
 
 def gain_map(levels: NDArray[np.uint8], headroom: float) -> GainMap | None:
@@ -35,8 +41,26 @@ def gain_map(levels: NDArray[np.uint8], headroom: float) -> GainMap | None:
     return replace(told, jpeg=packed(shares, told))
 
 
-def headroom(exif: Any) -> float | None:
-    """Return the headroom, a factor, that an iPhone's maker note tells; None without one."""
+def find(data: bytes, exif: Any) -> GainMap | None:
+    """Return the map behind an iPhone's JPEG ``data``; None without one."""
+    from PIL import Image
+
+    for part in pictures_behind(data):
+        # Anybody's bytes, which may fail anywhere.
+        with contextlib.suppress(Exception):
+            if _MARK not in part:
+                continue
+            with quiet(), Image.open(io.BytesIO(part), formats=("JPEG",)) as found:
+                levels = np.asarray(found.convert("L"))
+            if factor := headroom(exif, part):
+                return gain_map(levels, factor)
+    return None
+
+
+def headroom(exif: Any, data: bytes = b"") -> float | None:
+    """Return the headroom, a factor, that a file's ``data`` or maker note tell; None without."""
+    if told := _IN_XMP.search(data):
+        return float(told[1])
     note = exif.get_ifd(_EXIF).get(_MAKER_NOTE) if exif is not None else None
     found = _rationals(note) if isinstance(note, bytes) else {}
     if _HEADROOM not in found or _GAIN not in found:

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget import decode_heif, decode_raw, openexr, radiance, xmp
+from sunwidget import apple, decode_heif, decode_raw, openexr, radiance, xmp
 from sunwidget import exif as exif_tags
 from sunwidget import gain_map as gain_maps
 from sunwidget.color import SRGB, ColorProfile
@@ -159,8 +159,9 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
     packet = image.info.get("xmp")
     packet = xmp.upright(packet.encode() if isinstance(packet, str) else packet)
     result.xmp = xmp.without_gain_map(packet)  # told anew where it is written
-    if data is not None and (found_map := gain_maps.find(data, image)) is not None:
-        result.gain_map = found_map.turned(way)
+    if data is not None:
+        told = gain_maps.find(data) or apple.find(data, metadata)
+        result.gain_map = told and told.turned(way)
     result.dpi = _dpi(image)
     return result
 

@@ -6,7 +6,6 @@ libheif turns the picture and what belongs to it upright, as the file says.
 from __future__ import annotations
 
 import contextlib
-import re
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,7 +21,6 @@ _BRANDS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"hevm", b"hevs
 _GENERAL = (b"mif1", b"mif2", b"msf1")
 _HDR = {16: "PQ", 18: "HLG"}  # transfer characteristics of ITU-T H.273
 _GAIN_MAP = "urn:com:apple:photo:2020:aux:hdrgainmap"
-_HEADROOM = re.compile(rb"HDRGainMapHeadroom(?:>|=[\"'])([\d.]+)")
 _UNIFORM_DEPTH = 2  # ITU-T H.265, depth_representation_type; the others grow towards the camera
 
 
@@ -152,8 +150,7 @@ def _gain_map(file: Any, exif: Any, data: bytes) -> GainMap | None:
     for number in file.info.get("aux", {}).get(_GAIN_MAP, ()):
         with contextlib.suppress(Exception):  # likewise
             levels = np.array(file.get_aux_image(number))
-            told = _HEADROOM.search(data)
-            headroom = float(told[1]) if told else apple.headroom(exif)
+            headroom = apple.headroom(exif, data)
             if headroom and levels.ndim == 2 and _belongs(levels, file.size):
                 return apple.gain_map(levels, headroom)
     return None

@@ -27,6 +27,7 @@ from sunwidget.layout import upright
 ISO_NAME = b"urn:iso:std:iso:ts:21496:-1\0"
 XMP_NAME = b"http://ns.adobe.com/xap/1.0/\0"
 _MANY, _BASE_COLOURS, _BACKWARD, _COMMON = 0x80, 0x40, 0x04, 0x08
+_MP_NAME = b"MPF\0"
 _MP_ENTRIES, _MP_ENTRY = 0xB002, 16  # tag; bytes of each
 
 Triple = tuple[float, float, float]
@@ -156,24 +157,34 @@ def segments(data: bytes) -> Iterator[tuple[int, int, bytes]]:
         at += 2 + length
 
 
-def find(data: bytes, image: Any) -> GainMap | None:
-    """Return the gain map in the JPEG ``data`` that Pillow opened as ``image``; None without one.
+def find(data: bytes) -> GainMap | None:
+    """Return the gain map behind the JPEG ``data``; None without one, and of other files.
 
     A map that makes no sense is none: the picture does not need it.
     """
-    index, start = image.info.get("mp"), image.info.get("mpoffset")
-    if not isinstance(index, bytes) or not isinstance(start, int):
-        return None
-    entries = tiff_tags(index).get(_MP_ENTRIES, b"")
-    order = "<" if index[:2] == b"II" else ">"
-    for at in range(_MP_ENTRY, len(entries) - _MP_ENTRY + 1, _MP_ENTRY):
+    for part in pictures_behind(data):
         # Anybody's bytes, which may fail anywhere.
         with contextlib.suppress(Exception):
-            _, size, place = struct.unpack_from(f"{order}III", entries, at)
-            part = data[start + place : start + place + size]
-            if part[:2] == b"\xff\xd8" and (found := _read(part)) is not None:
+            if (found := _read(part)) is not None:
                 return found
     return None
+
+
+def pictures_behind(data: bytes) -> list[bytes]:
+    """Return the further JPEGs of a JPEG, by its multi-picture index; none of other files."""
+    found = []
+    for marker, at, body in segments(data) if data[:2] == b"\xff\xd8" else ():
+        if marker != 0xE2 or not body.startswith(_MP_NAME):
+            continue
+        index, start = body[4:], at + 8
+        entries = tiff_tags(index).get(_MP_ENTRIES)
+        if not isinstance(entries, bytes):
+            continue
+        order = "<" if index[:2] == b"II" else ">"
+        for entry in range(_MP_ENTRY, len(entries) - _MP_ENTRY + 1, _MP_ENTRY):
+            _, size, place = struct.unpack_from(f"{order}III", entries, entry)
+            found.append(data[start + place : start + place + size])
+    return [part for part in found if part[:2] == b"\xff\xd8"]
 
 
 def _read(jpeg: bytes) -> GainMap | None:

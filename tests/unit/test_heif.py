@@ -18,6 +18,8 @@ from sunwidget.analysis.depth import given
 from sunwidget.analysis.depth_network import SeenDepth
 from sunwidget.color import SRGB_CURVE
 from sunwidget.decode_heif import DepthMap, is_heif
+from sunwidget.export.gain_map_file import beside
+from sunwidget.gain_map import GainMap
 from sunwidget.photo import PhotoError, PhotoWarning
 
 needs_libheif = pytest.mark.skipif(
@@ -134,6 +136,25 @@ def test_an_iphones_gain_map_is_read_by_its_own_formula_and_saved_in_a_jpeg(tmp_
     assert error.max() < 0.05
     again = sw.open(sw.save(photo, tmp_path / "photo.jpg"))
     assert again.gain_map.jpeg == photo.gain_map.jpeg
+
+
+@pytest.mark.parametrize("in_xmp", [True, False])
+def test_the_map_behind_an_iphones_jpeg_is_read_as_well(in_xmp):
+    packet = (
+        b'<x:xmpmeta xmlns:x="adobe:ns:meta/" xmlns:HDRGainMap="http://ns.apple.com/HDRGainMap/1.0/"'
+        b' HDRGainMap:HDRGainMapVersion="131072"'
+        + (b' HDRGainMap:HDRGainMapHeadroom="8.0"' if in_xmp else b"")
+        + b"/>"
+    )
+    levels = np.tile(np.linspace(0, 255, 16).astype(np.uint8), (12, 1))
+    behind = corpus.pillow_file(levels, "JPEG", quality=100, xmp=packet)
+    note = b"" if in_xmp else apple_note(1.0, 0.0)
+    picture = corpus.jpeg_file(corpus.ramp(), exif=block(note))
+    photo = sw.open(beside(picture, GainMap(behind)))
+    wanted = 1 + 7 * SRGB_CURVE.decode(levels / 255.0)
+    found = photo.gain_map.applied(np.ones((12, 16, 3), np.float32))[..., 0]
+    assert np.abs(np.log2(found / wanted)).max() < 0.1
+    assert sw.open(picture).gain_map is None
 
 
 @pytest.mark.parametrize(
