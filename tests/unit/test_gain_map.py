@@ -221,6 +221,13 @@ def test_a_map_changes_nothing_of_the_picture_that_is_opened():
         assert np.array_equal(sw.open(data).encoded, np.asarray(image))
 
 
+def test_a_map_is_found_without_word_of_it_in_the_pictures_xmp():
+    _, made = photo_with_map()
+    photo = sw.open(beside(corpus.jpeg_file(corpus.ramp()), made))
+    assert (photo.format, photo.gain_map.jpeg) == ("JPEG", made.jpeg)
+    assert photo.notes == ()
+
+
 @pytest.mark.parametrize("way", [1, 3, 6, 8])
 def test_a_turned_photo_turns_its_map(way):
     data, made = photo_with_map()
