@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from sunwidget.cli_edit import add_edit, recipe, told_unmoved
+from sunwidget.cli_edit import add_edit, add_headroom, recipe, told_unmoved
 from sunwidget.cli_photo import Progress, add_methods, given, methods_of_stages
 from sunwidget.edit import PARAMETERS, Edit
 from sunwidget.export.batch.wish import Wish
@@ -40,6 +40,7 @@ def add_batch(commands: Any) -> None:
         "--quality", type=int, metavar="N", help="of JPEG and WebP, 1 to 100 (default 95)"
     )
     batch.add_argument("--bit-depth", type=int, choices=(8, 16, 32), help="bits a channel")
+    add_headroom(batch)
     batch.add_argument("--layers", action="store_true", help="also sky, clouds, land and matte")
     batch.add_argument(
         "--corrections",
@@ -89,6 +90,8 @@ def _batch(options: argparse.Namespace) -> int:
     saving = given(options, ("quality", "bit_depth"))
     if options.layers:
         saving["layers"] = True
+    if options.headroom:
+        saving["headroom"] = options.headroom
     with Progress("batch") as progress:
         report = sw.batch(
             options.photos,

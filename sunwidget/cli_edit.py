@@ -66,6 +66,17 @@ def _preset(text: str) -> str:
         raise argparse.ArgumentTypeError(str(error)) from error
 
 
+def add_headroom(parser: argparse.ArgumentParser) -> None:
+    """Add --headroom, for stills."""
+    parser.add_argument(
+        "--headroom",
+        type=float,
+        default=0.0,
+        metavar="STOPS",
+        help="stops of light above white, 0 to 8: in a .jpg's gain map; in .exr, .hdr, 32-bit .tif",
+    )
+
+
 def recipe(options: argparse.Namespace) -> Edit:
     """Return the edit of --recipe, an unmoved one without it."""
     if options.recipe is None:

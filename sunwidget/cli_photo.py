@@ -63,7 +63,7 @@ def methods_of_stages() -> dict[str, tuple[Sequence[str], str]]:
         # "sun" and "horizon" are hints: their methods have names of their own.
         name = stage if f"{stage}_method" not in parameters else f"{stage}_method"
         if len(methods) > 1:
-            found[name] = (tuple(methods), parameters[name].default)
+            found[name] = (tuple(methods), parameters[name].default or next(iter(methods)))
     return found
 
 

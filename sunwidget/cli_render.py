@@ -7,7 +7,14 @@ import time
 from pathlib import Path
 from typing import Any
 
-from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene, size, told_unmoved
+from sunwidget.cli_edit import (
+    add_edit,
+    add_headroom,
+    edit_of_flags,
+    edit_of_scene,
+    size,
+    told_unmoved,
+)
 from sunwidget.cli_photo import Progress, add_photo, refuse_existing, scene_to_draw
 from sunwidget.cli_place import add_place
 from sunwidget.edit import Edit
@@ -41,6 +48,7 @@ def add_render(commands: Any) -> None:
         metavar="N",
         help="of JPEG and WebP, 1 to 100 (default 95)",
     )
+    add_headroom(render)
     render.add_argument(
         "--layers",
         action="store_true",
@@ -61,11 +69,12 @@ def _render(options: argparse.Namespace) -> int:
     import sunwidget as sw
     from sunwidget.export.environment import check_map
     from sunwidget.export.formats import check_format
-    from sunwidget.renderer.render import checked_size
+    from sunwidget.renderer.render import checked_headroom, checked_size
 
     edit = edit_of_flags(options)  # what is wrong with it shows before the work
     refuse_existing(options.output, options.overwrite)
-    check_format(options.output, options.bit_depth, layers=options.layers)
+    headroom = checked_headroom(options.headroom)
+    check_format(options.output, options.bit_depth, layers=options.layers, headroom=headroom)
     if options.size is not None:
         checked_size(options.size)
     if options.environment is not None:
@@ -83,6 +92,7 @@ def _render(options: argparse.Namespace) -> int:
             bit_depth=options.bit_depth,
             quality=options.quality,
             layers=options.layers,
+            headroom=headroom,
             overwrite=options.overwrite,
             progress=with_time_left(progress),
         )

@@ -176,6 +176,12 @@ class ColorProfile:
             light[..., channel] = curve.decode(values[..., channel])
         return self._mixed(light)
 
+    def linear(self, light: NDArray[Any]) -> Floats:
+        """Linear Rec. 709 (H, W, 3) to linear RGB of this space, unclamped."""
+        if self.matrix is None:
+            return np.asarray(light, np.float32)
+        return np.asarray(light, np.float32) @ np.linalg.inv(self.matrix).astype(np.float32).T
+
     def encode(
         self, light: NDArray[Any], dtype: Any = np.uint8, *, dither: bool = False, seed: int = 0
     ) -> NDArray[Any]:
@@ -187,13 +193,9 @@ class ColorProfile:
         """
         codes = np.empty(light.shape, dtype)
         top = np.float32(np.iinfo(codes.dtype).max)
-        inverse = None if self.matrix is None else np.linalg.inv(self.matrix).astype(np.float32)
         rng = np.random.default_rng(seed)
         for rows in strips(light.shape):
-            strip = np.asarray(light[rows], np.float32)
-            if inverse is not None:
-                strip = strip @ inverse.T
-            level = self._levels(np.clip(strip, 0, 1)) * top
+            level = self._levels(np.clip(self.linear(light[rows]), 0, 1)) * top
             if dither:
                 level += (rng.random(level.shape, np.float32) - np.float32(0.5)) / 2
                 level += (rng.random(level.shape, np.float32) - np.float32(0.5)) / 2

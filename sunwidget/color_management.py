@@ -15,7 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget import exif as exif_tags
-from sunwidget.color import ADOBE_RGB, SRGB, ColorProfile, ParametricCurve
+from sunwidget.color import (
+    ADOBE_RGB,
+    SRGB,
+    SRGB_CURVE,
+    ColorProfile,
+    ParametricCurve,
+    primaries_to_rec709,
+)
 from sunwidget.icc import ProfileError, color_space, read_profile
 
 
@@ -62,6 +69,15 @@ def by_hints(codes: NDArray[Any], exif: Any, info: dict[str, Any], name: str) ->
         profile = ColorProfile((ParametricCurve(1 / gamma),) * 3)
         return Coded(_to_srgb(codes, profile), notes=[note])
     return Coded(codes)
+
+
+def by_primaries(codes: NDArray[Any], chromaticities: tuple[float, ...], name: str) -> Coded:
+    """Interpret code values of a HEIC without a profile: sRGB's curve and its own primaries."""
+    matrix = primaries_to_rec709(chromaticities)
+    if matrix is None:
+        return Coded(codes)
+    note = f"{name} has other primaries than sRGB and no profile; it was converted to sRGB."
+    return Coded(_to_srgb(codes, ColorProfile((SRGB_CURVE,) * 3, matrix)), notes=[note])
 
 
 def cmyk_to_srgb(image: Any, icc: bytes | None, name: str) -> tuple[Any, list[str]]:

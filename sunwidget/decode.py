@@ -1,8 +1,8 @@
 """Picture files to code values: bytes in, :class:`Decoded` out, or a PhotoError that says why.
 
 Pillow reads everything it can read without loss; OpenCV reads colour at 16 bits a
-channel and float TIFF, which Pillow would cut to 8 bits or refuse. OpenEXR, Radiance HDR and
-camera raw have readers of their own.
+channel and float TIFF, which Pillow would cut to 8 bits or refuse. OpenEXR, Radiance HDR, HEIC
+and camera raw have readers of their own.
 """
 
 from __future__ import annotations
@@ -20,16 +20,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget import decode_raw, openexr, radiance, xmp
+from sunwidget import apple, decode_heif, decode_raw, openexr, radiance, xmp
 from sunwidget import exif as exif_tags
+from sunwidget import gain_map as gain_maps
 from sunwidget.color import SRGB, ColorProfile
-from sunwidget.color_management import Coded, by_hints, by_profile, cmyk_to_srgb
+from sunwidget.color_management import (
+    Coded,
+    by_hints,
+    by_primaries,
+    by_profile,
+    cmyk_to_srgb,
+)
 from sunwidget.decode_deep import by_opencv, is_deep, tiff_tags
 from sunwidget.layout import PhotoError, check_light, check_size, split_alpha, upright
 
 # Never EPS, WMF and the like: those formats can start other programs.
 _PLUGINS = ("Jpeg", "Mpo", "Png", "Tiff", "WebP", "Bmp", "Gif", "Avif")
-_READABLE = "JPEG, PNG, TIFF, WebP, AVIF, BMP, GIF, OpenEXR, Radiance HDR or camera raw"
+_READABLE = "JPEG, PNG, TIFF, WebP, AVIF, HEIC, BMP, GIF, OpenEXR, Radiance HDR or camera raw"
 _FOREIGN = {
     b"%PDF": "a PDF",
     b"<svg": "an SVG drawing",
@@ -63,6 +70,8 @@ class Decoded:
     turned: bool = False
     notes: list[str] = field(default_factory=list)
     recipe: dict[str, Any] | None = None
+    gain_map: gain_maps.GainMap | None = None
+    depth: decode_heif.DepthMap | None = None
 
 
 def decode_bytes(data: bytes, name: str) -> Decoded:
@@ -77,6 +86,8 @@ def decode_bytes(data: bytes, name: str) -> Decoded:
         raise PhotoError(f"{name} is empty (0 bytes). Copy or download it again.")
     if data.startswith((openexr.MAGIC, *radiance.MAGIC)):
         return _decode_light(data, name)
+    if decode_heif.is_heif(data):
+        return _decode_heif(data, name)
     tags = tiff_tags(data) if data.startswith(_TIFF) else {}
     if decode_raw.is_raw(data, name, tags):
         codes, exif, turned = decode_raw.develop(data, name)
@@ -143,9 +154,14 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
         _take(result, by_profile(result.codes, result.icc, name))
     elif icc is None:
         _take(result, by_hints(result.codes, metadata, image.info, name))
-    _turn_upright(result, way if way is not None else exif_tags.orientation(metadata))
+    way = way if way is not None else exif_tags.orientation(metadata)
+    _turn_upright(result, way)
     packet = image.info.get("xmp")
-    result.xmp = xmp.upright(packet.encode() if isinstance(packet, str) else packet)
+    packet = xmp.upright(packet.encode() if isinstance(packet, str) else packet)
+    result.xmp = xmp.without_gain_map(packet)  # told anew where it is written
+    if data is not None:
+        told = gain_maps.find(data) or apple.find(data, metadata)
+        result.gain_map = told and told.turned(way)
     result.dpi = _dpi(image)
     return result
 
@@ -187,8 +203,6 @@ def _formats() -> tuple[str, ...]:
 
 def _unknown(data: bytes, name: str) -> str:
     what = next((text for head, text in _FOREIGN.items() if data.startswith(head)), None)
-    if data[4:8] == b"ftyp" and data[8:11] in (b"hei", b"hev", b"mif"):
-        what = "a HEIC photo"
     if what:
         return f"{name} is {what}. Export it as {_READABLE} and open that."
     known = (b"\xff\xd8", b"\x89PNG", b"RIFF", b"GIF8", b"BM")
@@ -235,6 +249,20 @@ def _decode_light(data: bytes, name: str) -> Decoded:
         result.recipe = recipe if isinstance(recipe, dict) else None
         result.xmp = base64.b64decode(notes.get("xmp", ""), validate=True) or None
         result.exif = exif_tags.load(base64.b64decode(notes.get("exif", ""), validate=True) or b"?")
+    return result
+
+
+def _decode_heif(data: bytes, name: str) -> Decoded:
+    found = decode_heif.read(data, name)
+    result = Decoded(np.empty(0), icc=found.icc, exif=found.exif, format="HEIF")
+    result.notes, result.turned = found.notes, found.turned
+    result.depth, result.gain_map = found.depth, found.gain_map
+    _fill_from_array(result, found.codes, name)
+    if result.icc is not None:
+        _take(result, by_profile(result.codes, result.icc, name))
+    else:
+        _take(result, by_primaries(result.codes, found.primaries, name))
+    result.xmp = xmp.without_gain_map(xmp.upright(found.xmp))
     return result
 
 

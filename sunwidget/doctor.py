@@ -167,6 +167,13 @@ def _raw_files() -> Iterator[Finding]:
     yield Finding("raw files", True, False, detail)
 
 
+def _heic_photos() -> Iterator[Finding]:
+    import pillow_heif
+
+    detail = f"pillow-heif {pillow_heif.__version__}, libheif {pillow_heif.libheif_version()}"
+    yield Finding("HEIC photos", True, False, detail)
+
+
 def _open_exr() -> Iterator[Finding]:
     import OpenEXR
 
@@ -220,6 +227,7 @@ _REMEDIES = {
     "photo files": "pip install --force-reinstall pillow",
     "MP4 films": "pip install 'sunwidget[video]' (GIF and WebP work without)",
     "raw files": "pip install 'sunwidget[raw]'",
+    "HEIC photos": "pip install 'sunwidget[heif]' (or export them as JPEG)",
     "OpenEXR": "pip install 'sunwidget[exr]' (linear light as Radiance .hdr works without)",
     "many photos": "pip install 'sunwidget[batch]' (one after the other works without)",
     "front end": "in a checkout: make build (needs Node 20 or newer); stills work without",
@@ -237,6 +245,7 @@ _CHECKS: tuple[tuple[str, bool, Callable[[], Iterator[Finding]]], ...] = (
     ("photo files", True, _pillow),
     ("MP4 films", False, _films),
     ("raw files", False, _raw_files),
+    ("HEIC photos", False, _heic_photos),
     ("OpenEXR", False, _open_exr),
     ("many photos", False, _many_photos),
     ("front end", False, _front_end),

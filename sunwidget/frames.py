@@ -21,7 +21,7 @@ from sunwidget.photo import Photo, open_photo
 PICTURES = frozenset(
     f".{ending}"
     for group in (
-        ("jpg", "jpeg", "jpe", "png", "tif", "tiff", "webp", "bmp", "jp2", "avif", "heic"),
+        ("jpg", "jpeg", "jpe", "png", "tif", "tiff", "webp", "bmp", "jp2", "avif", "heic", "heif"),
         ("dng", "nef", "cr2", "cr3", "arw", "orf", "rw2", "raf", "pef", "srw"),
     )
     for ending in group
@@ -141,7 +141,9 @@ def resized(photo: Photo, size: tuple[int, int]) -> Photo:
         codes = cv2.resize(np.asarray(photo.pixels, np.float32), size, interpolation=way)
         if photo.bit_depth == 8:
             codes = SRGB.encode(codes)
-    return dataclasses.replace(photo, encoded=codes, profile=SRGB, icc=None, alpha=None)
+    return dataclasses.replace(
+        photo, encoded=codes, profile=SRGB, icc=None, alpha=None, gain_map=None
+    )
 
 
 class Clock:

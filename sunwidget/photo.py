@@ -18,7 +18,9 @@ from sunwidget import exif as exif_tags
 from sunwidget import xmp as xmp_packet
 from sunwidget.color import SRGB, ColorProfile, strips
 from sunwidget.decode import Decoded
+from sunwidget.decode_heif import DepthMap
 from sunwidget.edit import Edit, EditError
+from sunwidget.gain_map import GainMap
 from sunwidget.layout import PhotoError, PhotoWarning, size_within
 from sunwidget.photo_sources import decoded_from
 from sunwidget.png import cell_output
@@ -64,6 +66,13 @@ class Photo:
         ``recipe`` is the edit.
     notes : tuple of str
         Sentences about what could not be kept; also given as PhotoWarning.
+    gain_map : GainMap or None
+        How much brighter a screen may show the picture, as its file tells it. It takes no part in
+        the edit, and is saved again where nothing was moved.
+    depth : DepthMap or None
+        Depth that a phone has kept in its HEIC: ``values`` (h, w) float32 up to scale and shift;
+        ``kind`` is "inverse" where they grow towards the camera, or "depth". ``analyze`` takes it
+        unless it is told another.
     sun : (x, y) or None
         Where the sun stands in pixels, when sunwidget composed the picture and knows it
         (``replace_sky``); ``analyze`` takes it for a hint. May lie outside the picture.
@@ -82,6 +91,8 @@ class Photo:
     turned: bool = False
     recorded: dict[str, Any] | None = None
     notes: tuple[str, ...] = ()
+    gain_map: GainMap | None = None
+    depth: DepthMap | None = None
     sun: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
@@ -220,8 +231,8 @@ def open_photo(source: Any) -> Photo:
     Parameters
     ----------
     source : path, bytes, binary file object, PIL image, array or Photo
-        Files are JPEG, PNG, TIFF, WebP, AVIF, BMP, GIF, Radiance HDR, OpenEXR (extra ``exr``) or
-        camera raw (extra ``raw``).
+        Files are JPEG, PNG, TIFF, WebP, AVIF, BMP, GIF, Radiance HDR, HEIC (extra ``heif``),
+        OpenEXR (extra ``exr``) or camera raw (extra ``raw``).
         Arrays are (H, W), (H, W, 3) or (H, W, 4), also with 1 or 2 channels: uint8 and
         uint16 are taken as sRGB code values, floats as *linear* Rec. 709 light with
         1 = white. A Photo is returned as it is.
@@ -263,4 +274,6 @@ def _photo(decoded: Decoded, name: str) -> Photo:
         turned=decoded.turned,
         recorded=decoded.recipe or exif_tags.recipe(decoded.exif) or xmp_packet.recipe(decoded.xmp),
         notes=tuple(decoded.notes),
+        gain_map=decoded.gain_map,
+        depth=decoded.depth,
     )

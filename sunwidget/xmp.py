@@ -16,6 +16,9 @@ _XMP = "http://ns.adobe.com/xap/1.0/"
 _HISTORY = "http://ns.adobe.com/xap/1.0/mm/"
 _EVENT = "http://ns.adobe.com/xap/1.0/sType/ResourceEvent#"
 _OWN = "urn:sunwidget:edit:1:"
+_GAIN_MAP = "http://ns.adobe.com/hdr-gain-map/1.0/"
+_CONTAINER = "http://ns.google.com/photos/1.0/container/"
+_ITEM = "http://ns.google.com/photos/1.0/container/item/"
 _EMPTY = f'<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="{_RDF}"/></x:xmpmeta>'
 # A long recipe (thousands of points of strokes) stays in the EXIF alone: a JPEG holds 64 kB.
 _LONGEST_RECIPE = 32_000
@@ -44,11 +47,9 @@ def record(
         tool = "".join(sign for sign in before if sign.isprintable())  # XML has no other signs
         _tell(document, rdf, recipe, tool or software)
         _continue_history(document, rdf, software)
-        body = document.documentElement.toxml() if document.documentElement else ""
+        return _written(document)
     except (_NotXmpError, IndexError, RecursionError):
         return packet
-    begin = '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>'
-    return f'{begin}\n{body}\n<?xpacket end="w"?>'.encode()
 
 
 def recipe(packet: bytes | None) -> dict[str, Any] | None:
@@ -71,6 +72,111 @@ def upright(packet: bytes | None) -> bytes | None:
     if not packet:
         return None
     return re.sub(rb"""(tiff:Orientation(?:>|=["']))\d""", rb"\g<1>1", packet)
+
+
+def gain_map_packet(told: dict[str, list[float]]) -> bytes:
+    """Return the packet of a gain map's own JPEG: the numbers of each name, one or by channel."""
+    single = {name: values[0] for name, values in told.items() if len(values) == 1}
+    attributes = "".join(f' hdrgm:{name}="{value:.9g}"' for name, value in single.items())
+    lists = "".join(
+        f"<hdrgm:{name}><rdf:Seq>"
+        + "".join(f"<rdf:li>{value:.9g}</rdf:li>" for value in values)
+        + f"</rdf:Seq></hdrgm:{name}>"
+        for name, values in told.items()
+        if len(values) > 1
+    )
+    return (
+        f'<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="{_RDF}">'
+        f'<rdf:Description rdf:about="" xmlns:hdrgm="{_GAIN_MAP}" hdrgm:Version="1.0"'
+        f' hdrgm:BaseRenditionIsHDR="False"{attributes}>{lists}</rdf:Description>'
+        "</rdf:RDF></x:xmpmeta>"
+    ).encode()
+
+
+def gain_map_values(packet: bytes | None) -> dict[str, list[float]] | None:
+    """Return what :func:`gain_map_packet` wrote, or another program; None when it is no map's.
+
+    Raises
+    ------
+    ValueError
+        For numbers that are none.
+    """
+    if not packet or _GAIN_MAP.encode() not in packet:
+        return None
+    found: dict[str, list[float]] = {}
+    try:
+        for description in _descriptions(_parsed(packet)):
+            for attribute in description.attributes.values():
+                if attribute.namespaceURI == _GAIN_MAP:
+                    found[attribute.localName] = _numbers(attribute.value)
+            for child in description.childNodes:
+                if child.namespaceURI == _GAIN_MAP:
+                    rows = child.getElementsByTagNameNS(_RDF, "li") or [child]
+                    found[child.localName] = [x for row in rows for x in _numbers(_text(row))]
+    except (_NotXmpError, RecursionError):
+        return None
+    # Every packet of a picture with a map has the version, the map's own its numbers.
+    return found if "GainMapMax" in found and found.get("BaseRenditionIsHDR") != [1.0] else None
+
+
+def with_gain_map(packet: bytes | None, length: int) -> bytes:
+    """Return the packet of a picture whose gain map, ``length`` bytes, follows in its file."""
+    try:
+        document = _parsed(without_gain_map(packet) or _EMPTY.encode())
+        rdf = document.getElementsByTagNameNS(_RDF, "RDF")[0]
+    except (_NotXmpError, IndexError):
+        document = _parsed(_EMPTY.encode())
+        rdf = document.getElementsByTagNameNS(_RDF, "RDF")[0]
+    prefix = _prefix(rdf)
+    rows = "".join(
+        f'<{prefix}:li {prefix}:parseType="Resource">'
+        f'<Container:Item Item:Mime="image/jpeg" {more}/></{prefix}:li>'
+        for more in ('Item:Semantic="Primary"', f'Item:Semantic="GainMap" Item:Length="{length}"')
+    )
+    told = _parsed(
+        f'<{prefix}:Description xmlns:{prefix}="{_RDF}" xmlns:hdrgm="{_GAIN_MAP}"'
+        f' xmlns:Container="{_CONTAINER}" xmlns:Item="{_ITEM}" {prefix}:about=""'
+        f' hdrgm:Version="1.0"><Container:Directory><{prefix}:Seq>{rows}</{prefix}:Seq>'
+        f"</Container:Directory></{prefix}:Description>".encode()
+    ).documentElement
+    assert told is not None
+    told.setAttributeNS(_RDF, f"{prefix}:about", _about(rdf))
+    rdf.appendChild(document.importNode(told, deep=True))
+    return _written(document)
+
+
+def without_gain_map(packet: bytes | None) -> bytes | None:
+    """Return a packet that tells of no gain map and no other pictures in its file."""
+    if not packet or not any(name.encode() in packet for name in (_GAIN_MAP, _CONTAINER)):
+        return packet
+    try:
+        document = _parsed(packet)
+        for description in _descriptions(document):
+            for attribute in list(description.attributes.values()):
+                if _GAIN_MAP in (attribute.namespaceURI, attribute.value):
+                    description.removeAttributeNode(attribute)
+            for child in list(description.childNodes):
+                if child.namespaceURI in (_GAIN_MAP, _CONTAINER):
+                    description.removeChild(child)
+        return _written(document)
+    except (_NotXmpError, RecursionError):
+        return packet
+
+
+def _numbers(text: str) -> list[float]:
+    """Return the numbers of a text; 1 and 0 for yes and no."""
+    words = {"True": "1", "False": "0"}
+    return [float(words.get(part, part)) for part in text.replace(",", " ").split()]
+
+
+def _text(node: Any) -> str:
+    return "".join(child.data for child in node.childNodes if child.nodeType == child.TEXT_NODE)
+
+
+def _written(document: minidom.Document) -> bytes:
+    body = document.documentElement.toxml() if document.documentElement else ""
+    begin = '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>'
+    return f'{begin}\n{body}\n<?xpacket end="w"?>'.encode()
 
 
 class _NotXmpError(Exception):

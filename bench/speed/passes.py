@@ -50,6 +50,7 @@ class Passes:
             "frame_size": (float(width), float(height)),
             "canvas_flip": 0.0,
             "output_transfer": 0,
+            "output_white": 1.0,
             "dither": 0.0,
         }
         values = states(edit, self.scene.automatic)

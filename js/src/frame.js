@@ -16,7 +16,13 @@ import { states } from "./gl/values.js";
  *
  * @type {import("./gl/values.js").Values}
  */
-const HOST = { output_transfer: 1, output_levels: 255, dither: 0.5, view: [0, 0, 1, 1] };
+const HOST = {
+  output_transfer: 1,
+  output_levels: 255,
+  output_white: 1,
+  dither: 0.5,
+  view: [0, 0, 1, 1],
+};
 
 export class Frame extends Surface {
   /**

@@ -42,7 +42,7 @@ def analyze(
     clouds: str = "unmix",
     horizon_method: str = "water_line",
     sun_method: str = "disc_fit",
-    depth: Any = "network",
+    depth: Any = None,
     water: Any = "network",
     strokes: tuple[Stroke, ...] = (),
     progress: Progress | None = None,
@@ -67,9 +67,10 @@ def analyze(
         The class "sky" of an ONNX network, index from 0 or name (``SkyNetwork.label``).
     refine, clouds, horizon_method, sun_method : str
         Name in the stage's ``METHODS``.
-    depth : str, path, DepthNetwork or array
+    depth : str, path, DepthNetwork, DepthMap or array, optional
         Name in ``depth.METHODS``; an ONNX network for depth from one picture, or its path; or
-        metres along the optical axis (H, W), inf for the sky.
+        metres along the optical axis (H, W), inf for the sky. Default: what a phone has kept in
+        the photo's file (``Photo.depth``), else "network".
     water : str or array
         Name in ``water.METHODS``, or a map (H, W), 1 = water.
     strokes : tuple of Stroke
@@ -90,6 +91,8 @@ def analyze(
     """
     photo = open_photo(photo)
     sun = photo.sun if sun is None else sun
+    if depth is None:
+        depth = "network" if photo.depth is None else photo.depth
     methods = {
         "refine": refine,
         "clouds": clouds,

@@ -16,18 +16,23 @@ import numpy as np
 from sunwidget.analysis import depth_ground
 from sunwidget.analysis.depth_field import DepthField, guided
 from sunwidget.analysis.depth_level import fill_sky
-from sunwidget.analysis.depth_network import DepthNetwork
+from sunwidget.analysis.depth_network import DepthNetwork, SeenDepth
 from sunwidget.analysis.depth_view import View
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.land_network import look_at_land
 from sunwidget.analysis.sky import check_proportions, plain_numbers
 from sunwidget.analysis.working import resize, smoothstep
+from sunwidget.decode_heif import DepthMap
 
 _LYING = 0.9, 0.99  # cosines of slopes between which a place is ground
 _LEAST_GROUND = 0.01  # of the picture: less tells no scale
 _STANDS, _LIES = 0.25, 2.25  # of ln depth: so far from the plane a pixel is half ground
 _SEEN_ERROR = 0.6  # of ln depth: median over worlds that the network never saw
 _SMOOTH, _EPSILON = 0.02, 1e-2  # of the width; squared contrast that is an edge
+
+
+Given = np.ndarray | DepthNetwork | SeenDepth | None
+"""What a caller may pass as depth, checked; None is the name of a method."""
 
 
 def ground_plane(view: View) -> DepthField:
@@ -64,14 +69,14 @@ METHODS: dict[str, Callable[[View], DepthField]] = {
 }
 
 
-def given(value: Any, size: tuple[int, int]) -> np.ndarray | DepthNetwork | None:
+def given(value: Any, size: tuple[int, int]) -> Given:
     """Check what a caller passes as depth; None for the name of a method.
 
     Parameters
     ----------
-    value : str, Path, DepthNetwork or array_like
-        Name in ``METHODS``, a network or its path, or (H, W) metres above 0, inf for the sky. An
-        array need not have the photo's size.
+    value : str, Path, DepthNetwork, DepthMap or array_like
+        Name in ``METHODS``, a network or its path, a phone's map, or (H, W) metres above 0, inf for
+        the sky. An array need not have the photo's size.
     size : (width, height)
         The photo's.
 
@@ -87,6 +92,8 @@ def given(value: Any, size: tuple[int, int]) -> np.ndarray | DepthNetwork | None
     )
     if isinstance(value, DepthNetwork):
         return value
+    if isinstance(value, DepthMap):
+        return SeenDepth(value.values, value.kind)
     if isinstance(value, (str, Path)):
         if str(value).lower().endswith(".onnx"):
             return DepthNetwork(value)

@@ -106,6 +106,19 @@ class DepthNetwork:
         raise failure
 
 
+@dataclass(frozen=True, eq=False)
+class SeenDepth:
+    """A map that somebody else's eyes have seen, a phone's: (h, w) ``values`` of a ``kind``."""
+
+    values: np.ndarray
+    kind: str
+
+    def __call__(self, view: View, _working: Working) -> DepthField:
+        """Align with the ground plane of a photo's view."""
+        height, width = view.shape
+        return aligned(view, resize(self.values, width, height), self.values, self.kind)
+
+
 def aligned(
     view: View, small: np.ndarray, found: np.ndarray, kind: str | None = None
 ) -> DepthField:

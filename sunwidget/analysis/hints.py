@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis.depth_network import DepthNetwork
+from sunwidget.analysis.depth_network import DepthNetwork, SeenDepth
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.camera import Point
 from sunwidget.edit import OUTSIDE, Stroke, SunHint, parameter
@@ -37,7 +37,9 @@ class Hints:
         parameter("cloud_ratio_max").default,
     )
     water: np.ndarray | None = field(default=None, repr=False, compare=False)
-    depth: np.ndarray | DepthNetwork | None = field(default=None, repr=False, compare=False)
+    depth: np.ndarray | DepthNetwork | SeenDepth | None = field(
+        default=None, repr=False, compare=False
+    )
 
     def method(self, stage: str) -> str:
         """Name of the stage's method."""

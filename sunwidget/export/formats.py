@@ -16,9 +16,11 @@ from numpy.typing import NDArray
 
 from sunwidget import exif as exif_tags
 from sunwidget import openexr
+from sunwidget.export.gain_map_file import beside, told_of
 from sunwidget.export.linear import exr, hdr
 from sunwidget.export.lost import warn_lost
 from sunwidget.export.tiff import EFFORT, tiff
+from sunwidget.gain_map import GainMap
 from sunwidget.layout import PhotoError
 from sunwidget.wording import shown
 
@@ -33,7 +35,8 @@ class Still:
     ``codes`` is (H, W, 3) uint8 or uint16, or float32 linear Rec. 709; ``alpha`` (H, W) in the
     same type (floats: 0–1) or None; ``bits`` those of a channel in the file. ``exif`` is a block as
     Pillow makes it, with its six-byte head. ``layers`` are (H, W, 1, 3 or 4) by name, in the type
-    of ``codes``, alpha straight; ``attributes`` go into an OpenEXR's header.
+    of ``codes``, alpha straight; ``attributes`` go into an OpenEXR's header; ``gain_map`` behind
+    a JPEG.
     """
 
     codes: NDArray[Any]
@@ -47,6 +50,7 @@ class Still:
     recipe: dict[str, Any] | None = None
     layers: dict[str, NDArray[Any]] = field(default_factory=dict)
     attributes: dict[str, Any] = field(default_factory=dict)
+    gain_map: GainMap | None = None
 
     @property
     def samples(self) -> NDArray[Any]:
@@ -57,7 +61,7 @@ class Still:
 
 
 def jpeg(still: Still) -> bytes:
-    """Encode as JPEG, 4:4:4 from quality 90 upwards. Alpha is lost."""
+    """Encode as JPEG, 4:4:4 from quality 90 upwards, its gain map behind it. Alpha is lost."""
     _refuse_longer_than(still, 65_500, "JPEG")
     if still.alpha is not None:
         warn_lost("JPEG has no transparency; it is left out. PNG, TIFF and WebP keep it.")
@@ -72,11 +76,16 @@ def jpeg(still: Still) -> bytes:
         )
     if block:
         options["exif"] = block
-    if still.xmp and len(still.xmp) > _SEGMENT:
+    packet = still.xmp
+    if packet and len(packet) > _SEGMENT:
         warn_lost("The XMP metadata is too long for a JPEG and is left out.")
-    elif still.xmp:
-        options["xmp"] = still.xmp
-    return _pillow(still, "JPEG", options)
+        packet = None
+    if still.gain_map is not None:
+        packet = told_of(packet, still.gain_map, _SEGMENT)
+    if packet:
+        options["xmp"] = packet
+    picture = _pillow(still, "JPEG", options)
+    return picture if still.gain_map is None else beside(picture, still.gain_map)
 
 
 def webp(still: Still) -> bytes:
@@ -158,15 +167,18 @@ class Format:
         It holds light, not code values.
     layers : {"inside", "beside", ""}
         Where layers go: into the file, into files beside it, or nowhere.
+    gain_map : bool
+        It holds light above white as a gain map.
     """
 
     encode: Encoder
     depths: tuple[int, ...]
     linear: bool = False
     layers: str = ""
+    gain_map: bool = False
 
 
-_JPEG, _TIFF = Format(jpeg, (8,)), Format(tiff, (16, 8, 32), layers="inside")
+_JPEG, _TIFF = Format(jpeg, (8,), gain_map=True), Format(tiff, (16, 8, 32), layers="inside")
 
 FORMATS: dict[str, Format] = {
     ".png": Format(png, (16, 8), layers="beside"),
@@ -188,13 +200,16 @@ def check_quality(quality: Any) -> None:
         raise PhotoError(f"quality must be a whole number from 1 to 100, not {shown(quality, 40)}.")
 
 
-def check_format(path: Path, bit_depth: int | None = None, *, layers: bool = False) -> Format:
+def check_format(
+    path: Path, bit_depth: int | None = None, *, layers: bool = False, headroom: float = 0.0
+) -> Format:
     """Return the format that a file's ending chooses, before any work is spent on it.
 
     Raises
     ------
     PhotoError
-        For an unknown ending, a depth or layers that it cannot hold, and EXR without its extra.
+        For an unknown ending, a depth, layers or light above white (``headroom``) that it cannot
+        hold, and EXR without its extra.
     """
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
@@ -217,6 +232,11 @@ def check_format(path: Path, bit_depth: int | None = None, *, layers: bool = Fal
         raise PhotoError(
             f"{suffix} holds no transparency, which layers need. Save them as .tif, .exr, .png "
             "or .webp."
+        )
+    if headroom and not (form.gain_map or form.linear or bit_depth == 32):
+        raise PhotoError(
+            f"{suffix} holds no light above white, which headroom is. Save it as .jpg "
+            "(a gain map), .exr, .hdr, or .tif with 32 bits."
         )
     if suffix == ".exr":
         openexr.library()  # what is missing shows before the work

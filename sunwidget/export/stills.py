@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from sunwidget.color import strips
 from sunwidget.edit import Edit
 from sunwidget.export.formats import Format, Still, check_format, check_quality
+from sunwidget.export.gain_map import gain_map_of
 from sunwidget.export.layers import LAYERS, layer_alone, layers_of
 from sunwidget.export.metadata import told
 from sunwidget.files import complete_or_absent, target
@@ -43,6 +44,7 @@ def save(
     bit_depth: int | None = None,
     size: tuple[int, int] | None = None,
     layers: bool = False,
+    headroom: float = 0.0,
     progress: Progress | None = None,
 ) -> Path:
     """Write a picture as PNG, JPEG, TIFF, WebP, OpenEXR or Radiance HDR, whole or not at all.
@@ -61,7 +63,8 @@ def save(
     overwrite : bool
         Replace an existing file.
     quality : int
-        Of JPEG and WebP, 1–100. WebP is lossless at 100.
+        Of JPEG and WebP, 1–100. WebP is lossless at 100, and a gain map then makes up for what
+        JPEG has rounded of its picture's luminance.
     bit_depth : {8, 16, 32}, optional
         Bits a channel. Default: the photo's or the array's own; 16 for floats. 32 are floats of
         linear light, in .tif and .exr.
@@ -71,6 +74,12 @@ def save(
         Also write the sky, the clouds, the land and the matte of a scene (``export.layers``): as
         pages of a .tif, as ``sky.R`` … of an .exr, as files ``out.sky.png`` … beside a .png or
         .webp.
+    headroom : float, 0–8
+        Stops of light above white to keep of a rendered scene: of the moved sun, its glow and
+        glitter (``render``). In .jpg as a gain map (ISO 21496-1, "Ultra HDR"): screens that can
+        show them brighter than white, and its own pixels are the picture without. In .exr, .hdr
+        and 32-bit .tif in the light itself. An unmoved photo keeps the gain map that its file came
+        with, whatever is asked for.
     progress : callable, optional
         Called as ``progress(fraction, message)`` while a scene is rendered; what it raises
         cancels the export.
@@ -86,22 +95,26 @@ def save(
         When ``path``, or a file for a layer, exists and ``overwrite`` is false.
     PhotoError
         For an unknown ending, or a picture that this format or this function cannot take.
+    EditError
+        For a size or headroom out of range.
     OSError
         When the folder is missing or the disk full; no half-written file is left.
 
     Warns
     -----
     PhotoWarning
-        When the format cannot keep something, such as transparency in a JPEG.
+        When the format cannot keep something, such as transparency in a JPEG, and when nothing is
+        brighter than white, so that there is no gain map.
     """
     place = target(path, overwrite=overwrite)
-    form = check_format(place, bit_depth, layers=layers)
+    headroom = checked_headroom(headroom)
+    form = check_format(place, bit_depth, layers=layers, headroom=headroom)
     check_quality(quality)
     names = LAYERS if layers and form.layers == "beside" else ()
     places = {name: place.with_suffix(f".{name}{place.suffix}") for name in names}
     for beside in places.values():
         target(beside, overwrite=overwrite)
-    wanted = _Wanted(form, bit_depth, size, layers, progress)
+    wanted = _Wanted(form, bit_depth, size, layers, headroom, quality, progress)
     still = _still(picture, _photo_of(like), wanted)
     still.quality = quality
     files = {place: form.encode(still)}
@@ -166,6 +179,8 @@ class _Wanted(NamedTuple):
     bit_depth: int | None
     size: tuple[int, int] | None
     layers: bool
+    headroom: float
+    quality: int
     progress: Progress | None
 
     def bits(self, own: int) -> int:
@@ -177,6 +192,15 @@ class _Wanted(NamedTuple):
     def is_light(self, bits: int) -> bool:
         """Tell whether the file holds linear light in floats."""
         return self.form.linear or bits == 32
+
+
+def checked_headroom(headroom: Any) -> float:
+    """Return stops of light above white; an EditError says what is wrong with others."""
+    if type(headroom) in {int, float} and headroom == 0:
+        return 0.0  # without the renderer, which pictures from elsewhere do not need
+    from sunwidget.renderer.render import checked_headroom as checked
+
+    return checked(headroom)
 
 
 def _photo_of(like: Any) -> Photo | None:
@@ -194,6 +218,8 @@ def _still(picture: Any, like: Photo | None, wanted: _Wanted) -> Still:
         return _of_scene(*_scene_and_edit(picture), wanted)
     if wanted.size is not None or wanted.layers:
         raise PhotoError("size and layers are of a rendered scene: save (scene, edit).")
+    if wanted.headroom and not isinstance(picture, Photo):
+        raise PhotoError("headroom is of a rendered scene: save (scene, edit).")
     array = open_photo(picture)
     bits = wanted.bits(array.bit_depth)
     source = like or array
@@ -204,7 +230,9 @@ def _still(picture: Any, like: Photo | None, wanted: _Wanted) -> Still:
     else:
         codes = encode_like(like, array.pixels, bit_depth=bits)
     alpha = array.alpha if array.alpha is not None else source.alpha
-    return _with_metadata(codes, source, alpha, bits)
+    still = _with_metadata(codes, source, alpha, bits)
+    still.gain_map = array.gain_map
+    return still
 
 
 def _of_scene(scene: Any, edit: Edit | None, wanted: _Wanted) -> Still:
@@ -217,11 +245,18 @@ def _of_scene(scene: Any, edit: Edit | None, wanted: _Wanted) -> Still:
             if wanted.progress is not None:
                 wanted.progress(done + share * fraction, message)
 
-        return _rendered(scene, edit, 32 if is_light else bits, wanted.size, progress)
+        white = wanted.headroom if is_light else 0.0
+        return _rendered(scene, edit, 32 if is_light else bits, wanted.size, progress, white)
 
-    codes = drawn(edit, 0.5 if wanted.layers else 1.0, 0.0)
+    makes_map = wanted.form.gain_map and wanted.headroom > 0
+    codes = drawn(edit, 0.5 if wanted.layers or makes_map else 1.0, 0.0)
     recipe = edit.to_dict() if edit is not None else None
     still = _with_metadata(codes, photo, photo.alpha, bits, recipe)
+    if edit is None or edit == Edit() or np.array_equal(codes, photo.encoded):
+        still.gain_map = photo.gain_map
+    elif makes_map:
+        still.quality = wanted.quality
+        still.gain_map = gain_map_of(scene, edit, still, wanted.headroom, wanted.progress)
     if wanted.layers:
         still.layers = layers_of(scene, edit or Edit(), codes, lambda e: drawn(e, 0.5, 0.5))
     return still
@@ -254,6 +289,7 @@ def _rendered(
     bits: int,
     size: tuple[int, int] | None,
     progress: Progress,
+    headroom: float,
 ) -> NDArray[Any]:
     """Draw the picture: code values in the photo's profile, or light for 32 bits."""
     from sunwidget.renderer.render import checked_size, render, strips_of
@@ -266,7 +302,7 @@ def _rendered(
         # The same call as sw.render: the file is the very frame that the canvas shows.
         return render(scene, edit, **more)
     if bits == 32:
-        return render(scene, edit, dtype="float32", **more)
+        return render(scene, edit, dtype="float32", headroom=headroom, **more)
     width, height = size or photo.size
     codes = np.empty((height, width, 3), np.uint8 if bits == 8 else np.uint16)
     for rows, light in strips_of(scene, edit, "float32", **more):

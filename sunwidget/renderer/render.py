@@ -38,6 +38,9 @@ if TYPE_CHECKING:
 
     from sunwidget.analysis.scene import Scene
 
+MAX_HEADROOM = 8
+"""Stops above white that a frame may hold."""
+
 # Frame-sized passes are drawn in bands of about this many pixels, so that memory stays
 # bounded at any size: three RGBA32F targets of 2.1 MP are 100 MB. A 1080p frame is one band,
 # so that a film computes the sky of the unmoved sun once and not for each frame.
@@ -51,13 +54,17 @@ class _Drawing:
     scene: Scene
     graph: FrameGraph
     strips: Strips | None
+    loaded: slice | None = None
 
     def load(self, rows: slice, limit: int) -> None:
-        """Upload the strip of ``rows``."""
+        """Upload the strip of ``rows``, unless it is there."""
         assert self.strips is not None
+        if self.loaded == rows:
+            return
         textures, strip = self.strips.textures(rows)
         folds = {name: folded(image, limit) for name, image in textures.items()}
         self.graph.set_strip(folds, strip)
+        self.loaded = rows
 
 
 class _Renderer:
@@ -106,6 +113,7 @@ def render(
     dtype: str = "uint8",
     size: tuple[int, int] | None = None,
     method: str | None = None,
+    headroom: float = 0.0,
     progress: Callable[[float, str], Any] | None = None,
 ) -> npt.NDArray[Any]:
     """Draw ``scene`` with ``edit`` applied.
@@ -122,6 +130,10 @@ def render(
         Output size in pixels, default the photo's own.
     method : {"ratio", "thesis", "thesis_literal"}, optional
         Overrides ``edit.method``.
+    headroom : float, 0–8
+        Stops above white that float32 holds: what the edit has made brighter than the photo (the
+        sun's disc, its glow, glitter) rises up to 2 ** headroom instead of up to 1. All else is as
+        without; with 0, the default, nothing lies above white. By ``method`` "ratio" alone.
     progress : callable, optional
         Called with (fraction, message) after each band; raise in it to cancel.
 
@@ -132,7 +144,8 @@ def render(
     Raises
     ------
     EditError
-        For an unknown dtype or method, or an impossible size.
+        For an unknown dtype or method, an impossible size, or headroom that is out of range or of
+        whole numbers.
     AnalysisError
         When ``scene`` is none.
     RendererError
@@ -143,7 +156,8 @@ def render(
         edit = edit.replace(method=method)
     width, height = checked_scene(scene).photo.size if size is None else checked_size(size)
     out: npt.NDArray[Any] | None = None
-    for rows, pixels in strips_of(scene, edit, dtype, (width, height), progress):
+    strips = strips_of(scene, edit, dtype, (width, height), progress, headroom=headroom)
+    for rows, pixels in strips:
         if out is None:
             out = np.empty((height, width, 3), pixels.dtype)
         out[rows] = pixels
@@ -159,6 +173,7 @@ def strips_of(
     progress: Callable[[float, str], Any] | None = None,
     *,
     within: slice | None = None,
+    headroom: float = 0.0,
 ) -> Iterator[tuple[slice, npt.NDArray[Any]]]:
     """Draw ``scene`` with ``edit`` applied, some rows at a time.
 
@@ -167,7 +182,7 @@ def strips_of(
 
     Parameters
     ----------
-    scene, edit, dtype, size, progress
+    scene, edit, dtype, size, progress, headroom
         As for ``render``.
     within : slice, optional
         Rows of which only the strips are drawn that hold some.
@@ -185,6 +200,7 @@ def strips_of(
     """
     if not isinstance(dtype, str) or dtype not in ("uint8", "uint16", "float32"):
         raise EditError(f"dtype must be 'uint8', 'uint16' or 'float32', not {shown(dtype, 40)}.")
+    white = 2.0 ** checked_headroom(headroom, dtype)
     edit = edit_of(edit)
     scene = checked_scene(scene).corrected(edit)
     size = scene.photo.size if size is None else checked_size(size)
@@ -199,7 +215,8 @@ def strips_of(
         if drawing.strips is not None:
             # On this thread, so that no other picture's strip is drawn instead.
             drawing.load(rows, limit)
-        parts = [draw_part(drawing.graph, scene, edit, size, dtype, rows, c) for c in columns]
+        graph = drawing.graph
+        parts = [draw_part(graph, scene, edit, size, dtype, rows, part, white) for part in columns]
         return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
 
     first, end, _ = (within or slice(None)).indices(size[1])
@@ -220,13 +237,14 @@ def draw_part(
     dtype: str,
     rows: slice = slice(None),
     columns: slice = slice(None),
+    white: float = 1.0,
 ) -> npt.NDArray[Any]:
     """Draw a part of the picture, all of it by default, on the GL thread."""
     top, bottom, _ = rows.indices(size[1])
     left, right, _ = columns.indices(size[0])
     values = states(edit, scene.automatic)
     tile = (left, top, right - left, bottom - top)
-    host = _host_values(size, dtype)
+    host = _host_values(size, dtype, white)
     target = graph.run(values, _scene_values(scene), host, tile, (edit.method,))
     shape = (bottom - top, right - left, 3)
     if dtype == "uint8":  # the shader has rounded
@@ -287,17 +305,37 @@ def checked_size(size: Any) -> tuple[int, int]:
     return width, height
 
 
+def checked_headroom(headroom: Any, dtype: str = "float32") -> float:
+    """Return ``headroom`` in stops above white, 0 to ``MAX_HEADROOM``.
+
+    Raises
+    ------
+    EditError
+        For anything else, and for light above white in whole numbers.
+    """
+    number = isinstance(headroom, (int, float, np.number)) and not isinstance(headroom, bool)
+    if not number or not 0 <= headroom <= MAX_HEADROOM:
+        raise EditError(
+            f"headroom must be a number of stops from 0 to {MAX_HEADROOM}, not "
+            f"{shown(headroom, 40)}."
+        )
+    if headroom and dtype != "float32":
+        raise EditError(f"headroom is of dtype='float32': {dtype} holds no light above white.")
+    return float(headroom)
+
+
 def _scene_values(scene: Scene) -> dict[str, Any]:
     uniforms = scene.uniforms()
     return {name: uniforms[name] for name in frame_graph()["scene_uniforms"]}
 
 
-def _host_values(size: tuple[int, int], dtype: str) -> dict[str, Any]:
+def _host_values(size: tuple[int, int], dtype: str, white: float = 1.0) -> dict[str, Any]:
     return {
         "frame_size": (float(size[0]), float(size[1])),
         "canvas_flip": 0.0,
         "output_transfer": 0 if dtype == "float32" else 1,
         "output_levels": 255 if dtype == "uint8" else 0,
+        "output_white": white,
         "dither": {"uint8": 0.5, "uint16": 0.5 / 257, "float32": 0.0}[dtype],
     }
 

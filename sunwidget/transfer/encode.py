@@ -26,7 +26,7 @@ def photo_like(photo: Photo, light: np.ndarray) -> Photo:
         codes = np.ascontiguousarray(light, np.float32)
     else:
         codes = encode_like(photo, light)
-    return dataclasses.replace(photo, encoded=codes, recorded=None)
+    return dataclasses.replace(photo, encoded=codes, recorded=None, gain_map=None)
 
 
 def scene_of(source: Any) -> Scene:

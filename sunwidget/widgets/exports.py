@@ -17,6 +17,8 @@ from sunwidget.widgets.key_frames import KeyFrame, KeyFrames, along, key_frames_
 from sunwidget.widgets.pictures import Pictures
 from sunwidget.widgets.requests import Answer
 
+_HEADROOM = 3.0  # stops of light above white, where they are asked for
+
 
 class Exports(Pictures):
     """A widget whose edit can be exported, as a still and as a film."""
@@ -119,7 +121,7 @@ class Exports(Pictures):
         }, []
 
     def _export_still(self, content: dict[str, Any], progress: Progress) -> Answer:
-        """Make a still: ``name``, ``suffix``, ``bits``, ``quality``, ``long_edge``, ``layers``."""
+        """Make a still: ``name``, ``suffix``, ``bits``, ``quality``, ``long_edge`` …."""
         kind = kind_of(STILLS, content.get("suffix"))
         holds = _holds(kind.suffix)
         options = self._size_of(content)
@@ -129,6 +131,8 @@ class Exports(Pictures):
             options["quality"] = int(content["quality"])
         if holds["layers"] and content.get("layers"):
             options["layers"] = True
+        if holds["above_white"] and content.get("above_white"):
+            options["headroom"] = _HEADROOM
         told = with_time_left(progress)
         edit = self._asked_for(content)
 
@@ -180,6 +184,10 @@ def _film_day(edit: Edit, start: float, end: float) -> Day:
 
 
 def _holds(suffix: str) -> dict[str, Any]:
-    """Return what a kind of still holds: bits a channel to choose from, and layers."""
+    """Return what a still holds: bits a channel to choose from, layers, light above white."""
     form = FORMATS[suffix]
-    return {"bits": sorted(form.depths), "layers": form.layers != ""}
+    return {
+        "bits": sorted(form.depths),
+        "layers": form.layers != "",
+        "above_white": form.gain_map or form.linear,
+    }

@@ -179,6 +179,7 @@ def test_what_is_asked_for_how_far_it_is_and_a_name_that_is_taken(
     field(page, "Format").select_option(".tif")
     field(page, "Depth").select_option("16")
     page.get_by_role("switch", name="Layers").click()
+    assert not page.get_by_role("switch", name="Light above white").is_visible()
     field(page, "Size").select_option("edge")
     field(page, "Longer side, pixels").fill("400")
     field(page, "Name").fill("evening")

@@ -8,6 +8,7 @@ are libFuzzer's. Needs Atheris (pip install atheris).
 """
 
 import contextlib
+import dataclasses
 import re
 import struct
 import sys
@@ -24,12 +25,14 @@ with atheris.instrument_imports(
         *(f"sunwidget.{name}" for name in ("color_management", "decode", "decode_deep")),
         *(f"sunwidget.{name}" for name in ("decode_raw", "exif", "exif_place", "exif_values")),
         *(f"sunwidget.{name}" for name in ("icc", "layout", "openexr", "photo", "radiance", "xmp")),
-        "sunwidget.photo_sources",
+        *(f"sunwidget.{name}" for name in ("apple", "decode_heif", "gain_map", "photo_sources")),
         *(f"PIL.{name}ImagePlugin" for name in ("Bmp", "Gif", "Jpeg", "Mpo", "Png", "Tiff")),
     ]
 ):
     from sunwidget import exif, icc, layout, xmp
     from sunwidget.decode import _formats
+    from sunwidget.export.gain_map_file import beside, told_of
+    from sunwidget.gain_map import GainMap, packed
     from sunwidget.photo import Photo, PhotoError, PhotoWarning, open_photo
 
     _formats()  # loads Pillow's readers
@@ -37,6 +40,7 @@ with atheris.instrument_imports(
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "unit"))
+import heif_files
 import photo_corpus
 import raw_files
 
@@ -67,6 +71,8 @@ def _check_photo(photo: Photo) -> None:
     assert photo.width * photo.height <= layout.MAX_PIXELS, photo.size
     assert np.isfinite(photo.pixels).all(), "light that is not finite"
     assert photo.preview(8).dtype == np.uint8
+    assert photo.gain_map is None or photo.gain_map.levels.dtype == np.uint8
+    assert photo.depth is None or np.isfinite(photo.depth.values).all()
     assert photo.alpha is None or photo.alpha.shape == photo.encoded.shape[:2]
     assert 0.5 <= photo.field_of_view.vertical <= 150, photo.field_of_view
     assert all(note.isprintable() for note in photo.notes), photo.notes
@@ -102,7 +108,19 @@ def seeds() -> dict[str, bytes]:
     found |= {f"bad-{name}": data for name, (data, _) in photo_corpus.unreadable().items()}
     found |= photo_corpus.with_metadata()
     found["raw"] = raw_files.dng(raw_files.ramp(16, 16))
+    found["gain_map"] = _with_gain_map()
+    with contextlib.suppress(ImportError):  # without the extra heif
+        grey = photo_corpus.ramp()[..., 0]
+        kinds = (heif_files.DEPTH, heif_files.APPLE_GAIN_MAP)
+        found["heic"] = heif_files.heic(photo_corpus.ramp(), [(kind, grey) for kind in kinds])
     return {name: data for name, data in found.items() if len(data) < 20_000}
+
+
+def _with_gain_map() -> bytes:
+    told = GainMap(b"", high=(2.0, 2.0, 2.0), headroom=2.0)
+    told = dataclasses.replace(told, jpeg=packed(photo_corpus.ramp(), told))
+    picture = photo_corpus.jpeg_file(photo_corpus.ramp(), xmp=told_of(None, told, 65_000))
+    return beside(picture, told)
 
 
 def words(files: dict[str, bytes]) -> list[bytes]:

@@ -203,6 +203,14 @@ def test_layers_come_along_with_the_picture(folder, quick, monkeypatch):
     assert [row.state for row in run(folder, layers=True)] == ["done", "skipped", "skipped"]
 
 
+def test_light_above_white_needs_a_format_that_holds_it(folder, quick):
+    with pytest.raises(sw.PhotoError, match="light above white"):
+        run(folder, headroom=3)
+    with pytest.raises(sw.EditError, match="0 to 8"):
+        run(folder, headroom=12, format="jpg")
+    assert list(folder.parent.glob("out/*.*")) == []
+
+
 def test_names_follow_the_template(tmp_path):
     found = [tmp_path / "a/beach.JPG", tmp_path / "b/beach.nef"]
     assert photos.names(found, "{folder}/{number:03}-{name}", None) == [

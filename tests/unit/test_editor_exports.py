@@ -151,6 +151,15 @@ def test_a_still_for_download_is_the_file_that_save_writes(editor, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["own.tif"]
 
 
+def test_light_above_white_is_kept_where_the_format_holds_it(editor):
+    editor.edit = LOW
+    holds = {kind["suffix"]: kind["above_white"] for kind in ask(editor, "exports")[0]["stills"]}
+    assert {suffix for suffix, held in holds.items() if held} == {".jpg", ".exr", ".hdr"}
+    for suffix in (".jpg", ".png"):
+        _, data = ask(editor, "still", name="a", suffix=suffix, above_white=True, long_edge=96)
+        assert (sw.open(data).gain_map is not None) == holds[suffix]
+
+
 def test_a_file_in_the_folder_is_never_replaced(editor, tmp_path):
     (tmp_path / "mine.png").write_bytes(b"mine")
     answer, data = ask(editor, "still", name="mine.png", suffix=".png", in_folder=True)

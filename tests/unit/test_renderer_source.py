@@ -29,6 +29,7 @@ HOST_UNIFORMS = {
     "canvas_flip",
     "output_transfer",
     "output_levels",
+    "output_white",
     "dither",
     "view",
 }

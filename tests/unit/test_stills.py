@@ -63,7 +63,8 @@ def renderer(monkeypatch):
     module = importlib.import_module("sunwidget.renderer.render")
     calls = []
 
-    def render(scene, edit=None, *, dtype="uint8", progress=None):
+    def render(scene, edit=None, *, dtype="uint8", headroom=0, progress=None):
+        assert headroom == 0
         calls.append(dtype)
         light = scene.photo.pixels.copy()
         light[light.shape[0] // 2 :] *= 0.5 if edit is not None and edit.changed() else 1

@@ -1,4 +1,4 @@
-/** The export panel's page for a still: format, depth, quality, size, layers. */
+/** The export panel's page for a still: format, depth, quality, size, light above white, layers. */
 
 import { element } from "../controls/element.js";
 import { inputField, selectField } from "../controls/named_field.js";
@@ -17,6 +17,7 @@ export function exportStill(view, job) {
   /** @type {import("./export_target.js").Choices | null} */
   let choices = null;
   let layersOn = false;
+  let brighterOn = false;
   const format = selectField("Format");
   const bits = selectField("Depth");
   const quality = inputField("Quality", { type: "number", min: 1, max: 100, value: 95 });
@@ -35,6 +36,19 @@ export function exportStill(view, job) {
     },
   });
 
+  const brighter = toggle({
+    parameter: {
+      name: "",
+      label: "Light above white",
+      help: "HDR: screens that can show the moved sun and its glitter brighter than white",
+      default: false,
+    },
+    onChange: (on) => {
+      brighterOn = on;
+      show();
+    },
+  });
+
   const chosen = () => choices?.stills.find(({ suffix }) => suffix === format.select.value);
   const longEdge = () => {
     if (size.select.value === "full") return null;
@@ -49,6 +63,7 @@ export function exportStill(view, job) {
       quality: Number(quality.input.value),
       long_edge: longEdge(),
       layers: layersOn,
+      above_white: brighterOn,
     };
     void job.run("still", content, (name) => target.rename(name));
   });
@@ -58,7 +73,7 @@ export function exportStill(view, job) {
     element(
       "div",
       { class: "sw-export-fields" },
-      ...[format, bits, quality, size, edge, layers].map((field) => field.node),
+      ...[format, bits, quality, size, edge, brighter, layers].map((field) => field.node),
     ),
     target.node,
     target.hint,
@@ -75,8 +90,10 @@ export function exportStill(view, job) {
     bits.node.hidden = (kind?.bits?.length ?? 0) < 2;
     quality.node.hidden = !kind?.quality;
     layers.node.hidden = !kind?.layers;
+    brighter.node.hidden = !kind?.above_white;
     edge.node.hidden = size.select.value !== "edge";
     layers.show(layersOn);
+    brighter.show(brighterOn);
     target.show(kind?.suffix ?? "", problem(kind));
   };
   const problem = (/** @type {import("./export_target.js").Format | undefined} */ kind) => {

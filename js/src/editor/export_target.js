@@ -7,7 +7,7 @@ import { inputField, selectField } from "../controls/named_field.js";
  * What the kernel answers to "exports".
  *
  * @typedef {{ suffix: string, label: string, quality: boolean, bits?: number[], layers?: boolean,
- *   lacks: string }} Format
+ *   above_white?: boolean, lacks: string }} Format
  * @typedef {{ folder: string, name: string, suffix: string, bits: number,
  *   size: [number, number], stills: Format[], films: Format[] }} Choices
  */

@@ -15,7 +15,7 @@ FIELDS = ("name", "folder", "number", "ending")
 
 # What a folder is searched for. A pattern or a list names its files itself.
 _PICTURES = frozenset(
-    {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp", ".bmp", ".heic", ".avif"}
+    {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp", ".bmp", ".heic", ".heif", ".avif"}
     | {".dng", ".nef", ".cr2", ".cr3", ".arw", ".orf", ".rw2", ".raf", ".pef", ".srw"}
 )
 

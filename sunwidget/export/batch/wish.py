@@ -106,12 +106,14 @@ def _check_known(what: str, given: dict[str, Any], function: Any, refused: set[s
 
 
 def check_endings(outputs: Iterable[str], wish: Wish) -> None:
-    """Raise PhotoError when one of the kinds of file cannot be what the options ask for."""
-    from sunwidget.export.stills import check_format
+    """Raise when one of the kinds of file cannot be what the options ask for."""
+    from sunwidget.export.stills import check_format, checked_headroom
 
     layers = bool(wish.options.get("layers"))
+    headroom = checked_headroom(wish.options.get("headroom", 0))
+    bits = wish.options.get("bit_depth")
     for suffix in sorted({Path(output).suffix for output in outputs}):
-        check_format(Path("picture" + suffix), wish.options.get("bit_depth"), layers=layers)
+        check_format(Path("picture" + suffix), bits, layers=layers, headroom=headroom)
 
 
 def check_whole(name: str, value: Any, least: int) -> None:

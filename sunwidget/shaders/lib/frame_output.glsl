@@ -4,6 +4,8 @@
 #include "lib/output.glsl"
 #include "lib/grain.glsl"
 
+uniform float output_white;  // what highlights near: 1 the display's white, more where the target holds light above it
+
 // From here on highlights roll off: display-linear.
 const float kKnee = 0.5;
 const float kInk = 0.0035;
@@ -12,21 +14,22 @@ const float kBurns = 1.06;  // of the way to white, at infinity: the sun itself 
 // Display-linear light as a good camera draws highlights. What is `brighter` than it was, 0 to 1, leaves the
 // response at the knee and nears white slowly, without a flat plate. Each channel does so for itself, which
 // makes a sunset's orange yellow, as films do; but cold colours would end in cyan, and keep their hue. The
-// core is white. All this as far as the pixel has `changed`, 0 to 1.
+// core is white. All this as far as the pixel has `changed`, 0 to 1. With a higher `output_white` they rise on, by the same
+// curve about the same knee.
 vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
   float w = max(response_shoulder, 1e-4);
   float luminance = max(GetLuminance(scene), 1e-9);
   vec4 r = pow(max(vec4(scene, luminance), vec4(1e-9)), vec4(response_contrast));
   vec4 plain = (1.0 - exp(-w * r)) / w;
   float knee = -log(1.0 - w * kKnee) / w;
-  vec4 over = (1.0 - w * kKnee) / (1.0 - kKnee) * max(r - knee, vec4(0.0));
-  vec4 slow = kKnee + (1.0 - kKnee) * kBurns * over / (1.0 + over);
-  vec4 level = min(plain + brighter * step(knee, r) * (slow - plain), vec4(0.9999));
+  vec4 over = (1.0 - w * kKnee) / (output_white - kKnee) * max(r - knee, vec4(0.0));
+  vec4 slow = kKnee + (output_white - kKnee) * kBurns * over / (1.0 + over);
+  vec4 level = min(plain + brighter * step(knee, r) * (slow - plain), vec4(0.9999 * output_white));
   vec3 color = scene / luminance - 1.0;
   color.g -= smoothstep(0.5, 0.8, level.a) * max(color.g - max(color.r, color.b), 0.0);  // no light is green
-  float x = max(color.r, max(color.g, color.b)) * level.a / (1.0 - level.a);
+  float x = max(color.r, max(color.g, color.b)) * level.a / (output_white - level.a);
   vec3 same_hue = level.a + level.a * inversesqrt(1.0 + x * x) * color;
-  float warm = smoothstep(0.0, 0.8, color.r - color.b) * (1.0 - smoothstep(0.75, 1.0, level.a));
+  float warm = smoothstep(0.0, 0.8, color.r - color.b) * (1.0 - smoothstep(0.75, 1.0, level.a / output_white));
   float bright = smoothstep(0.4, 0.8, max(plain.r, max(plain.g, plain.b)));
   return plain.rgb + changed * bright * (mix(same_hue, level.rgb, warm) - plain.rgb);
 }
