@@ -7,7 +7,16 @@ import { onTraits } from "../traits.js";
 
 /** @typedef {import("../types.js").Scene} Scene */
 
-const PICTURES = ["photo", "layers", "surface", "backdrop", "clear_sky", "relief", "transfer", "lamps"];
+const PICTURES = [
+  "photo",
+  "layers",
+  "surface",
+  "backdrop",
+  "clear_sky",
+  "relief",
+  "transfer",
+  "lamps",
+];
 
 export class Loading {
   /**
