@@ -74,17 +74,26 @@ def to_dome(
     RendererError
         When this machine has no EGL.
     """
-    from sunwidget import openexr, radiance
     from sunwidget.analysis.errors import checked_scene
-    from sunwidget.export.metadata import software
 
     place = target(path, overwrite=overwrite)
     check_map(place)
-    beside = target(place.with_suffix(".json"), overwrite=overwrite)
+    target(place.with_suffix(".json"), overwrite=overwrite)
     half = width // 2 if isinstance(width, int) else width
     size = checked_size((width, half))
     edit = edit_of(edit)
     dome = dome_light(checked_scene(scene), edit, size[0])
+    write_dome(place, scene, edit, dome, sun=sun, overwrite=overwrite)
+    return place
+
+
+def write_dome(
+    place: Path, scene: Scene, edit: Edit, dome: DomeLight, *, sun: bool, overwrite: bool
+) -> None:
+    """Write a dome that is made, and its json beside it."""
+    from sunwidget import openexr, radiance
+    from sunwidget.export.metadata import software
+
     facts = described(scene.corrected(edit), edit, dome, place.name, sun=sun)
     light = np.asarray(dome.sky + dome.disc if sun else dome.sky, np.float32)
     notes = {"recipe": json.dumps(edit.to_dict()), "dome": json.dumps(facts)}
@@ -96,9 +105,8 @@ def to_dome(
             told = {"envmap": latitude_longitude, "whiteLuminance": 1000.0, "software": software()}
             channels = {name: light[..., i] for i, name in enumerate("RGB")}
             openexr.write(unfinished, channels, told, notes, bits=32)
-    with complete_or_absent(beside, overwrite=overwrite) as unfinished:
+    with complete_or_absent(place.with_suffix(".json"), overwrite=overwrite) as unfinished:
         unfinished.write_text(json.dumps(facts, indent=1) + "\n", "utf-8")
-    return place
 
 
 def described(scene: Scene, edit: Edit, dome: DomeLight, name: str, *, sun: bool) -> dict[str, Any]:
