@@ -22,9 +22,11 @@ Floats = NDArray[np.float64]
 _LOWEST_TOP = 4.0  # degrees of sky above the horizon from which there is something to mirror
 _HIGHEST_TOP = 75.0  # beyond, the rows of a picture bend round the zenith
 _WIDEST = 300.0  # degrees of azimuth; nothing is left to fill
-_FADE = (0.0, 12.0)  # degrees above the picture's upper edge
+_FADE = (-5.0, 5.0)  # degrees above the picture's upper edge
+_LEAN, _UNEVEN, _LOWER = 0.5, 0.4, 0.3  # how far no mirrored tile is like the next
 _LOWEST_ROW = 0.3  # of the picture's sky, from which up it is shown near the zenith
 _NEARER = 1.6  # clouds overhead are nearer than those that a level camera sees
+_BEND = 5.0  # degrees by which the lines are bent that it is mirrored at
 _TURN = np.radians(33.0)  # so that the two mirrorings do not line up
 
 
@@ -53,19 +55,25 @@ class Mirror:
         count = np.maximum(1, 2 * np.round((360 / width - 2) / 2) + 1)  # odd: they meet mirrored
         beyond = (azimuth - right) % 360  # 0 at the right edge, growing to the right
         outside = beyond <= 360 - width
-        tiles = beyond / (360 - width) * count
+        way = np.where(outside, beyond / (360 - width), 0)  # 0 and 1 at the picture's edges
+        tiles = way * count + _UNEVEN * np.sin(2 * np.pi * way)
+        tiles += _LEAN * np.sin(np.pi * way) ** 2 * (height / self.top - 0.5)
         share = np.where(outside, _folded(tiles + 1), (azimuth - left) % 360 / width)
-        return left + share * width, height
+        height = height * (1 - _LOWER * np.sin(np.pi * way) ** 2)
+        left, right = self._edges_at(height)
+        return left + share * (right - left), height
 
     def overhead(self, azimuth: Floats, elevation: Floats) -> tuple[Floats, Floats]:
         """Return the direction in the picture that stands for one near the zenith."""
         distance = (90 - elevation) / _NEARER
         angle = np.radians(azimuth) + _TURN
+        up, aside = distance * np.cos(angle), distance * np.sin(angle)
+        up, aside = up + _BEND * np.sin(aside / 13), aside + _BEND * np.sin(up / 19)
         low = _LOWEST_ROW * self.top
-        height = low + (self.top - low) * _folded(distance * np.cos(angle) / (self.top - low))
+        height = low + (self.top - low) * _folded(up / (self.top - low))
         left, right = self._edges_at(height)
         middle, half = (left + right) / 2, (right - left) / 2
-        across = distance * np.sin(angle) / np.cos(np.radians(height))
+        across = aside / np.cos(np.radians(height))
         return left + 2 * half * _folded((across - middle) / (2 * half) + 0.5), height
 
     def overhead_share(self, elevation: Floats) -> Floats:

@@ -137,9 +137,8 @@ def picture_of(scene: Scene, edit: Edit, sun: tuple[float, float], width: int) -
     off_sun = np.asarray(smoothstep(*_GLOW, far), np.float32)
     told = known * off_sun if (known * off_sun).any() else known
     ratio = np.log(np.clip(clear / np.maximum(model, 1e-12), *_RATIOS)).astype(np.float32)
-    ratio, mean_ratio = _slow(
-        ratio, told * (1 - own), np.degrees(1 / camera.focal) * camera.width / size[0]
-    )
+    pixel = float(np.degrees(1 / camera.focal) * camera.width / size[0])
+    ratio, mean_ratio = _slow(ratio, told * (1 - own), pixel)
     smooth = np.exp(ratio) * model
     # As little cloud as gives the pixel, without light below black and bluer than its shade.
     blue, level = light[..., 2], light @ LUMINANCE
@@ -159,8 +158,11 @@ def picture_of(scene: Scene, edit: Edit, sun: tuple[float, float], width: int) -
     veil = fill_by_pyramid(opacity[..., None], known)[..., 0]
     cover = float((known * opacity).sum()) / max(float(known.sum()), 1e-6)
     if cover < OVERCAST:
-        opacity, clouds = opacity * off_sun, clouds * off_sun[..., None]
-        told = known
+        # Rather no clouds than a smear of them, behind land and where the sun was.
+        soft = cv2.GaussianBlur(known, (0, 0), 2 * _SLOW / pixel)
+        kept = off_sun * known * smoothstep(0.55, 0.95, soft)
+        opacity, clouds = opacity * kept, clouds * kept[..., None]
+        told = np.ones_like(known)
     shown = scene.sun is not None and scene.sun.visible
     fields = {
         "ratio": ratio,
