@@ -8,6 +8,7 @@ import pytest
 
 import sunwidget as sw
 from sunwidget.camera import Camera
+from sunwidget.cli import main
 from sunwidget.color import LUMINANCE
 from sunwidget.export.dome_light import angles, dome_light, irradiance, solid_angles
 from sunwidget.export.dome_mirror import mirror_of
@@ -193,3 +194,21 @@ def test_what_is_no_dome_is_refused_before_the_work(tmp_path, scene):
     with pytest.raises(FileExistsError, match=r"sky\.json"):
         sw.to_dome(scene, None, tmp_path / "sky.hdr")
     assert [path.name for path in tmp_path.iterdir()] == ["sky.json"]
+
+
+def test_the_command_line_writes_both_files(tmp_path, capsys):
+    photo, out = tmp_path / "beach.png", tmp_path / "sky.hdr"
+    small = cv2.resize(sw.sample("coast").encoded, (96, 64), interpolation=cv2.INTER_AREA)
+    cv2.imwrite(str(photo), small[..., ::-1])
+    command = ["dome", str(photo), "--sun-elevation", "12", "--width", "128", "-o", str(out)]
+    if main([*command, "--no-sun"]) != 0 and "OpenGL" in capsys.readouterr().err:
+        pytest.skip("no GL on this machine")
+    said = capsys.readouterr().out
+    assert "sky.hdr" in said
+    assert "sky.json" in said
+    facts = json.loads((tmp_path / "sky.json").read_text("utf-8"))
+    assert facts["sun"]["elevation_deg"] == 12
+    assert not facts["sun"]["in_the_map"]
+    assert sw.open(out).size == (128, 64)
+    assert main(command) == 2
+    assert "exists already" in capsys.readouterr().err
