@@ -25,7 +25,16 @@ GROUPS = {
     ),
     "Edits": ("Edit", "preset", "Place", "Day", "PARAMETERS", "PRESETS"),
     "Pictures, films, pages": (
-        *("render", "save", "sweep", "contact_sheet", "timelapse", "environment_map", "to_html"),
+        *(
+            "render",
+            "save",
+            "sweep",
+            "contact_sheet",
+            "timelapse",
+            "environment_map",
+            "to_dome",
+            "to_html",
+        ),
         *("batch", "BatchReport"),
     ),
     "Other photos' skies and looks": ("replace_sky", "transfer_look"),

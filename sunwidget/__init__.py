@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from sunwidget.export.batch.run import batch
     from sunwidget.export.contact_sheet import contact_sheet
     from sunwidget.export.day import Day
+    from sunwidget.export.dome import to_dome
     from sunwidget.export.environment import environment_map
     from sunwidget.export.stills import save
     from sunwidget.export.sweep import sweep
@@ -84,6 +85,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "transfer_look": ("sunwidget.transfer.look", "transfer_look"),
     "sweep": ("sunwidget.export.sweep", "sweep"),
     "timelapse": ("sunwidget.export.timelapse", "timelapse"),
+    "to_dome": ("sunwidget.export.dome", "to_dome"),
     "to_html": ("sunwidget.widgets.unseen", "to_html"),
 }
 
@@ -122,6 +124,7 @@ __all__ = [
     "save",
     "sweep",
     "timelapse",
+    "to_dome",
     "to_html",
     "transfer_look",
 ]

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from sunwidget.cli_batch import add_batch
+from sunwidget.cli_dome import add_dome
 from sunwidget.cli_edit import add_edit, edit_of_flags, edit_of_scene
 from sunwidget.cli_ending import (
     EndedError,
@@ -69,6 +70,8 @@ def _parser() -> argparse.ArgumentParser:
     add_sweep(commands)
     add_timelapse(commands)
     add_batch(commands)
+
+    add_dome(commands)
 
     page = commands.add_parser(
         "html", help="write a page in which the sun can be moved, without kernel or network"

@@ -38,7 +38,8 @@ _LEAST_CHANNEL = 0.02
 # Samples of the sun's disc along its radius and round it.
 _RINGS, _SPOKES = 48, 96
 # As lib/moonlight.glsl: full moon over sun, and the sky without either, kcd m⁻².
-_MOON_OVER_SUN = np.array([1.1, 1.0, 0.8]) / 402_000
+MOON_OVER_SUN = np.array([1.1, 1.0, 0.8]) / 402_000
+"""Full moon over sun, by channel."""
 _NIGHT_SKY = np.array([2.6e-7, 2.5e-7, 2.3e-7])
 
 
@@ -88,7 +89,7 @@ def environment_map(
 
     place = target(path, overwrite=overwrite)
     check_map(place)
-    width, height = _checked_size(size)
+    width, height = checked_size(size)
     edit = edit_of(edit)
     light = environment(scene, edit, (width, height), sun=sun)
     notes = {"recipe": json.dumps(edit.to_dict())}
@@ -103,7 +104,8 @@ def environment_map(
     return place
 
 
-def _checked_size(size: Any) -> tuple[int, int]:
+def checked_size(size: Any) -> tuple[int, int]:
+    """Return a map's width and height, or raise PhotoError."""
     try:
         width, height = (operator.index(n) for n in size)
     except (TypeError, ValueError):
@@ -139,7 +141,7 @@ def environment(scene: Scene, edit: Edit, size: tuple[int, int], *, sun: bool = 
     from sunwidget.explorer.draw import radiance_at
 
     scene = checked_scene(scene).corrected(edit)
-    values = _values(scene, edit)
+    values = explorer_values(scene, edit)
     width, height = size
     azimuth = ((np.arange(width) + 0.5) / width - 0.5) * 360
     elevation = (0.5 - (np.arange(height) + 0.5) / height) * 180
@@ -149,13 +151,13 @@ def environment(scene: Scene, edit: Edit, size: tuple[int, int], *, sun: bool = 
     sky = spectral_to_rec709(np.concatenate(parts)).reshape(height, width, 3)
     sky = np.maximum(sky, _LEAST_CHANNEL * (sky @ LUMINANCE)[..., None])
     if sun:
-        sky += _disc(_air(values), values["sun_azimuth"], values["sun_elevation"], size)
-    if _lit_by_moon(scene, edit):
-        sky = sky * _MOON_OVER_SUN + _NIGHT_SKY
+        sky += sun_disc(air_of(values), values["sun_azimuth"], values["sun_elevation"], size)
+    if is_moonlit(scene, edit):
+        sky = sky * MOON_OVER_SUN + _NIGHT_SKY
     return np.asarray(sky, np.float32)
 
 
-def _values(scene: Scene, edit: Edit) -> dict[str, Any]:
+def explorer_values(scene: Scene, edit: Edit) -> dict[str, Any]:
     """Return SkyExplorer's parameters that show the edit's sky: the two tables share their rows."""
     from sunwidget.explorer.table import EXPLORER_PARAMETERS, GRIDS
     from sunwidget.renderer.values import parameter_values
@@ -166,17 +168,19 @@ def _values(scene: Scene, edit: Edit) -> dict[str, Any]:
     return values | {"grid": GRIDS[-1]}
 
 
-def _air(values: dict[str, Any]) -> Atmosphere:
+def air_of(values: dict[str, Any]) -> Atmosphere:
+    """Return the air of ``explorer_values``."""
     from sunwidget.atmosphere.parameters import RANGES, Atmosphere
 
     return Atmosphere(**{name: values[name] for name in RANGES})
 
 
-def _lit_by_moon(scene: Scene, edit: Edit) -> bool:
+def is_moonlit(scene: Scene, edit: Edit) -> bool:
+    """Tell whether the moon lights an edit's sky."""
     return edit.light_source == "moon" or (edit.light_source == "automatic" and scene.lit_by_moon)
 
 
-def _disc(
+def sun_disc(
     atmosphere: Atmosphere, azimuth: float, elevation: float, size: tuple[int, int]
 ) -> NDArray[np.float64]:
     """Return the sun's disc: the light of equal parts of it, each in the pixel it falls into."""

@@ -72,7 +72,7 @@ def layers_of(
     for rows in strips(codes.shape):
         share = _sky_share(matte[rows])[..., None]
         behind, veiled, thick = around.at(rows)
-        share_of_cloud = _edited(_own_opacity(opacity[rows], matte[rows]), edit)
+        share_of_cloud = edited_opacity(own_opacity(opacity[rows], matte[rows]), edit)
         sky = _levels(share * _shares(clear[rows], top) + (1 - share) * behind, codes.dtype)
         seen = share * _shares(codes[rows], top) + (1 - share) * veiled
         wanted = share[..., 0] * share_of_cloud + (1 - share[..., 0]) * thick
@@ -111,7 +111,7 @@ class _Around:
         height, width = codes.shape[:2]
         size = size_within((width, height), _FILLED_EDGE)
         small = _resized(matte, *size)
-        shares = _edited(_own_opacity(_resized(opacity, *size), small), edit)
+        shares = edited_opacity(own_opacity(_resized(opacity, *size), small), edit)
         known = _sky_share(small)
         pictures = [_resized(image, *size).astype(np.float32) / top for image in (clear, codes)]
         self.size = (width, height)
@@ -178,12 +178,12 @@ def _sky_share(matte: Floats) -> Floats:
     return np.asarray(x * x * (3 - 2 * x), np.float32)
 
 
-def _own_opacity(clouds: Floats, matte: Floats) -> Floats:
+def own_opacity(clouds: Floats, matte: Floats) -> Floats:
     """Opacity of the clouds where they are seen: the map holds it times the matte."""
     return np.clip(clouds / np.maximum(matte, np.float32(1 / 255)), 0, 1)
 
 
-def _edited(opacity: Floats, edit: Edit) -> Floats:
+def edited_opacity(opacity: Floats, edit: Edit) -> Floats:
     """Opacity as the edit makes it (docs/clouds.md)."""
     q = np.float32(edit.cloud_opacity)
     if q <= 1:

@@ -1,0 +1,196 @@
+"""A dome for 3D: a photo's edited sky as an environment map, and its sun as numbers.
+
+The projection is that of ``environment_map``. The frame of vectors has x at the camera's heading,
+y to its left and z up: with these axes Blender reads the map without turning it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sunwidget.color import LUMINANCE
+from sunwidget.export.dome_light import DomeLight, dome_light, irradiance, solid_angles
+from sunwidget.export.environment import check_map, checked_size
+from sunwidget.files import complete_or_absent, target
+from sunwidget.recipe import edit_of
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+    from sunwidget.edit import Edit
+
+FORMAT = 1
+"""Of the json; it grows when a name changes its meaning."""
+
+
+def to_dome(
+    scene: Scene,
+    edit: Edit | dict[str, Any] | None,
+    path: str | os.PathLike[str],
+    *,
+    width: int = 2048,
+    sun: bool = True,
+    overwrite: bool = False,
+) -> Path:
+    """Write a photo's sky all the way round, with its clouds, under an edit's sun.
+
+    What the photo sees of the sky is its own, edited. The rest of the upper half is the fitted
+    model with the photo's clouds mirrored; the lower half has the land's mean albedo and is lit by
+    that sky. Beside the map goes a ``.json`` of the same name: the sun as a lamp of its own, what
+    was seen and what is modelled, the camera, and every convention.
+
+    Parameters
+    ----------
+    scene : Scene
+        What ``analyze`` returned.
+    edit : Edit, dict or None
+        Whose sun, air and clouds; None is the photo's own. Exposure, glow and other effects of a
+        lens are left out.
+    path : path
+        ``.exr`` (32-bit floats; needs the ``exr`` extra) or ``.hdr`` (Radiance).
+    width : int
+        In pixels, even, 8 to 16384; the height is half of it.
+    sun : bool
+        Draw the disc, 0.533° wide and as bright as its light asks for; False leaves it to a lamp.
+    overwrite : bool
+        Replace existing files.
+
+    Returns
+    -------
+    Path
+        Where the map is.
+
+    Raises
+    ------
+    FileExistsError
+        When one of the two files exists and ``overwrite`` is false.
+    PhotoError
+        For another ending or width, or EXR without its extra.
+    RendererError
+        When this machine has no EGL.
+    """
+    from sunwidget.analysis.errors import checked_scene
+
+    place = target(path, overwrite=overwrite)
+    check_map(place)
+    target(place.with_suffix(".json"), overwrite=overwrite)
+    half = width // 2 if isinstance(width, int) else width
+    size = checked_size((width, half))
+    edit = edit_of(edit)
+    dome = dome_light(checked_scene(scene), edit, size[0])
+    write_dome(place, scene, edit, dome, sun=sun, overwrite=overwrite)
+    return place
+
+
+def write_dome(
+    place: Path, scene: Scene, edit: Edit, dome: DomeLight, *, sun: bool, overwrite: bool
+) -> None:
+    """Write a dome that is made, and its json beside it."""
+    from sunwidget import openexr, radiance
+    from sunwidget.export.metadata import software
+
+    facts = described(scene.corrected(edit), edit, dome, place.name, sun=sun)
+    light = np.asarray(dome.sky + dome.disc if sun else dome.sky, np.float32)
+    notes = {"recipe": json.dumps(edit.to_dict()), "dome": json.dumps(facts)}
+    with complete_or_absent(place, overwrite=overwrite) as unfinished:
+        if place.suffix.lower() == ".hdr":
+            unfinished.write_bytes(radiance.pack(light, notes, software=software()))
+        else:
+            latitude_longitude = openexr.library().ENVMAP_LATLONG
+            told = {"envmap": latitude_longitude, "whiteLuminance": 1000.0, "software": software()}
+            channels = {name: light[..., i] for i, name in enumerate("RGB")}
+            openexr.write(unfinished, channels, told, notes, bits=32)
+    with complete_or_absent(place.with_suffix(".json"), overwrite=overwrite) as unfinished:
+        unfinished.write_text(json.dumps(facts, indent=1) + "\n", "utf-8")
+
+
+def described(scene: Scene, edit: Edit, dome: DomeLight, name: str, *, sun: bool) -> dict[str, Any]:
+    """Return what the json says; ``docs/dome.md`` explains it."""
+    camera = scene.camera
+    heading = edit.place.heading if edit.place is not None else None
+    heading = scene.photo.heading if heading is None else heading
+    wide = 2 * np.degrees(np.arctan(camera.width / 2 / camera.focal))
+    return {
+        "format": FORMAT,
+        "dome": name,
+        "projection": {
+            "kind": "equirectangular",
+            "middle_column": "camera heading",
+            "to_the_right": "azimuth grows clockwise seen from above",
+            "top_row": "zenith",
+            "frame": "right-handed; x camera heading, y left, z up",
+        },
+        "unit": {
+            "colour": "linear Rec. 709, the photo's own white balance",
+            "radiance": "kcd m^-2",
+            "absolute": False,
+            "scale": "the fitted model's: a photo tells no exposure",
+        },
+        "sun": _sun(scene, dome, heading, drawn=sun),
+        "sky": _sky(dome),
+        "ground": {"albedo": _rounded(dome.albedo), "lit_by": "sky and sun of this dome"},
+        "camera": {
+            "fov_vertical_deg": round(camera.fov_vertical_deg, 4),
+            "fov_horizontal_deg": round(float(wide), 4),
+            "heading_deg": heading,
+            "pitch_deg": round(camera.pitch, 4),
+            "roll_deg": round(camera.roll, 4),
+            "size": [camera.width, camera.height],
+        },
+        "horizon": {
+            "elevation_deg": 0.0,
+            "photo_row": round(scene.horizon.row, 2),
+            "confidence": round(scene.horizon.confidence, 3),
+        },
+        "recipe": edit.to_dict(),
+    }
+
+
+def _sun(scene: Scene, dome: DomeLight, heading: float | None, *, drawn: bool) -> dict[str, Any]:
+    from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
+
+    azimuth, elevation = dome.direction
+    across, up = np.radians(azimuth), np.radians(elevation)
+    toward = [np.cos(up) * np.cos(across), -np.cos(up) * np.sin(across), np.sin(up)]
+    level = float(dome.direct @ LUMINANCE)
+    brightest = max(float(dome.direct.max()), 1e-30)
+    return {
+        "in_the_map": drawn,
+        "azimuth_deg": round(azimuth, 4),
+        "elevation_deg": round(elevation, 4),
+        "compass_deg": None if heading is None else round((heading + azimuth) % 360, 4),
+        "direction": _rounded(toward),
+        "illuminance_lux": _digits(1000 * level),
+        "irradiance": [_digits(value) for value in dome.direct],
+        "color": _rounded(dome.direct / brightest),
+        "angular_diameter_deg": round(2 * SUN_ANGULAR_RADIUS_DEG, 4),
+        "share_through_clouds": round(dome.through, 4),
+        "photo_sun_confidence": round(scene.sun_confidence, 3),
+        "photo_sun_spread_deg": round(scene.sun_spread, 2),
+    }
+
+
+def _sky(dome: DomeLight) -> dict[str, Any]:
+    width = dome.sky.shape[1]
+    seen = float((dome.seen * solid_angles(width)).sum())
+    half = 2 * np.pi
+    return {
+        "illuminance_level_lux": _digits(1000 * float(irradiance(dome.sky) @ LUMINANCE)),
+        "seen_sr": round(seen, 5),
+        "seen_share_of_sky": round(seen / half, 5),
+        "modelled_share_of_sky": round(1 - seen / half, 5),
+        "outside_the_photo": "model and mirrored clouds" if dome.mirrored else "model",
+    }
+
+
+def _rounded(values: NDArray[Any] | list[Any]) -> list[float]:
+    return [round(float(value), 5) for value in values]
+
+
+def _digits(value: float) -> float:
+    return float(f"{value:.6g}")
