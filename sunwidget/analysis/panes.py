@@ -27,7 +27,8 @@ _DARK_ROOMS = 0.3
 _SPREAD = 0.5  # ln: of lamps' brightness
 _BRIGHTEST = 3.0  # times the median lamp; a level of 1 in the texture
 _AT_TOP, _AT_FOOT = 1.15, 0.7  # of a window's light
-_SOLID, _CONVEX = 0.6, 0.8  # of its hull that a pane fills, and from which it is the hull
+_LIKE_A_PANE = 0.75  # overlap with an upright trapezium over what both cover
+_THINNEST = 3  # pixels
 _WIDEST = 3.0  # times its height: boards and shadows of eaves are wider
 _WALL, _ROOM = 0.01, 0.014  # of the picture, of its longer side
 _SOFT = 0.7  # pixels: edges of panes
@@ -137,15 +138,46 @@ def _windows(found: np.ndarray) -> np.ndarray:
 
 
 def _straight(found: np.ndarray) -> np.ndarray:
-    """Return panes with straight edges, (h, w) uint8: glass is convex and no board, or none."""
+    """Return panes with straight edges, (h, w) uint8: what has no such shape is no pane.
+
+    Sides are upright, sills and lintels may run towards a vanishing point.
+    """
     import cv2
 
     out = np.zeros_like(found)
-    outlines, _ = cv2.findContours(found, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
-    for outline in outlines:
-        hull = cv2.convexHull(outline)
-        solid = cv2.contourArea(outline) / max(cv2.contourArea(hull), 1.0)
-        _, _, wide, tall = cv2.boundingRect(outline)
-        if solid >= _SOLID and wide <= _WIDEST * tall:
-            cv2.drawContours(out, [hull if solid >= _CONVEX else outline], -1, 1, -1)
+    count, pieces, shape, _ = cv2.connectedComponentsWithStats(found, connectivity=4)
+    for i in range(1, count):
+        left, top, wide, tall, area = shape[i]
+        if wide > _WIDEST * tall or min(wide, tall) < _THINNEST:
+            continue
+        piece = pieces[top : top + tall, left : left + wide] == i
+        quad = _quad(piece)
+        pane = np.zeros(piece.shape, np.uint8)
+        cv2.fillConvexPoly(pane, np.round(quad * 16).astype(np.int32), 1, shift=4)
+        both, either = (pane & piece).sum(), (pane | piece).sum()
+        part = out[top : top + tall, left : left + wide]
+        if both >= _LIKE_A_PANE * either:
+            part |= pane
+        elif area > _WALL * found.size:
+            part |= piece
     return out
+
+
+def _quad(piece: np.ndarray) -> np.ndarray:
+    """Return the corners (4, 2) of the upright trapezium that is most like a piece, (h, w) bool."""
+    columns = np.flatnonzero(piece.any(0))
+    top = piece.argmax(0)[columns]
+    foot = piece.shape[0] - piece[::-1].argmax(0)[columns] - 1
+    # Sides where half of a full column is there.
+    high = foot - top + 1
+    full = np.flatnonzero(high >= 0.5 * np.median(high))
+    x = columns[full]
+    ends = np.array([x[0], x[-1]])
+    inner = full[len(full) // 8 : len(full) - len(full) // 8] if len(full) >= 8 else full
+    lines = []
+    for edge in (top, foot):
+        slope = np.polyfit(columns[inner], edge[inner], 1)[0] if len(inner) >= 4 else 0.0
+        offset = np.median(edge[inner] - slope * columns[inner])
+        lines.append(slope * ends + offset)
+    (a, b), (c, d) = lines
+    return np.array([(ends[0], a), (ends[1], b), (ends[1], d), (ends[0], c)], np.float64)
