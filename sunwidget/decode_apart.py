@@ -15,6 +15,7 @@ import subprocess
 import sys
 import threading
 import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -74,6 +75,15 @@ def release() -> None:
     with _lock:
         while _kept:
             _kept.pop().end()
+
+
+@contextlib.contextmanager
+def kept() -> Iterator[None]:
+    """Keep the process while many files are opened, and end it with the last."""
+    try:
+        yield
+    finally:
+        release()
 
 
 def _child() -> _Child:

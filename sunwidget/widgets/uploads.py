@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.decode_apart import open_apart, release
+from sunwidget.decode_apart import kept, open_apart
 from sunwidget.photo import Photo, PhotoError
 from sunwidget.time_left import Progress
 from sunwidget.widgets.requests import Answer
@@ -71,9 +71,7 @@ class Uploads:
             file = io.BytesIO(bytes(self._data))
             self._key, self._data = None, bytearray()
             file.name = str(content["name"])[:200]
-            try:
+            with kept():  # no longer: a notebook stays open for days
                 photo = open_apart(file)
-            finally:
-                release()  # a notebook stays open for days
             self._opened(photo)
         return {}, []

@@ -180,4 +180,4 @@ def seeds() -> dict[str, bytes]:
 
 
 if __name__ == "__main__":
-    photo_readers.run(check, seeds(), "-max_len=6000", "-timeout=60", "-rss_limit_mb=4000")
+    photo_readers.run(check, seeds(), "-max_len=6000", "-timeout=300", "-rss_limit_mb=4000")

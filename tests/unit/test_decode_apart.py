@@ -225,3 +225,20 @@ def test_an_upload_that_crashes_its_decoder_is_refused_in_words(tmp_path, stand_
     upload("good.png")
     assert [photo.size for photo in opened] == [(32, 24)]
     assert not decode_apart._kept  # an editor stays open for days
+
+
+def test_after_a_batch_no_process_stays(tmp_path, monkeypatch):
+    folder = tmp_path / "photos"
+    folder.mkdir()
+    write(folder, "a.png")
+    monkeypatch.setattr(develop, "_save", save_what_was_opened)
+    report = sw.batch(folder, sw.Edit(), tmp_path / "out", workers=0)
+    assert [row.state for row in report] == ["done"]
+    assert not decode_apart._kept
+
+
+def save_what_was_opened(job, photo, path, progress):
+    assert open_apart(photo).size == (32, 24)
+    path.write_bytes(b"drawn")
+    assert decode_apart._kept
+    return ()
