@@ -1,7 +1,7 @@
 # Every target does its own set-up, once: what is there already is left alone.
 SHELL := bash
 .DEFAULT_GOAL := help
-.PHONY: help demo lab test coverage bench validate tour build wheel clean gl chromium
+.PHONY: help demo lab test coverage fuzz bench validate tour build wheel clean gl chromium
 
 # make test PYTHON=python3.13: a .venv of another Python is made anew.
 PYTHON ?=
@@ -24,6 +24,7 @@ help:
 	@echo 'make lab     open the quickstart notebook in JupyterLab'
 	@echo 'make test    every check: lint, types, JavaScript, Python, browser, notebooks'
 	@echo 'make coverage  which lines the tests run; pages in build/coverage'
+	@echo 'make fuzz HOURS=1  look for files that break the readers or the whole way; goes on in .fuzz'
 	@echo 'make bench   measure speed beside other ways of doing it; table, plot and build/bench.json'
 	@echo 'make validate  the sky against measurements and other models; table and build/validation.json'
 	@echo 'make tour    pictures of a walk through the editor in JupyterLab, in build/tour'
@@ -47,6 +48,15 @@ test: $(TEST) $(STATIC) gl chromium
 # Without the browser: what Chromium runs of JavaScript and what its kernels run are not counted.
 coverage: $(TEST) $(STATIC) gl
 	@scripts/coverage.sh $(PYTEST)
+
+# Half of the time for the readers of files, half for the whole way to a page; ends at a finding,
+# which lies in .fuzz and is tried again by naming it instead of the folder.
+HOURS ?= 1
+fuzz: $(TEST) $(STATIC) gl
+	@mkdir -p .fuzz
+	@for part in photo_readers whole_way; do \
+	  nice -n 19 $(PY) tests/fuzz/$$part.py .fuzz/$$part -print_final_stats=1 \
+	    -max_total_time=$$($(PY) -c 'print(round(1800 * $(HOURS)))') || exit 1; done
 
 bench: $(TEST) $(STATIC) gl chromium
 	@$(PY) bench/bench.py $(BENCH)

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from sunwidget.color import SRGB
+from sunwidget.decode_apart import open_apart
 from sunwidget.layout import PhotoError
-from sunwidget.photo import Photo, open_photo
+from sunwidget.photo import Photo
 
 # What a folder is searched for; a glob or a list may name any file.
 PICTURES = frozenset(
@@ -98,7 +99,7 @@ def name_of(source: Any, index: int) -> str:
 
 
 def read_frame(source: Any, long_edge: int | None, like: tuple[int, int] | None = None) -> Photo:
-    """Open a frame, shrunk to at most ``long_edge`` pixels; never enlarged.
+    """Open a frame in a process of its own, shrunk to at most ``long_edge``; never enlarged.
 
     Parameters
     ----------
@@ -115,7 +116,7 @@ def read_frame(source: Any, long_edge: int | None, like: tuple[int, int] | None 
     PhotoError
         For what cannot be opened, or has other proportions than ``like``.
     """
-    photo = open_photo(source)
+    photo = open_apart(source)
     edge = long_edge if like is None else max(like)
     size = photo.size if edge is None else photo.size_within(edge)
     if like is not None:

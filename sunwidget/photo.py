@@ -256,10 +256,11 @@ def open_photo(source: Any) -> Photo:
     name, decoded = decoded_from(source)
     for note in decoded.notes:
         warnings.warn(note, PhotoWarning, stacklevel=2)
-    return _photo(decoded, name)
+    return photo_of(decoded, name)
 
 
-def _photo(decoded: Decoded, name: str) -> Photo:
+def photo_of(decoded: Decoded, name: str) -> Photo:
+    """Return what was decoded as a photo."""
     return Photo(
         encoded=decoded.codes,
         name=name,

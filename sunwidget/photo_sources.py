@@ -29,25 +29,37 @@ def decoded_from(source: Any) -> tuple[str, Decoded]:
     PhotoError
         For everything that cannot be opened; the message says what to do.
     """
-    if isinstance(source, (str, os.PathLike)):
-        name, data = _read_path(source)
+    if (file := file_of(source)) is not None:
+        name, data = file
         return name, decode_bytes(data, name)
-    if isinstance(source, (bytes, bytearray, memoryview)):
-        data = bytes(source)
-        _check_no_path(data)
-        return "picture", decode_bytes(data, "picture")
     if _is_pil(source):
         name = Path(str(getattr(source, "filename", ""))).name or "image"
         return _plain(name), decode_image(source, _plain(name))
-    if callable(getattr(source, "read", None)):
-        name, data = _read_stream(source)
-        return name, decode_bytes(data, name)
     if hasattr(source, "__array__") or isinstance(source, (list, tuple)):
         return "array", _from_array(source)
     raise PhotoError(
         f"Cannot open {type(source).__name__} as a photo. Pass a path, bytes, a file opened "
         "with mode 'rb', a PIL image or a NumPy array."
     )
+
+
+def file_of(source: Any) -> tuple[str, bytes] | None:
+    """Return a picture file's name for messages and its bytes; None for what is no file.
+
+    Raises
+    ------
+    PhotoError
+        For a file that cannot be read.
+    """
+    if isinstance(source, (str, os.PathLike)):
+        return _read_path(source)
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        data = bytes(source)
+        _check_no_path(data)
+        return "picture", data
+    if not _is_pil(source) and callable(getattr(source, "read", None)):
+        return _read_stream(source)
+    return None
 
 
 def _read_path(source: Any) -> tuple[str, bytes]:

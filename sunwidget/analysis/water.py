@@ -155,7 +155,7 @@ def _with_glints(
     level = np.interp(np.arange(len(share)), rows, level)
     brighter = smoothstep(0.0, 0.1, light - level[:, None])
     # The last of the water below the sky is thinner than the network's map; land there is darker.
-    as_bright = smoothstep(0.6, 0.8, light / level[:, None])
+    as_bright = smoothstep(0.6, 0.8, light / np.maximum(level, _EPSILON)[:, None])
     found = np.maximum(water, closed(water, _COLUMN, 0) * brighter * ground)
     below = _below_sun(maps, water.shape[1])
     found = np.maximum(found, closed(found, 2 * _COLUMN, 0) * below * as_bright * ground)

@@ -16,6 +16,7 @@ import numpy as np
 from sunwidget.analysis.analyze import analyze
 from sunwidget.analysis.frame_scenes import FrameScenes, Trouble
 from sunwidget.analysis.scene import Scene
+from sunwidget.decode_apart import kept
 from sunwidget.export.ahead import ahead
 from sunwidget.export.film import (
     Film,
@@ -163,39 +164,40 @@ def timelapse(
     steps = FrameEdits(edit, len(sources), easing)
     require_renderer()  # the frames are long looked at before the first is drawn
     report = with_time_left(progress)
-    scenes = FrameScenes.of(
-        sources,
-        long_edge=long_edge,
-        corrections=steps.corrections,
-        place=place,
-        clock=Clock(times, len(sources), None if place is None else place.longitude),
-        hints=hints,
-        progress=part(report, 0.0, _LOOKING),
-    )
-    _refuse_or_warn(scenes.troubles, len(sources), broken, film=film)
+    with kept():
+        scenes = FrameScenes.of(
+            sources,
+            long_edge=long_edge,
+            corrections=steps.corrections,
+            place=place,
+            clock=Clock(times, len(sources), None if place is None else place.longitude),
+            hints=hints,
+            progress=part(report, 0.0, _LOOKING),
+        )
+        _refuse_or_warn(scenes.troubles, len(sources), broken, film=film)
 
-    drawing = part(report, _LOOKING, 1.0)
-    if not film:
-        place_out.mkdir(exist_ok=True)
-        for number, scene in enumerate(scenes):
-            drawing(number / len(sources), f"frame {number + 1} of {len(sources)}")
-            if isinstance(scene, Scene):
-                moved = steps.of(scene, number, scenes.daylight[number])
-                save((scene, moved), names[number], overwrite=overwrite, quality=quality)
-        drawing(1.0, f"{len(sources)} frames")
-        return place_out
-    count = len(sources) - (len(scenes.troubles) if broken == "skip" else 0)
-    size = size_for(place_out, scenes.size, size)
-    with (
-        whole_film(place_out, overwrite=overwrite) as unfinished,
-        contextlib.closing(ahead(iter(scenes))) as prepared,
-        contextlib.closing(
-            ahead(_drawn(prepared, steps, scenes.daylight, size, broken))
-        ) as pictures,
-    ):
-        row = told(pictures, count, drawing)
-        write(row, unfinished, Film(size, fps, count, loop, quality))
-    return place_out.parent if is_sequence(place_out) else place_out
+        drawing = part(report, _LOOKING, 1.0)
+        if not film:
+            place_out.mkdir(exist_ok=True)
+            for number, scene in enumerate(scenes):
+                drawing(number / len(sources), f"frame {number + 1} of {len(sources)}")
+                if isinstance(scene, Scene):
+                    moved = steps.of(scene, number, scenes.daylight[number])
+                    save((scene, moved), names[number], overwrite=overwrite, quality=quality)
+            drawing(1.0, f"{len(sources)} frames")
+            return place_out
+        count = len(sources) - (len(scenes.troubles) if broken == "skip" else 0)
+        size = size_for(place_out, scenes.size, size)
+        with (
+            whole_film(place_out, overwrite=overwrite) as unfinished,
+            contextlib.closing(ahead(iter(scenes))) as prepared,
+            contextlib.closing(
+                ahead(_drawn(prepared, steps, scenes.daylight, size, broken))
+            ) as pictures,
+        ):
+            row = told(pictures, count, drawing)
+            write(row, unfinished, Film(size, fps, count, loop, quality))
+        return place_out.parent if is_sequence(place_out) else place_out
 
 
 def _drawn(

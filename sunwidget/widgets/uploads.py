@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.photo import Photo, PhotoError, open_photo
+from sunwidget.decode_apart import kept, open_apart
+from sunwidget.photo import Photo, PhotoError
 from sunwidget.time_left import Progress
 from sunwidget.widgets.requests import Answer
 
@@ -70,5 +71,7 @@ class Uploads:
             file = io.BytesIO(bytes(self._data))
             self._key, self._data = None, bytearray()
             file.name = str(content["name"])[:200]
-            self._opened(open_photo(file))
+            with kept():  # no longer: a notebook stays open for days
+                photo = open_apart(file)
+            self._opened(photo)
         return {}, []

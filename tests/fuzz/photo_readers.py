@@ -15,6 +15,7 @@ import sys
 import tempfile
 import warnings
 import zlib
+from collections.abc import Callable
 from pathlib import Path
 
 import atheris
@@ -132,13 +133,12 @@ def words(files: dict[str, bytes]) -> list[bytes]:
     return sorted(heads | {name for name in names if len(name) == 4 or len(name) > 7})
 
 
-def main() -> None:
-    """Fill the folder with the seeds and leave the rest to libFuzzer."""
+def run(checked: Callable[[bytes], None], files: dict[str, bytes], *limits: str) -> None:
+    """Fill the folder that the command line names with the seeds, and fuzz."""
     given = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
     options = [argument for argument in sys.argv[1:] if argument.startswith("-")]
     with contextlib.ExitStack() as stack:
         if not given or Path(given[0]).is_dir() or not Path(given[0]).exists():
-            files = seeds()
             folder = Path(given[0] if given else stack.enter_context(tempfile.TemporaryDirectory()))
             folder.mkdir(parents=True, exist_ok=True)
             for name, data in files.items():
@@ -149,10 +149,9 @@ def main() -> None:
                 listed.write('"' + "".join(f"\\x{byte:02x}" for byte in word) + '"\n')
             listed.flush()
             options += [f"-dict={listed.name}", f"-artifact_prefix={folder}-"]
-        limits = ["-max_len=20000", "-timeout=20", "-rss_limit_mb=3000"]
-        atheris.Setup([sys.argv[0], *limits, *options, *given], check, custom_mutator=mutated)
+        atheris.Setup([sys.argv[0], *limits, *options, *given], checked, custom_mutator=mutated)
         atheris.Fuzz()
 
 
 if __name__ == "__main__":
-    main()
+    run(check, seeds(), "-max_len=20000", "-timeout=20", "-rss_limit_mb=3000")

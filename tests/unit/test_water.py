@@ -346,3 +346,18 @@ def test_a_large_picture_has_the_water_of_its_preview():
     water = cv2.resize(coast.water.astype(np.float32), (300, 200)) > 0.9
     codes = [255 * np.clip(light[water], 0, 1) ** (1 / 2.2) for light in (small, large)]
     assert np.abs(codes[1] - codes[0]).mean() < 2.8  # of 255; the frayed rims of a column sparkle
+
+
+def test_water_that_is_black_is_finite():
+    picture = np.full((24, 32, 3), 120, np.uint8)
+    picture[12:] = 0  # as bright as nothing: a share of it was once no number
+    working = Working.of(open_photo(picture))
+    sky, ground, wet = (np.zeros((24, 32), np.float32) for _ in range(3))
+    sky[:12], ground[12:], wet[12:, 4:28] = 1, 1, 1
+    empty = np.zeros((6, 8), np.float32)
+    empty[2, 4] = 0.9
+    shown = dict.fromkeys(SunMaps._fields, empty) | {"clean": np.zeros((6, 8, 3), np.float32)}
+    with np.errstate(all="raise"):
+        found = water._with_glints(working, sky, ground, wet, SunMaps(**shown))
+    assert np.isfinite(found).all()
+    np.testing.assert_array_equal(found[12:, 4:28], 1)

@@ -144,10 +144,11 @@ def _is_ours(category: type[Warning]) -> bool:
 
 def _save(job: Job, photo: Path, path: Path, progress: Progress | None) -> tuple[str, ...]:
     import sunwidget as sw
+    from sunwidget.decode_apart import open_apart
 
     wish = job.wish
     report = _stopping(progress)
-    scene = sw.analyze(sw.open(photo), progress=part(report, 0.0, 0.6), **wish.analysis)
+    scene = sw.analyze(open_apart(photo), progress=part(report, 0.0, 0.6), **wish.analysis)
     edit = wish.edit_of(scene)
     own = scene.photo.size
     size = own if wish.long_edge is None else scene.photo.size_within(wish.long_edge)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from sunwidget import __version__
+from sunwidget.decode_apart import kept
 from sunwidget.export.batch.develop import Job, Outcome, develop, sentence
 
 # How long to wait for the first worker, and for one to come back when all are gone.
@@ -42,12 +43,14 @@ class ThisProcess:
 
     def outcomes(self, jobs: Iterator[Job]) -> Iterator[Outcome]:
         """Yield the outcome of each job in turn; ``progress`` hears of the parts of a photo."""
-        for job in jobs:
-            outcome = develop(job, self.progress)
-            if outcome.unseen:  # it changed between the two times it was read
-                error = f"{job.path} was removed or changed while it was read. Run the batch again."
-                outcome = Outcome(job.number, error=error, worker=outcome.worker)
-            yield outcome
+        with kept():
+            for job in jobs:
+                outcome = develop(job, self.progress)
+                if outcome.unseen:  # it changed between the two times it was read
+                    changed = f"{job.path} was removed or changed while it was read."
+                    error = f"{changed} Run the batch again."
+                    outcome = Outcome(job.number, error=error, worker=outcome.worker)
+                yield outcome
 
 
 def has_dask() -> bool:
