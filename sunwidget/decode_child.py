@@ -16,6 +16,7 @@ import signal
 import struct
 import sys
 import warnings
+from dataclasses import fields
 from pathlib import Path
 from typing import IO, Any
 
@@ -23,7 +24,9 @@ import numpy as np
 
 from sunwidget.color import SRGB, ColorProfile, ParametricCurve, TableCurve
 from sunwidget.decode import decode_bytes, reason
+from sunwidget.decode_heif import DepthMap
 from sunwidget.exif import CameraFacts
+from sunwidget.gain_map import GainMap
 from sunwidget.layout import MAX_PIXELS, PhotoError
 from sunwidget.photo import Photo, photo_of
 
@@ -90,6 +93,13 @@ def send_photo(stream: IO[bytes], photo: Photo) -> None:
         head["recorded"] = None
     blobs = [blob for name in _BYTES if (blob := getattr(photo, name)) is not None]
     pixels = [photo.encoded] if photo.alpha is None else [photo.encoded, photo.alpha]
+    if photo.depth is not None:
+        head["depth"] = {"kind": photo.depth.kind, "shape": photo.depth.values.shape}
+        pixels.append(photo.depth.values)
+    if photo.gain_map is not None:
+        told = {field.name: getattr(photo.gain_map, field.name) for field in fields(GainMap)}
+        blobs.append(told.pop("jpeg"))
+        head["gain_map"] = told | {"length": len(blobs[-1])}
     send(stream, head, *blobs, *(np.ascontiguousarray(array).data for array in pixels))
 
 
@@ -111,8 +121,10 @@ def receive_photo(stream: IO[bytes], head: dict[str, Any]) -> Photo:
         if length is not None and not 0 <= length <= 1 << 31:
             raise ValueError("metadata of an impossible length")
         found[name] = None if length is None else bytes(fill(stream, bytearray(length)))
+    gain_map = _receive_gain_map(stream, head)
     encoded = fill(stream, np.empty((height, width, 3), head["dtype"]))
     alpha = fill(stream, np.empty((height, width), np.float32)) if head["alpha"] else None
+    depth = _receive_depth(stream, head)
     facts = head["facts"]
     facts |= {name: facts[name] and dt.datetime.fromisoformat(facts[name]) for name in _TIMES}
     facts["stored_size"] = facts["stored_size"] and tuple(facts["stored_size"])
@@ -122,11 +134,37 @@ def receive_photo(stream: IO[bytes], head: dict[str, Any]) -> Photo:
     return Photo(
         encoded=encoded,
         alpha=alpha,
+        gain_map=gain_map,
+        depth=depth,
         profile=_profile_of_json(head["profile"]),
         facts=CameraFacts(**facts),
         **plain,
         **found,
     )
+
+
+def _receive_gain_map(stream: IO[bytes], head: dict[str, Any]) -> GainMap | None:
+    told = head.get("gain_map")
+    if told is None:
+        return None
+    length = int(told.pop("length"))
+    if not 0 <= length <= 1 << 31:
+        raise ValueError("a gain map of an impossible length")
+    triples = {
+        name: tuple(float(v) for v in value) if isinstance(value, list) else value
+        for name, value in told.items()
+    }
+    return GainMap(jpeg=bytes(fill(stream, bytearray(length))), **triples)
+
+
+def _receive_depth(stream: IO[bytes], head: dict[str, Any]) -> DepthMap | None:
+    told = head.get("depth")
+    if told is None:
+        return None
+    height, width = (int(n) for n in told["shape"])
+    if min(height, width) < 1 or height * width > MAX_PIXELS:
+        raise ValueError("a depth map of an impossible size")
+    return DepthMap(fill(stream, np.empty((height, width), np.float32)), str(told["kind"]))
 
 
 def _profile_as_json(profile: ColorProfile) -> dict[str, Any]:
