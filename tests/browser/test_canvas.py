@@ -14,7 +14,11 @@ from sunwidget.widgets import SunEditor, payload
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 
 # What lies over the picture, out of sight, and out of the way of comparisons by pixels.
-BARE = ".sw-overlay, .sw-own-sun, .sw-zoom-control, .sw-divider { opacity: 0 !important }"
+BARE = """
+  .sw-overlay, .sw-own-sun, .sw-zoom-control, .sw-divider, .sw-window::after {
+    opacity: 0 !important;
+  }
+"""
 UNTOUCHED = {"sun_azimuth": None, "sun_elevation": None, "sun_hint": None, "strokes": []}
 
 
