@@ -42,6 +42,7 @@ export class Kernel {
     };
     model.on(CONNECTION, onConnection);
     for (const event of SIGNS) model.on(event, onSign);
+    if (this.state === "live") this.ask();
     signal.addEventListener("abort", () => {
       model.off(CONNECTION, onConnection);
       for (const event of SIGNS) model.off(event, onSign);
@@ -70,6 +71,14 @@ export class Kernel {
     if (this.state !== "live" || this.asked) return;
     this.asked = true;
     this.timer = setTimeout(() => this.setSilent(true), PATIENCE_MS);
+    this.ask();
+  }
+
+  /**
+   * JupyterLab opens a widget's way past busy cells with its first message, which itself has to wait:
+   * sent with the view, so that a person's first stroke need not.
+   */
+  ask() {
     try {
       this.model.send({ type: "request", id: "alive", action: "alive" });
     } catch {
