@@ -192,7 +192,7 @@ export function autosave(view, signal) {
 const atWork = ({ session, fingerprint }) => `${session} ${fingerprint}`;
 
 /** @param {import("./view.js").View} view */
-function showKernel({ kernel, notices }) {
+function showKernel({ kernel, model, notices }) {
   if (kernel.state === "live" && kernel.silent) {
     notices.show("kernel", {
       text:
@@ -203,6 +203,12 @@ function showKernel({ kernel, notices }) {
   }
   if (kernel.state !== "lost") {
     notices.hide("kernel");
+    return;
+  }
+  if (model.get("_saved")) {
+    notices.show("kernel", {
+      text: "This is a picture of the editor as it was saved. Run the cell again to go on.",
+    });
     return;
   }
   notices.show("kernel", {
