@@ -115,8 +115,8 @@ def page(
         ]
     )
     content = {"state": state, "buffers": embedded.get("buffers", [])}
-    name = _text(title)
-    paragraphs = "".join(f"\n<p>{_text(note)}</p>" for note in notes)
+    name = escaped(title)
+    paragraphs = "".join(f"\n<p>{escaped(note)}</p>" for note in notes)
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -148,11 +148,11 @@ def page(
 
 
 def _image(still: Still) -> str:
-    (width, height), text = still.size, _text(still.description)
+    (width, height), text = still.size, escaped(still.description)
     return f'<img src="{_data_url(still.data)}" width="{width}" height="{height}" alt="{text}">'
 
 
-def _text(value: Any) -> str:
+def escaped(value: Any) -> str:
     """Return a person's text for an element or an attribute, on one line."""
     # Not printable: control signs, half surrogates of file names, U+2028.
     line = "".join(sign if sign.isprintable() else " " for sign in str(value))

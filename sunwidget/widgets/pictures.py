@@ -10,6 +10,7 @@ from typing import Any
 
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, plain
+from sunwidget.export.framed import StaticPage
 from sunwidget.files import target
 from sunwidget.png import encode_png
 from sunwidget.recipe import edit_of
@@ -93,6 +94,24 @@ class Pictures(EditHistory, Analysed):
         place = None if path is None else target(path, overwrite=overwrite)
         text = self._page(self.edit, title)
         return text if place is None else write_page(text, place, overwrite=overwrite)
+
+    def render_static(self, *, title: str | None = None) -> StaticPage:
+        """Return the page of ``to_html`` as a cell's output: the sun moves in it without a kernel.
+
+        For notebooks that are exported: ``nbconvert --to html``, MyST, Quarto and marimo keep it
+        live, without a network. Waits for the analysis. The notebook grows by the page, 2 to 8 MB.
+
+        Parameters
+        ----------
+        title : str, optional
+            Of the page. Default: the photo's name.
+
+        Examples
+        --------
+        >>> editor.render_static()
+        """
+        name = self.photo.name if title is None else title
+        return StaticPage(self._page(self.edit, title), name)
 
     def _render(self, edit: Edit, **options: Any) -> Any:
         from sunwidget.renderer.render import render

@@ -31,6 +31,7 @@ from sunwidget.atmosphere.presets import PRESETS
 from sunwidget.explorer import table
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
 from sunwidget.explorer.values import effective_values
+from sunwidget.export.framed import StaticPage
 from sunwidget.files import target
 from sunwidget.png import encode_png
 from sunwidget.time_left import Progress
@@ -301,6 +302,19 @@ class SkyExplorer(AnswersRefusals):
         place = None if path is None else target(path, overwrite=overwrite)
         text = explorer_page(self, title=title)
         return text if place is None else write_page(text, place, overwrite=overwrite)
+
+    def render_static(self, *, title: str = "Sky explorer") -> StaticPage:
+        """Return the page of ``to_html`` as a cell's output: live without a kernel.
+
+        For notebooks that are exported: ``nbconvert --to html``, MyST, Quarto and marimo keep it
+        live, without a network. The notebook grows by the page, 0.3 MB.
+
+        Parameters
+        ----------
+        title : str
+            Of the page.
+        """
+        return StaticPage(explorer_page(self, title=title), title)
 
     def curve(self, name: str) -> NDArray[np.float32]:
         """Return one of the curves beside the picture, shape (n, 4).

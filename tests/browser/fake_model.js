@@ -5,6 +5,7 @@ export class FakeModel {
     this.listeners = new Map();
     this.saved = []; // one snapshot of the changed names a save_changes()
     this.sent = [];
+    this.asked = 0; // how often for a sign of life
     this.dirty = {};
   }
   get(name) {
@@ -21,8 +22,10 @@ export class FakeModel {
     this.dirty = {};
   }
   send(content) {
-    if (content.action === "alive") this.fire("msg:custom", { type: "response", id: content.id });
-    else this.sent.push(content);
+    if (content.action === "alive") {
+      this.asked += 1;
+      this.fire("msg:custom", { type: "response", id: content.id });
+    } else this.sent.push(content);
   }
   on(event, callback) {
     if (!this.listeners.has(event)) this.listeners.set(event, new Set());

@@ -46,6 +46,7 @@ def jupyterlab(folder, root, *, app="lab", theme="JupyterLab Light"):
             f"--IdentityProvider.token={token}",
             f"--ServerApp.root_dir={folder}",
             "--LabApp.extension_manager=readonly",
+            "--LabApp.expose_app_in_browser=True",
         ]
 
     settings = {

@@ -14,7 +14,11 @@ from sunwidget.widgets import SunEditor, payload
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 
 # What lies over the picture, out of sight, and out of the way of comparisons by pixels.
-BARE = ".sw-overlay, .sw-own-sun, .sw-zoom-control, .sw-divider { opacity: 0 !important }"
+BARE = """
+  .sw-overlay, .sw-own-sun, .sw-zoom-control, .sw-divider, .sw-window::after {
+    opacity: 0 !important;
+  }
+"""
 UNTOUCHED = {"sun_azimuth": None, "sun_elevation": None, "sun_hint": None, "strokes": []}
 
 
@@ -214,6 +218,20 @@ def test_100_percent_is_sharp_on_a_dense_screen(browser, coast):
         whole = levels(page)
         assert seen.std() > 10
         assert np.array_equal(seen, whole[: len(seen), : seen.shape[1]])
+
+
+@pytest.mark.parametrize(("aspect", "height"), [((150, 100), 700), ((100, 150), 700)])
+def test_it_fits_the_windows_height_portraits_too(browser, aspect, height):
+    width, tall = aspect
+    slope = np.linspace(230, 60, tall)[:, None, None] * np.ones((tall, width, 3))
+    scene = sw.analyze(slope.astype(np.uint8))
+    with shown(browser, scene, viewport={"width": 1366, "height": height}) as page:
+        assert box(page, ".sw-stage")["height"] <= 0.76 * height
+        assert box(page, ".sunwidget")["height"] <= height
+        page.set_viewport_size({"width": 1366, "height": 500})
+        page.wait_for_function(
+            "document.querySelector('.sw-stage').getBoundingClientRect().height <= 380"
+        )
 
 
 def test_a_divider_shows_the_photo_on_its_left(editor):

@@ -258,6 +258,24 @@ def test_before_shows_the_photo_while_held(editor):
     assert editor.locator(".sunwidget.sw-before").count() == 0
 
 
+def test_before_that_is_kept_is_named_and_goes_with_the_next_edit(editor):
+    said = "getComputedStyle(document.querySelector('.sw-window'), '::after').content"
+    assert editor.evaluate(said) == "none"
+    editor.get_by_role("button", name="Before").click()
+    editor.get_by_role("button", name="Before", pressed=True).wait_for()
+    assert editor.evaluate(said) == '"Before"'
+    editor.get_by_role("slider", name="Sun", exact=True).focus()
+    assert editor.locator(".sunwidget.sw-before").count() == 1
+    editor.keyboard.press("ArrowUp")
+    editor.get_by_role("button", name="Before", pressed=False).wait_for()
+    assert editor.locator(".sunwidget.sw-before").count() == 0
+    # Held, it stays: who holds it wants to see the photo, whatever Python sets meanwhile.
+    editor.keyboard.down("b")
+    editor.evaluate("model.receive({sun_elevation: 20})")
+    assert editor.locator(".sunwidget.sw-before").count() == 1
+    editor.keyboard.up("b")
+
+
 def test_what_the_kernel_sets_is_shown(editor):
     before = canvas_of(editor)
     editor.evaluate("model.receive({sun_azimuth: -12, sun_elevation: 2.5})")

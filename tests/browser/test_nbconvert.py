@@ -80,6 +80,45 @@ def test_of_a_notebook_saved_with_its_widgets_the_picture_can_be_had(tmp_path):
         assert ("data:image/png;base64,cGljdHVyZQ==" in page) == picture
 
 
+STATIC = {
+    "editor": """import sunwidget as sw
+sw.SunEditor(sw.open(sw.sample("coast").preview(384)), sun_elevation=-6).render_static()""",
+    "explorer": "sw.SkyExplorer(sun_elevation=20).render_static()",
+}
+
+
+def test_render_static_stays_live_in_the_page_without_network(browser, tmp_path, screenshots):
+    write_notebook(tmp_path / "static.ipynb", STATIC.values())
+    command = [*NBCONVERT, "--execute", "static.ipynb"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr[-4000:]
+    context = browser.new_context(viewport={"width": 1100, "height": 1400})
+    context.set_offline(True)
+    page = context.new_page()
+    page.set_default_timeout(PATIENCE)
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto((tmp_path / "static.html").as_uri())
+    for i, name in enumerate(STATIC):
+        outer = page.locator("iframe[srcdoc]").nth(i)
+        outer.scroll_into_view_if_needed()
+        inner = outer.content_frame
+        inner.locator(".sunwidget.sw-live").wait_for()
+        page.wait_for_timeout(500)
+        # The frame is as tall as what it holds: nothing scrolls in it.
+        tall = inner.locator("body").evaluate("(body) => body.getBoundingClientRect().height")
+        assert outer.bounding_box()["height"] == pytest.approx(tall, abs=1.5)
+        readout = inner.locator(".sw-readout").first
+        before = readout.text_content()
+        inner.get_by_role("slider", name="Elevation").first.focus()
+        page.keyboard.press("ArrowRight")
+        page.wait_for_timeout(500)
+        assert readout.text_content() != before, f"the sun of the {name} does not move"
+        page.screenshot(path=screenshots / f"static-{name}.png")
+    assert errors == []
+    context.close()
+
+
 def pixels(output):
     """What the output's only picture holds, (H, W, 3) uint8."""
     assert output.locator("img").count() == 1

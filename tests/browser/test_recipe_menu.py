@@ -102,6 +102,26 @@ def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(page, s
     assert page.errors == []
 
 
+def test_a_further_view_of_an_editor_at_work_does_not_offer_what_the_first_one_does(page, state):
+    show(page, state, "first")
+    paste(page, '{"exposure": 1}')
+    page.evaluate("close_view()")
+    show(page, state, "second")
+    page.get_by_role("button", name="Restore").wait_for()
+    page.evaluate("window.close_first = close_view; window.first = model")
+    show(page, state, "second")
+    page.wait_for_timeout(1800)  # longer than it waits for a view that goes late
+    assert page.locator(".sunwidget").count() == 2
+    assert page.get_by_role("button", name="Restore").count() == 1
+    assert page.errors == []
+
+
+def test_an_editor_speaks_to_the_kernel_before_anybody_does_anything(page, state):
+    # JupyterLab opens the way past busy cells with a widget's first message.
+    show(page, state)
+    assert page.evaluate("model.asked") == 1
+
+
 def test_of_several_edits_the_last_is_offered_and_older_ones_by_the_menu_alone(page, state):
     for session, exposure in [("first", 1), ("second", 2)]:
         show(page, state, session)

@@ -174,6 +174,18 @@ def test_an_explorer_writes_what_it_shows(tmp_path):
         explorer.to_html(path)
 
 
+def test_as_a_cells_output_the_page_is_in_a_frame_that_nothing_in_it_can_end(scene):
+    object.__setattr__(scene.photo, "name", HOSTILE)
+    shown = SunEditor(scene, sun_elevation=3).render_static()
+    parser = html5lib.HTMLParser(strict=True, namespaceHTMLElements=False)
+    (frame,) = parser.parseFragment(shown._repr_html_())
+    assert frame.tag == "iframe"
+    assert frame.get("srcdoc") == shown.html
+    assert "allow-same-origin" not in frame.get("sandbox"), "the page must not see its host"
+    assert content(frame.get("srcdoc"))["state"]["sun_elevation"] == 3
+    assert SkyExplorer().render_static(title="Dusk & dawn").title == "Dusk & dawn"
+
+
 def test_an_explorer_needs_no_renderer_for_a_page(monkeypatch):
     def broken(*_):
         raise RendererError("no EGL")

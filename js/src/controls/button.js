@@ -84,12 +84,17 @@ export function holdButton({ onChange, ...options }) {
     onChange(value);
   };
   let wasOn = false;
+  let pressed = false;
   const press = () => {
+    pressed = true;
     since = performance.now();
     wasOn = on;
     show(true);
   };
-  const release = () => show(performance.now() - since < HOLD_MS && !wasOn);
+  const release = () => {
+    pressed = false;
+    show(performance.now() - since < HOLD_MS && !wasOn);
+  };
   node.addEventListener("pointerdown", (event) => {
     node.setPointerCapture(event.pointerId);
     press();
@@ -100,6 +105,9 @@ export function holdButton({ onChange, ...options }) {
     if (event.detail === 0) show(!on);
   });
   node.setAttribute("aria-pressed", "false");
-  // `press` and `release` are what a key does that is held instead.
-  return { node, show, press, release, isOn: () => on };
+  // `press` and `release` are what a key does that is held instead; `letGo` ends what a click keeps.
+  const letGo = () => {
+    if (on && !pressed) show(false);
+  };
+  return { node, show, press, release, letGo, isOn: () => on };
 }

@@ -23,8 +23,8 @@ const LEAVING_MS = 1500;
 const SESSIONS = Symbol.for("sunwidget.sessions");
 
 /**
- * Sessions in this page that have a kernel, with how many views each has: what they do needs no
- * restoring. Every widget runs a copy of this module of its own, so they meet at the window.
+ * Sessions in this page that have a kernel, with how many views each has, also by photo: what
+ * they do needs no restoring. Every widget runs a copy of this module of its own, so they meet at the window.
  *
  * @returns {Map<string, number>}
  */
@@ -108,9 +108,16 @@ export function autosave(view, signal) {
   const leave = () => {
     if (!counted || !source) return;
     counted = false;
-    const left = (alive.get(source.session) ?? 1) - 1;
-    if (left > 0) alive.set(source.session, left);
-    else alive.delete(source.session);
+    count(source, -1);
+  };
+
+  /** @param {Source} of @param {number} views */
+  const count = (of, views) => {
+    for (const key of [of.session, atWork(of)]) {
+      const left = (alive.get(key) ?? 0) + views;
+      if (left > 0) alive.set(key, left);
+      else alive.delete(key);
+    }
   };
 
   /** With another photo, or the first one. */
@@ -121,13 +128,14 @@ export function autosave(view, signal) {
     source = model.get("_source") ?? null;
     if (!source?.fingerprint) return;
     start = state.recipe();
-    restored = false;
+    // A further view of an editor at work: what was kept is the first one's to offer.
+    restored = alive.has(atWork(source));
     const { fingerprint, session } = source;
     const own = store.of(fingerprint).find((entry) => entry.session === session);
     const kept = state.kept();
     const first = !alive.has(session);
     if (kernel.answers) {
-      alive.set(session, (alive.get(session) ?? 0) + 1);
+      count(source, 1);
       counted = true;
     }
     // Another view of it, which is at work, writes this entry.
@@ -180,8 +188,11 @@ export function autosave(view, signal) {
   return {};
 }
 
+/** Among the living: an editor with the photo that it shows. @param {Source} source */
+const atWork = ({ session, fingerprint }) => `${session} ${fingerprint}`;
+
 /** @param {import("./view.js").View} view */
-function showKernel({ kernel, notices }) {
+function showKernel({ kernel, model, notices }) {
   if (kernel.state === "live" && kernel.silent) {
     notices.show("kernel", {
       text:
@@ -192,6 +203,12 @@ function showKernel({ kernel, notices }) {
   }
   if (kernel.state !== "lost") {
     notices.hide("kernel");
+    return;
+  }
+  if (model.get("_saved")) {
+    notices.show("kernel", {
+      text: "This is a picture of the editor as it was saved. Run the cell again to go on.",
+    });
     return;
   }
   notices.show("kernel", {

@@ -3,6 +3,8 @@
  * stand-alone page. Whatever needs the kernel asks here first.
  */
 
+import { ownModel } from "../saved_state.js";
+
 /**
  * @typedef {import("../types.js").Model} Model
  * @typedef {"live" | "lost" | "none"} KernelState
@@ -10,7 +12,6 @@
 
 // What ipywidgets fires when a model has lost its connection, or got one.
 const CONNECTION = "comm_live_update";
-const PROBE = "_connection";
 const PATIENCE_MS = 15_000; // a kernel that works on something else may take its time
 // Only the kernel sets these.
 const SIGNS = ["change:_status", "change:_scene", "msg:custom"];
@@ -42,6 +43,7 @@ export class Kernel {
     };
     model.on(CONNECTION, onConnection);
     for (const event of SIGNS) model.on(event, onSign);
+    if (this.state === "live") this.ask();
     signal.addEventListener("abort", () => {
       model.off(CONNECTION, onConnection);
       for (const event of SIGNS) model.off(event, onSign);
@@ -70,6 +72,14 @@ export class Kernel {
     if (this.state !== "live" || this.asked) return;
     this.asked = true;
     this.timer = setTimeout(() => this.setSilent(true), PATIENCE_MS);
+    this.ask();
+  }
+
+  /**
+   * JupyterLab opens a widget's way past busy cells with its first message, which itself has to wait:
+   * sent with the view, so that a person's first stroke need not.
+   */
+  ask() {
     try {
       this.model.send({ type: "request", id: "alive", action: "alive" });
     } catch {
@@ -100,22 +110,10 @@ export class Kernel {
 
 /**
  * Whether a model has a way to a kernel. A page that was saved with its widgets shows them without
- * one. anywidget hands on no property of ipywidgets' model, but its events name the model itself;
- * other hosts do not say, and are believed.
+ * one. Hosts without ipywidgets do not say, and are believed.
  *
  * @param {Model} model
  */
 function isConnected(model) {
-  if (!model.widget_manager) return true;
-  let connected = true;
-  /** @param {any} own */
-  const listen = (own) => {
-    connected = own?.comm_live !== false;
-  };
-  // A name that is no trait: the kernel passes over it.
-  model.on(`change:${PROBE}`, listen);
-  model.set(PROBE, {});
-  model.set(PROBE, null);
-  model.off(`change:${PROBE}`, listen);
-  return connected;
+  return ownModel(model)?.comm_live !== false;
 }

@@ -28,6 +28,7 @@ import { presetThumbnails } from "./preset_thumbnails.js";
 import { progress } from "./progress.js";
 import { recipe } from "./recipe.js";
 import { webPage } from "./save.js";
+import { saved } from "./saved.js";
 import { split } from "./split.js";
 import { versions } from "./versions.js";
 import { zoomControl } from "./zoom_control.js";
@@ -63,6 +64,7 @@ const PARTS = [
   webPage,
   exportPanel,
   autosave,
+  saved,
   help,
   progress,
   needsKernel,

@@ -16,6 +16,10 @@ const WHEEL = 0.002; // what a CSS pixel of the wheel zooms by, as a logarithm
 const PINCH = 0.01; // and of two fingers on a touchpad, which sends smaller steps
 const WHEEL_NOTCH = 50; // CSS pixels: a wheel sends more at once, two fingers less
 const LINE = 33; // CSS pixels to a line, which some browsers count in
+const STAGE = 0.75; // of the height in sight that the picture and its margin may take
+const MARGIN = 24; // CSS pixels round the picture (stage.css)
+const SMALLEST = 240; // CSS pixels
+const NOTEBOOK = ".jp-WindowedPanel-outer"; // what scrolls in JupyterLab and Notebook 7
 const PIXELS_FROM = 2; // the scale from which the preview's pixels are shown as squares
 
 export class Stage extends PictureStage {
@@ -42,9 +46,6 @@ export class Stage extends PictureStage {
       role: "application",
       "aria-label": "Picture: arrow keys move a cross, Enter uses the tool there, + and − zoom",
     });
-    // Of the screen, not of the window: in a frame this follows its content.
-    const tallest = Math.min(900, Math.max(420, 0.72 * window.screen.availHeight));
-    this.node.style.setProperty("--sw-tallest", `${Math.round(tallest)}px`);
     this.window = room;
     this.photo = photo;
     this.original = original;
@@ -60,7 +61,23 @@ export class Stage extends PictureStage {
       URL.revokeObjectURL(this.url);
     });
     this.watchScreen(signal);
+    this.bound();
+    window.addEventListener("resize", () => this.bound(), { signal });
     this.node.addEventListener("wheel", (event) => this.onWheel(event), { passive: false, signal });
+  }
+
+  /**
+   * How tall the picture may be: with toolbar and foot it is seen at once. In a frame, whose height
+   * may follow its content, the screen tells.
+   */
+  bound() {
+    const host = this.node.closest(NOTEBOOK)?.clientHeight || Infinity;
+    const tallest =
+      window === window.top
+        ? STAGE * Math.min(window.innerHeight, host) - 2 * MARGIN
+        : 0.72 * window.screen.availHeight;
+    const height = Math.round(Math.min(900, Math.max(SMALLEST, tallest)));
+    this.node.style.setProperty("--sw-tallest", `${height}px`);
   }
 
   /** The window may come to a screen with denser or coarser pixels. @param {AbortSignal} signal */
@@ -233,6 +250,7 @@ export class Stage extends PictureStage {
   }
 
   resized() {
+    this.bound();
     this.layOut();
   }
 

@@ -13,6 +13,7 @@ import { Frame } from "../frame.js";
 import { FrameLoop } from "../frame_loop.js";
 import { onKernelError } from "../kernel_errors.js";
 import { parameterOf } from "../parameter.js";
+import { sameRecipe } from "../same.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { onTraits } from "../traits.js";
@@ -85,6 +86,8 @@ export class View {
     this.work = null;
     /** @type {import("../types.js").Edit | null} what a film shows in place of the edit */
     this.passing = null;
+    /** @type {import("../types.js").Edit} the edit when "Before" was turned on */
+    this.hidden = {};
     /** @type {[number, number]} size of the full preview in pixels */
     this.size = [0, 0];
     /** @type {number | null} the pointer that drags */
@@ -259,6 +262,7 @@ export class View {
 
   /** @param {boolean} on */
   setBefore(on) {
+    if (on) this.hidden = this.state.recipe();
     this.stage.setOriginal(on || this.split?.on === true);
     this.root.classList.toggle("sw-before", on);
   }
@@ -281,6 +285,8 @@ export class View {
 
   /** Everything that follows from the state: controls at once, the frame with the next refresh. */
   show() {
+    const { before } = this.toolbar;
+    if (before.isOn() && !sameRecipe(this.hidden, this.state.recipe())) before.letGo();
     this.panel.show();
     this.toolbar.show();
     for (const part of this.parts) part.show?.();

@@ -32,6 +32,18 @@ async function start() {
   part("still").hidden = true;
 }
 
+/** In a frame of another page, which gives it the height that it asks for. */
+function tellHeight() {
+  if (window === window.parent) return;
+  const tell = () => {
+    const { height } = document.body.getBoundingClientRect();
+    window.parent.postMessage({ sunwidgetHeight: height }, "*");
+  };
+  new ResizeObserver(tell).observe(document.body);
+  window.addEventListener("message", tell);
+}
+
+tellHeight();
 start().catch((error) => {
   const problem = part("problem");
   problem.textContent = errorText(error);
