@@ -150,7 +150,7 @@ def _receive_gain_map(stream: IO[bytes], head: dict[str, Any]) -> GainMap | None
     length = int(told.pop("length"))
     if not 0 <= length <= 1 << 31:
         raise ValueError("a gain map of an impossible length")
-    triples = {
+    triples: dict[str, Any] = {
         name: tuple(float(v) for v in value) if isinstance(value, list) else value
         for name, value in told.items()
     }

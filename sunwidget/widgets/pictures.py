@@ -98,8 +98,8 @@ class Pictures(EditHistory, Analysed):
     def render_static(self, *, title: str | None = None) -> StaticPage:
         """Return the page of ``to_html`` as a cell's output: the sun moves in it without a kernel.
 
-        For notebooks that are exported: ``nbconvert --to html``, MyST, Quarto and marimo keep it
-        live, without a network. Waits for the analysis. The notebook grows by the page, 2 to 8 MB.
+        For notebooks that are exported: ``nbconvert --to html`` keeps it live, without a network.
+        Waits for the analysis. The notebook grows by the page, 2 to 8 MB.
 
         Parameters
         ----------

@@ -306,8 +306,8 @@ class SkyExplorer(AnswersRefusals):
     def render_static(self, *, title: str = "Sky explorer") -> StaticPage:
         """Return the page of ``to_html`` as a cell's output: live without a kernel.
 
-        For notebooks that are exported: ``nbconvert --to html``, MyST, Quarto and marimo keep it
-        live, without a network. The notebook grows by the page, 0.3 MB.
+        For notebooks that are exported: ``nbconvert --to html`` keeps it live, without a network.
+        The notebook grows by the page, 0.3 MB.
 
         Parameters
         ----------

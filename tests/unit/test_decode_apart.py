@@ -242,3 +242,20 @@ def save_what_was_opened(job, photo, path, progress):
     path.write_bytes(b"drawn")
     assert decode_apart._kept
     return ()
+
+
+def test_a_phones_depth_and_gain_map_come_along():
+    pytest.importorskip("pillow_heif")
+    from heif_files import APPLE_GAIN_MAP, DEPTH, heic
+
+    rows, columns = np.mgrid[:48, :64]
+    levels = (rows * 4 + columns).astype(np.uint8)[::2, ::2]
+    picture = np.dstack([rows * 3, columns * 3, rows + columns]).astype(np.uint8)
+    told = b'<x:xmpmeta xmlns:x="adobe:ns:meta/" HDRGainMapHeadroom="4.0"/>'
+    data = heic(picture, [(DEPTH, levels), (APPLE_GAIN_MAP, levels)], xmp=told)
+    here, apart = open_photo(data), open_apart(data)
+    assert here.depth is not None
+    assert here.gain_map is not None
+    assert apart.depth.kind == here.depth.kind
+    np.testing.assert_array_equal(apart.depth.values, here.depth.values)
+    assert apart.gain_map == here.gain_map

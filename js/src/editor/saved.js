@@ -3,7 +3,7 @@
 import { saveLight, thumbnail } from "../saved_state.js";
 
 const EDGE = 640;
-const MAPS = ["_layers", "_surface", "_backdrop", "_clear_sky", "_relief", "_transfer"];
+const MAPS = ["_layers", "_surface", "_backdrop", "_clear_sky", "_relief", "_transfer", "_lamps"];
 
 /** @type {import("./parts.js").MakePart} */
 export function saved(view, signal) {
