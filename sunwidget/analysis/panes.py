@@ -22,13 +22,15 @@ BUNDLED = Path(__file__).parent / "models" / "panes.onnx"
 SIDE = 1024  # pixels of the longer side of the copy that the network sees
 _STRIDE = 32
 _PANE = 0.5  # probability from which a pixel is glass
+_BAR = 0.1  # probability of a bar between panes
 _LEAST = 3e-5  # of the picture: what is smaller is no pane
 _DARK_ROOMS = 0.3
 _SPREAD = 0.5  # ln: of lamps' brightness
 _BRIGHTEST = 3.0  # times the median lamp; a level of 1 in the texture
 _AT_TOP, _AT_FOOT = 1.15, 0.7  # of a window's light
-_LIKE_A_PANE = 0.75  # overlap with an upright trapezium over what both cover
+_LIKE_A_PANE = 0.8  # overlap with an upright trapezium over what both cover
 _THINNEST = 3  # pixels
+_STEEPEST = 0.5  # slope of sills and lintels
 _WIDEST = 3.0  # times its height: boards and shadows of eaves are wider
 _WALL, _ROOM = 0.01, 0.014  # of the picture, of its longer side
 _SOFT = 0.7  # pixels: edges of panes
@@ -75,7 +77,9 @@ def lamps(pane: np.ndarray) -> np.ndarray:
     height, width = pane.shape
     found = _straight((pane > _PANE).astype(np.uint8))
     windows = _windows(found)
-    share = cv2.GaussianBlur(found.astype(np.float32), (0, 0), _SOFT)
+    # Bars that the network sees stay dark.
+    seen = found * np.clip((pane - _BAR) / (_PANE - _BAR), 0, 1)
+    share = cv2.GaussianBlur(seen.astype(np.float32), (0, 0), _SOFT)
     count = int(windows.max()) + 1
     rows, columns = np.nonzero(windows)
     label = windows[rows, columns]
@@ -147,7 +151,7 @@ def _straight(found: np.ndarray) -> np.ndarray:
     out = np.zeros_like(found)
     count, pieces, shape, _ = cv2.connectedComponentsWithStats(found, connectivity=4)
     for i in range(1, count):
-        left, top, wide, tall, area = shape[i]
+        left, top, wide, tall, _ = shape[i]
         if wide > _WIDEST * tall or min(wide, tall) < _THINNEST:
             continue
         piece = pieces[top : top + tall, left : left + wide] == i
@@ -158,8 +162,6 @@ def _straight(found: np.ndarray) -> np.ndarray:
         part = out[top : top + tall, left : left + wide]
         if both >= _LIKE_A_PANE * either:
             part |= pane
-        elif area > _WALL * found.size:
-            part |= piece
     return out
 
 
@@ -177,6 +179,7 @@ def _quad(piece: np.ndarray) -> np.ndarray:
     lines = []
     for edge in (top, foot):
         slope = np.polyfit(columns[inner], edge[inner], 1)[0] if len(inner) >= 4 else 0.0
+        slope = min(max(slope, -_STEEPEST), _STEEPEST)
         offset = np.median(edge[inner] - slope * columns[inner])
         lines.append(slope * ends + offset)
     (a, b), (c, d) = lines
