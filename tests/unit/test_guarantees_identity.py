@@ -3,6 +3,7 @@
 import cv2
 import numpy as np
 import pytest
+from house_scenes import house_scene
 from relight_scenes import SAMPLES, known_photo, known_scene, sample_scene
 
 import sunwidget as sw
@@ -164,6 +165,8 @@ SHOWN = {
     "cloud_shadows": {"sun_azimuth": -25, "sun_elevation": 20},
     "light_shafts": {"aerosol_optical_depth": 0.5, "sun_azimuth": -20, "sun_elevation": 14},
     "grain": {"auto_exposure": 0},
+    "window_lights": {"sun_elevation": -4},
+    "window_temperature": {"sun_elevation": -4, "window_lights": 1},
     "added_cloud_size": {"added_clouds": 0.5},
     "added_cloud_height": {"added_clouds": 0.5},
     "cloud_pattern": {"added_clouds": 0.5},
@@ -182,6 +185,8 @@ ON_SAMPLE["cloud_shadows"] = "mountains"  # land so far off that their places di
 def test_every_slider_changes_some_picture(parameter):
     sample = ON_SAMPLE.get(parameter.name)
     scene = sample_scene(sample) if sample else known_scene()
+    if parameter.name.startswith("window"):
+        scene = house_scene()
     base = {"sun_azimuth": -12.0, "sun_elevation": 8.0, **SHOWN.get(parameter.name, {})}
     low, high = parameter.minimum, parameter.maximum
     values = [low + share * (high - low) for share in (0.1, 0.9)]
