@@ -70,7 +70,7 @@ PRESETS: tuple[Preset, ...] = (
     _preset("sunset", "Sunset", "The sun at the horizon.", 0.8, exposure=-0.6),
     _preset("blue_hour", "Blue hour", "The sun well below the horizon: an even, deep blue.", -5.5,
         exposure=-0.5),
-    _preset("dusk_lights", "Dusk, lights on", "Dusk, and lamps behind the windows that the photo "
+    _preset("dusk_lights", "Lights on", "Dusk, and lamps behind the windows that the photo "
         "shows.", -4.5, exposure=-0.6, windows=1.0),
     _preset("moonlight", "Moonlight", "Night, with a full moon where the sun would be.", 18.0,
         light="moon"),

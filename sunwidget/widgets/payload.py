@@ -180,10 +180,14 @@ def _note_json(text: str) -> dict[str, str]:
 
 
 def preset_json(scene: Scene) -> list[dict[str, Any]]:
-    """Return the presets with what each sets in this photo, as plain JSON types."""
+    """Return the presets with what each sets in this photo, as plain JSON types.
+
+    One that lights windows is left out where the photo shows none.
+    """
     return [
         {"label": p.label, "title": p.help, "values": presets.values(p.name, scene)}
         for p in presets.PRESETS
+        if scene.lamps.any() or not p.parameters["window_lights"]
     ]
 
 

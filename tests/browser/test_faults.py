@@ -294,7 +294,7 @@ def test_a_crash_of_the_graphics_process_leaves_neither_picture_nor_presets_blac
         const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
         return data.some((level, i) => i % 4 < 3 && level > 30);
       }).length"""
-    page.wait_for_function("document.querySelectorAll('.sw-thumbnail.sw-drawn').length === 7")
+    page.wait_for_function("document.querySelectorAll('.sw-thumbnail.sw-drawn').length === 6")
     page.evaluate(
         """() => document.addEventListener("contextlost", () => (window.lost = true), true)"""
     )

@@ -87,10 +87,10 @@ def drawn_thumbnails(page):
 
 def thumbnails(page, fresh=False):
     """The presets' pictures, (H, W, 3) each; ``fresh`` waits until all are drawn again."""
-    page.wait_for_function("document.querySelectorAll('.sw-thumbnail.sw-drawn').length === 7")
+    page.wait_for_function("document.querySelectorAll('.sw-thumbnail.sw-drawn').length === 6")
     if fresh:
         page.wait_for_function(
-            "pictures.filter((name) => name.includes('sw-thumbnail')).length >= 7"
+            "pictures.filter((name) => name.includes('sw-thumbnail')).length >= 6"
         )
     urls = page.locator(".sw-thumbnail.sw-drawn").evaluate_all(
         "(all) => all.map((c) => c.toDataURL())"

@@ -9,6 +9,7 @@ from relight_scenes import known_photo
 import sunwidget as sw
 from sunwidget.analysis import panes
 from sunwidget.renderer import render
+from sunwidget.widgets.payload import preset_json
 
 DUSK = sw.Edit(sun_elevation=-4, window_lights=1)
 
@@ -115,3 +116,9 @@ def test_the_preset_lights_windows_and_others_switch_them_off(house):
     assert edit.window_lights == 1
     assert edit.sun_elevation < 0
     assert sw.preset("noon", house, edit).window_lights == 0
+
+
+def test_the_editor_offers_lights_where_there_are_windows(house, meadow):
+    offered = [{p["label"] for p in preset_json(scene)} for scene in (house, meadow)]
+    assert offered[0] - offered[1] == {"Lights on"}
+    assert not offered[1] - offered[0]

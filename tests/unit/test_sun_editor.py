@@ -319,8 +319,9 @@ def test_a_preset_is_one_step_that_leaves_the_rest_alone(editor, scene):
 
 def test_presets_travel_with_the_scene_as_plain_values(editor, scene):
     sent = json.loads(json.dumps(editor._scene["presets"]))
-    assert [row["label"] for row in sent] == [preset.label for preset in presets.PRESETS]
-    for row, preset in zip(sent, presets.PRESETS, strict=True):
+    offered = [preset for preset in presets.PRESETS if preset.name != "dusk_lights"]
+    assert [row["label"] for row in sent] == [preset.label for preset in offered]
+    for row, preset in zip(sent, offered, strict=True):
         assert sw.Edit(**row["values"]) == presets.edit(preset.name, scene)
 
 
