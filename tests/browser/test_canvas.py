@@ -236,13 +236,14 @@ def test_it_fits_the_windows_height_portraits_too(browser, aspect, height):
 
 def test_a_divider_shows_the_photo_on_its_left(editor):
     editor.evaluate("model.receive({sun_azimuth: -12, sun_elevation: 2.5})")
-    editor.wait_for_timeout(2500)  # the frame settles
+    editor.wait_for_timeout(500)
     after, _ = on_screen(editor)
     editor.locator(".sw-percent").focus()
     editor.keyboard.down("b")
     editor.wait_for_timeout(400)
     before, _ = on_screen(editor)
     editor.keyboard.up("b")
+    editor.wait_for_timeout(400)  # the canvas fades in again
     assert np.abs(before.astype(int) - after).mean() > 5
     editor.keyboard.press("s")
     divider = editor.get_by_role("slider", name="Divider between before and after")
@@ -260,9 +261,9 @@ def test_a_divider_shows_the_photo_on_its_left(editor):
     assert trait(editor, "sun_azimuth") == -12
     split, _ = on_screen(editor)
     at = round(0.25 * split.shape[1])
-    # A clipped canvas is put together elsewhere in the browser, and a frame still settles.
-    assert np.abs(split[:, : at - 2].astype(int) - before[:, : at - 2]).mean() < 1.5
-    assert np.abs(split[:, at + 2 :].astype(int) - after[:, at + 2 :]).mean() < 1.5
+    # A clipped canvas is put together elsewhere in the browser, which may round otherwise.
+    assert np.abs(split[:, : at - 2].astype(int) - before[:, : at - 2]).max() <= 1
+    assert np.abs(split[:, at + 2 :].astype(int) - after[:, at + 2 :]).max() <= 1
     # However it is zoomed, the divider is in sight, and divides there.
     zoom_in(editor, 0.9, 0.5)
     stage = box(editor, ".sw-stage")
