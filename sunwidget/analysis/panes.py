@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -40,13 +41,20 @@ _FRAME = 0.006  # of the longer side: panes nearer than that are one window
 def probability(photo: Photo) -> np.ndarray:
     """Return the probability that pixels are glass of windows, (h, w) float32 in [0, 1].
 
-    Of a copy whose longer side is ``SIDE``; of a small photo, twice its size at most.
+    Of a copy whose longer side is ``SIDE``; of a small photo, twice its size at most. Once a photo:
+    strokes do not ask again.
 
     Raises
     ------
     AnalysisError
         When onnxruntime is missing.
     """
+    if photo not in _seen:
+        _seen[photo] = _look(photo)
+    return _seen[photo]
+
+
+def _look(photo: Photo) -> np.ndarray:
     picture = photo.preview(SIDE).astype(np.float32) / 255
     scale = min(2.0, SIDE / max(picture.shape))
     height, width = (round(scale * n) for n in picture.shape[:2])
@@ -105,13 +113,13 @@ def lamps(pane: np.ndarray) -> np.ndarray:
     # Lamps hang from ceilings.
     light = share * level[around] * (_AT_TOP + (_AT_FOOT - _AT_TOP) * np.clip(down, 0, 1))
     reach = 0.02 * max(height, width)
+    wide = cv2.GaussianBlur(light, (0, 0), reach)
     # Light falls on reveals and sills, and wider and weaker on the ground and walls before them.
     near = cv2.GaussianBlur(light, (0, 0), 0.15 * reach)
     lower = np.array([[1, 0, 0], [0, 1, reach]], np.float32)
-    far = cv2.warpAffine(cv2.GaussianBlur(light, (0, 0), reach), lower, (width, height))
+    far = cv2.warpAffine(wide, lower, (width, height))
     spill = np.clip(0.5 * near + far, 0, 1) * (1 - share)
-    amount = cv2.GaussianBlur(light, (0, 0), reach)
-    warm = cv2.GaussianBlur(light * warmth[around], (0, 0), reach) / np.maximum(amount, 1e-6)
+    warm = cv2.GaussianBlur(light * warmth[around], (0, 0), reach) / np.maximum(wide, 1e-6)
     warm = np.where(share > 0.05, warmth[around], warm)
     return np.dstack([light, spill, warm, np.ones_like(light)]).astype(np.float32)
 
@@ -184,3 +192,6 @@ def _quad(piece: np.ndarray) -> np.ndarray:
         lines.append(slope * ends + offset)
     (a, b), (c, d) = lines
     return np.array([(ends[0], a), (ends[1], b), (ends[1], d), (ends[0], c)], np.float64)
+
+
+_seen: WeakKeyDictionary[Photo, np.ndarray] = WeakKeyDictionary()

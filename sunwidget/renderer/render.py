@@ -23,6 +23,7 @@ from sunwidget.renderer.tiles import (
     copy_size,
     folded,
     is_resident,
+    lamps,
     pieces,
     quantise_map,
     scene_textures,
@@ -55,6 +56,13 @@ class _Drawing:
     graph: FrameGraph
     strips: Strips | None
     loaded: slice | None = None
+    lit: bool = False
+
+    def light(self) -> None:
+        """Upload the light behind windows, unless it is there: few edits switch it on."""
+        if not self.lit:
+            self.graph.set_texture("lamps", lamps(self.scene))
+            self.lit = True
 
     def load(self, rows: slice, limit: int) -> None:
         """Upload the strip of ``rows``, unless it is there."""
@@ -75,20 +83,25 @@ class _Renderer:
         self.programs = Programs(context)
         self.drawings: OrderedDict[tuple[int, Any], _Drawing] = OrderedDict()
 
-    def drawing(self, scene: Scene, size: tuple[int, int]) -> _Drawing:
-        """Return the graph that holds the textures of ``scene`` at ``size``, and its strips."""
+    def drawing(self, scene: Scene, size: tuple[int, int], *, lit: bool = False) -> _Drawing:
+        """Return the graph that holds the textures of ``scene`` at ``size``, and its strips.
+
+        ``lit`` says that windows are.
+        """
         key = (id(scene), size)
         if key not in self.drawings:
             limit = largest_texture(self.context)
             # The entry keeps the scene alive, so that its id stays its own.
             self.drawings[key] = _Drawing(
                 scene,
-                FrameGraph(self.programs, scene_textures(scene, copy_size(size, limit))),
+                FrameGraph(self.programs, scene_textures(scene, copy_size(size, limit), lit=False)),
                 None if is_resident(size, limit) else Strips(scene, size),
             )
             while len(self.drawings) > 2:
                 self.drawings.popitem(last=False)
         self.drawings.move_to_end(key)
+        if lit:
+            self.drawings[key].light()
         return self.drawings[key]
 
     def graph(self, scene: Scene, size: tuple[int, int]) -> FrameGraph:
@@ -204,14 +217,18 @@ def strips_of(
     edit = edit_of(edit)
     scene = checked_scene(scene).corrected(edit)
     size = scene.photo.size if size is None else checked_size(size)
+    lit = edit.window_lights > 0
     drawing, limit = on_gl_thread(
-        lambda context: (_renderer(context).drawing(scene, size), largest_texture(context))
+        lambda context: (
+            _renderer(context).drawing(scene, size, lit=lit),
+            largest_texture(context),
+        )
     )
 
     def draw(rows: slice, columns: list[slice], context: moderngl.Context) -> npt.NDArray[Any]:
         nonlocal drawing
         if drawing.graph.context is not context:  # that was lost, and is a new one
-            drawing = _renderer(context).drawing(scene, size)
+            drawing = _renderer(context).drawing(scene, size, lit=lit)
         if drawing.strips is not None:
             # On this thread, so that no other picture's strip is drawn instead.
             drawing.load(rows, limit)
@@ -266,7 +283,7 @@ def render_pass(
     size = scene.photo.size if size is None else checked_size(size)
 
     def task(context: moderngl.Context) -> npt.NDArray[np.float32]:
-        drawing = _renderer(context).drawing(scene, size)
+        drawing = _renderer(context).drawing(scene, size, lit=edit.window_lights > 0)
         if drawing.strips is not None:
             drawing.load(slice(0, size[1]), largest_texture(context))
         target = drawing.graph.run(

@@ -99,8 +99,11 @@ def quantise_map(image: npt.NDArray[np.float32]) -> npt.NDArray[np.uint8]:
     return np.clip(levels, 0, 255, out=levels).astype(np.uint8)
 
 
-def scene_textures(scene: Scene, size: Size) -> dict[str, Array]:
-    """Return the scene textures of the frame graph at ``size`` (width, height)."""
+def scene_textures(scene: Scene, size: Size, *, lit: bool = True) -> dict[str, Array]:
+    """Return the scene textures of the frame graph at ``size`` (width, height).
+
+    ``lit`` False leaves dark what only lit windows need, and no network looks for them.
+    """
     from sunwidget.analysis.clear_sky import clear_sky
 
     return {
@@ -109,8 +112,13 @@ def scene_textures(scene: Scene, size: Size) -> dict[str, Array]:
         "clear_sky": quantise_map(clear_sky(scene)),
         "relief": quantise_map(scene.relief),
         "transfer": quantise_map(scene.transfer),
-        "lamps": quantise_map(scene.lamps),
+        "lamps": lamps(scene) if lit else np.zeros((1, 1, 4), np.uint8),
     }
+
+
+def lamps(scene: Scene) -> Array:
+    """Return the texture of the light behind windows."""
+    return quantise_map(scene.lamps)
 
 
 def _picture(scene: Scene, size: Size) -> dict[str, Array]:

@@ -122,3 +122,21 @@ def test_the_editor_offers_lights_where_there_are_windows(house, meadow):
     offered = [{p["label"] for p in preset_json(scene)} for scene in (house, meadow)]
     assert offered[0] - offered[1] == {"Lights on"}
     assert not offered[1] - offered[0]
+
+
+def test_nobody_looks_for_windows_that_are_not_lit_nor_twice_in_a_photo(monkeypatch):
+    looked = []
+    look = panes._look
+    monkeypatch.setattr(panes, "_look", lambda photo: looked.append(photo) or look(photo))
+    scene = known_photo(size=(120, 80), clouds=False).analyze()
+    render(scene, sw.Edit(sun_elevation=-4))
+    assert not looked
+    render(scene, DUSK)
+    render(scene, DUSK.replace(strokes=(sw.Stroke("sky", ((0.5, 0.1),)),)))
+    assert len(looked) == 1
+
+
+def test_lights_that_are_switched_on_later_are_the_same(house):
+    fresh = sw.analyze(sw.open(facade()[0]))
+    render(fresh, DUSK.replace(window_lights=0))
+    assert np.array_equal(render(fresh, DUSK), render(house, DUSK))
