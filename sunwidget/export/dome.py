@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from sunwidget.color import LUMINANCE
 from sunwidget.export.dome_light import DomeLight, dome_light, irradiance, solid_angles
-from sunwidget.export.environment import check_map, checked_size
+from sunwidget.export.environment import check_map, checked_size, write_map
 from sunwidget.files import complete_or_absent, target
 from sunwidget.recipe import edit_of
 
@@ -91,20 +91,10 @@ def write_dome(
     place: Path, scene: Scene, edit: Edit, dome: DomeLight, *, sun: bool, overwrite: bool
 ) -> None:
     """Write a dome that is made, and its json beside it."""
-    from sunwidget import openexr, radiance
-    from sunwidget.export.metadata import software
-
     facts = described(scene.corrected(edit), edit, dome, place.name, sun=sun)
     light = np.asarray(dome.sky + dome.disc if sun else dome.sky, np.float32)
     notes = {"recipe": json.dumps(edit.to_dict()), "dome": json.dumps(facts)}
-    with complete_or_absent(place, overwrite=overwrite) as unfinished:
-        if place.suffix.lower() == ".hdr":
-            unfinished.write_bytes(radiance.pack(light, notes, software=software()))
-        else:
-            latitude_longitude = openexr.library().ENVMAP_LATLONG
-            told = {"envmap": latitude_longitude, "whiteLuminance": 1000.0, "software": software()}
-            channels = {name: light[..., i] for i, name in enumerate("RGB")}
-            openexr.write(unfinished, channels, told, notes, bits=32)
+    write_map(place, light, notes, overwrite=overwrite)
     with complete_or_absent(place.with_suffix(".json"), overwrite=overwrite) as unfinished:
         unfinished.write_text(json.dumps(facts, indent=1) + "\n", "utf-8")
 

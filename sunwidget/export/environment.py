@@ -84,15 +84,21 @@ def environment_map(
     RendererError
         When this machine has no EGL.
     """
-    from sunwidget import openexr, radiance
-    from sunwidget.export.metadata import software
-
     place = target(path, overwrite=overwrite)
     check_map(place)
     width, height = checked_size(size)
     edit = edit_of(edit)
     light = environment(scene, edit, (width, height), sun=sun)
     notes = {"recipe": json.dumps(edit.to_dict())}
+    write_map(place, light, notes, overwrite=overwrite)
+    return place
+
+
+def write_map(place: Path, light: NDArray[Any], notes: dict[str, str], *, overwrite: bool) -> None:
+    """Write an environment map (H, 2 H, 3) float32 as .hdr or .exr, by the file's ending."""
+    from sunwidget import openexr, radiance
+    from sunwidget.export.metadata import software
+
     with complete_or_absent(place, overwrite=overwrite) as unfinished:
         if place.suffix.lower() == ".hdr":
             unfinished.write_bytes(radiance.pack(light, notes, software=software()))
@@ -101,7 +107,6 @@ def environment_map(
             told = {"envmap": latitude_longitude, "whiteLuminance": 1000.0, "software": software()}
             channels = {name: light[..., i] for i, name in enumerate("RGB")}
             openexr.write(unfinished, channels, told, notes, bits=32)
-    return place
 
 
 def checked_size(size: Any) -> tuple[int, int]:
