@@ -11,6 +11,9 @@ import { states } from "./gl/values.js";
  * @typedef {import("./gl/texture.js").Pixels} Pixels
  */
 
+/** The scene textures that the analysis makes; the photo itself is one as well. */
+export const MAPS = ["layers", "surface", "backdrop", "clear_sky", "relief", "transfer", "lamps"];
+
 /**
  * What the host adds to every frame: encode as sRGB, dither by half a level, show all of it.
  *
@@ -38,7 +41,7 @@ export class Frame extends Surface {
   }
 
   /**
-   * @param {string} name scene texture: photo, layers, surface, backdrop, clear_sky, relief, transfer or lamps
+   * @param {string} name scene texture: photo or one of `MAPS`
    * @param {Pixels} pixels
    */
   setPicture(name, pixels) {

@@ -5,12 +5,10 @@
 
 import { Camera } from "../camera.js";
 import { element } from "../controls/element.js";
-import { Frame } from "../frame.js";
+import { Frame, MAPS } from "../frame.js";
 import { decodePicture } from "../gl/texture.js";
 
 /** @typedef {import("../types.js").Scene & { revision: number }} Scene */
-
-const MAPS = ["layers", "surface", "backdrop", "clear_sky", "relief", "transfer", "lamps"];
 
 export class Scenes {
   /**

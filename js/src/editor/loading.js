@@ -2,21 +2,11 @@
 
 import { Camera } from "../camera.js";
 import { errorText } from "../error_text.js";
+import { MAPS } from "../frame.js";
 import { decodePicture } from "../gl/texture.js";
 import { onTraits } from "../traits.js";
 
 /** @typedef {import("../types.js").Scene} Scene */
-
-const PICTURES = [
-  "photo",
-  "layers",
-  "surface",
-  "backdrop",
-  "clear_sky",
-  "relief",
-  "transfer",
-  "lamps",
-];
 
 export class Loading {
   /**
@@ -74,7 +64,7 @@ export class Loading {
     const load = this.loads;
     try {
       // A correction changes some of the maps and never the photo.
-      const sent = PICTURES.map((name) => ({ name, bytes: view.model.get(`_${name}`) }));
+      const sent = ["photo", ...MAPS].map((name) => ({ name, bytes: view.model.get(`_${name}`) }));
       const fresh = sent.filter(({ name, bytes }) => bytes !== this.taken.get(name));
       const bitmaps = await Promise.all(fresh.map(({ bytes }) => decodePicture(bytes)));
       if (load !== this.loads) {

@@ -1,9 +1,9 @@
 /** A saved notebook keeps the recipe and a small picture of this editor, not its photo and maps. */
 
+import { MAPS } from "../frame.js";
 import { saveLight, thumbnail } from "../saved_state.js";
 
 const EDGE = 640;
-const MAPS = ["_layers", "_surface", "_backdrop", "_clear_sky", "_relief", "_transfer", "_lamps"];
 
 /** @type {import("./parts.js").MakePart} */
 export function saved(view, signal) {
@@ -19,7 +19,7 @@ export function saved(view, signal) {
     if (model.get("_saved")) return {}; // as it was opened
     if (!model.get("_photo")?.byteLength) return {};
     return {
-      ...Object.fromEntries(MAPS.map((name) => [name, nothing()])),
+      ...Object.fromEntries(MAPS.map((name) => [`_${name}`, nothing()])),
       _photo: last ?? picture(),
       _scene: {},
       _saved: true,
