@@ -23,23 +23,34 @@ sw.SunEditor(photo, sun_elevation=-6)""",
 }
 
 
-@pytest.fixture(scope="module")
-def outputs(browser, tmp_path_factory, screenshots):
-    """The place of each cell's output on the page, by name."""
-    folder = tmp_path_factory.mktemp("nbconvert")
-    write_notebook(folder / "three.ipynb", CELLS.values())
-    command = [*NBCONVERT, "--execute", "three.ipynb"]
+def converted(folder, cells):
+    """Run a notebook of ``cells`` and return the address of its page."""
+    write_notebook(folder / "cells.ipynb", cells.values())
+    command = [*NBCONVERT, "--execute", "cells.ipynb"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr[-4000:]
+    return (folder / "cells.html").as_uri()
+
+
+def offline_page(browser):
+    """An empty page without network."""
     context = browser.new_context(viewport={"width": 1100, "height": 1400})
     context.set_offline(True)
     page = context.new_page()
     page.set_default_timeout(PATIENCE)
-    page.goto((folder / "three.html").as_uri())
+    return page
+
+
+@pytest.fixture(scope="module")
+def outputs(browser, tmp_path_factory, screenshots):
+    """The place of each cell's output on the page, by name."""
+    folder = tmp_path_factory.mktemp("nbconvert")
+    page = offline_page(browser)
+    page.goto(converted(folder, CELLS))
     page.screenshot(path=screenshots / "nbconvert.png", full_page=True)
     places = page.locator(".jp-CodeCell .jp-Cell-outputArea")
     yield {name: places.nth(i) for i, name in enumerate(CELLS)}
-    context.close()
+    page.context.close()
 
 
 @pytest.mark.parametrize("name", CELLS)
@@ -88,17 +99,10 @@ sw.SunEditor(sw.open(sw.sample("coast").preview(384)), sun_elevation=-6).render_
 
 
 def test_render_static_stays_live_in_the_page_without_network(browser, tmp_path, screenshots):
-    write_notebook(tmp_path / "static.ipynb", STATIC.values())
-    command = [*NBCONVERT, "--execute", "static.ipynb"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr[-4000:]
-    context = browser.new_context(viewport={"width": 1100, "height": 1400})
-    context.set_offline(True)
-    page = context.new_page()
-    page.set_default_timeout(PATIENCE)
+    page = offline_page(browser)
     errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
-    page.goto((tmp_path / "static.html").as_uri())
+    page.goto(converted(tmp_path, STATIC))
     for i, name in enumerate(STATIC):
         outer = page.locator("iframe[srcdoc]").nth(i)
         outer.scroll_into_view_if_needed()
@@ -116,7 +120,7 @@ def test_render_static_stays_live_in_the_page_without_network(browser, tmp_path,
         assert readout.text_content() != before, f"the sun of the {name} does not move"
         page.screenshot(path=screenshots / f"static-{name}.png")
     assert errors == []
-    context.close()
+    page.context.close()
 
 
 def pixels(output):
