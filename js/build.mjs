@@ -42,11 +42,11 @@ const GRAPHS = { editor: "graph.json", explorer: "explorer.json" };
  */
 export function reachable(graph, files) {
   const pending = graph.passes
-    .flatMap(({ shader, constants, parts }) => [
+    .flatMap(({ shader, constants, parts, format }) => [
       shader,
       constants,
-      parts?.by,
-      ...(parts?.shaders ?? []),
+      // The browser draws only what goes to its canvas in parts.
+      ...(parts && format === "output" ? [parts.by, ...parts.shaders] : []),
     ])
     .flatMap((name) => (name ? [`${name}.glsl`] : []));
   const found = new Set(pending);

@@ -1,6 +1,7 @@
 // The photo with its clouds changed under its own sun, display-linear; alpha is the clouds' opacity
 // afterwards. What follows takes it for the photo, so that a moved sun costs the same with other
-// clouds as with the photo's own.
+// clouds as with the photo's own. CLOUDS_UNEDITED leaves out what only edited clouds need
+// (cloud_parts.glsl): the same to the bit.
 
 #include "lib/picture.glsl"
 #include "lib/strip.glsl"
@@ -37,6 +38,9 @@ void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
   vec3 display = ReadPixel(photo, place).rgb;
   vec4 layer = ReadPixel(layers, place);
+#ifdef CLOUDS_UNEDITED
+  result = vec4(display, layer.g);
+#else
   vec4 behind = ReadBilinear(clear_sky, place);
   vec4 added = ReadAddedLayer(place);
   float opacity = EditOpacity(layer.g, layer.r, behind.a);
@@ -64,4 +68,5 @@ void main() {
   vec3 changed = GetDisplayLight(max(scene + change, 0.02 * scene));
   vec3 representable = clamp(display, vec3(0.0), vec3(GetWhiteLevel()));
   result.rgb += step(1e-30, dot(abs(change), vec3(1.0))) * (changed - representable);
+#endif
 }

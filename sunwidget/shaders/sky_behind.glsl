@@ -1,7 +1,7 @@
 // The sky without the old sun, as the analysis found it (analysis/backdrop.py). Drawn once a photo.
 // Alpha carries what else the frame asks about the sky of a pixel, so that it reads one map for both:
 // matte, cloud opacity and glare of the old sun. On water it is the water without the old sun's glints,
-// and what its waves make of glints instead of the glare (water_behind.glsl).
+// and what its waves make of glints instead of the glare (water_behind.glsl). CLOUDS_UNEDITED as in retouch.glsl.
 
 #include "lib/picture.glsl"
 #include "lib/strip.glsl"
@@ -26,13 +26,15 @@ void main() {
   float opacity = texelFetch(retouched, texel, 0).a;
   vec4 layer = ReadPixel(layers, place);
   vec3 levels = vec3(layer.r, opacity, ReadPixel(surface, place).r);
-  vec3 model = texelFetch(sky_source, texel, 0).rgb;
   vec3 sky = GetBackdropLight(ReadBilinear(backdrop, place).rgb);
+#ifndef CLOUDS_UNEDITED
   if (IsCloudEdited()) {
+    vec3 model = texelFetch(sky_source, texel, 0).rgb;
     // As retouch.glsl changes the photo; a sky without detail needs no dissolving.
     vec4 open = ReadBilinear(clear_sky, place);
     sky = GetEditedSky(sky, model * DecodeResidual(open.rgb), sky, layer, open.a, 1.0, ReadAddedLayer(place));
   }
+#endif
   float water = smoothstep(0.2, 0.5, ReadPixel(surface, place).g) * (1.0 - smoothstep(0.0, 0.2, levels.r));
   vec4 calm = texelFetch(water_behind, texel, 0);
   levels.b += water * (calm.a - levels.b);

@@ -1,6 +1,7 @@
 // The water without the old sun's glints: its light (water_level.glsl) with the waves of the water
 // beside it, which looks the same as far away. Alpha: what waves make of new glints here
-// (lib/waves.glsl), which lie on the waves that are there. Drawn once a photo.
+// (lib/waves.glsl), which lie on the waves that are there. Drawn once a photo. NO_GLINTS leaves out what only
+// the zone of the old glints needs (water_parts.glsl).
 
 #include "lib/picture.glsl"
 #include "lib/strip.glsl"
@@ -27,9 +28,18 @@ float GetBrightness(vec3 light, vec3 level) {
   return log(max(GetLuminance(light), 1e-5) / max(GetLuminance(level), 1e-5));
 }
 
+float GetSparkle(vec2 place, float wave) {
+  return EncodeSparkle(GetLogSparkle(GetViewDirection(place), 0.5 + 0.5 * wave / kHighestWave));
+}
+
 void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
   vec4 level = ReadBilinear(water_level, place);
+  vec3 own = GetSceneLight(ReadPixel(photo, place).rgb);
+  float seen = clamp(GetBrightness(own, level.rgb), -kHighestWave, kHighestWave);
+#ifdef NO_GLINTS
+  result = vec4(own, GetSparkle(place, seen));
+#else
   float sum = 0.0;
   float squares = 1e-4;
   for (int i = 0; i < kPlaces; ++i) {
@@ -47,11 +57,9 @@ void main() {
   }
   // Waves of several places, as high as those of one.
   float wave = sum * inversesqrt(squares);
-  vec3 own = GetSceneLight(ReadPixel(photo, place).rgb);
   // Where no water is without glints, nothing better is known than what is seen.
   vec3 water = mix(own, level.rgb * exp(wave), smoothstep(0.0, 0.01, level.a));
-  float seen = clamp(GetBrightness(own, level.rgb), -kHighestWave, kHighestWave);
   wave = mix(seen, wave, ReadPixel(surface, place).b);
-  float sparkle = GetLogSparkle(GetViewDirection(place), 0.5 + 0.5 * wave / kHighestWave);
-  result = vec4(water, EncodeSparkle(sparkle));
+  result = vec4(water, GetSparkle(place, wave));
+#endif
 }

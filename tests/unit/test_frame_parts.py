@@ -1,4 +1,7 @@
-"""Pixels that are sky or land alone are drawn by shaders that leave the other out."""
+"""Pixels that are sky or land alone are drawn by shaders that leave the other out.
+
+So are photos whose clouds nobody edits, dry land, and water away from the old sun's glints.
+"""
 
 import importlib
 import json
@@ -20,6 +23,9 @@ EDITS = [
     Edit(sun_elevation=20, light_source="moon", glow=2, light_shafts=1),
     Edit(sun_elevation=6, added_clouds=0.6, aerosol_optical_depth=0.3, grain=2),
     Edit(sun_elevation=4, sky_strength=0.5, land_strength=0.7, colour_loss="power"),
+    Edit(sun_elevation=9, cloud_opacity=0.4),
+    Edit(sun_elevation=9, cloud_opacity=1.6, cloud_softness=0.5),
+    Edit(sun_elevation=5, sun_azimuth=2, glitter=2, wind_speed=9),
 ]
 
 
