@@ -177,7 +177,7 @@ class Edit:
     sun_elevation: float | None = _number(None, (-12, 90), 0.1, "°", "Elevation", "sun",
         "Sun's apparent elevation above the horizon; negative is twilight.")
     sun_size: float = _number(1.0, (0, 5), 0.05, "×", "Disc size", "sun",
-        "Diameter of the drawn disc in units of the sun's own 0.533°; 0 draws none.",
+        "Diameter of the drawn disc in units of the photo's own, of 0.533° without one; 0: none.",
         advanced=True)
     sun_visibility: float = _number(1.0, (0, 1), 0.01, "", "Disc's light", "sun",
         "Share of the disc's light that comes through; 0 is no sun, as behind a thick cloud.",

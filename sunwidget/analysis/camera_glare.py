@@ -11,11 +11,12 @@ from __future__ import annotations
 import itertools
 import math
 from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sunwidget.analysis.fit import Response, SkyFit
-from sunwidget.analysis.working import LUMINANCE
+from sunwidget.analysis.working import LUMINANCE, Working, resize, smoothstep
 from sunwidget.atmosphere.constants import (
     SPECTRAL_TO_REC709,
     SUN_ANGULAR_RADIUS_DEG,
@@ -25,12 +26,17 @@ from sunwidget.atmosphere.constants import (
 from sunwidget.atmosphere.optics import camera_height, transmittance_to_top
 from sunwidget.camera import Camera
 
+if TYPE_CHECKING:
+    from sunwidget.analysis.sun import SunObservation
+
 Profile = tuple[float, float, float]
 
 # Of cameras that are not known, in units of a picture's width and of the light of its middle grey:
 # with lib/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
 _CORE, _LEVEL, _POWER = 0.02, 23.0, 1.3
 _LEAST, _MOST = 0.1, 3.0  # of that, whatever was measured
+_BURNT = (0.6, 0.9)  # display-linear light of the least channel: a coloured disc, a white one
+_LARGEST_DISC, _DISC_STEP = 0.08, 0.08  # widths; encoded luminance over what lies beside it
 _WIDTHS = (0.4, 0.7, 1.1, 1.6, 2.4, 3.6, 5.5)  # degrees
 # The sky shows between clouds and rays: in a ring the darker third is sky and glare alone.
 _CLEAREST = 0.3
@@ -62,6 +68,52 @@ def glare_profile(fit: SkyFit, camera: Camera) -> Profile:
     share = height * (own / core) ** (2 * _POWER) / usual
     share = min(max(share, _LEAST), _MOST)
     return share * usual * (core / wide) ** (2 * _POWER), wide, _POWER
+
+
+def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> dict[str, Any]:
+    """Return what a photo shows of its sun: its disc, or the core that its camera burnt to white.
+
+    Where the sun is moved it stays as large, since that is the camera's doing.
+
+    Parameters
+    ----------
+    sun : SunObservation or None
+    camera : Camera
+    working : Working
+        The photo's small copy, sun and all.
+
+    Returns
+    -------
+    dict
+        Scene uniforms: ``own_disc``, the median of its display-linear light (Rec. 709);
+        ``own_disc_radius``, the tangent of the angle from its centre to its rim, 0 where the photo
+        shows no sun; ``own_disc_burnt``, how far it is white, [0, 1].
+    """
+    color, radius = np.zeros(3), 0.0
+    if sun is not None and sun.visible:
+        inside, beside = _disc_and_ring(sun, working)
+        light = working.encoded @ LUMINANCE
+        share = sun.radius_px / sun.size[0]
+        # What is no brighter than the sky beside it, or fills it, is a blot that grew into it.
+        seen = share < _LARGEST_DISC and inside.any() and beside.any()
+        if seen and np.median(light[inside]) > np.median(light[beside]) + _DISC_STEP:
+            color = np.median(working.linear[inside], axis=0)
+            radius = share * camera.width / camera.focal
+    return {
+        "own_disc": tuple(float(v) for v in color),
+        "own_disc_radius": radius,
+        "own_disc_burnt": float(smoothstep(*_BURNT, color.min())),
+    }
+
+
+def _disc_and_ring(sun: SunObservation, working: Working) -> tuple[np.ndarray, np.ndarray]:
+    """Return where a sun's blot is and where, near it, it is not: (h, w) bool each."""
+    inside = resize(sun.blot, working.width, working.height) > 0.5
+    scale = working.width / sun.size[0]
+    across = np.arange(working.width) + 0.5 - scale * sun.x
+    down = np.arange(working.height)[:, None] + 0.5 - scale * sun.y
+    away = np.hypot(across, down) / max(scale * sun.radius_px, 1.0)
+    return inside, ~inside & (away > 1.5) & (away < 2.5)
 
 
 def measured_glare(

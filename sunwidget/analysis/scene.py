@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from sunwidget.analysis import depth_level, haze_limit, match, panes, refine, relief
-from sunwidget.analysis.camera_glare import glare_profile
+from sunwidget.analysis.camera_glare import glare_profile, own_disc
 from sunwidget.analysis.clouds import Clouds
 from sunwidget.analysis.depth_field import DepthField
 from sunwidget.analysis.described import described
@@ -375,7 +375,8 @@ class Scene:
             "noise_level": noise_level(self.photo, self.sky),
             "photo_height": float(self.height),
             "sky_gain": (1.0, 1.0, 1.0),
-        } | self.response
+        }
+        found |= self.response | own_disc(self.sun, self.camera, small)
         if self.fitted is not None:
             found["glare_profile"] = glare_profile(self.fitted, self.camera)
         return found

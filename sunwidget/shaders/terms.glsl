@@ -8,6 +8,7 @@
 //  10  the disc (lib/disc.glsl): radius, sine of its middle's elevation, inverse of half its height
 //  11  the sun's light on water before   12  now
 //  13  the camera's glare: what lib/camera_glare.glsl's profile is multiplied with
+//  14  the disc as the photo shows its own, under the new light; alpha: its radius, 0 for none
 //  Alphas of 1-4, 5-8, 9-12: log2 of the disc's radiance in its middle, slope and bend over its height.
 
 #include "lib/picture.glsl"
@@ -44,6 +45,8 @@ uniform float glow;
 uniform vec3 photo_land_linear_mean;
 uniform float photo_key;  // mean log2 of the luminance of the photo without its sun, display-linear
 uniform float photo_sky_key;  // the same of its sky
+uniform vec3 own_disc;  // the photo's own sun: display-linear light of its disc or burnt core
+uniform float own_disc_radius;  // tangent of its angle, 0 where none is seen
 
 out vec4 result;
 
@@ -180,6 +183,19 @@ bool IsSkyUnchanged() {
   return same;
 }
 
+// Brightest that a disc becomes over the photo's own.
+const float kBrightestDisc = 4.0;
+
+// The photo's own disc under the new sun's light. What burnt to white is not known to be brighter, and a camera
+// exposes for the sun it sees, so its luminance goes as glare does and its colour as the light's.
+vec3 GetOwnDisc() {
+  vec3 before = max(GetLightTexel(light_before, 1), vec3(1e-9));
+  vec3 now = max(GetLightTexel(light_edit, 1), vec3(0.0));
+  float level = GetLuminance(now) / GetLuminance(before);
+  vec3 hue = now / before / max(level, 1e-9);
+  return sun_visibility * GetSceneLight(own_disc) * min(hue, vec3(kBrightestDisc)) * min(pow(level, kGlareGrowth), kBrightestDisc);
+}
+
 vec3 GetForwardLight(sampler2D light) {
   return GetCloudRadiance(light, 1.0) - GetCloudRadiance(light, 0.0);
 }
@@ -216,6 +232,8 @@ void main() {
     result = vec4(sun_before, disc);
   } else if (index == 10) {
     result = vec4(radius, 0.5 * (low + high), 2.0 / (high - low), disc);
+  } else if (index == 14) {
+    result = vec4(GetOwnDisc(), GetMoon() == photo_light ? own_disc_radius * sun_size : 0.0);
   } else {
     vec3 light = index == 1 ? GetLandIrradiance(light_before, visible_before, source_land_facing, sun_before)
         : index == 2 ? GetLandIrradiance(light_before, visible_before, 1.0, sun_before)

@@ -1,9 +1,15 @@
 // The new sun's disc, in the photo's scene-linear unit: limb-darkened, and reddened on its way.
-// terms.glsl holds log2 of its radiance as a parabola over its height.
+// terms.glsl holds log2 of its radiance as a parabola over its height. Where the photo shows its own larger, which
+// its camera burnt to white or drew by a longer lens, the new one is as large.
 
 #include "lib/terms.glsl"
 #include "lib/described_sky.glsl"
 #include "lib/moon_disc.glsl"
+
+uniform float own_disc_burnt;  // how far the photo's own disc is white, 0 to 1
+
+const float kRim = 0.35;    // share of the own disc's radius over which it fades, inwards and outwards
+const float kBurnt = 15.0;  // times its light: what lies above white in the middle of a burnt core
 
 vec3 GetDisc(vec3 view, vec3 sun) {
   float radius = term[10].x;
@@ -22,5 +28,14 @@ vec3 GetDisc(vec3 view, vec3 sun) {
   vec4 radiance = exp2(middle + height * (slope + height * bend) + (1.0 - moon) * limb * LIMB_DARKENING);
   vec2 place = vec2(dot(view - sun, normalize(vec3(sun.z, 0.0, -sun.x))), (view.y - sun.y) / max(length(sun.xz), 0.1));
   float albedo = 1.0 + moon * (GetMoonAlbedo(place / max(radius, 1e-9)) - 1.0);
+  vec4 own = texelFetch(terms, ivec2(14, 0), 0);
+  if (own.a > radius) {
+    float outside = 1.0 - smoothstep(own.a * (1.0 - kRim), own.a * (1.0 + kRim), chord);
+    float inside = max(1.0 - chord * chord / (own.a * own.a), 0.0);
+    // Of the channels that the air leaves less of the camera burns a smaller core: a low sun has a warm rim.
+    vec3 color = UnpackColor(described[0].w);
+    vec3 rim = pow(vec3(outside), clamp(color.r / max(color, vec3(1e-6)), 1.0, 5.0));
+    return risen * (rim + kBurnt * own_disc_burnt * inside * inside * inside) * own.rgb;
+  }
   return albedo * coverage * risen * sky_gain * max(SpectralToRec709(radiance), vec3(0.0));
 }

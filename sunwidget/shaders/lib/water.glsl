@@ -8,7 +8,6 @@
 // How much of the colour of water that has turned is that of the sky at the horizon.
 const float kMirroredColor = 0.7;
 
-uniform sampler2D terms;
 uniform float water_strength;
 uniform float glitter;
 uniform float source_glitter;

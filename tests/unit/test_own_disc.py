@@ -1,0 +1,81 @@
+"""A moved sun is as large as the photo's own: what burns to white is the camera's doing."""
+
+import numpy as np
+import pytest
+
+import sunwidget as sw
+from sunwidget.analysis.camera_glare import own_disc
+from sunwidget.analysis.working import LUMINANCE
+
+HEIGHT, WIDTH, X, Y = 240, 360, 120, 110
+
+
+def evening(radius, color=(1.0, 1.0, 1.0), dim=1.0):
+    """A clear evening sky over dark land, with a round sun of ``radius`` pixels."""
+    y, x = np.mgrid[:HEIGHT, :WIDTH] + 0.5
+    up = np.clip(1 - y / 180, 0, 1)[..., None]
+    sky = dim * (np.array([0.85, 0.5, 0.3]) * (1 - up) + np.array([0.35, 0.4, 0.55]) * up)
+    photo = np.where(y[..., None] < 180, sky, 0.06)
+    inside = np.clip(radius + 0.5 - np.hypot(x - X, y - Y), 0, 1)[..., None]
+    return np.rint(255 * (photo + inside * (np.array(color) - photo))).astype(np.uint8)
+
+
+def scene_of(photo):
+    return sw.analyze(photo, sun=(X, Y), horizon=180)
+
+
+def radius_at(picture, before, azimuth_px):
+    """Radius of what has become much brighter than the photo beside the old sun's place."""
+    new = (picture / 255 @ LUMINANCE) - (before / 255 @ LUMINANCE) > 0.25
+    new[:, :azimuth_px] = False
+    return float(np.sqrt(new[:170].sum() / np.pi))
+
+
+@pytest.mark.parametrize("radius", [6, 11])
+def test_a_moved_sun_is_as_large_as_the_photos_own(radius):
+    photo = evening(radius)
+    scene = scene_of(photo)
+    moved = sw.render(scene, sw.Edit(sun_azimuth=scene.sun.azimuth + 20, glow=0))
+    assert radius_at(moved, photo, 190) == pytest.approx(radius, rel=0.3)
+
+
+def test_the_slider_of_its_size_still_scales_it():
+    photo = evening(8)
+    scene = scene_of(photo)
+    edit = sw.Edit(sun_azimuth=scene.sun.azimuth + 20, glow=0)
+    once, twice, none = (
+        radius_at(sw.render(scene, edit.replace(sun_size=size)), photo, 190) for size in (1, 2, 0)
+    )
+    assert twice == pytest.approx(2 * once, rel=0.25)
+    assert none < 1
+
+
+def test_a_red_disc_that_did_not_burn_stays_red():
+    photo = evening(10, color=(0.95, 0.3, 0.2), dim=0.35)
+    scene = scene_of(photo)
+    uniforms = scene.uniforms()
+    assert uniforms["own_disc_burnt"] == 0
+    edit = sw.Edit(sun_azimuth=scene.sun.azimuth + 20, glow=0)
+    x, y = scene.camera.pixel(edit.sun_azimuth, scene.sun.elevation)[:2]
+    red, green, blue = sw.render(scene, edit)[int(y), int(x)].astype(int)
+    assert red > green + 60 > blue
+
+
+def test_a_blot_that_grew_into_the_sky_is_no_disc():
+    scene = scene_of(evening(10, color=(0.95, 0.3, 0.2)))  # as bright as the sky beside it
+    assert scene.sun.radius_px > 60
+    assert scene.uniforms()["own_disc_radius"] == 0
+
+
+def test_another_light_has_its_own_disc():
+    photo = evening(11)
+    scene = scene_of(photo)
+    edit = sw.Edit(sun_azimuth=scene.sun.azimuth + 20, glow=0, light_source="moon")
+    assert radius_at(sw.render(scene, edit), photo, 190) < 6
+
+
+def test_a_photo_that_shows_no_sun_tells_nothing():
+    scene = sw.analyze(sw.sample("meadow").preview(200), sun="outside")
+    found = own_disc(None, scene.camera, scene.working)
+    assert found == {"own_disc": (0, 0, 0), "own_disc_radius": 0, "own_disc_burnt": 0}
+    assert scene.uniforms()["own_disc_radius"] == 0
