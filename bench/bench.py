@@ -1,6 +1,7 @@
 """Measure speed: a table on stdout, build/bench.json, and a plot against the pixel count.
 
 usage: python bench/bench.py [--quick] [--only NAME,NAME] [--compare OLD.json] [--docs]
+       python bench/bench.py --against REV [--turns 3] [--quick] [--only NAME,NAME]
 
 Every goal of docs/speed.md is a row, met or MISSED, and so is every peer. Times are medians by the
 clock; beside them stand the processor's, which a busy machine hardly changes. A row that cannot be
@@ -15,7 +16,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from speed import plots, table
+from speed import against, plots, table
 from speed.effort import FULL, QUICK
 from speed.groups import GROUPS, measure
 from speed.machine import machine
@@ -32,11 +33,18 @@ def main() -> int:
     parser.add_argument("--only", default="", help=f"groups, of {', '.join(GROUPS)}")
     parser.add_argument("--compare", type=Path, metavar="OLD", help="a bench.json to compare with")
     parser.add_argument("--docs", action="store_true", help="write docs/speed.md's table and plot")
+    parser.add_argument("--against", metavar="REV", help="measure this tree and REV in turn")
+    parser.add_argument("--turns", type=int, default=3, help="how often each with --against")
     options = parser.parse_args()
     chosen = [name for name in options.only.split(",") if name] or list(GROUPS)
     unknown = [name for name in chosen if name not in GROUPS]
     if unknown:
         parser.error(f"no group {', '.join(unknown)}; there are {', '.join(GROUPS)}")
+    if options.against:
+        then = against.checked_out(options.against, ROOT)
+        arguments = ["--only", ",".join(chosen), *(["--quick"] if options.quick else [])]
+        against.show(against.in_turn(ROOT, then, arguments, options.turns), options.against)
+        return 0
     # Read first: it may be the file that is written below.
     before = json.loads(options.compare.read_text("utf-8")) if options.compare else None
     facts = machine()

@@ -98,3 +98,41 @@ def test_the_page_has_a_place_for_the_table(root):
     marks = [line for line in page.splitlines() if line.startswith("<!--")]
     assert len(marks) == 2
     assert all(mark in source for mark in marks)
+
+
+def bench_table(**rows):
+    """A bench.json of rows (value, processor time)."""
+    told = [
+        {"key": key, "what": key, "unit": "ms", "value": v, "processor": p, "error": ""}
+        for key, (v, p) in rows.items()
+    ]
+    return {"rows": told}
+
+
+def test_two_trees_are_compared_turn_by_turn(speed):
+    from speed.against import changes
+
+    # The machine is twice as busy in the second turn; the third is an outlier.
+    pairs = [
+        (bench_table(frame=(10, 8), size=(5, None)), bench_table(frame=(20, 16), size=(10, None))),
+        (bench_table(frame=(20, 16), size=(5, None)), bench_table(frame=(40, 32), size=(10, None))),
+        (bench_table(frame=(90, 90), size=(5, None)), bench_table(frame=(20, 16), size=(10, None))),
+    ]
+    frame, size = changes(pairs)
+    assert (frame.what, frame.by_processor, frame.then, frame.now) == ("frame", True, 16, 16)
+    assert frame.ratio == pytest.approx(0.5)
+    assert (size.by_processor, size.ratio) == (False, pytest.approx(0.5))
+
+
+def test_rows_that_one_tree_lacks_are_left_out(speed):
+    from speed.against import changes
+
+    new, old = bench_table(frame=(1, 1), hdr=(1, 1)), bench_table(frame=(2, 2))
+    assert [change.what for change in changes([(new, old)])] == ["frame"]
+
+
+def test_an_unknown_revision_is_named(speed, root):
+    from speed.against import checked_out
+
+    with pytest.raises(SystemExit, match="git knows no revision 'no-such-thing'"):
+        checked_out("no-such-thing", root)
