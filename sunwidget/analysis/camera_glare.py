@@ -37,6 +37,7 @@ _CORE, _LEVEL, _POWER = 0.02, 23.0, 1.3
 _LEAST, _MOST = 0.1, 3.0  # of that, whatever was measured
 _BURNT = (0.6, 0.9)  # display-linear light of the least channel: a coloured disc, a white one
 _LARGEST_DISC, _DISC_STEP = 0.08, 0.08  # widths; encoded luminance over what lies beside it
+_RIM = (1.1, 1.9)  # radii: of a sharp disc, and of the softest glow
 _WIDTHS = (0.4, 0.7, 1.1, 1.6, 2.4, 3.6, 5.5)  # degrees
 # The sky shows between clouds and rays: in a ring the darker third is sky and glare alone.
 _CLEAREST = 0.3
@@ -87,33 +88,45 @@ def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> di
     dict
         Scene uniforms: ``own_disc``, the median of its display-linear light (Rec. 709);
         ``own_disc_radius``, the tangent of the angle from its centre to its rim, 0 where the photo
-        shows no sun; ``own_disc_burnt``, how far it is white, [0, 1].
+        shows no sun; ``own_disc_burnt``, how far it is white, [0, 1]; ``own_disc_rim``, where its
+        light has fallen half way to that beside it, in radii.
     """
-    color, radius = np.zeros(3), 0.0
-    if sun is not None and sun.visible:
-        inside, beside = _disc_and_ring(sun, working)
+    color, radius, rim = np.zeros(3), 0.0, _RIM[0]
+    if sun is not None and sun.visible and 0 < sun.radius_px < _LARGEST_DISC * sun.size[0]:
+        scale = working.width / sun.size[0]
+        across = np.arange(working.width) + 0.5 - scale * sun.x
+        down = np.arange(working.height)[:, None] + 0.5 - scale * sun.y
+        away = np.hypot(across, down) / max(scale * sun.radius_px, 1.0)
+        inside = (resize(sun.blot, working.width, working.height) > 0.5) & (away < 1.5)
+        beside = (away > 2.5) & (away < 3.5) & (down < 0)
         light = working.encoded @ LUMINANCE
-        share = sun.radius_px / sun.size[0]
-        # What is no brighter than the sky beside it, or fills it, is a blot that grew into it.
-        seen = share < _LARGEST_DISC and inside.any() and beside.any()
+        # What is no brighter than the sky beside it is a blot that grew into it.
+        seen = inside.any() and beside.any()
         if seen and np.median(light[inside]) > np.median(light[beside]) + _DISC_STEP:
             color = np.median(working.linear[inside], axis=0)
-            radius = share * camera.width / camera.focal
+            radius = sun.radius_px * camera.width / sun.size[0] / camera.focal
+            rim = _rim(working.linear @ LUMINANCE, away, down < 0)
     return {
         "own_disc": tuple(float(v) for v in color),
         "own_disc_radius": radius,
         "own_disc_burnt": float(smoothstep(*_BURNT, color.min())),
+        "own_disc_rim": rim,
     }
 
 
-def _disc_and_ring(sun: SunObservation, working: Working) -> tuple[np.ndarray, np.ndarray]:
-    """Return where a sun's blot is and where, near it, it is not: (h, w) bool each."""
-    inside = resize(sun.blot, working.width, working.height) > 0.5
-    scale = working.width / sun.size[0]
-    across = np.arange(working.width) + 0.5 - scale * sun.x
-    down = np.arange(working.height)[:, None] + 0.5 - scale * sun.y
-    away = np.hypot(across, down) / max(scale * sun.radius_px, 1.0)
-    return inside, ~inside & (away > 1.5) & (away < 2.5)
+def _rim(light: np.ndarray, away: np.ndarray, above: np.ndarray) -> float:
+    """Return where, in radii, light is half way from the disc's to that of what lies beside it.
+
+    ``above`` holds where no land is: above the sun.
+    """
+    rings = np.arange(0.8, 3.5, 0.1)
+    parts = [above & (away >= r - 0.15) & (away < r + 0.15) for r in rings]
+    known = [(r, float(np.median(light[p]))) for r, p in zip(rings, parts, strict=True) if p.any()]
+    if len(known) < 2:
+        return _RIM[0]
+    radii, level = np.array(known).T
+    fallen = radii[level < 0.5 * (level[0] + level[-1])]
+    return float(np.clip(fallen[0] if fallen.size else _RIM[1], *_RIM))
 
 
 def measured_glare(

@@ -1,5 +1,6 @@
 """A moved sun is as large as the photo's own: what burns to white is the camera's doing."""
 
+import cv2
 import numpy as np
 import pytest
 
@@ -74,8 +75,17 @@ def test_another_light_has_its_own_disc():
     assert radius_at(sw.render(scene, edit), photo, 190) < 6
 
 
+def test_a_soft_glow_stays_soft_and_a_sharp_disc_sharp():
+    sharp = evening(8)
+    soft = cv2.GaussianBlur(evening(11), (0, 0), 6)
+    sharp_rim, soft_rim = (scene_of(p).uniforms()["own_disc_rim"] for p in (sharp, soft))
+    assert sharp_rim < 1.4  # of a radius that is the blot's, a quarter less than the true one here
+    assert soft_rim > sharp_rim + 0.2
+
+
 def test_a_photo_that_shows_no_sun_tells_nothing():
     scene = sw.analyze(sw.sample("meadow").preview(200), sun="outside")
     found = own_disc(None, scene.camera, scene.working)
-    assert found == {"own_disc": (0, 0, 0), "own_disc_radius": 0, "own_disc_burnt": 0}
+    assert found["own_disc"] == (0, 0, 0)
+    assert found["own_disc_radius"] == found["own_disc_burnt"] == 0
     assert scene.uniforms()["own_disc_radius"] == 0

@@ -7,9 +7,10 @@
 #include "lib/moon_disc.glsl"
 
 uniform float own_disc_burnt;  // how far the photo's own disc is white, 0 to 1
+uniform float own_disc_rim;    // where its light is halved, in units of its radius, 1.1 to 1.9
 
-const float kRim = 0.35;    // share of the own disc's radius over which it fades, inwards and outwards
-const float kBurnt = 15.0;  // times its light: what lies above white in the middle of a burnt core
+const float kBurnt = 3.0;   // times its light: what lies above white in the middle of a burnt core
+const float kEdge = 1.2;    // radii at which it ends
 
 vec3 GetDisc(vec3 view, vec3 sun) {
   float radius = term[10].x;
@@ -30,11 +31,13 @@ vec3 GetDisc(vec3 view, vec3 sun) {
   float albedo = 1.0 + moon * (GetMoonAlbedo(place / max(radius, 1e-9)) - 1.0);
   vec4 own = texelFetch(terms, ivec2(14, 0), 0);
   if (own.a > radius) {
-    float outside = 1.0 - smoothstep(own.a * (1.0 - kRim), own.a * (1.0 + kRim), chord);
-    float inside = max(1.0 - chord * chord / (own.a * own.a), 0.0);
+    float x = chord / own.a;
+    // Even within a sharp rim, soft from the middle on in a glow.
+    float even = 1.0 - smoothstep(1.9 - own_disc_rim, kEdge, x);
     // Of the channels that the air leaves less of the camera burns a smaller core: a low sun has a warm rim.
     vec3 color = UnpackColor(described[0].w);
-    vec3 rim = pow(vec3(outside), clamp(color.r / max(color, vec3(1e-6)), 1.0, 5.0));
+    vec3 rim = pow(vec3(even), clamp(color.r / max(color, vec3(1e-6)), 1.0, 5.0));
+    float inside = max(1.0 - x * x, 0.0);
     return risen * (rim + kBurnt * own_disc_burnt * inside * inside * inside) * own.rgb;
   }
   return albedo * coverage * risen * sky_gain * max(SpectralToRec709(radiance), vec3(0.0));
