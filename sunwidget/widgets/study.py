@@ -7,11 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import anywidget
+import numpy as np
 import traitlets
 
+from sunwidget.export.framed import StaticPage
+from sunwidget.export.sheet import sheet
 from sunwidget.files import target
 from sunwidget.photo import open_photo
+from sunwidget.png import encode_small_png
 from sunwidget.study import (
     Answer,
     BradleyTerry,
@@ -23,14 +26,17 @@ from sunwidget.study import (
 )
 from sunwidget.study.bradley_terry import PRIOR
 from sunwidget.widgets.front_end import front_end
+from sunwidget.widgets.output import with_picture
 from sunwidget.widgets.payload import encode_preview
+from sunwidget.widgets.saved_state import SavedLight
 from sunwidget.widgets.standalone import embedded_state, write_page
 
 _MOST_REPEATS = 100
+_SMALL_EDGE = 400  # pixels, of each picture of the static one
 _NOTES = ("Save your answers at the end: they stay in this window, and nothing leaves it.",)
 
 
-class Study(anywidget.AnyWidget):
+class Study(SavedLight):
     """Show pictures two by two and let people choose; the thesis' user study (section 6.3).
 
     Each rater sees every pair of methods of every photo, in an order and on sides drawn by
@@ -158,15 +164,45 @@ class Study(anywidget.AnyWidget):
         FileExistsError
             When ``path`` exists and ``overwrite`` is false.
         """
+        place = None if path is None else target(path, overwrite=overwrite)
+        text = self._page(title)
+        return text if place is None else write_page(text, place, overwrite=overwrite)
+
+    def render_static(self, *, title: str = "Study") -> StaticPage:
+        """Return the page of ``to_html`` as a cell's output: people answer in it without a kernel.
+
+        For notebooks that are exported. It begins without answers, and raters save theirs as a
+        file. The notebook grows by all pictures, at most 2048 pixels each.
+
+        Parameters
+        ----------
+        title : str
+            Of the page.
+        """
+        return StaticPage(self._page(title), title)
+
+    def _page(self, title: str) -> str:
         from sunwidget.export.html import Still, page
 
-        place = None if path is None else target(path, overwrite=overwrite)
         embedded = embedded_state(self)
         embedded["state"] |= {"_answers": [], "rater": ""}
         first = self._pictures[0]
         still = Still(first, open_photo(first).size, self._question)
-        text = page(embedded, still, title=title, notes=_NOTES)
-        return text if place is None else write_page(text, place, overwrite=overwrite)
+        return page(embedded, still, title=title, notes=_NOTES)
+
+    def _light_state(self) -> dict[str, Any]:
+        return {"_pictures": []}
+
+    def _static_picture(self) -> bytes:
+        """Return a small PNG of the first pair, under the question."""
+        pair = [open_photo(data).preview(_SMALL_EDGE) for data in self._pictures[:2]]
+        height = min(len(picture) for picture in pair)
+        width = min(picture.shape[1] for picture in pair)
+        first, second = (picture[:height, :width] for picture in pair)
+        return encode_small_png(np.asarray(sheet({self._question: first, "": second})))
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        return with_picture(super()._repr_mimebundle_(**kwargs), self._static_picture)
 
     @staticmethod
     def read_csv(*paths: str | os.PathLike[str]) -> list[Answer]:

@@ -8,7 +8,7 @@ import { element } from "../controls/element.js";
 import { download } from "../editor/download.js";
 import { csv } from "./csv.js";
 import { Pictures } from "./pictures.js";
-import { endScreen, startScreen } from "./screens.js";
+import { endScreen, savedScreen, startScreen } from "./screens.js";
 import { trials } from "./trials.js";
 
 /**
@@ -105,6 +105,11 @@ export class View {
 
   /** Everything that follows from the answers. */
   show() {
+    if (this.model.get("_saved")) {
+      this.undo.hidden = true;
+      this.stage.replaceChildren(savedScreen(this.answers().length, () => this.save()));
+      return;
+    }
     const all = this.trials();
     const { length: done } = this.own();
     const over = done >= all.length;
