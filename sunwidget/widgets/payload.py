@@ -83,13 +83,17 @@ def thumbnail(photo: Photo) -> bytes:
 
 def saved_photo(photo: Photo) -> bytes:
     """Return the small JPEG that a notebook keeps in the preview's place."""
+    if photo not in _saved_photos:
+        _saved_photos[photo] = encode_jpeg(photo.preview(_SAVED_EDGE))
+    return _saved_photos[photo]
+
+
+def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
+    """Return a picture (H, W, 3) as a small JPEG, for what a notebook keeps."""
     import cv2
 
-    if photo not in _saved_photos:
-        options = [cv2.IMWRITE_JPEG_QUALITY, _SAVED_QUALITY]
-        small = photo.preview(_SAVED_EDGE)[..., ::-1]
-        _saved_photos[photo] = bytes(cv2.imencode(".jpg", small, options)[1])
-    return _saved_photos[photo]
+    options = [cv2.IMWRITE_JPEG_QUALITY, _SAVED_QUALITY]
+    return bytes(cv2.imencode(".jpg", image[..., ::-1], options)[1])
 
 
 def encode_maps(scene: Scene) -> dict[str, bytes]:

@@ -27,7 +27,7 @@ from sunwidget.study import (
 from sunwidget.study.bradley_terry import PRIOR
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.output import with_picture
-from sunwidget.widgets.payload import encode_preview
+from sunwidget.widgets.payload import encode_jpeg, encode_preview
 from sunwidget.widgets.saved_state import SavedLight
 from sunwidget.widgets.standalone import embedded_state, write_page
 
@@ -76,6 +76,8 @@ class Study(SavedLight):
 
     rater = traitlets.Unicode("", help="Who answers.").tag(sync=True)
     _pictures: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
+    # All that a saved notebook keeps of them.
+    _thumbnail = traitlets.Bytes().tag(sync=True, echo_update=False)
     _groups: traitlets.List = traitlets.List().tag(sync=True)
     _answers: traitlets.List = traitlets.List().tag(sync=True)
     _question = traitlets.Unicode().tag(sync=True)
@@ -185,7 +187,8 @@ class Study(SavedLight):
         from sunwidget.export.html import Still, page
 
         embedded = embedded_state(self)
-        embedded["state"] |= {"_answers": [], "rater": ""}
+        embedded["state"] |= {"_answers": [], "rater": "", "_thumbnail": None}
+        embedded["buffers"] = [b for b in embedded["buffers"] if b["path"] != ["_thumbnail"]]
         first = self._pictures[0]
         still = Still(first, open_photo(first).size, self._question)
         return page(embedded, still, title=title, notes=_NOTES)
@@ -193,16 +196,21 @@ class Study(SavedLight):
     def _light_state(self) -> dict[str, Any]:
         return {"_pictures": []}
 
-    def _static_picture(self) -> bytes:
-        """Return a small PNG of the first pair, under the question."""
+    @traitlets.default("_thumbnail")
+    def _default_thumbnail(self) -> bytes:
+        return encode_jpeg(self._first_pair())
+
+    def _first_pair(self) -> np.ndarray:
+        """Return two pictures of the first photo, small, under the question."""
         pair = [open_photo(data).preview(_SMALL_EDGE) for data in self._pictures[:2]]
         height = min(len(picture) for picture in pair)
         width = min(picture.shape[1] for picture in pair)
         first, second = (picture[:height, :width] for picture in pair)
-        return encode_small_png(np.asarray(sheet({self._question: first, "": second})))
+        return np.asarray(sheet({self._question: first, "": second}))
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        return with_picture(super()._repr_mimebundle_(**kwargs), self._static_picture)
+        bundle = super()._repr_mimebundle_(**kwargs)
+        return with_picture(bundle, lambda: encode_small_png(self._first_pair()))
 
     @staticmethod
     def read_csv(*paths: str | os.PathLike[str]) -> list[Answer]:

@@ -95,6 +95,9 @@ STATIC = {
     "editor": """import sunwidget as sw
 sw.SunEditor(sw.open(sw.sample("coast").preview(384)), sun_elevation=-6).render_static()""",
     "explorer": "sw.SkyExplorer(sun_elevation=20).render_static()",
+    "compare": """photo = sw.open(sw.sample("coast").preview(384))
+sw.Compare(photo, ["photo", "ratio"], sun_elevation=3).render_static()""",
+    "study": """sw.Study({"a": photo.preview(384), "b": photo.preview(384)}).render_static()""",
 }
 
 
@@ -107,20 +110,39 @@ def test_render_static_stays_live_in_the_page_without_network(browser, tmp_path,
         outer = page.locator("iframe[srcdoc]").nth(i)
         outer.scroll_into_view_if_needed()
         inner = outer.content_frame
-        inner.locator(".sunwidget.sw-live").wait_for()
+        inner.locator(".sw-study" if name == "study" else ".sunwidget.sw-live").wait_for()
         page.wait_for_timeout(500)
-        # The frame is as tall as what it holds: nothing scrolls in it.
-        tall = inner.locator("body").evaluate("(body) => body.getBoundingClientRect().height")
-        assert outer.bounding_box()["height"] == pytest.approx(tall, abs=1.5)
-        readout = inner.locator(".sw-readout").first
-        before = readout.text_content()
-        inner.get_by_role("slider", name="Elevation").first.focus()
-        page.keyboard.press("ArrowRight")
-        page.wait_for_timeout(500)
-        assert readout.text_content() != before, f"the sun of the {name} does not move"
+        assert is_as_tall_as_its_content(outer)
+        if name == "study":
+            answer(page, inner)
+        else:
+            move_the_sun(page, inner)
         page.screenshot(path=screenshots / f"static-{name}.png")
     assert errors == []
     page.context.close()
+
+
+def is_as_tall_as_its_content(frame):
+    """Nothing scrolls in it."""
+    body = frame.content_frame.locator("body")
+    tall = body.evaluate("(body) => body.getBoundingClientRect().height")
+    return frame.bounding_box()["height"] == pytest.approx(tall, abs=1.5)
+
+
+def move_the_sun(page, inner):
+    readout = inner.locator(".sw-readout").first
+    before = readout.text_content()
+    sliders = inner.get_by_role("slider", name="Elevation")
+    (sliders if sliders.count() else inner.locator(".sw-sun-handle")).first.focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_timeout(500)
+    assert readout.text_content() != before
+
+
+def answer(page, inner):
+    inner.get_by_role("button", name="Start").click()
+    inner.locator(".sw-study-picture").first.click()
+    inner.get_by_text("Thank you").wait_for()
 
 
 def pixels(output):

@@ -49,6 +49,8 @@ def test_a_saved_notebook_is_small_and_shows_its_pictures_without_a_kernel(
         page.screenshot(path=screenshots / "saved-compare.png")
         study = page.locator(".sw-study")
         study.get_by_text("Run the cell to go on").wait_for()
+        pair = study.get_by_role("img")
+        assert pair.evaluate("(image) => image.naturalWidth") == 804  # 400 pixels each
         study.scroll_into_view_if_needed()
         page.screenshot(path=screenshots / "saved-study.png")
         run_cell(page, 0)

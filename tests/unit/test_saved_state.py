@@ -59,6 +59,8 @@ def test_of_comparison_and_study_no_maps_and_pictures_are_stored(scene):
     study.set_state({"_answers": [{"rater": "anna"}]})
     state = study.get_state()
     assert (state["_pictures"], state["_answers"]) == ([], [{"rater": "anna"}])
+    assert open_photo(state["_thumbnail"]).size == (2 * 96 + 4, 64 + 26)
+    assert heavy(state) < 100_000
 
 
 def test_a_page_made_there_is_whole(scene, monkeypatch):

@@ -29,7 +29,9 @@ export class View {
   constructor(model, root, signal) {
     this.model = model;
     this.root = root;
-    this.pictures = new Pictures(model.get("_pictures"), signal);
+    this.asSaved = Boolean(model.get("_saved"));
+    const pictures = this.asSaved ? [model.get("_thumbnail")] : model.get("_pictures");
+    this.pictures = new Pictures(pictures, signal);
     this.ties = Boolean(model.get("_ties"));
     this.rater = String(model.get("rater"));
     this.running = false;
@@ -105,9 +107,8 @@ export class View {
 
   /** Everything that follows from the answers. */
   show() {
-    if (this.model.get("_saved")) {
-      this.undo.hidden = true;
-      this.stage.replaceChildren(savedScreen(this.answers().length, () => this.save()));
+    if (this.asSaved) {
+      void this.showSaved();
       return;
     }
     const all = this.trials();
@@ -138,6 +139,20 @@ export class View {
               onStart: (rater) => this.begin(rater),
             }),
       );
+    }
+  }
+
+  /** As it was saved: without the pictures of its pairs. */
+  async showSaved() {
+    this.undo.hidden = true;
+    const screen = savedScreen(this.answers().length, () => this.save());
+    this.stage.replaceChildren(screen);
+    try {
+      const image = await this.pictures.load(0);
+      image.alt = "Two of the pictures";
+      screen.prepend(image);
+    } catch {
+      // The words alone do as well.
     }
   }
 
