@@ -1,5 +1,6 @@
 """What ``nbconvert`` makes of a notebook, opened from a file in a browser without network."""
 
+import re
 import subprocess
 import sys
 
@@ -132,8 +133,8 @@ def is_as_tall_as_its_content(frame):
 def move_the_sun(page, inner):
     readout = inner.locator(".sw-readout").first
     before = readout.text_content()
-    sliders = inner.get_by_role("slider", name="Elevation")
-    (sliders if sliders.count() else inner.locator(".sw-sun-handle")).first.focus()
+    # A slider of the panel, or a comparison's handle.
+    inner.get_by_role("slider", name=re.compile("^(Elevation|Sun in ratio)")).first.focus()
     page.keyboard.press("ArrowRight")
     page.wait_for_timeout(500)
     assert readout.text_content() != before
