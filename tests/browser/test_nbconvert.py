@@ -116,6 +116,8 @@ def test_render_static_stays_live_in_the_page_without_network(browser, tmp_path,
         assert is_as_tall_as_its_content(outer)
         if name == "study":
             answer(page, inner)
+            page.wait_for_timeout(300)
+            assert is_as_tall_as_its_content(outer)
         else:
             move_the_sun(page, inner)
         page.screenshot(path=screenshots / f"static-{name}.png")
@@ -142,7 +144,12 @@ def move_the_sun(page, inner):
 
 def answer(page, inner):
     inner.get_by_role("button", name="Start").click()
-    inner.locator(".sw-study-picture").first.click()
+    pair = inner.locator(".sw-study-picture")
+    # Each takes half of the frame's width: their height does not follow the frame's own.
+    assert pair.first.bounding_box()["width"] > 0.4 * page.viewport_size["width"] - 40
+    stage = inner.locator(".sw-study-stage").bounding_box()
+    assert stage["height"] == pytest.approx(0.46 * stage["width"], rel=0.02)
+    pair.first.click()
     inner.get_by_text("Thank you").wait_for()
 
 

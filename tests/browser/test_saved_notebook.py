@@ -4,7 +4,7 @@ import json
 
 import pytest
 from kept import CELLS, READY, megabytes, page_of_widgets, run_by_nbclient, save, states_of
-from lab import lab_page, notebook_page, run_cell
+from lab import notebook_page, run_cell
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(400)]
 
@@ -42,7 +42,9 @@ def test_a_saved_notebook_is_small_and_shows_its_pictures_without_a_kernel(
         page.wait_for_timeout(500)
         page.screenshot(path=screenshots / "saved-editor.png")
         compare.get_by_text("as it was saved").wait_for()
-        widths = compare.locator(".sw-compare-canvas").evaluate_all("(all) => all.map((c) => c.width)")
+        widths = compare.locator(".sw-compare-canvas").evaluate_all(
+            "(all) => all.map((c) => c.width)"
+        )
         assert len(widths) == 3
         assert all(300 < width <= 554 for width in widths)  # 960 pixels are shared by three
         compare.scroll_into_view_if_needed()
@@ -82,5 +84,3 @@ def test_what_a_program_runs_and_saves_is_as_small(tmp_path):
     assert states["SunEditor"]["state"]["_saved"] == "photo"
     # The front end is there: an editor inside a container is shown by it.
     assert len(states["SunEditor"]["state"]["_esm"]) > 100_000
-
-
