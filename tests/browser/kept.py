@@ -1,4 +1,4 @@
-"""A notebook of all widgets, saved by JupyterLab or by a program, and what its file holds of each."""
+"""A notebook of all widgets, saved by JupyterLab or by a program, and what is in its file."""
 
 import contextlib
 import json
@@ -7,7 +7,7 @@ import sys
 
 from lab import notebook_page, run_cell, write_notebook
 
-# The photo at its own size: what is kept of it must not grow with it. One cell a widget, run in turn.
+# The photo at its own size: what is kept of it must not grow with it. One cell a widget.
 CELLS = {
     "SunEditor": """import sunwidget as sw
 photo = sw.sample("coast")
