@@ -147,6 +147,9 @@ class Compare(Analysed, AnswersRefusals):
         self._analyst = Analyst(source, analysis, self._deliver, self._report)
         self._analyst.ask(Edit())
 
+    def __repr__(self) -> str:
+        return f"<Compare of {self.photo.name!r}: {', '.join(each.label for each in self._shown)}>"
+
     @property
     def edits(self) -> dict[str, Edit]:
         """What is shown, by label, under the sun as it is now; waits for the analysis."""

@@ -40,6 +40,9 @@ _TYPES = {
 class Pictures(EditHistory, Analysed):
     """A widget that renders its edit of a photo."""
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.photo.name!r}: {self.edit!r}>"
+
     def render(self, **options: Any) -> Any:
         """Return the picture as it is now; ``options`` as in ``sunwidget.render``."""
         return self._render(self.edit, **options)

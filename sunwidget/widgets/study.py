@@ -108,6 +108,9 @@ class Study(SavedLight):
             rater=rater,
         )
 
+    def __repr__(self) -> str:
+        return f"<Study of {', '.join(self.methods)}: {len(self._answers)} answers>"
+
     @property
     def answers(self) -> list[Answer]:
         """All answers so far, of all raters, in the order in which they came."""

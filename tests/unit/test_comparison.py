@@ -190,6 +190,12 @@ def test_viewers_without_widgets_see_the_sheet(methods):
     assert np.abs(seen - np.asarray(methods.sheet(480))).mean() < 4
 
 
+def test_comparison_and_study_print_what_they_show(methods):
+    assert repr(methods) == "<Compare of 'array': photo, ratio, thesis>"
+    pair = {"a": np.zeros((4, 4, 3), np.uint8), "b": np.full((4, 4, 3), 9, np.uint8)}
+    assert repr(Study(pair)) == "<Study of a, b: 0 answers>"
+
+
 def test_the_picture_of_many_is_no_larger_than_that_of_few(scene):
     photo = sw.sample("coast").preview(960)
     nine = Compare(photo, {str(i): Edit(sun_elevation=i) for i in range(9)})
