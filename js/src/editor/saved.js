@@ -13,11 +13,14 @@ export const unseen = () => ({
 
 /** @type {import("./parts.js").MakePart} */
 export function saved(view, signal) {
-  const { model, stage } = view;
+  const { model, stage, root, panel } = view;
+  // Without maps no slider moves the picture.
+  panel.node.inert = Boolean(model.get("_saved"));
+  root.classList.toggle("sw-saved", panel.node.inert);
   /** @type {Record<string, unknown> | null} of the view that was closed */
   let last = null;
   const light = () => {
-    const live = view.scene !== null && view.root.classList.contains("sw-live");
+    const live = view.scene !== null && root.classList.contains("sw-live");
     if (live) return { ...unseen(), _photo: thumbnail(stage.canvas, EDGE) };
     const there = stage.photo.naturalWidth > 0;
     return {

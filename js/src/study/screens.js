@@ -74,7 +74,10 @@ export function savedScreen(answers, onSave) {
     element(
       "p",
       {},
-      "A saved notebook keeps the answers of a study, not its pictures. Run the cell to go on.",
+      "A saved notebook keeps the answers of a study, not its pictures. " +
+        (answers
+          ? "Save them before you run the cell, which begins anew."
+          : "Run the cell to begin."),
     ),
     ...(answers ? [element("div", { class: "sw-study-form" }, saveButton(onSave))] : []),
   );
