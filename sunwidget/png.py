@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import base64
+import io
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+_FEW_BYTES = 100_000
+_PALETTE_SIZE = (120, 80)
 
 
 def encode_png(image: NDArray[np.uint8]) -> bytes:
@@ -19,6 +23,24 @@ def encode_png(image: NDArray[np.uint8]) -> bytes:
     if not ok:
         raise RuntimeError(f"OpenCV could not encode a picture of shape {image.shape} as PNG.")
     return bytes(data)
+
+
+def encode_small_png(image: NDArray[np.uint8]) -> bytes:
+    """Return an (H, W, 3) uint8 picture as PNG of few bytes, for what every notebook keeps.
+
+    Above ``_FEW_BYTES`` it has 256 colours and is dithered: a third of the bytes, for 20 ms.
+    """
+    from PIL import Image
+
+    data = encode_png(image)
+    if len(data) <= _FEW_BYTES:
+        return data
+    whole = Image.fromarray(image)
+    # Colours are chosen on fewer pixels: on all of them that takes longer than all else.
+    palette = whole.resize(_PALETTE_SIZE).quantize(256)
+    small = io.BytesIO()
+    whole.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG).save(small, "PNG")
+    return min(data, small.getvalue(), key=len)
 
 
 def cell_output(

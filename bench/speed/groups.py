@@ -23,6 +23,7 @@ GROUPS = {
     "opening": "opening",
     "sizes": "sizes",
     "editors": "many_editors",
+    "saved": "saved",
     "film": "film",
     "thesis": "peer_thesis",
     "grabcut": "peer_grabcut",

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import sunwidget as sw
-from sunwidget.widgets.payload import encode_maps, encode_preview, scene_json
+from sunwidget.widgets.payload import MAP_TRAITS, encode_maps, encode_preview, scene_json
 
 from .effort import Effort
 from .page import chromium, widget_state
@@ -73,7 +73,7 @@ def in_kernel(photo: Path, what: str) -> Rows:
     for name, seconds in scene.timings.items():
         yield Row(f"analyse: {name}", f"    {name}", seconds, "s")
     state = widget_state(sw.SunEditor(scene).wait())
-    for name in ("_photo", "_layers", "_surface", "_backdrop", "_clear_sky", "_relief", "_rise"):
+    for name in ("_photo", *MAP_TRAITS):
         size = len(state[name]) * 3 / 4 / 1e6
         yield Row(f"message {name}", f"  kernel → page: {name[1:]}", size, "MB")
 

@@ -32,7 +32,8 @@ export function ownModel(model) {
 }
 
 /**
- * From now on this is saved in place of traits that are heavy.
+ * From now on this is saved in place of traits that are heavy; of a widget that was opened as it
+ * had been saved, what was saved.
  *
  * @param {Model} model
  * @param {() => Record<string, unknown>} light
@@ -42,8 +43,28 @@ export function saveLight(model, light) {
   if (typeof own?.get_state !== "function") return;
   const whole = own.constructor.prototype.get_state;
   /** @param {boolean} [dropDefaults] */
-  own.get_state = (dropDefaults) => ({ ...whole.call(own, dropDefaults), ...light() });
+  own.get_state = (dropDefaults) => {
+    const state = whole.call(own, dropDefaults);
+    return model.get("_saved") ? state : { ...state, _saved: true, ...light() };
+  };
 }
+
+/** In place of true: what is shown is the photo, as nothing else was drawn. */
+export const PHOTO = "photo";
+
+/**
+ * What a widget that was opened as it had been saved says of itself.
+ *
+ * @param {Model} model
+ * @param {string} what it is
+ */
+export const savedText = (model, what) =>
+  model.get("_saved") === PHOTO
+    ? `The notebook holds the photo and the recipe, no more. Run the cell to see the ${what}.`
+    : `This is a picture of the ${what} as it was saved. Run the cell again to go on.`;
+
+/** No bytes, as traits hold them. */
+export const nothing = () => new DataView(new ArrayBuffer(0));
 
 /** A small JPEG of a picture, long edge at most `edge`. @param {HTMLCanvasElement | HTMLImageElement} picture @param {number} edge */
 export function thumbnail(picture, edge) {

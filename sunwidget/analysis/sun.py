@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -74,7 +74,7 @@ class SunObservation:
     radius_px: float
     azimuth: float
     elevation: float
-    blot: np.ndarray
+    blot: np.ndarray = field(repr=False)
     size: tuple[int, int]
     visible: bool
     source: str

@@ -15,14 +15,16 @@ _FOLLOW = (
     " frame.style.height = Math.ceil(event.data.sunwidgetHeight) + 'px'; });"
     " frame.contentWindow.postMessage('sunwidget: height?', '*');"
 )
+# A study's first screen is a form; the page's own policy lets none be sent.
+_SANDBOX = "allow-scripts allow-forms allow-downloads"
 _HEIGHT = 720  # CSS pixels, until the page has said its own
 
 
 class StaticPage:
     """A live page as the output of a cell: no kernel, no widget manager, no network.
 
-    Made by ``SunEditor.render_static`` and ``SkyExplorer.render_static``. The page runs in a frame
-    that may run its own script and offer downloads, and sees nothing of the page around it.
+    Made by ``render_static`` of each widget. The page runs in a frame that may run its own script
+    and offer downloads, and sees nothing of the page around it.
 
     Attributes
     ----------
@@ -41,7 +43,7 @@ class StaticPage:
 
     def _repr_html_(self) -> str:
         return (
-            f'<iframe title="{escaped(self.title)}" sandbox="allow-scripts allow-downloads" '
+            f'<iframe title="{escaped(self.title)}" sandbox="{_SANDBOX}" '
             f'style="width: 100%; height: {_HEIGHT}px; border: 0" onload="{escape(_FOLLOW)}" '
             f'srcdoc="{escape(self.html)}"></iframe>'
         )

@@ -6,18 +6,18 @@ import contextlib
 import threading
 from typing import Self
 
-import anywidget
 import traitlets
 
 from sunwidget.analysis.scene import Scene
 from sunwidget.photo import Photo
 from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.output import unattended
+from sunwidget.widgets.saved_state import SavedLight
 
 OPENING = {"stage": "opening", "fraction": 0.0, "message": "Opening the photo …"}
 
 
-class Analysed(anywidget.AnyWidget):
+class Analysed(SavedLight):
     """A widget that shows a photo at once, and its scene when an ``Analyst`` has it."""
 
     _status = traitlets.Dict().tag(sync=True, echo_update=False)

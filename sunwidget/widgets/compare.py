@@ -6,6 +6,7 @@ and once more for every recipe with other strokes or hints.
 
 from __future__ import annotations
 
+import math
 import os
 import threading
 from pathlib import Path
@@ -16,9 +17,10 @@ import traitlets
 
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, parameter
+from sunwidget.export.framed import StaticPage
 from sunwidget.files import target
 from sunwidget.photo import Photo, open_photo
-from sunwidget.png import encode_png
+from sunwidget.png import encode_small_png
 from sunwidget.recipe import edit_of
 from sunwidget.widgets.analysed import OPENING, Analysed
 from sunwidget.widgets.analyst import Analyst
@@ -29,6 +31,7 @@ from sunwidget.widgets.payload import (
     encode_maps,
     encode_preview,
     parameter_json,
+    saved_photo,
     scene_json,
     thumbnail,
 )
@@ -40,7 +43,8 @@ if TYPE_CHECKING:
     from PIL import Image
 
 _SUN = ("sun_azimuth", "sun_elevation")
-_SMALL_EDGE = 480  # of each picture of the static one
+_SMALL_EDGE = 480  # of each picture of the static one, at most
+_SMALL_PIXELS = 300_000  # of all together: a notebook keeps them
 _NOTES = ("Drag the sun in any picture: everything happens in this file, and nothing leaves it.",)
 LAYOUTS = ("side_by_side", "wipe")
 
@@ -143,6 +147,9 @@ class Compare(Analysed, AnswersRefusals):
         self._analyst = Analyst(source, analysis, self._deliver, self._report)
         self._analyst.ask(Edit())
 
+    def __repr__(self) -> str:
+        return f"<Compare of {self.photo.name!r}: {', '.join(each.label for each in self._shown)}>"
+
     @property
     def edits(self) -> dict[str, Edit]:
         """What is shown, by label, under the sun as it is now; waits for the analysis."""
@@ -216,17 +223,33 @@ class Compare(Analysed, AnswersRefusals):
         FileExistsError
             When ``path`` exists and ``overwrite`` is false.
         """
+        place = None if path is None else target(path, overwrite=overwrite)
+        text = self._page(title or self.photo.name)
+        return text if place is None else write_page(text, place, overwrite=overwrite)
+
+    def render_static(self, *, title: str | None = None) -> StaticPage:
+        """Return the page of ``to_html`` as a cell's output: the sun moves in it without a kernel.
+
+        For notebooks that are exported; waits for the analysis. See ``SunEditor.render_static``.
+
+        Parameters
+        ----------
+        title : str, optional
+            Of the page. Default: the photo's name.
+        """
+        name = title or self.photo.name
+        return StaticPage(self._page(name), name)
+
+    def _page(self, title: str) -> str:
         from sunwidget.export.html import Still, page
 
-        place = None if path is None else target(path, overwrite=overwrite)
         self.wait()
         picture = self._static_picture()
         size = open_photo(picture).size
         still = Still(picture, size, f"{self.photo.name}: {', '.join(self._edits)}")
         with self._lock:
             embedded = embedded_state(self)
-        text = page(embedded, still, title=title or self.photo.name, notes=_NOTES)
-        return text if place is None else write_page(text, place, overwrite=overwrite)
+        return page(embedded, still, title=title, notes=_NOTES)
 
     def _deliver(self, scene: Scene) -> None:
         edits = {variant.label: variant.edit(scene) for variant in self._shown}
@@ -253,16 +276,24 @@ class Compare(Analysed, AnswersRefusals):
                 for variant in self._shown
             ]
 
+    def _light_state(self) -> dict[str, Any]:
+        return {"_photo": saved_photo(self.photo), "_scenes": []}
+
     def _static_picture(self) -> bytes:
         """Return a small PNG: all pictures where they can be had at once, else the photo."""
         from sunwidget.renderer.gl_thread import RendererError
 
         if self._can_show_edits():
             try:
-                return encode_png(np.asarray(self.sheet(_SMALL_EDGE)))
+                return encode_small_png(np.asarray(self.sheet(self._small_edge())))
             except RendererError:
                 pass
         return thumbnail(self.photo)
+
+    def _small_edge(self) -> int:
+        width, height = self.photo.size_within(_SMALL_EDGE)
+        room = _SMALL_PIXELS / (width * height * len(self._shown))
+        return max(1, int(max(width, height) * min(1.0, math.sqrt(room))))
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         return with_picture(super()._repr_mimebundle_(**kwargs), self._static_picture)

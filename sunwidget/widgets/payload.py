@@ -25,24 +25,35 @@ from sunwidget.analysis.sun_network import look_for_sun
 from sunwidget.analysis.working import resize
 from sunwidget.edit import PARAMETERS, Parameter
 from sunwidget.photo import Photo, open_photo
-from sunwidget.png import encode_png
+from sunwidget.png import encode_png, encode_small_png
 from sunwidget.renderer.render import quantise_map
 from sunwidget.renderer.shader_source import frame_graph
 
 PREVIEW_EDGE = 2048
 MAP_EDGE = 1024  # of an inspected map
 THUMBNAIL_EDGE = 480
+MAP_TRAITS = (
+    "_layers",
+    "_surface",
+    "_backdrop",
+    "_clear_sky",
+    "_relief",
+    "_transfer",
+    "_lamps",
+)
+_SAVED_EDGE, _SAVED_QUALITY = 640, 85  # as js/src/editor/saved.js has them
 # Above this many bytes a lossless preview costs more than it shows.
 _LOSSLESS_BYTES = 4_000_000
 _JPEG_QUALITY = 95
 _thumbnails: weakref.WeakKeyDictionary[Photo, bytes] = weakref.WeakKeyDictionary()
+_saved_photos: weakref.WeakKeyDictionary[Photo, bytes] = weakref.WeakKeyDictionary()
 
 
 def encode_preview(photo: Photo) -> bytes:
     """Return the photo's preview, encoded as ``encode_picture`` does."""
     preview = photo.preview(PREVIEW_EDGE)
     # A cell's output holds both, and a person waits for it: the large photo is shrunk once.
-    _thumbnails[photo] = encode_png(open_photo(preview).preview(THUMBNAIL_EDGE))
+    _thumbnails[photo] = encode_small_png(open_photo(preview).preview(THUMBNAIL_EDGE))
     return encode_picture(preview)
 
 
@@ -66,8 +77,23 @@ def encode_picture(image: NDArray[np.uint8]) -> bytes:
 def thumbnail(photo: Photo) -> bytes:
     """Return a small PNG for viewers that run no widgets."""
     if photo not in _thumbnails:
-        _thumbnails[photo] = encode_png(photo.preview(THUMBNAIL_EDGE))
+        _thumbnails[photo] = encode_small_png(photo.preview(THUMBNAIL_EDGE))
     return _thumbnails[photo]
+
+
+def saved_photo(photo: Photo) -> bytes:
+    """Return the small JPEG that a notebook keeps in the preview's place."""
+    if photo not in _saved_photos:
+        _saved_photos[photo] = encode_jpeg(photo.preview(_SAVED_EDGE))
+    return _saved_photos[photo]
+
+
+def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
+    """Return a picture (H, W, 3) as a small JPEG, for what a notebook keeps."""
+    import cv2
+
+    options = [cv2.IMWRITE_JPEG_QUALITY, _SAVED_QUALITY]
+    return bytes(cv2.imencode(".jpg", image[..., ::-1], options)[1])
 
 
 def encode_maps(scene: Scene) -> dict[str, bytes]:

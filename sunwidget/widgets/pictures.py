@@ -12,7 +12,7 @@ from sunwidget.analysis.scene import Scene
 from sunwidget.edit import Edit, plain
 from sunwidget.export.framed import StaticPage
 from sunwidget.files import target
-from sunwidget.png import encode_png
+from sunwidget.png import encode_small_png
 from sunwidget.recipe import edit_of
 from sunwidget.time_left import Progress
 from sunwidget.widgets.analysed import Analysed
@@ -39,6 +39,9 @@ _TYPES = {
 
 class Pictures(EditHistory, Analysed):
     """A widget that renders its edit of a photo."""
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.photo.name!r}: {self.edit!r}>"
 
     def render(self, **options: Any) -> Any:
         """Return the picture as it is now; ``options`` as in ``sunwidget.render``."""
@@ -182,7 +185,7 @@ class Pictures(EditHistory, Analysed):
         # The first frame of a session takes a second, which an untouched photo is not worth.
         if self.edit != Edit() and self._can_show_edits():
             try:
-                return encode_png(self.render(size=self.photo.size_within(THUMBNAIL_EDGE)))
+                return encode_small_png(self.render(size=self.photo.size_within(THUMBNAIL_EDGE)))
             except RendererError:
                 pass
         return thumbnail(self.photo)

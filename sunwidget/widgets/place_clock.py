@@ -138,9 +138,11 @@ class PlaceClock(EditHistory, Analysed):
         values = {**known, **values}
         missing = [n for n in ("latitude", "longitude", "date", "time") if values.get(n) is None]
         if missing:
+            *first, last = missing
+            told = f"{', '.join(first)} and {last}" if first else last
             raise EditError(
-                f"The photo's file does not tell its {' and '.join(missing)}. Say so: "
-                "set_place(latitude, longitude, date, time), degrees and hours UTC."
+                f"The photo's file does not say its {told}. Give where and when it was taken, in "
+                'degrees and hours UTC: editor.set_place(41.0, 29.0, "2026-06-21", 17.5).'
             )
         try:
             place = Place(**values)

@@ -144,6 +144,9 @@ class SkyExplorer(AnswersRefusals):
         self.observe(self._on_scan, "scan")
         self.observe(self._on_sun, list(_SUN))
 
+    def __repr__(self) -> str:
+        return f"<{self.code().removeprefix('sw.')}>"
+
     @traitlets.default("_parameters")
     def _default_parameters(self) -> list[dict[str, Any]]:
         return parameter_json(EXPLORER_PARAMETERS)

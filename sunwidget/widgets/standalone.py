@@ -13,6 +13,7 @@ import numpy as np
 from sunwidget.export.html import Still, page
 from sunwidget.files import complete_or_absent
 from sunwidget.photo import Photo
+from sunwidget.widgets.saved_state import SavedLight
 
 _STILL_EDGE = 1024
 _STILL_QUALITY = 90
@@ -61,9 +62,10 @@ def explorer_page(widget: Any, *, title: str) -> str:
 def embedded_state(widget: Any) -> dict[str, Any]:
     """Return what a page needs of a widget, as ``page`` takes it."""
     buffers: list[dict[str, Any]] = []
+    whole = widget.whole_state() if isinstance(widget, SavedLight) else widget.get_state()
     state = {
         name: _without_bytes(value, [name], buffers)
-        for name, value in widget.get_state().items()
+        for name, value in whole.items()
         if name not in _HOST and not name.startswith(_HOST_PREFIXES)
     }
     return {"state": state, "buffers": buffers}

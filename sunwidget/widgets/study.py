@@ -7,11 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import anywidget
+import numpy as np
 import traitlets
 
+from sunwidget.export.framed import StaticPage
+from sunwidget.export.sheet import sheet
 from sunwidget.files import target
 from sunwidget.photo import open_photo
+from sunwidget.png import encode_small_png
 from sunwidget.study import (
     Answer,
     BradleyTerry,
@@ -23,14 +26,17 @@ from sunwidget.study import (
 )
 from sunwidget.study.bradley_terry import PRIOR
 from sunwidget.widgets.front_end import front_end
-from sunwidget.widgets.payload import encode_preview
+from sunwidget.widgets.output import with_picture
+from sunwidget.widgets.payload import encode_jpeg, encode_preview
+from sunwidget.widgets.saved_state import SavedLight
 from sunwidget.widgets.standalone import embedded_state, write_page
 
 _MOST_REPEATS = 100
+_SMALL_EDGE = 400  # pixels, of each picture of the static one
 _NOTES = ("Save your answers at the end: they stay in this window, and nothing leaves it.",)
 
 
-class Study(anywidget.AnyWidget):
+class Study(SavedLight):
     """Show pictures two by two and let people choose; the thesis' user study (section 6.3).
 
     Each rater sees every pair of methods of every photo, in an order and on sides drawn by
@@ -70,6 +76,8 @@ class Study(anywidget.AnyWidget):
 
     rater = traitlets.Unicode("", help="Who answers.").tag(sync=True)
     _pictures: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
+    # All that a saved notebook keeps of them.
+    _thumbnail = traitlets.Bytes().tag(sync=True, echo_update=False)
     _groups: traitlets.List = traitlets.List().tag(sync=True)
     _answers: traitlets.List = traitlets.List().tag(sync=True)
     _question = traitlets.Unicode().tag(sync=True)
@@ -99,6 +107,9 @@ class Study(anywidget.AnyWidget):
             _seed=seed,
             rater=rater,
         )
+
+    def __repr__(self) -> str:
+        return f"<Study of {', '.join(self.methods)}: {len(self._answers)} answers>"
 
     @property
     def answers(self) -> list[Answer]:
@@ -158,15 +169,51 @@ class Study(anywidget.AnyWidget):
         FileExistsError
             When ``path`` exists and ``overwrite`` is false.
         """
+        place = None if path is None else target(path, overwrite=overwrite)
+        text = self._page(title)
+        return text if place is None else write_page(text, place, overwrite=overwrite)
+
+    def render_static(self, *, title: str = "Study") -> StaticPage:
+        """Return the page of ``to_html`` as a cell's output: people answer in it without a kernel.
+
+        For notebooks that are exported. It begins without answers, and raters save theirs as a
+        file. The notebook grows by all pictures, at most 2048 pixels each.
+
+        Parameters
+        ----------
+        title : str
+            Of the page.
+        """
+        return StaticPage(self._page(title), title)
+
+    def _page(self, title: str) -> str:
         from sunwidget.export.html import Still, page
 
-        place = None if path is None else target(path, overwrite=overwrite)
         embedded = embedded_state(self)
-        embedded["state"] |= {"_answers": [], "rater": ""}
+        embedded["state"] |= {"_answers": [], "rater": "", "_thumbnail": None}
+        embedded["buffers"] = [b for b in embedded["buffers"] if b["path"] != ["_thumbnail"]]
         first = self._pictures[0]
         still = Still(first, open_photo(first).size, self._question)
-        text = page(embedded, still, title=title, notes=_NOTES)
-        return text if place is None else write_page(text, place, overwrite=overwrite)
+        return page(embedded, still, title=title, notes=_NOTES)
+
+    def _light_state(self) -> dict[str, Any]:
+        return {"_pictures": []}
+
+    @traitlets.default("_thumbnail")
+    def _default_thumbnail(self) -> bytes:
+        return encode_jpeg(self._first_pair())
+
+    def _first_pair(self) -> np.ndarray:
+        """Return two pictures of the first photo, small, under the question."""
+        pair = [open_photo(data).preview(_SMALL_EDGE) for data in self._pictures[:2]]
+        height = min(len(picture) for picture in pair)
+        width = min(picture.shape[1] for picture in pair)
+        first, second = (picture[:height, :width] for picture in pair)
+        return np.asarray(sheet({self._question: first, "": second}))
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        bundle = super()._repr_mimebundle_(**kwargs)
+        return with_picture(bundle, lambda: encode_small_png(self._first_pair()))
 
     @staticmethod
     def read_csv(*paths: str | os.PathLike[str]) -> list[Answer]:

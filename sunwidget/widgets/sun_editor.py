@@ -24,12 +24,14 @@ from sunwidget.widgets.analyst import Analyst
 from sunwidget.widgets.exports import Exports
 from sunwidget.widgets.front_end import front_end
 from sunwidget.widgets.payload import (
+    MAP_TRAITS,
     encode_map,
     encode_maps,
     encode_preview,
     map_json,
     other_horizons,
     parameter_json,
+    saved_photo,
     scene_json,
 )
 from sunwidget.widgets.place_clock import PlaceClock
@@ -215,6 +217,10 @@ class SunEditor(PlaceClock, Exports):
         """
         presets.find(name)
         self._step(self.edit.replace(**presets.values(name, self.scene)))
+
+    def _light_state(self) -> dict[str, Any]:
+        maps = dict.fromkeys(MAP_TRAITS, b"")
+        return {**maps, "_scene": {}, "_photo": saved_photo(self.photo)}
 
     def _on_connection(self, change: Any) -> None:
         if change.new is None:  # closed: nobody is there to take what was asked for

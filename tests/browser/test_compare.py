@@ -47,6 +47,22 @@ def plain(level):
     return np.full((60, 90, 3), level, np.uint8)
 
 
+def test_a_study_that_a_notebook_had_saved_gives_its_answers(page, tmp_path):
+    study = Study({"a": plain(40), "b": plain(220)})
+    answer = sunwidget.study.Answer("anna", 1, "", "a", "b", "left", 1.5, "2026-11-24T12:00:00Z")
+    study.set_state({"_answers": [answer._asdict()]})
+    page.evaluate(
+        "(state) => show('study', state)", state_of(study) | {"_saved": True, "_pictures": []}
+    )
+    page.get_by_text("Save them before you run the cell").wait_for()
+    page.locator(".sw-study-text img").wait_for()
+    assert page.get_by_role("button", name="Start").count() == 0
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save answers").click()
+    download.value.save_as(tmp_path / "answers.csv")
+    assert sunwidget.study.read_csv(tmp_path / "answers.csv") == study.answers == [answer]
+
+
 def test_a_study_from_start_to_strengths(page, tmp_path, screenshots):
     """Somebody who always takes the brighter picture; undo, save, and the next rater."""
     level = {"dark": 40, "grey": 120, "bright": 220}

@@ -1,6 +1,10 @@
 """The short way in marimo: open, drag the sun, and the cells that read the editor run again."""
 
 import json
+import re
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -65,3 +69,39 @@ def test_dragging_the_sun_in_marimo(browser, tmp_path, root, screenshots):
             raise
         finally:
             context.close()
+
+
+def test_render_static_stays_live_in_the_page_that_marimo_exports(browser, tmp_path, screenshots):
+    cell = """import sunwidget as sw
+sw.SunEditor(sw.sample("coast").preview(256)).render_static()"""
+    write_notebook(tmp_path / "page.py", [cell])
+    command = [sys.executable, "-m", "marimo", "export", "html", "page.py", "-o", "page.html"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr[-4000:]
+    context = browser.new_context(viewport={"width": 1100, "height": 1000})
+    context.set_default_timeout(PATIENCE)
+    page = context.new_page()
+    page.route(re.compile("^https:"), from_package)
+    page.goto((tmp_path / "page.html").as_uri())
+    inner = page.locator("iframe[srcdoc]").content_frame
+    inner.locator(".sunwidget.sw-live").wait_for()
+    readout = inner.locator(".sw-readout").first
+    before = readout.text_content()
+    inner.get_by_role("slider", name="Elevation").first.focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_timeout(500)
+    page.screenshot(path=screenshots / "marimo-export.png")
+    assert readout.text_content() != before
+    context.close()
+
+
+def from_package(route):
+    """Answer what an exported page asks of a network with the same file of marimo itself."""
+    import marimo
+
+    found = re.search(r"/@marimo-team/frontend@[^/]*/dist/([^?]*)", route.request.url)
+    file = Path(marimo.__file__).parent / "_static" / (found[1] if found else "missing")
+    if not file.is_file():
+        route.abort()
+        return
+    route.fulfill(path=file, headers={"Access-Control-Allow-Origin": "*"})

@@ -1,5 +1,6 @@
 """What ``nbconvert`` makes of a notebook, opened from a file in a browser without network."""
 
+import re
 import subprocess
 import sys
 
@@ -95,6 +96,9 @@ STATIC = {
     "editor": """import sunwidget as sw
 sw.SunEditor(sw.open(sw.sample("coast").preview(384)), sun_elevation=-6).render_static()""",
     "explorer": "sw.SkyExplorer(sun_elevation=20).render_static()",
+    "compare": """photo = sw.open(sw.sample("coast").preview(384))
+sw.Compare(photo, ["photo", "ratio"], sun_elevation=3).render_static()""",
+    "study": """sw.Study({"a": photo.preview(384), "b": photo.preview(384)}).render_static()""",
 }
 
 
@@ -107,20 +111,46 @@ def test_render_static_stays_live_in_the_page_without_network(browser, tmp_path,
         outer = page.locator("iframe[srcdoc]").nth(i)
         outer.scroll_into_view_if_needed()
         inner = outer.content_frame
-        inner.locator(".sunwidget.sw-live").wait_for()
+        inner.locator(".sw-study" if name == "study" else ".sunwidget.sw-live").wait_for()
         page.wait_for_timeout(500)
-        # The frame is as tall as what it holds: nothing scrolls in it.
-        tall = inner.locator("body").evaluate("(body) => body.getBoundingClientRect().height")
-        assert outer.bounding_box()["height"] == pytest.approx(tall, abs=1.5)
-        readout = inner.locator(".sw-readout").first
-        before = readout.text_content()
-        inner.get_by_role("slider", name="Elevation").first.focus()
-        page.keyboard.press("ArrowRight")
-        page.wait_for_timeout(500)
-        assert readout.text_content() != before, f"the sun of the {name} does not move"
+        assert is_as_tall_as_its_content(outer)
+        if name == "study":
+            answer(page, inner)
+            page.wait_for_timeout(300)
+            assert is_as_tall_as_its_content(outer)
+        else:
+            move_the_sun(page, inner)
         page.screenshot(path=screenshots / f"static-{name}.png")
     assert errors == []
     page.context.close()
+
+
+def is_as_tall_as_its_content(frame):
+    """Nothing scrolls in it."""
+    body = frame.content_frame.locator("body")
+    tall = body.evaluate("(body) => body.getBoundingClientRect().height")
+    return frame.bounding_box()["height"] == pytest.approx(tall, abs=1.5)
+
+
+def move_the_sun(page, inner):
+    readout = inner.locator(".sw-readout").first
+    before = readout.text_content()
+    # A slider of the panel, or a comparison's handle.
+    inner.get_by_role("slider", name=re.compile("^(Elevation|Sun in ratio)")).first.focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_timeout(500)
+    assert readout.text_content() != before
+
+
+def answer(page, inner):
+    inner.get_by_role("button", name="Start").click()
+    pair = inner.locator(".sw-study-picture")
+    # Each takes half of the frame's width: their height does not follow the frame's own.
+    assert pair.first.bounding_box()["width"] > 0.4 * page.viewport_size["width"] - 40
+    stage = inner.locator(".sw-study-stage").bounding_box()
+    assert stage["height"] == pytest.approx(0.46 * stage["width"], rel=0.02)
+    pair.first.click()
+    inner.get_by_text("Thank you").wait_for()
 
 
 def pixels(output):

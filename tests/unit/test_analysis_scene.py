@@ -55,6 +55,7 @@ def test_a_scene_says_what_it_is_in_three_short_lines(scene):
     assert found.endswith("field of view 40°")
     assert re.fullmatch(r" sky 60 %, clouds \d+ %, water \d+ %>", shares)
     assert max(map(len, (photo, found, shares))) < 100
+    assert "array(" not in repr(scene.sun)
     hinted = sw.analyze(landscape(), sky=mask(), sun=(50, 30), fov=38)
     assert "° (told); horizon in row" in repr(hinted)
 

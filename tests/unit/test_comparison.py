@@ -185,8 +185,30 @@ def test_a_sheet_shows_all_pictures_under_their_labels(methods):
 
 def test_viewers_without_widgets_see_the_sheet(methods):
     data, _ = methods._repr_mimebundle_()
+    seen = sw.open(base64.b64decode(data["image/png"])).encoded.astype(float)
+    # In 256 colours: what stands beside it in the notebook is kept for ever.
+    assert np.abs(seen - np.asarray(methods.sheet(480))).mean() < 4
+
+
+def test_comparison_and_study_print_what_they_show(methods):
+    assert repr(methods) == "<Compare of 'array': photo, ratio, thesis>"
+    pair = {"a": np.zeros((4, 4, 3), np.uint8), "b": np.full((4, 4, 3), 9, np.uint8)}
+    assert repr(Study(pair)) == "<Study of a, b: 0 answers>"
+
+
+def test_the_picture_of_many_is_no_larger_than_that_of_few(scene):
+    photo = sw.sample("coast").preview(960)
+    nine = Compare(photo, {str(i): Edit(sun_elevation=i) for i in range(9)})
+    two = Compare(photo, ["photo", "ratio"])
+    assert (two._small_edge(), nine._small_edge()) == (474, 223)
+
+
+def test_a_study_shows_its_first_pair_to_viewers_without_widgets():
+    pair = {"a": np.full((64, 96, 3), 40, np.uint8), "b": np.full((64, 90, 3), 220, np.uint8)}
+    data, _ = Study(pair)._repr_mimebundle_()
     seen = sw.open(base64.b64decode(data["image/png"])).encoded
-    assert np.array_equal(seen, np.asarray(methods.sheet(480)))
+    assert seen.shape == (64 + 26, 2 * 90 + 4, 3)
+    assert (seen[-1, 0, 0], seen[-1, -1, 0]) == (40, 220)
 
 
 def test_pages_hold_what_they_show_and_no_text_of_a_person_as_html(scene, tmp_path):

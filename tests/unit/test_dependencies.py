@@ -25,7 +25,6 @@ ASKED_FOR_OTHERWISE = {
     "build": "makes the wheel of test_wheel.py and of make wheel",
     "defusedxml": "Pillow's getxmp imports it",
     "hatchling": "the build's backend, hatch_build.py is its hook",
-    "marimo": "tests/browser/marimo_host.py is run by it",
     "notebook": "the browser tests run a server of it",
     "mypy": "scripts/check.sh",
     "ruff": "scripts/check.sh",

@@ -370,7 +370,7 @@ def test_a_place_is_completed_by_the_photos_file(pvlib):
 
 def test_what_neither_file_nor_person_says_is_asked_for(scene):
     editor = editor_of(scene)
-    with pytest.raises(EditError, match="latitude and longitude and date and time"):
+    with pytest.raises(EditError, match="its latitude, longitude, date and time"):
         editor.set_place()
     with pytest.raises(EditError, match="date and time"):
         editor.set_place(50, 14)

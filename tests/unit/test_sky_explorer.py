@@ -352,6 +352,10 @@ def test_a_curve_is_drawn_for_the_present_state(explorer, egl):
         explorer.curve("moon")
 
 
+def test_an_explorer_prints_as_the_call_that_makes_it():
+    assert repr(SkyExplorer(ozone=0)) == "<SkyExplorer(ozone=0.0)>"
+
+
 def test_viewers_without_widgets_get_a_picture(explorer, egl):
     bundle, _ = explorer._repr_mimebundle_()
     with Image.open(io.BytesIO(base64.b64decode(bundle["image/png"]))) as picture:

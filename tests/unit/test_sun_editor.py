@@ -363,6 +363,12 @@ def test_static_viewers_get_a_picture(editor):
     assert max(picture.size) <= 480
 
 
+def test_an_editor_prints_as_its_photo_and_edit(editor):
+    editor.sun_elevation = 5
+    assert repr(editor) == "<SunEditor of 'array': Edit(sun_elevation=5)>"
+    assert editor._repr_mimebundle_()[0]["text/plain"] == repr(editor)
+
+
 def test_render_is_the_editors_own_frame(editor, scene):
     editor.sun_elevation = 5
     assert np.array_equal(editor.render(), sw.render(scene, sw.Edit(sun_elevation=5)))

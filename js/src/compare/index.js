@@ -1,6 +1,7 @@
 /** The anywidget module of Compare. */
 
 import { widget } from "../mount.js";
+import { unseen } from "./saved.js";
 import { View } from "./view.js";
 
-export default widget("Compare", "Comparison", "sw-compare", View);
+export default widget("Compare", "Comparison", "sw-compare", View, unseen);

@@ -9,8 +9,9 @@ import { PictureStage } from "../stage.js";
  * @typedef {import("../types.js").Edit} Edit
  * @typedef {import("../types.js").Point} Point
  * @typedef {import("./view.js").View} View
- * @typedef {{ label: string, recipe?: Edit, scene?: number, photo?: boolean }} Variant as the
- *   kernel sends it; the label alone as long as the photo is not analysed
+ * @typedef {{ label: string, recipe?: Edit, scene?: number, photo?: boolean,
+ *   picture?: DataView }} Variant as the kernel sends it; the label alone as long as the photo is
+ *   not analysed. A saved notebook keeps a picture of it
  */
 
 export class Panel extends PictureStage {
@@ -34,6 +35,7 @@ export class Panel extends PictureStage {
     this.plate = element("div", { class: "sw-compare-plate" }, this.label, this.difference);
     this.node.append(this.plate);
     this.drawn = ""; // what the canvas shows
+    this.filled = false; // with the photo at least
     const panel = this;
     this.sun = new SunTool({
       stage: panel,
@@ -83,6 +85,7 @@ export class Panel extends PictureStage {
     this.fit(photo.width, photo.height);
     this.context.drawImage(photo, 0, 0);
     this.drawn = "";
+    this.filled = true;
   }
 
   /**

@@ -13,6 +13,7 @@ import { FrameLoop } from "../frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
 import { onKernelError } from "../kernel_errors.js";
 import { parameterOf } from "../parameter.js";
+import { savedText } from "../saved_state.js";
 import { watchSight } from "../sight.js";
 import { EditState } from "../state.js";
 import { onTraits } from "../traits.js";
@@ -21,6 +22,7 @@ import { Differences } from "./differences.js";
 import { layOut, placeDivider } from "./layout.js";
 import { Panel } from "./panel.js";
 import { listenToPointer } from "./pointer.js";
+import { saved } from "./saved.js";
 import { Scenes } from "./scenes.js";
 import { listenToKeys } from "./shortcuts.js";
 import { toolbar } from "./toolbar.js";
@@ -67,6 +69,7 @@ export class View {
     this.message = new ErrorMessage();
     this.toolbar = toolbar(this);
     this.differences = new Differences(this);
+    saved(this, signal);
     root.append(
       this.toolbar.node,
       element(
@@ -135,13 +138,25 @@ export class View {
   }
 
   async loadPhoto() {
-    const bytes = this.model.get("_photo");
+    await this.showPhoto(this.model.get("_photo"), this.panels);
+    if (!this.model.get("_saved")) return;
+    await Promise.all(this.panels.map((panel) => this.showPhoto(panel.variant.picture, [panel])));
+    this.readout.textContent = savedText(this.model, "comparison");
+  }
+
+  /**
+   * Show a picture until the maps are there.
+   *
+   * @param {DataView | undefined} bytes
+   * @param {Panel[]} panels
+   */
+  async showPhoto(bytes, panels) {
     if (!bytes?.byteLength) return;
     try {
       const photo = await decodePicture(bytes);
       if (!this.signal.aborted) {
         this.zoom.size = [photo.width, photo.height];
-        for (const panel of this.panels) if (!panel.drawn) panel.showPhoto(photo);
+        for (const panel of panels) if (!panel.drawn) panel.showPhoto(photo);
         this.layOut();
       }
       photo.close();

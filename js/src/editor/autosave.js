@@ -8,6 +8,7 @@
 import { KeptEdits } from "../kept_edits.js";
 import { checkRecipe } from "../recipe/check.js";
 import { sameRecipe } from "../same.js";
+import { savedText } from "../saved_state.js";
 import { stepName } from "../step_names.js";
 import { onTraits } from "../traits.js";
 
@@ -206,9 +207,7 @@ function showKernel({ kernel, model, notices }) {
     return;
   }
   if (model.get("_saved")) {
-    notices.show("kernel", {
-      text: "This is a picture of the editor as it was saved. Run the cell again to go on.",
-    });
+    notices.show("kernel", { text: savedText(model, "editor") });
     return;
   }
   notices.show("kernel", {

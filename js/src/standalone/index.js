@@ -35,6 +35,8 @@ async function start() {
 /** In a frame of another page, which gives it the height that it asks for. */
 function tellHeight() {
   if (window === window.parent) return;
+  // The window is as high as what it holds, which so must not follow its height.
+  document.documentElement.classList.add("sw-framed");
   const tell = () => {
     const { height } = document.body.getBoundingClientRect();
     window.parent.postMessage({ sunwidgetHeight: height }, "*");

@@ -3,4 +3,7 @@
 import { widget } from "../mount.js";
 import { View } from "./view.js";
 
-export default widget("Study", "Study", "sw-study", View);
+/** A notebook keeps the answers, not the pictures: they are megabytes each. */
+const withoutPictures = () => ({ _pictures: [] });
+
+export default widget("Study", "Study", "sw-study", View, withoutPictures);

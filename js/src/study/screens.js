@@ -47,7 +47,45 @@ export function startScreen({ rater, done, all, ties, onStart }) {
 
 /** @param {{ all: number, onSave: () => void, onNext: () => void }} options */
 export function endScreen({ all, onSave, onNext }) {
-  const save = element(
+  const next = element(
+    "button",
+    { type: "button", class: "sw-chip", title: "Somebody else answers; what there is stays" },
+    "Next rater",
+  );
+  next.addEventListener("click", onNext);
+  return element(
+    "div",
+    { class: "sw-study-text" },
+    element("p", {}, `Thank you. That was all: ${pairs(all)}.`),
+    element("div", { class: "sw-study-form" }, saveButton(onSave), next),
+  );
+}
+
+/**
+ * What a study shows that was opened as a notebook had saved it.
+ *
+ * @param {number} answers of all raters
+ * @param {() => void} onSave
+ */
+export function savedScreen(answers, onSave) {
+  return element(
+    "div",
+    { class: "sw-study-text" },
+    element(
+      "p",
+      {},
+      "A saved notebook keeps the answers of a study, not its pictures. " +
+        (answers
+          ? "Save them before you run the cell, which begins anew."
+          : "Run the cell to begin."),
+    ),
+    ...(answers ? [element("div", { class: "sw-study-form" }, saveButton(onSave))] : []),
+  );
+}
+
+/** @param {() => void} onSave */
+function saveButton(onSave) {
+  const node = element(
     "button",
     {
       type: "button",
@@ -56,17 +94,6 @@ export function endScreen({ all, onSave, onNext }) {
     },
     "Save answers",
   );
-  const next = element(
-    "button",
-    { type: "button", class: "sw-chip", title: "Somebody else answers; what there is stays" },
-    "Next rater",
-  );
-  save.addEventListener("click", onSave);
-  next.addEventListener("click", onNext);
-  return element(
-    "div",
-    { class: "sw-study-text" },
-    element("p", {}, `Thank you. That was all: ${pairs(all)}.`),
-    element("div", { class: "sw-study-form" }, save, next),
-  );
+  node.addEventListener("click", onSave);
+  return node;
 }

@@ -8,7 +8,7 @@ import { element } from "../controls/element.js";
 import { download } from "../editor/download.js";
 import { csv } from "./csv.js";
 import { Pictures } from "./pictures.js";
-import { endScreen, startScreen } from "./screens.js";
+import { endScreen, savedScreen, startScreen } from "./screens.js";
 import { trials } from "./trials.js";
 
 /**
@@ -29,7 +29,9 @@ export class View {
   constructor(model, root, signal) {
     this.model = model;
     this.root = root;
-    this.pictures = new Pictures(model.get("_pictures"), signal);
+    this.asSaved = Boolean(model.get("_saved"));
+    const pictures = this.asSaved ? [model.get("_thumbnail")] : model.get("_pictures");
+    this.pictures = new Pictures(pictures, signal);
     this.ties = Boolean(model.get("_ties"));
     this.rater = String(model.get("rater"));
     this.running = false;
@@ -105,6 +107,10 @@ export class View {
 
   /** Everything that follows from the answers. */
   show() {
+    if (this.asSaved) {
+      void this.showSaved();
+      return;
+    }
     const all = this.trials();
     const { length: done } = this.own();
     const over = done >= all.length;
@@ -133,6 +139,20 @@ export class View {
               onStart: (rater) => this.begin(rater),
             }),
       );
+    }
+  }
+
+  /** As it was saved: without the pictures of its pairs. */
+  async showSaved() {
+    this.undo.hidden = true;
+    const screen = savedScreen(this.answers().length, () => this.save());
+    this.stage.replaceChildren(screen);
+    try {
+      const image = await this.pictures.load(0);
+      image.alt = "Two of the pictures";
+      screen.prepend(image);
+    } catch {
+      // The words alone do as well.
     }
   }
 
