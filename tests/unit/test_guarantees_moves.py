@@ -123,7 +123,8 @@ def step(scene, azimuth, elevation, toward):
     rows, columns = np.mgrid[: camera.height, : camera.width] + 0.5
     mirror = (scene.photo.encoded.min(-1) >= 200) | (scene.surface()[..., 2] > 0.02)
     keep = (scene.sky > 0.98) | ~mirror
-    radius = camera.focal * np.tan(np.radians(0.2665)) + 2
+    own = scene.uniforms()["own_disc_radius"]  # the drawn disc is as large, with its soft rim
+    radius = camera.focal * max(np.tan(np.radians(0.2665)), 1.5 * own) + 2
     labs, openings = [], []
     for k in (0, 1):
         sx, sy = x + k * pixel * toward[0], y + k * pixel * toward[1]
@@ -184,7 +185,7 @@ def test_the_drawn_disc_is_where_the_sun_is_and_vanishes_at_size_zero():
     camera = scene.camera
     x, y = 0.3 * camera.width, 0.3 * camera.height
     azimuth, elevation = camera.angles(x, y)
-    edit = Edit(sun_azimuth=azimuth, sun_elevation=elevation, sun_size=5)
+    edit = Edit(sun_azimuth=azimuth, sun_elevation=elevation, sun_size=1.5)
     extra = (
         render(scene, edit, dtype="float32")
         - render(scene, edit.replace(sun_size=0), dtype="float32")

@@ -9,8 +9,7 @@
 uniform float own_disc_burnt;  // how far the photo's own disc is white, 0 to 1
 uniform float own_disc_rim;    // where its light is halved, in units of its radius, 1.1 to 1.9
 
-const float kBurnt = 3.0;   // times its light: what lies above white in the middle of a burnt core
-const float kEdge = 1.2;    // radii at which it ends
+const float kBurnt = 3.0;  // times its light: what lies above white in the middle of a burnt core
 
 vec3 GetDisc(vec3 view, vec3 sun) {
   float radius = term[10].x;
@@ -32,8 +31,9 @@ vec3 GetDisc(vec3 view, vec3 sun) {
   vec4 own = texelFetch(terms, ivec2(14, 0), 0);
   if (own.a > radius) {
     float x = chord / own.a;
-    // Even within a sharp rim, soft from the middle on in a glow.
-    float even = 1.0 - smoothstep(1.9 - own_disc_rim, kEdge, x);
+    // Even up to a sharp rim, soft from the middle on in a glow.
+    vec2 fades = mix(own_disc_rim + vec2(-0.3, 0.2), vec2(0.0, 1.2), smoothstep(1.3, 1.9, own_disc_rim));
+    float even = 1.0 - smoothstep(fades.x, fades.y, x);
     // Of the channels that the air leaves less of the camera burns a smaller core: a low sun has a warm rim.
     vec3 color = UnpackColor(described[0].w);
     vec3 rim = pow(vec3(even), clamp(color.r / max(color, vec3(1e-6)), 1.0, 5.0));
