@@ -32,7 +32,15 @@ class SavedLight(anywidget.AnyWidget):
         return kept | {"_saved": "photo"} if key is None else kept
 
     def whole_state(self, key: Any = None, drop_defaults: bool = False) -> dict[str, Any]:
-        """Return the traits as a page needs them."""
+        """Return the traits as a page needs them.
+
+        Parameters
+        ----------
+        key : str or iterable of str, optional
+            Of the traits that are wanted, default all.
+        drop_defaults : bool, default False
+            Leave out those that are as in a new widget.
+        """
         state: dict[str, Any] = super().get_state(key, drop_defaults)
         return state
 

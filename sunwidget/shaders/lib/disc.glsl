@@ -9,7 +9,7 @@
 uniform float own_disc_burnt;  // how far the photo's own disc is white, 0 to 1
 uniform float own_disc_rim;    // where its light is halved, in units of its radius, 1.1 to 1.9
 
-const float kBurnt = 3.0;  // times its light: what lies above white in the middle of a burnt core
+const float kBurnt = 30.0;  // times its light: what lies above white in the middle of a burnt core
 
 vec3 GetDisc(vec3 view, vec3 sun) {
   float radius = term[10].x;
@@ -37,8 +37,8 @@ vec3 GetDisc(vec3 view, vec3 sun) {
     // Of the channels that the air leaves less of the camera burns a smaller core: a low sun has a warm rim.
     vec3 color = UnpackColor(described[0].w);
     vec3 rim = pow(vec3(even), clamp(color.r / max(color, vec3(1e-6)), 1.0, 5.0));
-    float inside = max(1.0 - x * x, 0.0);
-    return risen * (rim + kBurnt * own_disc_burnt * inside * inside * inside) * own.rgb;
+    float inside = pow(max(1.0 - x * x, 0.0), 12.0);
+    return risen * (rim + kBurnt * own_disc_burnt * inside) * own.rgb;
   }
   return albedo * coverage * risen * sky_gain * max(SpectralToRec709(radiance), vec3(0.0));
 }
