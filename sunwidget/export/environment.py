@@ -94,8 +94,18 @@ def environment_map(
     return place
 
 
-def write_map(place: Path, light: NDArray[Any], notes: dict[str, str], *, overwrite: bool) -> None:
-    """Write an environment map (H, 2 H, 3) float32 as .hdr or .exr, by the file's ending."""
+def write_map(
+    place: Path,
+    light: NDArray[Any],
+    notes: dict[str, str],
+    *,
+    overwrite: bool,
+    white: float | None = 1000.0,
+) -> None:
+    """Write an environment map (H, 2 H, 3) float32 as .hdr or .exr, by the file's ending.
+
+    ``white`` is the luminance of 1 in cd m⁻², where that is known.
+    """
     from sunwidget import openexr, radiance
     from sunwidget.export.metadata import software
 
@@ -104,7 +114,8 @@ def write_map(place: Path, light: NDArray[Any], notes: dict[str, str], *, overwr
             unfinished.write_bytes(radiance.pack(light, notes, software=software()))
         else:
             latitude_longitude = openexr.library().ENVMAP_LATLONG
-            told = {"envmap": latitude_longitude, "whiteLuminance": 1000.0, "software": software()}
+            told = {"envmap": latitude_longitude, "software": software()}
+            told |= {} if white is None else {"whiteLuminance": white}
             channels = {name: light[..., i] for i, name in enumerate("RGB")}
             openexr.write(unfinished, channels, told, notes, bits=32)
 

@@ -11,8 +11,9 @@ from pages import blocks
 
 import sunwidget as sw
 from sunwidget.color import LUMINANCE
+from sunwidget.dome.sphere import angles, irradiance, solid_angles
 from sunwidget.export.dome import write_dome
-from sunwidget.export.dome_light import DomeLight, angles, irradiance, solid_angles
+from sunwidget.export.dome_light import DomeLight
 from sunwidget.export.environment import sun_disc
 
 pytestmark = pytest.mark.skipif(
