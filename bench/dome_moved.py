@@ -18,9 +18,9 @@ from dome import PLANES
 import sunwidget as sw
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.color import LUMINANCE
+from sunwidget.dome.disc import sun_disc
 from sunwidget.dome.sphere import angles, direction_of, distance, irradiance, solid_angles, toward
 from sunwidget.export.dome_moved import moved
-from sunwidget.export.environment import sun_disc
 
 _DEVELOPED = 12  # seeds below it were looked at while the method was made
 

@@ -298,9 +298,7 @@ def would_be_seen(
     return np.asarray(inside & (sky[at] > 0.5))
 
 
-def compare(
-    display: np.ndarray, model: np.ndarray, response: Response
-) -> tuple[float, np.ndarray]:
+def compare(display: np.ndarray, model: np.ndarray, response: Response) -> tuple[float, np.ndarray]:
     """Best gain per channel, and the mean truncated error in the encoded domain."""
     logs = np.log(response.scene_light(display)) - np.log(model)
     gain = np.exp(np.median(logs, 0))

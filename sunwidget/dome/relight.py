@@ -17,6 +17,7 @@ from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.fit import SkyFit, model_sky
 from sunwidget.analysis.working import smoothstep
 from sunwidget.dome.air import cloudiness, sunlight, white_opacity
+from sunwidget.dome.disc import sun_disc
 from sunwidget.dome.sphere import angles, distance, irradiance, solid_angles, toward
 
 if TYPE_CHECKING:
@@ -346,8 +347,6 @@ def _falling(
 
 def sun_disc_of(air: SkyFit, direct: NDArray[np.float64], width: int) -> Floats:
     """Return the disc (H, W, 3), 0.533° wide: however few pixels it has, they give ``direct``."""
-    from sunwidget.export.environment import sun_disc
-
     size = (width, width // 2)
     none = np.zeros((size[1], size[0], 3), np.float32)
     if not direct.any():

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.color import LUMINANCE
-from sunwidget.dome.sphere import irradiance, solid_angles, toward
+from sunwidget.dome.sphere import irradiance, solid_angles
+from sunwidget.export.dome_facts import FORMAT, PROJECTION, digits, rounded, sun_facts
 from sunwidget.export.dome_light import DomeLight, dome_light
 from sunwidget.export.dome_moved import described_moved, moved
 from sunwidget.export.environment import check_map, checked_size, write_map
@@ -27,16 +28,7 @@ if TYPE_CHECKING:
     from sunwidget.dome.source import Dome
     from sunwidget.edit import Edit
 
-FORMAT = 1
-"""Of the json; it grows when a name changes its meaning."""
 _WIDTH = 2048
-PROJECTION = {
-    "kind": "equirectangular",
-    "middle_column": "camera heading",
-    "to_the_right": "azimuth grows clockwise seen from above",
-    "top_row": "zenith",
-    "frame": "right-handed; x camera heading, y left, z up",
-}
 
 
 def to_dome(
@@ -177,39 +169,6 @@ def described(scene: Scene, edit: Edit, dome: DomeLight, name: str, *, sun: bool
     }
 
 
-def sun_facts(
-    direction: tuple[float, float],
-    direct: NDArray[np.float64],
-    *,
-    heading: float | None,
-    drawn: bool,
-    through: float,
-    confidence: float,
-    spread: float,
-    klx: float = 1.0,
-) -> dict[str, Any]:
-    """Return the sun's part of the json; ``direct`` times ``klx`` is in klx."""
-    from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
-
-    azimuth, elevation = direction
-    level = klx * float(direct @ LUMINANCE)
-    brightest = max(float(direct.max()), 1e-30)
-    return {
-        "in_the_map": drawn,
-        "azimuth_deg": round(azimuth, 4),
-        "elevation_deg": round(elevation, 4),
-        "compass_deg": None if heading is None else round((heading + azimuth) % 360, 4),
-        "direction": rounded(toward(azimuth, elevation)),
-        "illuminance_lux": digits(1000 * level),
-        "irradiance": [digits(value) for value in direct],
-        "color": rounded(direct / brightest),
-        "angular_diameter_deg": round(2 * SUN_ANGULAR_RADIUS_DEG, 4),
-        "share_through_clouds": round(through, 4),
-        "photo_sun_confidence": round(confidence, 3),
-        "photo_sun_spread_deg": round(spread, 2),
-    }
-
-
 def _sky(dome: DomeLight) -> dict[str, Any]:
     width = dome.sky.shape[1]
     seen = float((dome.seen * solid_angles(width)).sum())
@@ -221,13 +180,3 @@ def _sky(dome: DomeLight) -> dict[str, Any]:
         "modelled_share_of_sky": round(1 - seen / half, 5),
         "outside_the_photo": "model and mirrored clouds" if dome.mirrored else "model",
     }
-
-
-def rounded(values: NDArray[Any] | list[Any]) -> list[float]:
-    """Return numbers to five places."""
-    return [round(float(value), 5) for value in values]
-
-
-def digits(value: float) -> float:
-    """Return a number to six digits."""
-    return float(f"{value:.6g}")

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.analysis.working import smoothstep
+from sunwidget.dome.disc import sun_disc
 from sunwidget.dome.sphere import angles, distance, irradiance, solid_angles
 from sunwidget.edit import Edit
 from sunwidget.export.dome_mirror import Mirror, mirror_of
@@ -31,7 +32,6 @@ from sunwidget.export.environment import (
     environment,
     explorer_values,
     is_moonlit,
-    sun_disc,
 )
 
 if TYPE_CHECKING:

@@ -14,6 +14,7 @@ from sunwidget.dome.relight import Relit, relit, without_sun_of
 from sunwidget.dome.source import plain_light, sky_share
 from sunwidget.dome.sphere import irradiance
 from sunwidget.edit import EditError
+from sunwidget.export.dome_facts import FORMAT, PROJECTION, digits, rounded, sun_facts
 
 if TYPE_CHECKING:
     from sunwidget.dome.source import Dome
@@ -73,8 +74,6 @@ def described_moved(
     dome: Dome, edit: Edit, light: Relit, name: str, *, drawn: bool
 ) -> dict[str, Any]:
     """Return what the json of a moved dome says; ``docs/dome.md`` explains it."""
-    from sunwidget.export.dome import FORMAT, PROJECTION, digits, rounded, sun_facts
-
     unit = float(np.array(dome.fit.gain) @ LUMINANCE)
     heading = edit.place.heading if edit.place is not None else None
     share = sky_share(dome)

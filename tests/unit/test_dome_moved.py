@@ -13,6 +13,7 @@ from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.cli import main
 from sunwidget.color import LUMINANCE
 from sunwidget.dome.air import sunlight
+from sunwidget.dome.disc import sun_disc
 from sunwidget.dome.sky import find_sky
 from sunwidget.dome.sphere import (
     angles,
@@ -25,7 +26,6 @@ from sunwidget.dome.sphere import (
     toward,
 )
 from sunwidget.export.dome_moved import moved
-from sunwidget.export.environment import sun_disc
 
 WIDTH = 256
 UNIT = 0.07  # of the map, per kcd m⁻²
