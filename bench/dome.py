@@ -19,8 +19,8 @@ import numpy as np
 import sunwidget as sw
 from sunwidget.camera import Camera
 from sunwidget.color import LUMINANCE
-from sunwidget.export.dome_light import angles, dome_light, irradiance
-from sunwidget.export.dome_picture import distance
+from sunwidget.dome.sphere import angles, distance, irradiance
+from sunwidget.export.dome_light import dome_light
 
 # x to the heading, y to the left, z up.
 PLANES = {

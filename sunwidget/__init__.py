@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
     from sunwidget.analysis.sky_network import SkyNetwork
     from sunwidget.camera import Camera
+    from sunwidget.dome.source import Dome, analyze_dome
     from sunwidget.edit import PARAMETERS, Edit, EditError, Stroke
     from sunwidget.export.batch.report import BatchReport
     from sunwidget.export.batch.run import batch
@@ -58,6 +59,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Camera": ("sunwidget.camera", "Camera"),
     "Compare": ("sunwidget.widgets.compare", "Compare"),
     "Day": ("sunwidget.export.day", "Day"),
+    "Dome": ("sunwidget.dome.source", "Dome"),
     "Edit": ("sunwidget.edit", "Edit"),
     "EditError": ("sunwidget.edit", "EditError"),
     "Photo": ("sunwidget.photo", "Photo"),
@@ -73,6 +75,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "StudyError": ("sunwidget.study", "StudyError"),
     "SunEditor": ("sunwidget.widgets.sun_editor", "SunEditor"),
     "analyze": ("sunwidget.analysis.analyze", "analyze"),
+    "analyze_dome": ("sunwidget.dome.source", "analyze_dome"),
     "batch": ("sunwidget.export.batch.run", "batch"),
     "contact_sheet": ("sunwidget.export.contact_sheet", "contact_sheet"),
     "environment_map": ("sunwidget.export.environment", "environment_map"),
@@ -97,6 +100,7 @@ __all__ = [
     "Camera",
     "Compare",
     "Day",
+    "Dome",
     "Edit",
     "EditError",
     "Photo",
@@ -113,6 +117,7 @@ __all__ = [
     "SunEditor",
     "__version__",
     "analyze",
+    "analyze_dome",
     "batch",
     "contact_sheet",
     "environment_map",

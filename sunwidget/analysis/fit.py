@@ -193,7 +193,7 @@ def fit_sky(
         searched = 0.5
         bright = light @ LUMINANCE
         dim = sky * (bright < np.quantile(bright[chosen], _BRIGHTEST))
-        sun, sure_of_sun, spread = _search_sun(
+        sun, sure_of_sun, spread = search_sun(
             display,
             where,
             expected,
@@ -205,22 +205,14 @@ def fit_sky(
             spread = 180.0  # what the colours of a night or of an overcast sky fit is chance
 
     # First the air under a middling response, then the response under the likeliest airs.
-    candidates = [
-        Atmosphere(
-            aerosol_optical_depth=depth,
-            aerosol_asymmetry=asymmetry,
-            angstrom_exponent=_ANGSTROM,
-            aerosol_albedo=_ALBEDO,
-        )
-        for depth, asymmetry in itertools.product(_OPTICAL_DEPTHS, _ASYMMETRIES)
-    ]
+    candidates = airs_to_try()
     models = _side_by_side(
         lambda air: model_sky(air, *where, sun),
         candidates,
         lambda share: done(searched + (1 - searched) * share),
     )
     airs = [
-        (_compare(display, model, Response())[0], air, model)
+        (compare(display, model, Response())[0], air, model)
         for air, model in zip(candidates, models, strict=True)
     ]
     airs.sort(key=lambda air: air[0])
@@ -238,7 +230,7 @@ def fit_sky(
     for _, atmosphere, model in airs[:4]:
         for shoulder, contrast in itertools.product(_SHOULDERS, _CONTRASTS):
             response = Response(shoulder, contrast)
-            error, gain = _compare(display, model, response)
+            error, gain = compare(display, model, response)
             # Prefer the plain: a bent response must earn its place.
             error += 0.015 * abs(contrast - 1) + 0.004 * abs(shoulder - DEFAULT_SHOULDER)
             trials.append((error, atmosphere, response, gain))
@@ -253,6 +245,19 @@ def fit_sky(
         sure_of_sun,
         spread,
     )
+
+
+def airs_to_try() -> list[Atmosphere]:
+    """Return the airs that a fit compares a sky with."""
+    return [
+        Atmosphere(
+            aerosol_optical_depth=depth,
+            aerosol_asymmetry=asymmetry,
+            angstrom_exponent=_ANGSTROM,
+            aerosol_albedo=_ALBEDO,
+        )
+        for depth, asymmetry in itertools.product(_OPTICAL_DEPTHS, _ASYMMETRIES)
+    ]
 
 
 def _side_by_side(task: Callable[[T], np.ndarray], items: list[T], done: Done) -> list[np.ndarray]:
@@ -293,9 +298,7 @@ def would_be_seen(
     return np.asarray(inside & (sky[at] > 0.5))
 
 
-def _compare(
-    display: np.ndarray, model: np.ndarray, response: Response
-) -> tuple[float, np.ndarray]:
+def compare(display: np.ndarray, model: np.ndarray, response: Response) -> tuple[float, np.ndarray]:
     """Best gain per channel, and the mean truncated error in the encoded domain."""
     logs = np.log(response.scene_light(display)) - np.log(model)
     gain = np.exp(np.median(logs, 0))
@@ -306,7 +309,7 @@ def _compare(
     return float(np.minimum(error, _LARGEST_ERROR).mean()) + 0.02 * tint, gain
 
 
-def _search_sun(
+def search_sun(
     display: np.ndarray,
     where: tuple[np.ndarray, np.ndarray],
     expected: np.ndarray,
@@ -337,7 +340,7 @@ def _search_sun(
     found = _side_by_side(march, tasks, done)
     for (_, height), skies in zip(tasks, found, strict=True):
         for azimuth, sky in zip(TURNS.tolist(), skies, strict=True):
-            error, _ = _compare(display, sky, response)
+            error, _ = compare(display, sky, response)
             errors[azimuth, height] = min(error, errors.get((azimuth, height), np.inf))
     best, spread = likeliest_sun(errors, expected, seen)
     return best, confidence_of_sun(best, errors), spread

@@ -9,18 +9,19 @@ the darker blue overhead, and the clear sky keeps the model's gradient. Linear R
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.analysis.working import smoothstep
+from sunwidget.dome.disc import sun_disc
+from sunwidget.dome.sphere import angles, distance, irradiance, solid_angles
 from sunwidget.edit import Edit
 from sunwidget.export.dome_mirror import Mirror, mirror_of
 from sunwidget.export.dome_picture import (
     OVERCAST,
     Picture,
-    distance,
     light_of,
     picture_of,
     tinted,
@@ -31,7 +32,6 @@ from sunwidget.export.environment import (
     environment,
     explorer_values,
     is_moonlit,
-    sun_disc,
 )
 
 if TYPE_CHECKING:
@@ -99,37 +99,6 @@ def dome_light(scene: Scene, edit: Edit, width: int) -> DomeLight:
         upper.through,
         albedo,
     )
-
-
-def irradiance(light: NDArray[Any], normal: tuple[float, float, float] = (0, 0, 1)) -> Any:
-    """Return the irradiance (3,) of a plane in a dome, klx by channel.
-
-    Parameters
-    ----------
-    light : (H, W, 3)
-        kcd m⁻².
-    normal : (x, y, z)
-        Of the plane: x to the heading, y to the left, z up.
-    """
-    width = light.shape[1]
-    azimuth, elevation = (np.radians(a) for a in angles(width))
-    facing = np.cos(elevation) * (np.cos(azimuth) * normal[0] - np.sin(azimuth) * normal[1])
-    facing = np.maximum(facing + np.sin(elevation) * normal[2], 0) * solid_angles(width)
-    return np.einsum("ij,ijk->k", facing, light, dtype=np.float64)
-
-
-def angles(width: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return azimuth and elevation (width / 2, width) in degrees of a dome's pixels."""
-    azimuth = ((np.arange(width) + 0.5) / width - 0.5) * 360
-    elevation = 90 - (np.arange(width // 2) + 0.5) / width * 360
-    across, up = np.meshgrid(azimuth, elevation)
-    return across, up
-
-
-def solid_angles(width: int) -> NDArray[np.float64]:
-    """Return the steradians (width / 2, 1) of the pixels of each row."""
-    edges = np.sin(np.radians(90 - np.arange(width // 2 + 1) / width * 360))
-    return np.asarray((edges[:-1] - edges[1:])[:, None] * 2 * np.pi / width)
 
 
 def _below(width: int) -> NDArray[np.bool_]:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.color import LUMINANCE
+from sunwidget.dome.sphere import distance
 from sunwidget.export.environment import MOON_OVER_SUN, environment
 from sunwidget.layout import size_within
 
@@ -232,13 +233,3 @@ def _model_in(
     y = (0.5 - elevation / 180) * (width // 2) - 0.5
     at = x.astype(np.float32), y.astype(np.float32)
     return np.asarray(cv2.remap(small, *at, cv2.INTER_LINEAR, borderMode=cv2.BORDER_WRAP))
-
-
-def distance(
-    sun: tuple[float, float], azimuth: NDArray[np.float64], elevation: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the angle (…) in degrees between the sun and directions."""
-    up, down = np.radians(sun[1]), np.radians(elevation)
-    turn = np.radians(azimuth - sun[0])
-    cosine = np.sin(up) * np.sin(down) + np.cos(up) * np.cos(down) * np.cos(turn)
-    return np.degrees(np.arccos(np.clip(cosine, -1, 1)))

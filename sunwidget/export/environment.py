@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from sunwidget.analysis.errors import checked_scene
 from sunwidget.color import LUMINANCE
+from sunwidget.dome.disc import sun_disc
 from sunwidget.files import complete_or_absent, target
 from sunwidget.photo import PhotoError
 from sunwidget.recipe import edit_of
@@ -35,8 +36,6 @@ Floats = NDArray[np.float32]
 _AT_ONCE = 8192
 # Share of the luminance that each channel keeps where a spectrum leaves Rec. 709, as in the frame.
 _LEAST_CHANNEL = 0.02
-# Samples of the sun's disc along its radius and round it.
-_RINGS, _SPOKES = 48, 96
 # As lib/moonlight.glsl: full moon over sun, and the sky without either, kcd m⁻².
 MOON_OVER_SUN = np.array([1.1, 1.0, 0.8]) / 402_000
 """Full moon over sun, by channel."""
@@ -94,8 +93,18 @@ def environment_map(
     return place
 
 
-def write_map(place: Path, light: NDArray[Any], notes: dict[str, str], *, overwrite: bool) -> None:
-    """Write an environment map (H, 2 H, 3) float32 as .hdr or .exr, by the file's ending."""
+def write_map(
+    place: Path,
+    light: NDArray[Any],
+    notes: dict[str, str],
+    *,
+    overwrite: bool,
+    white: float | None = 1000.0,
+) -> None:
+    """Write an environment map (H, 2 H, 3) float32 as .hdr or .exr, by the file's ending.
+
+    ``white`` is the luminance of 1 in cd m⁻², where that is known.
+    """
     from sunwidget import openexr, radiance
     from sunwidget.export.metadata import software
 
@@ -104,7 +113,8 @@ def write_map(place: Path, light: NDArray[Any], notes: dict[str, str], *, overwr
             unfinished.write_bytes(radiance.pack(light, notes, software=software()))
         else:
             latitude_longitude = openexr.library().ENVMAP_LATLONG
-            told = {"envmap": latitude_longitude, "whiteLuminance": 1000.0, "software": software()}
+            told = {"envmap": latitude_longitude, "software": software()}
+            told |= {} if white is None else {"whiteLuminance": white}
             channels = {name: light[..., i] for i, name in enumerate("RGB")}
             openexr.write(unfinished, channels, told, notes, bits=32)
 
@@ -183,30 +193,3 @@ def air_of(values: dict[str, Any]) -> Atmosphere:
 def is_moonlit(scene: Scene, edit: Edit) -> bool:
     """Tell whether the moon lights an edit's sky."""
     return edit.light_source == "moon" or (edit.light_source == "automatic" and scene.lit_by_moon)
-
-
-def sun_disc(
-    atmosphere: Atmosphere, azimuth: float, elevation: float, size: tuple[int, int]
-) -> NDArray[np.float64]:
-    """Return the sun's disc: the light of equal parts of it, each in the pixel it falls into."""
-    from sunwidget.atmosphere.color import spectral_to_rec709
-    from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
-    from sunwidget.atmosphere.sun import disc_radiance
-
-    width, height = size
-    share = np.sqrt((np.arange(_RINGS) + 0.5) / _RINGS)  # rings of equal area
-    angle = (np.arange(_SPOKES) + 0.5) / _SPOKES * 2 * np.pi
-    distance, around = (a.ravel() for a in np.meshgrid(share * SUN_ANGULAR_RADIUS_DEG, angle))
-    up = elevation + distance * np.sin(around)
-    # Past the zenith a part of the disc stands on the other side.
-    level = np.cos(np.radians(np.clip(up, -89.9, 89.9)))
-    across = azimuth + distance * np.cos(around) / level
-    part = np.pi * np.radians(SUN_ANGULAR_RADIUS_DEG) ** 2 / len(up)  # steradians
-    light = np.maximum(spectral_to_rec709(disc_radiance(atmosphere, up, distance)), 0) * part
-    x = np.floor((across / 360 + 0.5) * width).astype(int) % width
-    y = np.clip(np.floor((0.5 - up / 180) * height).astype(int), 0, height - 1)
-    disc = np.zeros((height, width, 3))
-    np.add.at(disc, (y, x), light)
-    edges = np.sin(np.radians(90 - 180 * np.arange(height + 1) / height))
-    solid = (edges[:-1] - edges[1:]) * 2 * np.pi / width  # steradians of a row's pixels
-    return disc / solid[:, None, None]

@@ -47,6 +47,7 @@ FORBIDDEN = {
         "demo",
         "doctor",
     ),
+    "dome": ("widgets", "explorer", "renderer", "export", "cli", "demo", "doctor"),
     "camera": ("widgets", "renderer", "export", "cli", "analysis", "demo", "doctor"),
     "edit": ("widgets", "renderer", "export", "cli", "analysis", "photo", "demo", "doctor"),
     "photo": ("widgets", "renderer", "export", "cli", "analysis", "demo", "doctor"),

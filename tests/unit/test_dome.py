@@ -10,9 +10,10 @@ import sunwidget as sw
 from sunwidget.camera import Camera
 from sunwidget.cli import main
 from sunwidget.color import LUMINANCE
-from sunwidget.export.dome_light import angles, dome_light, irradiance, solid_angles
+from sunwidget.dome.sphere import angles, distance, irradiance, solid_angles
+from sunwidget.export.dome_light import dome_light
 from sunwidget.export.dome_mirror import mirror_of
-from sunwidget.export.dome_picture import distance, light_of
+from sunwidget.export.dome_picture import light_of
 from sunwidget.photo import PhotoError
 
 WIDTH = 512

@@ -11,9 +11,10 @@ from pages import blocks
 
 import sunwidget as sw
 from sunwidget.color import LUMINANCE
+from sunwidget.dome.disc import sun_disc
+from sunwidget.dome.sphere import angles, irradiance, solid_angles
 from sunwidget.export.dome import write_dome
-from sunwidget.export.dome_light import DomeLight, angles, irradiance, solid_angles
-from sunwidget.export.environment import sun_disc
+from sunwidget.export.dome_light import DomeLight
 
 pytestmark = pytest.mark.skipif(
     any(importlib.util.find_spec(name) is None for name in ("bpy", "OpenEXR")),

@@ -5,8 +5,9 @@ azimuth 0, the zenith on top. Blender's sky, with scattering of all orders, is n
 the clouds are a layer in a plane 1.5 km up, lit by that sun and sky.
 
     python -m training.skies.domes FOLDER 0 16
+    python -m training.skies.domes FOLDER 0 32 moved
 
-``bench/dome.py`` judges by them.
+``bench/dome.py`` judges by the first, ``bench/dome_moved.py`` by the second.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ import numpy as np
 from sunwidget import openexr
 from sunwidget.camera import Camera
 from sunwidget.color import LUMINANCE
-from sunwidget.export.dome_light import angles, irradiance, solid_angles
+from sunwidget.dome.sphere import angles, irradiance, solid_angles
 
 WIDTH = 1024
 _HEIGHT = 1.5  # km
@@ -43,6 +44,31 @@ class TrueSky:
     camera: Camera
 
 
+@dataclass(frozen=True)
+class Weather:
+    """Air, clouds and ground, to be seen under any sun; ``seed`` is the clouds'."""
+
+    aerosol: float
+    cover: float
+    albedo: np.ndarray
+    seed: int
+
+    def under(self, sun: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+        """Return the dome (H, W, 3) without its disc, and the irradiance (3,) by its veiled sun."""
+        light = _blender(sun[1], self.aerosol, disc=False)
+        both = _blender(sun[1], self.aerosol, disc=True)
+        where, up = angles(WIDTH)
+        above = up > 0
+        disc = np.maximum(both - light, 0) * above[..., None]
+        peak = np.unravel_index(np.argmax(disc @ LUMINANCE), above.shape)
+        direct = (disc * solid_angles(WIDTH)[..., None]).sum((0, 1))
+        light = np.roll(light, round((sun[0] - where[peak]) / 360 * WIDTH), axis=1)
+        light, shade = _clouded(light, direct, sun, self.cover, self.seed)
+        lit = _upper(light) + np.sin(np.radians(sun[1])) * direct * shade
+        light[~above] = self.albedo * lit / np.pi
+        return light, direct * shade
+
+
 def true_sky(seed: int) -> TrueSky:
     """Return the sky of a seed: sun 4° to 60° high, no to many clouds, clear to hazy air."""
     chance = np.random.default_rng(seed)
@@ -52,20 +78,62 @@ def true_sky(seed: int) -> TrueSky:
     aerosol, cover = float(chance.uniform(0.3, 2.5)), float(chance.choice([0, 0.2, 0.35, 0.5, 0.7]))
     albedo = np.array([0.2, 0.19, 0.12]) * chance.uniform(0.5, 1.3)
     fov, pitch = float(chance.uniform(36, 55)), float(chance.uniform(4, 13))
-    light = _blender(elevation, aerosol, disc=False)
-    both = _blender(elevation, aerosol, disc=True)
-    where, up = angles(WIDTH)
-    above = up > 0
-    disc = np.maximum(both - light, 0) * above[..., None]
-    peak = np.unravel_index(np.argmax(disc @ LUMINANCE), above.shape)
-    direct = (disc * solid_angles(WIDTH)[..., None]).sum((0, 1))
-    light = np.roll(light, round((azimuth - where[peak]) / 360 * WIDTH), axis=1)
-    light, shade = _clouded(light, direct, (azimuth, elevation), cover, seed)
-    lit = _upper(light) + np.sin(np.radians(elevation)) * direct * shade
-    light[~above] = albedo * lit / np.pi
-    camera = Camera(768, 512, fov, pitch)
     sun = (azimuth, elevation)
-    return TrueSky(seed, light, direct * shade, sun, cover, albedo, camera)
+    light, direct = Weather(aerosol, cover, albedo, seed).under(sun)
+    return TrueSky(seed, light, direct, sun, cover, albedo, Camera(768, 512, fov, pitch))
+
+
+@dataclass
+class MovedSky:
+    """One weather under two suns, with land up to 6° above the horizon.
+
+    ``light`` (2, H, W, 3) is without discs, ``direct`` (2, 3) the irradiance by the veiled suns,
+    ``directions`` (2, 2) their azimuth and elevation in degrees, ``sky`` (H, W) what is no land.
+    """
+
+    light: np.ndarray
+    direct: np.ndarray
+    directions: np.ndarray
+    sky: np.ndarray
+
+
+def moved_sky(seed: int) -> MovedSky:
+    """Return the weather of a seed under two suns, each 3° to 60° high."""
+    chance = np.random.default_rng(20_000 + seed)
+    aerosol, cover = float(chance.uniform(0.3, 2.5)), float(chance.choice([0, 0.2, 0.35, 0.5, 0.7]))
+    albedo = np.array([0.2, 0.19, 0.12]) * chance.uniform(0.5, 1.3)
+    suns = [
+        (float(chance.uniform(-180, 180)), float(np.exp(chance.uniform(np.log(3), np.log(60)))))
+        for _ in range(2)
+    ]
+    where, up = angles(WIDTH)
+    skyline = 1 + 5 * _noise(chance, (where / 15) % 24, 0 * where)
+    grain = 0.5 + _noise(chance, (where / 6) % 60, np.sign(up) * np.sqrt(np.abs(up) + 0.1) * 6)
+    low, standing = up < 0, (up >= 0) & (up < skyline)
+    lights, directs = [], []
+    for sun in suns:
+        light, direct = Weather(aerosol, cover, albedo, seed).under(sun)
+        light[low] *= grain[low, None]
+        walls = albedo * _on_walls(light, direct, sun) / np.pi
+        light[standing] = (walls[None] * grain[..., None])[standing]
+        behind = skyline[0, round((sun[0] / 360 + 0.5) * WIDTH) % WIDTH] > sun[1]
+        lights.append(light)
+        directs.append(direct * (not behind))
+    return MovedSky(np.array(lights), np.array(directs), np.array(suns), ~(low | standing))
+
+
+def _on_walls(light: np.ndarray, direct: np.ndarray, sun: tuple[float, float]) -> np.ndarray:
+    """Return the irradiance (W, 3) of walls that face the middle, by their azimuth."""
+    where = np.radians(np.arange(-180, 181, 15.0))
+    level = np.cos(np.radians(sun[1]))
+    found = []
+    for azimuth in where:
+        normal = (-np.cos(azimuth), np.sin(azimuth), 0.0)
+        facing = max(-level * np.cos(np.radians(sun[0]) - azimuth), 0)
+        found.append(irradiance(light, normal) + facing * direct)
+    columns = np.radians(angles(WIDTH)[0][0])
+    walls = np.array(found)
+    return np.stack([np.interp(columns, where, walls[:, i]) for i in range(3)], axis=-1)
 
 
 def photo(sky: TrueSky) -> np.ndarray:
@@ -188,6 +256,16 @@ def main() -> None:
     folder, first, last = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
     folder.mkdir(parents=True, exist_ok=True)
     for seed in range(first, last):
+        if sys.argv[4:] == ["moved"]:
+            pair = moved_sky(seed)
+            np.savez_compressed(
+                folder / f"{seed}.npz",
+                light=pair.light.astype(np.float32),
+                direct=pair.direct,
+                directions=pair.directions,
+                sky=pair.sky,
+            )
+            continue
         sky = true_sky(seed)
         camera = (sky.camera.width, sky.camera.height, sky.camera.fov_vertical_deg)
         np.savez_compressed(

@@ -1,0 +1,1 @@
+"""Environment maps of real skies: their sun, sky and air, and their light under another sun."""
