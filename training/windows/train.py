@@ -1,8 +1,10 @@
 """Trains PaneNet for a given wall-clock time on a CPU.
 
-``python -m training.windows.train --data ../shared/data/train --minutes 40 --out build/windows``
+``python -m training.windows.train --data ../shared/data/train --minutes 70 --out build/windows``
 
-Running it again with the same ``--out`` resumes. What is exported is an exponential moving average.
+Running it again with the same ``--out`` resumes; ``--start last.pt`` goes on from another run's
+weights. What is exported is an exponential moving average. ``--facades`` is a folder of labelled
+photographs (``facades.py``); without one all walls are drawn.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ from torch.utils.data import DataLoader
 
 from training.train import Average, optimiser, prepare, rate, save
 from training.windows.data import Batches, held_out, natural
+from training.windows.facades import Facades, names
 from training.windows.model import PaneNet, losses
 
 SAVE_SECONDS = 180
@@ -28,6 +31,8 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--data", type=Path, default=Path("../shared/data/train"))
+    parser.add_argument("--facades", type=Path)
+    parser.add_argument("--start", type=Path)
     parser.add_argument("--out", type=Path, default=Path("build/windows"))
     parser.add_argument("--minutes", type=float, default=40)
     parser.add_argument("--batch", type=int, default=12)
@@ -38,6 +43,8 @@ def main() -> None:
     torch.set_num_threads(1)
     torch.manual_seed(options.seed)
     network = PaneNet().to(memory_format=torch.channels_last)
+    if options.start is not None:
+        network.load_state_dict(torch.load(options.start, weights_only=True)["average"])
     average, optimise = Average(network), optimiser(network)
     spent, step, checkpoint = 0.0, 0, options.out / "last.pt"
     if checkpoint.exists():
@@ -58,8 +65,9 @@ def main() -> None:
         )
 
     photos = [p for p in natural(options.data) if not held_out(p)]
+    real = options.facades and Facades(options.facades, names(options.facades)[0])
     loader = DataLoader(
-        Batches(photos, options.batch, options.seed + step),
+        Batches(photos, options.batch, options.seed + step, real),
         batch_size=None,
         num_workers=1,
         prefetch_factor=4,
@@ -70,7 +78,7 @@ def main() -> None:
         for group in optimise.param_groups:
             group["lr"] = rate(spent / (options.minutes * 60), options.rate)
         network.train()
-        parts = losses(network(prepare(batch["image"])), batch["pane"])
+        parts = losses(network(prepare(batch["image"])), batch["known"])
         optimise.zero_grad(set_to_none=True)
         sum(parts.values()).backward()
         nn.utils.clip_grad_norm_(network.parameters(), 2.0)
