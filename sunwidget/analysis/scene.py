@@ -222,14 +222,14 @@ class Scene:
 
     @cached_property
     def panes(self) -> np.ndarray:
-        """Probability of glass of windows, (h, w) float32 in [0, 1] (analysis/panes.py)."""
-        pane = panes.probability(self.photo)
-        return pane * (1 - resize(self.sky, *pane.shape[::-1]))
+        """Probability of windows, (h, w) float32 in [0, 1] (analysis/panes.py)."""
+        window = panes.probability(self.photo)
+        return window * (1 - resize(self.sky, *window.shape[::-1]))
 
     @cached_property
     def lamps(self) -> np.ndarray:
         """Light behind the panes of windows, (h, w, 4) float32 (analysis/panes.py)."""
-        return panes.lamps(self.panes)
+        return panes.lamps(self.panes, panes.glass(self.photo))
 
     @cached_property
     def depth(self) -> np.ndarray:
@@ -374,6 +374,7 @@ class Scene:
             "glare_profile": (0.0, 3.0, 2.0),
             "noise_level": noise_level(self.photo, self.sky),
             "photo_height": float(self.height),
+            "lamp_scale": panes.BRIGHTEST,
             "sky_gain": (1.0, 1.0, 1.0),
         } | self.response
         if self.fitted is not None:

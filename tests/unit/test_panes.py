@@ -27,7 +27,7 @@ def meadow():
 def lit_everywhere(scene, pane):
     """The scene with lamps of median light where ``pane`` says, (h, w) bool."""
     lamps = np.zeros((*pane.shape, 4), np.float32)
-    lamps[pane] = (1 / panes._BRIGHTEST, 0, 0.5, 1)
+    lamps[pane] = (1 / panes.BRIGHTEST, 0, 0.5, 1)
     scene.__dict__["lamps"] = lamps
     return scene
 
@@ -48,7 +48,7 @@ def test_a_photo_without_windows_has_no_lamps_and_nothing_to_light(meadow):
 
 def test_at_dusk_panes_are_the_brightest_of_a_house_and_by_day_they_drown(house):
     _, glass = facade()
-    lit = glass & (cv2.resize(house.lamps[..., 0], SIZE) > 0.15)
+    lit = glass & (cv2.resize(house.lamps[..., 0], SIZE) > 0.05)
     assert lit.sum() > 0.3 * glass.sum()
     wall = np.zeros_like(glass)
     wall[70:225, 62:70] = True
@@ -99,7 +99,7 @@ def test_the_same_photo_has_the_same_evening_and_some_rooms_stay_dark():
     first, again = panes.lamps(pane), panes.lamps(pane.copy())
     assert np.array_equal(first, again)
     centres = first[14:230:20, 13:350:20, 0]
-    assert 0.15 < (centres == 0).mean() < 0.45
+    assert 0.25 < (centres == 0).mean() < 0.55
     # A window elsewhere comes or goes: the others keep their lamps.
     pane[10:19, 10:17] = 0
     other = panes.lamps(pane)[14:230:20, 13:350:20, 0]

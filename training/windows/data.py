@@ -19,7 +19,7 @@ from training.windows.facades import Facades
 WITH_WINDOWS = Path(__file__).parent / "with_windows.txt"
 """Photos of the folder that show windows, of those in which a first network saw most."""
 SIDE = 256
-RECENT, NEW = 96, 0.5
+RECENT, NEW = 192, 0.35  # streets that are used again; share of new ones
 SOFT, PLAIN = 0.4, 0.3  # shares: of pictures that are not sharp; that have a photo's own light
 FOLDER = "landscape-pseudo/images"
 

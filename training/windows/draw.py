@@ -45,6 +45,11 @@ def wall(random: Random) -> np.ndarray:
             picture[:: max(step, 2)] *= line
         if random.random() < 0.5:
             picture[:, :: max(2, int(step * random.uniform(1, 3)))] *= line
+    elif draw < 0.7:  # weatherboards, clapboard, louvres: each lit and shaded alike
+        across = np.arange(SIDE) / random.uniform(4, 40) % 1
+        board = 1 + random.uniform(-0.3, 0.3) * (across - 0.5)
+        board[across < random.uniform(0.05, 0.25)] *= random.uniform(0.3, 0.9)
+        picture *= board[:, None, None] if random.random() < 0.7 else board[None, :, None]
     return picture
 
 
@@ -87,12 +92,13 @@ def window(
     if gx1 - gx0 < 2 or gy1 - gy0 < 2:
         return
     if style["real"] is not None:
-        photo = cv2.resize(style["real"].window(random), (x1 - x0, y1 - y0), None, 0, 0, cv2.INTER_AREA)
+        photo = cv2.resize(
+            style["real"].window(random), (x1 - x0, y1 - y0), None, 0, 0, cv2.INTER_AREA
+        )
         picture[y0:y1, x0:x1] = photo * style["tint"]
         mask[y0:y1, x0:x1] = (0, 1, 1, 0)
         return
     if random.random() < style["shut"]:  # shutters are closed: no glass
-        mask[y0:y1, x0:x1] = (0, 0, 0, 1)
         for y in range(y0, y1, 3):
             cv2.line(picture, (x0, y), (x1, y), (np.array(tone) * 0.8).tolist(), 1)
         return
@@ -324,7 +330,9 @@ def street(
         else:
             picture, mask = facade(random, real)
             solid = None
-        set_up(canvas, target, (picture * light(random, picture.shape[:2]), mask, solid), quad, random)
+        set_up(
+            canvas, target, (picture * light(random, picture.shape[:2]), mask, solid), quad, random
+        )
     furnish(canvas, target, random)
     occlude(canvas, target, other.astype(np.float32), random)
     return np.clip(canvas, 0, 255).astype(np.uint8), np.clip(target, 0, 1)

@@ -60,9 +60,7 @@ class Facades:
         picture = self.windows[random.integers(len(self.windows))]
         return (picture[:, ::-1] if random.random() < 0.5 else picture).astype(np.float32)
 
-    def wall(
-        self, quad: np.ndarray, random: Random
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def wall(self, quad: np.ndarray, random: Random) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """A part of a row of houses about as wide to its height as ``quad``, (4, 2) pixels, is.
 
         Picture (h, w, 3) float32 in [0, 255], what is known (h, w, 4), and where it is no sky.

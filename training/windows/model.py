@@ -58,4 +58,8 @@ def losses(out: Tensor, known: Tensor) -> dict[str, Tensor]:
     p, target = out.sigmoid() * told, target * told
     both = (p * target).sum((2, 3))
     dice = 1 - (2 * both + 30) / (p.sum((2, 3)) + target.sum((2, 3)) + 30)
-    return {"pane": 3 * pane, "window": 4 * window, "overlap": dice.mean(0) @ dice.new_tensor([0.5, 1])}
+    return {
+        "pane": 3 * pane,
+        "window": 4 * window,
+        "overlap": dice.mean(0) @ dice.new_tensor([0.5, 1]),
+    }
