@@ -31,6 +31,7 @@ _AT_TOP, _AT_FOOT = 1.2, 0.65  # of a window's light: lamps hang from ceilings
 _AT_SIDES = 0.75
 _CURTAINS, _BLINDS = 0.25, 0.2  # shares of windows
 _BEHIND = 0.45  # of the light: through curtains and blinds
+_FURNISHED, _THINGS = 12, 0.3  # pixels, from which on a room is seen; ln: what is in it
 _FRAME = 0.04  # of a window's size
 _SEEN = 0.1, 0.35  # probabilities: of what hides a window, and of what is its own
 _BARRED = 10  # pixels from side to side, from which on bars are seen
@@ -100,12 +101,13 @@ def lamps(window: np.ndarray, pane: np.ndarray | None = None) -> np.ndarray:
     light, warmth = (np.zeros(window.shape, np.float32) for _ in range(2))
     for room in rooms(found.windows):
         _light_room(found.windows[room], pane, light, warmth)
-    for wall in window_shapes.walls(found.wall):
-        _light_wall(wall, light, warmth)
-    if not light.any():
-        return np.zeros((1, 1, 4), np.float32)
     # What hides a window in part stays dark.
     light *= np.clip((window - _SEEN[0]) / (_SEEN[1] - _SEEN[0]), 0, 1)
+    for wall in window_shapes.walls(found.wall):
+        _light_wall(wall, light, warmth)
+    light = np.minimum(light, 1)
+    if not light.any():
+        return np.zeros((1, 1, 4), np.float32)
     # Light falls on reveals and sills, and wider and weaker on the ground and walls before them.
     reach = 0.02 * max(height, width)
     near = cv2.GaussianBlur(light, (0, 0), 0.15 * reach)
@@ -149,6 +151,8 @@ def _lamp(x: float, y: float, shape: tuple[int, ...]) -> tuple[float, float, np.
 def _light_room(
     windows: np.ndarray, pane: np.ndarray | None, light: np.ndarray, warmth: np.ndarray
 ) -> None:
+    import cv2
+
     level, warm, chance = _lamp(*windows[:, [X, Y]].mean(0), light.shape)
     if level == 0:
         return
@@ -167,6 +171,9 @@ def _light_room(
         down = np.clip(over / small[TALL] + 0.5, 0, 1)
         room = _AT_TOP + (_AT_FOOT - _AT_TOP) * down
         room = room * (1 + (_AT_SIDES - 1) * np.clip(2 * across, -1, 1) ** 2)
+        if small[WIDE] > _FURNISHED:
+            things = chance.normal(0, _THINGS, (4, 3))
+            room = room * np.exp(cv2.resize(things, cover.shape[::-1], None, 0, 0, cv2.INTER_CUBIC))
         draw, much = chance.random(2)
         if draw < _CURTAINS:
             room = np.where(np.abs(across) < 0.45 * much, room, _BEHIND)

@@ -31,10 +31,12 @@ _NARROWING = 0.35  # of a window's height, from one side to the other
 _WIDEST = 3.0  # times its height: boards and shadows of eaves are wider
 _TALLEST = 6.0  # times its width: posts are taller
 _WALL = 0.02  # of the picture: larger is a wall of glass
+_GAP, _FILLED = 0.015, 0.6  # of the picture's longer side; of a wall's outline
 _NEAR = 6.0  # sizes of a window, within which others of its façade are
 _ALIKE = 0.35  # ln: of sizes of windows of one kind
 _IN_LINE = 0.3  # sizes off a row or column
 _BORDER = 1.4  # sizes of a window, within which nothing else is one
+_ALONE, _TOGETHER = 0.65, 0.25  # mean probability of windows: alone, or in line with others
 _FEW = 3  # neighbours from which on a façade is known
 _MATES = 2  # neighbours in line that make a weak window one
 
@@ -68,7 +70,8 @@ def find(probability: np.ndarray) -> Found:
     weak = _weak(probability, strong, wall)
     if len(strong) and len(weak):
         strong = np.concatenate([strong, weak[_mates(weak, strong) >= _MATES]])
-    return Found(_apart(aligned(strong)), wall)
+    windows = _apart(aligned(strong))
+    return Found(windows[_believed(windows, probability)], wall)
 
 
 def corners(window: np.ndarray) -> np.ndarray:
@@ -93,18 +96,28 @@ def filled(quad: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
 
 
 def walls(mask: np.ndarray) -> list[Wall]:
-    """Return walls of glass, with straight edges, of where they are, (h, w) bool."""
+    """Return walls of glass with straight edges, of where some is seen, (h, w) bool.
+
+    Gaps that are smaller than rooms are closed; what fills its outline badly is no wall.
+    """
     import cv2
 
     out = []
+    side = 2 * round(0.5 * _GAP * max(mask.shape)) + 1
+    rows = np.arange(len(mask))[:, None]
     count, pieces, boxes, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8))
     for i in range(1, count):
         left, _, wide, _, _ = boxes[i]
-        inside = pieces == i
-        part = inside[:, left : left + wide]
+        part = (pieces[:, left : left + wide] == i).astype(np.uint8)
         edges = part.argmax(0), part.shape[0] - part[::-1].argmax(0)
         x = np.arange(wide)
         top, foot = (np.polyval(np.polyfit(x, edge, min(1, wide - 1)), x) for edge in edges)
+        outline = (rows >= np.round(top)) & (rows < np.round(foot))
+        if (part > 0)[outline].sum() < _FILLED * outline.sum():
+            continue
+        inside = np.zeros(mask.shape, bool)
+        part = cv2.morphologyEx(part, cv2.MORPH_CLOSE, np.ones((side, side), np.uint8))
+        inside[:, left : left + wide] = outline & (part > 0)
         out.append(Wall(inside, int(left), top, foot))
     return out
 
@@ -166,6 +179,22 @@ def _lines(some: np.ndarray, others: np.ndarray) -> tuple[np.ndarray, np.ndarray
     x, y = (others[None, :, at] - some[:, None, at] for at in (X, Y))
     off = np.abs(y - x * some[:, None, [TOP, FOOT]].mean(2))
     return off < _IN_LINE * some[:, None, TALL], np.abs(x) < _IN_LINE * some[:, None, WIDE]
+
+
+def _believed(windows: np.ndarray, probability: np.ndarray) -> np.ndarray:
+    """Return which windows are likely enough, (n,) bool: more so where no other is in line."""
+    alone = _mates(windows, windows) < _MATES  # itself is one
+    likely = np.zeros(len(windows))
+    for i, window in enumerate(windows):
+        quad = corners(window)
+        first = np.maximum(np.floor(quad.min(0)).astype(int), 0)
+        last = np.minimum(np.ceil(quad.max(0)).astype(int) + 1, probability.shape[::-1])
+        wide, tall = last - first
+        if wide > 0 < tall:
+            cover = filled(quad - first, (tall, wide))
+            part = probability[first[1] : last[1], first[0] : last[0]]
+            likely[i] = (cover * part).sum() / max(cover.sum(), 1e-6)
+    return likely > np.where(alone, _ALONE, _TOGETHER)
 
 
 def _mates(weak: np.ndarray, strong: np.ndarray) -> np.ndarray:

@@ -138,7 +138,7 @@ def test_what_hides_a_window_stays_dark():
     known = np.array([(180, 120, 24, 40, 0, 0)], float)
     for shift in range(40):
         picture = seen(known + [shift, 0, 0, 0, 0, 0])
-        picture[100:140, 176 + shift : 181 + shift] = 0
+        picture[100:140, 177 + shift : 180 + shift] = 0
         light = panes.lamps(picture)[..., 0]
         if light.any():
             break
