@@ -7,8 +7,9 @@ the same photo always has the same evening.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -33,6 +34,9 @@ _CURTAINS, _BLINDS = 0.25, 0.2  # shares of windows
 _BEHIND = 0.45  # of the light: through curtains and blinds
 _FURNISHED, _THINGS = 12, 0.3  # pixels, from which on a room is seen; ln: what is in it
 _FRAME = 0.04  # of a window's size
+# Mean probability of glass: shutters and boards have none, and of small windows little is seen.
+_GLASS_FROM, _GLASS_WIDE = (0.05, 0.4), (8, 28)  # of windows; widths between them (pixels)
+_GLASS_WALL = 0.45
 _SEEN = 0.1, 0.35  # probabilities: of what hides a window, and of what is its own
 _BARRED = 10  # pixels from side to side, from which on bars are seen
 _BAR = 0.35, 0.75  # of a window's glass, from side to side: where a bar is and where none
@@ -40,53 +44,53 @@ _SAME_ROOM = 1.3  # widths between the middles of windows of one room
 _STOREY, _UNIT = 0.014, 0.012  # of the picture's longer side: rooms behind walls of glass
 
 
-def probability(photo: Photo) -> np.ndarray:
-    """Return the probability that pixels belong to windows, (h, w) float32 in [0, 1].
+class View(NamedTuple):
+    """Probabilities of windows and of their glass, both (h, w) float32 in [0, 1]."""
 
-    Of a copy whose longer side is ``SIDE``; of a small photo, twice its size at most. Once a photo:
-    strokes do not ask again.
+    window: np.ndarray
+    pane: np.ndarray
+
+
+def look(photo: Photo) -> tuple[View, ...]:
+    """Return what the network sees of a photo at two sizes, once a photo: strokes do not ask again.
+
+    The longer side of the first is ``SIDE``; a small photo's is twice its own at most. The second
+    is half as large.
 
     Raises
     ------
     AnalysisError
         When onnxruntime is missing.
     """
-    return _both(photo)[0]
-
-
-def glass(photo: Photo) -> np.ndarray:
-    """Return the probability of glass without frames and bars, (h, w) float32 in [0, 1]."""
-    return _both(photo)[1]
-
-
-def _both(photo: Photo) -> tuple[np.ndarray, np.ndarray]:
     if photo not in _seen:
-        _seen[photo] = _look(photo)
+        picture = photo.preview(SIDE).astype(np.float32) / 255
+        scale = min(2.0, SIDE / max(picture.shape))
+        _seen[photo] = _look(picture, scale), _look(picture, 0.5 * scale)
     return _seen[photo]
 
 
-def _look(photo: Photo) -> tuple[np.ndarray, np.ndarray]:
-    picture = photo.preview(SIDE).astype(np.float32) / 255
-    scale = min(2.0, SIDE / max(picture.shape))
-    height, width = (round(scale * n) for n in picture.shape[:2])
+def _look(picture: np.ndarray, scale: float) -> View:
+    height, width = (max(1, round(scale * n)) for n in picture.shape[:2])
     columns, rows = (max(1, round(n / _STRIDE)) * _STRIDE for n in (width, height))
     image = resize(picture, columns, rows).transpose(2, 0, 1)[None]
     found = bundled_session(BUNDLED, "windows").run(
         ["window", "pane"], {"image": np.ascontiguousarray(image)}
     )
-    window, pane = (resize(image[0, 0], width, height) for image in found)
-    return window, pane
+    return View(*(resize(image[0, 0], width, height) for image in found))
 
 
-def lamps(window: np.ndarray, pane: np.ndarray | None = None) -> np.ndarray:
+def probability(views: Sequence[View]) -> np.ndarray:
+    """Return the probability that pixels belong to windows, (h, w) float32 of the first's size."""
+    return window_shapes.likeliest([view.window for view in views])
+
+
+def lamps(views: Sequence[View]) -> np.ndarray:
     """Return the texture ``lamps``, (h, w, 4) float32 in [0, 1]; (1, 1, 4) zeros without a window.
 
     Parameters
     ----------
-    window : (h, w) float32
-        Probability of windows, none in the sky.
-    pane : (h, w) float32, optional
-        Probability of glass; without it windows have no bars.
+    views : sequence of View
+        What is seen at falling sizes, none in the sky.
 
     Returns
     -------
@@ -96,15 +100,19 @@ def lamps(window: np.ndarray, pane: np.ndarray | None = None) -> np.ndarray:
     """
     import cv2
 
+    window = probability(views)
+    pane = window_shapes.likeliest([view.pane for view in views])
     height, width = window.shape
-    found = window_shapes.find(window)
+    windows, wall = window_shapes.find(*(view.window for view in views))
+    windows = windows[window_shapes.mean_within(windows, pane) > _least_glass(windows[:, WIDE])]
     light, warmth = (np.zeros(window.shape, np.float32) for _ in range(2))
-    for room in rooms(found.windows):
-        _light_room(found.windows[room], pane, light, warmth)
+    for room in rooms(windows):
+        _light_room(windows[room], pane, light, warmth)
     # What hides a window in part stays dark.
     light *= np.clip((window - _SEEN[0]) / (_SEEN[1] - _SEEN[0]), 0, 1)
-    for wall in window_shapes.walls(found.wall):
-        _light_wall(wall, light, warmth)
+    for whole in window_shapes.walls(wall):
+        if pane[whole.inside].mean() > _GLASS_WALL:
+            _light_wall(whole, light, warmth)
     light = np.minimum(light, 1)
     if not light.any():
         return np.zeros((1, 1, 4), np.float32)
@@ -119,6 +127,12 @@ def lamps(window: np.ndarray, pane: np.ndarray | None = None) -> np.ndarray:
     spill = np.clip(0.5 * near + far[..., 0], 0, 1) * (light == 0)
     warm = np.where(light > 0, warmth, far[..., 1] / np.maximum(far[..., 0], 1e-6))
     return np.dstack([light, spill, warm, np.ones_like(light)]).astype(np.float32)
+
+
+def _least_glass(wide: np.ndarray) -> np.ndarray:
+    """Return how likely glass must be in windows of a width in pixels."""
+    low, high = _GLASS_FROM
+    return np.asarray(low + (high - low) * np.clip((wide - _GLASS_WIDE[0]) / _GLASS_WIDE[1], 0, 1))
 
 
 def rooms(windows: np.ndarray) -> list[np.ndarray]:
@@ -149,11 +163,11 @@ def _lamp(x: float, y: float, shape: tuple[int, ...]) -> tuple[float, float, np.
 
 
 def _light_room(
-    windows: np.ndarray, pane: np.ndarray | None, light: np.ndarray, warmth: np.ndarray
+    windows: np.ndarray, pane: np.ndarray, light: np.ndarray, warmth: np.ndarray
 ) -> None:
     import cv2
 
-    level, warm, chance = _lamp(*windows[:, [X, Y]].mean(0), light.shape)
+    level, warm, chance = _lamp(windows[:, X].mean(), windows[:, Y].mean(), light.shape)
     if level == 0:
         return
     for window in windows:
@@ -179,8 +193,7 @@ def _light_room(
             room = np.where(np.abs(across) < 0.45 * much, room, _BEHIND)
         elif draw < _CURTAINS + _BLINDS:
             room = np.where(down > 0.2 + 0.6 * much, room, _BEHIND)
-        if pane is not None:
-            cover *= _between_bars(pane[box], cover, small[TALL] * down)
+        cover *= _between_bars(pane[box], cover, small[TALL] * down)
         new = level / BRIGHTEST * cover * room
         warmth[box] = np.where(new > light[box], warm, warmth[box])
         light[box] = np.maximum(light[box], new)
@@ -238,4 +251,4 @@ def _light_wall(wall: window_shapes.Wall, light: np.ndarray, warmth: np.ndarray)
     light[:, columns] = np.maximum(light[:, columns], new)
 
 
-_seen: WeakKeyDictionary[Photo, tuple[np.ndarray, np.ndarray]] = WeakKeyDictionary()
+_seen: WeakKeyDictionary[Photo, tuple[View, ...]] = WeakKeyDictionary()

@@ -221,15 +221,22 @@ class Scene:
         return relief.encoded_transfer(self.land)
 
     @cached_property
+    def _windows(self) -> list[panes.View]:
+        sizes = panes.look(self.photo)
+        return [
+            panes.View(*(image * (1 - resize(self.sky, *image.shape[::-1])) for image in view))
+            for view in sizes
+        ]
+
+    @cached_property
     def panes(self) -> np.ndarray:
         """Probability of windows, (h, w) float32 in [0, 1] (analysis/panes.py)."""
-        window = panes.probability(self.photo)
-        return window * (1 - resize(self.sky, *window.shape[::-1]))
+        return panes.probability(self._windows)
 
     @cached_property
     def lamps(self) -> np.ndarray:
         """Light behind the panes of windows, (h, w, 4) float32 (analysis/panes.py)."""
-        return panes.lamps(self.panes, panes.glass(self.photo))
+        return panes.lamps(self._windows)
 
     @cached_property
     def depth(self) -> np.ndarray:

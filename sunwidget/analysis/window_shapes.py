@@ -6,9 +6,12 @@ sees of all of them together says how large, how steep and where in the row each
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+
+from sunwidget.analysis.working import resize
 
 X, Y, WIDE, TALL, TOP, FOOT = range(6)
 """Columns of windows, (n, 6): middle, size (pixels), slopes of lintel and sill."""
@@ -32,11 +35,15 @@ _WIDEST = 3.0  # times its height: boards and shadows of eaves are wider
 _TALLEST = 6.0  # times its width: posts are taller
 _WALL = 0.02  # of the picture: larger is a wall of glass
 _GAP, _FILLED = 0.015, 0.6  # of the picture's longer side; of a wall's outline
+_PLAIN = 6  # pixels from side to side, from which on what is seen of a coarse picture counts
+_MADE_OF = 0.45  # of a large window or wall, from which on it is the small ones in it
+_SO_MANY = 4  # of them, too
 _NEAR = 6.0  # sizes of a window, within which others of its façade are
 _ALIKE = 0.35  # ln: of sizes of windows of one kind
 _IN_LINE = 0.3  # sizes off a row or column
 _BORDER = 1.4  # sizes of a window, within which nothing else is one
 _ALONE, _TOGETHER = 0.65, 0.25  # mean probability of windows: alone, or in line with others
+_AS_LARGE, _LARGE = 0.78, (16, 24)  # of large ones; from which width on, and over how many pixels
 _FEW = 3  # neighbours from which on a façade is known
 _MATES = 2  # neighbours in line that make a weak window one
 
@@ -57,21 +64,51 @@ class Wall(NamedTuple):
     foot: np.ndarray
 
 
-def find(probability: np.ndarray) -> Found:
+def find(*seen: np.ndarray) -> Found:
     """Return the windows of a picture.
 
     Parameters
     ----------
-    probability : (h, w) float32
-        That a pixel belongs to a window.
+    *seen : (h, w) float32
+        Probability that a pixel belongs to a window, at falling sizes of the picture: a network
+        sees small windows in a fine one and large ones in a coarse one. What is found has the size
+        of the first.
     """
-    wall = np.zeros(probability.shape, bool)
-    strong = _trapezia(probability, wall)
+    shape = seen[0].shape
+    wall = np.zeros(shape, bool)
+    strong = _trapezia(seen[0], wall)
+    for coarse in seen[1:]:
+        rough_wall = np.zeros(coarse.shape, bool)
+        rough = _trapezia(coarse, rough_wall)
+        rough = rough[rough[:, [WIDE, TALL]].min(1, initial=np.inf) >= _PLAIN]
+        strong, wall = _merged(strong, wall, _scaled(rough, coarse.shape, shape), rough_wall)
+    probability = likeliest(seen)
     weak = _weak(probability, strong, wall)
     if len(strong) and len(weak):
         strong = np.concatenate([strong, weak[_mates(weak, strong) >= _MATES]])
     windows = _apart(aligned(strong))
     return Found(windows[_believed(windows, probability)], wall)
+
+
+def likeliest(seen: Sequence[np.ndarray]) -> np.ndarray:
+    """Return the highest of probabilities (h, w) of several sizes, as large as the first."""
+    height, width = seen[0].shape
+    return np.maximum.reduce([resize(image, width, height) for image in seen])
+
+
+def mean_within(windows: np.ndarray, image: np.ndarray) -> np.ndarray:
+    """Return the mean of an image (h, w) in each of the windows (n, 6), (n,)."""
+    mean = np.zeros(len(windows))
+    for i, window in enumerate(windows):
+        quad = corners(window)
+        first = np.maximum(np.floor(quad.min(0)).astype(int), 0)
+        last = np.minimum(np.ceil(quad.max(0)).astype(int) + 1, image.shape[::-1])
+        wide, tall = last - first
+        if wide > 0 < tall:
+            cover = filled(quad - first, (tall, wide))
+            part = image[first[1] : last[1], first[0] : last[0]]
+            mean[i] = (cover * part).sum() / max(cover.sum(), 1e-6)
+    return mean
 
 
 def corners(window: np.ndarray) -> np.ndarray:
@@ -132,7 +169,8 @@ def aligned(windows: np.ndarray) -> np.ndarray:
     out = windows.copy()
     size = np.exp(share @ np.log(windows[:, [WIDE, TALL]]))
     out[enough, WIDE], out[enough, TALL] = size[enough].T
-    out[enough, TOP], out[enough, FOOT] = _slopes(out, near, out[:, [TOP, FOOT]].mean(1))[enough].T
+    slopes = _slopes(out, near, out[:, [TOP, FOOT]].mean(1))
+    out[enough, TOP], out[enough, FOOT] = slopes[enough].T
     row, column = _lines(out, out)
     row, column = row & near, column & near
     told = enough & (row.sum(1) >= _FEW)
@@ -181,20 +219,46 @@ def _lines(some: np.ndarray, others: np.ndarray) -> tuple[np.ndarray, np.ndarray
     return off < _IN_LINE * some[:, None, TALL], np.abs(x) < _IN_LINE * some[:, None, WIDE]
 
 
+def _scaled(windows: np.ndarray, shape: tuple[int, ...], larger: tuple[int, ...]) -> np.ndarray:
+    """Return windows (n, 6) of a picture of one shape as they are in a larger copy."""
+    y, x = (to / was for to, was in zip(larger, shape, strict=True))
+    out = windows * [x, y, x, y, y / x, y / x]
+    out[:, [X, Y]] += [(x - 1) / 2, (y - 1) / 2]  # middles of pixels
+    return np.asarray(out)
+
+
+def _merged(
+    fine: np.ndarray, wall: np.ndarray, rough: np.ndarray, rough_wall: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return windows and walls of two sizes of a picture: a large one, or those it is made of."""
+    import cv2
+
+    area = fine[:, WIDE] * fine[:, TALL]
+    x, y = (np.abs(fine[None, :, at] - rough[:, None, at]) for at in (X, Y))
+    inside = (x < 0.5 * rough[:, None, WIDE]) & (y < 0.5 * rough[:, None, TALL])
+    part = (inside * area).sum(1) / np.maximum(rough[:, WIDE] * rough[:, TALL], 1e-6)
+    whole = (part < _MADE_OF) & (inside.sum(1) < _SO_MANY)
+    rough, inside = rough[whole], inside[whole]
+    windows = np.concatenate([fine[~inside.any(0)], rough])
+    rough_wall = resize(rough_wall.astype(np.float32), *wall.shape[::-1]) > 0.5
+    covered = np.zeros(wall.shape, np.uint8)
+    for window in windows:
+        cv2.fillConvexPoly(covered, np.round(corners(window)).astype(np.int32), 1)
+    count, pieces = cv2.connectedComponents((wall | rough_wall).astype(np.uint8))
+    area, panes = (np.bincount(pieces.ravel(), n, count) for n in (None, covered.ravel()))
+    glass = panes < _MADE_OF * area
+    glass[0] = False
+    middle = np.clip(np.round(windows[:, [Y, X]]).astype(int), 0, np.array(wall.shape) - 1)
+    whole = glass[pieces]
+    return windows[~whole[tuple(middle.T)]], whole
+
+
 def _believed(windows: np.ndarray, probability: np.ndarray) -> np.ndarray:
-    """Return which windows are likely enough, (n,) bool: more so where no other is in line."""
+    """Return which windows are likely enough, (n,) bool: more so alone in a line, or large."""
     alone = _mates(windows, windows) < _MATES  # itself is one
-    likely = np.zeros(len(windows))
-    for i, window in enumerate(windows):
-        quad = corners(window)
-        first = np.maximum(np.floor(quad.min(0)).astype(int), 0)
-        last = np.minimum(np.ceil(quad.max(0)).astype(int) + 1, probability.shape[::-1])
-        wide, tall = last - first
-        if wide > 0 < tall:
-            cover = filled(quad - first, (tall, wide))
-            part = probability[first[1] : last[1], first[0] : last[0]]
-            likely[i] = (cover * part).sum() / max(cover.sum(), 1e-6)
-    return likely > np.where(alone, _ALONE, _TOGETHER)
+    large = np.clip((windows[:, WIDE] - _LARGE[0]) / _LARGE[1], 0, 1)
+    least = np.maximum(np.where(alone, _ALONE, _TOGETHER), _AS_LARGE * large)
+    return np.asarray(mean_within(windows, probability) > least)
 
 
 def _mates(weak: np.ndarray, strong: np.ndarray) -> np.ndarray:
@@ -259,7 +323,8 @@ def _split(
         elif overlap >= _BARELY and (
             _TALLEST * window[WIDE] > window[TALL] > window[WIDE] / _WIDEST
         ):
-            found.append((window + [*at, 0, 0, 0, 0], area))
+            window[[X, Y]] += at
+            found.append((window, area))
     return found
 
 
@@ -279,7 +344,8 @@ def _weak(probability: np.ndarray, strong: np.ndarray, wall: np.ndarray) -> np.n
         if min(wide, tall) < _THINNEST or area < max(_FEWEST, _LEAST * wall.size):
             continue
         window, _ = _fit(pieces[top : top + tall, left : left + wide] == i)
-        found.append(window + [left, top, 0, 0, 0, 0])
+        window[[X, Y]] += left, top
+        found.append(window)
     return np.array(found).reshape(-1, 6)
 
 

@@ -98,7 +98,7 @@ def test_a_wall_of_glass_has_rooms_behind_it():
     assert (wall.left, len(wall.top)) == (100, 100)
     assert np.allclose(wall.top, 30, atol=1)
     assert np.allclose(wall.foot, 200, atol=1)
-    light = panes.lamps(picture)[..., 0]
+    light = panes.lamps([panes.View(picture, picture)])[..., 0]
     assert 0.1 < (light[30:200, 100:200] > 0).mean() < 0.8
     light[30:200, 100:200] = 0
     assert not light.any()
@@ -124,23 +124,45 @@ def test_bars_stay_dark_from_side_to_side():
     pane = seen(known)
     pane[:, 179:182] = 0
     for shift in range(40):  # a place where some light falls
-        moved = known + [shift, 0, 0, 0, 0, 0]
-        light = panes.lamps(seen(moved), np.roll(pane, shift, 1))[105:135, :, 0]
+        moved = known + np.array([shift, 0, 0, 0, 0, 0])
+        view = panes.View(seen(moved), np.roll(pane, shift, 1))
+        light = panes.lamps([view])[105:135, :, 0]
         if light.any():
             break
     at = 180 + shift
     assert light[:, at].max() == 0
     assert light[:, at - 9 : at - 4].mean() > 0
-    assert (panes.lamps(seen(moved))[105:135, at, 0] > 0).any()
+    assert (panes.lamps([panes.View(*[seen(moved)] * 2)])[105:135, at, 0] > 0).any()
 
 
 def test_what_hides_a_window_stays_dark():
     known = np.array([(180, 120, 24, 40, 0, 0)], float)
     for shift in range(40):
-        picture = seen(known + [shift, 0, 0, 0, 0, 0])
+        picture = seen(known + np.array([shift, 0, 0, 0, 0, 0]))
         picture[100:140, 177 + shift : 180 + shift] = 0
-        light = panes.lamps(picture)[..., 0]
+        light = panes.lamps([panes.View(picture, picture)])[..., 0]
         if light.any():
             break
     assert light[110:130, 178 + shift].max() == 0
     assert light[110:130, 172 + shift].max() > 0
+
+
+def test_shutters_and_boards_have_no_glass_and_no_light():
+    known = grid()
+    picture = seen(known)
+    assert panes.lamps([panes.View(picture, picture)])[..., 0].any()
+    assert not panes.lamps([panes.View(picture, 0.08 * picture)])[..., 0].any()
+
+
+def test_large_windows_are_seen_in_a_coarse_picture_and_small_ones_in_a_fine_one():
+    small = grid()
+    large = np.array([(180, 205, 44, 32, 0, 0)], float)
+    half = cv2.resize(seen(np.vstack([small, large])), None, fx=0.5, fy=0.5, interpolation=3)
+    found = shapes.find(seen(small), half).windows
+    assert len(found) == len(small) + 1
+    error = np.abs(matched(found, np.vstack([small, large])) - np.vstack([small, large]))
+    assert error[:, [X, Y, WIDE, TALL]].max() < 2
+    # Panes of one window, in a fine picture, are what it is made of.
+    parts = np.array([(x, 205, 19, 30, 0, 0) for x in (169, 192)], float)
+    assert len(shapes.find(seen(parts), half * 0).windows) == 2
+    assert len(shapes.find(seen(np.vstack([small, parts])), half).windows) == len(small) + 2

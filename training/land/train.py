@@ -23,9 +23,9 @@ from torch import Tensor
 from training.data import typical
 from training.land.data import UNKNOWN, WATER, Batch, PhotoBatches, WorldBatches
 from training.land.model import LandNet, losses, of_suns
+from training.loop import Run, batches
 from training.model import SkyNet
 from training.restore import restore
-from training.loop import Run, batches
 from training.train import prepare, rate
 
 SKY = Path("sunwidget/analysis/models/sky.onnx")

@@ -16,7 +16,7 @@ import numpy as np
 
 from sunwidget.analysis import window_shapes
 from sunwidget.analysis.onnx_file import bundled_session
-from sunwidget.analysis.panes import BUNDLED, lamps, probability
+from sunwidget.analysis.panes import BUNDLED, lamps, look
 from sunwidget.photo import open_photo
 from training.windows.data import SIDE, Batches, held_out, natural, seen
 from training.windows.draw import LAYERS, OPENING, OPENING_UNKNOWN, corners, light, set_up
@@ -84,7 +84,7 @@ def main() -> None:
     for name, some in views.items():
         for what, told in zip(("network", "trapezia"), overlaps(some), strict=True):
             print(f"{name}, {what}: IoU %.3f, precision %.3f, recall %.3f" % tuple(told))
-    lit = np.array([(lamps(probability(open_photo(p)))[..., 0] > 0).mean() for p in photos])
+    lit = np.array([(lamps(look(open_photo(p)))[..., 0] > 0).mean() for p in photos])
     print(
         f"{lit.size} photos of nature: {(lit > 0).sum()} with a lit place, "
         f"{(lit > 0.001).sum()} with more than a thousandth, {lit.mean():.5%} of all pixels"

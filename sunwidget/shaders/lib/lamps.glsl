@@ -9,7 +9,7 @@ uniform float window_lights;       // of a median lamp, 0 = exactly off
 uniform float window_temperature;  // K
 uniform float lamp_scale;          // median lamps that a level of 1 in the texture is
 
-const float kPane = 0.04;      // kcd m^-2: a lit room through a pane
+const float kPane = 0.05;      // kcd m^-2: a lit room through a pane
 const float kSpread = 0.2;     // of the temperature to either side
 const float kPaintedWhite = 0.8;
 const float kSpill = 0.25;     // illuminance over pi close to a window, of its luminance
