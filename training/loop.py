@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -12,10 +11,11 @@ import torch
 from torch import Tensor, nn
 from torch.utils.data import DataLoader, IterableDataset
 
+from training.clock import Clock
 from training.train import Average, optimiser, save
 
 
-class Run:
+class Run(Clock):
     """A network that learns for some minutes, also in several goes.
 
     With a checkpoint ``last.pt`` in ``folder`` it goes on from there. ``kept`` of the moving
@@ -33,8 +33,8 @@ class Run:
         told: Callable[[], None] | None = None,
     ) -> None:
         self.network, self.optimise = network, optimiser(network)
-        self.kept, self.seconds, self.told = kept, seconds, told
-        self.limit, self.spent, self.step = 60 * minutes, 0.0, 0
+        super().__init__(minutes, self.keep, seconds)
+        self.kept, self.told, self.step = kept, told, 0
         self.recent: dict[str, list[float]] = defaultdict(list)
         self.checkpoint = folder / "last.pt"
         self.average = Average(network, kept)
@@ -54,17 +54,6 @@ class Run:
         """Let the moving average begin with the weights as they are now."""
         self.average = Average(self.network, self.kept)
 
-    def shares(self, until: float = 1.0) -> Iterator[float]:
-        """Yield the share of the time that is spent before each step, until some share is."""
-        clock = saved = time.monotonic()
-        while self.spent < until * self.limit:
-            yield self.spent / self.limit
-            now = time.monotonic()
-            self.spent, clock = self.spent + now - clock, now
-            if now - saved > self.seconds:
-                self.save()
-                saved = now
-
     def learn(self, speed: float, steepest: float) -> None:
         """Make a step along the gradients that are there, no longer than ``steepest``."""
         for group in self.optimise.param_groups:
@@ -80,7 +69,7 @@ class Run:
         for name, value in losses.items():
             self.recent[name].append(float(value.detach()))
 
-    def save(self) -> None:
+    def keep(self) -> None:
         """Write the checkpoint."""
         save(
             self.checkpoint,
@@ -102,7 +91,7 @@ def report(run: Run, every: int = 50) -> Iterator[float]:
             told = " ".join(f"{name} {np.mean(n):.4f}" for name, n in run.recent.items())
             print(f"step {run.step} {run.spent / 60:.1f} min {told}", flush=True)
             run.recent.clear()
-    run.save()
+    run.keep()
 
 
 def batches(dataset: IterableDataset) -> Iterator[dict[str, Tensor]]:

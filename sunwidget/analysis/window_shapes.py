@@ -187,7 +187,7 @@ def aligned(windows: np.ndarray) -> np.ndarray:
 
 
 def _along(windows: np.ndarray, row: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return where a line through each window's row (n, n) has it, and how steep it is, two (n,)."""
+    """Return where a line through each row (n, n) has its window, and how steep it is: (n,)."""
     count = np.maximum(row.sum(1), 1)
     x, y = (row @ windows[:, at] / count for at in (X, Y))
     across, over = (windows[None, :, at] - mean[:, None] for at, mean in ((X, x), (Y, y)))

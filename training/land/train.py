@@ -113,7 +113,7 @@ class Training:
             end = self.areas[i + 1][0] if i + 1 < len(self.areas) else 1.0
             if self.run.spent < end * self.run.limit:
                 self._stage(area, count, end)
-        self.run.save()
+        self.run.keep()
 
     def _stage(self, area: int, count: int, end: float) -> None:
         seed = self.run.step + 1
