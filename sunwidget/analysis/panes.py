@@ -105,12 +105,13 @@ def lamps(views: Sequence[View]) -> np.ndarray:
     height, width = window.shape
     windows, wall = window_shapes.find(*(view.window for view in views))
     windows = windows[window_shapes.mean_within(windows, pane) > _least_glass(windows[:, WIDE])]
+    windows, towers = window_shapes.stacks(windows, window.shape)
     light, warmth = (np.zeros(window.shape, np.float32) for _ in range(2))
     for room in rooms(windows):
         _light_room(windows[room], pane, light, warmth)
     # What hides a window in part stays dark.
     light *= np.clip((window - _SEEN[0]) / (_SEEN[1] - _SEEN[0]), 0, 1)
-    for whole in window_shapes.walls(wall):
+    for whole in towers + window_shapes.walls(wall):
         if pane[whole.inside].mean() > _GLASS_WALL:
             _light_wall(whole, light, warmth)
     light = np.minimum(light, 1)

@@ -34,7 +34,9 @@ _NARROWING = 0.35  # of a window's height, from one side to the other
 _WIDEST = 3.0  # times its height: boards and shadows of eaves are wider
 _TALLEST = 6.0  # times its width: posts are taller
 _WALL = 0.02  # of the picture: larger is a wall of glass
-_GAP, _FILLED = 0.015, 0.6  # of the picture's longer side; of a wall's outline
+_GAP, _FILLED = 0.015, 0.8  # of the picture's longer side; of a wall's outline
+_LEVEL, _UPRIGHT = 0.35, 1.2  # of a wall's width: how steep its edges are; how tall it is
+_STACK = 0.1, 2.0  # of the picture's longer side, of its width: taller is more than one room
 _PLAIN = 6  # pixels from side to side, from which on what is seen of a coarse picture counts
 _MADE_OF = 0.45  # of a large window or wall, from which on it is the small ones in it
 _SO_MANY = 4  # of them, too
@@ -135,7 +137,8 @@ def filled(quad: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
 def walls(mask: np.ndarray) -> list[Wall]:
     """Return walls of glass with straight edges, of where some is seen, (h, w) bool.
 
-    Gaps that are smaller than rooms are closed; what fills its outline badly is no wall.
+    Gaps that are smaller than rooms are closed. Only what looks like a tower is one: a large
+    surface that is not upright, level and whole is more often a clad wall.
     """
     import cv2
 
@@ -150,13 +153,30 @@ def walls(mask: np.ndarray) -> list[Wall]:
         x = np.arange(wide)
         top, foot = (np.polyval(np.polyfit(x, edge, min(1, wide - 1)), x) for edge in edges)
         outline = (rows >= np.round(top)) & (rows < np.round(foot))
-        if (part > 0)[outline].sum() < _FILLED * outline.sum():
+        level = np.ptp(top) < _LEVEL * wide and np.ptp(foot) < _LEVEL * wide
+        tower = (foot - top).mean() > _UPRIGHT * wide
+        if not (level and tower and (part > 0)[outline].sum() > _FILLED * outline.sum()):
             continue
         inside = np.zeros(mask.shape, bool)
         part = cv2.morphologyEx(part, cv2.MORPH_CLOSE, np.ones((side, side), np.uint8))
         inside[:, left : left + wide] = outline & (part > 0)
         out.append(Wall(inside, int(left), top, foot))
     return out
+
+
+def stacks(windows: np.ndarray, shape: tuple[int, int]) -> tuple[np.ndarray, list[Wall]]:
+    """Return windows (n, 6) of one room each, and those that are as tall as several, as walls."""
+    tall, wide = windows[:, TALL], windows[:, WIDE]
+    several = (tall > _STACK[0] * max(shape)) & (tall > _STACK[1] * wide)
+    out = []
+    for window in windows[several]:
+        quad = corners(window)
+        left, right = (int(np.clip(round(x), 0, shape[1])) for x in quad[[0, 1], 0])
+        if right - left > 1:
+            x = np.arange(left, right)
+            top, foot = (np.interp(x, quad[at, 0], quad[at, 1]) for at in ([0, 1], [3, 2]))
+            out.append(Wall(filled(quad, shape) > 0.5, left, top, foot))
+    return windows[~several], out
 
 
 def aligned(windows: np.ndarray) -> np.ndarray:

@@ -102,6 +102,18 @@ def test_a_wall_of_glass_has_rooms_behind_it():
     assert 0.1 < (light[30:200, 100:200] > 0).mean() < 0.8
     light[30:200, 100:200] = 0
     assert not light.any()
+    tall = np.array([(180, 120, 20, 90, 0, 0)], float)
+    windows, (tower,) = shapes.stacks(np.vstack([tall, grid()]), SIZE)
+    assert np.array_equal(windows, grid())
+    assert np.array_equal(tower.inside, shapes.filled(shapes.corners(tall[0]), SIZE) > 0.5)
+    assert np.allclose([tower.top, tower.foot], [[75], [165]])
+
+
+def test_a_large_surface_that_is_no_tower_is_not_lit():
+    picture = np.zeros(SIZE, np.float32)
+    picture[100:180, 60:300] = 0.9
+    assert shapes.find(picture).wall.any()
+    assert not panes.lamps([panes.View(picture, picture)]).any()
 
 
 def test_a_filled_trapezium_has_the_area_that_it_has():
