@@ -252,7 +252,7 @@ MAPS: tuple[SceneMap, ...] = (
         "panes",
         "Windows",
         lambda scene: scene.panes,
-        "How likely a pixel is glass of a window, behind which lamps can be lit.",
+        "How likely a pixel belongs to a window, behind which lamps can be lit.",
         PATCH,
     ),
     SceneMap(

@@ -221,15 +221,22 @@ class Scene:
         return relief.encoded_transfer(self.land)
 
     @cached_property
+    def _windows(self) -> list[panes.View]:
+        sizes = panes.look(self.photo)
+        return [
+            panes.View(*(image * (1 - resize(self.sky, *image.shape[::-1])) for image in view))
+            for view in sizes
+        ]
+
+    @cached_property
     def panes(self) -> np.ndarray:
-        """Probability of glass of windows, (h, w) float32 in [0, 1] (analysis/panes.py)."""
-        pane = panes.probability(self.photo)
-        return pane * (1 - resize(self.sky, *pane.shape[::-1]))
+        """Probability of windows, (h, w) float32 in [0, 1] (analysis/panes.py)."""
+        return panes.probability(self._windows)
 
     @cached_property
     def lamps(self) -> np.ndarray:
         """Light behind the panes of windows, (h, w, 4) float32 (analysis/panes.py)."""
-        return panes.lamps(self.panes)
+        return panes.lamps(self._windows)
 
     @cached_property
     def depth(self) -> np.ndarray:
@@ -374,6 +381,7 @@ class Scene:
             "glare_profile": (0.0, 3.0, 2.0),
             "noise_level": noise_level(self.photo, self.sky),
             "photo_height": float(self.height),
+            "lamp_scale": panes.BRIGHTEST,
             "sky_gain": (1.0, 1.0, 1.0),
         }
         found |= self.response | own_disc(self.sun, self.camera, small)

@@ -13,21 +13,20 @@ from __future__ import annotations
 
 import argparse
 import json
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import torch
 import torch.nn.functional as F
 from torch import Tensor
-from torch.utils.data import DataLoader, IterableDataset
 
 from training.data import typical
 from training.land.data import UNKNOWN, WATER, Batch, PhotoBatches, WorldBatches
 from training.land.model import LandNet, losses, of_suns
+from training.loop import Run, batches
 from training.model import SkyNet
 from training.restore import restore
-from training.train import Average, optimiser, prepare, rate, save
+from training.train import prepare, rate
 
 SKY = Path("sunwidget/analysis/models/sky.onnx")
 AREAS = ((0.0, 40_000, 10), (0.55, 62_000, 7), (0.85, 92_000, 5))
@@ -38,7 +37,6 @@ PEAK_RATE, PEAK_RATE_ON = 1.2e-3, 5e-4
 KEPT, KEPT_ON = 0.997, 0.9993  # of the moving average of the weights, each step
 PHOTOS_EVERY = 3  # steps: worlds have more to tell, and the trunk knows photos
 TEACHES_FROM = 250  # steps, from which on the moving average is worth listening to
-SAVE_SECONDS = 240
 MIRRORED = (of_suns(torch.tensor([-0.3, 0.5, 0.8])) * of_suns(torch.tensor([0.3, 0.5, 0.8]))).sign()
 """How the functions of a sun change when left and right are exchanged."""
 
@@ -84,89 +82,54 @@ def consistency(student: dict[str, Tensor], teacher: dict[str, Tensor]) -> Tenso
     return lit + normal.mean() + 0.2 * (level.abs() * solid).mean() + share.mean()
 
 
-def loader(dataset: IterableDataset) -> Iterator[Batch]:
-    """Return batches that another process makes."""
-    return iter(
-        DataLoader(
-            dataset,
-            batch_size=None,
-            num_workers=1,
-            prefetch_factor=4,
-            multiprocessing_context="spawn",
-        )
-    )
-
-
 class Training:
     """One run: network, moving average, optimiser and clock."""
 
     def __init__(self, options: argparse.Namespace) -> None:
         self.options = options
         self.network = LandNet().to(memory_format=torch.channels_last)
-        self.optimise = optimiser(self.network)
         on = options.start is not None
         self.areas, self.peak = (AREAS_ON, PEAK_RATE_ON) if on else (AREAS, PEAK_RATE)
         kept = KEPT_ON if on else KEPT
-        self.average, self.teacher = Average(self.network, kept), LandNet().eval()
-        self.spent, self.step = 0.0, 0
+        self.run = Run(self.network, options.out, options.minutes, kept=kept, told=self._tell)
+        self.teacher = LandNet().eval()
         self.sums: dict[str, float] = {}
-        self.checkpoint = options.out / "last.pt"
-        if self.checkpoint.exists():
-            self._resume(self.checkpoint)
-        elif options.start is not None and options.start.suffix == ".onnx":
-            restore(self.network, options.start, typical(options.data, options.cache, 192, 96))
-        elif options.start is not None:
-            state = torch.load(options.start, weights_only=True)["average"]
-            self.network.load_state_dict(state, strict=False)  # heads that it lacks begin anew
-        else:
+        if self.run.resumed:
+            return
+        if options.start is None:
             trunk = SkyNet()
             restore(trunk, SKY, typical(options.data, options.cache, 192, 96))
             self.network.load_state_dict(trunk.state_dict(), strict=False)
-        if not self.checkpoint.exists():
-            self.average = Average(self.network, kept)
+        elif options.start.suffix == ".onnx":
+            restore(self.network, options.start, typical(options.data, options.cache, 192, 96))
+        else:
+            state = torch.load(options.start, weights_only=True)["average"]
+            self.network.load_state_dict(state, strict=False)  # heads that it lacks begin anew
+        self.run.afresh()
 
-    def _resume(self, path: Path) -> None:
-        state = torch.load(path, weights_only=True)
-        self.network.load_state_dict(state["network"])
-        self.optimise.load_state_dict(state["optimiser"])
-        self.average.state, self.average.steps = state["average"], state["step"]
-        self.spent, self.step = state["spent"], state["step"]
-
-    def run(self) -> None:
-        whole = self.options.minutes * 60
+    def train(self) -> None:
+        """Learn in stages until the time is spent."""
         for i, (_, area, count) in enumerate(self.areas):
             end = self.areas[i + 1][0] if i + 1 < len(self.areas) else 1.0
-            if self.spent < end * whole:
-                self._stage(area, count, end * whole, whole)
-        self._save()
+            if self.run.spent < end * self.run.limit:
+                self._stage(area, count, end)
+        self.run.keep()
 
-    def _stage(self, area: int, count: int, until: float, whole: float) -> None:
-        seed = self.step + 1
-        worlds = loader(WorldBatches(self.options.worlds, area, count, seed))
-        photos = loader(PhotoBatches(self.options.data, area, count, seed))
-        saved = clock = time.monotonic()
-        while self.spent < until:
-            self._learn(next(worlds), photos, rate(self.spent / whole, self.peak))
-            now = time.monotonic()
-            self.spent, clock = self.spent + now - clock, now
-            if now - saved > SAVE_SECONDS:
-                self._save()
-                saved = now
+    def _stage(self, area: int, count: int, end: float) -> None:
+        seed = self.run.step + 1
+        worlds = batches(WorldBatches(self.options.worlds, area, count, seed))
+        photos = batches(PhotoBatches(self.options.data, area, count, seed))
+        for share in self.run.shares(end):
+            self._learn(next(worlds), photos, rate(share, self.peak))
 
     def _learn(self, world: Batch, photos: Iterator[Batch], speed: float) -> None:
-        for group in self.optimise.param_groups:
-            group["lr"] = speed
         self.network.train()
-        self.optimise.zero_grad()
         found = losses(self._maps(self.network, prepare(world["image"])), world)
         sum(found.values()).backward()
         self._count("", found)
-        if self.step % PHOTOS_EVERY == 0:
+        if self.run.step % PHOTOS_EVERY == 0:
             self._learn_from_photos(next(photos))
-        torch.nn.utils.clip_grad_norm_(self.network.parameters(), 5.0)
-        self.optimise.step()
-        self.average.update(self.network)
-        self.step += 1
+        self.run.learn(speed, 5.0)
 
     def _maps(self, network: LandNet, image: Tensor) -> dict[str, Tensor]:
         with torch.autocast("cpu", torch.bfloat16, enabled=self.options.bfloat16):
@@ -176,8 +139,8 @@ class Training:
         image = prepare(photo["image"])
         out = self._maps(self.network, image)
         found = photo_losses(out, photo)
-        if self.step > TEACHES_FROM:
-            self.teacher.load_state_dict(self.average.state)
+        if self.run.step > TEACHES_FROM:
+            self.teacher.load_state_dict(self.run.average.state)
             with torch.no_grad():
                 seen = self._maps(self.teacher, image.flip(3))
             found["alike"] = consistency(out, seen)
@@ -189,12 +152,11 @@ class Training:
             key = prefix + name
             self.sums[key] = 0.98 * self.sums.get(key, value.item()) + 0.02 * value.item()
 
-    def _save(self) -> None:
-        state = {"network": self.network.state_dict(), "optimiser": self.optimise.state_dict()}
-        state |= {"average": self.average.state, "spent": self.spent, "step": self.step}
-        save(self.checkpoint, **state)
+    def _tell(self) -> None:
         line = {k: round(v, 3) for k, v in self.sums.items()}
-        print(f"{self.spent / 60:.1f} min, step {self.step}: {json.dumps(line)}", flush=True)
+        print(
+            f"{self.run.spent / 60:.1f} min, step {self.run.step}: {json.dumps(line)}", flush=True
+        )
 
 
 def main() -> None:
@@ -214,7 +176,7 @@ def main() -> None:
     options.cache.mkdir(parents=True, exist_ok=True)
     torch.set_num_threads(options.threads)
     torch.manual_seed(1)
-    Training(options).run()
+    Training(options).train()
 
 
 if __name__ == "__main__":

@@ -9,96 +9,16 @@ schedule of its own. What is exported is an exponential moving average of the we
 from __future__ import annotations
 
 import argparse
-import time
-from collections import defaultdict
 from pathlib import Path
 
-import numpy as np
 import torch
-from torch import nn
-from torch.utils.data import DataLoader
 
+from training.loop import Run, batches, report
 from training.suns.data import Batches
 from training.suns.model import SunNet, losses
-from training.train import Average, optimiser, prepare, rate, save
+from training.train import prepare, rate
 
 PEAK_RATE = 2e-3
-SAVE_SECONDS = 240
-
-
-class Training:
-    """One process; the batches are made in another."""
-
-    def __init__(self, options: argparse.Namespace) -> None:
-        self.options = options
-        self.network = SunNet().to(memory_format=torch.channels_last)
-        self.average, self.optimise = Average(self.network), optimiser(self.network)
-        self.spent, self.step = 0.0, 0
-        self.checkpoint = options.out / "last.pt"
-        if self.checkpoint.exists():
-            state = torch.load(self.checkpoint, weights_only=True)
-            self.optimise.load_state_dict(state["optimiser"])
-            self.spent, self.step = state["spent"], state["step"]
-        elif options.start:
-            state = torch.load(options.start, weights_only=True)
-            for key in ("network", "average"):  # outputs that it did not have start afresh
-                state[key] = self.network.state_dict() | state[key]
-        else:
-            return
-        self.network.load_state_dict(state["network"])
-        self.average.state, self.average.steps = state["average"], state["step"]
-
-    def run(self) -> None:
-        """Train until the time is spent."""
-        began, before = time.monotonic(), self.spent
-        saved, limit = began, self.options.minutes * 60
-        batches = iter(
-            DataLoader(
-                Batches(self.options.data, self.options.batch, self.options.seed + self.step),
-                batch_size=None,
-                num_workers=1,
-                prefetch_factor=4,
-                multiprocessing_context="spawn",
-            )
-        )
-        recent: dict[str, list[float]] = defaultdict(list)
-        while self.spent < limit:
-            for key, value in self.learn(next(batches), self.spent / limit).items():
-                recent[key].append(value)
-            now = time.monotonic()
-            self.spent = before + now - began
-            if self.step % 50 == 0:
-                told = " ".join(f"{k} {np.mean(v):.4f}" for k, v in recent.items())
-                print(f"step {self.step} {self.spent / 60:.1f} min {told}", flush=True)
-                recent.clear()
-            if now - saved > SAVE_SECONDS:
-                self.save()
-                saved = now
-        self.save()
-
-    def learn(self, batch: dict[str, torch.Tensor], share: float) -> dict[str, float]:
-        """One step; the losses."""
-        for group in self.optimise.param_groups:
-            group["lr"] = rate(share, self.options.rate)
-        self.network.train()
-        parts = losses(self.network(prepare(batch.pop("image"))), batch)
-        self.optimise.zero_grad(set_to_none=True)
-        sum(parts.values()).backward()
-        nn.utils.clip_grad_norm_(self.network.parameters(), 2.0)
-        self.optimise.step()
-        self.average.update(self.network)
-        self.step += 1
-        return {key: float(value.detach()) for key, value in parts.items()}
-
-    def save(self) -> None:
-        save(
-            self.checkpoint,
-            network=self.network.state_dict(),
-            average=self.average.state,
-            optimiser=self.optimise.state_dict(),
-            spent=self.spent,
-            step=self.step,
-        )
 
 
 def main() -> None:
@@ -117,7 +37,21 @@ def main() -> None:
     options.out.mkdir(parents=True, exist_ok=True)
     torch.set_num_threads(options.threads)
     torch.manual_seed(options.seed)
-    Training(options).run()
+    network = SunNet().to(memory_format=torch.channels_last)
+    run = Run(network, options.out, options.minutes)
+    if options.start and not run.resumed:
+        state = torch.load(options.start, weights_only=True)
+        for key in ("network", "average"):  # outputs that it did not have start afresh
+            state[key] = network.state_dict() | state[key]
+        run.begin(state)
+    photos = batches(Batches(options.data, options.batch, options.seed + run.step))
+    for share in report(run):
+        batch = next(photos)
+        network.train()
+        parts = losses(network(prepare(batch.pop("image"))), batch)
+        sum(parts.values()).backward()
+        run.learn(rate(share, options.rate), 2.0)
+        run.count(parts)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 """Façades with windows drawn by seed, in perspective before real photos, and what is glass.
 
 Panes are simple things in endless variety, so they can be drawn; what is no pane is everything
-that photos of nature show, and walls with doors, signs and trunks.
+that photos of nature show, and walls with doors, signs and trunks. Photographed façades are set up
+alike where there are some, and their windows in drawn walls.
 """
 
 from __future__ import annotations
@@ -10,10 +11,15 @@ import cv2
 import numpy as np
 
 from training.buildings import colour, corners
+from training.windows.facades import Facades
 
 Random = np.random.Generator
 SIDE = 384
 """Pixels of a façade before it is set up in perspective."""
+GLASS, OPENING, GLASS_UNKNOWN, OPENING_UNKNOWN = range(4)
+"""Layers of what is known of a picture, each in [0, 1]: panes; windows with frames and bars."""
+LAYERS = 4
+REAL_WALLS, REAL_WINDOWS = 0.5, 0.4  # shares, where photographed façades are given
 
 
 def noise(random: Random, cells: int, size: int = SIDE) -> np.ndarray:
@@ -39,6 +45,11 @@ def wall(random: Random) -> np.ndarray:
             picture[:: max(step, 2)] *= line
         if random.random() < 0.5:
             picture[:, :: max(2, int(step * random.uniform(1, 3)))] *= line
+    elif draw < 0.7:  # weatherboards, clapboard, louvres: each lit and shaded alike
+        across = np.arange(SIDE) / random.uniform(4, 40) % 1
+        board = 1 + random.uniform(-0.3, 0.3) * (across - 0.5)
+        board[across < random.uniform(0.05, 0.25)] *= random.uniform(0.3, 0.9)
+        picture *= board[:, None, None] if random.random() < 0.7 else board[None, :, None]
     return picture
 
 
@@ -80,12 +91,20 @@ def window(
     gx0, gy0, gx1, gy1 = x0 + edge, y0 + edge, x1 - edge, y1 - edge
     if gx1 - gx0 < 2 or gy1 - gy0 < 2:
         return
+    if style["real"] is not None:
+        photo = cv2.resize(
+            style["real"].window(random), (x1 - x0, y1 - y0), None, 0, 0, cv2.INTER_AREA
+        )
+        picture[y0:y1, x0:x1] = photo * style["tint"]
+        mask[y0:y1, x0:x1] = (0, 1, 1, 0)
+        return
     if random.random() < style["shut"]:  # shutters are closed: no glass
         for y in range(y0, y1, 3):
             cv2.line(picture, (x0, y), (x1, y), (np.array(tone) * 0.8).tolist(), 1)
         return
     pane = glass(random, gy1 - gy0, gx1 - gx0, random.random() < style["mirrors"])
     shape = np.ones((gy1 - gy0, gx1 - gx0), np.float32)
+    bars = np.ones_like(shape)
     if style["arch"]:
         shape[:] = 0
         r = (gx1 - gx0) // 2
@@ -93,15 +112,21 @@ def window(
         shape[min(r, gy1 - gy0) :] = 1
     for i in range(1, int(style["across"])):
         x = i * (gx1 - gx0) // int(style["across"])
-        pane[:, max(x - frame // 2, 0) : x + (frame + 1) // 2] = tone
+        bar = slice(max(x - frame // 2, 0), x + (frame + 1) // 2)
+        pane[:, bar], bars[:, bar] = tone, 0
     for i in range(1, int(style["down"])):
         y = i * (gy1 - gy0) // int(style["down"])
-        pane[max(y - frame // 2, 0) : y + (frame + 1) // 2] = tone
+        bar = slice(max(y - frame // 2, 0), y + (frame + 1) // 2)
+        pane[bar], bars[bar] = tone, 0
     if style["reveal"]:  # the wall's own shadow on the glass
         pane[: max(1, round(0.1 * (gy1 - gy0)))] *= 0.4
     part = picture[gy0:gy1, gx0:gx1]
     part[:] = part + shape[..., None] * (pane - part)
-    mask[gy0:gy1, gx0:gx1] = np.maximum(mask[gy0:gy1, gx0:gx1], shape)
+    if not style["arch"]:
+        mask[y0:y1, x0:x1, OPENING] = 1
+    part = mask[gy0:gy1, gx0:gx1]
+    part[..., GLASS] = shape * bars
+    part[..., OPENING] = np.maximum(part[..., OPENING], shape)
     if style["sill"]:
         cv2.line(picture, (x0 - 2, y1 + 1), (x1 + 2, y1 + 1), style["trim"], max(1, frame))
     if style["shutters"]:
@@ -110,9 +135,9 @@ def window(
             cv2.rectangle(picture, (a, y0), (b, y1), style["leaf"], -1)
 
 
-def facade(random: Random) -> tuple[np.ndarray, np.ndarray]:
-    """A wall with its windows straight on: (S, S, 3) in [0, 255], and glass (S, S) in [0, 1]."""
-    picture, mask = wall(random), np.zeros((SIDE, SIDE), np.float32)
+def facade(random: Random, real: Facades | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """A wall with its windows straight on: (S, S, 3) in [0, 255], and what is known (S, S, 4)."""
+    picture, mask = wall(random), np.zeros((SIDE, SIDE, LAYERS), np.float32)
     storeys, bays = (int(n) for n in np.clip(1 + random.exponential([2.5, 3.0]), 1, 14))
     height, width = SIDE / storeys, SIDE / bays
     share = random.uniform([0.25, 0.3], [0.8, 0.85])
@@ -120,6 +145,7 @@ def facade(random: Random) -> tuple[np.ndarray, np.ndarray]:
     if curtain_wall:
         share = random.uniform([0.85, 0.75], [0.97, 0.95])
     own = colour(random, 20, 250, 0.1)
+    upright = 0.7 < share[1] * height / (share[0] * width) < 3.5  # as photographed windows are
     style = {
         "random": random,
         "frame": int(random.integers(1, 4)),
@@ -135,6 +161,8 @@ def facade(random: Random) -> tuple[np.ndarray, np.ndarray]:
         "surround": random.random() < 0.3,
         "shutters": random.random() < 0.12 and share[0] < 0.5,
         "shut": 0.0 if random.random() < 0.7 else random.uniform(0, 0.6),
+        "real": real if upright and random.random() < REAL_WINDOWS else None,
+        "tint": np.exp(random.normal(-0.2, 0.4) + random.normal(0, 0.1, 3)),
         "mirrors": random.uniform(0, 0.3) if random.random() < 0.6 else random.uniform(0.5, 1),
     }
     missing = random.uniform(0, 0.3) if random.random() < 0.5 else 0.0
@@ -165,24 +193,24 @@ def clutter(picture: np.ndarray, mask: np.ndarray, random: Random) -> None:
             w, h = 3, SIDE
         tone = colour(random, 10, 240, 0.3).tolist()
         cv2.rectangle(picture, (int(x), int(y)), (int(x + w), int(y + h)), tone, -1)
-        cv2.rectangle(mask, (int(x), int(y)), (int(x + w), int(y + h)), 0, -1)
+        cv2.rectangle(mask, (int(x), int(y)), (int(x + w), int(y + h)), (0, 0, 0, 0), -1)
         if draw > 0.8:
             text = "".join(chr(c) for c in random.integers(65, 91, 5))
             at = (int(x), int(y + h))
-            letters = np.zeros(mask.shape, np.uint8)
+            letters = np.zeros(mask.shape[:2], np.uint8)
             cv2.putText(letters, text, at, cv2.FONT_HERSHEY_SIMPLEX, h / 30, 255, 2)
             ink = colour(random, 0, 255, 0.2)
             picture += (letters / 255)[..., None] * (ink - picture)
 
 
-def light(random: Random) -> np.ndarray:
-    """Shading of a wall: sun or shade, with the edge of a shadow at times; (S, S, 1)."""
+def light(random: Random, shape: tuple[int, int] = (SIDE, SIDE)) -> np.ndarray:
+    """Shading of a wall: sun or shade, with the edge of a shadow at times; (h, w, 1)."""
     level = np.exp(random.normal(-0.2, 0.5))
-    y = np.linspace(random.uniform(0.7, 1.3), random.uniform(0.6, 1.2), SIDE)[:, None]
-    shade = np.full((SIDE, SIDE), level, np.float32) * y
+    y = np.linspace(random.uniform(0.7, 1.3), random.uniform(0.6, 1.2), shape[0])[:, None]
+    shade = np.full(shape, level, np.float32) * y
     if random.random() < 0.3:
-        corner = random.uniform(0, SIDE, (4, 2)).astype(np.int32)
-        cover = np.zeros((SIDE, SIDE), np.float32)
+        corner = (random.uniform(0, 1, (4, 2)) * shape[::-1]).astype(np.int32)
+        cover = np.zeros(shape, np.float32)
         cv2.fillPoly(cover, [corner], 1.0)
         shade *= 1 - cover * random.uniform(0.3, 0.8)
     return shade[..., None]
@@ -204,7 +232,7 @@ def occlude(canvas: np.ndarray, target: np.ndarray, photo: np.ndarray, random: R
             w = int(random.integers(1, max(2, size // 25)))
             cv2.line(cover, (int(x), 0), (int(x + random.normal(0, 4)), size), 1.0, w)
         canvas[:] = canvas + cover[..., None] * (photo - canvas)
-        target *= 1 - cover
+        target *= (1 - cover)[..., None]
 
 
 def person(canvas: np.ndarray, cover: np.ndarray, random: Random) -> None:
@@ -277,43 +305,65 @@ def sign(canvas: np.ndarray, cover: np.ndarray, random: Random) -> None:
 def furnish(canvas: np.ndarray, target: np.ndarray, random: Random) -> None:
     """People, cars and signs: dark, upright, angular, and no windows; both in place."""
     for _ in range(int(random.choice([0, 0, 1, 2, 4, 8]))):
-        cover = np.zeros(target.shape, np.float32)
+        cover = np.zeros(target.shape[:2], np.float32)
         draw = (person, car, sign)[random.integers(3)]
         draw(canvas, cover, random)
-        target *= 1 - cover
+        target *= (1 - cover)[..., None]
 
 
-def street(photo: np.ndarray, other: np.ndarray, random: Random) -> tuple[np.ndarray, np.ndarray]:
-    """Façades before a photo of nature; (S, S, 3) uint8, and glass (S, S) in [0, 1]."""
+def street(
+    photo: np.ndarray, other: np.ndarray, random: Random, real: Facades | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Façades before a photo of nature; (S, S, 3) uint8, and what is known of it, (S, S, 4)."""
     size = photo.shape[0]
-    canvas, target = photo.astype(np.float32), np.zeros((size, size), np.float32)
+    canvas, target = photo.astype(np.float32), np.zeros((size, size, LAYERS), np.float32)
     if random.random() < 0.25:
         furnish(canvas, target, random)
         return np.clip(canvas, 0, 255).astype(np.uint8), target
-    flat = np.array([[0, 0], [SIDE, 0], [SIDE, SIDE], [0, SIDE]], np.float32)
     for _ in range(int(random.integers(1, 5))):
         quad = corners(size, random).astype(np.float32)
         if random.random() < 0.3:  # a house far away
             middle = quad.mean(0)
             quad = middle + (quad - middle) * random.uniform(0.15, 0.5)
-        picture, mask = facade(random)
-        turn = cv2.getPerspectiveTransform(flat, quad.astype(np.float32))
-        shape = quad
-        if random.random() < 0.4:
-            ridge = (quad[0] + quad[1]) / 2 - [0, random.uniform(0.02, 0.2) * size]
-            shape = np.concatenate([quad[:1], ridge[None], quad[1:]])
-        cover = np.zeros((size, size), np.uint8)
-        cv2.fillPoly(cover, [np.round(shape * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)
-        alpha = cover.astype(np.float32) / 255
-        # Twice as fine and averaged: small panes keep what they have of light.
-        fine = np.diag([2.0, 2.0, 1.0]) @ turn
-        seen = warped(picture * light(random), fine, size)
-        lit = warped(mask, fine, size, cv2.BORDER_CONSTANT)
-        canvas += alpha[..., None] * (seen - canvas)
-        target += alpha * (lit - target)
+        if real is not None and random.random() < REAL_WALLS:
+            picture, mask, solid = real.wall(quad, random)
+        else:
+            picture, mask = facade(random, real)
+            solid = None
+        set_up(
+            canvas, target, (picture * light(random, picture.shape[:2]), mask, solid), quad, random
+        )
     furnish(canvas, target, random)
     occlude(canvas, target, other.astype(np.float32), random)
     return np.clip(canvas, 0, 255).astype(np.uint8), np.clip(target, 0, 1)
+
+
+def set_up(
+    canvas: np.ndarray,
+    target: np.ndarray,
+    wall: tuple[np.ndarray, np.ndarray, np.ndarray | None],
+    quad: np.ndarray,
+    random: Random,
+) -> None:
+    """Sets a wall (picture, what is known, where it is solid) up between four corners, in place."""
+    size = canvas.shape[0]
+    picture, mask, solid = wall
+    height, width = picture.shape[:2]
+    flat = np.array([[0, 0], [width, 0], [width, height], [0, height]], np.float32)
+    turn = cv2.getPerspectiveTransform(flat, quad.astype(np.float32))
+    shape = quad
+    if solid is None and random.random() < 0.4:
+        ridge = (quad[0] + quad[1]) / 2 - [0, random.uniform(0.02, 0.2) * size]
+        shape = np.concatenate([quad[:1], ridge[None], quad[1:]])
+    cover = np.zeros((size, size), np.uint8)
+    cv2.fillPoly(cover, [np.round(shape * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)
+    alpha = cover.astype(np.float32)[..., None] / 255
+    # Twice as fine and averaged: small panes keep what they have of light.
+    fine = np.diag([2.0, 2.0, 1.0]) @ turn
+    if solid is not None:
+        alpha = alpha * warped(solid, fine, size)[..., None]
+    canvas += alpha * (warped(picture, fine, size) - canvas)
+    target += alpha * (warped(mask, fine, size, cv2.BORDER_CONSTANT) - target)
 
 
 def warped(

@@ -3,7 +3,7 @@
 ``python -m training.windows.export --checkpoint build/windows/last.pt``
 
 Contract: ``image`` float32 ``(1, 3, H, W)``, RGB, sRGB-encoded in [0, 1] -> ``pane`` float32
-``(1, 1, H, W)`` in [0, 1]. H and W are multiples of 32.
+and ``window`` ``(1, 1, H, W)`` in [0, 1]. H and W are multiples of 32.
 """
 
 from __future__ import annotations
@@ -31,7 +31,9 @@ def main() -> None:
     network.load_state_dict(torch.load(options.checkpoint, weights_only=True)["average"])
     picture = torch.rand(1, 3, 224, 320)
     probability = PaneProbability(network.eval()).eval()
-    options.out.write_bytes(to_onnx(probability, picture, ["pane"], "Panes of windows"))
+    options.out.write_bytes(
+        to_onnx(probability, picture, ["pane", "window"], "Windows and their panes")
+    )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""PaneNet: which pixels of a photo are glass of windows."""
+"""PaneNet: which pixels of a photo are glass of windows, and which belong to windows."""
 
 from __future__ import annotations
 
@@ -9,7 +9,10 @@ from training.model import Merge, Residual, StripContext, conv
 
 
 class PaneNet(nn.Module):
-    """``(N, 3, H, W)`` sRGB in [0, 1] -> logits ``(N, 1, H, W)``; H, W multiples of 32."""
+    """``(N, 3, H, W)`` sRGB in [0, 1] -> logits ``(N, 2, H, W)``; H, W multiples of 32.
+
+    Glass without frames and bars, and whole windows.
+    """
 
     def __init__(self) -> None:
         super().__init__()
@@ -22,7 +25,7 @@ class PaneNet(nn.Module):
         self.to_eighth = Merge(48, 40, 40)
         self.to_quarter = Merge(40, 24, 24)
         self.to_half = Merge(24, 16, 16)
-        self.pane = nn.Sequential(conv(16, 16), nn.Conv2d(16, 4, 1))
+        self.pane = nn.Sequential(conv(16, 16), nn.Conv2d(16, 8, 1))
         nn.init.constant_(self.pane[1].bias, -3.0)
 
     def forward(self, image: Tensor) -> Tensor:
@@ -36,20 +39,27 @@ class PaneNet(nn.Module):
 
 
 class PaneProbability(nn.Module):
-    """The shipped graph: ``image`` in, ``pane`` (N, 1, H, W) in [0, 1] out."""
+    """The shipped graph: ``image`` in, ``pane`` and ``window`` (N, 1, H, W) in [0, 1] out."""
 
     def __init__(self, network: PaneNet) -> None:
         super().__init__()
         self.network = network
 
-    def forward(self, image: Tensor) -> Tensor:
-        return self.network(image).sigmoid()
+    def forward(self, image: Tensor) -> tuple[Tensor, Tensor]:
+        pane, window = self.network(image).sigmoid().split(1, 1)
+        return pane, window
 
 
-def losses(out: Tensor, target: Tensor) -> dict[str, Tensor]:
-    """Losses of logits against shares of glass, both (N, 1, H, W): two scalars."""
-    plain = F.binary_cross_entropy_with_logits(out, target)
-    p = out.sigmoid()
-    both = (p * target).sum((1, 2, 3))
-    dice = 1 - (2 * both + 30) / (p.sum((1, 2, 3)) + target.sum((1, 2, 3)) + 30)
-    return {"pixels": 4 * plain, "overlap": dice.mean()}
+def losses(out: Tensor, known: Tensor) -> dict[str, Tensor]:
+    """Losses of logits (N, 2, H, W) against ``draw.LAYERS`` (N, 4, H, W): scalars."""
+    target, told = known[:, :2], 1 - known[:, 2:]
+    plain = F.binary_cross_entropy_with_logits(out, target, reduction="none") * told
+    pane, window = plain.sum((0, 2, 3)) / told.sum((0, 2, 3))
+    p, target = out.sigmoid() * told, target * told
+    both = (p * target).sum((2, 3))
+    dice = 1 - (2 * both + 30) / (p.sum((2, 3)) + target.sum((2, 3)) + 30)
+    return {
+        "pane": 3 * pane,
+        "window": 4 * window,
+        "overlap": dice.mean(0) @ dice.new_tensor([0.5, 1]),
+    }

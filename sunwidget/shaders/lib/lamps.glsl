@@ -7,9 +7,9 @@
 uniform sampler2D lamps;
 uniform float window_lights;       // of a median lamp, 0 = exactly off
 uniform float window_temperature;  // K
+uniform float lamp_scale;          // median lamps that a level of 1 in the texture is
 
-const float kPane = 0.06;      // kcd m^-2: a lit room through a pane
-const float kBrightestLamp = 3.0;  // as in analysis/panes.py
+const float kPane = 0.05;      // kcd m^-2: a lit room through a pane
 const float kSpread = 0.2;     // of the temperature to either side
 const float kPaintedWhite = 0.8;
 const float kSpill = 0.25;     // illuminance over pi close to a window, of its luminance
@@ -33,5 +33,5 @@ vec3 GetLampLight(vec2 place, float albedo) {
   if (window_lights <= 0.0) return vec3(0.0);
   vec4 lamp = ReadBilinear(lamps, place);
   vec3 color = GetBlackBody(window_temperature * (1.0 + kSpread * (1.0 - 2.0 * lamp.b)));
-  return window_lights * kPane * kBrightestLamp * GetLuminance(sky_gain) * color * (lamp.r + kSpill * lamp.g * min(albedo, kPaintedWhite));
+  return window_lights * kPane * lamp_scale * GetLuminance(sky_gain) * color * (lamp.r + kSpill * lamp.g * min(albedo, kPaintedWhite));
 }
