@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from sunwidget.widgets.payload import MAP_TRAITS
+
 HERE = Path(__file__).parent
 STATIC = HERE.parents[1] / "sunwidget" / "static"
 ORIGIN = "http://sunwidget.test"
@@ -166,16 +168,7 @@ def connect(page, widget):
         if "changes" in sent:
             widget.set_state(sent["changes"])
             state = widget_state(widget.wait(120))
-            maps = (
-                "_layers",
-                "_surface",
-                "_backdrop",
-                "_clear_sky",
-                "_relief",
-                "_transfer",
-                "_lamps",
-            )
-            return {n: state[n] for n in ("_scene", *maps, "_status")}
+            return {n: state[n] for n in ("_scene", *MAP_TRAITS, "_status")}
         messages = []
 
         def send(content, buffers=()):
