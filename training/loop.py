@@ -95,11 +95,13 @@ def report(run: Run, every: int = 50) -> Iterator[float]:
 
 
 def batches(dataset: IterableDataset) -> Iterator[dict[str, Tensor]]:
-    """Yield batches that another process makes."""
-    yield from DataLoader(
-        dataset,
-        batch_size=None,
-        num_workers=1,
-        prefetch_factor=4,
-        multiprocessing_context="spawn",  # OpenCV's threads do not survive a fork
+    """Return batches that another process makes."""
+    return iter(
+        DataLoader(
+            dataset,
+            batch_size=None,
+            num_workers=1,
+            prefetch_factor=4,
+            multiprocessing_context="spawn",  # OpenCV's threads do not survive a fork
+        )
     )
