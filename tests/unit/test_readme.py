@@ -20,13 +20,15 @@ def test_the_cells_run(readme, tmp_path, monkeypatch):
     monkeypatch.setattr("sunwidget.export.sun_path.DEFAULT_SECONDS", 0.5)
     small = Image.fromarray(sw.sample("coast").preview(long_edge=192))
     small.save("beach.jpg", quality=95)
+    sw.to_dome(sw.analyze("beach.jpg"), sw.Edit(), "park.hdr", width=512)
+    (tmp_path / "park.json").unlink()  # a map from elsewhere has none
     cells = blocks(readme, "python")
     assert len(cells) >= 4
     names = {}
     for cell in cells:
         exec(compile(cell, "README.md", "exec"), names)
     written = {path.name for path in tmp_path.iterdir()}
-    assert written >= {"evening.png", "blue.tif", "sunset.mp4", "evening.html"}
+    assert written >= {"evening.png", "blue.tif", "sunset.mp4", "park.exr", "evening.html"}
 
 
 def test_the_commands_parse(readme):
