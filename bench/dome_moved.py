@@ -18,19 +18,11 @@ from dome import PLANES
 import sunwidget as sw
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.color import LUMINANCE
-from sunwidget.dome.disc import sun_disc
+from sunwidget.dome.disc import disc_giving
 from sunwidget.dome.sphere import angles, direction_of, distance, irradiance, solid_angles, toward
 from sunwidget.export.dome_moved import moved
 
 _DEVELOPED = 12  # seeds below it were looked at while the method was made
-
-
-def with_disc(light: np.ndarray, direct: np.ndarray, sun: tuple[float, float]) -> np.ndarray:
-    """Return a dome (H, W, 3) with a disc that gives ``direct``."""
-    width = light.shape[1]
-    disc = sun_disc(Atmosphere(), *sun, (width, width // 2))
-    given = (disc * solid_angles(width)[..., None]).sum((0, 1))
-    return np.asarray(light + disc / np.maximum(given, 1e-30) * direct, np.float32)
 
 
 def planes(light: np.ndarray, direct: np.ndarray, sun: tuple[float, float]) -> np.ndarray:
@@ -50,7 +42,8 @@ def judged(path: Path, first: int) -> dict[str, Any]:
         suns = [(float(a), float(e)) for a, e in found["directions"]]
         true_sky = found["sky"]
     second = 1 - first
-    dome = sw.analyze_dome(with_disc(light[first], direct[first], suns[first]))
+    disc = disc_giving(direct[first], Atmosphere(), suns[first], light.shape[2])
+    dome = sw.analyze_dome(np.asarray(light[first] + disc, np.float32))
     edit = sw.Edit(sun_azimuth=suns[second][0], sun_elevation=suns[second][1])
     out = moved(dome, edit, light.shape[2])
     width = light.shape[2]

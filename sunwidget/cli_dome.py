@@ -61,7 +61,7 @@ def _dome(options: argparse.Namespace) -> int:
     if is_dome(photo):
         source, edit = _environment(options, photo, edit)
     else:
-        source = scene_to_draw(options)
+        source = scene_to_draw(options, photo)
         edit = edit_of_scene(options, source, edit)
     begin = time.perf_counter()
     sw.to_dome(

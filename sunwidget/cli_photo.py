@@ -128,19 +128,19 @@ def refuse_existing(path: Path, overwrite: bool) -> None:
         raise FileExistsError(f"{path} exists already. Add --overwrite to replace it.")
 
 
-def scene_to_draw(options: argparse.Namespace) -> Any:
+def scene_to_draw(options: argparse.Namespace, photo: Any = None) -> Any:
     """Return ``scene_of`` the flags; fail before that where nothing can be drawn."""
     from sunwidget.renderer.gl_thread import require_renderer
 
     require_renderer()
-    return scene_of(options)
+    return scene_of(options, photo)
 
 
-def scene_of(options: argparse.Namespace) -> Any:
-    """Open and analyse the photo as the flags say; print what the scene warns of."""
+def scene_of(options: argparse.Namespace, photo: Any = None) -> Any:
+    """Analyse the photo, opened here by default, as the flags say; print the scene's warnings."""
     import sunwidget as sw
 
-    photo = opened(options.photo)
+    photo = opened(options.photo) if photo is None else photo
     refuse_unplaced(options, photo)
     hints = given(options, (*_HINTS, *methods_of_stages()))
     if "horizon" in hints:

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import torch
 from torch import Tensor, nn
-from torch.utils.data import DataLoader, IterableDataset
 
 from training.clock import Clock
 from training.train import Average, optimiser, save
@@ -92,16 +91,3 @@ def report(run: Run, every: int = 50) -> Iterator[float]:
             print(f"step {run.step} {run.spent / 60:.1f} min {told}", flush=True)
             run.recent.clear()
     run.keep()
-
-
-def batches(dataset: IterableDataset) -> Iterator[dict[str, Tensor]]:
-    """Return batches that another process makes."""
-    return iter(
-        DataLoader(
-            dataset,
-            batch_size=None,
-            num_workers=1,
-            prefetch_factor=4,
-            multiprocessing_context="spawn",  # OpenCV's threads do not survive a fork
-        )
-    )

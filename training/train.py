@@ -19,13 +19,14 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
 import torch
 import torch.nn.functional as F
 from torch import Tensor, distributed, multiprocessing, nn
-from torch.utils.data import DataLoader
+from torch.utils.data import DataLoader, IterableDataset
 
 from training.data import Batches, Pack, typical, validation
 from training.model import SkyNet
@@ -135,16 +136,19 @@ def prepare(image: Tensor) -> Tensor:
     return image.float().div_(255).contiguous(memory_format=torch.channels_last)
 
 
-def loader(
-    options: argparse.Namespace, stage: Stage, seed: int
-) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
-    batches = Batches(options.data, options.cache, options.rooms, stage.size, stage.batch, seed)
+def loader(options: argparse.Namespace, stage: Stage, seed: int) -> Iterator[Any]:
+    data = Batches(options.data, options.cache, options.rooms, stage.size, stage.batch, seed)
+    return batches(data, ahead=6)
+
+
+def batches(dataset: IterableDataset, ahead: int = 4) -> Iterator[Any]:
+    """Return batches that another process makes, so many ahead."""
     return iter(
         DataLoader(
-            batches,
+            dataset,
             batch_size=None,
             num_workers=1,
-            prefetch_factor=6,
+            prefetch_factor=ahead,
             multiprocessing_context="spawn",  # OpenCV's threads do not survive a fork
         )
     )

@@ -107,8 +107,7 @@ def show(found: Sequence[Change], revision: str) -> None:
     print(f"\n{'':66}{revision[:10]:>10}{'now':>10}      ratio")
     for change in found:
         by = "  by the processor" if change.by_processor else ""
-        unit = f"{change.unit}"
         print(
-            f"{change.what:66}{change.then:>10.3g}{change.now:>10.3g} {unit:5}"
+            f"{change.what:66}{change.then:>10.3g}{change.now:>10.3g} {change.unit:5}"
             f"{change.ratio:.2f}×{by}"
         )

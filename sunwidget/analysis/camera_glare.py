@@ -11,11 +11,12 @@ from __future__ import annotations
 import itertools
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from sunwidget.analysis.fit import Response, SkyFit
+from sunwidget.analysis.sun import SunObservation, away_from
 from sunwidget.analysis.working import LUMINANCE, Working, resize, smoothstep
 from sunwidget.atmosphere.constants import (
     SPECTRAL_TO_REC709,
@@ -25,9 +26,6 @@ from sunwidget.atmosphere.constants import (
 )
 from sunwidget.atmosphere.optics import camera_height, transmittance_to_top
 from sunwidget.camera import Camera
-
-if TYPE_CHECKING:
-    from sunwidget.analysis.sun import SunObservation
 
 Profile = tuple[float, float, float]
 
@@ -94,18 +92,18 @@ def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> di
     color, radius, rim = np.zeros(3), 0.0, _RIM[0]
     if sun is not None and sun.visible and 0 < sun.radius_px < _LARGEST_DISC * sun.size[0]:
         scale = working.width / sun.size[0]
-        across = np.arange(working.width) + 0.5 - scale * sun.x
-        down = np.arange(working.height)[:, None] + 0.5 - scale * sun.y
-        away = np.hypot(across, down) / max(scale * sun.radius_px, 1.0)
+        shape = working.height, working.width
+        away = away_from(shape, scale * sun.x, scale * sun.y) / max(scale * sun.radius_px, 1.0)
+        above = np.arange(working.height)[:, None] + 0.5 < scale * sun.y
         inside = (resize(sun.blot, working.width, working.height) > 0.5) & (away < 1.5)
-        beside = (away > 2.5) & (away < 3.5) & (down < 0)
+        beside = (away > 2.5) & (away < 3.5) & above
         light = working.encoded @ LUMINANCE
         # What is no brighter than the sky beside it is a blot that grew into it.
         seen = inside.any() and beside.any()
         if seen and np.median(light[inside]) > np.median(light[beside]) + _DISC_STEP:
             color = np.median(working.linear[inside], axis=0)
             radius = sun.radius_px * camera.width / sun.size[0] / camera.focal
-            rim = _rim(working.linear @ LUMINANCE, away, down < 0)
+            rim = _rim(working.linear @ LUMINANCE, away, above)
     return {
         "own_disc": tuple(float(v) for v in color),
         "own_disc_radius": radius,

@@ -23,6 +23,7 @@ __all__ = [
     "Blot",
     "Peak",
     "SunObservation",
+    "away_from",
     "disc_fit",
     "field_of_view_of",
     "find",
@@ -163,7 +164,7 @@ def settled(blot: Blot, peak: Peak) -> Blot:
     near = math.hypot(blot.x - peak.x, blot.y - peak.y) < max(0.7 * peak.radius, 3)
     if near and 0.5 * peak.radius < blot.radius < 1.6 * peak.radius:
         return blot
-    away = _away(blot.mask.shape, peak.x, peak.y)
+    away = away_from(blot.mask.shape, peak.x, peak.y)
     disc = np.clip(peak.radius + 0.5 - away, 0, 1).astype(np.float32)
     return Blot(peak.x, peak.y, peak.radius, disc)
 
@@ -177,7 +178,7 @@ def field_of_view_of(blot: Blot, peak: Peak, working: Working, assumed: float) -
     area = float(blot.mask.sum())
     if peak.sharpness < _SHARP or blot.radius < _LEAST_LIMB or peak.confidence < 0.5:
         return None
-    away = _away(blot.mask.shape, blot.x, blot.y) / blot.radius
+    away = away_from(blot.mask.shape, blot.x, blot.y) / blot.radius
     luminance = working.encoded @ LUMINANCE
     inside = float(np.median(luminance[(away > 0.7) & (away < 0.9)]))
     outside = float(np.median(luminance[(away > 1.2) & (away < 1.4)]))
@@ -192,7 +193,7 @@ def field_of_view_of(blot: Blot, peak: Peak, working: Working, assumed: float) -
     return max(degrees, 1.0) if degrees < 0.7 * assumed else None
 
 
-def _away(shape: tuple[int, ...], x: float, y: float) -> np.ndarray:
+def away_from(shape: tuple[int, ...], x: float, y: float) -> np.ndarray:
     """Return the distance in pixels of each pixel of a map (h, w) from a place."""
     return np.hypot(np.arange(shape[1]) + 0.5 - x, np.arange(shape[0])[:, None] + 0.5 - y)
 

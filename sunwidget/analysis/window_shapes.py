@@ -15,12 +15,8 @@ from sunwidget.analysis.working import resize
 
 X, Y, WIDE, TALL, TOP, FOOT = range(6)
 """Columns of windows, (n, 6): middle, size (pixels), slopes of lintel and sill."""
-_LEVELS = (
-    0.5,
-    0.65,
-    0.8,
-    0.9,
-)  # probabilities; what is no trapezium at one may be some at the next
+# Probabilities; what is no trapezium at one may be some at the next.
+_LEVELS = (0.5, 0.65, 0.8, 0.9)
 _WEAK = 0.2  # probability of what is a window if it stands in line with others
 _LIKE_A_WINDOW = 0.75  # overlap with a trapezium over what both cover
 _BARELY = 0.6  # the same, of what does not fall apart

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -51,22 +50,6 @@ _HALF = 0.5
 _ASIDE = 30.0  # degrees of azimuth within which the glow tells more than the sky's colours
 
 
-@dataclass(frozen=True)
-class Air:
-    """What is known of the sky.
-
-    Parameters
-    ----------
-    fit : SkyFit
-        Air, and the map's light per kcd m⁻² of the model, by channel; its sun.
-    opacity : (H, W) float32
-        Of the clouds, [0, 1].
-    """
-
-    fit: SkyFit
-    opacity: Floats
-
-
 def sunlight(air: Atmosphere, elevation: float) -> NDArray[np.float64]:
     """Return the clear sun's illuminance (3,) of a plane that faces it, klx; 0 when it is down."""
     return np.maximum(spectral_to_rec709(direct_irradiance(air, elevation)).reshape(3), 0)
@@ -76,15 +59,16 @@ def fit_air(
     light: NDArray[Any],
     sky: NDArray[Any],
     sun: tuple[float, float],
-    measured: NDArray[np.float64] | None = None,
+    measured: NDArray[np.float64] | None,
+    closed: float,
 ) -> SkyFit:
     """Fit the air to the clear sky, and to the sun's own light where that is known.
 
-    ``measured`` is the sun's illuminance (3,), in the unit of ``light`` times sr. A closed sky
-    tells no air: it gets a usual one, and the scale of its gaps or of its clouds.
+    ``measured`` is the sun's illuminance (3,), in the unit of ``light`` times sr. A sky that is
+    ``closed`` tells no air: it gets a usual one, and the scale of its gaps or of its clouds.
     """
     azimuth, elevation = directions()
-    if closedness(light, sky) > _HALF:
+    if closed > _HALF:
         return _under_cloud(light, sky, sun)
     shown, scale, usable = _samples(light, sky, sun, azimuth, elevation)
     azimuth, elevation, shown = azimuth[usable], elevation[usable], shown[usable]
@@ -171,7 +155,9 @@ def _under_cloud(light: NDArray[Any], sky: NDArray[Any], sun: tuple[float, float
     return dataclasses.replace(plain, gain=(level, level, level))
 
 
-def hidden_sun(light: NDArray[Any], sky: NDArray[Any]) -> tuple[tuple[float, float], float, float]:
+def hidden_sun(
+    light: NDArray[Any], sky: NDArray[Any], closed: float
+) -> tuple[tuple[float, float], float, float]:
     """Return where a sun without a disc is likely to be, how sure that is, and its spread.
 
     By where the sky glows; its height in an open sky by the sky's colours, as in a photo.
@@ -188,7 +174,7 @@ def hidden_sun(light: NDArray[Any], sky: NDArray[Any]) -> tuple[tuple[float, flo
     )
     row, column = np.unravel_index(int(np.argmax(glow[:90])), (90, 360))
     at = column + 0.5 - 180.0, 89.5 - row
-    if closedness(light, sky) > _HALF:
+    if closed > _HALF:
         shown, _, usable = _samples(light, sky, None, *directions())
         level = shown[usable] @ LUMINANCE
         height = float(np.interp(level.max() / np.median(level), *_GLOWS))

@@ -34,3 +34,17 @@ def sun_disc(
     disc = np.zeros((height, width, 3))
     np.add.at(disc, (y, x), light)
     return np.asarray(disc / solid_angles(width)[..., None])
+
+
+def disc_giving(
+    direct: NDArray[np.float64], atmosphere: Atmosphere, sun: tuple[float, float], width: int
+) -> NDArray[np.float32]:
+    """Return a disc (width / 2, width, 3), 0.533° wide: however few pixels, they give ``direct``.
+
+    ``direct`` (3,) is the illuminance of a plane that faces the sun, (azimuth, elevation).
+    """
+    if not direct.any():
+        return np.zeros((width // 2, width, 3), np.float32)
+    disc = sun_disc(atmosphere, *sun, (width, width // 2))
+    given = (disc * solid_angles(width)[..., None]).sum((0, 1))
+    return np.asarray(disc * (direct / np.maximum(given, 1e-30)), np.float32)

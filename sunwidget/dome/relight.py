@@ -17,8 +17,8 @@ from sunwidget.analysis.fill import fill_by_pyramid
 from sunwidget.analysis.fit import SkyFit, model_sky
 from sunwidget.analysis.working import smoothstep
 from sunwidget.dome.air import cloudiness, sunlight, white_opacity
-from sunwidget.dome.disc import sun_disc
-from sunwidget.dome.sphere import angles, distance, irradiance, solid_angles, toward
+from sunwidget.dome.disc import disc_giving
+from sunwidget.dome.sphere import angles, distance, irradiance, toward
 
 if TYPE_CHECKING:
     from sunwidget.dome.source import Dome
@@ -155,7 +155,7 @@ def relit(
     lit[upper] *= ratio
     lit[width // 4 :] *= ratio[-1:]
     result = lit + land * _land(source, lit, land, dome.direct, direct, (own.sun, air.sun))
-    disc = sun_disc_of(air, direct, width)
+    disc = disc_giving(direct, air.atmosphere, air.sun, width)
     result = np.maximum(result, 0)
     return Relit(result, disc, direct, air.sun, through, result + disc)
 
@@ -186,7 +186,7 @@ def _glow(
     """
     apart = distance(sun, azimuth, elevation)
     usable = (sky > 0.9) & (elevation > _LOW)
-    share = np.log(np.maximum(light, 1e-30) / np.maximum(model, 1e-30))
+    share = _over(light, model)
     rings = np.geomspace(*_RINGS, _STEPS)
     found = np.full((_STEPS, 3), np.nan)
     for i, ring in enumerate(rings):
@@ -203,6 +203,11 @@ def _glow(
         values[1:-1] = values[:-2] / 4 + values[1:-1] / 2 + values[2:] / 4
     values = np.clip(values, -_MOST_GLOW, _MOST_GLOW)
     return lambda angle: np.stack([np.interp(angle, rings, v) for v in values.T], axis=-1)
+
+
+def _over(light: Floats, model: Floats) -> NDArray[Any]:
+    """Return by how much light is over the model's: a logarithm (…, 3)."""
+    return np.asarray(np.log(np.maximum(light, 1e-30) / np.maximum(model, 1e-30)))
 
 
 def _up(sun: tuple[float, float]) -> float:
@@ -229,7 +234,7 @@ def without_sun(
     known = np.asarray(far * (sky > 0.9), np.float32)
     if not known.any():
         return light
-    share = np.log(np.maximum(light, 1e-30) / np.maximum(model, 1e-30))
+    share = _over(light, model)
     share = np.clip(share, -_LOGS, _LOGS).astype(np.float32)
     # The sun in the middle, so that the map's seam is far from it.
     shift = light.shape[1] // 2 - round((sun[0] / 360 + 0.5) * light.shape[1])
@@ -273,7 +278,7 @@ def _band(light: Floats, sky: Floats, model: Floats) -> NDArray[Any]:
 
     The haze of the horizon is no cloud.
     """
-    share = np.log(np.maximum(light, 1e-30) / np.maximum(model, 1e-30))
+    share = _over(light, model)
     share[sky < 0.9] = np.nan
     found = np.zeros((len(light), 1, 3))
     for row, values in enumerate(share):
@@ -343,14 +348,3 @@ def _falling(
     ]
     # Trees and hills stand and lie.
     return np.asarray(lying), (np.array(walls) + lying) / 2
-
-
-def sun_disc_of(air: SkyFit, direct: NDArray[np.float64], width: int) -> Floats:
-    """Return the disc (H, W, 3), 0.533° wide: however few pixels it has, they give ``direct``."""
-    size = (width, width // 2)
-    none = np.zeros((size[1], size[0], 3), np.float32)
-    if not direct.any():
-        return none
-    disc = sun_disc(air.atmosphere, *air.sun, size)
-    given = (disc * solid_angles(width)[..., None]).sum((0, 1))
-    return np.asarray(disc * (direct / np.maximum(given, 1e-30)), np.float32)

@@ -203,13 +203,14 @@ def _understood(
     elif told is not None:
         sun = told
     else:
-        sun, sure, spread = hidden_sun(light, sky)
+        sun, sure, spread = hidden_sun(light, sky, closed)
         warnings.append(
             f"No sun's disc stands out in {photo.name}: azimuth {sun[0]:.0f}° and elevation "
             f"{sun[1]:.0f}° are a guess. Tell where it is with sun=(x, y) (--sun X,Y), in pixels."
         )
     known = found is not None and not found.clipped
-    fit = fit_air(light, sky, sun, found.illuminance if found is not None and known else None)
+    measured = found.illuminance if found is not None and known else None
+    fit = fit_air(light, sky, sun, measured, closed)
     kind, direct, gain = _light_of(found, fit, closed)
     if kind == "clipped":
         share = float(found.illuminance @ LUMINANCE / (direct @ LUMINANCE)) if found else 0.0

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
 from sunwidget.color import LUMINANCE
 from sunwidget.dome.sphere import Array, angles, direction_of, distance, solid_angles, toward
 
@@ -104,5 +105,5 @@ def _is_cut_off(level: Array, apart: Array, solid: Array) -> bool:
     near = apart < 2 * DISC
     top = near & (level > _NEAR_THE_TOP * level[near].max())
     pixel = 2 * np.pi * np.pi / level.shape[0] / level.shape[1]
-    disc = np.pi * np.radians(0.2665) ** 2
+    disc = np.pi * np.radians(SUN_ANGULAR_RADIUS_DEG) ** 2
     return bool((top * solid).sum() > _PLATEAU * max(disc, pixel))

@@ -53,7 +53,8 @@ def moved(dome: Dome, edit: Edit, width: int) -> Relit:
     check_edit(edit)
     own = dome.fit
     size = (width, width // 2)
-    light, sky = plain_light(dome.photo.light()), dome.sky
+    raw = np.asarray(dome.photo.light(), np.float32)
+    light, sky = plain_light(raw), dome.sky
     direction = (
         dome.sun[0] if edit.sun_azimuth is None else edit.sun_azimuth,
         dome.sun[1] if edit.sun_elevation is None else edit.sun_elevation,
@@ -63,7 +64,6 @@ def moved(dome: Dome, edit: Edit, width: int) -> Relit:
     resized = np.asarray(resize(light, *size), np.float32)
     sky = np.asarray(resize(sky, *size), np.float32)
     if direction == dome.sun and air == own.atmosphere and edit.sun_visibility == 1:
-        raw = np.asarray(dome.photo.light(), np.float32)
         raw = raw if width == dome.photo.width else resized
         clean = without_sun_of(dome, resized, sky)
         return Relit(clean, raw - clean, dome.direct, dome.sun, 1.0, raw)

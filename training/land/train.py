@@ -23,10 +23,10 @@ from torch import Tensor
 from training.data import typical
 from training.land.data import UNKNOWN, WATER, Batch, PhotoBatches, WorldBatches
 from training.land.model import LandNet, losses, of_suns
-from training.loop import Run, batches
+from training.loop import Run
 from training.model import SkyNet
 from training.restore import restore
-from training.train import prepare, rate
+from training.train import batches, prepare, rate
 
 SKY = Path("sunwidget/analysis/models/sky.onnx")
 AREAS = ((0.0, 40_000, 10), (0.55, 62_000, 7), (0.85, 92_000, 5))

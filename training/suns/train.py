@@ -13,10 +13,10 @@ from pathlib import Path
 
 import torch
 
-from training.loop import Run, batches, report
+from training.loop import Run, report
 from training.suns.data import Batches
 from training.suns.model import SunNet, losses
-from training.train import prepare, rate
+from training.train import batches, prepare, rate
 
 PEAK_RATE = 2e-3
 
