@@ -16,7 +16,7 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.analysis.clouds import METHODS
+from sunwidget.analysis.clouds.clouds import METHODS
 
 
 def score(folder: Path, limit: int | None) -> dict[str, tuple[float, float, float]]:

@@ -1,7 +1,7 @@
 """How often the fit is right when it says so: draws known skies, fits them, and calibrates.
 
     python bench/confidence.py            # how the shipped weights do
-    python bench/confidence.py --fit      # weights for sunwidget/analysis/confidence.py, too
+    python bench/confidence.py --fit      # weights for sunwidget/analysis/fit/confidence.py, too
 
 The skies are drawn by our own model under random sun, haze, camera and clouds, with grain and
 with responses that the search does not know. An error is measured where it hurts: how the sky
@@ -14,11 +14,11 @@ from typing import Any
 import cv2
 import numpy as np
 
-from sunwidget.analysis import confidence as stage
-from sunwidget.analysis import fit
-from sunwidget.analysis.working import Working, encode
+from sunwidget.analysis.fit import confidence as stage
+from sunwidget.analysis.fit import fit
+from sunwidget.analysis.images.working_copy import Working, encode
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.camera import Camera
+from sunwidget.geometry.camera import Camera
 
 Known = tuple[np.ndarray, np.ndarray]  # features (n, k) and outcomes (n,)
 SIZE = (96, 64)

@@ -20,7 +20,7 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.analysis import depth
+from sunwidget.analysis.depth import depth
 
 FARTHEST = 50_000.0  # metres: beyond, the renders' depth says nothing
 

@@ -17,10 +17,10 @@ from typing import Any
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.camera import Camera
-from sunwidget.color import LUMINANCE
 from sunwidget.dome.sphere import angles, distance, irradiance
-from sunwidget.export.dome_light import dome_light
+from sunwidget.export.dome.light import dome_light
+from sunwidget.formats.color import LUMINANCE
+from sunwidget.geometry.camera import Camera
 
 # x to the heading, y to the left, z up.
 PLANES = {

@@ -17,10 +17,10 @@ from dome import PLANES
 
 import sunwidget as sw
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.color import LUMINANCE
 from sunwidget.dome.disc import disc_giving
 from sunwidget.dome.sphere import angles, direction_of, distance, irradiance, solid_angles, toward
-from sunwidget.export.dome_moved import moved
+from sunwidget.export.dome.moved import moved
+from sunwidget.formats.color import LUMINANCE
 
 _DEVELOPED = 12  # seeds below it were looked at while the method was made
 

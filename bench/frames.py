@@ -28,9 +28,9 @@ import numpy as np
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.analysis.frame_scenes import FrameScenes
-from sunwidget.color import linear_to_srgb, srgb_to_linear
-from sunwidget.frames import Clock, frame_sources, read_frame
+from sunwidget.formats.color import linear_to_srgb, srgb_to_linear
+from sunwidget.timelapses.frames import Clock, frame_sources, read_frame
+from sunwidget.timelapses.scenes import FrameScenes
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 

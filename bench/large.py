@@ -71,7 +71,7 @@ def exported(photo: Path, out: Path, moved: bool) -> dict[str, Any]:
     begin = time.perf_counter()
     scene = sw.analyze(picture)
     row |= {"analyse_s": time.perf_counter() - begin, "analyse_gb": peak()}
-    module = importlib.import_module("sunwidget.renderer.render")
+    module = importlib.import_module("sunwidget.renderer.offscreen")
     begin = time.perf_counter()
     edit = MOVED if moved else sw.Edit()
     changed = 0

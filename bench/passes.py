@@ -20,7 +20,7 @@ from typing import Any
 import sunwidget as sw
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs
-from sunwidget.renderer.render import draw_part, scene_textures
+from sunwidget.renderer.offscreen import draw_part, scene_textures
 
 
 class TimedGraph(FrameGraph):

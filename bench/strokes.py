@@ -22,7 +22,7 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.analysis.strokes import set_strokes
+from sunwidget.analysis.strokes.sky import set_strokes
 
 GOAL = 0.98
 LONG_SIDE = 1024  # of the photos at most

@@ -34,11 +34,11 @@ import numpy as np
 from skimage.color import deltaE_ciede2000, rgb2lab
 
 import sunwidget as sw
-from sunwidget.analysis.fit import model_sky, view_angles
+from sunwidget.analysis.fit.fit import model_sky, view_angles
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.atmosphere.solar import solar_position
-from sunwidget.camera import Camera
-from sunwidget.color import linear_to_srgb, srgb_to_linear
+from sunwidget.formats.color import linear_to_srgb, srgb_to_linear
+from sunwidget.geometry.camera import Camera
+from sunwidget.geometry.solar import solar_position
 
 
 class Place(NamedTuple):

@@ -26,15 +26,15 @@ import numpy as np
 from timelapse import PLACES, sun_of
 
 import sunwidget as sw
-from sunwidget.analysis import confidence, fit
-from sunwidget.analysis import horizon as horizon_stage
-from sunwidget.analysis import sky as sky_stage
+from sunwidget.analysis.fit import confidence, fit
 from sunwidget.analysis.hints import Hints
-from sunwidget.analysis.land_network import look_at_land
-from sunwidget.analysis.stages import FIT_SIDE, clouds_by_colour
-from sunwidget.analysis.working import Working, resize
-from sunwidget.camera import Camera
-from sunwidget.photo import open_photo
+from sunwidget.analysis.horizon import horizon as horizon_stage
+from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.analysis.networks.land import look_at_land
+from sunwidget.analysis.pipeline import FIT_SIDE, clouds_by_colour
+from sunwidget.analysis.segmentation import coarse_sky
+from sunwidget.geometry.camera import Camera
+from sunwidget.photo.photo import open_photo
 from training.suns.labels import labels
 
 Direction = tuple[float, float]
@@ -143,7 +143,7 @@ def photos(folder: Path, test: bool, limit: int | None) -> Iterator[Case]:
         height, width = picture.shape[:2]
         opened = open_photo(picture)
         working = Working.of(opened)
-        sky = resize(sky_stage.coarse(working), width, height)
+        sky = resize(coarse_sky.coarse(working), width, height)
         horizon = horizon_stage.water_line(sky, working.encoded)
         camera = Camera.from_horizon(
             width, height, opened.field_of_view.vertical, horizon.row, horizon.roll
@@ -159,7 +159,7 @@ def photos(folder: Path, test: bool, limit: int | None) -> Iterator[Case]:
 def search(case: Case) -> fit.SkyFit:
     """Return the fit with the camera told, by the search of the analysis on a small copy."""
     working = Working.of(open_photo(case.picture))
-    sky = resize(sky_stage.coarse(working), working.width, working.height)
+    sky = resize(coarse_sky.coarse(working), working.width, working.height)
     sky = (sky > 0.5).astype(np.float32)
     small = working.shrunk(FIT_SIDE)
     hints = Hints(methods=(("clouds", "unmix"),))

@@ -5,7 +5,7 @@ usage: python bench/validate.py [--paths N] [--data FOLDER]
 Prints the nine rows of docs/atmosphere.md and writes build/validation.json; ends with 1 when a row
 is missed. FOLDER (default $SUNWIDGET_SHARED/data/sky-reference, else ../shared/…) may hold the
 measured skies and other models' skies; measured skies are also looked for where
-`sunwidget.atmosphere.measurements.download()` keeps them.
+`sunwidget.validation.measurements.download()` keeps them.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from sunwidget.atmosphere import measurements, validation
-from sunwidget.atmosphere.validation import Row
+from sunwidget.validation import measurements, report
+from sunwidget.validation.report import Row
 
 ROOT = Path(__file__).resolve().parents[1]
 STATIC = ROOT / "sunwidget" / "static"
@@ -62,7 +62,7 @@ def main() -> int:
     begin = time.perf_counter()
     data = measurements.load(options.data) if measurements.is_available(options.data) else None
     table = Table()
-    found = validation.rows(options.data, data, options.paths, progress=table)
+    found = report.rows(options.data, data, options.paths, progress=table)
     for row in hosts():
         found.append(row)
         table(row)
@@ -103,7 +103,7 @@ class Table:
 
 def hosts() -> Iterator[Row]:
     """Row 9: NumPy, EGL and WebGL2 draw one sky."""
-    at = validation._At(9, "hosts against each other; bounds of the picture as Bruneton 2017")  # noqa: SLF001
+    at = report._At(9, "hosts against each other; bounds of the picture as Bruneton 2017")  # noqa: SLF001
     name = "shaders on EGL and NumPy"
     try:
         from sunwidget.explorer.draw import draw
@@ -174,7 +174,7 @@ def webgl_differences() -> Iterator[tuple[float, float, float, float]]:
 
     from sunwidget.explorer.draw import draw, radiance_at
     from sunwidget.explorer.table import EXPLORER_PARAMETERS
-    from sunwidget.widgets.payload import parameter_json
+    from sunwidget.widgets.kernel.payload import parameter_json
 
     path = shutil.which("chromium") or shutil.which("chromium-browser")
     answers = {

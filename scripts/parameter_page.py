@@ -8,17 +8,17 @@ from __future__ import annotations
 import itertools
 from pathlib import Path
 
-from sunwidget.edit import PARAMETERS, RECIPE_VERSION, Parameter
+from sunwidget.edit.table import PARAMETERS, RECIPE_VERSION, Parameter
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "parameters.md"
 
 HEAD = f"""# Parameters
 
-Every number a person can set, as the one table in `sunwidget/edit.py` lists them: the fields of
-`sw.Edit`, the traits and sliders of the editor, the flags of the command line (`--sun-elevation`)
-and the keys of a recipe (version {RECIPE_VERSION}). *From the photo* is what the analysis found;
-an edit that names nothing moves nothing.
+Every number a person can set, as the one table in `sunwidget/edit/table.py` lists them: the fields
+of `sw.Edit`, the traits and sliders of the editor, the flags of the command line
+(`--sun-elevation`) and the keys of a recipe (version {RECIPE_VERSION}). *From the photo* is what
+the analysis found; an edit that names nothing moves nothing.
 
 This page is written by `python scripts/parameter_page.py`.
 """

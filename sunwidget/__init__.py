@@ -18,78 +18,78 @@ if TYPE_CHECKING:
     from sunwidget.analysis.analyze import analyze
     from sunwidget.analysis.errors import AnalysisError
     from sunwidget.analysis.scene import Scene
-    from sunwidget.analysis.sky_network import SkyNetwork
-    from sunwidget.camera import Camera
+    from sunwidget.analysis.segmentation.sky_network import SkyNetwork
+    from sunwidget.batches.report import BatchReport
+    from sunwidget.batches.run import batch
     from sunwidget.dome.source import Dome, analyze_dome
-    from sunwidget.edit import PARAMETERS, Edit, EditError, Stroke
-    from sunwidget.export.batch.report import BatchReport
-    from sunwidget.export.batch.run import batch
-    from sunwidget.export.contact_sheet import contact_sheet
-    from sunwidget.export.day import Day
-    from sunwidget.export.dome import to_dome
+    from sunwidget.edit.table import PARAMETERS, Edit, EditError, Stroke
+    from sunwidget.export.dome.photo import to_dome
     from sunwidget.export.environment import environment_map
     from sunwidget.export.stills import save
-    from sunwidget.export.sweep import sweep
-    from sunwidget.export.timelapse import timelapse
-    from sunwidget.photo import Photo, PhotoError, PhotoWarning
-    from sunwidget.photo import open_photo as open  # noqa: A004 - sw.open, as Image.open
-    from sunwidget.place import Place
+    from sunwidget.film.contact_sheet import contact_sheet
+    from sunwidget.film.day import Day
+    from sunwidget.film.sweep import sweep
+    from sunwidget.geometry.camera import Camera
+    from sunwidget.geometry.place import Place
+    from sunwidget.photo.photo import Photo, PhotoError, PhotoWarning
+    from sunwidget.photo.photo import open_photo as open  # noqa: A004 - sw.open, as Image.open
     from sunwidget.presets import PRESETS
     from sunwidget.presets import edit as preset
     from sunwidget.renderer.gl_thread import RendererError
-    from sunwidget.renderer.render import render
+    from sunwidget.renderer.offscreen import render
     from sunwidget.samples import sample
     from sunwidget.study import StudyError
+    from sunwidget.timelapses.timelapse import timelapse
     from sunwidget.transfer.look import transfer_look
     from sunwidget.transfer.sky_replacement import replace_sky
-    from sunwidget.widgets.compare import Compare
-    from sunwidget.widgets.sky_explorer import SkyExplorer
+    from sunwidget.widgets.compare.compare import Compare
+    from sunwidget.widgets.editor.sun_editor import SunEditor
+    from sunwidget.widgets.explorer.sky_explorer import SkyExplorer
+    from sunwidget.widgets.page.headless import to_html
     from sunwidget.widgets.study import Study
-    from sunwidget.widgets.sun_editor import SunEditor
-    from sunwidget.widgets.unseen import to_html
 
 __version__ = "0.1.0"
 
 # Public name -> (module, name in it).
 _HOMES: dict[str, tuple[str, str]] = {
     "AnalysisError": ("sunwidget.analysis.errors", "AnalysisError"),
-    "PARAMETERS": ("sunwidget.edit", "PARAMETERS"),
+    "PARAMETERS": ("sunwidget.edit.table", "PARAMETERS"),
     "PRESETS": ("sunwidget.presets", "PRESETS"),
-    "BatchReport": ("sunwidget.export.batch.report", "BatchReport"),
-    "Camera": ("sunwidget.camera", "Camera"),
-    "Compare": ("sunwidget.widgets.compare", "Compare"),
-    "Day": ("sunwidget.export.day", "Day"),
+    "BatchReport": ("sunwidget.batches.report", "BatchReport"),
+    "Camera": ("sunwidget.geometry.camera", "Camera"),
+    "Compare": ("sunwidget.widgets.compare.compare", "Compare"),
+    "Day": ("sunwidget.film.day", "Day"),
     "Dome": ("sunwidget.dome.source", "Dome"),
-    "Edit": ("sunwidget.edit", "Edit"),
-    "EditError": ("sunwidget.edit", "EditError"),
-    "Photo": ("sunwidget.photo", "Photo"),
-    "PhotoError": ("sunwidget.photo", "PhotoError"),
-    "PhotoWarning": ("sunwidget.photo", "PhotoWarning"),
-    "Place": ("sunwidget.place", "Place"),
+    "Edit": ("sunwidget.edit.table", "Edit"),
+    "EditError": ("sunwidget.edit.table", "EditError"),
+    "Photo": ("sunwidget.photo.photo", "Photo"),
+    "PhotoError": ("sunwidget.photo.photo", "PhotoError"),
+    "PhotoWarning": ("sunwidget.photo.photo", "PhotoWarning"),
+    "Place": ("sunwidget.geometry.place", "Place"),
     "RendererError": ("sunwidget.renderer.gl_thread", "RendererError"),
     "Scene": ("sunwidget.analysis.scene", "Scene"),
-    "SkyExplorer": ("sunwidget.widgets.sky_explorer", "SkyExplorer"),
-    "SkyNetwork": ("sunwidget.analysis.sky_network", "SkyNetwork"),
-    "Stroke": ("sunwidget.edit", "Stroke"),
+    "SkyExplorer": ("sunwidget.widgets.explorer.sky_explorer", "SkyExplorer"),
+    "SkyNetwork": ("sunwidget.analysis.segmentation.sky_network", "SkyNetwork"),
+    "Stroke": ("sunwidget.edit.table", "Stroke"),
     "Study": ("sunwidget.widgets.study", "Study"),
     "StudyError": ("sunwidget.study", "StudyError"),
-    "SunEditor": ("sunwidget.widgets.sun_editor", "SunEditor"),
+    "SunEditor": ("sunwidget.widgets.editor.sun_editor", "SunEditor"),
     "analyze": ("sunwidget.analysis.analyze", "analyze"),
     "analyze_dome": ("sunwidget.dome.source", "analyze_dome"),
-    "batch": ("sunwidget.export.batch.run", "batch"),
-    "contact_sheet": ("sunwidget.export.contact_sheet", "contact_sheet"),
+    "batch": ("sunwidget.batches.run", "batch"),
+    "contact_sheet": ("sunwidget.film.contact_sheet", "contact_sheet"),
     "environment_map": ("sunwidget.export.environment", "environment_map"),
-    "open": ("sunwidget.photo", "open_photo"),
+    "open": ("sunwidget.photo.photo", "open_photo"),
     "preset": ("sunwidget.presets", "edit"),
     "replace_sky": ("sunwidget.transfer.sky_replacement", "replace_sky"),
-    "render": ("sunwidget.renderer.render", "render"),
+    "render": ("sunwidget.renderer.offscreen", "render"),
     "sample": ("sunwidget.samples", "sample"),
     "save": ("sunwidget.export.stills", "save"),
     "transfer_look": ("sunwidget.transfer.look", "transfer_look"),
-    "sweep": ("sunwidget.export.sweep", "sweep"),
-    "timelapse": ("sunwidget.export.timelapse", "timelapse"),
-    "to_dome": ("sunwidget.export.dome", "to_dome"),
-    "to_html": ("sunwidget.widgets.unseen", "to_html"),
+    "sweep": ("sunwidget.film.sweep", "sweep"),
+    "timelapse": ("sunwidget.timelapses.timelapse", "timelapse"),
+    "to_dome": ("sunwidget.export.dome.photo", "to_dome"),
+    "to_html": ("sunwidget.widgets.page.headless", "to_html"),
 }
 
 __all__ = [

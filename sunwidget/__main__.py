@@ -2,7 +2,7 @@
 
 import sys
 
-from sunwidget.cli import main
+from sunwidget.cli.main import main
 
 if __name__ == "__main__":
     sys.exit(main())

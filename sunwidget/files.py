@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from sunwidget.wording import shown
+from sunwidget.messages import shown
 
 # What stood in the way, and what to do about it.
 _OBSTACLES = {

@@ -12,9 +12,9 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sunwidget.analysis.errors import checked_scene
-from sunwidget.edit import Edit, EditError
-from sunwidget.recipe import edit_of
-from sunwidget.wording import shown
+from sunwidget.edit.recipe import edit_of
+from sunwidget.edit.table import Edit, EditError
+from sunwidget.messages import shown
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene

@@ -1,4 +1,4 @@
-"""Fits ``WEIGHTS`` of sunwidget/analysis/patches.py, and prints them and what they are worth.
+"""Fits ``WEIGHTS`` of segmentation/patches.py, and prints them and what they are worth.
 
 ``python -m training.calibrate_patches --data ../shared/data/train --test ../shared/data/eval``
 
@@ -16,9 +16,9 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
-from sunwidget.analysis import patches, refine, sky
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.segmentation import coarse_sky, patches, refine
+from sunwidget.photo.photo import open_photo
 from training.data import FOLDERS, held_out
 from training.suns.calibrate import fit
 
@@ -38,7 +38,7 @@ class Patch(NamedTuple):
 def of_photo(image: Path, mask: Path) -> Iterator[Patch]:
     """Yield the patches of a photo of which most is known."""
     working = Working.of(open_photo(image))
-    coarse = sky.network(working)
+    coarse = coarse_sky.network(working)
     found = refine.grabcut_mask(working, coarse).sky
     labels, was_sky = patches.find(found)
     if not was_sky.size:

@@ -1,4 +1,4 @@
-"""Regress cloud on colour: the weights of ``sunwidget.analysis.clouds.LEARNED``.
+"""Regress cloud on colour: the weights of ``sunwidget.analysis.clouds.clouds.LEARNED``.
 
 ``python -m training.clouds``
 
@@ -15,10 +15,10 @@ import argparse
 
 import numpy as np
 
-from sunwidget.analysis.clouds import features
-from sunwidget.analysis.fit import Response, SkyFit, model_sky
-from sunwidget.analysis.unmix import cloud_white
-from sunwidget.analysis.working import LUMINANCE, encode
+from sunwidget.analysis.clouds.clouds import features
+from sunwidget.analysis.clouds.unmix import cloud_white
+from sunwidget.analysis.fit.fit import Response, SkyFit, model_sky
+from sunwidget.analysis.images.working_copy import LUMINANCE, encode
 from sunwidget.atmosphere.parameters import Atmosphere
 
 _PIXELS = 300  # of each sky

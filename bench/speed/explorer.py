@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
-from sunwidget.widgets.payload import parameter_json
+from sunwidget.widgets.kernel.payload import parameter_json
 
 from .canvas import hazes, suns
 from .effort import Effort

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.export.film import Film, writer
-from sunwidget.export.sun_path import film_edits
+from sunwidget.film.path import film_edits
+from sunwidget.film.writer import Film, writer
 
 from .effort import Effort
 from .pictures import analysed

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sunwidget as sw
-from sunwidget.analysis import sky
-from sunwidget.analysis.working import Working
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.segmentation import coarse_sky
 
 from .effort import Effort
 from .pictures import analysed
@@ -32,7 +32,7 @@ def rows(effort: Effort) -> Rows:
         "kernel turbidity drag", f"kernel frame {width}×{height}, turbidity drag", haze, "ms"
     )
     working = Working.of(sw.sample("coast"))
-    network = timed(lambda _i: sky.network(working), effort.runs)
+    network = timed(lambda _i: coarse_sky.network(working), effort.runs)
     yield of_times("network", "sky network at 384×384", network, "s")
     strokes = [
         sw.Stroke("sky", ((0.4 + 0.02 * i, 0.7), (0.45 + 0.02 * i, 0.7)), 0.005) for i in range(6)

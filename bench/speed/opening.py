@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import sunwidget as sw
-from sunwidget.widgets.payload import MAP_TRAITS, encode_maps, encode_preview, scene_json
+from sunwidget.widgets.kernel.payload import MAP_TRAITS, encode_maps, encode_preview, scene_json
 
 from .effort import Effort
 from .page import chromium, widget_state

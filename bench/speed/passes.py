@@ -9,7 +9,7 @@ import numpy as np
 import sunwidget as sw
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs, Target
-from sunwidget.renderer.render import scene_textures
+from sunwidget.renderer.offscreen import scene_textures
 from sunwidget.renderer.shader_source import frame_graph
 from sunwidget.renderer.values import states
 

@@ -2,8 +2,9 @@
 
 Both run on the same driver and hold all orders of scattering. Bruneton's table is made once for an
 air and then serves any sun and altitude; ours are small enough to be made anew whenever the air
-changes, and one of them whenever the sun moves. The peer is ``sunwidget.renderer.bruneton``:
-its shaders are ours, and it iterates a smaller table than Bruneton's own code does.
+changes, and one of them whenever the sun moves. The peer is
+``sunwidget.renderer.bruneton.precomputed_sky``: its shaders are ours, and it iterates a smaller
+table than Bruneton's own code does.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy as np
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.explorer.draw import radiance_at, table
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
-from sunwidget.renderer.bruneton import bruneton_table
+from sunwidget.renderer.bruneton.precomputed_sky import bruneton_table
 
 from .effort import Effort
 from .passes import table_bytes

@@ -16,8 +16,8 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.analysis import matting, refine, sky
-from sunwidget.analysis.working import Working, resize
+from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.analysis.segmentation import coarse_sky, matting, refine
 
 from .effort import Effort
 from .rows import Rows, of_times
@@ -34,7 +34,7 @@ def rows(effort: Effort) -> Rows:
     for name in effort.samples:
         photo = sw.open(sw.sample(name).preview(max(effort.frame)))
         working = Working.of(photo)
-        probability = sky.network(working)
+        probability = coarse_sky.network(working)
         with clock(ours):
             alpha = matting.matte(photo, working, refine.grabcut_mask(working, probability))
         coarse = resize(probability, *photo.size)

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.analysis.fit import view_angles
+from sunwidget.analysis.fit.fit import view_angles
 from sunwidget.atmosphere.multiple import SHADER, Quality
 from sunwidget.atmosphere.optics import camera_height
 from sunwidget.atmosphere.parameters import Atmosphere

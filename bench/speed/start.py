@@ -24,7 +24,7 @@ _IMPORT = (
 
 def rows(effort: Effort) -> Rows:
     yield of_times("import", "import sunwidget", import_time("sunwidget", effort), "s")
-    widgets = import_time("sunwidget.widgets.sun_editor", effort)
+    widgets = import_time("sunwidget.widgets.editor.sun_editor", effort)
     yield of_times("import widgets", "first use of an editor: its imports", widgets, "s")
     for name in BUNDLES:
         size = (PACKAGE / "static" / f"{name}.js").stat().st_size / 1000

@@ -1,5 +1,5 @@
 /**
- * Pixel ↔ direction. The kernel's twin is `sunwidget/camera.py`.
+ * Pixel ↔ direction. The kernel's twin is `sunwidget/geometry/camera.py`.
  *
  * Pixels have their origin at the top left corner of the picture; camera axes are x right,
  * y down, z forward. Angles are degrees; azimuth is relative to the camera's heading,

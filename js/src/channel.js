@@ -1,7 +1,7 @@
 /**
  * Requests to the kernel over the widget's custom messages. Every request has an id and is
  * answered, errors included; progress may arrive in between. The kernel's twin is
- * `sunwidget/widgets/requests.py`.
+ * `sunwidget/widgets/kernel/requests.py`.
  *
  * browser → kernel  { type: "request", id, action, … }
  *                   { type: "cancel", id }

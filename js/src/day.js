@@ -22,7 +22,7 @@ export const turned = (degrees) => ((((degrees + 180) % 360) + 360) % 360) - 180
 
 /**
  * Where the sun is at an hour. Neighbouring rows are mixed as unit vectors, as
- * `atmosphere/solar.py` does, so that neither north nor the zenith needs care.
+ * `geometry/solar.py` does, so that neither north nor the zenith needs care.
  *
  * @param {DayRow[]} day sorted by hour
  * @param {number} hours UTC; held at the ends of the table
@@ -55,7 +55,7 @@ const lift = (apparent) =>
   Math.max(1 / Math.tan((apparent + 7.31 / (apparent + 4.4)) * DEGREE), 0) / 60;
 
 /**
- * The elevation without the air's lift, as `atmosphere/solar.py` has it: a sun below −1° is not
+ * The elevation without the air's lift, as `geometry/solar.py` has it: a sun below −1° is not
  * seen, and the lift fades to none where civil twilight ends.
  *
  * @param {number} apparent degrees

@@ -1,6 +1,6 @@
 /**
  * The path of a film: what the picture shows at each moment. Twin of `film_edits` in
- * `sunwidget/export/sun_path.py`, so that the film that is written is the one that was played.
+ * `sunwidget/film/path.py`, so that the film that is written is the one that was played.
  */
 
 import { turned } from "./day.js";

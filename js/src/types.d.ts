@@ -1,6 +1,6 @@
 /** Shapes of what travels between kernel and browser. */
 
-/** One row of the kernel's parameter tables (`sunwidget/edit.py`, `sunwidget/explorer/table.py`). */
+/** One row of the kernel's parameter tables (`sunwidget/edit/table.py`, `sunwidget/explorer/table.py`). */
 export interface Parameter {
   name: string;
   kind: "number" | "choice" | "switch" | "data";

@@ -6,9 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis import depth as depth_stage
-from sunwidget.analysis import patches
-from sunwidget.analysis import sky as sky_stage
+from sunwidget.analysis.depth import depth as depth_stage
 from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.hints import (
     Hints,
@@ -17,17 +15,18 @@ from sunwidget.analysis.hints import (
     check_strokes,
     check_sun,
 )
-from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.plausible import plausible
-from sunwidget.analysis.retouch import stroked
+from sunwidget.analysis.horizon.horizon import Horizon
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.pipeline import METHODS, Steps, check_method, complete
 from sunwidget.analysis.scene import Scene
-from sunwidget.analysis.stages import METHODS, Steps, check_method, complete
-from sunwidget.analysis.working import Working
+from sunwidget.analysis.segmentation import coarse_sky, patches
+from sunwidget.analysis.segmentation.plausible import plausible
+from sunwidget.analysis.strokes.retouch import stroked
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.camera import Camera, Point
-from sunwidget.edit import Stroke, SunHint
-from sunwidget.photo import open_photo
-from sunwidget.time_left import Progress
+from sunwidget.edit.table import Stroke, SunHint
+from sunwidget.geometry.camera import Camera, Point
+from sunwidget.photo.photo import open_photo
+from sunwidget.progress import Progress
 
 
 def analyze(
@@ -111,14 +110,14 @@ def analyze(
         check_horizon(horizon),
         check_fov(fov),
         methods=tuple(methods.items()),
-        water=None if isinstance(water, str) else sky_stage.mask_from(water, photo.size, "water"),
+        water=None if isinstance(water, str) else coarse_sky.mask_from(water, photo.size, "water"),
         depth=depth_stage.given(depth, photo.size),
     )
     step = Steps(progress)
     step("prepare", 0.0, "Preparing the photo")
     working = Working.of(photo)
     step("sky", 0.1, "Finding the sky")
-    coarse = sky_stage.coarse(working, sky, photo.size, sky_label)
+    coarse = coarse_sky.coarse(working, sky, photo.size, sky_label)
     step("refine", 0.4, "Following the skyline")
     decision = METHODS["refine"][refine](working, coarse)
     doubted = 0.0

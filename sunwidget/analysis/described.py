@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sunwidget.analysis.working import resize
+from sunwidget.analysis.images.working_copy import resize
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene

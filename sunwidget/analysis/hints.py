@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis.depth_network import DepthNetwork, SeenDepth
+from sunwidget.analysis.depth.network import DepthNetwork, SeenDepth
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.camera import Point
-from sunwidget.edit import OUTSIDE, Stroke, SunHint, parameter
+from sunwidget.edit.table import OUTSIDE, Stroke, SunHint, parameter
+from sunwidget.geometry.camera import Point
 
 FARTHEST = 1e7
 """Pixels from the corner of the photo to the farthest hint: beyond, a camera has no direction."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from sunwidget.layout import size_within
+from sunwidget.formats.pixels import size_within
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene

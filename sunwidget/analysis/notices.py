@@ -6,14 +6,14 @@ from typing import Self
 
 import numpy as np
 
-from sunwidget.analysis.confidence import UNKNOWN
-from sunwidget.analysis.fit import SkyFit
+from sunwidget.analysis.fit.confidence import UNKNOWN
+from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.hints import Hints
-from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.sun import SunObservation
+from sunwidget.analysis.horizon.horizon import Horizon
+from sunwidget.analysis.sun.sun import SunObservation
 from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
-from sunwidget.camera import Camera, Point
-from sunwidget.photo import Photo
+from sunwidget.geometry.camera import Camera, Point
+from sunwidget.photo.photo import Photo
 
 UNSURE = 0.3  # confidence of the fit below which a person should know
 NO_SKY = 0.005  # share of the picture below which the photo counts as without sky

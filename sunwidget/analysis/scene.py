@@ -12,35 +12,33 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis import depth_level, haze_limit, match, panes, refine, relief
-from sunwidget.analysis.camera_glare import glare_profile, own_disc
-from sunwidget.analysis.clouds import Clouds
-from sunwidget.analysis.depth_field import DepthField
+from sunwidget.analysis.clouds.clouds import Clouds
+from sunwidget.analysis.depth import haze_limit, levels, relief
+from sunwidget.analysis.depth.field import DepthField
 from sunwidget.analysis.described import described
-from sunwidget.analysis.enlarge import resize_rows
-from sunwidget.analysis.erase import Erased, unerased
-from sunwidget.analysis.fit import SkyFit
-from sunwidget.analysis.glitter import column_of, glitter, roughness
+from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.hints import Hints
-from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.land_network import LandMaps, look_at_land
-from sunwidget.analysis.memory import Memory
-from sunwidget.analysis.noise import noise_level
-from sunwidget.analysis.retouch import stroked
-from sunwidget.analysis.stages import (
-    Steps,
-    complete,
-    depth_of,
-    find_clouds_again,
-)
-from sunwidget.analysis.sun import SunObservation
-from sunwidget.analysis.working import Working, resize
+from sunwidget.analysis.horizon.horizon import Horizon
+from sunwidget.analysis.images import color_transfer
+from sunwidget.analysis.images.enlarge import resize_rows
+from sunwidget.analysis.images.noise import noise_level
+from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.analysis.networks.land import LandMaps, look_at_land
+from sunwidget.analysis.pipeline import Steps, complete, depth_of, find_clouds_again
+from sunwidget.analysis.segmentation import refine
+from sunwidget.analysis.strokes.memory import Memory
+from sunwidget.analysis.strokes.retouch import stroked
+from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
+from sunwidget.analysis.sun.erase import Erased, unerased
+from sunwidget.analysis.sun.sun import SunObservation
+from sunwidget.analysis.water.glitter import column_of, glitter, roughness
+from sunwidget.analysis.windows import panes
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.camera import Camera, Point
-from sunwidget.edit import PARAMETERS, Edit, parameter
-from sunwidget.layout import size_within
-from sunwidget.photo import Photo
-from sunwidget.time_left import Progress
+from sunwidget.edit.table import PARAMETERS, Edit, parameter
+from sunwidget.formats.pixels import size_within
+from sunwidget.geometry.camera import Camera, Point
+from sunwidget.photo.photo import Photo
+from sunwidget.progress import Progress
 
 # What an edit says that leaves the clouds to ``analyze``.
 _ANALYSED_CLOUDS = {
@@ -95,7 +93,7 @@ class Scene:
     erased : Erased or None
         The small photo without its sun; None before it was looked for.
     known_depth : DepthField or None
-        The depth of the same view, found on other pictures of it (analysis/fixed_camera.py).
+        The depth of the same view, found on other pictures of it (timelapses/fixed_camera.py).
     known_land : LandMaps or None
         How the land of the same view lies, alike.
     """
@@ -212,12 +210,12 @@ class Scene:
 
     @property
     def relief(self) -> np.ndarray:
-        """How the land lies and what light reaches it, (h, w, 4) float32 (analysis/relief.py)."""
+        """How the land lies and what light reaches it, (h, w, 4) float32 (depth/relief.py)."""
         return relief.encoded(self.land, self.working)
 
     @property
     def transfer(self) -> np.ndarray:
-        """What of any sun's light falls on the land, (3 h, w, 4) float32 (analysis/relief.py)."""
+        """What of any sun's light falls on the land, (3 h, w, 4) float32 (depth/relief.py)."""
         return relief.encoded_transfer(self.land)
 
     @cached_property
@@ -230,12 +228,12 @@ class Scene:
 
     @cached_property
     def panes(self) -> np.ndarray:
-        """Probability of windows, (h, w) float32 in [0, 1] (analysis/panes.py)."""
+        """Probability of windows, (h, w) float32 in [0, 1] (analysis/windows/panes.py)."""
         return panes.probability(self._windows)
 
     @cached_property
     def lamps(self) -> np.ndarray:
-        """Light behind the panes of windows, (h, w, 4) float32 (analysis/panes.py)."""
+        """Light behind the panes of windows, (h, w, 4) float32 (analysis/windows/panes.py)."""
         return panes.lamps(self._windows)
 
     @cached_property
@@ -258,7 +256,7 @@ class Scene:
 
     @cached_property
     def depth_field(self) -> DepthField:
-        """The depth at any size (analysis/depth_field.py); found when asked for."""
+        """The depth at any size (analysis/depth/field.py); found when asked for."""
         return self.known_depth or depth_of(self)
 
     def _log_depth(self, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
@@ -269,7 +267,7 @@ class Scene:
             metres = self.depth_field.log_metres(*size, self.working)
             land = resize(self.sky, *size) <= 0.5
             self._log_depths.clear()
-            self._log_depths[size] = depth_level.fill_sky(metres, land)
+            self._log_depths[size] = levels.fill_sky(metres, land)
         return resize_rows(self._log_depths[size], width, height, rows)
 
     @cached_property
@@ -358,7 +356,7 @@ class Scene:
         blot = 0.0 if self.sun is None else float(self.sun.blot.mean())
         share = float(sky.mean())
         logs = np.log2(np.maximum(self.without_sun.working.luminance, _SHADOW))
-        own = match.statistics_of_lab(small.lab, sky)
+        own = color_transfer.statistics_of_lab(small.lab, sky)
         found: dict[str, Any] = {
             "camera_right": self.camera.right,
             "camera_up": self.camera.up,
@@ -411,7 +409,7 @@ class Scene:
 
         Glare is where the photo says nothing about the sky behind: the old sun's clipped core
         and its halo, fading outwards; on land its share of the light. The log-depth
-        (depth_level.py) is dithered; in the sky it is that of the nearest land. ``size`` and
+        (levels.py) is dithered; in the sky it is that of the nearest land. ``size`` and
         ``rows`` as for ``layers``.
         """
         width, height = size or (self.width, self.height)
@@ -419,13 +417,13 @@ class Scene:
         if self._haze_limit is not None:
             limit = resize_rows(self._haze_limit, width, height, rows)
             log_depth = np.minimum(log_depth, limit)
-        level = depth_level.to_level(log_depth)
+        level = levels.to_level(log_depth)
         return np.stack(
             [
                 resize_rows(self.glare, width, height, rows),
                 self._water((width, height), rows),
                 resize_rows(self._glitter, width, height, rows),
-                depth_level.dithered(level, rows.indices(height)[0]),
+                levels.dithered(level, rows.indices(height)[0]),
             ],
             axis=-1,
         )

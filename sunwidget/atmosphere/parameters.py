@@ -1,6 +1,6 @@
 """The state of one clear atmosphere: a handful of numbers, each a field of ``Edit`` too.
 
-Names and ranges are those of the parameter table (``sunwidget/edit.py``); the sun's place is
+Names and ranges are those of the parameter table (``sunwidget/edit/table.py``); the sun's place is
 not part of the atmosphere. Defaults: aerosol of the clear day 2013-05-27 that Kider et al.
 measured ("A Framework for the Experimental Comparison of Solar and Skydome Illumination",
 2014), optical depth 0.04 · λ_µm^-0.8, as fitted by Bruneton ("A Qualitative and Quantitative
@@ -84,7 +84,7 @@ class Atmosphere:
         when it was not fitted.
     confidence : float or None
         How likely the fitted sky changes with the sun as the photo's would, 0-1
-        (analysis/confidence.py); ``None`` when it was not fitted.
+        (analysis/fit/confidence.py); ``None`` when it was not fitted.
 
     Raises
     ------

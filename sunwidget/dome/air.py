@@ -8,23 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.analysis.clouds import ratio_index
-from sunwidget.analysis.confidence import HEIGHTS, TURNS, nowhere
-from sunwidget.analysis.fit import (
-    Response,
-    SkyFit,
-    airs_to_try,
-    compare,
-    model_sky,
-    search_sun,
-)
-from sunwidget.analysis.unmix import cloud_white, unmix
-from sunwidget.analysis.working import encode, smoothstep
+from sunwidget.analysis.clouds.clouds import ratio_index
+from sunwidget.analysis.clouds.unmix import cloud_white, unmix
+from sunwidget.analysis.fit.confidence import HEIGHTS, TURNS, nowhere
+from sunwidget.analysis.fit.fit import Response, SkyFit, airs_to_try, compare, model_sky, search_sun
+from sunwidget.analysis.images.working_copy import encode, smoothstep
 from sunwidget.atmosphere.color import spectral_to_rec709
 from sunwidget.atmosphere.optics import direct_irradiance
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.color import LUMINANCE
 from sunwidget.dome.sphere import distance, sampled
+from sunwidget.formats.color import LUMINANCE
 
 Floats = NDArray[np.float32]
 
@@ -164,7 +157,7 @@ def hidden_sun(
     """
     import cv2
 
-    from sunwidget.analysis.working import resize
+    from sunwidget.analysis.images.working_copy import resize
 
     small = resize(np.asarray(light, np.float32), 360, 180)
     known = (resize(np.asarray(sky, np.float32), 360, 180) > 0.5).astype(np.float32)
@@ -207,7 +200,7 @@ def _samples(
     elevation: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], float, NDArray[np.bool_]]:
     """Return display light (n, 3), its scale, and which of the directions show the sky."""
-    from sunwidget.analysis.working import resize
+    from sunwidget.analysis.images.working_copy import resize
 
     small = resize(np.asarray(light, np.float32), 360, 180)
     mask = resize(np.asarray(sky, np.float32), 360, 180)

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.analysis.fill import fill_by_pyramid
-from sunwidget.analysis.fit import SkyFit, model_sky
-from sunwidget.analysis.working import smoothstep
+from sunwidget.analysis.fit.fit import SkyFit, model_sky
+from sunwidget.analysis.images.fill import fill_by_pyramid
+from sunwidget.analysis.images.working_copy import smoothstep
 from sunwidget.dome.air import cloudiness, sunlight, white_opacity
 from sunwidget.dome.disc import disc_giving
 from sunwidget.dome.sphere import angles, distance, irradiance, toward
@@ -334,7 +334,7 @@ def _falling(
     light: Floats, direct: NDArray[np.float64], sun: tuple[float, float]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the irradiance (3,) of lying ground and (n, 3) of walls that face the middle."""
-    from sunwidget.analysis.working import resize
+    from sunwidget.analysis.images.working_copy import resize
 
     small = resize(np.asarray(light, np.float32), _SMALL, _SMALL // 2)
     beam = toward(*sun)

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.camera import Camera
-from sunwidget.color import LUMINANCE
 from sunwidget.dome.sphere import angles, sampled
+from sunwidget.formats.color import LUMINANCE
+from sunwidget.geometry.camera import Camera
 
 Floats = NDArray[np.float32]
 
@@ -27,9 +27,9 @@ def find_sky(light: NDArray[Any]) -> Floats:
     """Return how likely each pixel (H, W) of a map is sky, [0, 1]; 0 below the horizon."""
     import cv2
 
-    from sunwidget.analysis.depth_field import guided
-    from sunwidget.analysis.sky import network
-    from sunwidget.analysis.working import Working, encode, log_odds, resize
+    from sunwidget.analysis.depth.field import guided
+    from sunwidget.analysis.images.working_copy import Working, encode, log_odds, resize
+    from sunwidget.analysis.segmentation.coarse_sky import network
 
     width = min(light.shape[1], _WIDEST)
     small = np.asarray(resize(np.asarray(light, np.float32), width, width // 2), np.float32)

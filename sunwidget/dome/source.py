@@ -9,18 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.fit import SkyFit
-from sunwidget.analysis.sky import mask_from
-from sunwidget.color import LUMINANCE
+from sunwidget.analysis.fit.fit import SkyFit
+from sunwidget.analysis.segmentation.coarse_sky import mask_from
 from sunwidget.dome.air import closedness, fit_air, hidden_sun, sunlight
 from sunwidget.dome.sky import find_sky
 from sunwidget.dome.sphere import angles, solid_angles
 from sunwidget.dome.sun import FoundSun, find_disc
-from sunwidget.edit import OUTSIDE
-from sunwidget.photo import Photo, PhotoError, open_photo
+from sunwidget.edit.table import OUTSIDE
+from sunwidget.formats.color import LUMINANCE
+from sunwidget.photo.photo import Photo, PhotoError, open_photo
 
 if TYPE_CHECKING:
-    from sunwidget.edit import SunHint
+    from sunwidget.edit.table import SunHint
 
 Floats = NDArray[np.float32]
 
@@ -137,7 +137,7 @@ def plain_light(light: NDArray[Any]) -> Floats:
 
 
 def _sky_of(light: Floats, sky: Any, photo: Photo) -> Floats:
-    from sunwidget.analysis.working import resize
+    from sunwidget.analysis.images.working_copy import resize
 
     if sky is None:
         mask = find_sky(light)
@@ -160,7 +160,7 @@ def _sky_of(light: Floats, sky: Any, photo: Photo) -> Floats:
 
 
 def _shrunk(light: Floats, sky: Floats) -> tuple[Floats, Floats]:
-    from sunwidget.analysis.working import resize
+    from sunwidget.analysis.images.working_copy import resize
 
     width = min(light.shape[1], _WIDEST)
     width -= width % 4

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
-from sunwidget.color import LUMINANCE
 from sunwidget.dome.sphere import Array, angles, direction_of, distance, solid_angles, toward
+from sunwidget.formats.color import LUMINANCE
 
 DISC = 2.5
 """Degrees round the sun within which what exceeds its surroundings is its own light."""

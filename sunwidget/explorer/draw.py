@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sunwidget.edit import EditError
+from sunwidget.edit.table import EditError
 from sunwidget.explorer.projection import Projection
 from sunwidget.explorer.values import effective_values
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs, Target, largest_texture
-from sunwidget.renderer.render import checked_size
+from sunwidget.renderer.offscreen import checked_size
 from sunwidget.renderer.shader_source import frame_graph
 
 Floats = npt.NDArray[np.float32]
@@ -166,7 +166,7 @@ def _run(
     if "bruneton" in asked and textures.get("bruneton") is None:
         raise EditError(
             "Bruneton's model needs its table: pass bruneton=bruneton_table(atmosphere)"
-            ".slice(altitude) from sunwidget.renderer.bruneton."
+            ".slice(altitude) from sunwidget.renderer.bruneton.precomputed_sky."
         )
     states = effective_values(values)
     host = {"frame_size": (float(size[0]), float(size[1])), "canvas_flip": 0.0, **host}

@@ -11,9 +11,9 @@ import datetime as dt
 import difflib
 from typing import Any
 
-from sunwidget import edit
 from sunwidget.atmosphere.parameters import RANGES, Atmosphere
-from sunwidget.edit import EditError, Parameter
+from sunwidget.edit import table
+from sunwidget.edit.table import EditError, Parameter
 
 MODELS = ("multiple", "single", "bruneton", "reference")
 COMPARISONS = ("none", *MODELS)
@@ -26,7 +26,7 @@ PLACE = ("date", "latitude", "longitude")
 
 
 def _air_row(name: str) -> Parameter:
-    row = edit.parameter(name)
+    row = table.parameter(name)
     return row._replace(default=getattr(Atmosphere(), name), section="air")
 
 
@@ -67,10 +67,10 @@ def _data(name: str, *row: Any) -> Parameter:
 
 # fmt: off
 EXPLORER_PARAMETERS: tuple[Parameter, ...] = (
-    edit.parameter("sun_elevation")._replace(default=20.0),
-    edit.parameter("sun_azimuth")._replace(default=0.0,
+    table.parameter("sun_elevation")._replace(default=20.0),
+    table.parameter("sun_azimuth")._replace(default=0.0,
         help="Sun's azimuth, clockwise; 0 is north once a place is set."),
-    edit.parameter("sun_size"),
+    table.parameter("sun_size"),
     _data("date", (0, 0), 0, "", "Date", "place",
         "Day of the sky in UTC, as YYYY-MM-DD."),
     _data("time", (0, 24), 1 / 60, "h", "Time", "place",
@@ -90,7 +90,7 @@ EXPLORER_PARAMETERS: tuple[Parameter, ...] = (
         "1993, Bruneton 2008's table, or path tracing as the reference."),
     _choice("compare", COMPARISONS, "none", "Compare with", "model",
         "Model that draws the right half of the picture."),
-    edit.parameter("scattering_orders")._replace(section="model"),
+    table.parameter("scattering_orders")._replace(section="model"),
     _choice("grid", GRIDS, GRIDS[0], "Sky table", "model",
         "Columns and rows of the table that the sky is read from; 128×128 is Wenzel's."),
     _choice("projection", PROJECTIONS, "dome", "Projection", "view",
@@ -150,13 +150,13 @@ def checked(row: Parameter, value: Any) -> Any:
         return bool(value)
     if row.kind == "data":
         return None if value is None else _checked_data(row, value)
-    return edit.checked(row, value)
+    return table.checked(row, value)
 
 
 def _checked_data(row: Parameter, value: Any) -> Any:
     if row.name == "date":
         return _checked_date(value)
-    number = edit.checked(row._replace(kind="number"), value)
+    number = table.checked(row._replace(kind="number"), value)
     if row.name != "scan":
         return number
     if number != int(number):

@@ -18,17 +18,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.analysis.errors import checked_scene
-from sunwidget.color import LUMINANCE
 from sunwidget.dome.disc import sun_disc
+from sunwidget.edit.recipe import edit_of
 from sunwidget.files import complete_or_absent, target
-from sunwidget.photo import PhotoError
-from sunwidget.recipe import edit_of
-from sunwidget.wording import shown
+from sunwidget.formats.color import LUMINANCE
+from sunwidget.messages import shown
+from sunwidget.photo.photo import PhotoError
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
     from sunwidget.atmosphere.parameters import Atmosphere
-    from sunwidget.edit import Edit
+    from sunwidget.edit.table import Edit
 
 Floats = NDArray[np.float32]
 
@@ -105,8 +105,8 @@ def write_map(
 
     ``white`` is the luminance of 1 in cd m⁻², where that is known.
     """
-    from sunwidget import openexr, radiance
     from sunwidget.export.metadata import software
+    from sunwidget.formats import openexr, radiance
 
     with complete_or_absent(place, overwrite=overwrite) as unfinished:
         if place.suffix.lower() == ".hdr":
@@ -141,7 +141,7 @@ def check_map(path: Path) -> None:
     PhotoError
         For an ending other than .hdr and .exr, and for EXR without its extra.
     """
-    from sunwidget import openexr
+    from sunwidget.formats import openexr
 
     kind = path.suffix.lower()
     if kind not in (".hdr", ".exr"):

@@ -14,15 +14,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget import exif as exif_tags
-from sunwidget import openexr
 from sunwidget.export.gain_map_file import beside, told_of
 from sunwidget.export.linear import exr, hdr
 from sunwidget.export.lost import warn_lost
 from sunwidget.export.tiff import EFFORT, tiff
-from sunwidget.gain_map import GainMap
-from sunwidget.layout import PhotoError
-from sunwidget.wording import shown
+from sunwidget.formats import exif as exif_tags
+from sunwidget.formats import openexr
+from sunwidget.formats.gain_map import GainMap
+from sunwidget.formats.pixels import PhotoError
+from sunwidget.messages import shown
 
 # A JPEG segment holds 65533 bytes, of which Pillow's EXIF head takes six.
 _SEGMENT = 65_500

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.color import LUMINANCE, ColorProfile
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
 from sunwidget.export.formats import Still, jpeg
 from sunwidget.export.lost import warn_lost
-from sunwidget.gain_map import GainMap, packed
-from sunwidget.time_left import Progress
+from sunwidget.formats.color import LUMINANCE, ColorProfile
+from sunwidget.formats.gain_map import GainMap, packed
+from sunwidget.progress import Progress
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -50,7 +50,7 @@ def gain_map_of(
     GainMap or None
         None, with a PhotoWarning, when nothing is brighter than white.
     """
-    from sunwidget.renderer.render import strips_of
+    from sunwidget.renderer.offscreen import strips_of
 
     height, width = still.codes.shape[:2]
     plain = strips_of(scene, edit, "float32", (width, height))

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import struct
 
-from sunwidget import xmp
-from sunwidget.gain_map import ISO_NAME, GainMap, segment, segments
+from sunwidget.formats import xmp
+from sunwidget.formats.gain_map import ISO_NAME, GainMap, segment, segments
 
 _INDEX = 8 + 2 + 3 * 12 + 4 + 2 * 16  # bytes of a multi-picture index of two
 

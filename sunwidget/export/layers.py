@@ -18,12 +18,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.color import strips
-from sunwidget.layout import size_within
+from sunwidget.formats.color import strips
+from sunwidget.formats.pixels import size_within
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
-    from sunwidget.edit import Edit
+    from sunwidget.edit.table import Edit
     from sunwidget.export.formats import Still
 
 Floats = NDArray[np.float32]
@@ -106,7 +106,7 @@ class _Around:
         edit: Edit,
         top: np.float32,
     ) -> None:
-        from sunwidget.analysis.fill import fill_by_pyramid
+        from sunwidget.analysis.images.fill import fill_by_pyramid
 
         height, width = codes.shape[:2]
         size = size_within((width, height), _FILLED_EDGE)

@@ -14,11 +14,11 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sunwidget import exif as exif_tags
-from sunwidget import openexr, radiance
-from sunwidget.exif_values import positive, text
 from sunwidget.export.lost import warn_lost
 from sunwidget.export.metadata import software
+from sunwidget.formats import exif as exif_tags
+from sunwidget.formats import openexr, radiance
+from sunwidget.formats.exif_values import positive, text
 
 if TYPE_CHECKING:
     import numpy as np

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 
-from sunwidget.layout import PhotoWarning
+from sunwidget.formats.pixels import PhotoWarning
 
 # Of whoever calls save(): this function, the encoder, save() itself, its caller.
 _CALLER = 4

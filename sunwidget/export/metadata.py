@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from sunwidget import exif as exif_tags
-from sunwidget import xmp
-from sunwidget.exif_values import text
+from sunwidget.formats import exif as exif_tags
+from sunwidget.formats import xmp
+from sunwidget.formats.exif_values import text
 
 if TYPE_CHECKING:
-    from sunwidget.photo import Photo
+    from sunwidget.photo.photo import Photo
 
 _SOFTWARE = 0x0131
 

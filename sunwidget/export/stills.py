@@ -15,15 +15,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.color import strips
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
 from sunwidget.export.formats import Format, Still, check_format, check_quality
 from sunwidget.export.gain_map import gain_map_of
 from sunwidget.export.layers import LAYERS, layer_alone, layers_of
 from sunwidget.export.metadata import told
 from sunwidget.files import complete_or_absent, target
-from sunwidget.photo import Photo, PhotoError, open_photo
-from sunwidget.time_left import Progress
+from sunwidget.formats.color import strips
+from sunwidget.photo.photo import Photo, PhotoError, open_photo
+from sunwidget.progress import Progress
 
 __all__ = ["check_format", "encode_like", "save"]
 
@@ -198,7 +198,7 @@ def checked_headroom(headroom: Any) -> float:
     """Return stops of light above white; an EditError says what is wrong with others."""
     if type(headroom) in {int, float} and headroom == 0:
         return 0.0  # without the renderer, which pictures from elsewhere do not need
-    from sunwidget.renderer.render import checked_headroom as checked
+    from sunwidget.renderer.offscreen import checked_headroom as checked
 
     return checked(headroom)
 
@@ -292,7 +292,7 @@ def _rendered(
     headroom: float,
 ) -> NDArray[Any]:
     """Draw the picture: code values in the photo's profile, or light for 32 bits."""
-    from sunwidget.renderer.render import checked_size, render, strips_of
+    from sunwidget.renderer.offscreen import checked_size, render, strips_of
 
     photo: Photo = scene.photo
     more: dict[str, Any] = {"progress": progress}

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget import exif as exif_tags
-from sunwidget.layout import PhotoError
+from sunwidget.formats import exif as exif_tags
+from sunwidget.formats.pixels import PhotoError
 
 if TYPE_CHECKING:
     from sunwidget.export.formats import Still

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sunwidget.layout import size_within
+from sunwidget.formats.pixels import size_within
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -104,7 +104,7 @@ def scene_textures(scene: Scene, size: Size, *, lit: bool = True) -> dict[str, A
 
     ``lit`` False leaves dark what only lit windows need, and no network looks for them.
     """
-    from sunwidget.analysis.clear_sky import clear_sky
+    from sunwidget.analysis.backdrop.clear_sky import clear_sky
 
     return {
         **_picture(scene, size),

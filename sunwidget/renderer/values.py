@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from sunwidget.edit import PARAMETERS, Edit
+from sunwidget.edit.table import PARAMETERS, Edit
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -45,6 +45,6 @@ def uniform_value(shader: str, name: str, *tables: Mapping[str, Any]) -> Any:
         if name in table:
             return table[name]
     raise KeyError(
-        f"Shader {shader!r} declares uniform {name!r}, which is neither a parameter of edit.py, "
+        f"Shader {shader!r} declares uniform {name!r}, which is neither a parameter of table.py, "
         "a scene uniform of graph.json nor a host uniform."
     )

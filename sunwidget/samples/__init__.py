@@ -10,7 +10,7 @@ from __future__ import annotations
 import difflib
 from importlib import resources
 
-from sunwidget.photo import Photo, PhotoError, open_photo
+from sunwidget.photo.photo import Photo, PhotoError, open_photo
 
 NAMES = ("coast", "mountains", "meadow", "harbour")
 """Names that :func:`sample` knows."""

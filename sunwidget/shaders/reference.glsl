@@ -3,7 +3,7 @@
 // before. Slow and noisy, but the other models are measured by it.
 //
 // Single scattering is marched, in strata with one random place in each, so that noise touches only
-// what comes later (as in atmosphere/path_tracer.py). The path is followed for the second order
+// what comes later (as in validation/path_tracer.py). The path is followed for the second order
 // and above: at every event the sun is sampled directly (next-event estimation), rays to space are
 // forced to scatter, and paths end by Russian roulette. All orders means 24: what is left out is
 // 1e-6 of the light over grass or snow, and 0.4 % over white ground in thick white haze.

@@ -1,4 +1,4 @@
-// The sky without the old sun, as the analysis found it (analysis/backdrop.py). Drawn once a photo.
+// The sky without the old sun, as the analysis found it (analysis/backdrop/backdrop.py). Drawn once a photo.
 // Alpha carries what else the frame asks about the sky of a pixel, so that it reads one map for both:
 // matte, cloud opacity and glare of the old sun. On water it is the water without the old sun's glints,
 // and what its waves make of glints instead of the glare (water_behind.glsl). CLOUDS_UNEDITED as in retouch.glsl.

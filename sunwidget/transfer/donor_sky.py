@@ -1,7 +1,7 @@
 """A donor's sky, asked for by direction.
 
 The donor's own pixels are looked up where its camera sees sky. Its land is filled and its frame
-continued by mirroring the *residual* of photo over fitted model (analysis/backdrop.py) and putting
+continued by mirroring the *residual* of photo over fitted model (backdrop.py) and putting
 it on the model of the direction that is really asked for: clouds go on as clouds, gradients go
 on as the air makes them, and nothing is stretched. A mirrored residual is without the
 donor's sun, so that there is one sun only.
@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sunwidget.analysis.backdrop import matched_sky, to_light
+from sunwidget.analysis.backdrop.backdrop import matched_sky, to_light
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.fill import fill_by_pyramid
-from sunwidget.analysis.fit import SkyFit, view_angles
-from sunwidget.analysis.working import resize
-from sunwidget.camera import Camera
-from sunwidget.layout import size_within
+from sunwidget.analysis.fit.fit import SkyFit, view_angles
+from sunwidget.analysis.images.fill import fill_by_pyramid
+from sunwidget.analysis.images.working_copy import resize
+from sunwidget.formats.pixels import size_within
+from sunwidget.geometry.camera import Camera
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene

@@ -13,7 +13,7 @@ from sunwidget.export.stills import encode_like
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
-    from sunwidget.photo import Photo
+    from sunwidget.photo.photo import Photo
 
 
 def photo_like(photo: Photo, light: np.ndarray) -> Photo:

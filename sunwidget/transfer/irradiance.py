@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.fit import model_sky
-from sunwidget.analysis.sun_search import night
-from sunwidget.analysis.working import LUMINANCE, resize
+from sunwidget.analysis.fit.fit import model_sky
+from sunwidget.analysis.images.working_copy import LUMINANCE, resize
+from sunwidget.analysis.sun.search import night
 from sunwidget.atmosphere.color import spectral_to_rec709
 from sunwidget.atmosphere.optics import direct_irradiance
 from sunwidget.atmosphere.parameters import Atmosphere

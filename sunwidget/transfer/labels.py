@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sunwidget.analysis.fit import view_angles
-from sunwidget.analysis.working import resize, smoothstep
+from sunwidget.analysis.fit.fit import view_angles
+from sunwidget.analysis.images.working_copy import resize, smoothstep
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
-    from sunwidget.camera import Camera
+    from sunwidget.geometry.camera import Camera
 
 LABELS = ("ground", "upright", "plants", "water")
 _EYE_HEIGHT = 1.7  # metres above the ground; the depth map assumes the same

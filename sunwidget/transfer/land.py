@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.match import LMS_TO_LAB, RGB_TO_LMS
-from sunwidget.analysis.working import LUMINANCE, resize
+from sunwidget.analysis.images.color_transfer import LMS_TO_LAB, RGB_TO_LMS
+from sunwidget.analysis.images.working_copy import LUMINANCE, resize
 from sunwidget.transfer.irradiance import is_night, land_light
 from sunwidget.transfer.labels import LABELS, labels_of
 

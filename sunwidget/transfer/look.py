@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sunwidget.analysis import sky as sky_stage
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.working import Working, resize, shrink
-from sunwidget.color import linear_to_srgb, srgb_to_linear, strips
-from sunwidget.photo import Photo, open_photo
+from sunwidget.analysis.images.working_copy import Working, resize, shrink
+from sunwidget.analysis.segmentation import coarse_sky
+from sunwidget.formats.color import linear_to_srgb, srgb_to_linear, strips
+from sunwidget.photo.photo import Photo, open_photo
 from sunwidget.transfer.correspondence import correspond, normalisation
 from sunwidget.transfer.encode import check_strength, photo_like
 from sunwidget.transfer.land import rows_at
@@ -33,7 +33,7 @@ from sunwidget.transfer.local_affine import (
 )
 
 if TYPE_CHECKING:
-    from sunwidget.time_left import Progress
+    from sunwidget.progress import Progress
 
 _LONG_SIDE = 240  # of the copies that are compared: 40,000 points match in seconds
 _LEARNED_SIDE = 640  # of the pair when the transforms are fitted
@@ -210,7 +210,7 @@ def _fine(photo: Photo) -> np.ndarray:
 def _small(photo: Photo) -> tuple[np.ndarray, np.ndarray]:
     """Return encoded colours and coarse sky of a photo, at most ``_LONG_SIDE`` px."""
     working = Working.of(photo).shrunk(_LONG_SIDE)
-    sky = sky_stage.coarse(Working.of(photo), None, photo.size, None)
+    sky = coarse_sky.coarse(Working.of(photo), None, photo.size, None)
     return working.encoded, np.clip(resize(sky, working.width, working.height), 0, 1)
 
 

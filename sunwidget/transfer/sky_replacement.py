@@ -14,17 +14,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.fill import fill_by_pyramid
-from sunwidget.analysis.working import LUMINANCE, resize
-from sunwidget.color import strips
+from sunwidget.analysis.images.fill import fill_by_pyramid
+from sunwidget.analysis.images.working_copy import LUMINANCE, resize
+from sunwidget.formats.color import strips
 from sunwidget.transfer.donor_sky import DonorSky, directions, donor_sky
 from sunwidget.transfer.encode import check_strength, photo_like, scene_of
 from sunwidget.transfer.land import LandChange, land_change, mean_sky, rows_at
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
-    from sunwidget.photo import Photo
-    from sunwidget.time_left import Progress
+    from sunwidget.photo.photo import Photo
+    from sunwidget.progress import Progress
 
 _LEAST_SKY = 0.002  # share of the picture
 

@@ -3,10 +3,10 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from sunwidget.widgets.compare import Compare
-    from sunwidget.widgets.sky_explorer import SkyExplorer
+    from sunwidget.widgets.compare.compare import Compare
+    from sunwidget.widgets.editor.sun_editor import SunEditor
+    from sunwidget.widgets.explorer.sky_explorer import SkyExplorer
     from sunwidget.widgets.study import Study
-    from sunwidget.widgets.sun_editor import SunEditor
 
 __all__ = ["Compare", "SkyExplorer", "Study", "SunEditor"]
 

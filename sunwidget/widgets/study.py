@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 import traitlets
 
-from sunwidget.export.framed import StaticPage
 from sunwidget.export.sheet import sheet
 from sunwidget.files import target
-from sunwidget.photo import open_photo
-from sunwidget.png import encode_small_png
+from sunwidget.formats.png import encode_small_png
+from sunwidget.photo.photo import open_photo
 from sunwidget.study import (
     Answer,
     BradleyTerry,
@@ -25,11 +24,12 @@ from sunwidget.study import (
     write_csv,
 )
 from sunwidget.study.bradley_terry import PRIOR
-from sunwidget.widgets.front_end import front_end
-from sunwidget.widgets.output import with_picture
-from sunwidget.widgets.payload import encode_jpeg, encode_preview
-from sunwidget.widgets.saved_state import SavedLight
-from sunwidget.widgets.standalone import embedded_state, write_page
+from sunwidget.widgets.kernel.front_end import front_end
+from sunwidget.widgets.kernel.output import with_picture
+from sunwidget.widgets.kernel.payload import encode_jpeg, encode_preview
+from sunwidget.widgets.page.framed import StaticPage
+from sunwidget.widgets.page.saved_state import SavedLight
+from sunwidget.widgets.page.standalone import embedded_state, write_page
 
 _MOST_REPEATS = 100
 _SMALL_EDGE = 400  # pixels, of each picture of the static one
@@ -187,7 +187,7 @@ class Study(SavedLight):
         return StaticPage(self._page(title), title)
 
     def _page(self, title: str) -> str:
-        from sunwidget.export.html import Still, page
+        from sunwidget.widgets.page.html import Still, page
 
         embedded = embedded_state(self)
         embedded["state"] |= {"_answers": [], "rater": "", "_thumbnail": None}

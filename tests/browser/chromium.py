@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from sunwidget.widgets.payload import MAP_TRAITS
+from sunwidget.widgets.kernel.payload import MAP_TRAITS
 
 HERE = Path(__file__).parent
 STATIC = HERE.parents[1] / "sunwidget" / "static"
@@ -160,7 +160,7 @@ def widget_state(widget):
 
 def connect(page, widget):
     """Let a real widget answer what the page's editor sends; see ``showConnected``."""
-    from sunwidget.widgets.requests import Requests
+    from sunwidget.widgets.kernel.requests import Requests
 
     actions = widget._actions()
 

@@ -9,7 +9,8 @@ from chromium import connect, open_page, picture_of, widget_state
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.widgets import SunEditor, payload
+from sunwidget.widgets import SunEditor
+from sunwidget.widgets.kernel import payload
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 

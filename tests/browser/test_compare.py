@@ -9,9 +9,9 @@ from skimage.color import deltaE_ciede2000, rgb2lab
 
 import sunwidget as sw
 import sunwidget.study
-from sunwidget.widgets.compare import Compare
+from sunwidget.widgets.compare.compare import Compare
+from sunwidget.widgets.editor.sun_editor import SunEditor
 from sunwidget.widgets.study import Study
-from sunwidget.widgets.sun_editor import SunEditor
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 

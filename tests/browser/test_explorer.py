@@ -9,7 +9,7 @@ from chromium import LOSE_ONCE, STATIC, open_page, picture_of, widget_state
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.presets import PRESETS
 from sunwidget.atmosphere.sky import sky_radiance
-from sunwidget.widgets.sky_explorer import SkyExplorer
+from sunwidget.widgets.explorer.sky_explorer import SkyExplorer
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 

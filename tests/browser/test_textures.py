@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from chromium import widget_state
 
-from sunwidget.png import encode_png
+from sunwidget.formats.png import encode_png
 from sunwidget.widgets import SunEditor
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]

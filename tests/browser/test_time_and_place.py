@@ -7,9 +7,9 @@ import pytest
 from chromium import widget_state
 
 import sunwidget as sw
-from sunwidget.place import sun_at
+from sunwidget.geometry.place import sun_at
 from sunwidget.widgets import SunEditor
-from sunwidget.widgets.place_clock import _told
+from sunwidget.widgets.editor.place_clock import _told
 
 pytest.importorskip("pvlib")
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]

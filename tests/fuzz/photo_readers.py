@@ -30,11 +30,11 @@ with atheris.instrument_imports(
         *(f"PIL.{name}ImagePlugin" for name in ("Bmp", "Gif", "Jpeg", "Mpo", "Png", "Tiff")),
     ]
 ):
-    from sunwidget import exif, icc, layout, xmp
-    from sunwidget.decode import _formats
     from sunwidget.export.gain_map_file import beside, told_of
-    from sunwidget.gain_map import GainMap, packed
-    from sunwidget.photo import Photo, PhotoError, PhotoWarning, open_photo
+    from sunwidget.formats import exif, icc, pixels, xmp
+    from sunwidget.formats.gain_map import GainMap, packed
+    from sunwidget.photo.decode import _formats
+    from sunwidget.photo.photo import Photo, PhotoError, PhotoWarning, open_photo
 
     _formats()  # loads Pillow's readers
 
@@ -46,7 +46,7 @@ import photo_corpus
 import raw_files
 
 # What a fuzzer learns from a large picture it learns from a small one, sooner.
-layout.MAX_PIXELS = 250_000
+pixels.MAX_PIXELS = 250_000
 _PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -69,7 +69,7 @@ def _check_photo(photo: Photo) -> None:
     assert photo.encoded.ndim == 3, photo.encoded.shape
     assert photo.encoded.shape[2] == 3, photo.encoded.shape
     assert photo.encoded.dtype in (np.uint8, np.uint16, np.float32), photo.encoded.dtype
-    assert photo.width * photo.height <= layout.MAX_PIXELS, photo.size
+    assert photo.width * photo.height <= pixels.MAX_PIXELS, photo.size
     assert np.isfinite(photo.pixels).all(), "light that is not finite"
     assert photo.preview(8).dtype == np.uint8
     assert photo.gain_map is None or photo.gain_map.levels.dtype == np.uint8

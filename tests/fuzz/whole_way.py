@@ -24,15 +24,19 @@ with atheris.instrument_imports(
         *(f"sunwidget.{name}" for name in ("decode", "decode_deep", "edit", "exif", "icc")),
         *(f"sunwidget.{name}" for name in ("openexr", "photo", "radiance", "recipe", "xmp")),
         *(f"sunwidget.analysis.{name}" for name in ("analyze", "horizon", "strokes", "sun")),
-        *("sunwidget.analysis.retouch", "sunwidget.export.html", "sunwidget.widgets.standalone"),
+        *(
+            "sunwidget.analysis.strokes.retouch",
+            "sunwidget.widgets.page.html",
+            "sunwidget.widgets.page.standalone",
+        ),
     ]
 ):
     import sunwidget as sw
-    from sunwidget import layout, xmp
     from sunwidget.analysis import analyze as _analysis  # noqa: F401 - the fuzzer's coverage
-    from sunwidget.edit import Edit, EditError
-    from sunwidget.export import html as _page  # noqa: F401 - likewise
-    from sunwidget.photo import Photo, PhotoError, PhotoWarning, open_photo
+    from sunwidget.edit.table import Edit, EditError
+    from sunwidget.formats import pixels, xmp
+    from sunwidget.photo.photo import Photo, PhotoError, PhotoWarning, open_photo
+    from sunwidget.widgets.page import html as _page  # noqa: F401 - likewise
 
 import numpy as np
 from PIL import Image
@@ -41,7 +45,7 @@ sys.path[:0] = [str(Path(__file__).parents[1] / "unit"), str(Path(__file__).pare
 import photo_corpus  # noqa: E402 - a neighbour's folder
 import photo_readers  # noqa: E402 - which are no packages
 
-layout.MAX_PIXELS = 20_000  # what is slow for many pixels is as wrong for few
+pixels.MAX_PIXELS = 20_000  # what is slow for many pixels is as wrong for few
 # One picture in so many goes the whole way: by its checksum, so that a finding can be repeated.
 _WHOLE_WAY = 8
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.atmosphere.solar import apparent_elevation, day_path, sun_on_path
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
 from sunwidget.explorer.values import effective_values
-from sunwidget.widgets.payload import parameter_json
-from sunwidget.widgets.sky_explorer import SkyExplorer
+from sunwidget.geometry.solar import apparent_elevation, day_path, sun_on_path
+from sunwidget.widgets.explorer.sky_explorer import SkyExplorer
+from sunwidget.widgets.kernel.payload import parameter_json
 
 SCRIPT = """
 import { effectiveValues } from "./src/explorer/values.js";

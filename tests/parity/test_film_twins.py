@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.edit import NUMBERS
-from sunwidget.export.sun_path import EASINGS, film_edits
-from sunwidget.widgets.key_frames import MOVED, along
-from sunwidget.widgets.payload import parameter_json
+from sunwidget.edit.table import NUMBERS
+from sunwidget.film.path import EASINGS, film_edits
+from sunwidget.widgets.editor.key_frames import MOVED, along
+from sunwidget.widgets.kernel.payload import parameter_json
 
 SCRIPT = """
 import { EASINGS, keyFramePath } from "./src/film_path.js";

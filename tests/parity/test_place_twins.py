@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from sunwidget.edit import Edit
-from sunwidget.heading import match
-from sunwidget.place import Place, at_hours, day_table, hours_of_day, solar_day
+from sunwidget.edit.table import Edit
+from sunwidget.geometry.heading import match
+from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, solar_day
 
 pytest.importorskip("pvlib")
 

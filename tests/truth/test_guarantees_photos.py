@@ -12,7 +12,7 @@ import pytest
 from skimage.color import deltaE_ciede2000, rgb2lab
 
 import sunwidget as sw
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
 from sunwidget.renderer import render, render_pass
 
 pytestmark = pytest.mark.shared

@@ -8,10 +8,10 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
-from sunwidget.analysis import frame_scenes
 from sunwidget.analysis.scene import Scene
-from sunwidget.edit import Edit
-from sunwidget.frames import Clock
+from sunwidget.edit.table import Edit
+from sunwidget.timelapses import scenes as scene_maker
+from sunwidget.timelapses.frames import Clock
 
 WIDTH, HEIGHT, SKYLINE = 192, 128, 78
 
@@ -57,7 +57,7 @@ class LookedAt(NamedTuple):
     """Frames, what was found in all of them, and the scene of each."""
 
     frames: list[np.ndarray]
-    scenes: frame_scenes.FrameScenes
+    scenes: scene_maker.FrameScenes
     row: list[Scene]
 
 
@@ -68,9 +68,9 @@ def film() -> LookedAt:
         frame(i, exposure=exposure, shift=SHAKE if i == SHAKEN else (0, 0))
         for i, exposure in enumerate(EXPOSURES)
     ]
-    wanted, frame_scenes.SAMPLES = frame_scenes.SAMPLES, 3
+    wanted, scene_maker.SAMPLES = scene_maker.SAMPLES, 3
     try:
-        scenes = frame_scenes.FrameScenes.of(
+        scenes = scene_maker.FrameScenes.of(
             frames,
             long_edge=None,
             corrections=Edit(),
@@ -80,5 +80,5 @@ def film() -> LookedAt:
             progress=lambda _fraction, _message: None,
         )
     finally:
-        frame_scenes.SAMPLES = wanted
+        scene_maker.SAMPLES = wanted
     return LookedAt(frames, scenes, list(scenes))

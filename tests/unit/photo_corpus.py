@@ -402,7 +402,7 @@ def with_metadata():
         "exr_metadata": exr_file(
             base / 255,
             np.float16,
-            **{"sunwidget.recipe": '{"version": 1}', "xDensity": 300.0},
+            **{"sunwidget.edit.recipe": '{"version": 1}', "xDensity": 300.0},
             chromaticities=(0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329),
         ),
     }

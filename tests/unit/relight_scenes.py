@@ -7,9 +7,9 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.analysis.fit import Response, SkyFit, model_sky, view_angles
+from sunwidget.analysis.fit.fit import Response, SkyFit, model_sky, view_angles
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.camera import Camera
+from sunwidget.geometry.camera import Camera
 
 # Where each sample's sun and horizon are, in fractions of its size: small copies need telling.
 SAMPLES = {

@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from sunwidget.analysis import clouds
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.analysis.clouds import clouds
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.photo.photo import open_photo
 
 BLUE, WHITE, GREY = (62, 112, 190), (235, 235, 238), (120, 124, 132)
 SKY = np.ones((40, 60), np.float32)

@@ -4,11 +4,11 @@ import cv2
 import numpy as np
 import pytest
 
-from sunwidget.analysis import matting, refine
-from sunwidget.analysis.dense_crf import _bilateral, mean_field
-from sunwidget.analysis.edges import snap
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.segmentation import matting, refine
+from sunwidget.analysis.segmentation.dense_crf import _bilateral, mean_field
+from sunwidget.analysis.segmentation.edges import snap
+from sunwidget.photo.photo import open_photo
 
 HEIGHT, WIDTH = 96, 128
 

@@ -7,8 +7,8 @@ import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
-from sunwidget.analysis import brush
-from sunwidget.analysis.memory import Memory
+from sunwidget.analysis.strokes import brush
+from sunwidget.analysis.strokes.memory import Memory
 
 MAPS = ("sky", "clouds", "cloud_softness", "cloud_shade", "depth", "water", "backdrop", "glare")
 ROCK = sw.Stroke("not_sky", ((0.12, 0.12), (0.2, 0.14)), 0.02)

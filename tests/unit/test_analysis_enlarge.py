@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis import matting
-from sunwidget.analysis.enlarge import enlarged_part, pixels_of, raise_to, resize_rows
-from sunwidget.analysis.horizon import above, cut_below
-from sunwidget.analysis.refine import Decision
-from sunwidget.analysis.working import Working, resize
-from sunwidget.camera import Camera
+from sunwidget.analysis.horizon.horizon import above, cut_below
+from sunwidget.analysis.images.enlarge import enlarged_part, pixels_of, raise_to, resize_rows
+from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.analysis.segmentation import matting
+from sunwidget.analysis.segmentation.refine import Decision
+from sunwidget.geometry.camera import Camera
 
 RANDOM = np.random.default_rng(3)
 SMALL = RANDOM.random((23, 31), np.float32)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis import horizon
-from sunwidget.analysis.straight_edge import straight_edges
-from sunwidget.camera import Camera
+from sunwidget.analysis.horizon import horizon
+from sunwidget.analysis.horizon.straight_edge import straight_edges
+from sunwidget.geometry.camera import Camera
 
 HEIGHT, WIDTH = 360, 640
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from sunwidget.analysis import patches
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.segmentation import patches
+from sunwidget.photo.photo import open_photo
 
 HEIGHT, WIDTH = 120, 180
 SKY, LAND = (120, 160, 220), (70, 80, 40)

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis.fit import Response, SkyFit
-from sunwidget.analysis.overcast import believable, overcast
-from sunwidget.analysis.plausible import plausible
-from sunwidget.analysis.working import LUMINANCE, Working
+from sunwidget.analysis.fit.fit import Response, SkyFit
+from sunwidget.analysis.fit.overcast import believable, overcast
+from sunwidget.analysis.images.working_copy import LUMINANCE, Working
+from sunwidget.analysis.segmentation.plausible import plausible
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.photo import open_photo
+from sunwidget.photo.photo import open_photo
 
 SIZE = (120, 160)
 UPPER = np.zeros(SIZE, np.float32)
@@ -44,10 +44,10 @@ def test_a_given_mask_is_never_dropped_and_says_so_by_silence():
 
 
 def test_a_dropped_sky_is_told_and_the_named_network_keeps_it(monkeypatch):
-    from sunwidget.analysis import sky
+    from sunwidget.analysis.segmentation import coarse_sky
 
-    monkeypatch.setattr(sky, "network", lambda working, *_: FAINT)
-    monkeypatch.setitem(sky.METHODS, "network", lambda working: FAINT)
+    monkeypatch.setattr(coarse_sky, "network", lambda working, *_: FAINT)
+    monkeypatch.setitem(coarse_sky.METHODS, "network", lambda working: FAINT)
     doubted = sw.analyze(flat().bytes)
     assert doubted.sky.max() == 0
     assert doubted.doubted > 0.3

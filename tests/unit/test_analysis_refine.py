@@ -4,11 +4,12 @@ import cv2
 import numpy as np
 import pytest
 
-from sunwidget.analysis import brush, matting, refine
-from sunwidget.analysis.strokes import Painting
-from sunwidget.analysis.working import Working
-from sunwidget.edit import Stroke
-from sunwidget.photo import Photo, open_photo
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.segmentation import matting, refine
+from sunwidget.analysis.strokes import brush
+from sunwidget.analysis.strokes.sky import Painting
+from sunwidget.edit.table import Stroke
+from sunwidget.photo.photo import Photo, open_photo
 
 HEIGHT, WIDTH = 240, 320
 

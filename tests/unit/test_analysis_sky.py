@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from sunwidget.analysis import sky
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.segmentation import coarse_sky
+from sunwidget.photo.photo import open_photo
 
 
 def working(picture: np.ndarray) -> Working:
@@ -22,21 +22,21 @@ def landscape() -> np.ndarray:
 
 
 def test_bundled_network_tells_blue_sky_from_grass():
-    probability = sky.network(working(landscape()))
+    probability = coarse_sky.network(working(landscape()))
     rows = np.linspace(0, len(probability), 13).astype(int)
     assert probability[rows[1] : rows[6]].mean() > 0.9
     assert probability[rows[8] : rows[11]].mean() < 0.1
 
 
 def test_network_answers_in_zero_to_one_at_its_own_size():
-    probability = sky.network(working(landscape()))
+    probability = coarse_sky.network(working(landscape()))
     assert probability.shape == (384, 384)
     assert probability.dtype == np.float32
     assert 0 <= probability.min() <= probability.max() <= 1
 
 
 def test_skyline_method_needs_no_network():
-    mask = sky.skyline(working(landscape()))
+    mask = coarse_sky.skyline(working(landscape()))
     edge = round(70 / 120 * len(mask))
     assert mask[: edge - 3].mean() > 0.95
     assert mask[edge + 3 :].mean() < 0.05
@@ -44,19 +44,19 @@ def test_skyline_method_needs_no_network():
 
 def test_a_missing_network_says_where_it_was_looked_for(tmp_path):
     with pytest.raises(AnalysisError, match=r"No sky network at .*gone\.onnx"):
-        sky.coarse(working(landscape()), tmp_path / "gone.onnx")
+        coarse_sky.coarse(working(landscape()), tmp_path / "gone.onnx")
 
 
 def test_a_broken_network_is_an_error_in_words(tmp_path):
     path = tmp_path / "broken.onnx"
     path.write_bytes(b"no network at all")
     with pytest.raises(AnalysisError, match="not an ONNX network"):
-        sky.coarse(working(landscape()), path)
+        coarse_sky.coarse(working(landscape()), path)
 
 
 def test_an_unknown_method_names_the_known_ones():
     with pytest.raises(AnalysisError, match="network, skyline"):
-        sky.coarse(working(landscape()), "netwrok")
+        coarse_sky.coarse(working(landscape()), "netwrok")
 
 
 @pytest.mark.parametrize(
@@ -71,7 +71,7 @@ def test_an_unknown_method_names_the_known_ones():
     ],
 )
 def test_masks_of_every_kind_come_out_in_zero_to_one(mask, top):
-    assert sky.mask_from(mask).tolist() == np.full((6, 8), top).tolist()
+    assert coarse_sky.mask_from(mask).tolist() == np.full((6, 8), top).tolist()
 
 
 @pytest.mark.parametrize(
@@ -85,12 +85,12 @@ def test_masks_of_every_kind_come_out_in_zero_to_one(mask, top):
 )
 def test_what_is_no_mask_is_refused_in_words(mask, word):
     with pytest.raises(AnalysisError, match=word):
-        sky.mask_from(mask)
+        coarse_sky.mask_from(mask)
 
 
 def test_a_rotated_mask_is_refused():
     with pytest.raises(AnalysisError, match="rotated"):
-        sky.mask_from(np.ones((160, 120)), (160, 120))
+        coarse_sky.mask_from(np.ones((160, 120)), (160, 120))
 
 
 def test_a_mask_is_never_read_by_what_starts_a_program(tmp_path):
@@ -98,4 +98,4 @@ def test_a_mask_is_never_read_by_what_starts_a_program(tmp_path):
     path = tmp_path / "mask.png"
     path.write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n%%EndComments\nshowpage\n")
     with pytest.raises(AnalysisError, match=r"sky mask cannot be read: mask.png is not a picture"):
-        sky.coarse(Working.of(open_photo(np.zeros((9, 9, 3), np.uint8))), path, (9, 9))
+        coarse_sky.coarse(Working.of(open_photo(np.zeros((9, 9, 3), np.uint8))), path, (9, 9))

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis import sun
-from sunwidget.analysis.frame_sun import seen_sun
 from sunwidget.analysis.hints import Hints
-from sunwidget.analysis.sun_network import look_for_sun
-from sunwidget.analysis.working import Working
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.networks.sun import look_for_sun
+from sunwidget.analysis.sun import sun
 from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
-from sunwidget.camera import Camera
-from sunwidget.photo import open_photo
+from sunwidget.geometry.camera import Camera
+from sunwidget.photo.photo import open_photo
+from sunwidget.timelapses.sun import seen_sun
 
 SIZE = (320, 214)
 CAMERA = Camera.from_horizon(*SIZE, 40.0, 150.0)

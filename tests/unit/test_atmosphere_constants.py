@@ -10,7 +10,7 @@ from sunwidget.atmosphere.color import chromaticity, spectral_to_xyz, spectrum_t
 from sunwidget.atmosphere.parameters import RANGES, Atmosphere
 from sunwidget.atmosphere.sky import SkyTable
 from sunwidget.atmosphere.sun import limb_darkening_exponent
-from sunwidget.edit import NUMBERS
+from sunwidget.edit.table import NUMBERS
 from sunwidget.renderer.shader_source import read_shader
 
 

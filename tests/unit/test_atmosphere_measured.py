@@ -7,8 +7,8 @@ did. The data belong to others and are not part of the project: without them, sk
 import numpy as np
 import pytest
 
-from sunwidget.atmosphere import evaluation, measurements, validation
 from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.validation import bruneton2017, measurements, report
 
 pytestmark = pytest.mark.shared
 
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.shared
 @pytest.fixture(scope="module")
 def folder(shared):
     folder = shared / "data" / "sky-reference"
-    if not (folder / evaluation.EVALUATION).is_file() or not measurements.is_available(folder):
+    if not (folder / bruneton2017.EVALUATION).is_file() or not measurements.is_available(folder):
         pytest.skip(f"no measured skies in {folder}")
     return folder
 
@@ -24,7 +24,7 @@ def folder(shared):
 @pytest.fixture(scope="module")
 def day(folder):
     """The day as Bruneton cleaned it, and what other models say of it."""
-    return evaluation.Evaluation(folder)
+    return bruneton2017.Evaluation(folder)
 
 
 @pytest.fixture(scope="module")
@@ -43,13 +43,13 @@ def test_reading_is_right_for_other_models_have_their_published_error(day):
 
 
 def test_error_level_and_pattern_against_measured_skies_are_those_of_the_best_models(data):
-    rows = list(validation.measured_radiance(data))
+    rows = list(report.measured_radiance(data))
     assert len(rows) == 5
     assert missed(rows) == []
 
 
 def test_other_models_skies_are_met(folder):
-    rows = list(validation.other_models(folder))
+    rows = list(report.other_models(folder))
     assert len(rows) == 3
     assert missed(rows) == []
 

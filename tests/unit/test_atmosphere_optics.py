@@ -8,8 +8,8 @@ from sunwidget.atmosphere.constants import ozone_cross_section
 from sunwidget.atmosphere.multiple import mie_moments
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.rayleigh import rayleigh_coefficient
-from sunwidget.atmosphere.sky_figures import over_the_sphere
 from sunwidget.atmosphere.sun import disc_radiance, limb_darkening, refraction, true_elevation
+from sunwidget.validation.sky_figures import over_the_sphere
 
 
 @pytest.mark.parametrize("g", [0.2, 0.7, 0.9])

@@ -10,12 +10,12 @@ from sunwidget.atmosphere import optics
 from sunwidget.atmosphere.color import spectral_to_xyz
 from sunwidget.atmosphere.constants import rayleigh_optical_depth
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.atmosphere.path_tracer import trace
 from sunwidget.atmosphere.presets import PRESETS
 from sunwidget.atmosphere.rayleigh import rayleigh_coefficient
 from sunwidget.atmosphere.sky import SHADER, SkyTable, sky_radiance
-from sunwidget.atmosphere.sky_figures import furnace
-from sunwidget.edit import NUMBERS
+from sunwidget.edit.table import NUMBERS
+from sunwidget.validation.path_tracer import trace
+from sunwidget.validation.sky_figures import furnace
 
 VIEWS = directions(*np.meshgrid([4.0, 15.0, 40.0, 80.0], [0.0, 60.0, 120.0, 180.0]))
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from sunwidget.atmosphere import sky_figures
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.sky import FAST, SHADER, SkyTable, sky_radiance
+from sunwidget.validation import sky_figures
 
 AIR = Atmosphere()
 

@@ -6,11 +6,17 @@ import numpy as np
 import pytest
 from relight_scenes import exact_fit, known_photo
 
-from sunwidget.analysis.backdrop import LONG_SIDE, behind_sun, matched_sky, to_code, to_light
-from sunwidget.analysis.erase import unerased
-from sunwidget.analysis.working import Working
-from sunwidget.edit import Edit
-from sunwidget.photo import open_photo
+from sunwidget.analysis.backdrop.backdrop import (
+    LONG_SIDE,
+    behind_sun,
+    matched_sky,
+    to_code,
+    to_light,
+)
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.sun.erase import unerased
+from sunwidget.edit.table import Edit
+from sunwidget.photo.photo import open_photo
 from sunwidget.renderer import render, render_pass
 
 

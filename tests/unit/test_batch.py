@@ -9,10 +9,10 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.cli import main
-from sunwidget.export.batch import develop, photos, record
-from sunwidget.export.batch.report import BatchReport, BatchRow
-from sunwidget.export.batch.wish import Wish
+from sunwidget.batches import develop, photos, record
+from sunwidget.batches.report import BatchReport, BatchRow
+from sunwidget.batches.request import Wish
+from sunwidget.cli.main import main
 
 LOW = sw.Edit(sun_elevation=3)
 

@@ -13,8 +13,8 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.export.batch import cluster
-from sunwidget.export.batch import workers as hands
+from sunwidget.batches import cluster
+from sunwidget.batches import workers as hands
 
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="processes are killed as on Unix")

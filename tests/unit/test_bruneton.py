@@ -12,13 +12,18 @@ import pytest
 from sunwidget.atmosphere.constants import WAVELENGTHS, solar_irradiance
 from sunwidget.atmosphere.optics import direct_irradiance
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.atmosphere.path_tracer import trace
 from sunwidget.atmosphere.sky import SHADER, Quality, SkyTable
+from sunwidget.validation.path_tracer import trace
 
 pytest.importorskip("moderngl")
 
-from sunwidget.renderer import table_cache
-from sunwidget.renderer.bruneton import SIZES, bruneton_cost, bruneton_table, is_cached
+from sunwidget.renderer.bruneton import table_cache
+from sunwidget.renderer.bruneton.precomputed_sky import (
+    SIZES,
+    bruneton_cost,
+    bruneton_table,
+    is_cached,
+)
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs
 from sunwidget.renderer.shader_source import EGL_HEADER, FULL_SCREEN_TRIANGLE, resolve_includes

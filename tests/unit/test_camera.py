@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sunwidget.camera import Camera
+from sunwidget.geometry.camera import Camera
 
 VECTOR = Camera(1600, 1200, 50.0, pitch=8.0, roll=3.0)
 cameras = st.builds(

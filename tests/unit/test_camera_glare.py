@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo, known_scene
 
-from sunwidget.analysis.camera_glare import beam, glare_profile, measured_glare, strength
-from sunwidget.analysis.fit import Response, SkyFit
-from sunwidget.analysis.working import LUMINANCE
-from sunwidget.camera import Camera
-from sunwidget.edit import Edit
+from sunwidget.analysis.fit.fit import Response, SkyFit
+from sunwidget.analysis.images.working_copy import LUMINANCE
+from sunwidget.analysis.sun.camera_glare import beam, glare_profile, measured_glare, strength
+from sunwidget.edit.table import Edit
+from sunwidget.geometry.camera import Camera
 from sunwidget.renderer import render_pass
 
 ANGLE = np.linspace(0, 40, 12000).reshape(100, 120).astype(np.float32)

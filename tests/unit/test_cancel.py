@@ -11,8 +11,8 @@ from PIL import Image
 
 import sunwidget as sw
 from sunwidget.widgets import SunEditor
-from sunwidget.widgets.analyst import AnalysisCancelled, Analyst
-from sunwidget.widgets.requests import Requests
+from sunwidget.widgets.kernel.analyst import AnalysisCancelled, Analyst
+from sunwidget.widgets.kernel.requests import Requests
 
 STROKE = sw.Stroke("not_sky", ((0.4, 0.3), (0.6, 0.3)), 0.05)
 

@@ -13,12 +13,12 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget import cli
 from sunwidget.analysis import notices
-from sunwidget.cli import main
-from sunwidget.cli_edit import edit_of_flags
-from sunwidget.cli_photo import flag, methods_of_stages, scene_of
-from sunwidget.edit import NUMBERS, PARAMETERS, Edit
+from sunwidget.cli import main as cli
+from sunwidget.cli.edit_options import edit_of_flags
+from sunwidget.cli.main import main
+from sunwidget.cli.photo_options import flag, methods_of_stages, scene_of
+from sunwidget.edit.table import NUMBERS, PARAMETERS, Edit
 
 
 @pytest.fixture(scope="module")
@@ -349,10 +349,10 @@ def test_sweep_writes_a_film(photo, tmp_path):
 
 
 def test_demo_writes_what_it_names(tmp_path, monkeypatch, capsys):
-    import sunwidget.demo
+    import sunwidget.cli.demo
 
-    monkeypatch.setattr(sunwidget.demo, "FILM_SIZE", (96, 64))
-    monkeypatch.setattr("sunwidget.export.sun_path.DEFAULT_SECONDS", 0.5)
+    monkeypatch.setattr(sunwidget.cli.demo, "FILM_SIZE", (96, 64))
+    monkeypatch.setattr("sunwidget.film.path.DEFAULT_SECONDS", 0.5)
     assert main(["demo", "-o", str(tmp_path)]) == 0
     said = capsys.readouterr().out
     for name in ("maps", "still.png", "recipe.json", "page.html", "sunset.mp4"):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from sunwidget.cli import main
+from sunwidget.cli.main import main
 
 
 def refusal(capsys, *arguments):

@@ -7,10 +7,10 @@ import pytest
 from relight_scenes import known_photo, known_scene, sample_scene
 from skimage.color import deltaE_ciede2000, rgb2lab
 
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
 from sunwidget.renderer import render, render_pass, scene_textures
 
-# The sun out of the frame, and skies as blue as cameras show them (analysis/overcast.py).
+# The sun out of the frame, and skies as blue as cameras show them (analysis/fit/overcast.py).
 SIDEWAYS = {"sun": (70.0, 30.0), "tint": (0.7, 1.0, 1.3), "depth": 0.06}
 
 

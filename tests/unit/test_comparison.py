@@ -8,10 +8,10 @@ from relight_scenes import sample_scene
 from traitlets import TraitError
 
 import sunwidget as sw
-from sunwidget.edit import Edit, EditError
+from sunwidget.edit.table import Edit, EditError
 from sunwidget.study import StudyError
-from sunwidget.widgets.compare import Compare
-from sunwidget.widgets.front_end import front_end
+from sunwidget.widgets.compare.compare import Compare
+from sunwidget.widgets.kernel.front_end import front_end
 from sunwidget.widgets.study import Study
 
 SMALL = (96, 64)
@@ -74,7 +74,7 @@ def test_recipes_that_correct_the_photo_alike_share_their_maps(scene):
 def test_a_photo_that_is_analysed_already_is_not_analysed_again(monkeypatch):
     picture = sw.sample("meadow").preview(96)
     editor = sw.SunEditor(picture).wait()
-    monkeypatch.setattr("sunwidget.widgets.analyst.analyze", None)
+    monkeypatch.setattr("sunwidget.widgets.kernel.analyst.analyze", None)
     assert Compare(picture.copy(), ["photo", "ratio"]).scene is editor.scene
 
 

@@ -7,7 +7,7 @@ import pytest
 from relight_scenes import known_photo
 
 import sunwidget as sw
-from sunwidget.analysis.confidence import (
+from sunwidget.analysis.fit.confidence import (
     GOOD_SUN,
     HEIGHTS,
     TURNS,
@@ -20,9 +20,9 @@ from sunwidget.analysis.confidence import (
     posterior_of_sun,
     spread_of_angles,
 )
-from sunwidget.analysis.fit import fit_sky, model_sky, view_angles
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.analysis.fit.fit import fit_sky, model_sky, view_angles
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.photo.photo import open_photo
 
 CLEAR = Evidence(residual=0.008, share=0.5, spread=40.0, doubt=0.5)
 

@@ -11,17 +11,17 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget import decode_apart
-from sunwidget.decode_apart import open_apart, release
-from sunwidget.export.batch import develop
-from sunwidget.frames import read_frame
-from sunwidget.photo import PhotoError, PhotoWarning, open_photo
-from sunwidget.widgets.uploads import Uploads
+from sunwidget.batches import develop
+from sunwidget.photo import decode_apart
+from sunwidget.photo.decode_apart import open_apart, release
+from sunwidget.photo.photo import PhotoError, PhotoWarning, open_photo
+from sunwidget.timelapses.frames import read_frame
+from sunwidget.widgets.editor.uploads import Uploads
 
 # A child whose decoder does what a file's name says.
 STAND_IN = """
 import os, sys, time
-from sunwidget import decode_child
+from sunwidget.photo import decode_child
 decode = decode_child.decode_bytes
 
 def as_named(data, name):

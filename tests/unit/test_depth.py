@@ -10,15 +10,16 @@ import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
-from sunwidget.analysis import depth, depth_ground, depth_level
-from sunwidget.analysis.depth_network import DepthNetwork, aligned
-from sunwidget.analysis.depth_view import View
+from sunwidget.analysis.depth import depth, flat_ground
+from sunwidget.analysis.depth import levels as depth_level
+from sunwidget.analysis.depth.network import DepthNetwork, aligned
+from sunwidget.analysis.depth.view import View
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.working import Working, encode, resize
+from sunwidget.analysis.horizon.horizon import Horizon
+from sunwidget.analysis.images.working_copy import Working, encode, resize
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.camera import Camera
-from sunwidget.photo import open_photo
+from sunwidget.geometry.camera import Camera
+from sunwidget.photo.photo import open_photo
 from sunwidget.renderer import quantise_map, scene_textures
 
 WIDTH, HEIGHT, ROW, FOV = 300, 200, 100, 40.0
@@ -44,8 +45,8 @@ def drawn():
 
     hill = 300 + 120 * np.sin(columns / 40)
     paint((y < 0) & (-y * RIDGE < hill), RIDGE, np.array([0.03, 0.05, 0.02]))
-    paint(y > 0, depth_ground.EYE_HEIGHT / np.maximum(y, 1e-9), np.array([0.25, 0.22, 0.05]))
-    wall = (np.abs(x * BOX - 2) < 4) & (y * BOX < depth_ground.EYE_HEIGHT) & (y * BOX > -2.3)
+    paint(y > 0, flat_ground.EYE_HEIGHT / np.maximum(y, 1e-9), np.array([0.25, 0.22, 0.05]))
+    wall = (np.abs(x * BOX - 2) < 4) & (y * BOX < flat_ground.EYE_HEIGHT) & (y * BOX > -2.3)
     paint(wall, BOX, np.array([0.10, 0.03, 0.02]))
     return light.astype(np.float32), metres, wall
 
@@ -150,7 +151,7 @@ def test_ground_has_no_terraces_at_any_size(plain, sees):
         column = field.log_metres(width, height, view.working)[:, round(20 * scale)]
         ground = column[round(120 * scale) :]
         known = np.log(
-            depth_ground.EYE_HEIGHT
+            flat_ground.EYE_HEIGHT
             * CAMERA.resized(width, height).focal
             / (np.arange(round(120 * scale), height) + 0.5 - ROW * scale)
         )

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.widgets.detail import detail
+from sunwidget.widgets.editor.detail import detail
 
 EDIT = sw.Edit(sun_elevation=3.0)
 
@@ -29,7 +29,7 @@ def test_a_part_is_cut_from_the_full_picture_at_whole_pixels(scene):
 
 def test_only_the_strips_in_sight_are_drawn(scene, monkeypatch):
     monkeypatch.setattr(
-        importlib.import_module("sunwidget.renderer.render"), "_BAND_PIXELS", 16 * 192
+        importlib.import_module("sunwidget.renderer.offscreen"), "_BAND_PIXELS", 16 * 192
     )
     drawn = []
     _, pixels = detail(

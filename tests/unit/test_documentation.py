@@ -10,9 +10,9 @@ import pytest
 from pages import anchors, blocks, commands, links
 
 import sunwidget as sw
-from sunwidget import cli
-from sunwidget.analysis.stages import METHODS
-from sunwidget.edit import METHODS as RENDER_METHODS
+from sunwidget.analysis.pipeline import METHODS
+from sunwidget.cli import main
+from sunwidget.edit.table import METHODS as RENDER_METHODS
 
 
 @pytest.fixture(scope="module")
@@ -117,7 +117,7 @@ def test_commands_in_the_pages_parse(docs):
     assert sum(map(len, found.values())) > 10
     for path, lines in found.items():
         for arguments in lines:
-            assert cli._parser().parse_args(arguments).run, (path.name, arguments)
+            assert main._parser().parse_args(arguments).run, (path.name, arguments)
 
 
 @pytest.mark.parametrize("stage", METHODS)

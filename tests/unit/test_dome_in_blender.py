@@ -10,11 +10,11 @@ import pytest
 from pages import blocks
 
 import sunwidget as sw
-from sunwidget.color import LUMINANCE
 from sunwidget.dome.disc import sun_disc
 from sunwidget.dome.sphere import angles, irradiance, solid_angles
-from sunwidget.export.dome import write_dome
-from sunwidget.export.dome_light import DomeLight
+from sunwidget.export.dome.light import DomeLight
+from sunwidget.export.dome.photo import write_dome
+from sunwidget.formats.color import LUMINANCE
 
 pytestmark = pytest.mark.skipif(
     any(importlib.util.find_spec(name) is None for name in ("bpy", "OpenEXR")),

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget import radiance
-from sunwidget.analysis.fit import model_sky
+from sunwidget.analysis.fit.fit import model_sky
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.cli import main
-from sunwidget.color import LUMINANCE
+from sunwidget.cli.main import main
 from sunwidget.dome.air import sunlight
 from sunwidget.dome.disc import sun_disc
 from sunwidget.dome.sky import find_sky
@@ -25,7 +23,9 @@ from sunwidget.dome.sphere import (
     solid_angles,
     toward,
 )
-from sunwidget.export.dome_moved import moved
+from sunwidget.export.dome.moved import moved
+from sunwidget.formats import radiance
+from sunwidget.formats.color import LUMINANCE
 
 WIDTH = 256
 UNIT = 0.07  # of the map, per kcd m⁻²

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import sunwidget as sw
-from sunwidget.edit import (
+from sunwidget.edit.table import (
     METHODS,
     NUMBERS,
     PARAMETERS,

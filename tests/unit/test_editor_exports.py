@@ -12,11 +12,11 @@ import traitlets
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.edit import EditError
+from sunwidget.edit.table import EditError
 from sunwidget.widgets import SunEditor
-from sunwidget.widgets.export_files import FILMS, STILLS
-from sunwidget.widgets.exports import _film_day
-from sunwidget.widgets.requests import Cancelled
+from sunwidget.widgets.editor.export_files import FILMS, STILLS
+from sunwidget.widgets.editor.exports import _film_day
+from sunwidget.widgets.kernel.requests import Cancelled
 
 LOW = sw.Edit(sun_elevation=2, exposure=0.5)
 
@@ -94,7 +94,7 @@ def swept(monkeypatch):
     """Keep what a film would be made of, and make none."""
     asked = []
     monkeypatch.setattr(
-        "sunwidget.export.sweep.sweep", lambda *given, **options: asked.append((given, options))
+        "sunwidget.film.sweep.sweep", lambda *given, **options: asked.append((given, options))
     )
     return asked
 
@@ -270,7 +270,7 @@ def test_a_closed_editor_ends_what_the_browser_asked_for_and_leaves_no_half_file
             progress(0.5, "Rendering …")
             time.sleep(0.01)
 
-    monkeypatch.setattr("sunwidget.export.sweep.sweep", slow)
+    monkeypatch.setattr("sunwidget.film.sweep.sweep", slow)
     editor.sun_elevation = 3
     threads = set(threading.enumerate())
     content = {"name": "evening", "suffix": ".gif", "in_folder": True}

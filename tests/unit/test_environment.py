@@ -9,7 +9,7 @@ from sunwidget.atmosphere.color import spectral_to_rec709
 from sunwidget.atmosphere.sky import SkyTable
 from sunwidget.atmosphere.sun import disc_radiance
 from sunwidget.export.environment import environment
-from sunwidget.photo import PhotoError
+from sunwidget.photo.photo import PhotoError
 
 SIZE = (256, 128)
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from sunwidget.analysis.erase import erase, unerased
-from sunwidget.analysis.sun import SunObservation
-from sunwidget.analysis.sun_network import LIGHT_FLOOR, SunMaps
-from sunwidget.analysis.working import Working, encode
-from sunwidget.photo import open_photo
+from sunwidget.analysis.images.working_copy import Working, encode
+from sunwidget.analysis.networks.sun import LIGHT_FLOOR, SunMaps
+from sunwidget.analysis.sun.erase import erase, unerased
+from sunwidget.analysis.sun.sun import SunObservation
+from sunwidget.photo.photo import open_photo
 
 SIZE = (160, 128)  # width, height
 SMALL = (32, 40)  # rows, columns of the network's maps

@@ -7,7 +7,7 @@ from sunwidget.atmosphere import optics
 from sunwidget.atmosphere.color import chromaticity, spectral_to_rec709, spectral_to_xyz
 from sunwidget.atmosphere.parameters import RANGES, Atmosphere
 from sunwidget.atmosphere.sky import SHADER, SkyTable
-from sunwidget.edit import EditError
+from sunwidget.edit.table import EditError
 from sunwidget.explorer import draw as module
 from sunwidget.explorer.draw import (
     BACKGROUND,
@@ -504,7 +504,7 @@ def test_a_pass_with_history_gathers_and_begins_anew(monkeypatch):
 
 
 def test_brunetons_sky_is_drawn_from_its_table():
-    from sunwidget.renderer.bruneton import bruneton_table
+    from sunwidget.renderer.bruneton.precomputed_sky import bruneton_table
 
     made = bruneton_table(Atmosphere(), size="tiny", cache=False)
     cut = made.slice(0.0)

@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.cli import main
-from sunwidget.export.film import whole_sequence
+from sunwidget.cli.main import main
 from sunwidget.export.maps import save_maps
 from sunwidget.files import NotWrittenError, folder_target, target
+from sunwidget.film.writer import whole_sequence
 
 resource = pytest.importorskip("resource", reason="only Unix limits the size of files")
 
@@ -201,8 +201,8 @@ def test_a_command_that_is_ended_leaves_no_film(
         os.kill(os.getpid(), getattr(signal, number))
         yield from frames
 
-    monkeypatch.setattr("sunwidget.cli_sweep.scene_to_draw", lambda _options: scene)
-    monkeypatch.setattr("sunwidget.export.sweep.told", ending)
+    monkeypatch.setattr("sunwidget.cli.sweep.scene_to_draw", lambda _options: scene)
+    monkeypatch.setattr("sunwidget.film.sweep.told", ending)
     path = tmp_path / name
     flags = ["--to-sun-elevation", "3", "--frames", "9"]
     assert main(["sweep", "x.jpg", "-o", str(path), *flags]) == status

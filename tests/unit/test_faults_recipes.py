@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import sunwidget as sw
-from sunwidget.cli import main
-from sunwidget.edit import PARAMETERS
-from sunwidget.export.sun_path import named_edit
-from sunwidget.recipe import edit_of, read_recipe
-from sunwidget.wording import printable, shown
+from sunwidget.cli.main import main
+from sunwidget.edit.recipe import edit_of, read_recipe
+from sunwidget.edit.table import PARAMETERS
+from sunwidget.film.path import named_edit
+from sunwidget.messages import printable, shown
 
 CYCLE = {}
 CYCLE["strokes"] = [CYCLE]

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from sunwidget.analysis.fill import fill_by_pyramid, mirrored, transplanted
+from sunwidget.analysis.images.fill import fill_by_pyramid, mirrored, transplanted
 
 ROWS, COLUMNS = np.mgrid[:60, :90]
 

@@ -5,12 +5,12 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget import cli_sweep
-from sunwidget.cli import main
-from sunwidget.export.sun_path import film_edits
-from sunwidget.heading import heading_by_sun
-from sunwidget.photo_place import from_photo
-from sunwidget.place import Place, sun_at
+from sunwidget.cli import sweep
+from sunwidget.cli.main import main
+from sunwidget.film.path import film_edits
+from sunwidget.geometry.heading import heading_by_sun
+from sunwidget.geometry.place import Place, sun_at
+from sunwidget.photo.place import from_photo
 
 PRAGUE = Place(50.09, 14.42, "2024-03-20", 17.0, 262.5)
 
@@ -143,7 +143,7 @@ def frames_of(path):
     ],
 )
 def test_every_path_has_its_flags(request, scene, tmp_path, monkeypatch, flags):
-    monkeypatch.setattr(cli_sweep, "scene_to_draw", lambda _options: scene)
+    monkeypatch.setattr(sweep, "scene_to_draw", lambda _options: scene)
     if "--day" in flags or "--end-time" in flags:
         request.getfixturevalue("pvlib")
     film = tmp_path / "film.webp"
@@ -152,7 +152,7 @@ def test_every_path_has_its_flags(request, scene, tmp_path, monkeypatch, flags):
 
 
 def test_a_sheet_and_frames_one_by_one(scene, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(cli_sweep, "scene_to_draw", lambda _options: scene)
+    monkeypatch.setattr(sweep, "scene_to_draw", lambda _options: scene)
     ends = ["--to-sun-elevation", "-4", "--frames", "3", "--size", "48x32"]
     sheet, pattern = tmp_path / "sheet.png", tmp_path / "frames" / "%02d.png"
     assert main(["sweep", "x.png", "--sheet", str(sheet), "-o", str(pattern), *ends]) == 0

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
-from sunwidget.analysis.confidence import HEIGHTS, TURNS
-from sunwidget.analysis.fit import Response, fit_sky, view_angles
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.analysis.fit.confidence import HEIGHTS, TURNS
+from sunwidget.analysis.fit.fit import Response, fit_sky, view_angles
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.photo.photo import open_photo
 
 
 def fitted(photo, *, sun="told", expected=None):
@@ -32,7 +32,7 @@ def model_error(photo, fit):
 
 
 def known_model(photo, azimuth, elevation):
-    from sunwidget.analysis.fit import model_sky
+    from sunwidget.analysis.fit.fit import model_sky
 
     return model_sky(photo.atmosphere, azimuth, elevation, photo.sun) * photo.gain
 

@@ -5,15 +5,15 @@ import numpy as np
 import pytest
 from frames_of_a_camera import EXPOSURES, SHAKEN, frame
 
-from sunwidget.analysis.frame_fits import Reading, steady, weighted_median
-from sunwidget.analysis.frame_scenes import FrameScenes
-from sunwidget.analysis.frame_sun import Sample, middle_direction, track_of
-from sunwidget.edit import Edit
-from sunwidget.frames import Clock
-from sunwidget.layout import PhotoError
-from sunwidget.photo import open_photo
-from sunwidget.place import Place, sun_at
-from sunwidget.renderer.render import render
+from sunwidget.edit.table import Edit
+from sunwidget.formats.pixels import PhotoError
+from sunwidget.geometry.place import Place, sun_at
+from sunwidget.photo.photo import open_photo
+from sunwidget.renderer.offscreen import render
+from sunwidget.timelapses.fits import Reading, steady, weighted_median
+from sunwidget.timelapses.frames import Clock
+from sunwidget.timelapses.scenes import FrameScenes
+from sunwidget.timelapses.sun import Sample, middle_direction, track_of
 
 MOVED = Edit(sun_elevation=4, sun_azimuth=-8)
 

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs
 from sunwidget.renderer.shader_source import frame_graph
 
-module = importlib.import_module("sunwidget.renderer.render")
+module = importlib.import_module("sunwidget.renderer.offscreen")
 EDITS = [
     Edit(),
     Edit(sun_elevation=3),

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from sunwidget.frames import Clock, frame_sources, read_frame
-from sunwidget.layout import PhotoError
-from sunwidget.photo import open_photo
+from sunwidget.formats.pixels import PhotoError
+from sunwidget.photo.photo import open_photo
+from sunwidget.timelapses.frames import Clock, frame_sources, read_frame
 
 UTC = dt.UTC
 NAIVE = dt.datetime(2024, 6, 21, 12)  # noqa: DTZ001 - what a person may pass: it is UTC

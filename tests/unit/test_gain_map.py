@@ -10,14 +10,14 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget import gain_map as gain_maps
-from sunwidget import xmp
-from sunwidget.color import LUMINANCE
-from sunwidget.edit import EditError
+from sunwidget.edit.table import EditError
 from sunwidget.export.gain_map import map_between
 from sunwidget.export.gain_map_file import beside, told_of
-from sunwidget.gain_map import GainMap, segments
-from sunwidget.photo import PhotoError, PhotoWarning
+from sunwidget.formats import gain_map as gain_maps
+from sunwidget.formats import xmp
+from sunwidget.formats.color import LUMINANCE
+from sunwidget.formats.gain_map import GainMap, segments
+from sunwidget.photo.photo import PhotoError, PhotoWarning
 
 SIZE = (768, 512)
 EDIT = sw.Edit(sun_elevation=5)
@@ -243,7 +243,7 @@ def test_a_turned_photo_turns_its_map(way):
     turned = turned[: at + 4] + struct.pack(">I", size + grown) + turned[at + 8 :]
     photo = sw.open(turned)
     assert photo.turned == (way in {6, 8})
-    from sunwidget.layout import upright
+    from sunwidget.formats.pixels import upright
 
     wanted = upright(made.levels, way).astype(int)
     assert np.abs(photo.gain_map.levels.astype(int) - wanted).max() <= 3  # packed once more
@@ -296,7 +296,7 @@ def test_xmp_of_the_photo_stays_beside_word_of_the_map():
 
 
 def test_the_command_line_writes_a_map(tmp_path, capsys):
-    from sunwidget.cli import main
+    from sunwidget.cli.main import main
 
     out = tmp_path / "a.jpg"
     flags = ["--sun-elevation", "5", "--headroom", "3", "--size", "192x128", "-o", str(out)]

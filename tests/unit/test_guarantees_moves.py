@@ -6,7 +6,7 @@ import pytest
 from relight_scenes import SAMPLES, known_photo, known_scene, sample_scene
 from skimage.color import deltaE_ciede2000, rgb2lab
 
-from sunwidget.edit import METHODS, Edit
+from sunwidget.edit.table import METHODS, Edit
 from sunwidget.renderer import render, render_pass
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])

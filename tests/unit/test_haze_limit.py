@@ -7,10 +7,10 @@ from importlib.resources import files
 import numpy as np
 from relight_scenes import exact_fit, known_photo
 
-from sunwidget.analysis import haze_limit
-from sunwidget.analysis.haze_limit import log_limit
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.analysis.depth import haze_limit
+from sunwidget.analysis.depth.haze_limit import log_limit
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.photo.photo import open_photo
 
 
 def limit_of(level):

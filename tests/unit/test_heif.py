@@ -13,14 +13,14 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget import apple, exif
-from sunwidget.analysis.depth import given
-from sunwidget.analysis.depth_network import SeenDepth
-from sunwidget.color import SRGB_CURVE
-from sunwidget.decode_heif import DepthMap, is_heif
+from sunwidget.analysis.depth.depth import given
+from sunwidget.analysis.depth.network import SeenDepth
 from sunwidget.export.gain_map_file import beside
-from sunwidget.gain_map import GainMap
-from sunwidget.photo import PhotoError, PhotoWarning
+from sunwidget.formats import apple_gain_map, exif
+from sunwidget.formats.color import SRGB_CURVE
+from sunwidget.formats.gain_map import GainMap
+from sunwidget.photo.decode_heif import DepthMap, is_heif
+from sunwidget.photo.photo import PhotoError, PhotoWarning
 
 needs_libheif = pytest.mark.skipif(
     importlib.util.find_spec("pillow_heif") is None,
@@ -162,19 +162,19 @@ def test_the_map_behind_an_iphones_jpeg_is_read_as_well(in_xmp):
     [(0.5, 0.005, 1.7), (0.5, 0.5, 1.5505), (1.2, 0.001, 2.93), (1.2, 1.0, 2.0), (0.5, 30, 0.0)],
 )
 def test_the_maker_note_tells_the_headroom(high, gain, stops):
-    found = apple.headroom(exif.load(block(apple_note(high, gain))))
+    found = apple_gain_map.headroom(exif.load(block(apple_note(high, gain))))
     assert np.log2(found) == pytest.approx(stops, abs=1e-4)
 
 
 def test_other_maker_notes_tell_none():
     whole = apple_note(1.0, 0.0)
     for note in (b"secret", b"Apple iOS\0", whole[:30], whole[:20] + b"\xff" * 40):
-        assert apple.headroom(exif.load(block(note))) is None
-    assert apple.headroom(None) is None
+        assert apple_gain_map.headroom(exif.load(block(note))) is None
+    assert apple_gain_map.headroom(None) is None
 
 
 def test_a_map_without_headroom_is_none():
-    assert apple.gain_map(np.zeros((4, 4), np.uint8), 1.0) is None
+    assert apple_gain_map.gain_map(np.zeros((4, 4), np.uint8), 1.0) is None
 
 
 @pytest.fixture(scope="module")

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.edit import EditError
-from sunwidget.photo import PhotoError
+from sunwidget.edit.table import EditError
+from sunwidget.photo.photo import PhotoError
 from sunwidget.widgets import SunEditor
-from sunwidget.widgets.history import HISTORY_BYTES, HISTORY_LENGTH, newest
-from sunwidget.widgets.uploads import UPLOAD_BYTES, Uploads, fingerprint
+from sunwidget.widgets.editor.history import HISTORY_BYTES, HISTORY_LENGTH, newest
+from sunwidget.widgets.editor.uploads import UPLOAD_BYTES, Uploads, fingerprint
 
 
 @pytest.fixture(scope="module")

@@ -12,11 +12,11 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.export import html as module
-from sunwidget.export.html import Still, page
 from sunwidget.renderer.gl_thread import RendererError
 from sunwidget.widgets import SkyExplorer, SunEditor
-from sunwidget.widgets import standalone as parts
+from sunwidget.widgets.page import html as module
+from sunwidget.widgets.page import standalone as parts
+from sunwidget.widgets.page.html import Still, page
 
 HOSTILE = "</script><script>alert(1)</script>\"'<!--<script>&amp;\u2028\u2029\x00\udcff\r\n.jpg"
 

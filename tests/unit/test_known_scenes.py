@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.widgets import analyst
-from sunwidget.widgets.known_scenes import recall
+from sunwidget.widgets.kernel import analyst
+from sunwidget.widgets.kernel.known_scenes import recall
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +49,7 @@ def test_other_pixels_or_options_are_analysed(pixels):
 
 def test_a_file_that_may_have_changed_is_never_the_same(pixels):
     scene = sw.SunEditor(pixels).wait().scene
-    from sunwidget.widgets.known_scenes import remember
+    from sunwidget.widgets.kernel.known_scenes import remember
 
     remember(scene, {"sky": "my.onnx"})
     assert recall(scene.photo, {"sky": "my.onnx"}) is None

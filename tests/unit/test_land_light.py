@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
-from sunwidget.analysis.land_network import of_suns
-from sunwidget.camera import Camera
-from sunwidget.edit import Edit
+from sunwidget.analysis.networks.land import of_suns
+from sunwidget.edit.table import Edit
+from sunwidget.geometry.camera import Camera
 from sunwidget.renderer import render, render_pass
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])

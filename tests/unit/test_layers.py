@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import tifffile
 
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
 from sunwidget.export.layers import LAYERS, layers_of
 from sunwidget.export.stills import save
-from sunwidget.photo import PhotoError, open_photo
+from sunwidget.photo.photo import PhotoError, open_photo
 
 HEIGHT, WIDTH = 60, 90
 

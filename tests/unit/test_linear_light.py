@@ -9,11 +9,11 @@ import photo_corpus as corpus
 import pytest
 import tifffile
 
-from sunwidget import exif, openexr, radiance
-from sunwidget.color import primaries_to_rec709
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
 from sunwidget.export.stills import save
-from sunwidget.photo import PhotoError, PhotoWarning, open_photo
+from sunwidget.formats import exif, openexr, radiance
+from sunwidget.formats.color import primaries_to_rec709
+from sunwidget.photo.photo import PhotoError, PhotoWarning, open_photo
 
 ENDINGS = (".exr", ".hdr", ".tif")
 P3 = (0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329)

@@ -10,18 +10,18 @@ import measured_skies as made_up
 import numpy as np
 import pytest
 
-from sunwidget.atmosphere import measured_skies, measurements
 from sunwidget.atmosphere.constants import WAVELENGTHS
-from sunwidget.atmosphere.measured_skies import azimuth_of_symmetry
-from sunwidget.atmosphere.measurements import MeasurementsError, load
-from sunwidget.atmosphere.measurements_source import (
+from sunwidget.atmosphere.sky import SkyTable
+from sunwidget.validation import measured_skies, measurements
+from sunwidget.validation.download import (
     BASE_URL,
     CHECKSUMS,
     default_path,
     download,
     read_raw_scans,
 )
-from sunwidget.atmosphere.sky import SkyTable
+from sunwidget.validation.measured_skies import azimuth_of_symmetry
+from sunwidget.validation.measurements import MeasurementsError, load
 
 SCANS = {"2013-05-27___09.30.00": 90.0, "2013-05-27___13.30.00": 181.7}
 
@@ -139,7 +139,7 @@ def test_only_the_pinned_commit_is_asked_and_every_archive_has_a_checksum():
 
 def test_the_known_elevations_are_those_of_the_ephemeris():
     pytest.importorskip("pvlib")
-    from sunwidget.atmosphere.solar import solar_position
+    from sunwidget.geometry.solar import solar_position
 
     assert len(measured_skies._SUN_ELEVATION) == len(CHECKSUMS)
     for time, elevation in measured_skies._SUN_ELEVATION.items():

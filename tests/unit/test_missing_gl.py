@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.cli import main
+from sunwidget.cli.main import main
 from sunwidget.renderer import gl_thread
 from sunwidget.renderer.missing_gl import explain
 
@@ -229,7 +229,7 @@ def failing(monkeypatch, *codes):
 
 
 def test_a_lost_context_is_made_anew_within_a_picture(own_thread, scene, monkeypatch):
-    render = importlib.import_module("sunwidget.renderer.render")
+    render = importlib.import_module("sunwidget.renderer.offscreen")
     monkeypatch.setattr(render, "_BAND_PIXELS", 36 * 8)  # three strips
     edit = sw.Edit(sun_elevation=3)
     whole = sw.render(scene, edit)

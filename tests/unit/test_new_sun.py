@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
-from sunwidget.color import srgb_to_linear
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
+from sunwidget.formats.color import srgb_to_linear
 from sunwidget.renderer import render, render_pass
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.cli import main
+from sunwidget.cli.main import main
 
 EDIT = sw.Edit(sun_elevation=3, place=sw.Place(41, 29, "2024-06-21", 16, 270))
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
-from sunwidget.analysis.camera_glare import angle_to_sun
-from sunwidget.analysis.noise import noise_level
-from sunwidget.edit import Edit
-from sunwidget.photo import open_photo
+from sunwidget.analysis.images.noise import noise_level
+from sunwidget.analysis.sun.camera_glare import angle_to_sun
+from sunwidget.edit.table import Edit
+from sunwidget.photo.photo import open_photo
 from sunwidget.renderer import render
 
 ROWS, COLUMNS = np.mgrid[:200, :300]

@@ -7,7 +7,7 @@ import sys
 
 import onnxruntime
 
-from sunwidget.analysis.onnx_runtime import onnx_runtime
+from sunwidget.analysis.networks.onnx_runtime import onnx_runtime
 
 # onnxruntime 1.29 and later write a device's number within a second of their first session.
 NETWORK = """

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from sunwidget.renderer.gl_thread import RendererError
-from sunwidget.widgets import output
+from sunwidget.widgets.kernel import output
 
 FLAG = "--HistoryManager.hist_file=:memory:"
 NBCLIENT = ["ipykernel_launcher.py", "-f", "kernel.json", FLAG]

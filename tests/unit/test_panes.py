@@ -7,9 +7,9 @@ from house_scenes import SIZE, facade, house_scene
 from relight_scenes import known_photo
 
 import sunwidget as sw
-from sunwidget.analysis import panes
+from sunwidget.analysis.windows import panes
 from sunwidget.renderer import render
-from sunwidget.widgets.payload import preset_json
+from sunwidget.widgets.kernel.payload import preset_json
 
 DUSK = sw.Edit(sun_elevation=-4, window_lights=1)
 

@@ -9,8 +9,8 @@ import photo_corpus as corpus
 import pytest
 from PIL import Image
 
-from sunwidget.color import linear_to_srgb, srgb_to_linear
-from sunwidget.photo import Photo, PhotoError, PhotoWarning, open_photo
+from sunwidget.formats.color import linear_to_srgb, srgb_to_linear
+from sunwidget.photo.photo import Photo, PhotoError, PhotoWarning, open_photo
 
 READABLE = corpus.readable()
 UNREADABLE = corpus.unreadable()
@@ -444,7 +444,7 @@ def test_the_preview_averages_light_not_code_values():
 def test_the_preview_is_the_same_however_it_is_cut_into_strips(monkeypatch):
     photo = open_photo(corpus.ramp(301, 203))
     whole = photo.preview(97)
-    monkeypatch.setattr("sunwidget.color.strips.__defaults__", (203 * 17,))
+    monkeypatch.setattr("sunwidget.formats.color.strips.__defaults__", (203 * 17,))
     assert np.array_equal(photo.preview(97), whole)
 
 

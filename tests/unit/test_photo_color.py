@@ -8,10 +8,10 @@ import photo_corpus as corpus
 import pytest
 from PIL import Image, ImageCms
 
-from sunwidget.color import SRGB, linear_to_srgb, srgb_to_linear
 from sunwidget.export.stills import encode_like
-from sunwidget.icc import ProfileError, read_profile
-from sunwidget.photo import PhotoWarning, open_photo
+from sunwidget.formats.color import SRGB, linear_to_srgb, srgb_to_linear
+from sunwidget.formats.icc import ProfileError, read_profile
+from sunwidget.photo.photo import PhotoWarning, open_photo
 
 CODE = np.arange(256) / 255
 PROFILES = {

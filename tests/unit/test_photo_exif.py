@@ -7,8 +7,8 @@ import pytest
 from PIL import Image
 from PIL.TiffImagePlugin import IFDRational
 
-from sunwidget import exif
-from sunwidget.photo import open_photo
+from sunwidget.formats import exif
+from sunwidget.photo.photo import open_photo
 
 UTC = dt.UTC
 

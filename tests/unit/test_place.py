@@ -9,14 +9,14 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget import cli_sweep
-from sunwidget.cli import _parser, main
-from sunwidget.cli_place import placed
-from sunwidget.edit import EditError
-from sunwidget.export.sun_path import film_edits
-from sunwidget.heading import heading_by_sun, match
-from sunwidget.photo_place import date_and_hours, from_photo, zone_name
-from sunwidget.place import Place, at_hours, day_table, hours_of_day, solar_day, sun_at
+from sunwidget.cli import sweep
+from sunwidget.cli.main import _parser, main
+from sunwidget.cli.place_options import placed
+from sunwidget.edit.table import EditError
+from sunwidget.film.path import film_edits
+from sunwidget.geometry.heading import heading_by_sun, match
+from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, solar_day, sun_at
+from sunwidget.photo.place import date_and_hours, from_photo, zone_name
 
 ITHACA = Place(42.4434, -76.482, "2024-06-21", 16.0, 180.0)
 PRAGUE = Place(50.09, 14.42, "2024-03-20", 17.0, 270.0)
@@ -429,7 +429,7 @@ def test_a_film_of_the_day_keeps_the_sun_on_its_path(pvlib, file):
     flags = ["--time", "15:00", "--to-time", "19:00", "--to-exposure", "1"]
     options = _parser().parse_args(["sweep", str(file), *flags, "-o", "x.gif"])
     scene = sw.analyze(sw.open(file))
-    path = cli_sweep._path(options, scene, placed(options, scene, sw.Edit()))
+    path = sweep._path(options, scene, placed(options, scene, sw.Edit()))
     edits = film_edits(scene, path, frames=5)
     assert [edit.place.time for edit in edits] == [15, 16, 17, 18, 19]
     assert [edit.exposure for edit in edits] == [0, 0.25, 0.5, 0.75, 1]

@@ -7,8 +7,8 @@ from relight_scenes import known_scene, sample_scene
 
 import sunwidget as sw
 from sunwidget import presets
-from sunwidget.cli import main
-from sunwidget.edit import Edit, EditError, Stroke, parameter
+from sunwidget.cli.main import main
+from sunwidget.edit.table import Edit, EditError, Stroke, parameter
 
 
 def with_sun_at(scene, azimuth, elevation):
@@ -95,7 +95,7 @@ def test_what_is_like_no_preset_is_told_all_of_them(name):
 
 def test_the_command_line_takes_recipe_preset_and_flags_in_this_order(tmp_path, monkeypatch):
     scene, drawn = known_scene(), []
-    monkeypatch.setattr("sunwidget.cli_render.scene_to_draw", lambda _: scene)
+    monkeypatch.setattr("sunwidget.cli.render.scene_to_draw", lambda _: scene)
     monkeypatch.setattr(sw, "save", lambda pair, *_a, **_k: drawn.append(pair[1]), raising=False)
     recipe = tmp_path / "recipe.json"
     recipe.write_text(Edit(glow=0.5, exposure=2, sun_elevation=33).to_json())

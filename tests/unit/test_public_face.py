@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.edit import METHODS
+from sunwidget.edit.table import METHODS
 from sunwidget.samples import NAMES
 
 
@@ -123,7 +123,7 @@ def test_render_returns_the_asked_size(coast, size):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_picture_drawn_in_bands_is_the_picture_drawn_at_once(coast, monkeypatch, method):
-    module = importlib.import_module("sunwidget.renderer.render")  # a function hides it
+    module = importlib.import_module("sunwidget.renderer.offscreen")  # a function hides it
 
     edit = sw.Edit(sun_elevation=4, method=method)
     whole = sw.render(coast, edit, size=SMALL)

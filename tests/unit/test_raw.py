@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import raw_files
 
-from sunwidget import exif
 from sunwidget.export.stills import save
-from sunwidget.photo import PhotoError, open_photo
+from sunwidget.formats import exif
+from sunwidget.photo.photo import PhotoError, open_photo
 
 INSIDE = slice(4, -4)
 

@@ -7,7 +7,7 @@ from pages import blocks, commands
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget import cli
+from sunwidget.cli import main
 
 
 @pytest.fixture(scope="module")
@@ -17,7 +17,7 @@ def readme(root):
 
 def test_the_cells_run(readme, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("sunwidget.export.sun_path.DEFAULT_SECONDS", 0.5)
+    monkeypatch.setattr("sunwidget.film.path.DEFAULT_SECONDS", 0.5)
     small = Image.fromarray(sw.sample("coast").preview(long_edge=192))
     small.save("beach.jpg", quality=95)
     sw.to_dome(sw.analyze("beach.jpg"), sw.Edit(), "park.hdr", width=512)
@@ -34,7 +34,7 @@ def test_the_cells_run(readme, tmp_path, monkeypatch):
 def test_the_commands_parse(readme):
     assert len(commands(readme)) >= 4
     for arguments in commands(readme):
-        assert cli._parser().parse_args(arguments).run
+        assert main._parser().parse_args(arguments).run
 
 
 def test_the_make_targets_exist(readme, root):

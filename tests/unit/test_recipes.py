@@ -5,9 +5,9 @@ import json
 import pytest
 
 import sunwidget as sw
-from sunwidget.edit import PARAMETERS, RECIPE_VERSION, plain
-from sunwidget.widgets.history import HISTORY_BYTES, HISTORY_LENGTH, NAME_LENGTH, VERSIONS
-from sunwidget.widgets.payload import parameter_json
+from sunwidget.edit.table import PARAMETERS, RECIPE_VERSION, plain
+from sunwidget.widgets.editor.history import HISTORY_BYTES, HISTORY_LENGTH, NAME_LENGTH, VERSIONS
+from sunwidget.widgets.kernel.payload import parameter_json
 
 STROKES = (
     sw.Stroke("sky", ((0.1, 0.2), (0.30000000000000004, -1.0)), radius=0.02),

@@ -8,8 +8,8 @@ import pytest
 from sunwidget.atmosphere.constants import solar_irradiance
 from sunwidget.atmosphere.optics import direct_irradiance
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.atmosphere.path_tracer import trace
 from sunwidget.atmosphere.sky import Quality, SkyTable
+from sunwidget.validation.path_tracer import trace
 
 pytest.importorskip("moderngl")
 

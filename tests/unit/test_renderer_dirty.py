@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from relight_scenes import known_scene
 
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.shader_source import frame_graph
 
-module = importlib.import_module("sunwidget.renderer.render")
+module = importlib.import_module("sunwidget.renderer.offscreen")
 SUN_PASSES = {
     "sky_view_edit",
     "light_edit",

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo, known_scene
 
-from sunwidget.edit import METHODS, Edit, EditError
+from sunwidget.edit.table import METHODS, Edit, EditError
 from sunwidget.renderer import graph as graph_module
 from sunwidget.renderer import render, render_pass
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.values import states, uniform_value
 
-module = importlib.import_module("sunwidget.renderer.render")
+module = importlib.import_module("sunwidget.renderer.offscreen")
 MOVED = Edit(sun_azimuth=-12, sun_elevation=4)
 
 

@@ -6,7 +6,7 @@ from importlib.resources import files
 
 import pytest
 
-from sunwidget.edit import METHODS, NUMBERS, PARAMETERS
+from sunwidget.edit.table import METHODS, NUMBERS, PARAMETERS
 from sunwidget.explorer.table import EXPLORER_PARAMETERS, MODELS
 from sunwidget.renderer import shader_source
 from sunwidget.renderer.shader_source import frame_graph, read_shader, resolve_includes
@@ -47,7 +47,7 @@ def shaders_of(rows):
 SHADERS = sorted(shaders_of(ROWS))
 EXPLORERS = shaders_of(frame_graph("explorer")["passes"])
 EDITORS = shaders_of(frame_graph()["passes"])
-# Bruneton's table is made once for an atmosphere, outside the graphs (renderer/bruneton.py).
+# Bruneton's table is made once for an atmosphere, outside the graphs (renderer/bruneton).
 PRECOMPUTED = {
     f.name.removesuffix(".glsl")
     for f in files("sunwidget").joinpath("shaders").iterdir()

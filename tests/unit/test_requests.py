@@ -2,8 +2,8 @@
 
 import threading
 
-from sunwidget.widgets import requests as module
-from sunwidget.widgets.requests import Requests
+from sunwidget.widgets.kernel import requests as module
+from sunwidget.widgets.kernel.requests import Requests
 
 
 def test_a_large_answer_travels_in_pieces(monkeypatch):

@@ -5,10 +5,10 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.photo import open_photo
-from sunwidget.png import encode_png, encode_small_png
-from sunwidget.widgets import saved_state
-from sunwidget.widgets.payload import MAP_TRAITS, encode_maps
+from sunwidget.formats.png import encode_png, encode_small_png
+from sunwidget.photo.photo import open_photo
+from sunwidget.widgets.kernel.payload import MAP_TRAITS, encode_maps
+from sunwidget.widgets.page import saved_state
 
 
 @pytest.fixture

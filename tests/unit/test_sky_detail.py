@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sunwidget.analysis.sky_detail import DETAILED, sky_detail
+from sunwidget.analysis.backdrop.sky_detail import DETAILED, sky_detail
 
 ROWS, COLUMNS = np.mgrid[:200, :300]
 SLOW = -1 - ROWS / 200

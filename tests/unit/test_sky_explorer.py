@@ -12,14 +12,14 @@ from PIL import Image
 from traitlets import TraitError
 
 import sunwidget as sw
-from sunwidget.atmosphere import measurements
 from sunwidget.atmosphere.parameters import RANGES, Atmosphere
 from sunwidget.atmosphere.presets import PRESETS
-from sunwidget.edit import PARAMETERS, EditError
+from sunwidget.edit.table import PARAMETERS, EditError
 from sunwidget.explorer.table import EXPLORER_PARAMETERS, GRIDS, MODELS, checked, parameter
 from sunwidget.explorer.values import effective_values
-from sunwidget.widgets.requests import Requests
-from sunwidget.widgets.sky_explorer import SkyExplorer
+from sunwidget.validation import measurements
+from sunwidget.widgets.explorer.sky_explorer import SkyExplorer
+from sunwidget.widgets.kernel.requests import Requests
 
 ITHACA = {"latitude": 42.443449, "longitude": -76.481962, "date": "2013-05-27"}
 
@@ -440,13 +440,13 @@ def test_the_browser_gets_the_errors_against_the_measured_skies(measured, monkey
 
 
 def test_without_egl_the_other_models_are_compared_all_the_same(measured, monkeypatch):
-    from sunwidget.renderer import bruneton
+    from sunwidget.renderer.bruneton import precomputed_sky
     from sunwidget.renderer.gl_thread import RendererError
 
     def no_context(*_args, **_kwargs):
         raise RendererError("no EGL")
 
-    monkeypatch.setattr(bruneton, "bruneton_table", no_context)
+    monkeypatch.setattr(precomputed_sky, "bruneton_table", no_context)
     explorer, messages = SkyExplorer(), []
     monkeypatch.setattr(
         explorer, "send", lambda content, buffers=None: messages.append((content, buffers))
@@ -475,14 +475,14 @@ def test_measured_skies_are_fetched_only_when_asked(explorer, sent, monkeypatch,
 
 
 def test_the_browser_gets_brunetons_table_and_what_it_will_cost(explorer, sent, egl, monkeypatch):
-    from sunwidget.renderer import bruneton
+    from sunwidget.renderer.bruneton import precomputed_sky
 
-    whole = bruneton.bruneton_table
+    whole = precomputed_sky.bruneton_table
 
     def tiny(air, orders=0, progress=None):
         return whole(air, orders, "tiny", progress)
 
-    monkeypatch.setattr(bruneton, "bruneton_table", tiny)
+    monkeypatch.setattr(precomputed_sky, "bruneton_table", tiny)
     response, _ = answer(explorer, sent, "bruneton_cost", parameters={"ozone": 100})
     assert response["result"]["cached"] is False
     assert response["result"]["seconds"] > 0.1

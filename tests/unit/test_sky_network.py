@@ -5,17 +5,18 @@ import onnx_files as onnx
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis import network_output, sky
 from sunwidget.analysis.errors import AnalysisError
-from sunwidget.analysis.sky_network import (
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.networks import segmentation_output
+from sunwidget.analysis.segmentation import coarse_sky
+from sunwidget.analysis.segmentation.sky_network import (
     BUNDLED,
     NORMALISATIONS,
     SkyNetwork,
     bundled,
     calibrate,
 )
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.photo.photo import open_photo
 
 F4 = np.float32
 
@@ -29,7 +30,7 @@ def picture() -> np.ndarray:
 
 
 def found(network, **options) -> np.ndarray:
-    return sky.coarse(Working.of(open_photo(picture())), network, (160, 120), **options)
+    return coarse_sky.coarse(Working.of(open_photo(picture())), network, (160, 120), **options)
 
 
 def is_the_sky(probability: np.ndarray) -> bool:
@@ -225,8 +226,8 @@ def test_above_one_half_is_where_sky_is_the_strongest_class():
     scores = generator.normal(0, 2, (1, 5, 12, 16)).astype(F4)
     shares = np.exp(scores) / np.exp(scores).sum(axis=1, keepdims=True)
     for values in (scores, shares):
-        output = network_output.understand(values, (16, 12), "nchw")
-        probability = network_output.sky_of(output, 3)
+        output = segmentation_output.understand(values, (16, 12), "nchw")
+        probability = segmentation_output.sky_of(output, 3)
         assert np.array_equal(probability > 0.5, scores[0].argmax(axis=0) == 3)
     assert probability.std() > 0.1  # and it is soft
 
@@ -234,7 +235,7 @@ def test_above_one_half_is_where_sky_is_the_strongest_class():
 @pytest.mark.parametrize("layout", ["nchw", "nhwc"])
 @pytest.mark.parametrize("shape", [(1, 30, 40, 20), (1, 20, 30, 40), (30, 40, 20)])
 def test_the_picture_s_proportions_tell_rows_columns_and_classes_apart(shape, layout):
-    output = network_output.understand(np.zeros(shape, F4), (160, 120), layout)
+    output = segmentation_output.understand(np.zeros(shape, F4), (160, 120), layout)
     assert output.values.shape == (30, 40, 20)
     assert output.classes == 20
 
@@ -243,8 +244,8 @@ def test_one_map_of_the_sky_may_be_probabilities_or_logits():
     logits = np.linspace(-6, 6, 48, dtype=F4).reshape(6, 8)
     for values in (logits, 1 / (1 + np.exp(-logits))):
         for shape in ((1, 1, 6, 8), (1, 6, 8), (6, 8), (1, 6, 8, 1)):
-            output = network_output.understand(values.reshape(shape), (8, 6), "nchw")
-            probability = network_output.sky_of(output, 0)
+            output = segmentation_output.understand(values.reshape(shape), (8, 6), "nchw")
+            probability = segmentation_output.sky_of(output, 0)
             assert np.allclose(probability, 1 / (1 + np.exp(-logits)), atol=1e-6)
 
 
@@ -285,7 +286,7 @@ def test_a_network_of_enormous_pictures_is_refused_before_one_is_made(tmp_path):
 
 def test_whole_numbers_too_large_for_labels_are_scores():
     logits = np.full((6, 8), 1e30, F4)
-    assert network_output.understand(logits, (8, 6), "nchw").kind == "sky"
+    assert segmentation_output.understand(logits, (8, 6), "nchw").kind == "sky"
 
 
 def test_a_network_of_nan_is_an_error_in_words(tmp_path):
@@ -342,7 +343,7 @@ def test_numpy_numbers_and_lists_are_fields():
 def test_photos_of_any_shape_and_without_colour(tmp_path, shape, source):
     grey = np.random.default_rng(0).integers(0, 256, shape).astype(np.uint8)
     network = blueness(tmp_path) if source == "foreign" else source
-    probability = sky.coarse(Working.of(open_photo(grey)), network, shape[::-1])
+    probability = coarse_sky.coarse(Working.of(open_photo(grey)), network, shape[::-1])
     assert probability.ndim == 2
     assert np.isfinite(probability).all()
     assert 0 <= probability.min() <= probability.max() <= 1
@@ -362,7 +363,7 @@ def test_the_land_network_has_a_say_by_day_and_none_by_night():
     day = Working.of(sw.sample("harbour"))
     night = Working.of(open_photo((sw.sample("harbour").encoded * 0.25).astype(np.uint8)))
     alone = [bundled()(working) for working in (day, night)]
-    both = [sky.network(working) for working in (day, night)]
+    both = [coarse_sky.network(working) for working in (day, night)]
     assert np.abs(both[0] - alone[0]).max() > 0.05
     assert ((both[0] > 0.5) == (alone[0] > 0.5)).mean() > 0.98  # of the sample they know the same
     assert np.allclose(both[1], alone[1], atol=1e-3)

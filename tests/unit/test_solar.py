@@ -6,13 +6,8 @@ import sys
 import numpy as np
 import pytest
 
-from sunwidget.atmosphere.solar import (
-    apparent_elevation,
-    day_path,
-    solar_position,
-    sun_on_path,
-)
 from sunwidget.atmosphere.sun import true_elevation
+from sunwidget.geometry.solar import apparent_elevation, day_path, solar_position, sun_on_path
 
 pytest.importorskip("pvlib")
 

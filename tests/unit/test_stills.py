@@ -14,12 +14,12 @@ import pytest
 import tifffile
 from PIL import Image, PngImagePlugin
 
-from sunwidget import exif, xmp
-from sunwidget.color import linear_to_srgb
-from sunwidget.edit import Edit, Stroke
+from sunwidget.edit.table import Edit, Stroke
 from sunwidget.export import stills
 from sunwidget.export.stills import encode_like, save
-from sunwidget.photo import PhotoError, PhotoWarning, open_photo
+from sunwidget.formats import exif, xmp
+from sunwidget.formats.color import linear_to_srgb
+from sunwidget.photo.photo import PhotoError, PhotoWarning, open_photo
 
 LOSSLESS = (".png", ".tif", ".tiff")
 ALL = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp")
@@ -60,7 +60,7 @@ class FakeScene:
 def renderer(monkeypatch):
     """Stand in for the GL renderer: halves the light of the lower half, sRGB when asked."""
     # Not "import … as": the package's own attribute of this name is the function.
-    module = importlib.import_module("sunwidget.renderer.render")
+    module = importlib.import_module("sunwidget.renderer.offscreen")
     calls = []
 
     def render(scene, edit=None, *, dtype="uint8", headroom=0, progress=None):

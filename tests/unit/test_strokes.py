@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from sunwidget.analysis.strokes import Painting
-from sunwidget.analysis.working import Working
-from sunwidget.edit import Stroke
-from sunwidget.photo import open_photo
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.strokes.sky import Painting
+from sunwidget.edit.table import Stroke
+from sunwidget.photo.photo import open_photo
 
 HEIGHT, WIDTH = 160, 240
 

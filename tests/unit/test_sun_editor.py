@@ -16,13 +16,13 @@ from traitlets import TraitError
 
 import sunwidget as sw
 from sunwidget import presets
-from sunwidget.analysis.clouds import softness_histogram
+from sunwidget.analysis.clouds.clouds import softness_histogram
 from sunwidget.analysis.maps import MAPS, scene_map
-from sunwidget.edit import PARAMETERS, EditError
+from sunwidget.edit.table import PARAMETERS, EditError
 from sunwidget.widgets import SunEditor
-from sunwidget.widgets import sun_editor as module
-from sunwidget.widgets.payload import PREVIEW_EDGE, scene_json, whiteness
-from sunwidget.widgets.requests import Requests
+from sunwidget.widgets.editor import sun_editor as module
+from sunwidget.widgets.kernel.payload import PREVIEW_EDGE, scene_json, whiteness
+from sunwidget.widgets.kernel.requests import Requests
 
 
 @pytest.fixture(scope="module")
@@ -239,7 +239,7 @@ def test_analysis_runs_behind_and_a_broken_one_is_said(monkeypatch):
         go_on.wait(60)
         raise ValueError("No sky found in beach.jpg.")
 
-    monkeypatch.setattr("sunwidget.widgets.analyst.analyze", slow)
+    monkeypatch.setattr("sunwidget.widgets.kernel.analyst.analyze", slow)
     editor = SunEditor(np.zeros((8, 12, 3), np.uint8))
     assert started.wait(60)
     assert editor._photo

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo, known_scene, sample_scene
 
-from sunwidget.analysis.camera_glare import angle_to_sun
-from sunwidget.edit import Edit
+from sunwidget.analysis.sun.camera_glare import angle_to_sun
+from sunwidget.edit.table import Edit
 from sunwidget.renderer import render, render_pass
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from sunwidget.edit import Edit
-from sunwidget.export import sweep as module
-from sunwidget.export.film import film_size
-from sunwidget.export.sweep import sweep
+from sunwidget.edit.table import Edit
+from sunwidget.film import sweep as module
+from sunwidget.film.sweep import sweep
+from sunwidget.film.writer import film_size
 
 # The package names a function of the same name.
-RENDERER = importlib.import_module("sunwidget.renderer.render")
+RENDERER = importlib.import_module("sunwidget.renderer.offscreen")
 
 
 @pytest.fixture

@@ -14,8 +14,8 @@ from thesis_reference import (
     weighted_statistics,
 )
 
-from sunwidget.analysis.match import Statistics
-from sunwidget.edit import Edit
+from sunwidget.analysis.images.color_transfer import Statistics
+from sunwidget.edit.table import Edit
 from sunwidget.renderer import render, render_pass
 from sunwidget.renderer.values import parameter_values
 

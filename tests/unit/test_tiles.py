@@ -7,10 +7,10 @@ import pytest
 from relight_scenes import known_scene, sample_scene
 
 import sunwidget as sw
-from sunwidget.edit import METHODS
+from sunwidget.edit.table import METHODS
 from sunwidget.renderer import render, render_pass, tiles
 
-module = importlib.import_module("sunwidget.renderer.render")  # a function hides it
+module = importlib.import_module("sunwidget.renderer.offscreen")  # a function hides it
 
 MOVED = sw.Edit(sun_azimuth=20, sun_elevation=5)
 # Clouds that change read a pixel's neighbours, for its grain; added ones another map.

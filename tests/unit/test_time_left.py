@@ -2,7 +2,7 @@ import re
 
 import pytest
 
-from sunwidget.time_left import time_left_text, with_time_left
+from sunwidget.progress import time_left_text, with_time_left
 
 
 class Work:

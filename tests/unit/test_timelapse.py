@@ -5,11 +5,11 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.analysis.frame_scenes import Trouble
-from sunwidget.edit import Edit
-from sunwidget.export import timelapse as module
-from sunwidget.export.timelapse import timelapse
-from sunwidget.layout import PhotoError, PhotoWarning
+from sunwidget.edit.table import Edit
+from sunwidget.formats.pixels import PhotoError, PhotoWarning
+from sunwidget.timelapses import timelapse as module
+from sunwidget.timelapses.scenes import Trouble
+from sunwidget.timelapses.timelapse import timelapse
 
 MOVED = Edit(sun_elevation=4, sun_azimuth=-8)
 
@@ -149,7 +149,7 @@ def test_an_unknown_option_is_named_with_its_likeness(tmp_path):
 
 @pytest.mark.filterwarnings("default")  # as outside of the tests
 def test_the_command_line_makes_the_same_film(frames, tmp_path, capsys):
-    from sunwidget.cli import main
+    from sunwidget.cli.main import main
 
     files = sorted(map(str, frames.iterdir()), reverse=True)
     out = tmp_path / "cli.gif"
@@ -168,7 +168,7 @@ def test_the_command_line_makes_the_same_film(frames, tmp_path, capsys):
 def test_the_command_line_fails_when_most_frames_cannot_be_used(
     frames, tmp_path, capsys, monkeypatch, lost, status
 ):
-    from sunwidget.cli import main
+    from sunwidget.cli.main import main
 
     of = module.FrameScenes.of
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo, known_scene
 
-from sunwidget.analysis.unmix import cloud_white, unmix
+from sunwidget.analysis.clouds.unmix import cloud_white, unmix
 
 CLEAR = np.array([0.25, 0.42, 0.8], np.float32)
 WHITE = np.array([1.6, 1.65, 1.7], np.float32)
@@ -81,7 +81,7 @@ def test_the_clouds_white_is_nearly_white_by_day_and_follows_the_sky_at_dusk():
 
 
 def cloud_white_of(photo):
-    from sunwidget.analysis.fit import SkyFit
+    from sunwidget.analysis.fit.fit import SkyFit
 
     fit = SkyFit(photo.atmosphere, photo.response, tuple(photo.gain), (0.0, 3.0, 2.0), photo.sun)
     return cloud_white(fit)

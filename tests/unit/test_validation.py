@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from sunwidget.atmosphere import validation
+from sunwidget.validation import report
 
 
 def missed(rows):
@@ -13,7 +13,7 @@ def missed(rows):
 
 @pytest.mark.parametrize(
     ("part", "count"),
-    [(validation.closed_forms, 7), (validation.twilight, 7), (validation.sun_chromaticity, 4)],
+    [(report.closed_forms, 7), (report.twilight, 7), (report.sun_chromaticity, 4)],
 )
 def test_every_figure_of_the_validation_keeps_its_bound(part, count):
     rows = list(part())
@@ -24,14 +24,14 @@ def test_every_figure_of_the_validation_keeps_its_bound(part, count):
 
 def test_the_direct_beam_agrees_with_astm_g173():
     pytest.importorskip("pvlib")
-    [row] = validation.direct_beam()
+    [row] = report.direct_beam()
     assert row.met
     assert row.number == 2
 
 
 def test_the_path_tracers_bounds_are_those_of_the_design():
     """The errors themselves are held tighter in test_atmosphere_sky.py."""
-    suns = dict(validation.PATH_TRACED_SUNS)
+    suns = dict(report.PATH_TRACED_SUNS)
     assert {bound for sun, bound in suns.items() if sun >= 30} == {8}
     assert {bound for sun, bound in suns.items() if 2 <= sun <= 10} == {15}
     assert {bound for sun, bound in suns.items() if -4 <= sun <= 0} == {35}
@@ -41,10 +41,10 @@ def test_what_is_not_there_is_said_and_is_neither_met_nor_missed(monkeypatch, tm
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.delenv("SUNWIDGET_MEASUREMENTS", raising=False)
     rows = [
-        *validation.measured_radiance(),
-        *validation.other_models(None),
-        *validation.other_models(tmp_path),
-        *validation.another_day(),
+        *report.measured_radiance(),
+        *report.other_models(None),
+        *report.other_models(tmp_path),
+        *report.another_day(),
     ]
     assert len(rows) == 4
     assert all(row.met is None and row.value is None for row in rows)
@@ -53,7 +53,7 @@ def test_what_is_not_there_is_said_and_is_neither_met_nor_missed(monkeypatch, tm
 
 
 def test_a_figure_beyond_its_bound_is_missed():
-    at = validation._At(1, "nobody")
+    at = report._At(1, "nobody")
     assert [at.most("a", value, 2).met for value in (1, 2, 3)] == [True, True, False]
     assert [at.least("a", value, 2).met for value in (1, 2, 3)] == [False, True, True]
     assert [at.between("a", value, 1, 2).met for value in (0, 1, 3)] == [False, True, False]

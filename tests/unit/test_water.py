@@ -9,12 +9,12 @@ import pytest
 from relight_scenes import sample_scene
 
 import sunwidget as sw
-from sunwidget.analysis import water
-from sunwidget.analysis.horizon import Horizon
-from sunwidget.analysis.sun_network import SunMaps
-from sunwidget.analysis.working import Working
-from sunwidget.camera import Camera
-from sunwidget.photo import open_photo
+from sunwidget.analysis.horizon.horizon import Horizon
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.networks.sun import SunMaps
+from sunwidget.analysis.water import water
+from sunwidget.geometry.camera import Camera
+from sunwidget.photo.photo import open_photo
 
 SIZE = (240, 160)
 ROW = 90  # of the horizon
@@ -320,7 +320,7 @@ def test_glints_move_no_faster_than_the_sun():
 
 
 def test_water_is_rougher_where_it_glitters_wider():
-    from sunwidget.analysis.glitter import roughness
+    from sunwidget.analysis.water.glitter import roughness
 
     rough = []
     for width in (3.0, 12.0):

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 from relight_scenes import known_photo, known_scene
 
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
 from sunwidget.renderer import render
 
 LOW = Edit(sun_azimuth=60, sun_elevation=3)

@@ -4,9 +4,8 @@ import cv2
 import numpy as np
 import pytest
 
-from sunwidget.analysis import panes
-from sunwidget.analysis import window_shapes as shapes
-from sunwidget.analysis.window_shapes import FOOT, TALL, TOP, WIDE, X, Y
+from sunwidget.analysis.windows import panes, shapes
+from sunwidget.analysis.windows.shapes import FOOT, TALL, TOP, WIDE, X, Y
 
 SIZE = 240, 360
 GRID = [(x, y) for y in (40, 90, 140) for x in range(40, 330, 40)]

@@ -2,8 +2,8 @@
 
 import pytest
 
-from sunwidget import xmp
-from sunwidget.edit import Edit
+from sunwidget.edit.table import Edit
+from sunwidget.formats import xmp
 
 OWN = b"""<?xpacket begin="\xef\xbb\xbf" id="W5M0MpCehiHzreSzNTczkc9d"?>
 <x:xmpmeta xmlns:x="adobe:ns:meta/" x:xmptk="XMP Core 6.0">

@@ -16,14 +16,14 @@ import re
 import cv2
 import numpy as np
 
-from sunwidget.analysis.fit import Response, view_angles
-from sunwidget.analysis.match import Statistics, from_lab, to_lab
+from sunwidget.analysis.fit.fit import Response, view_angles
+from sunwidget.analysis.images.color_transfer import Statistics, from_lab, to_lab
 from sunwidget.atmosphere.color import spectral_to_rec709
 from sunwidget.atmosphere.optics import direct_irradiance
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.sky import SkyTable
 from sunwidget.atmosphere.sun import disc_radiance
-from sunwidget.edit import NUMBERS, Edit
+from sunwidget.edit.table import NUMBERS, Edit
 from sunwidget.renderer import render_pass
 from sunwidget.renderer.shader_source import read_shader
 from sunwidget.renderer.values import parameter_values

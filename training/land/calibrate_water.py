@@ -1,4 +1,4 @@
-"""Fits ``WEIGHTS`` of sunwidget/analysis/water.py, and prints them and what they are worth.
+"""Fits ``WEIGHTS`` of sunwidget/analysis/water/water.py, and prints them and what they are worth.
 
 ``python -m training.land.calibrate_water --data ../shared/data/train --worlds build/valid``
 
@@ -19,11 +19,11 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.analysis import water
-from sunwidget.analysis.land_network import look_at_land
-from sunwidget.analysis.sun_network import look_for_sun
-from sunwidget.analysis.working import Working, log_odds, resize
-from sunwidget.photo import open_photo
+from sunwidget.analysis.images.working_copy import Working, log_odds, resize
+from sunwidget.analysis.networks.land import look_at_land
+from sunwidget.analysis.networks.sun import look_for_sun
+from sunwidget.analysis.water import water
+from sunwidget.photo.photo import open_photo
 from training.data import held_out
 from training.land.data import WATER, sample
 from training.suns.calibrate import fit

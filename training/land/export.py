@@ -20,7 +20,7 @@ from training.train import prepare
 
 OUT = Path("sunwidget/analysis/models/land.onnx")
 AREA = 92_000
-"""Pixels of the picture at which it is used (sunwidget/analysis/land_network.py)."""
+"""Pixels of the picture at which it is used (sunwidget/analysis/networks/land.py)."""
 
 
 def load(checkpoint: Path) -> LandNet:

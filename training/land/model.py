@@ -23,7 +23,7 @@ MATTER = len(CLASSES)
 SUN_TURNS = torch.arange(-150.0, 181, 30)
 SUN_HEIGHTS = torch.tensor([-2.0, 2.0, 8.0, 18.0, 35.0, 60.0])
 """Azimuths from the camera's heading and elevations of ``sun``, degrees; as in
-sunwidget/analysis/confidence.py."""
+sunwidget/analysis/fit/confidence.py."""
 SUNS = len(SUN_TURNS) * len(SUN_HEIGHTS)
 
 

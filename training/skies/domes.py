@@ -19,10 +19,10 @@ from pathlib import Path
 
 import numpy as np
 
-from sunwidget import openexr
-from sunwidget.camera import Camera
-from sunwidget.color import LUMINANCE
 from sunwidget.dome.sphere import angles, irradiance, solid_angles
+from sunwidget.formats import openexr
+from sunwidget.formats.color import LUMINANCE
+from sunwidget.geometry.camera import Camera
 
 WIDTH = 1024
 _HEIGHT = 1.5  # km

@@ -21,7 +21,7 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
-from sunwidget.color import srgb_to_linear
+from sunwidget.formats.color import srgb_to_linear
 from training.suns.labels import Photo, labels
 
 WIDTH = 512

@@ -1,4 +1,4 @@
-"""Fits ``WEIGHTS`` and ``RADIUS_SCALE`` of sunwidget/analysis/sun_search.py, and prints them.
+"""Fits ``WEIGHTS`` and ``RADIUS_SCALE`` of sunwidget/analysis/sun/search.py, and prints them.
 
 ``python -m training.suns.calibrate --data ../shared/data/train``
 
@@ -14,10 +14,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from sunwidget.analysis.sun_network import look_for_sun
-from sunwidget.analysis.sun_search import features_of, peak_of
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.networks.sun import look_for_sun
+from sunwidget.analysis.sun.search import features_of, peak_of
+from sunwidget.photo.photo import open_photo
 from training.suns.labels import Photo, labels
 
 RIDGE = 0.01

@@ -13,10 +13,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from sunwidget.analysis.sun_network import look_for_sun
-from sunwidget.analysis.sun_search import LEAST_CONFIDENCE, Peak, peak_of
-from sunwidget.analysis.working import Working
-from sunwidget.photo import open_photo
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.networks.sun import look_for_sun
+from sunwidget.analysis.sun.search import LEAST_CONFIDENCE, Peak, peak_of
+from sunwidget.photo.photo import open_photo
 from training.suns.calibrate import miss, near
 from training.suns.labels import Photo, labels
 from training.suns.water import UNKNOWN, outlines, water_map

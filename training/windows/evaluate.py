@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from sunwidget.analysis import window_shapes
-from sunwidget.analysis.onnx_file import bundled_session
-from sunwidget.analysis.panes import BUNDLED, lamps, look
-from sunwidget.photo import open_photo
+from sunwidget.analysis.networks.onnx_file import bundled_session
+from sunwidget.analysis.windows import shapes as window_shapes
+from sunwidget.analysis.windows.panes import BUNDLED, lamps, look
+from sunwidget.photo.photo import open_photo
 from training.windows.data import SIDE, Batches, held_out, natural, seen
 from training.windows.draw import LAYERS, OPENING, OPENING_UNKNOWN, corners, light, set_up
 from training.windows.facades import Facades, names

@@ -5,7 +5,7 @@ import { element } from "../controls/element.js";
 import { download } from "./download.js";
 import { work } from "./save.js";
 
-const SHOWN_BYTES = 20_000_000; // as in sunwidget/widgets/export_files.py
+const SHOWN_BYTES = 20_000_000; // as in sunwidget/widgets/editor/export_files.py
 
 /**
  * @typedef {import("./view.js").View} View

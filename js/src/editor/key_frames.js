@@ -8,7 +8,7 @@ import { placePhoto, thumbnails } from "./thumbnails.js";
 
 /** @typedef {import("../film_path.js").KeyFrame} KeyFrame */
 
-// Twins of those in sunwidget/widgets/key_frames.py.
+// Twins of those in sunwidget/widgets/editor/key_frames.py.
 const MOST = 100;
 const LONGEST = 600;
 const CLOSEST = 0.05;

@@ -102,7 +102,7 @@ export class SunClock {
    */
   take(latitude, longitude) {
     const { told } = this;
-    // Without a zone the clock's is guessed by the longitude, as `photo_place.py` does.
+    // Without a zone the clock's is guessed by the longitude, as `photo/place.py` does.
     const zone = HOUR * Math.round(longitude / 15);
     const noon = Math.floor(Date.now() / DAY) * DAY + DAY / 2;
     const guess = (told.clock ? Date.parse(`${told.clock}Z`) : noon) - zone;

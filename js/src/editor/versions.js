@@ -7,7 +7,7 @@ import { sameRecipe } from "../same.js";
 
 /** @typedef {import("../state.js").EditState} EditState */
 
-// Twins of those in sunwidget/widgets/history.py.
+// Twins of those in sunwidget/widgets/editor/history.py.
 const MOST = 100;
 const NAME_LENGTH = 80;
 

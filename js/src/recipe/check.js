@@ -8,7 +8,7 @@
  * @typedef {import("../types.js").Parameter} Parameter
  */
 
-export const RECIPE_VERSION = 1; // of sunwidget/edit.py
+export const RECIPE_VERSION = 1; // of sunwidget/edit/table.py
 
 const LABELS = ["sky", "not_sky", "water", "not_water"];
 const STROKE = ["label", "points", "radius"];

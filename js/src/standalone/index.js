@@ -1,6 +1,6 @@
 /**
  * Starts a widget in a page that holds all of it: the front end and the state lie in the page as
- * text (`sunwidget/export/html.py`), and no kernel stands behind. The page's still picture stays
+ * text (`sunwidget/widgets/page/html.py`), and no kernel stands behind. The page's still picture stays
  * where the widget cannot run.
  */
 

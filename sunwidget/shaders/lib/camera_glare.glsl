@@ -1,6 +1,6 @@
 // The camera's own glare round the sun: what its lens and its sensor scatter over the whole picture, sky
 // and land alike. It is light of the sun's colour that is added: the glow in a deep blue sky is white.
-// `glare_profile` (analysis/camera_glare.py) is that of a sun in a well exposed picture.
+// `glare_profile` (analysis/sun/camera_glare.py) is that of a sun in a well exposed picture.
 
 uniform vec3 glare_profile;  // a (scene-linear luminance), b (degrees), c
 

@@ -4,7 +4,7 @@
 
 // Mean square slopes along and across the wind (their equations for a clean surface); the first has
 // a floor for swell and for the sun's own size, which keeps a calm from being a mirror. All of it by how
-// much rougher or smoother the photo's own glints are than these would be (analysis/glitter.py).
+// much rougher or smoother the photo's own glints are than these would be (analysis/water/glitter.py).
 uniform float water_roughness;
 
 vec2 GetSlopeVariance(float wind) {

@@ -1,4 +1,4 @@
-// The photo's own noise where the frame fills in what the photo does not show (analysis/noise.py):
+// The photo's own noise where the frame fills in what the photo does not show (analysis/images/noise.py):
 // the same at each pixel in every frame, so that it does not swim while the sun is dragged.
 
 #include "lib/pixel.glsl"

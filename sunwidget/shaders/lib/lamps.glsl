@@ -1,4 +1,4 @@
-// Light of lamps behind panes (analysis/panes.py): theirs, and no ratio of anything. By day it is there as well
+// Light of lamps behind panes (analysis/windows/panes.py): theirs, and no ratio of anything. By day it is there as well
 // and drowns; the darker the picture's own light, the more of it is seen.
 
 #include "lib/picture.glsl"

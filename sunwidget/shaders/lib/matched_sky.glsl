@@ -1,5 +1,5 @@
 // The model's sky in the photo's colours: gain per channel, fitted once at the photo's own
-// sun (analysis/fit.py) and frozen, since a refit after a move would pull a sunset back to noon.
+// sun (analysis/fit/fit.py) and frozen, since a refit after a move would pull a sunset back to noon.
 
 #include "lib/moonlight.glsl"
 

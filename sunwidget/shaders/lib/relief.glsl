@@ -1,4 +1,4 @@
-// How the land lies and what light falls on it in the photo (analysis/relief.py): R and G the normal's right and
+// How the land lies and what light falls on it in the photo (analysis/depth/relief.py): R and G the normal's right and
 // up in camera coordinates, B what of the sun reaches it past land, A the cosine between normal and sun where it does.
 
 uniform sampler2D relief;

@@ -1,7 +1,7 @@
 // The camera's response: display-linear x in [0, 1] against scene-linear light.
 // x = (1 - exp(-w r)) / w with r = light^contrast: a straight line for small r and a shoulder
 // above. w = 0 is a straight line throughout, w = 1 the middle of film and of most tone mappers.
-// Both are fitted to the photo's sky (analysis/fit.py).
+// Both are fitted to the photo's sky (analysis/fit/fit.py).
 
 uniform float response_shoulder;  // w in [0, 0.995]
 uniform float response_contrast;  // 0.7 .. 1.15
@@ -21,7 +21,7 @@ vec3 GetSceneLight(vec3 display) {
   return pow(max(r, vec3(1e-6)), vec3(1.0 / response_contrast));
 }
 
-// What analysis/backdrop.py stores: scene-linear light up to 16.
+// What analysis/backdrop/backdrop.py stores: scene-linear light up to 16.
 vec3 GetBackdropLight(vec3 code) {
   return (exp2(10.0 * code) - 1.0) / 64.0;
 }

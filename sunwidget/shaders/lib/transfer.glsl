@@ -1,5 +1,5 @@
 // What of any sun's light may be expected to fall on a place of land, by what falls on a surface that faces the sun:
-// the product of twelve shares of the place, which the land network sees (analysis/relief.py), with twelve functions
+// the product of twelve shares of the place, which the land network sees (analysis/depth/relief.py), with twelve functions
 // of the sun's direction, after Sloan et al., "Precomputed Radiance Transfer for Real-Time Rendering in Dynamic,
 // Low-Frequency Lighting Environments", SIGGRAPH 2002. The shares' roots lie in three pictures above each other.
 

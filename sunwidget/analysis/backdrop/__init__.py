@@ -1,0 +1,1 @@
+"""The sky behind the sun and behind the clouds."""

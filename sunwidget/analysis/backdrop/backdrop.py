@@ -1,0 +1,137 @@
+"""The sky behind the photo's sun, as the frame reads it: what fills in when the sun is moved away.
+
+It is the photo without its sun (erase.py). Over the land, and where the camera clipped, it goes on
+as the matched model does: the logarithm of photo over model is a slow field.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from sunwidget.analysis.backdrop.sky_detail import DETAILED
+from sunwidget.analysis.fit.fit import SkyFit, view_angles
+from sunwidget.analysis.images.fill import fill_by_pyramid
+from sunwidget.analysis.images.working_copy import resize, smoothstep
+from sunwidget.analysis.sun.erase import Erased
+from sunwidget.formats.pixels import size_within
+from sunwidget.geometry.camera import Camera
+
+RANGE = 2.0
+"""Logs of clear sky over model (clear_sky.py) span ±2: a seventh to seven times the model."""
+
+
+@dataclass(frozen=True, eq=False)
+class Backdrop:
+    """The sky behind and where it replaces the photo.
+
+    Parameters
+    ----------
+    field : (h, w, 3) float32
+        Code of scene-linear light (``to_code``), [0, 1].
+    glare : (h, w) float32
+        Weight with which the sky behind replaces the photo once the sun has moved, [0, 1]; on
+        land the share of its light that goes then.
+    """
+
+    field: np.ndarray
+    glare: np.ndarray
+
+
+_OCTAVES, _FINE = 10.0, 64.0  # as shaders/lib/response.glsl
+
+
+def to_code(light: np.ndarray) -> np.ndarray:
+    """Return codes in [0, 1] of scene-linear light up to 16; 8 bits tell 3 % of it.
+
+    Round a sun air is brighter than white, and darkens from there when the sun goes.
+    """
+    return np.asarray(np.clip(np.log2(1 + _FINE * np.maximum(light, 0)) / _OCTAVES, 0, 1))
+
+
+def to_light(code: np.ndarray) -> np.ndarray:
+    """Return the scene-linear light of codes: the inverse of ``to_code``."""
+    return np.asarray((np.exp2(_OCTAVES * np.asarray(code, np.float32)) - 1) / _FINE)
+
+
+LONG_SIDE = 256
+_MODEL_SIDE = 80
+
+
+def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> Backdrop:
+    """Return the photo without its sun, the sky continued over what is none.
+
+    Parameters
+    ----------
+    erased : Erased
+        The small photo without its sun.
+    sky : (h, w) float32
+        Sky matte at its size.
+    camera : Camera
+    fit : SkyFit
+        Model and response, fitted at the photo's own sun.
+
+    Returns
+    -------
+    Backdrop
+        At no more than ``LONG_SIDE`` pixels a side, twice that where the photo shows a sun.
+    """
+    working = erased.working
+    size = size_within(
+        (working.width, working.height), DETAILED if erased.mark.any() else LONG_SIDE
+    )
+    display = np.asarray(resize(working.linear, *size), np.float32)
+    matte = np.asarray(resize(sky, *size), np.float32)
+    mark = np.asarray(resize(erased.mark, *size), np.float32)
+    # What the camera clipped says little. Beside an erased sun it counts as it is shown, or what
+    # fills the gap would end at an edge.
+    clipped = smoothstep(0.90, 0.97, display.max(-1)) * (not mark.any())
+    model = matched_sky(fit, camera, size)
+    seen = fit.response.scene_light(display)
+    log_residual = _log_residual(seen, model)
+    # What the glare hides goes on as the model does, which knows how bright the air was round the
+    # sun: the frame takes that away with the old sun. Its clouds go on as those beside it.
+    known = 1 - np.asarray(resize(erased.hidden, *size), np.float32)
+    weight = np.asarray((matte > 0.98) * (1 - clipped) * known, np.float32)
+    detail = resize(erased.detail, *size)
+    filled = fill_by_pyramid(log_residual - detail, weight) + detail
+    beyond = model * np.exp(filled)
+    sky_light = beyond + weight[..., None] * (seen - beyond)
+    # A pixel of the skyline shows sky, too, and has one mark for both.
+    on_land = np.asarray(resize(erased.on_land, *size), np.float32)
+    glare = np.where(matte > 0.98, mark, np.maximum(mark * smoothstep(0.0, 0.2, matte), on_land))
+    return Backdrop(_dithered(to_code(sky_light)), glare)
+
+
+def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+    """Return the fitted clear sky at ``size`` (w, h): (h, w, 3) scene-linear.
+
+    Marched on a coarser grid: without its disc the sky's logarithm is smooth.
+    """
+    import cv2
+
+    logs = _coarse_logs(fit, camera, size_within(size, _MODEL_SIDE))
+    model = np.exp(cv2.resize(logs, size, interpolation=cv2.INTER_LINEAR))
+    return np.asarray(model.reshape(size[1], size[0], 3), np.float32)
+
+
+@lru_cache(maxsize=8)
+def _coarse_logs(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+    """March once for all that look at the same fit."""
+    azimuth, elevation = view_angles(camera, *size)
+    logs = np.log(fit.model(azimuth, np.maximum(elevation, 0.2))).astype(np.float32)
+    logs.flags.writeable = False
+    return logs
+
+
+def _log_residual(scene_light: np.ndarray, model: np.ndarray) -> np.ndarray:
+    ratio = np.maximum(scene_light, 1e-4) / np.maximum(model, 1e-6)
+    return np.log(ratio).astype(np.float32)
+
+
+def _dithered(encoded: np.ndarray) -> np.ndarray:
+    """Add ±half an 8-bit level of fixed noise: a slow sky would band when stored."""
+    noise = np.random.default_rng(20170601).random(encoded.shape, np.float32) - 0.5
+    return np.clip(encoded + noise / 255, 0, 1).astype(np.float32)

@@ -1,0 +1,1 @@
+"""Clouds: how opaque and how soft they are."""

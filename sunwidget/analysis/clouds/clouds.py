@@ -1,0 +1,237 @@
+"""Clouds: how opaque they are and how soft, by colour (thesis 3.1.4).
+
+``METHODS`` maps a name to a function ``(Working, sky, minimum, maximum) -> Clouds``. The four
+methods by colour alone (``INDICES``) put whiteness on one scale, that of red over blue: 0 is the
+deepest blue and 1 is white. So m_min and m_max mean the same whichever method is chosen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from sunwidget.analysis.backdrop.backdrop import matched_sky
+from sunwidget.analysis.clouds.unmix import cloud_white, unmix
+from sunwidget.analysis.depth.field import guided
+from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.fit.fit import SkyFit
+from sunwidget.analysis.fit.overcast import believable, overcast
+from sunwidget.analysis.images.working_copy import LONG_SIDE, Working, saturation
+from sunwidget.edit.table import parameter
+from sunwidget.geometry.camera import Camera
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+
+MINIMUM: float = parameter("cloud_ratio_min").default
+MAXIMUM: float = parameter("cloud_ratio_max").default
+
+# Heinle's 30 of 255 levels between blue and red lie where the ratio has its default m_min.
+_DIFFERENCE_SCALE = 30 / 255 / (1 - MINIMUM)
+
+_REACH, _REACH_OF_SHADE = 0.015, 0.004  # longer sides: colours are stored coarser than light
+LARGEST_RADIUS = round(_REACH * LONG_SIDE)
+"""Most that ``smoothing_radius`` returns."""
+_NO_EDGE = 1e-3  # squared contrast of the encoded picture
+
+# Logistic regression on (red / blue, (B - R) / (B + R), saturation, blue), encoded values: bias
+# and weights as written by training/clouds.py, which draws veiled skies of our own atmosphere.
+LEARNED = (-4.81, 6.3, -4.15, -4.98, 0.69)
+
+
+class Clouds(NamedTuple):
+    """What is known of the clouds, each (h, w) float32.
+
+    ``opacity`` and the thesis' ``softness`` C^s in [0, 1]; ``shade``, the clouds' own light in
+    units of a white cloud's (self-shade k of unmix.py), 0 to 1.5, and 1 where nothing tells.
+    """
+
+    opacity: np.ndarray
+    softness: np.ndarray
+    shade: np.ndarray
+
+
+def ratio_index(encoded: np.ndarray) -> np.ndarray:
+    """Red over blue (Long et al. 2006, "Retrieving cloud characteristics …", threshold 0.6).
+
+    Parameters
+    ----------
+    encoded : (h, w, 3) float32
+        sRGB-encoded, [0, 1]; the same for the other indices.
+
+    Returns
+    -------
+    (h, w) float32
+    """
+    return np.asarray(encoded[..., 0] / np.maximum(encoded[..., 2], 1 / 255))
+
+
+def difference_index(encoded: np.ndarray) -> np.ndarray:
+    """Red minus blue (Heinle et al. 2010, "Automatic cloud classification …", 30 levels).
+
+    It errs less than the ratio in dark skies, whose ratio is noise.
+    """
+    return np.asarray(1 + (encoded[..., 0] - encoded[..., 2]) / _DIFFERENCE_SCALE)
+
+
+def saturation_index(encoded: np.ndarray) -> np.ndarray:
+    """Saturation of HSI (Souza-Echer et al. 2006, "A simple method for … cloud coverage").
+
+    A sky whose green lies midway between red and blue has S = (1 - r/b) / (1 + r/b); solved for
+    r/b. Unlike the ratio it does not call the red of a sunset the whitest of all.
+    """
+    pure = saturation(encoded)
+    return np.asarray((1 - pure) / (1 + pure))
+
+
+def learned_index(encoded: np.ndarray) -> np.ndarray:
+    """Regression on colour channels (Dev et al. 2017, "Color-based segmentation of sky/cloud …").
+
+    Their partial least squares found red over blue, the normalised difference and saturation
+    to tell most. Here a logistic regression: its probability 0.5 lies at the default m_min.
+    """
+    score = features(encoded) @ np.array(LEARNED[1:], np.float32) + np.float32(LEARNED[0])
+    probability = 1 / (1 + np.exp(-np.clip(score, -30, 30)))
+    return np.asarray(np.interp(probability, (0, 0.5, 1), (0, MINIMUM, 1)), np.float32)
+
+
+def features(encoded: np.ndarray) -> np.ndarray:
+    """Return what the regression sees, (…, 4): r/b, (b - r)/(b + r), saturation and blue."""
+    red, blue = encoded[..., 0], encoded[..., 2]
+    ratio = np.minimum(ratio_index(encoded), 2)
+    difference = (blue - red) / np.maximum(blue + red, 1 / 255)
+    return np.asarray(np.stack([ratio, difference, saturation(encoded), blue], -1), np.float32)
+
+
+INDICES: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "rb_ratio": ratio_index,
+    "rb_difference": difference_index,
+    "saturation": saturation_index,
+    "learned": learned_index,
+}
+
+
+def by_threshold(
+    name: str,
+    working: Working,
+    sky: np.ndarray,
+    minimum: float = MINIMUM,
+    maximum: float = MAXIMUM,
+) -> Clouds:
+    """Call cloud what is whiter than m_min (thesis equations 3.5 and 3.6).
+
+    Parameters
+    ----------
+    name : str
+        Which of ``INDICES``.
+    working : Working
+    sky : (h, w) float32
+        Sky matte.
+    minimum, maximum : float
+        m_min, around which the mask of equation 3.5 is softened by ± 0.05, and m_max, where
+        the softness of equation 3.6 reaches 1; it is clamped to [0, 1].
+    """
+    index = INDICES[name](working.encoded)
+    softness = np.clip((index - minimum) / max(maximum - minimum, 1e-3), 0, 1)
+    opacity = np.clip((index - minimum) / 0.1 + 0.5, 0, 1)
+    return Clouds(
+        (opacity * sky).astype(np.float32),
+        (softness * sky).astype(np.float32),
+        np.ones_like(sky, np.float32),
+    )
+
+
+# "unmix" needs the fitted sky, which needs a first idea of the clouds: that is r/b, whose
+# softness C^s stays; ``veil`` then gives the opacity.
+METHODS: dict[str, Callable[..., Clouds]] = {
+    **{name: partial(by_threshold, name) for name in INDICES},
+    "unmix": partial(by_threshold, "rb_ratio"),
+}
+
+
+def veil(
+    working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit, *, sun_seen: bool
+) -> tuple[Clouds, Clouds]:
+    """Clouds of the sky, and of the whole picture, by un-mixing the fitted sky (unmix.py).
+
+    The second is what the land would be if it were sky, for strokes that say so; it is not
+    smoothed. Neither knows the softness C^s: it is 0.
+
+    A guided filter (He et al. 2010) ties it to the picture: compression blocks and noise in
+    the colour differences would else show as soon as cloud and sky are lit apart. Unless the sun
+    is seen, a sky that is white all over is cloud (overcast.py).
+
+    Raises
+    ------
+    AnalysisError
+        When OpenCV was installed without its contrib modules.
+    """
+    import cv2
+
+    if not hasattr(cv2, "ximgproc"):
+        raise AnalysisError(
+            "This OpenCV has no cv2.ximgproc, which follows the clouds' edges. Another package "
+            "replaced it: pip uninstall opencv-python opencv-python-headless, then pip install "
+            "--force-reinstall opencv-contrib-python-headless; or pass clouds='rb_ratio'."
+        )
+
+    blue = fit if sun_seen else believable(fit, working, sky)
+    clear = matched_sky(blue, camera, (working.width, working.height))
+    light = fit.response.scene_light(working.linear)
+    everywhere, shade = unmix(light, clear, cloud_white(blue), np.ones_like(sky))
+    if not sun_seen:
+        everywhere = np.maximum(everywhere, overcast(working, sky))
+    opacity = everywhere * sky
+    smooth = np.clip(smoothed(working.encoded, opacity, smoothing_radius(working)), 0, 1)
+    # Shade weighs by opacity: where there is hardly any cloud it is noise.
+    side = 2 * max(2, round(_REACH_OF_SHADE * max(working.width, working.height))) + 1
+    weight = cv2.blur(opacity, (side, side)) + 1e-3
+    level = cv2.blur(opacity * shade, (side, side)) + 1e-3
+    none = np.zeros_like(sky)
+    return (
+        Clouds((smooth * sky).astype(np.float32), none, level / weight),
+        Clouds(everywhere, none, shade),
+    )
+
+
+def smoothing_radius(working: Working) -> int:
+    """Half side in working pixels of the filter that ties opacity to the picture."""
+    return max(3, round(_REACH * max(working.width, working.height)))
+
+
+def smoothed(encoded: np.ndarray, opacity: np.ndarray, radius: int) -> np.ndarray:
+    """Tie an opacity (h, w) to the picture's edges (guided filter)."""
+    return guided(encoded, opacity, radius, _NO_EDGE)
+
+
+def within(clouds: Clouds, sky: np.ndarray) -> Clouds:
+    """Keep the clouds of the sky (h, w)."""
+    return Clouds(
+        (clouds.opacity * sky).astype(np.float32),
+        (clouds.softness * sky).astype(np.float32),
+        clouds.shade,
+    )
+
+
+def without(clouds: Clouds, mask: np.ndarray) -> Clouds:
+    """Take the sun's pixels out: r/b calls them cloud (thesis 3.1.3)."""
+    keep = 1 - mask
+    return Clouds(clouds.opacity * keep, clouds.softness * keep, clouds.shade)
+
+
+def softness_histogram(scene: Scene, bins: int = 32) -> np.ndarray:
+    """Return the share of the sky's pixels in each bin of the softness C^s, (bins,) float64.
+
+    Weighted by the matte, it sums to 1 (to 0 without sky). Thesis 4.2: m_min and m_max are well
+    chosen when it is spread; all at 0 or all at 1 says that they miss the photo's clouds.
+    """
+    counts, _ = np.histogram(
+        scene.cloud_softness / np.maximum(scene.sky, 1e-6),
+        bins=bins,
+        range=(0, 1 + 1e-6),
+        weights=scene.sky,
+    )
+    return np.asarray(counts / max(float(counts.sum()), 1e-9))

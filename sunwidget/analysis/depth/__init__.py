@@ -1,0 +1,1 @@
+"""Depth in metres, how the land lies, and the methods that find them."""

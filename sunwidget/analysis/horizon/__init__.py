@@ -1,0 +1,1 @@
+"""The horizon, and straight edges across a picture."""

@@ -1,0 +1,228 @@
+"""An ONNX file of a network that looks at a picture: what it takes, and how to run it."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.images.working_copy import resize
+from sunwidget.analysis.networks import segmentation_output
+from sunwidget.analysis.networks.onnx_runtime import onnx_runtime
+from sunwidget.analysis.networks.segmentation_output import Output
+
+SIDE = 384  # of the picture for networks that take any size, as in the thesis
+LARGEST = 4096  # a side of the picture: a float copy of it is 200 MB
+TYPES = {
+    "tensor(float)": np.float32,
+    "tensor(float16)": np.float16,
+    "tensor(double)": np.float64,
+    "tensor(uint8)": np.uint8,
+}
+
+Scale = tuple[Any, Any]  # mean and deviation, each a number or three
+
+# What else a person can pass instead of a network, by what the network finds.
+INSTEAD = {
+    "sky": "sky=mask, the path of an .onnx file, or sky='skyline'",
+    "sun": "sun=(x, y)",
+    "depth": "depth=an array of metres, the path of an .onnx file, or depth='network'",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Opened:
+    """A network's file, open, and what its input is."""
+
+    path: str
+    session: Any
+    stamp: tuple[int, int]  # of the file: another one under the same name is read anew
+    name: str
+    type: Any
+    layout: str
+    batch: bool
+    size: tuple[int, int]
+    free: bool = False  # the file leaves the size open
+    finds: str = "sky"  # key of INSTEAD
+
+    def sized(self, side: int | None) -> Opened:
+        """Return the same network for another size of its input; None leaves it."""
+        return self if side is None else dataclasses.replace(self, size=(side, side))
+
+    @classmethod
+    def of(
+        cls,
+        path: str | Path,
+        layout: str | None = None,
+        size: int | tuple[int, int] | None = None,
+        finds: str = "sky",
+    ) -> Opened:
+        """Open a file and read its input's layout, type and size.
+
+        Parameters
+        ----------
+        path : str or Path
+        layout : {"nchw", "nhwc"}, optional
+            Where the file leaves it open; default "nchw".
+        size : int or (width, height), optional
+            Of the input in pixels, where the file leaves it open; default 384.
+        finds : {"sky", "depth"}
+            For the errors.
+
+        Raises
+        ------
+        AnalysisError
+            When the file is missing, is no ONNX network, or takes anything but one picture.
+        """
+        path = Path(path)
+        if not path.is_file():
+            raise AnalysisError(f"No {finds} network at {path}. Pass {INSTEAD[finds]}.")
+        stat = path.stat()
+        stamp = (stat.st_mtime_ns, stat.st_size)
+        opened = session(str(path), stamp, finds)
+        entries = opened.get_inputs()
+        takes = "; ".join(f"{e.name} {e.type} {e.shape}" for e in entries) or "nothing"
+        refused = f"{path} is no network of one picture: it takes {takes}. "
+        if len(entries) != 1:
+            raise AnalysisError(f"{refused}Export it with a single input, the picture.")
+        entry = entries[0]
+        if entry.type not in TYPES:
+            raise AnalysisError(f"{refused}Known types: {', '.join(TYPES)}.")
+        shape = [n if isinstance(n, int) and n > 0 else None for n in entry.shape]
+        batch = len(shape) == 4
+        if batch and shape.pop(0) not in (None, 1):
+            raise AnalysisError(f"{refused}Export it for batches of 1, or of any size.")
+        if len(shape) != 3:
+            raise AnalysisError(
+                f"{refused}Expected (1, 3, height, width) or (1, height, width, 3)."
+            )
+        layout = layout or ("nhwc" if shape[2] == 3 and shape[0] != 3 else "nchw")
+        if shape[0 if layout == "nchw" else 2] not in (3, None):
+            raise AnalysisError(
+                f"{refused}Expected 3 channels, (1, 3, height, width) or (1, height, width, 3)."
+            )
+        height, width = shape[1:] if layout == "nchw" else shape[:2]
+        wanted = np.broadcast_to(size or SIDE, 2)
+        takes_size = (width or int(wanted[0]), height or int(wanted[1]))
+        if size is not None and takes_size != tuple(wanted):
+            raise AnalysisError(
+                f"{path} takes pictures of {takes_size[0]} × {takes_size[1]} only; leave out size=."
+            )
+        if max(takes_size) > LARGEST:
+            raise AnalysisError(
+                f"{path} takes pictures of {takes_size[0]} × {takes_size[1]}; at most {LARGEST} "
+                "pixels a side are possible. Export it for smaller ones, or for any size."
+            )
+        kind = TYPES[entry.type]
+        free = width is None and height is None
+        return cls(
+            str(path), opened, stamp, entry.name, kind, layout, batch, takes_size, free, finds
+        )
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """What the exporter wrote into the file besides the network."""
+        return dict(self.session.get_modelmeta().custom_metadata_map)
+
+    def run(self, picture: np.ndarray, scale: Scale, label: int | None) -> Output:
+        """Run on a picture and return the first output that is a map and has the class.
+
+        Parameters
+        ----------
+        picture : (h, w, 3) float32
+            Encoded, [0, 1], the channels in the network's order.
+        scale : (mean, deviation)
+            Each a number or three: the network sees (picture - mean) / deviation.
+        label : int, optional
+            Without an output that has it the first map is returned.
+
+        Raises
+        ------
+        AnalysisError
+            When the network fails or returns no map.
+        """
+        image = resize(picture, *self.size)
+        mean, deviation = (np.asarray(part, np.float32) for part in scale)
+        image = (image - mean) / deviation
+        if self.type is np.uint8:
+            image = np.clip(np.round(image), 0, 255)
+        image = image.transpose(2, 0, 1) if self.layout == "nchw" else image
+        batch = np.ascontiguousarray(image[None] if self.batch else image, self.type)
+        try:
+            outputs = self.session.run(None, {self.name: batch})
+        except Exception as error:  # onnxruntime's exceptions share no public base class
+            raise AnalysisError(
+                f"The {self.finds} network {self.path} failed on a {self.size[0]} × {self.size[1]} "
+                f"picture: {str(error)[:300]}. Give the size and layout it was made for, "
+                f"{self.finds}={self.finds.capitalize()}Network(path, size=…, layout=…), or an "
+                "array."
+            ) from error
+        for asked in dict.fromkeys((label, None)):  # without the label: for the error
+            for output in outputs:
+                found = segmentation_output.understand(output, self.size, self.layout, asked)
+                if found is not None:
+                    return found
+        shapes = ", ".join(str(np.shape(output)) for output in outputs)
+        if self.finds == "depth":
+            raise AnalysisError(
+                f"The depth network {self.path} returned {shapes}; expected a map of depth: "
+                "(1, 1, h, w), (1, h, w) or (1, h, w, 1)."
+            )
+        raise AnalysisError(
+            f"The sky network {self.path} returned {shapes}; expected a map of the sky, of "
+            "classes' scores or of labels: (1, 1, h, w), (1, classes, h, w), (1, h, w, classes) or "
+            "(1, h, w)."
+        )
+
+
+@lru_cache(maxsize=8)  # three are our own
+def session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
+    """Open a file once; ``finds`` is for the errors, a key of ``INSTEAD`` where one can do without.
+
+    Raises
+    ------
+    AnalysisError
+        When onnxruntime is missing or the file is no network.
+    """
+    import cv2
+
+    try:
+        onnxruntime = onnx_runtime()
+    except ImportError as error:
+        without = f" Without it pass {INSTEAD[finds]}." if finds in INSTEAD else ""
+        raise AnalysisError(
+            f"A {finds} network needs onnxruntime (pip install onnxruntime).{without}"
+        ) from error
+    options = onnxruntime.SessionOptions()
+    # Two gain as much as more; a batch's worker leaves OpenCV fewer, and so they share the cores.
+    options.intra_op_num_threads = max(1, min(2, cv2.getNumThreads()))
+    options.inter_op_num_threads = 1
+    options.log_severity_level = 4
+    try:
+        return onnxruntime.InferenceSession(
+            path, sess_options=options, providers=["CPUExecutionProvider"]
+        )
+    except Exception as error:  # onnxruntime's exceptions share no public base class
+        way_out = f"Pass {INSTEAD[finds]}." if finds in INSTEAD else "Reinstall sunwidget."
+        raise AnalysisError(
+            f"{path} is not an ONNX network that can be read: {str(error)[:200]}. {way_out}"
+        ) from error
+
+
+def bundled_session(path: Path, finds: str) -> Any:
+    """Open a network that ships with the package, once.
+
+    Raises
+    ------
+    AnalysisError
+        When the file or onnxruntime is missing.
+    """
+    if not path.is_file():
+        raise AnalysisError(f"No {finds} network at {path}. Reinstall sunwidget.")
+    stat = path.stat()
+    return session(str(path), (stat.st_mtime_ns, stat.st_size), finds)

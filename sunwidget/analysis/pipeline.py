@@ -1,0 +1,451 @@
+"""The stages of the analysis after the decision sky or land, one function each.
+
+Order: matte → sun → horizon → camera → clouds (minus sun) → atmosphere fit → water; depth is
+found when it is asked for. All but the final matte work on a copy of at most 1024 px (``Working``).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sunwidget.analysis.backdrop.backdrop import Backdrop, behind_sun
+from sunwidget.analysis.clouds import clouds as cloud_stage
+from sunwidget.analysis.clouds.clouds import Clouds
+from sunwidget.analysis.clouds.unmix import cloud_gain
+from sunwidget.analysis.depth import depth as depth_stage
+from sunwidget.analysis.depth.field import DepthField
+from sunwidget.analysis.depth.view import View
+from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.fit.fit import SkyFit, fit_sky
+from sunwidget.analysis.hints import Hints
+from sunwidget.analysis.horizon import horizon as horizon_stage
+from sunwidget.analysis.horizon.horizon import Horizon
+from sunwidget.analysis.images.enlarge import raise_to, take_from
+from sunwidget.analysis.images.fill import fill_by_pyramid
+from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
+from sunwidget.analysis.networks.land import look_at_land
+from sunwidget.analysis.networks.sun import SunMaps, look_for_sun
+from sunwidget.analysis.notices import notices
+from sunwidget.analysis.segmentation import matting, refine
+from sunwidget.analysis.strokes.memory import Memory
+from sunwidget.analysis.sun import sun as sun_stage
+from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
+from sunwidget.analysis.sun.erase import Erased, before_land, erase, unerased
+from sunwidget.analysis.sun.search import Peak
+from sunwidget.analysis.sun.sun import Blot, SunObservation
+from sunwidget.analysis.water import water as water_stage
+from sunwidget.formats.pixels import size_within
+from sunwidget.geometry.camera import Camera, Point
+from sunwidget.photo.photo import Photo
+from sunwidget.progress import Progress
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+
+FIT_SIDE = 384
+_SURROUNDINGS = 0.05  # of the longer side: how far round a glow the sky tells what it hides
+SURE_HORIZON = 0.68  # confidence from which nothing below the horizon can be sky
+
+METHODS: dict[str, dict[str, Callable[..., Any]]] = {
+    "refine": refine.METHODS,
+    "clouds": cloud_stage.METHODS,
+    "horizon": horizon_stage.METHODS,
+    "sun": sun_stage.METHODS,
+    "depth": depth_stage.METHODS,
+    "water": water_stage.METHODS,
+}
+
+
+def check_method(stage: str, name: Any) -> None:
+    """Raise AnalysisError unless ``stage`` has a method of this name."""
+    methods = METHODS[stage]
+    if not isinstance(name, str) or name not in methods:
+        raise AnalysisError(
+            f"{stage} knows no method {name!r:.80}; choose one of {', '.join(methods)}."
+        )
+
+
+class Steps:
+    """Times the stages and tells the caller about them."""
+
+    def __init__(self, progress: Progress | None) -> None:
+        self.progress = progress
+        self.timings: dict[str, float] = {}
+        self._stage: str | None = None
+        self._message = ""
+        self._since = 0.0
+
+    def __call__(self, stage: str | None, fraction: float, message: str) -> None:
+        """End the running stage and begin another; None ends the last one."""
+        now = time.perf_counter()
+        if self._stage is not None:
+            self.timings[self._stage] = now - self._since
+        self._stage, self._message, self._since = stage, message, now
+        if self.progress is not None:
+            self.progress(fraction, message)
+
+    def within(self, fraction: float) -> None:
+        """Tell how far a long stage is, so that the caller may cancel it there."""
+        if self.progress is not None:
+            self.progress(fraction, self._message)
+
+    def between(self, first: float, last: float) -> Callable[[float], None]:
+        """Return what a part of the work tells its share done, 0 to 1, from first to last."""
+        return lambda share: self.within(first + (last - first) * share)
+
+
+def complete(
+    base: Scene, hints: Hints, step: Steps | None = None, matte: np.ndarray | None = None
+) -> Scene:
+    """Run every stage after the decision sky or land, and return a new scene.
+
+    A ``matte`` (H, W) that is given, as a person's strokes made it, is not changed any more.
+    """
+    step = step or Steps(None)
+    photo, working = base.photo, base.working
+    zoom_x, zoom_y = working.zoom
+    step("matte", 0.5, "Cutting out the sky")
+    ours = matte is None
+    if matte is None:
+        sky, matte = _cut_out(base, step)
+    else:
+        sky = resize(matte, working.width, working.height)
+    camera = Camera(*photo.size, hints.fov or photo.field_of_view.vertical)
+
+    step("sun", 0.7, "Looking for the sun")
+    told = hints.sun_point
+    seed = told and (told[0] / zoom_x, told[1] / zoom_y)
+    maps = look_for_sun(working)
+    searched = seed is None and not hints.sun_outside
+    peak = sun_stage.find(working, maps, sky) if searched else None
+    blot = sun_blot(working, sky, seed or peak, camera.focal / zoom_y, hints.method("sun"))
+    if blot is not None and ours:
+        # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
+        least = 0.6 if peak is None else 0.25
+        disc = sun_stage.in_sky(blot, sky, working.encoded, least)
+        sky = np.maximum(sky, disc)
+        raise_to(matte, disc, working.zoom)
+        foot = sun_stage.foot(blot, sky)
+        sky = sky * (1 - foot)
+        take_from(matte, foot, working.zoom)
+
+    if peak is not None and blot is not None and _lens_unknown(photo, hints):
+        lens = sun_stage.field_of_view_of(blot, peak, working, camera.fov_vertical_deg)
+        camera = Camera(*photo.size, lens or camera.fov_vertical_deg)
+
+    step("horizon", 0.8, "Fitting the horizon")
+    horizon = _horizon(working, sky, maps, hints, photo.width, seed, blot)
+    camera = Camera.from_horizon(
+        *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll
+    )
+    # The thesis' row may be a roof's, and sky below it is what tells.
+    seen = horizon.confidence >= SURE_HORIZON and horizon.source != "row_argmax"
+    if ours and (hints.horizon is not None or seen):
+        # Water that mirrors the sky is not sky.
+        sky = sky * horizon_stage.above(camera, *sky.shape[::-1])
+        horizon_stage.cut_below(matte, camera)
+    sun = sun_stage.observe(seed, blot, sky, camera, working, peak)
+    moon = None if sun is not None else sun_stage.find_moon(working, sky)
+    light = sun
+    if moon is not None:
+        # The light of a night is its moon: the fit looks round it as it does round a sun by day.
+        seed = moon[0] * working.width, moon[1] * working.height
+        blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
+        light = sun_stage.observe(seed, blot, sky, camera, working)
+
+    erased = erased_for(working, maps, sky, light, blot)
+
+    step("clouds", 0.81, "Finding clouds")
+    covers = clouds_by_colour(erased.working, sky, hints, None if blot is None else blot.mask)
+
+    step("fit", 0.82, "Fitting the atmosphere")
+    fitted, behind, (cover, everywhere) = fit_atmosphere(
+        working, erased, sky, covers, camera, light, hints, step
+    )
+
+    step("water", 0.95, "Looking for water")
+    water = _water(working, sky, horizon.scaled(1 / zoom_x, 1 / zoom_y), maps, hints)
+    scene = dataclasses.replace(
+        base,
+        sky=matte,
+        cloud_map=cover.opacity,
+        softness_map=cover.softness,
+        shade=cover.shade,
+        everywhere=everywhere,
+        sun=sun,
+        moon=moon,
+        horizon=horizon,
+        camera=camera,
+        atmosphere=fitted.atmosphere,
+        water_map=water,
+        assumed_sun=fitted.sun,
+        fitted=fitted,
+        response={
+            "response_shoulder": fitted.response.shoulder,
+            "response_contrast": fitted.response.contrast,
+            "sky_gain": fitted.gain,
+            "cloud_gain": cloud_gain(fitted),
+            "glare_profile": fitted.glare,
+        },
+        warnings=notices(photo, sky, sun, horizon, camera, hints, base.doubted, moon, fitted),
+        hints=hints,
+        timings=step.timings,
+        backdrop=behind.field,
+        glare=behind.glare,
+        erased=erased,
+        memory=Memory(),
+    )
+    step(None, 1.0, "Analysed")
+    return scene
+
+
+def _cut_out(base: Scene, step: Steps) -> tuple[np.ndarray, np.ndarray]:
+    """Return the sky at working size and the matte at the photo's size."""
+    photo, working = base.photo, base.working
+    matte = matting.matte(photo, working, base.decision)
+    step.within(0.6)
+    sky = resize(matte, working.width, working.height)
+    return sky, matte
+
+
+def sun_blot(
+    working: Working, sky: np.ndarray, seed: Point | Peak | None, focal: float, method: str
+) -> Blot | None:
+    """Grow the blot of the hinted or found sun; None when none is in the frame."""
+    if seed is None or not (0 <= seed[0] < working.width and 0 <= seed[1] < working.height):
+        return None
+    blot = sun_stage.METHODS[method](working, sky, seed[0], seed[1], focal)
+    if isinstance(seed, Peak) and method != "flood_fill":  # the thesis' way stays as it is
+        return sun_stage.settled(blot, seed)
+    return blot
+
+
+def _lens_unknown(photo: Photo, hints: Hints) -> bool:
+    return hints.fov is None and photo.field_of_view.source == "assumed"
+
+
+def erased_for(
+    working: Working,
+    maps: SunMaps,
+    sky: np.ndarray,
+    light: SunObservation | None,
+    blot: Blot | None = None,
+) -> Erased:
+    """Return the photo without the sun or moon that it shows; as it is where it shows none.
+
+    Of one that shines through trees, where the mask knows no sky, the glare goes.
+    """
+    if light is not None and light.visible:
+        return erase(working, maps, sky, light)
+    if light is None or blot is None or not blot.mask.any():
+        return unerased(working)
+    radius = blot.radius * working.zoom[1]
+    through = dataclasses.replace(light, blot=blot.mask, radius_px=radius)
+    return unerased(working)._replace(on_land=before_land(working, maps, sky, through))
+
+
+def _horizon(
+    working: Working,
+    sky: np.ndarray,
+    maps: SunMaps,
+    hints: Hints,
+    width: int,
+    seed: Point | None,
+    blot: Blot | None,
+) -> Horizon:
+    """Return the hinted horizon, or the found one below the sun that is seen; in photo's pixels.
+
+    A sun that was pointed at (``seed``) says less than a horizon that is plain to see.
+    """
+    if hints.horizon is not None:
+        return horizon_stage.from_hint(hints.horizon, width)
+    find = horizon_stage.METHODS[hints.method("horizon")]
+    water = resize(maps.water, working.width, working.height)
+    found: Horizon = find(sky, working.encoded, water)
+    if found.source == "assumed":
+        row = look_at_land(working).horizon * working.height
+        found = horizon_stage.expected(found, sky, row)
+    found = found.scaled(*working.zoom)
+    if blot is None or (seed is not None and found.confidence >= SURE_HORIZON):
+        return found
+    (x, y), (zoom_x, zoom_y) = seed or (blot.x, blot.y), working.zoom
+    return horizon_stage.below_sun(found, x * zoom_x, y * zoom_y, blot.radius * zoom_y, width)
+
+
+def _water(
+    working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps, hints: Hints
+) -> np.ndarray:
+    """Return the given or found water, (h, w) float32; a given map keeps its size."""
+    if hints.water is not None:
+        return hints.water
+    found = METHODS["water"][hints.method("water")](working, sky, horizon, maps)
+    return np.asarray(found, np.float32)
+
+
+def clouds_by_colour(
+    working: Working, sky: np.ndarray, hints: Hints, sun_mask: np.ndarray | None
+) -> tuple[Clouds, Clouds]:
+    """Return the clouds of the sky, and of the whole picture as if it were sky; minus the sun."""
+    find = METHODS["clouds"][hints.method("clouds")]
+    everywhere = find(working, np.ones_like(sky), *hints.cloud_ratios)
+    if sun_mask is not None:
+        everywhere = cloud_stage.without(everywhere, sun_mask)
+    return cloud_stage.within(everywhere, sky), everywhere
+
+
+def fit_atmosphere(
+    working: Working,
+    erased: Erased,
+    sky: np.ndarray,
+    covers: tuple[Clouds, Clouds],
+    camera: Camera,
+    sun: SunObservation | None,
+    hints: Hints,
+    step: Steps,
+) -> tuple[SkyFit, Backdrop, tuple[Clouds, Clouds]]:
+    """Fit the sky, look behind the sun, and un-mix the clouds from the fitted sky.
+
+    The clouds come twice: of the sky, and of the whole picture as if it were sky.
+    """
+    sun_angles = None if sun is None else (sun.azimuth, sun.elevation)
+    visible = sun is not None and sun.visible
+    unmixed = hints.method("clouds") == "unmix"
+    # A fit looks at a few hundred pixels; on a small copy they are less noisy, too.
+    small = erased.working.shrunk(FIT_SIDE)
+    small_sky = resize(sky, small.width, small.height)
+    opacity = resize(covers[0].opacity, small.width, small.height)
+    expected = look_at_land(working).sun if sun is None else None
+    fitted = fit_sky(
+        small, small_sky, opacity, camera, sun_angles, expected, step.between(0.82, 0.87)
+    )
+    if unmixed:
+        # The colour of the clear sky tells the clouds, and without them it is known better.
+        veil = cloud_stage.veil(small, small_sky, camera, fitted, sun_seen=visible)[0]
+        fitted = fit_sky(
+            *(small, small_sky, veil.opacity, camera, fitted.sun),
+            done=step.between(0.88, 0.9),
+            sure_of_sun=fitted.sun_confidence,
+            spread=fitted.sun_spread,
+        )
+    if visible:
+        fitted = _glare_of(fitted, working, erased, sky, camera)
+    behind = behind_sun(erased, sky, camera, fitted)
+    step.within(0.92)
+    if unmixed:
+        covers = unmix_clouds(erased, sky, camera, fitted, covers, sun_seen=visible)
+    return fitted, behind, covers
+
+
+def _glare_of(
+    fit: SkyFit, working: Working, erased: Erased, sky: np.ndarray, camera: Camera
+) -> SkyFit:
+    """Return the fit with the glare that the camera put round the sun: what was erased."""
+    size = size_within((working.width, working.height), FIT_SIDE)
+    display, clean = (resize(w.linear, *size) for w in (working, erased.working))
+    trusted = (resize(sky, *size) > 0.95) & (display.max(-1) < 0.95)
+    excess = fit.response.scene_light(display) - fit.response.scene_light(clean)
+    angle = angle_to_sun(camera, size, fit.sun)
+    return dataclasses.replace(fit, glare=measured_glare(excess, angle, trusted, fit))
+
+
+def unmix_clouds(
+    erased: Erased,
+    sky: np.ndarray,
+    camera: Camera,
+    fitted: SkyFit,
+    covers: tuple[Clouds, Clouds],
+    *,
+    sun_seen: bool,
+) -> tuple[Clouds, Clouds]:
+    """Return ``covers`` with opacity and shade un-mixed from the fitted sky."""
+    of_sky, of_all = cloud_stage.veil(erased.working, sky, camera, fitted, sun_seen=sun_seen)
+    # Where the matte is soft, twigs darken the sky as a cloud would: continue the clouds from
+    # around them. Round the sun whiteness tells nothing: there clouds go on as beside it.
+    weight = np.asarray(inner(sky > 0.98), np.float32)
+    filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), weight)
+    if erased.glow.any():
+        # The clearer the surroundings are, the more it is the clear sky alone that goes on.
+        weight *= 1 - erased.glow
+        clear = weight * _clearness(of_sky.opacity, weight > 0.5)
+        cloudy, open_ = (fill_by_pyramid(of_sky.opacity[..., None], w) for w in (weight, clear))
+        share = _round_glow(erased.glow, weight, clear)
+        behind = (cloudy + share * (open_ - cloudy))[..., 0]
+        filled[..., 0] += erased.glow * (behind - filled[..., 0])
+    return (
+        Clouds(filled[..., 0] * sky, covers[0].softness, filled[..., 1]),
+        Clouds(of_all.opacity * (1 - erased.glow), covers[1].softness, of_all.shade),
+    )
+
+
+def _clearness(opacity: np.ndarray, sky: np.ndarray) -> np.ndarray:
+    """How clear each pixel is beside the clearest quarter of the sky, (h, w) in [0, 1]."""
+    usual = float(np.quantile(opacity[sky], 0.25)) if sky.any() else 0.0
+    return np.asarray(1 - smoothstep(0.05, 0.3, opacity - usual), np.float32)
+
+
+def _round_glow(glow: np.ndarray, weight: np.ndarray, clear: np.ndarray) -> float:
+    """Return which share of what surrounds the glow (h, w) is clear sky."""
+    import cv2
+
+    side = 2 * max(1, round(_SURROUNDINGS * max(glow.shape))) + 1
+    near = cv2.dilate(glow, np.ones((side, side), np.uint8))
+    return float((near * clear).sum() / max(float((near * weight).sum()), 1e-6))
+
+
+def inner(mask: np.ndarray) -> np.ndarray:
+    """Return where a mask (h, w) bool holds 2 px around, too; beyond the frame it goes on."""
+    import cv2
+
+    return cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+
+
+def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> Scene:
+    """Return the scene with its clouds found by another method or other thresholds.
+
+    All else stays as it is, the fit too.
+    """
+    working, sun = base.without_sun.working, base.sun
+    sky = base.small_sky
+    methods = dict(base.hints.methods) | {"clouds": method}
+    hints = dataclasses.replace(base.hints, methods=tuple(methods.items()), cloud_ratios=ratios)
+    mask = None if sun is None else resize(sun.blot, working.width, working.height)
+    covers = clouds_by_colour(working, sky, hints, mask)
+    if method == "unmix" and base.fitted is not None:
+        seen = sun is not None and sun.visible
+        covers = unmix_clouds(
+            base.without_sun, sky, base.camera, base.fitted, covers, sun_seen=seen
+        )
+    cover, everywhere = covers
+    return dataclasses.replace(
+        base,
+        cloud_map=cover.opacity,
+        softness_map=cover.softness,
+        shade=cover.shade,
+        everywhere=everywhere,
+        hints=hints,
+        memory=Memory(),
+    )
+
+
+def depth_of(scene: Scene) -> DepthField:
+    """Return the depth that was given, or found by the method that was asked for."""
+    hints, working = scene.hints, scene.working
+    view = View.of(
+        working,
+        scene.small_sky,
+        scene.small_water,
+        scene.camera,
+        scene.horizon,
+        scene.atmosphere,
+    )
+    if isinstance(hints.depth, np.ndarray):
+        return depth_stage.field_of(view, hints.depth)
+    if hints.depth is not None:
+        return hints.depth(view, working)
+    field: DepthField = METHODS["depth"][hints.method("depth")](view)
+    return field

@@ -1,0 +1,1 @@
+"""Which pixels are sky: coarse, refined to a decision, then a matte."""

@@ -1,0 +1,238 @@
+"""Refinement: from the network's coarse sky to a decision that follows the skyline.
+
+A method of ``METHODS`` decides sky or land on a copy of at most 384 px and says where it is sure
+(thesis 3.1.1.2); ``matting`` carries the decision to every pixel of the photo.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from sunwidget.analysis.images.working_copy import Working, channel_sum, resize, shrink
+from sunwidget.analysis.segmentation.dense_crf import mean_field
+from sunwidget.analysis.segmentation.edges import snap
+
+SIDE = 384
+MINIMUM_SIDE = 4  # below this there is no neighbourhood to refine in
+
+
+class Decision(NamedTuple):
+    """Sky or land at low resolution.
+
+    ``sky`` (h, w) float32 in [0, 1], and ``sureness`` (h, w) float32 in (0, 1]. What is ``final``
+    is a matte already: it is resized to the photo and follows no edges.
+    """
+
+    sky: np.ndarray
+    sureness: np.ndarray
+    final: bool = False
+
+
+def none(working: Working, probability: np.ndarray) -> Decision:
+    """Keep the coarse map as it is: a mask that the caller gave, say."""
+    return Decision(probability, np.ones_like(probability), final=True)
+
+
+def grabcut_rect(working: Working, probability: np.ndarray) -> Decision:
+    """GrabCut from the bounding box of the coarse mask, as the thesis does.
+
+    Source: Rother et al., "GrabCut", 2004. Nothing outside the box can become sky, and land
+    inside it is told from sky by colour alone.
+    """
+    import cv2
+
+    image, coarse = _small(working, probability)
+    labels = np.full(coarse.shape, cv2.GC_BGD, np.uint8)
+    rows, columns = np.nonzero(coarse > 0.5)
+    if rows.size:
+        box = slice(rows.min(), rows.max() + 1), slice(columns.min(), columns.max() + 1)
+        labels[box] = cv2.GC_PR_FGD
+    return _decision(cut(image, labels, iterations=5), coarse)
+
+
+def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
+    """GrabCut from a trimap, then network and local colours together at working size.
+
+    The trimap is sure where the network is sure and away from its own skyline. GrabCut's
+    smooth contour loses what is thinner than its grid (twigs, pylons, the sky between leaves);
+    the colours of sky and land near each pixel find it again.
+    """
+    image, coarse = _small(working, probability)
+    sky = cut(image, trimap(coarse), iterations=2)
+    if not sky.any() or sky.all() or min(working.width, working.height) < 16:
+        return _decision(sky, coarse)
+    cutout = sky.astype(np.float32)
+    evidence = coarse
+    # A network that is not sure of its own sky (a white wall indoors: 0.6 to 0.7 on average,
+    # skies 0.8 and more) must not be spread by colour.
+    trust = float(coarse[coarse > 0.5].mean()) if (coarse > 0.5).any() else 0.0
+    weight = 0.8 * min(max((trust - 0.65) / 0.1, 0.0), 1.0)
+    # The second round learns from what the first one found, and is the one at working size.
+    rounds = (shrink(working.guide, SIDE), 0.4), (working.guide, 0.1)
+    for guide, doubt in rounds:
+        height, width = guide.shape[:2]
+        certain = np.clip(resize(probability, width, height), 0.01, 0.99)
+        cutout = resize(cutout, width, height)
+        colours = local_evidence(guide, cutout > 0.5, certain, doubt)
+        evidence = np.log(certain / (1 - certain)) + 0.4 * (2 * cutout - 1)
+        evidence += weight * np.clip(colours, -6, 6)
+        cutout = (evidence > 0).astype(np.float32)
+    sureness = np.clip(np.abs(evidence) / 4, 0.02, 1)
+    return Decision(cutout, sureness.astype(np.float32))
+
+
+def edge(working: Working, probability: np.ndarray) -> Decision:
+    """Draw the coarse border to the strongest edges within 2 px of 384 (``edges.snap``)."""
+    image, coarse = _small(working, probability)
+    return _decision(snap(image, coarse), coarse)
+
+
+def dense_crf(working: Working, probability: np.ndarray) -> Decision:
+    """Mean field of a fully connected conditional random field (``dense_crf.mean_field``)."""
+    image, coarse = _small(working, probability)
+    marginal = mean_field(image, coarse)
+    return _decision(marginal > 0.5, marginal)
+
+
+METHODS: dict[str, Callable[[Working, np.ndarray], Decision]] = {
+    "none": none,
+    "edge": edge,
+    "dense_crf": dense_crf,
+    "grabcut_rect": grabcut_rect,
+    "grabcut_mask": grabcut_mask,
+}
+
+
+def _small(working: Working, probability: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    image = shrink(working.bytes, SIDE)
+    return image, resize(probability, image.shape[1], image.shape[0])
+
+
+def trimap(coarse: np.ndarray, sure: float = 0.95, band: int = 5) -> np.ndarray:
+    """Turn probabilities into GrabCut labels: sure above ``sure`` and ``band`` px inside."""
+    import cv2
+
+    sky = (coarse > 0.5).astype(np.uint8)
+    ellipse = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * band + 1, 2 * band + 1))
+    # Beyond the frame everything goes on as inside it: no band along the frame itself.
+    inside = cv2.erode(sky, ellipse)
+    outside = cv2.erode(1 - sky, ellipse)
+    labels = np.where(sky == 1, cv2.GC_PR_FGD, cv2.GC_PR_BGD).astype(np.uint8)
+    labels[(inside == 1) & (coarse > sure)] = cv2.GC_FGD
+    labels[(outside == 1) & (coarse < 1 - sure)] = cv2.GC_BGD
+    return labels
+
+
+def cut(image: np.ndarray, labels: np.ndarray, iterations: int) -> np.ndarray:
+    """Run GrabCut and return (h, w) bool sky; the labels stand when there is nothing to learn.
+
+    Deterministic: OpenCV's generator is seeded, so that recipes replay to the bit.
+    """
+    import cv2
+
+    sky = (labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)
+    unsure = (labels == cv2.GC_PR_FGD) | (labels == cv2.GC_PR_BGD)
+    components = 5  # of GrabCut's colour models: fewer pixels than that cannot be clustered
+    enough = min(np.count_nonzero(sky), np.count_nonzero(~sky)) > components
+    if not enough or not unsure.any() or min(labels.shape) < MINIMUM_SIDE:
+        return np.asarray(sky)
+    cv2.setRNGSeed(0)
+    labels = labels.copy()
+    models = np.zeros((1, 65)), np.zeros((1, 65))
+    cv2.grabCut(
+        np.ascontiguousarray(image), labels, None, *models, iterations, cv2.GC_INIT_WITH_MASK
+    )
+    return (labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)
+
+
+def local_evidence(
+    guide: np.ndarray, sky: np.ndarray, probability: np.ndarray, doubt: float
+) -> np.ndarray:
+    """Log likelihood ratio sky : land of every pixel's colour, by the colours near it.
+
+    Both are normal distributions with a mean and a variance of each opponent channel that
+    change slowly over the picture, after Liba et al. 2020 (section 3.1, density estimation),
+    but local: the sky beside a tree tells the sky between its leaves.
+
+    Parameters
+    ----------
+    guide : (h, w, 3) float32
+        Encoded picture.
+    sky : (h, w) bool
+        Present decision.
+    probability : (h, w) float32
+        Of the network; sky below ``doubt`` and land above 0.4 are not learned from, nor is
+        doubted land of the sky's own colour.
+
+    Returns
+    -------
+    (h, w) float32
+    """
+    import cv2
+
+    colour = opponent(guide)
+    few = shrink(colour, SIDE)
+
+    def learn(mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        inner = cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8))
+        return local_moments(few, shrink(inner.astype(np.float32), SIDE), colour.shape)
+
+    mean, variance = learn(sky & (probability > doubt))
+    difference = np.square(colour - mean)
+    # Sky seen through a crown or a wheel: the network doubts it is land, and it has very nearly
+    # the colour of the sky beside. Land learned from it would look like sky.
+    like_sky = channel_sum(difference / np.minimum(variance, 0.02**2)) < 9
+    ratio = difference / -variance
+    mean, other = learn(~sky & (probability < 0.4) & ~(like_sky & (probability > 0.03)))
+    ratio += np.square(colour - mean) / other
+    other /= variance
+    spread = other[..., 0] * other[..., 1] * other[..., 2]
+    return np.asarray((channel_sum(ratio) + np.log(spread)) / 2, np.float32)
+
+
+def opponent(picture: np.ndarray) -> np.ndarray:
+    """Return brightness, red against blue and green against magenta of a picture (h, w, 3)."""
+    return picture @ np.array(
+        [[1 / 3, 0.5, -0.25], [1 / 3, 0, 0.5], [1 / 3, -0.5, -0.25]], np.float32
+    )
+
+
+def local_moments(
+    colour: np.ndarray, weight: np.ndarray, shape: tuple[int, ...]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Mean and variance of weighted colours near each pixel, from afar where none is near."""
+    import cv2
+
+    scale = min(1.0, 160 / max(weight.shape))
+    size = max(4, round(weight.shape[1] * scale)), max(4, round(weight.shape[0] * scale))
+    share = resize(weight, *size)
+    sums = [resize(colour**power * weight[..., None], *size) for power in (1, 2)]
+    total = max(float(share.sum()), 1e-6)
+    moments = [np.broadcast_to(x.sum(axis=(0, 1)) / total, x.shape) for x in sums]
+    for sigma in (40, 16, 6):  # of the 160 px: the nearest scale that knows wins
+        near = cv2.GaussianBlur(share, (0, 0), sigma)[..., None] + 0.02
+        moments = [
+            (cv2.GaussianBlur(x, (0, 0), sigma) + 0.02 * m) / near
+            for x, m in zip(sums, moments, strict=True)
+        ]
+    mean, square = moments
+    variance = np.maximum(square - mean**2, 0) + 0.02**2
+    height, width = shape[:2]
+    return (
+        resize(mean.astype(np.float32), width, height),
+        resize(variance.astype(np.float32), width, height),
+    )
+
+
+def _decision(sky: np.ndarray, coarse: np.ndarray) -> Decision:
+    """Add the sureness: low along the skyline and where network and GrabCut disagree."""
+    import cv2
+
+    mask = sky.astype(np.uint8)
+    edge = cv2.morphologyEx(mask, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8))
+    agreement = np.where(sky, coarse, 1 - coarse)
+    sureness = np.clip(agreement, 0.05, 1) * np.where(edge == 1, 0.05, 1)
+    return Decision(mask.astype(np.float32), sureness.astype(np.float32))

@@ -1,0 +1,1 @@
+"""What a person corrects with strokes, worked out only where they touch."""

@@ -1,0 +1,216 @@
+"""The photo without its sun: the light behind disc, halo, veil and rays, by the network.
+
+The network says by how much light is to fall, at low resolution (sun.py). Where that is
+little, the photo's own detail stays and is darkened; where the glare hides the sky, the sky goes on
+from around it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import NamedTuple
+
+import numpy as np
+
+from sunwidget.analysis.backdrop.sky_detail import sky_detail
+from sunwidget.analysis.images.fill import fill_by_pyramid
+from sunwidget.analysis.images.working_copy import LUMINANCE, Working, encode, resize, smoothstep
+from sunwidget.analysis.networks.sun import LIGHT_FLOOR, SunMaps
+from sunwidget.analysis.sun.sun import SunObservation
+
+# Natural logarithms of light by which the network's glare exceeds the sky.
+_FELT = (0.03, 0.12)  # less is none, more is taken away in full
+_COLOURS = (0.06, 0.3)  # less leaves the sky its colour, more hides it
+_WHITENS = (0.15, 0.6)  # less leaves clouds to be told from the sky, more does not
+_HIDES = (0.3, 0.9)  # less leaves the sky its clouds, more hides them
+_GAP = 0.03  # in longer sides: half of the widest gap in the glare
+_WHITE, _LARGEST_RIM = 0.97, 0.03  # encoded; longer sides
+_REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow is the sky's
+
+
+class Erased(NamedTuple):
+    """A photo's small copy without its sun.
+
+    Parameters
+    ----------
+    working : Working
+        The copy; the photo's own where it shows no sun.
+    mark : (h, w) float32
+        Weight with which it replaces the photo once the sun has moved, [0, 1].
+    on_land : (h, w) float32
+        Share of the land's light that is the sun's glare before it, [0, 1].
+    hidden : (h, w) float32
+        Where the copy's light is a guess and no more than its detail is known, [0, 1].
+    glow : (h, w) float32
+        Where glare or the sun's own air is so bright that whiteness tells no clouds, [0, 1].
+    detail : (h', w', 3) float32
+        Log of the sky's light over its mean round about: its clouds (sky_detail.py).
+    """
+
+    working: Working
+    mark: np.ndarray
+    on_land: np.ndarray
+    hidden: np.ndarray
+    glow: np.ndarray
+    detail: np.ndarray
+
+
+def unerased(working: Working) -> Erased:
+    """Return the copy of a photo that shows no sun."""
+    nowhere = np.zeros((working.height, working.width), np.float32)
+    return Erased(working, nowhere, nowhere, nowhere, nowhere, np.zeros((1, 1, 3), np.float32))
+
+
+def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation) -> Erased:
+    """Take the sun, its halo and its rays out of a photo's small copy.
+
+    Parameters
+    ----------
+    working : Working
+    maps : SunMaps
+    sky : (h, w) float32
+        Sky matte at its size.
+    light : SunObservation
+        The sun or moon that the photo shows.
+    """
+    import cv2
+
+    size = working.width, working.height
+    rows, columns = maps.clean.shape[:2]
+    small_sky = resize(sky, columns, rows)
+    seen = np.log(resize(working.linear, columns, rows) + LIGHT_FLOOR)
+    glare = _risen(maps, seen, small_sky, light)
+    felt = _without_gaps(glare.max(-1))
+    blot = resize(light.blot, columns, rows)
+    if float((blot * felt).sum()) < _HIDES[0] * float(blot.sum()):
+        # A moon, and a sun that only a person sees, the network leaves where it is.
+        felt = np.maximum(felt, _round_about(blot))
+    # Of what is burnt to white nothing is known.
+    white = resize((working.encoded.min(-1) > _WHITE).astype(np.float32), columns, rows)
+    felt = np.maximum(felt, _round_about(blot * white, _LARGEST_RIM))
+    known = (1 - smoothstep(*_COLOURS, felt)) * smoothstep(0.8, 1.0, small_sky)
+    behind = _continued(seen - glare, known.astype(np.float32))
+    clouds = (seen - glare - behind) @ LUMINANCE * (1 - smoothstep(*_HIDES, felt))
+    behind = behind + clouds[..., None]
+
+    def enlarged(values: np.ndarray) -> np.ndarray:
+        return cv2.resize(values.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
+
+    # A rim is steeper than the network's map: it is left to what lies behind, too.
+    wide = cv2.dilate(felt.astype(np.float32), np.ones((3, 3), np.uint8))
+    keep = enlarged(1 - smoothstep(*_HIDES, wide))[..., None]
+    there = np.log(working.linear + LIGHT_FLOOR)
+    clean = np.exp(enlarged(behind) + keep * (there - enlarged(seen))) - LIGHT_FLOOR
+    near_sky = cv2.dilate(small_sky, np.ones((3, 3), np.uint8))
+    mark = enlarged(smoothstep(*_FELT, felt) * smoothstep(0.0, 0.5, near_sky))
+    linear = np.maximum(working.linear + mark[..., None] * (clean - working.linear), 0)
+    linear = linear.astype(np.float32)
+    copy = dataclasses.replace(working, linear=linear, encoded=encode(linear))
+    away, reach = _distance(light, small_sky.shape)
+    near = 1 - smoothstep(1.5 * reach, 2.5 * reach, away)
+    glow = near * smoothstep(*_WHITENS, np.maximum(felt, -maps.clean.min(-1)))
+    hidden, whitened = enlarged(smoothstep(*_FELT, felt)), enlarged(glow)
+    detail = sky_detail(there, sky, hidden, keep[..., 0])
+    return Erased(copy, mark, before_land(working, maps, sky, light), hidden, whitened, detail)
+
+
+def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservation) -> np.ndarray:
+    """Return by how much the glare exceeds the glow farther out, (h, w, 3), log of light.
+
+    How much of a wide glow is the sky's own no picture tells, and the fitted sky has one. And there
+    is no more glare than by what the picture (``seen``, log of light) is brighter than farther out.
+    """
+    near, beyond = _parts(light, sky)
+    glare = np.maximum(fill_by_pyramid(maps.clean, beyond) - maps.clean, 0) * near[..., None]
+    brighter = np.maximum((seen - _continued(seen, beyond)) @ LUMINANCE, 0)
+    share = np.minimum(brighter / np.maximum(glare @ LUMINANCE, 1e-6), 1)
+    return glare * share[..., None]
+
+
+def _without_gaps(felt: np.ndarray) -> np.ndarray:
+    """Close what is less than all round it: where a camera clipped, less seems to have risen."""
+    import cv2
+
+    side = 2 * round(_GAP * max(felt.shape)) + 1
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))
+    return np.asarray(cv2.morphologyEx(felt.astype(np.float32), cv2.MORPH_CLOSE, kernel))
+
+
+def before_land(
+    working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation
+) -> np.ndarray:
+    """Return the share of a small copy's light that is the sun's glare before land, (h, w).
+
+    Land has no glow of its own: what is as bright as farther out has no glare before it.
+    """
+    import cv2
+
+    rows, columns = maps.clean.shape[:2]
+    land = smoothstep(0.9, 1.0, 1 - resize(sky, columns, rows))  # no skyline, which holds sky
+    small = resize(working.linear, columns, rows)
+    near, beyond = _parts(light, land)
+    plain = np.maximum(_continued(small, beyond), 0)
+    brighter = np.log(small + LIGHT_FLOOR) - np.log(plain + LIGHT_FLOOR)
+    # An evening's glare is red: it is in the channel that has most of it that it shows.
+    glare = np.maximum(np.minimum(-maps.clean * near[..., None], brighter), 0).max(-1)
+    level = np.log(plain @ LUMINANCE + LIGHT_FLOOR)
+
+    size = working.width, working.height
+    glare, level = (
+        cv2.resize(values.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
+        for values in (glare, level)
+    )
+    # Of the burnt disc behind which land lies nothing is left.
+    there = np.log(working.luminance + LIGHT_FLOOR)
+    burnt = _round_about(light.blot) * np.maximum(there - level, 0)
+    return np.asarray(1 - np.exp(-np.maximum(glare, burnt)), np.float32)
+
+
+def _parts(light: SunObservation, part: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return weights (h, w) of what the glare reaches, and of what of ``part`` lies beyond."""
+    away, reach = _distance(light, part.shape)
+    beyond = smoothstep(0.7 * reach, reach, away) * np.maximum(part, 1e-3)
+    return 1 - smoothstep(0.8 * reach, reach, away), beyond.astype(np.float32)
+
+
+def _distance(light: SunObservation, shape: tuple[int, ...]) -> tuple[np.ndarray, float]:
+    """Return each place's distance from the sun on a map (h, w), and its glare's; in widths."""
+    rows, columns = shape
+    width, height = light.size
+    away = np.hypot(
+        (np.arange(columns) + 0.5) / columns - light.x / width,
+        ((np.arange(rows)[:, None] + 0.5) / rows - light.y / height) * height / width,
+    )
+    return away, _REACH + _REACH_OF_DISC * light.radius_px / width
+
+
+def _continued(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Continue a sky (h, w, 3) over what is not known: row by row first, as skies are layered."""
+    import cv2
+
+    known = weight.sum(1)
+    rows = np.flatnonzero(known > 0.02 * weight.shape[1])
+    if not rows.size:
+        return fill_by_pyramid(values.astype(np.float32), weight)
+    means = (values * weight[..., None]).sum(1)[rows] / known[rows, None]
+    every = np.arange(len(known))
+    means = cv2.GaussianBlur(means, (0, 0), sigmaX=1e-3, sigmaY=2.0) if len(rows) > 1 else means
+    layers = np.stack([np.interp(every, rows, mean) for mean in means.T], -1)[:, None]
+    return layers + fill_by_pyramid((values - layers).astype(np.float32), weight)
+
+
+def _round_about(blot: np.ndarray, largest: float = 1.0) -> np.ndarray:
+    """Return a disc's pixels with its rim and glow, (h, w) float32 in [0, 1].
+
+    They reach three radii, of a disc larger than ``largest`` (longer sides) three of those.
+    """
+    import cv2
+
+    radius = max(1.0, float(np.sqrt(blot.sum() / np.pi)))
+    radius = min(radius, largest * max(blot.shape))
+    if not blot.any():
+        return np.zeros(blot.shape, np.float32)
+    # On a small map a small disc fills no pixel.
+    outside = blot < 0.5 * min(float(blot.max()), 1.0)
+    away = cv2.distanceTransform(outside.astype(np.uint8), cv2.DIST_L2, 5)
+    return np.asarray(1 - smoothstep(0.5 * radius + 1, 2 * radius + 3, away), np.float32)

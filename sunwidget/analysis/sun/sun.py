@@ -1,0 +1,311 @@
+"""The photo's own sun: where it is, how large it came out, and its pixels (thesis 3.1.3).
+
+``METHODS`` maps a name to a function that grows a mask from a seed pixel; ``find``
+(search.py) gives the seed when no person does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize, smoothstep
+from sunwidget.analysis.sun.search import Peak, find, find_moon, night
+from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
+from sunwidget.geometry.camera import Camera, Point
+
+__all__ = [
+    "METHODS",
+    "Blot",
+    "Peak",
+    "SunObservation",
+    "away_from",
+    "disc_fit",
+    "field_of_view_of",
+    "find",
+    "find_moon",
+    "flood_fill",
+    "foot",
+    "in_sky",
+    "observe",
+    "settled",
+]
+
+_SHARP = 0.6  # of the network, from which a core is a disc with a limb
+_EVEN = 0.3  # rise over run up to which the skyline beside a low sun goes on behind it
+_LIMB_STEP = 0.15  # encoded luminance between the two sides of a limb
+_LEAST_LIMB = 6.0  # working pixels of radius
+TOLERANCE = 0.03  # M of Algorithm 1: encoded luminance around the seed's
+
+
+@dataclass(frozen=True, eq=False)
+class SunObservation:
+    """The sun as the photo shows it.
+
+    Parameters
+    ----------
+    x, y : float
+        Centre in pixels of the photo; may lie outside.
+    radius_px : float
+        Radius of its bright blot in pixels (0 when it is outside or hidden). Over-exposed suns
+        come out far larger than the true disc.
+    azimuth, elevation : float
+        Degrees, by the camera.
+    blot : (h, w) float32
+        Its pixels, [0, 1], at the size at which they were found.
+    size : (width, height)
+        Of the photo.
+    visible : bool
+        Whether the photo shows it.
+    source : str
+        Name of the method, "hint", or "assumed".
+    kind : str
+        "sun"; or "moon", when a person pointed at a disc in a night sky. A moon that is found
+        is ``Scene.moon`` instead.
+    confidence : float
+        How likely it is the sun, [0, 1]: 1 when a person said so, and where nothing measures it.
+    """
+
+    x: float
+    y: float
+    radius_px: float
+    azimuth: float
+    elevation: float
+    blot: np.ndarray = field(repr=False)
+    size: tuple[int, int]
+    visible: bool
+    source: str
+    kind: str = "sun"
+    confidence: float = 1.0
+
+    @property
+    def mask(self) -> np.ndarray:
+        """Pixels of the blot at the photo's size, (H, W) float32 in [0, 1]; made when asked for."""
+        return resize(self.blot, *self.size)
+
+
+class Blot(NamedTuple):
+    """The sun in working pixels: centre, radius and its pixels (h, w) float32."""
+
+    x: float
+    y: float
+    radius: float
+    mask: np.ndarray
+
+
+def flood_fill(working: Working, sky: np.ndarray, x: float, y: float, focal: float) -> Blot:
+    """Grow from the seed over pixels whose luminance differs from the seed's by at most M.
+
+    Thesis Algorithm 1, marked on push (``cv2.floodFill`` with a fixed range). ``sky`` and
+    ``focal`` are not used.
+    """
+    import cv2
+
+    luminance = np.ascontiguousarray(working.encoded @ LUMINANCE)
+    column = min(max(int(x), 0), working.width - 1)
+    row = min(max(int(y), 0), working.height - 1)
+    mask = np.zeros((working.height + 2, working.width + 2), np.uint8)
+    flags = 8 | cv2.FLOODFILL_FIXED_RANGE | cv2.FLOODFILL_MASK_ONLY | (1 << 8)
+    cv2.floodFill(luminance, mask, (column, row), 0, TOLERANCE, TOLERANCE, flags)
+    filled = mask[1:-1, 1:-1].astype(np.float32)
+    rows, columns = np.nonzero(filled)
+    radius = math.sqrt(rows.size / math.pi)
+    return Blot(float(columns.mean()) + 0.5, float(rows.mean()) + 0.5, radius, filled)
+
+
+def disc_fit(working: Working, sky: np.ndarray, x: float, y: float, focal: float) -> Blot:
+    """Grow the clipped blot around the seed and fit a circle to it.
+
+    The blot is what is nearly as bright as the brightest pixel within a few disc radii of the
+    seed; its centre is the centroid weighted by how far inside it lies, so that rays and a
+    horizon that cuts it pull little. Never smaller than the true disc in this camera.
+    """
+    import cv2
+
+    true_radius = focal * math.tan(math.radians(SUN_ANGULAR_RADIUS_DEG))
+    luminance = cv2.GaussianBlur(working.encoded @ LUMINANCE, (0, 0), 0.8)
+    height, width = luminance.shape
+    column, row = min(max(int(x), 0), width - 1), min(max(int(y), 0), height - 1)
+    reach = max(2, round(1.5 * true_radius))
+    window = luminance[
+        max(row - reach, 0) : row + reach + 1, max(column - reach, 0) : column + reach + 1
+    ]
+    peak = float(window.max())
+    bright = (luminance >= peak - TOLERANCE).astype(np.uint8)
+    _, labels = cv2.connectedComponents(bright, connectivity=8)
+    near = labels[
+        max(row - reach, 0) : row + reach + 1, max(column - reach, 0) : column + reach + 1
+    ]
+    found = near[near > 0]
+    if not found.size:
+        return Blot(x, y, true_radius, np.zeros((height, width), np.float32))
+    mask = (labels == np.bincount(found).argmax()).astype(np.uint8)
+    depth = cv2.distanceTransform(np.pad(mask, 1), cv2.DIST_L2, 5)[1:-1, 1:-1]
+    weight = np.where(depth > 0.5 * depth.max(), depth, 0) ** 2
+    rows, columns = np.mgrid[:height, :width]
+    total = float(weight.sum())
+    centre_x = float((columns * weight).sum()) / total + 0.5
+    centre_y = float((rows * weight).sum()) / total + 0.5
+    return Blot(centre_x, centre_y, max(float(depth.max()), true_radius), mask.astype(np.float32))
+
+
+METHODS: dict[str, Callable[[Working, np.ndarray, float, float, float], Blot]] = {
+    "flood_fill": flood_fill,
+    "disc_fit": disc_fit,
+}
+
+
+def settled(blot: Blot, peak: Peak) -> Blot:
+    """Return a blot that grew from a found sun; where it grew into cloud or glow, a plain disc."""
+    near = math.hypot(blot.x - peak.x, blot.y - peak.y) < max(0.7 * peak.radius, 3)
+    if near and 0.5 * peak.radius < blot.radius < 1.6 * peak.radius:
+        return blot
+    away = away_from(blot.mask.shape, peak.x, peak.y)
+    disc = np.clip(peak.radius + 0.5 - away, 0, 1).astype(np.float32)
+    return Blot(peak.x, peak.y, peak.radius, disc)
+
+
+def field_of_view_of(blot: Blot, peak: Peak, working: Working, assumed: float) -> float | None:
+    """Return the vertical field of view that the disc's size tells, degrees, or None.
+
+    A limb that is sharp and round is the true 0.533°; a bloomed core says nothing, and a disc of a
+    few pixels little. A disc no larger than in the ``assumed`` field of view is bloomed, too.
+    """
+    area = float(blot.mask.sum())
+    if peak.sharpness < _SHARP or blot.radius < _LEAST_LIMB or peak.confidence < 0.5:
+        return None
+    away = away_from(blot.mask.shape, blot.x, blot.y) / blot.radius
+    luminance = working.encoded @ LUMINANCE
+    inside = float(np.median(luminance[(away > 0.7) & (away < 0.9)]))
+    outside = float(np.median(luminance[(away > 1.2) & (away < 1.4)]))
+    if inside - outside < _LIMB_STEP:
+        return None
+    if area > 1.4 * math.pi * blot.radius**2:
+        return None
+    # Half way between the two sides of the limb.
+    disc = np.count_nonzero((luminance > (inside + outside) / 2) & (away < 1.4))
+    focal = math.sqrt(disc / math.pi) / math.tan(math.radians(SUN_ANGULAR_RADIUS_DEG))
+    degrees = 2 * math.degrees(math.atan(0.5 * working.height / focal))
+    return max(degrees, 1.0) if degrees < 0.7 * assumed else None
+
+
+def away_from(shape: tuple[int, ...], x: float, y: float) -> np.ndarray:
+    """Return the distance in pixels of each pixel of a map (h, w) from a place."""
+    return np.hypot(np.arange(shape[1]) + 0.5 - x, np.arange(shape[0])[:, None] + 0.5 - y)
+
+
+def in_sky(blot: Blot, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6) -> np.ndarray:
+    """Return the blot with a soft rim, (h, w) float32; zeros unless sky surrounds it.
+
+    What is much darker than the disc, as twigs before it, is left out. ``least`` is the share of
+    its surroundings that must be sky.
+    """
+    import cv2
+
+    if not 0 < blot.radius < 0.12 * max(sky.shape):
+        return np.zeros_like(sky)
+    reach = 2 * math.ceil(0.25 * blot.radius + 2) + 1
+    ring = cv2.dilate(blot.mask, np.ones((3 * reach, 3 * reach), np.uint8)) - blot.mask
+    if ring.sum() < 1 or float((ring * sky).sum() / ring.sum()) < least:
+        return np.zeros_like(sky)
+    # A setting sun is cut by what lies below the sky.
+    rows = np.flatnonzero(((ring > 0) & (sky > 0.5)).any(1))
+    if not rows.size:
+        return np.zeros_like(sky)
+    below = np.arange(sky.shape[0]) > rows[-1]
+    blot = blot._replace(mask=np.where(below[:, None], 0, blot.mask).astype(np.float32))
+    grown = cv2.dilate(blot.mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
+    soft = np.clip(cv2.GaussianBlur(grown, (0, 0), reach / 6), 0, 1)
+    luminance = encoded @ LUMINANCE
+    inside = luminance[blot.mask > 0.5]
+    usual = float(np.median(inside)) if inside.size else 0.0
+    return np.asarray(soft * smoothstep(0.5, 0.7, luminance / max(usual, 1e-3)), np.float32)
+
+
+_BURNS = 0.75  # radii beyond the disc
+
+
+def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
+    """Return where a low sun's glare over an even skyline is no sky, (h, w) float32 in [0, 1].
+
+    A setting sun burns a notch into the sea or the hills before it. Between the skylines left and
+    right of it, where they are below its centre, nothing below their line is sky: where they are
+    uneven, as trees are, nothing of what is burnt.
+    """
+    import cv2
+
+    no_sky = np.zeros_like(sky)
+    wide = math.ceil(3 * blot.radius) + 3
+    first, last = math.floor(blot.x) - wide, math.ceil(blot.x) + wide
+    if first - wide < 0 or last + wide > sky.shape[1]:
+        return no_sky
+    # Of each column the row below its last pixel of sky.
+    ends = (sky[:, first - wide : last + wide] > 0.5) * np.arange(1, sky.shape[0] + 1)[:, None]
+    skyline = ends.max(axis=0)
+    left, right = skyline[:wide], skyline[-wide:]
+    uneven = max(np.ptp(left), np.ptp(right)) > max(2, _EVEN * wide)
+    steep = abs(float(left.mean() - right.mean())) > _EVEN * (last - first)
+    if uneven or steep:
+        near = math.ceil(wide / 3)
+        left, right = left[-near:], right[:near]
+    if min(left.min(), right.min()) <= blot.y:
+        return no_sky
+    line = np.interp(np.arange(first, last), [first, last], [left.mean(), right.mean()])
+    below = np.arange(sky.shape[0])[:, None] + 0.5 - line
+    no_sky[:, first:last] = np.clip(below, 0, 1)
+    if uneven or steep:
+        side = 2 * math.ceil(_BURNS * blot.radius + 2) + 1
+        burnt = cv2.dilate(blot.mask, np.ones((side, side), np.uint8))
+        no_sky *= cv2.GaussianBlur(burnt, (0, 0), 1.0)
+    return no_sky
+
+
+def observe(
+    seed: Point | None,
+    blot: Blot | None,
+    sky: np.ndarray,
+    camera: Camera,
+    working: Working,
+    peak: Peak | None = None,
+) -> SunObservation | None:
+    """Turn a blot, or a hint outside the picture, into what the Scene tells about the sun.
+
+    A hinted sun stays where the person put it; the blot then only gives size and pixels. ``peak``
+    is what a found one was found as.
+    """
+    zoom_x, zoom_y = working.zoom
+    if seed is not None:
+        x, y = seed
+    elif blot is not None:
+        x, y = blot.x, blot.y
+    else:
+        return None
+    mask = np.zeros_like(sky)
+    radius, visible = 0.0, False
+    if blot is not None:
+        column = min(max(int(x), 0), working.width - 1)
+        row = min(max(int(y), 0), working.height - 1)
+        around = sky[max(row - 3, 0) : row + 4, max(column - 3, 0) : column + 4]
+        visible = bool(around.max() > 0.5) and bool(blot.mask.any())
+        if visible:
+            mask, radius = blot.mask, blot.radius * zoom_y
+    azimuth, elevation = camera.angles(x * zoom_x, y * zoom_y)
+    source = "detected" if seed is None else "hint"
+    dark = visible and peak is None and night(working.encoded @ LUMINANCE, sky)
+    return SunObservation(
+        x * zoom_x,
+        y * zoom_y,
+        radius,
+        azimuth,
+        elevation,
+        mask,
+        (camera.width, camera.height),
+        visible,
+        source,
+        "moon" if dark else "sun",
+        1.0 if peak is None else peak.confidence,
+    )

@@ -1,0 +1,1 @@
+"""Water: where it is, and where the old sun glints on it."""

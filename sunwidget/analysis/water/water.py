@@ -1,0 +1,202 @@
+"""Water: level surfaces below the horizon that mirror the sky.
+
+``METHODS`` maps a name to a function ``(Working, sky, Horizon, SunMaps) -> (h, w) float32``; the
+horizon is in working pixels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from sunwidget.analysis.horizon.horizon import Horizon, above
+from sunwidget.analysis.images.working_copy import LUMINANCE, Working, log_odds, resize, smoothstep
+from sunwidget.analysis.networks.land import look_at_land
+from sunwidget.analysis.networks.sun import SunMaps
+from sunwidget.geometry.camera import Camera
+
+_EDGE = (0.45, 0.55)  # probabilities between which a pixel is water in part
+_BELIEF = 0.6  # mean probability from which a patch is water
+WEIGHTS = (0.06, 0.68, 0.44)  # bias, and of the log odds of the network of suns and of that of land
+_REDDER = 0.4  # log of red over blue by which water is at most redder than its sky
+_DARK = 0.004  # linear light that counts as noise
+_BURNT = 0.9  # linear light from which a pixel has lost its colour
+_COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
+_SUN = 0.3  # probability from which there is a sun whose column may be twice as wide
+_GAP = 0.02  # and half of the gap between water and sky
+_STRIP = 0.005  # the same of a gap above the horizon
+_LEAST = 0.004  # of the picture: less is a puddle, or nothing
+_SHORE = 0.04  # of the width: how far beyond the network's edge the shore may be
+_SHORE_SIDE = 384  # px of the copy on which it is looked for
+_RADIUS = 5  # px of the working copy: how far the edge of the mask follows the picture
+_EPSILON = 1e-4
+
+
+def none(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) -> np.ndarray:
+    """Call nothing water."""
+    return np.zeros_like(sky)
+
+
+def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) -> np.ndarray:
+    """Find water as the networks of suns and of land see it.
+
+    Parameters
+    ----------
+    working : Working
+        The small photo.
+    sky : (h, w) float32
+        Sky matte at its size.
+    horizon : Horizon
+        In its pixels.
+    maps : SunMaps
+        What the network says of the photo.
+
+    Returns
+    -------
+    (h, w) float32
+        Share of water in a pixel, [0, 1]; zero everywhere where there is next to none.
+    """
+    height, width = sky.shape
+    camera = Camera.from_horizon(width, height, 50.0, horizon.row, roll=horizon.roll)
+    ground = (1 - sky) * (1 - above(camera, width, height))
+    land = look_at_land(working).water
+    small = (maps.water.shape[1], maps.water.shape[0])
+    likely = water_odds(maps.water * resize(1 - sky, *small), resize(land, *small))
+    likely = _believed(likely, resize(working.linear, *small), resize(sky, *small))
+    water = smoothstep(*_EDGE, resize(likely, width, height)) * ground
+    if water.mean() < _LEAST:
+        return np.zeros_like(sky)
+    water = _to_the_shore(working, sky, water)
+    return soft_edged(working, sky, _with_glints(working, sky, ground, water, maps))
+
+
+METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]] = {
+    "none": none,
+    "network": network,
+}
+
+
+def _believed(likely: np.ndarray, light: np.ndarray, sky: np.ndarray) -> np.ndarray:
+    """Return the probability (h, w) of the patches that are water on the whole.
+
+    They are no redder than all of the sky that they might mirror: a bare plain, say.
+    """
+    import cv2
+
+    redness = np.log((light[..., 0] + _DARK) / (light[..., 2] + _DARK))
+    above = sky > 0.5
+    reddest = float(np.quantile(redness[above], 0.95)) if above.any() else np.inf
+    count, labels = cv2.connectedComponents((likely > _EDGE[0]).astype(np.uint8), connectivity=4)
+    kept = np.zeros(count, bool)
+    for patch in range(1, count):
+        inside = labels == patch
+        colored = inside & (light.max(-1) < _BURNT)
+        own = float(np.median(redness[colored if colored.any() else inside]))
+        kept[patch] = likely[inside].mean() > _BELIEF and own < reddest + _REDDER
+    return np.where(kept[labels], likely, 0).astype(np.float32)
+
+
+def water_odds(seen: np.ndarray, land: np.ndarray) -> np.ndarray:
+    """Return the probability (h, w) of water by what two networks say, each (h, w) in [0, 1].
+
+    A logistic regression on their logits, fitted by ``training/land/calibrate_water.py``.
+    """
+    score = WEIGHTS[0] + WEIGHTS[1] * log_odds(seen) + WEIGHTS[2] * log_odds(land)
+    return np.asarray(1 / (1 + np.exp(-score)), np.float32)
+
+
+def _to_the_shore(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:
+    """Return the water with its edges where the colours change, within a band round the network's.
+
+    GrabCut (Rother et al. 2004) on a small copy; its map is coarse, and what it leaves of dark
+    water along a bank would be lit as land in shade is.
+    """
+    import cv2
+
+    small = working.shrunk(_SHORE_SIDE)
+    columns, rows = small.width, small.height
+    wet = resize(water, columns, rows) > 0.5
+    radius = max(2, round(_SHORE * columns))
+    round_ = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1,) * 2)
+    inside = cv2.erode(wet.astype(np.uint8), round_[::2, ::2]) > 0
+    outside = (cv2.dilate(wet.astype(np.uint8), round_) == 0) | (resize(sky, columns, rows) > 0.5)
+    if not inside.any() or not outside.any():
+        return water
+    label = np.where(wet, cv2.GC_PR_FGD, cv2.GC_PR_BGD).astype(np.uint8)
+    label[inside], label[outside] = cv2.GC_FGD, cv2.GC_BGD
+    cv2.setRNGSeed(1)
+    picture = np.rint(255 * np.clip(small.encoded[..., ::-1], 0, 1)).astype(np.uint8)
+    cv2.grabCut(
+        picture, label, None, np.zeros((1, 65)), np.zeros((1, 65)), 2, cv2.GC_INIT_WITH_MASK
+    )
+    found = np.isin(label, (cv2.GC_FGD, cv2.GC_PR_FGD)).astype(np.float32)
+    return resize(found, working.width, working.height) * (1 - sky)
+
+
+def _with_glints(
+    working: Working, sky: np.ndarray, ground: np.ndarray, water: np.ndarray, maps: SunMaps
+) -> np.ndarray:
+    """Add what lies between water, or water and sky, and is as bright.
+
+    So the sun's burnt column, where nothing tells what it shines on: the widest one below the sun.
+    """
+    import cv2
+
+    def closed(image: np.ndarray, columns: float, rows: float) -> np.ndarray:
+        kernel = np.ones([2 * round(side * water.shape[1]) + 1 for side in (rows, columns)])
+        kernel = kernel.astype(np.uint8)
+        return cv2.morphologyEx(image, cv2.MORPH_CLOSE, kernel, borderType=cv2.BORDER_REFLECT)
+
+    light = working.encoded @ LUMINANCE
+    share = water.sum(axis=1)
+    rows = np.flatnonzero(share > 0)
+    level = (light * water).sum(axis=1)[rows] / share[rows]
+    level = np.interp(np.arange(len(share)), rows, level)
+    brighter = smoothstep(0.0, 0.1, light - level[:, None])
+    # The last of the water below the sky is thinner than the network's map; land there is darker.
+    as_bright = smoothstep(0.6, 0.8, light / np.maximum(level, _EPSILON)[:, None])
+    found = np.maximum(water, closed(water, _COLUMN, 0) * brighter * ground)
+    below = _below_sun(maps, water.shape[1])
+    found = np.maximum(found, closed(found, 2 * _COLUMN, 0) * below * as_bright * ground)
+    found = np.maximum(found, closed(np.maximum(found, sky), 0, _GAP) * as_bright * ground)
+    # The horizon is known to a few rows; what lies between sky and sky is no water.
+    strip = closed(np.maximum(found, sky), 0, _STRIP) - closed(sky, 0, _STRIP)
+    return np.asarray(np.maximum(found, np.maximum(strip, 0) * as_bright), np.float32)
+
+
+def _below_sun(maps: SunMaps, width: int) -> np.ndarray:
+    """Return the columns, (width,) bool, that a found sun's column of glints may take."""
+    row, column = np.unravel_index(int(maps.probability.argmax()), maps.probability.shape)
+    seen = float(maps.probability[row, column]) > _SUN
+    away = np.abs((np.arange(width) + 0.5) / width - (column + 0.5) / maps.probability.shape[1])
+    return np.asarray(seen & (away < 2 * _COLUMN))
+
+
+def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:
+    """Give a mask of any size edges that follow the picture (guided filter, He et al. 2013).
+
+    Returns
+    -------
+    (h, w) float32
+        At working size, [0, 1], nothing of it in the sky.
+    """
+    import cv2
+
+    found = resize(water, working.width, working.height).astype(np.float32)
+    # Where it ends at the sky the sky's matte is its edge.
+    near = cv2.dilate(found, np.ones((2 * _RADIUS + 1, 2 * _RADIUS + 1), np.uint8))
+    rough = np.maximum(found, near * sky)
+    guide = np.sqrt(np.clip(working.luminance, 0, 1)).astype(np.float32)
+
+    def mean(image: np.ndarray) -> np.ndarray:
+        return cv2.blur(image, (2 * _RADIUS + 1, 2 * _RADIUS + 1), borderType=cv2.BORDER_REFLECT)
+
+    middle, share = mean(guide), mean(rough)
+    slope = (mean(guide * rough) - middle * share) / (mean(guide * guide) - middle**2 + _EPSILON)
+    fine = mean(slope) * guide + mean(share - slope * middle)
+    fine = np.clip(1.5 * (fine - 0.5) + 0.5, 0, 1)
+    # Burnt by a low sun water and sky look alike, and the filter would leave a strip of land.
+    strip = cv2.morphologyEx(np.maximum(fine, sky), cv2.MORPH_CLOSE, np.ones((2 * _RADIUS + 1, 1)))
+    burnt = smoothstep(_BURNT / 2, _BURNT, working.linear.max(-1))
+    return np.asarray(np.maximum(fine, np.minimum(strip, found) * burnt) * (1 - sky), np.float32)

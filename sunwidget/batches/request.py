@@ -1,0 +1,126 @@
+"""What is wanted of every photo of a batch."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from sunwidget import presets
+from sunwidget.edit.recipe import edit_of, is_recipe_file, read_recipe
+from sunwidget.edit.table import Edit, EditError
+from sunwidget.messages import shown
+
+# What a recipe says about one photo only.
+_OF_ONE_PHOTO = ("strokes", "sun_hint", "horizon_hint", "fov_hint")
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What is wanted of every photo.
+
+    ``edit`` is the recipe; ``preset`` the name of a time of day that wins over it, and ``flags``
+    values that win over both; ``analysis`` are arguments of ``analyze``, ``options`` of ``save``;
+    ``long_edge`` limits the picture's longer side in pixels.
+    """
+
+    edit: Edit
+    preset: str | None = None
+    flags: dict[str, Any] = field(default_factory=dict)
+    analysis: dict[str, Any] = field(default_factory=dict)
+    options: dict[str, Any] = field(default_factory=dict)
+    long_edge: int | None = None
+
+    def edit_of(self, scene: Any) -> Edit:
+        """Return the edit of this photo: a preset looks at the photo."""
+        from sunwidget import presets
+
+        edit = self.edit
+        if self.preset is not None:
+            edit = presets.edit(self.preset, scene, edit)
+        return edit.replace(**self.flags)
+
+
+def wish_of(
+    edit: Any,
+    analysis: dict[str, Any] | None,
+    options: dict[str, Any],
+    long_edge: int | None,
+    *,
+    corrections: bool,
+) -> Wish:
+    """Return what ``batch`` was asked for, checked before any work is done.
+
+    Raises
+    ------
+    EditError, ValueError, TypeError
+        For an unusable recipe, size or option.
+    """
+    from sunwidget.analysis.analyze import analyze
+    from sunwidget.export.stills import save
+
+    if long_edge is not None:
+        check_whole("long_edge", long_edge, 16)
+    _check_known(
+        "batch", options, save, {"picture", "path", "like", "overwrite", "size", "progress"}
+    )
+    _check_known("analysis", analysis or {}, analyze, {"photo", "progress"})
+    wish = edit if isinstance(edit, Wish) else Wish(_edit(edit), _preset(edit))
+    recipe = wish.edit
+    if not corrections:
+        recipe = recipe.replace(**dict.fromkeys(_OF_ONE_PHOTO[1:]), strokes=())
+    return Wish(recipe, wish.preset, wish.flags, dict(analysis or {}), options, long_edge)
+
+
+def _preset(edit: Any) -> str | None:
+    return presets.find(edit).name if isinstance(edit, str) and edit in presets.NAMES else None
+
+
+def _edit(edit: Any) -> Edit:
+    if isinstance(edit, (Edit, Mapping)):
+        return edit_of(edit)
+    if isinstance(edit, str) and edit in presets.NAMES:
+        return Edit()
+    if isinstance(edit, (str, os.PathLike)):
+        if not is_recipe_file(edit):
+            raise EditError(
+                f"There is no recipe {shown(os.fspath(edit))}; the presets are "
+                f"{', '.join(presets.NAMES)}."
+            )
+        return read_recipe(edit)
+    raise EditError(f"A batch needs an Edit, a recipe or a preset, not {type(edit).__name__}.")
+
+
+def _check_known(what: str, given: dict[str, Any], function: Any, refused: set[str]) -> None:
+    """Raise TypeError for an argument that ``function`` lacks, or that the batch sets itself."""
+    known = [name for name in inspect.signature(function).parameters if name not in refused]
+    for name in given:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=1)
+            hint = f"Did you mean {near[0]!r}?" if near else f"There are {', '.join(known)}."
+            raise TypeError(f"{what} does not take {name!r}. {hint}")
+
+
+def check_endings(outputs: Iterable[str], wish: Wish) -> None:
+    """Raise when one of the kinds of file cannot be what the options ask for."""
+    from sunwidget.export.stills import check_format, checked_headroom
+
+    layers = bool(wish.options.get("layers"))
+    headroom = checked_headroom(wish.options.get("headroom", 0))
+    bits = wish.options.get("bit_depth")
+    for suffix in sorted({Path(output).suffix for output in outputs}):
+        check_format(Path("picture" + suffix), bits, layers=layers, headroom=headroom)
+
+
+def check_whole(name: str, value: Any, least: int) -> None:
+    """Raise ValueError unless a value is None or a whole number of at least ``least``."""
+    if value is None:
+        return
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise ValueError(
+            f"{name} must be a whole number from {least} upwards, not {shown(value, 40)}."
+        )

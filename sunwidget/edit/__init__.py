@@ -1,0 +1,1 @@
+"""The one table of parameters, the Edit made of it, and recipes."""

@@ -1,0 +1,1 @@
+"""A photo's edited sky as an environment map for 3D programs."""

@@ -1,0 +1,178 @@
+"""A real day at a place, as the path of a film."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sunwidget.edit.table import Edit
+from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+
+Between = Callable[[Edit, Edit, float, "Scene"], Edit]
+
+CIVIL_TWILIGHT = -6.0
+"""Degrees of the sun's centre below the horizon at civil dawn and dusk."""
+
+_CLOCK = re.compile(r"(\d{1,2})(?::([0-5]\d))?$")
+
+
+@dataclass(frozen=True)
+class Day:
+    """A day, or some hours of it: the sun stands in each frame where it truly stood.
+
+    Parameters
+    ----------
+    place : Place, optional
+        Where, which day, and which way the camera looks. Default: the edit's place, or what
+        the photo's file tells. A heading that neither knows is found by the photo's own sun
+        at the time of its file, or else at the place's time.
+    start, end : float or "HH:MM", optional
+        Hours UTC of the first and the last frame. An end before the start is on the next day.
+        Default: civil dawn and civil dusk, when the sun stands 6° below the horizon.
+    edit : Edit
+        Everything but the sun, which stays.
+    last : Edit, optional
+        Everything but the sun at the last frame, where that changes on the way.
+
+    Raises
+    ------
+    ValueError
+        For a time of day that is none.
+
+    Examples
+    --------
+    >>> sw.sweep(scene, sw.Day(start="15:00", end="18:30"), "evening.mp4", seconds=10)
+    """
+
+    place: Place | None = None
+    start: float | str | None = None
+    end: float | str | None = None
+    edit: Edit = field(default_factory=Edit)
+    last: Edit | None = None
+
+    def __post_init__(self) -> None:
+        if self.place is not None and not isinstance(self.place, Place):
+            raise ValueError(f"place must be a sunwidget.Place, not {type(self.place).__name__}.")
+        for edit in (self.edit, self.last):
+            if not (edit is None or isinstance(edit, Edit)):
+                raise ValueError(f"A day's edit is a sunwidget.Edit, not {type(edit).__name__}.")
+        for name in ("start", "end"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, clock_hours(value))
+
+    def edits(self, scene: Scene, shares: Sequence[float], between: Between) -> list[Edit]:
+        """Return the edits along the day.
+
+        Parameters
+        ----------
+        scene : Scene
+            What ``analyze`` returned.
+        shares : sequence of float
+            Where they lie on the way from the start (0) to the end (1).
+        between : callable
+            Called as ``between(edit, last, share, scene)`` for the edit at a share, when the day
+            has a ``last``; the sun then goes where it stands.
+
+        Returns
+        -------
+        list of Edit
+            One a share.
+
+        Raises
+        ------
+        ValueError
+            When place, day or heading are not known, or the sun does not rise that day.
+        ImportError
+            Without pvlib; the message names the extra that brings it.
+        """
+        place, first, last = self._hours(self._place(scene))
+        row = []
+        for share in shares:
+            edit = self.edit
+            if self.last is not None:
+                edit = between(self.edit, self.last, share, scene)
+            row.append(edit.at(at_hours(place, first + (last - first) * share)))
+        return row
+
+    def _place(self, scene: Scene) -> Place:
+        from sunwidget.geometry.heading import heading_by_sun
+        from sunwidget.photo.place import from_photo
+
+        place = self.place or self.edit.place or from_photo(scene.photo).place
+        if place is None:
+            raise ValueError(
+                "The photo's file does not tell where and when it was taken. Give the day its "
+                "place: sunwidget.Day(sunwidget.Place(latitude, longitude, date, time))."
+            )
+        if place.heading is not None:
+            return place
+        told = from_photo(scene.photo, place.longitude)
+        if told.heading is not None:
+            return place.replace(heading=told.heading)
+        taken = {name: told.values()[name] for name in ("date", "time")}
+        then = place if told.moment is None else place.replace(**taken)
+        return place.replace(heading=heading_by_sun(scene, then).place.heading)
+
+    def _hours(self, place: Place) -> tuple[Place, float, float]:
+        """Return a place on the film's day, and first and last hour as ``day_table`` counts."""
+        if self.start is not None:
+            place = place.replace(time=self.start)
+        if self.start is not None and self.end is not None:
+            first = hours_of_day(place)
+            last = first + (float(self.end) - first) % 24
+        else:
+            table = day_table(place)
+            up = np.flatnonzero(table[:, 2] > CIVIL_TWILIGHT)
+            if not up.size:
+                raise ValueError(
+                    f"On {place.date} the sun stays more than 6° below the horizon there. Give "
+                    "the hours of the film, as Day(start='10:00', end='14:00')."
+                )
+            dawn, dusk = _crossing(table, int(up[0]), -1), _crossing(table, int(up[-1]), 1)
+            first = dawn if self.start is None else hours_of_day(place)
+            if self.end is None:
+                last = dusk if dusk > first else dusk + 24
+            else:
+                last = first + (float(self.end) - first) % 24
+        if last == first:
+            raise ValueError("The film of a day ends when it begins: give it another end.")
+        return place, first, last
+
+
+def clock_hours(value: float | str) -> float:
+    """Return a time of day as hours, 0–24.
+
+    Raises
+    ------
+    ValueError
+        For what is neither hours nor "HH:MM".
+    """
+    found = _CLOCK.match(value.strip()) if isinstance(value, str) else None
+    if found:
+        hours = int(found[1]) + int(found[2] or 0) / 60
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        hours = float(value)
+    else:
+        hours = math.nan
+    if not 0 <= hours <= 24:
+        raise ValueError(f"A time of day is hours UTC from 0 to 24 or 'HH:MM', not {value!r:.40}.")
+    return hours
+
+
+def _crossing(table: np.ndarray, row: int, way: int) -> float:
+    """Return the hour near ``row`` at which the sun passes civil twilight, going ``way``."""
+    other = row + way
+    if not 0 <= other < len(table):
+        return float(table[row, 0])
+    inside, outside = table[row, 2], table[other, 2]
+    share = (inside - CIVIL_TWILIGHT) / (inside - outside)
+    return float(table[row, 0] + share * (table[other, 0] - table[row, 0]))

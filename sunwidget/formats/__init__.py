@@ -1,0 +1,1 @@
+"""What lies in picture files: color spaces, metadata, gain maps, light."""

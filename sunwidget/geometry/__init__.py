@@ -1,0 +1,1 @@
+"""Pixels and directions; place, time and where the sun stands."""

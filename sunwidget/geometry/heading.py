@@ -1,0 +1,143 @@
+"""Which way a camera looked, by the sun in its photo.
+
+The photo's sun was found at an azimuth a from the camera's axis; time and place give its true
+azimuth A. The heading is A − a. What is left over, the difference of the elevations, checks
+time and place: it is large when the clock or its zone is wrong.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, sun_at, turned
+
+if TYPE_CHECKING:
+    from sunwidget.analysis.scene import Scene
+
+AGREES = 3.0
+"""Degrees that the elevations may differ by: horizon and field of view are known no better."""
+
+
+class HeadingMatch(NamedTuple):
+    """A heading by the photo's sun, and what speaks for it.
+
+    Attributes
+    ----------
+    place : Place
+        The place that was asked about, with its heading.
+    mismatch : float
+        Degrees that the photo's sun stands higher than the time puts it (apparent elevation).
+    agreeing : tuple of Place
+        The times of that day at which the elevations agree, each with its own heading, the
+        nearest first; none when the sun does not reach the photo's elevation that day.
+    seen : bool
+        Whether the photo shows its sun; otherwise the heading is as much a guess as its place.
+    note : str
+        All that in words.
+    """
+
+    place: Place
+    mismatch: float
+    agreeing: tuple[Place, ...]
+    seen: bool
+    note: str
+
+    @property
+    def agrees(self) -> bool:
+        """Whether time and place fit the photo's sun."""
+        return abs(self.mismatch) <= AGREES
+
+
+def heading_by_sun(scene: Scene, place: Place) -> HeadingMatch:
+    """Return the heading at which the photo's own sun stands where time and place put it.
+
+    Parameters
+    ----------
+    scene : Scene
+        The analysed photo.
+    place : Place
+        Where and when the photo was taken; its heading is not looked at.
+
+    Raises
+    ------
+    ValueError
+        When the photo shows the moon: the sun's path says nothing about it.
+    ImportError
+        Without pvlib; the message names the extra that brings it.
+    """
+    if scene.lit_by_moon:
+        raise ValueError(
+            "The photo shows the moon, and a heading is found by the sun. Give heading=, degrees "
+            "from north."
+        )
+    found = scene.automatic
+    seen = scene.sun is not None and scene.sun.visible
+    return match(place, found["sun_azimuth"], found["sun_elevation"], seen=seen)
+
+
+def match(place: Place, azimuth: float, elevation: float, *, seen: bool = True) -> HeadingMatch:
+    """Return the heading for a sun seen at ``azimuth`` from the camera's axis, in degrees.
+
+    ``elevation`` is the apparent one. The rest as ``heading_by_sun``.
+    """
+    here = _facing(place, azimuth)
+    mismatch = elevation - sun_at(here).elevation
+    table, now = day_table(place), hours_of_day(place)
+    times = sorted(_crossings(table[:, 0], table[:, 2], elevation), key=lambda h: abs(h - now))
+    agreeing = tuple(_facing(at_hours(place, hours), azimuth) for hours in times)
+    note = _note(here, mismatch, [(hours - now) for hours in times], agreeing, elevation)
+    if not seen:
+        note = (
+            "The photo does not show its sun: where it stood is a guess, and so is the heading. "
+            + note
+        )
+    return HeadingMatch(here, mismatch, agreeing, seen, note)
+
+
+def clock(hours: float) -> str:
+    """Return hours as 14:05."""
+    minutes = math.floor(hours * 60 + 0.5) % 1440
+    return f"{minutes // 60:02d}:{minutes % 60:02d}"
+
+
+def _facing(place: Place, azimuth: float) -> Place:
+    north = place.replace(heading=0.0)
+    true = sun_at(north).azimuth
+    assert true is not None
+    return place.replace(heading=round(turned(true - azimuth) % 360, 4) % 360)
+
+
+def _crossings(hours: np.ndarray, heights: np.ndarray, level: float) -> list[float]:
+    """Hours at which the elevation passes a level, between the rows of the table."""
+    above = heights - level
+    found = []
+    for i in np.flatnonzero(above[:-1] * above[1:] < 0):
+        share = above[i] / (above[i] - above[i + 1])
+        found.append(float(hours[i] + share * (hours[i + 1] - hours[i])))
+    return found
+
+
+def _note(
+    place: Place, mismatch: float, apart: list[float], agreeing: tuple[Place, ...], level: float
+) -> str:
+    way = "higher" if mismatch > 0 else "lower"
+    at = f"{clock(place.time)} UTC"
+    if abs(mismatch) <= AGREES:
+        return f"Time and place agree with the photo's sun to {abs(mismatch):.1f}°."
+    start = f"The photo's sun stands {abs(mismatch):.1f}° {way} than at {at}. "
+    if not agreeing:
+        return f"{start}On this day it never stands at {level:.1f}°: check date and place."
+    times = " and ".join(f"{clock(p.time)} UTC" for p in agreeing)
+    times = times.replace(" UTC", f" UTC{_shift(apart[0])}", 1)
+    return f"{start}Is the clock or its time zone wrong? The elevations agree at {times}."
+
+
+def _shift(hours: float) -> str:
+    """Say whether a difference is one of time zones, which come in whole hours."""
+    whole = round(hours)
+    if whole == 0 or abs(hours - whole) > 0.2:
+        return ""
+    return f" ({abs(whole)} h {'later' if whole > 0 else 'earlier'})"

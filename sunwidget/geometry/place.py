@@ -1,0 +1,206 @@
+"""Where and when a photo is taken, which way its camera looks, and where the sun then stands.
+
+A ``Place`` is part of the edit and moves nothing by itself. Its day's path, ``day_table``, is
+read the same way here and in the browser, so that a clock moves the sun in both alike.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import datetime as dt
+import functools
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from sunwidget.messages import shown
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+_LOWEST, _HIGHEST = -12.0, 90.0  # elevations that an edit takes
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where, when and which way.
+
+    Parameters
+    ----------
+    latitude, longitude : float
+        Degrees, positive to the north (−90 … 90) and to the east (−180 … 180).
+    date : datetime.date or "YYYY-MM-DD"
+        Day in UTC; kept as text.
+    time : float
+        Hours UTC, 0 … 24.
+    heading : float, optional
+        Where the camera looks, degrees clockwise from true north (0 ≤ heading < 360). None is
+        unknown: then the time moves the sun's elevation alone.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range, or that is none; the message says what it takes.
+    """
+
+    latitude: float
+    longitude: float
+    date: str
+    time: float
+    heading: float | None = None
+
+    def __post_init__(self) -> None:
+        _set(self, "latitude", _number("latitude", self.latitude, 90))
+        _set(self, "longitude", _number("longitude", self.longitude, 180))
+        _set(self, "date", _day(self.date))
+        _set(self, "time", _number("time", self.time, 24, low=0))
+        if self.heading is not None:
+            _set(self, "heading", _number("heading", self.heading, 360) % 360)
+
+    def replace(self, **changes: Any) -> Place:
+        """Return a copy with ``changes`` to its fields; raises ValueError as ``Place`` does."""
+        return dataclasses.replace(self, **changes)
+
+    @classmethod
+    def from_dict(cls, values: Any) -> Place:
+        """Return the Place of ``values``, a mapping by field; raises ValueError for one of none."""
+        names = [field.name for field in dataclasses.fields(cls)]
+        if not isinstance(values, dict) or not set(names[:4]) <= values.keys() <= set(names):
+            raise ValueError(
+                f"place needs {', '.join(names[:4])} and may have {names[4]}, not {shown(values)}."
+            )
+        return cls(**values)
+
+    @property
+    def moment(self) -> dt.datetime:
+        """Date and time, in UTC."""
+        midnight = dt.datetime.combine(dt.date.fromisoformat(self.date), dt.time(), dt.UTC)
+        return midnight + dt.timedelta(hours=self.time)
+
+    @property
+    def solar_time(self) -> float:
+        """Hours of local mean solar time, 0 … 24: the sun is highest within a quarter of 12."""
+        return (self.time + self.longitude / 15) % 24
+
+
+class SunOfDay(NamedTuple):
+    """Where the sun stands, in degrees.
+
+    Azimuth is relative to the camera, None where the heading is unknown; ``elevation`` is the
+    apparent one, as the air lifts it.
+    """
+
+    azimuth: float | None
+    elevation: float
+    true_elevation: float
+
+
+def solar_day(place: Place) -> str:
+    """Return the day by the sun, from its midnight to its midnight, that the place's time is in.
+
+    A day by UTC begins while the sun is up in half of the world; by local mean solar time it
+    begins and ends at night.
+    """
+    shift = math.floor((place.time + place.longitude / 15) / 24)
+    return _later(place.date, shift)
+
+
+def day_table(place: Place) -> NDArray[np.float64]:
+    """Return the sun's path over the solar day of ``place``.
+
+    Returns
+    -------
+    ndarray, shape (289, 4), float64, read-only
+        Hours UTC from the midnight of ``solar_day(place)`` on (some are below 0 or above 24),
+        azimuth 0–360°, apparent and true elevation in degrees. NREL's SPA (Reda & Andreas 2004)
+        by pvlib.
+
+    Raises
+    ------
+    ImportError
+        Without pvlib; the message names the extra that brings it.
+    """
+    return _table(place.latitude, place.longitude, solar_day(place))
+
+
+def sun_at(place: Place) -> SunOfDay:
+    """Return where the sun stands at the time of ``place``, as an edit takes it.
+
+    Elevations are held at −12 … 90°; raises ImportError as ``day_table``.
+    """
+    import numpy as np
+
+    from sunwidget.geometry.solar import sun_on_path
+
+    table = day_table(place)
+    hours = hours_of_day(place)
+    azimuth, elevation = sun_on_path(table, hours)
+    true = float(np.interp(hours, table[:, 0], table[:, 3]))
+    relative = None if place.heading is None else turned(azimuth - place.heading)
+    return SunOfDay(relative, min(max(elevation, _LOWEST), _HIGHEST), true)
+
+
+def hours_of_day(place: Place) -> float:
+    """Return the place's time as ``day_table`` counts it."""
+    shift = dt.date.fromisoformat(place.date) - dt.date.fromisoformat(solar_day(place))
+    return place.time + 24 * shift.days
+
+
+def at_hours(place: Place, hours: float) -> Place:
+    """Return ``place`` at a time that is counted as in ``day_table``: UTC's date follows."""
+    days = math.floor(hours / 24)
+    time = round(hours - 24 * days, 4)
+    return place.replace(date=_later(solar_day(place), days), time=time)
+
+
+def turned(degrees: float) -> float:
+    """Return an angle from −180 up to 180."""
+    return (degrees + 180) % 360 - 180
+
+
+@functools.lru_cache(maxsize=64)
+def _table(latitude: float, longitude: float, day: str) -> NDArray[np.float64]:
+    import numpy as np
+
+    from sunwidget.geometry.solar import day_path
+
+    # Rounded as it travels, so that the browser reads the very same numbers.
+    table = np.round(day_path(day, latitude, longitude, start=-longitude / 15), 6)
+    table.flags.writeable = False
+    return table
+
+
+def _later(date: str, days: int) -> str:
+    return (dt.date.fromisoformat(date) + dt.timedelta(days=days)).isoformat()
+
+
+def _set(place: Place, name: str, value: Any) -> None:
+    object.__setattr__(place, name, value)
+
+
+def _number(name: str, value: Any, high: float, low: float | None = None) -> float:
+    least = -high if low is None else low
+    try:
+        number = math.nan if isinstance(value, (str, bytes, bool)) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not least <= number <= high:
+        raise ValueError(
+            f"place: {name} must be a number from {least:g} to {high:g}, not {shown(value)}."
+        )
+    return number
+
+
+def _day(value: Any) -> str:
+    if isinstance(value, dt.datetime):
+        value = value.date()
+    try:
+        day = value if isinstance(value, dt.date) else dt.date.fromisoformat(value)
+    except (TypeError, ValueError):
+        day = None
+    # Years that a count of nanoseconds reaches (pandas), with a day to spare.
+    if day is None or not 1700 <= day.year <= 2200:
+        raise ValueError(f"place: date must be a day as YYYY-MM-DD, not {shown(value)}.")
+    return day.isoformat()

@@ -1,0 +1,1 @@
+"""From a file to a Photo: decoding, color management, place and time."""

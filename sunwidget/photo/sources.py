@@ -1,0 +1,204 @@
+"""Whatever a person passes as a photo: paths, bytes, files, Pillow images and arrays, decoded."""
+
+from __future__ import annotations
+
+import difflib
+import io
+import os
+import stat
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sunwidget.formats.pixels import PhotoError, check_light, check_size, split_alpha
+from sunwidget.photo.decode import Decoded, decode_bytes, decode_image, reason
+
+_TYPES = (
+    "expected uint8 or uint16 (sRGB), or float (linear light). Convert it, for example with "
+    ".astype('uint8')."
+)
+
+
+def decoded_from(source: Any) -> tuple[str, Decoded]:
+    """Return a name for messages and the picture; ``source`` as for ``sunwidget.open``.
+
+    Raises
+    ------
+    PhotoError
+        For everything that cannot be opened; the message says what to do.
+    """
+    if (file := file_of(source)) is not None:
+        name, data = file
+        return name, decode_bytes(data, name)
+    if _is_pil(source):
+        name = Path(str(getattr(source, "filename", ""))).name or "image"
+        return _plain(name), decode_image(source, _plain(name))
+    if hasattr(source, "__array__") or isinstance(source, (list, tuple)):
+        return "array", _from_array(source)
+    raise PhotoError(
+        f"Cannot open {type(source).__name__} as a photo. Pass a path, bytes, a file opened "
+        "with mode 'rb', a PIL image or a NumPy array."
+    )
+
+
+def file_of(source: Any) -> tuple[str, bytes] | None:
+    """Return a picture file's name for messages and its bytes; None for what is no file.
+
+    Raises
+    ------
+    PhotoError
+        For a file that cannot be read.
+    """
+    if isinstance(source, (str, os.PathLike)):
+        return _read_path(source)
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        data = bytes(source)
+        _check_no_path(data)
+        return "picture", data
+    if not _is_pil(source) and callable(getattr(source, "read", None)):
+        return _read_stream(source)
+    return None
+
+
+def _read_path(source: Any) -> tuple[str, bytes]:
+    try:
+        text = os.fsdecode(os.fspath(source))
+    except Exception as error:  # whatever a person's own path object may do
+        kind = type(source).__name__
+        raise PhotoError(f"This {kind} names no file: {reason(error)}. Pass a path.") from error
+    if not text:
+        raise PhotoError("The path is empty. Pass the path of a picture file.")
+    if "://" in text[:10] or text.startswith("data:"):
+        told = _plain(text[:80])
+        raise PhotoError(f"{told} is an address; sunwidget never downloads. Save it first.")
+    told = _plain(text if len(text) <= 200 else f"{text[:200]}…")
+    try:
+        path = Path(text).expanduser()
+        mode = path.stat().st_mode
+        if stat.S_ISREG(mode):
+            return _plain(path.name), path.read_bytes()
+    except FileNotFoundError as error:
+        raise PhotoError(_plain(_missing(path))) from error
+    except PermissionError as error:
+        raise PhotoError(f"No permission to read {told}. Check its access rights.") from error
+    except (OSError, ValueError, RuntimeError) as error:
+        # A picture's own bytes, taken for a path, hold what no path may hold.
+        hint = " Pass a picture's contents as bytes." if "\0" in text else ""
+        raise PhotoError(f"Cannot read {told!r:.200}: {reason(error)}.{hint}") from error
+    except MemoryError as error:
+        raise PhotoError(f"There is not enough memory to read {told}.") from error
+    if stat.S_ISDIR(mode):
+        raise PhotoError(f"{told} is a folder. Pass the path of one picture in it.")
+    raise PhotoError(f"{told} is a device or pipe, not a file. Pass a picture file.")
+
+
+def _plain(text: str) -> str:
+    """Return text that every terminal, page and message can hold.
+
+    Bytes of a file's name that are no UTF-8 come as lone surrogates, which nothing can write.
+    """
+    return text.encode("utf-8", "replace").decode("utf-8")
+
+
+def _missing(path: Path) -> str:
+    if path.is_symlink():
+        return f"{path} is a link to {path.readlink()}, which is not there."
+    try:
+        near = _nearest(path.name, [p.name for p in path.parent.iterdir()])
+    except OSError:
+        return f"There is no file {path}, nor a folder {path.parent}."
+    hint = f" Did you mean {near!r}?" if near else f" Looked in {path.parent.absolute()}."
+    return f"There is no file {path}.{hint}"
+
+
+def _nearest(name: str, names: list[str]) -> str | None:
+    """Return the name that one may have meant, without regard to its ending and to capitals."""
+    ending = Path(name).suffix.casefold()
+    # Of those that differ in their ending alone the last counts: one with this ending.
+    names = sorted(names, key=lambda other: Path(other).suffix.casefold() == ending)
+    stems = {Path(other).stem.casefold(): other for other in names}
+    near = difflib.get_close_matches(Path(name).stem.casefold(), stems, n=1, cutoff=0.75)
+    return stems[near[0]] if near else None
+
+
+def _check_no_path(data: bytes) -> None:
+    """Refuse the name of a file in bytes: bytes are a file's contents."""
+    if 0 < len(data) < 1024 and b"\0" not in data and os.path.exists(data):  # noqa: PTH110 - bytes
+        raise PhotoError(
+            f"{_plain(os.fsdecode(data))} is a path in bytes, and bytes are taken for a picture's "
+            "contents. Pass the path as text: os.fsdecode(path)."
+        )
+
+
+def _read_stream(source: Any) -> tuple[str, bytes]:
+    label = getattr(source, "name", None)
+    name = _plain(Path(label).name if isinstance(label, str) else "") or "picture"
+    as_text = PhotoError(f"{name} was opened as text. Open it with mode 'rb'.")
+    if isinstance(source, io.TextIOBase):
+        raise as_text
+    try:
+        data = source.read()
+    except Exception as error:  # whatever a person's own file object may do
+        raise PhotoError(f"Reading {name} failed: {reason(error)}.") from error
+    if isinstance(data, str):
+        raise as_text
+    if not isinstance(data, (bytes, bytearray, memoryview)):
+        raise PhotoError(f"Reading {name} gave {type(data).__name__}, not bytes. Pass its bytes.")
+    if not data:
+        raise PhotoError(
+            f"{name} has nothing left to read: it is empty, or was read before. Open it again."
+        )
+    return name, bytes(data)
+
+
+def _is_pil(source: Any) -> bool:
+    """Tell PIL images without importing Pillow: an image exists only when it is imported."""
+    module = sys.modules.get("PIL.Image")
+    return module is not None and isinstance(source, module.Image)
+
+
+def _from_array(source: Any) -> Decoded:
+    hidden = int(np.ma.count_masked(source)) if isinstance(source, np.ma.MaskedArray) else 0
+    if hidden:
+        raise PhotoError(
+            f"The array hides {hidden} values behind its mask. Fill them first: array.filled(0)."
+        )
+    try:
+        array = np.asarray(source)
+    except MemoryError as error:
+        raise PhotoError("There is not enough memory for this array. Scale it down.") from error
+    except Exception as error:  # whatever a foreign array's own conversion may do
+        raise PhotoError(f"This array cannot be read: {reason(error)}.") from error
+    if array.ndim >= 2:
+        check_size(array.shape[1], array.shape[0], "The array")
+    kind = array.dtype.newbyteorder("=")  # both ways below copy: a Photo shares no memory
+    if kind not in (np.uint8, np.uint16) and kind.kind != "f":
+        raise PhotoError(f"The array has the type {array.dtype}; {_TYPES}")
+    if kind.kind == "f":
+        with np.errstate(all="ignore"):
+            array = array.astype(np.float32)
+    else:
+        array = array.astype(kind)
+    codes, alpha = split_alpha(array, "The array")
+    if codes.dtype.kind != "f":
+        return Decoded(codes, alpha)
+    check_light(codes, "The array")
+    return Decoded(codes, alpha, notes=_code_values(codes))
+
+
+def _code_values(light: np.ndarray) -> list[str]:
+    """Return a note when floats look like code values: whole numbers far above white."""
+    brightest = float(light.max())
+    if brightest < 2 or not _whole(light[0]) or not _whole(light):
+        return []
+    note = (
+        f"The array's floats are whole numbers up to {brightest:g}, and taken for linear light, "
+        "where 1 is white. If they are sRGB code values, pass array.astype('uint8')."
+    )
+    return [note]
+
+
+def _whole(values: np.ndarray) -> bool:
+    return bool((values == np.rint(values)).all())

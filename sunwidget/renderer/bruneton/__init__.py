@@ -1,0 +1,1 @@
+"""Bruneton's precomputed sky, a model of the explorer."""

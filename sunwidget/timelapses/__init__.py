@@ -1,0 +1,1 @@
+"""Frames of one fixed camera: analysed together, edited together."""

@@ -1,0 +1,275 @@
+"""Time-lapses: many frames of one camera, one edit or a path of edits, a film or many stills."""
+
+from __future__ import annotations
+
+import contextlib
+import difflib
+import inspect
+import os
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sunwidget.analysis.analyze import analyze
+from sunwidget.analysis.scene import Scene
+from sunwidget.export.formats import check_quality
+from sunwidget.export.stills import save
+from sunwidget.files import folder_target
+from sunwidget.film.path import Step, SunPath, check_rate
+from sunwidget.film.prefetch import ahead
+from sunwidget.film.writer import (
+    Film,
+    film_size,
+    film_target,
+    is_sequence,
+    longest_side,
+    size_for,
+    told,
+    whole_film,
+    writer,
+)
+from sunwidget.formats.pixels import PhotoError, PhotoWarning
+from sunwidget.geometry.place import Place
+from sunwidget.photo.decode_apart import kept
+from sunwidget.progress import Progress, part, with_time_left
+from sunwidget.renderer.gl_thread import require_renderer
+from sunwidget.timelapses.edits import FrameEdits
+from sunwidget.timelapses.frames import Clock, Times, frame_sources, name_of
+from sunwidget.timelapses.scenes import FrameScenes, Trouble
+
+BROKEN = ("hold", "skip", "stop")
+LOOPS = ("forever", "once")
+_OPTIONS = ("fps", "size", "easing", "loop", "quality", "format", "place", "times", "broken")
+_LOOKING = 0.3  # of the work: what is done before the first frame is drawn
+
+
+class FramesWarning(PhotoWarning):
+    """Frames of a time-lapse that could not be used: ``unusable`` ones of ``count``."""
+
+    def __init__(self, words: str, unusable: int, count: int) -> None:
+        super().__init__(words)
+        self.unusable = unusable
+        self.count = count
+
+
+def timelapse(
+    frames: Any,
+    edit: Step | SunPath,
+    out: str | os.PathLike[str],
+    *,
+    fps: float = 24,
+    size: tuple[int, int] | None = None,
+    easing: str = "linear",
+    loop: str = "forever",
+    quality: int = 85,
+    format: str | None = None,  # noqa: A002 - the field's word, as everywhere else
+    place: Place | None = None,
+    times: Times = None,
+    broken: str = "hold",
+    overwrite: bool = False,
+    progress: Progress | None = None,
+    **hints: Any,
+) -> Path:
+    """Move the sun in every frame of a time-lapse of one fixed camera.
+
+    Skyline, horizon, camera, water and depth are found once, on several frames together; clouds,
+    exposure and the sun's own place are each frame's, steady in time, so that nothing flickers
+    that does not in the frames themselves. A camera that shakes by less than 4 % of the picture
+    is followed.
+
+    Parameters
+    ----------
+    frames : path or sequence
+        A folder, a glob such as ``"frames/*.jpg"`` (both in natural order), or a sequence of
+        what ``sunwidget.open`` takes. They are opened twice and never held all at once.
+    edit : Edit, recipe (dict), recipe file, preset name, or a path of them
+        One edit for every frame, or, as for ``sunwidget.sweep``, a path of edits from the first
+        frame to the last. Automatic values are each frame's own. Strokes and hints, in fractions
+        of the picture, hold for all frames.
+    out : path
+        ``.mp4``, ``.gif`` or ``.webp``; a pattern as ``"frames/%04d.png"``; or a folder, made
+        when it is not there, for stills with the frames' own names and metadata.
+    fps : float
+        Frames a second, 1–120.
+    size : (width, height), optional
+        Pixels. Default: the frames' own size; in a film at most 1920 on the longer side, 720 in
+        a GIF. MP4 rounds both down to even numbers. Stills keep their proportions within it.
+    easing : str
+        Along a path, as in ``sunwidget.sweep``.
+    loop : {"forever", "once"}
+        Whether a GIF or WebP repeats.
+    quality : int
+        1–100, of MP4, WebP and JPEG.
+    format : str, optional
+        Ending of stills, such as "png"; default each frame's own.
+    place : Place, optional
+        Where the camera stands; only latitude, longitude and heading are looked at. With times
+        the frames' own sun is where the clock says. Default: the files' GPS. Without a heading
+        that is found by the suns that frames show.
+    times : optional
+        When the frames were taken: a pattern of their names as for ``strptime``
+        ("%Y%m%d_%H%M%S"), ``(first, seconds between frames)``, or a datetime for each; UTC
+        unless they name a zone. Default: the files' EXIF. Without place or times the frames'
+        own sun is where frames show it, or one direction for all is fitted.
+    broken : {"hold", "skip", "stop"}
+        A frame that cannot be read: the one before it is shown again (stills: it is left out),
+        it is left out, or it is an error. What was held or left out is told by a PhotoWarning.
+    overwrite : bool
+        Replace existing files.
+    progress : callable, optional
+        Called as ``progress(fraction, message)``. What it raises cancels: of a film nothing is
+        left, of stills those that are whole.
+    **hints
+        ``sky``, ``horizon``, ``fov``, ``water``, ``depth`` and methods as for
+        ``sunwidget.analyze``, for all frames.
+
+    Returns
+    -------
+    Path
+        The film, or the folder of the stills.
+
+    Raises
+    ------
+    FileNotFoundError
+        When there are no frames.
+    FileExistsError
+        When what is to be written exists and ``overwrite`` is false.
+    PhotoError
+        When the camera moves, fewer than two frames can be used, or one cannot and ``broken``
+        is "stop".
+    ValueError
+        For options that are none.
+    RendererError
+        When this machine has no EGL.
+
+    Examples
+    --------
+    >>> sw.timelapse("frames/*.jpg", "sunset.json", "out.mp4")
+    >>> sw.timelapse("frames", [sw.Edit(sun_elevation=20), sw.Edit(sun_elevation=-4)], "stills")
+    """
+    _check(fps=fps, loop=loop, quality=quality, broken=broken, hints=hints)
+    sources = frame_sources(frames)
+    place_out = Path(out).expanduser()
+    film = is_sequence(place_out) or bool(place_out.suffix)
+    long_edge = None if size is None else max(film_size((2, 2), size))
+    if film:
+        write = writer(place_out)
+        place_out = film_target(place_out, overwrite=overwrite)
+        long_edge = long_edge or longest_side(place_out)
+    else:
+        names = _still_names(sources, place_out, format, overwrite=overwrite)
+    steps = FrameEdits(edit, len(sources), easing)
+    require_renderer()  # the frames are long looked at before the first is drawn
+    report = with_time_left(progress)
+    with kept():
+        scenes = FrameScenes.of(
+            sources,
+            long_edge=long_edge,
+            corrections=steps.corrections,
+            place=place,
+            clock=Clock(times, len(sources), None if place is None else place.longitude),
+            hints=hints,
+            progress=part(report, 0.0, _LOOKING),
+        )
+        _refuse_or_warn(scenes.troubles, len(sources), broken, film=film)
+
+        drawing = part(report, _LOOKING, 1.0)
+        if not film:
+            place_out.mkdir(exist_ok=True)
+            for number, scene in enumerate(scenes):
+                drawing(number / len(sources), f"frame {number + 1} of {len(sources)}")
+                if isinstance(scene, Scene):
+                    moved = steps.of(scene, number, scenes.daylight[number])
+                    save((scene, moved), names[number], overwrite=overwrite, quality=quality)
+            drawing(1.0, f"{len(sources)} frames")
+            return place_out
+        count = len(sources) - (len(scenes.troubles) if broken == "skip" else 0)
+        size = size_for(place_out, scenes.size, size)
+        with (
+            whole_film(place_out, overwrite=overwrite) as unfinished,
+            contextlib.closing(ahead(iter(scenes))) as prepared,
+            contextlib.closing(
+                ahead(_drawn(prepared, steps, scenes.daylight, size, broken))
+            ) as pictures,
+        ):
+            row = told(pictures, count, drawing)
+            write(row, unfinished, Film(size, fps, count, loop, quality))
+        return place_out.parent if is_sequence(place_out) else place_out
+
+
+def _drawn(
+    scenes: Iterator[Scene | Trouble],
+    steps: FrameEdits,
+    daylight: Sequence[float],
+    size: tuple[int, int],
+    broken: str,
+) -> Iterator[np.ndarray]:
+    """Draw the frames; one that cannot be used shows the one before it, or the first that can."""
+    from sunwidget.renderer.offscreen import render
+
+    last: np.ndarray | None = None
+    waiting = 0
+    for number, scene in enumerate(scenes):
+        if isinstance(scene, Scene):
+            last = render(scene, steps.of(scene, number, daylight[number]), size=size)
+            yield from [last] * (waiting + 1)
+            waiting = 0
+        elif broken == "hold" and last is None:
+            waiting += 1
+        elif broken == "hold" and last is not None:
+            yield last
+
+
+def _still_names(
+    sources: Sequence[Any], folder: Path, ending: str | None, *, overwrite: bool
+) -> list[Path]:
+    """Return where each still goes; raise before any work is spent when one cannot go there."""
+    from sunwidget.export.formats import FORMATS
+
+    folder_target(folder)
+    names = []
+    for number, source in enumerate(sources):
+        name = Path(name_of(source, number))
+        suffix = "." + ending.lstrip(".") if ending else name.suffix.lower()
+        # What cannot be written as it came, such as camera raw, keeps its depth in a TIFF.
+        names.append(folder / f"{name.stem}{suffix if suffix in FORMATS else '.tif'}")
+    if ending and "." + ending.lstrip(".") not in FORMATS:
+        raise ValueError(f"format= takes one of {', '.join(FORMATS)}, not {ending!r:.40}.")
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise ValueError(f"Two frames would be written as {twice.name}. Give them other names.")
+    taken = [name for name in names if name.exists()]
+    if taken and not overwrite:
+        raise FileExistsError(
+            f"{taken[0]} exists already. Pass overwrite=True to replace it, or another folder."
+        )
+    return names
+
+
+def _refuse_or_warn(troubles: Sequence[Trouble], count: int, broken: str, *, film: bool) -> None:
+    if not troubles:
+        return
+    shown = "; ".join(f"{t.name}: {t.reason.rstrip('.')}" for t in troubles[:3])
+    more = f"; and {len(troubles) - 3} more" if len(troubles) > 3 else ""
+    words = f"{len(troubles)} of {count} frames cannot be used ({shown}{more})"
+    if broken == "stop":
+        raise PhotoError(f"{words}. Leave them out, or pass broken='hold' or broken='skip'.")
+    done = "the frame before each is shown again" if film and broken == "hold" else "left out"
+    warnings.warn(FramesWarning(f"{words}; {done}.", len(troubles), count), stacklevel=3)
+
+
+def _check(*, fps: float, loop: str, quality: int, broken: str, hints: Mapping[str, Any]) -> None:
+    known = inspect.signature(analyze).parameters.keys() - {"photo", "progress"}
+    if unknown := sorted(hints.keys() - known):
+        near = difflib.get_close_matches(unknown[0], [*known, *_OPTIONS], n=1)
+        hint = f" Did you mean {near[0]!r}?" if near else ""
+        raise TypeError(f"timelapse() takes no {unknown[0]!r:.40}.{hint}")
+    check_rate(fps)
+    if loop not in LOOPS:
+        raise ValueError(f"loop must be one of {', '.join(LOOPS)}, not {loop!r:.40}.")
+    check_quality(quality)
+    if broken not in BROKEN:
+        raise ValueError(f"broken must be one of {', '.join(BROKEN)}, not {broken!r:.40}.")

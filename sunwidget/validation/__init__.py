@@ -1,0 +1,1 @@
+"""How far the clear sky is from what others measured and computed."""

@@ -1,0 +1,190 @@
+"""What an editor hands out: pictures, files, pages, and what static viewers see of it."""
+
+from __future__ import annotations
+
+import functools
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from sunwidget.analysis.scene import Scene
+from sunwidget.edit.recipe import edit_of
+from sunwidget.edit.table import Edit, plain
+from sunwidget.files import target
+from sunwidget.formats.png import encode_small_png
+from sunwidget.progress import Progress
+from sunwidget.widgets.editor.detail import detail
+from sunwidget.widgets.editor.history import NAMES, EditHistory
+from sunwidget.widgets.editor.snapshot import SNAPSHOT_EDGE, Snapshot
+from sunwidget.widgets.kernel.analysed import Analysed
+from sunwidget.widgets.kernel.output import with_picture
+from sunwidget.widgets.kernel.payload import THUMBNAIL_EDGE, encode_picture, thumbnail
+from sunwidget.widgets.kernel.requests import Answer
+from sunwidget.widgets.page.framed import StaticPage
+from sunwidget.widgets.page.standalone import editor_page, embedded_state, still_of, write_page
+
+_SUFFIXES = {"JPEG": ".jpg", "PNG": ".png", "TIFF": ".tif", "WEBP": ".webp"}
+_TYPES = {
+    ".jpg": "image/jpeg",
+    ".png": "image/png",
+    ".tif": "image/tiff",
+    ".webp": "image/webp",
+}
+
+
+class Pictures(EditHistory, Analysed):
+    """A widget that renders its edit of a photo."""
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.photo.name!r}: {self.edit!r}>"
+
+    def render(self, **options: Any) -> Any:
+        """Return the picture as it is now; ``options`` as in ``sunwidget.render``."""
+        return self._render(self.edit, **options)
+
+    def save(self, path: Any, **options: Any) -> Path:
+        """Write the picture at full size to ``path``; ``options`` as in ``sunwidget.save``.
+
+        Returns
+        -------
+        Path
+            Where it is.
+        """
+        return self._save(self.edit, path, **options)
+
+    def snapshot(self, long_edge: int = SNAPSHOT_EDGE) -> Snapshot:
+        """Return the picture as it is now, as the output of a cell: it stays when the edit goes on.
+
+        Waits for the analysis.
+
+        Parameters
+        ----------
+        long_edge : int, default 1024
+            Pixels of the longer side, at most the photo's.
+
+        Raises
+        ------
+        ValueError
+            For a ``long_edge`` that is no whole number above 0.
+
+        Examples
+        --------
+        >>> editor.snapshot()
+        """
+        if isinstance(long_edge, bool) or not isinstance(long_edge, int) or long_edge < 1:
+            raise ValueError(f"long_edge must be a whole number above 0, not {long_edge!r:.40}.")
+        edit = self.edit
+        pixels = self.render(size=self.photo.size_within(long_edge))
+        return Snapshot(pixels, edit, self.photo)
+
+    def to_html(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        title: str | None = None,
+        overwrite: bool = False,
+    ) -> Path | str:
+        """Write a page in which the sun can be moved: one file, no kernel, no network.
+
+        Waits for the analysis. ``path``, ``title``, ``overwrite`` and errors as for
+        ``sunwidget.to_html``; without a path the page is returned as text.
+        """
+        place = None if path is None else target(path, overwrite=overwrite)
+        text = self._page(self.edit, title)
+        return text if place is None else write_page(text, place, overwrite=overwrite)
+
+    def render_static(self, *, title: str | None = None) -> StaticPage:
+        """Return the page of ``to_html`` as a cell's output: the sun moves in it without a kernel.
+
+        For notebooks that are exported: ``nbconvert --to html`` keeps it live, without a network.
+        Waits for the analysis. The notebook grows by the page, 2 to 8 MB.
+
+        Parameters
+        ----------
+        title : str, optional
+            Of the page. Default: the photo's name.
+
+        Examples
+        --------
+        >>> editor.render_static()
+        """
+        name = self.photo.name if title is None else title
+        return StaticPage(self._page(self.edit, title), name)
+
+    def _render(self, edit: Edit, **options: Any) -> Any:
+        from sunwidget.renderer.offscreen import render
+
+        return render(self._base_scene(), edit, **options)
+
+    def _save(self, edit: Edit, path: Any, **options: Any) -> Path:
+        from sunwidget.export.stills import save
+
+        return save((self._base_scene(), edit), path, **options)
+
+    def _page(self, edit: Edit, title: str | None = None) -> str:
+        self._analyst.wait()
+        still = still_of(self.photo, functools.partial(self._render, edit))
+        with self._lock:
+            embedded = embedded_state(self)
+        embedded["state"] |= {name: plain(getattr(edit, name)) for name in NAMES}
+        return editor_page(embedded, still, self.photo, title=title)
+
+    def _base_scene(self) -> Scene:
+        # The edit's corrections are applied by the renderer, from the scene without them.
+        analyst = self._analyst  # another photo, and its analyst, may come while this one works
+        analyst.wait()
+        base = analyst.base
+        assert base is not None
+        return base
+
+    def _asked_for(self, content: dict[str, Any]) -> Edit:
+        """Return the edit that a request of the browser is about.
+
+        It comes with the request: hosts hold traits back while the kernel is busy, and not
+        requests, so that the kernel's own may be older than what the person saw.
+        """
+        if content.get("photo") not in {None, self._source["fingerprint"]}:
+            raise ValueError("Another photo has been opened since this was asked for.")
+        recipe = content.get("recipe")
+        return self.edit if recipe is None else edit_of(recipe)
+
+    def _save_for_browser(self, content: dict[str, Any], progress: Progress) -> Answer:
+        edit = self._asked_for(content)
+        progress(0.02, "Rendering at full size …")
+        suffix = _SUFFIXES.get(self.photo.format or "", ".png")
+        name = f"{Path(self.photo.name).stem}-sun{suffix}"
+        with tempfile.TemporaryDirectory() as folder:
+            path = self._save(edit, Path(folder) / f"picture{suffix}", progress=progress)
+            progress(1.0, "Sending the picture …")
+            data = path.read_bytes()
+        return {"name": name, "type": _TYPES[suffix]}, [data]
+
+    def _detail_for_browser(self, content: dict[str, Any], progress: Progress) -> Answer:
+        edit = self._asked_for(content)
+        box, pixels = detail(
+            self._base_scene(), edit, content.get("box"), content.get("size"), progress
+        )
+        return {"box": box}, [encode_picture(pixels)]
+
+    def _page_for_browser(self, content: dict[str, Any], progress: Progress) -> Answer:
+        edit = self._asked_for(content)
+        progress(0.05, "Writing the page …")
+        data = self._page(edit).encode("utf-8")
+        progress(1.0, "Sending the page …")
+        return {"name": f"{Path(self.photo.name).stem}-sun.html", "type": "text/html"}, [data]
+
+    def _thumbnail(self) -> bytes:
+        """Return a small PNG: the edit where it can be had at once, else the photo."""
+        from sunwidget.renderer.gl_thread import RendererError
+
+        # The first frame of a session takes a second, which an untouched photo is not worth.
+        if self.edit != Edit() and self._can_show_edits():
+            try:
+                return encode_small_png(self.render(size=self.photo.size_within(THUMBNAIL_EDGE)))
+            except RendererError:
+                pass
+        return thumbnail(self.photo)
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        return with_picture(super()._repr_mimebundle_(**kwargs), self._thumbnail)

@@ -1,0 +1,113 @@
+"""What SkyExplorer's browser side can ask the kernel for; ``requests.py`` routes it here."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.explorer import table
+from sunwidget.explorer.values import effective_values
+from sunwidget.formats.png import encode_png
+from sunwidget.progress import Progress
+from sunwidget.validation import measurements
+from sunwidget.widgets.kernel.requests import Action, Answer
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from sunwidget.widgets.explorer.sky_explorer import SkyExplorer
+
+_SNAPSHOT_SIZE = (960, 640)
+_LARGEST_SNAPSHOT = 4096
+
+
+def actions(explorer: SkyExplorer) -> dict[str, Action]:
+    """Return the answers to what the browser can ask for, by name."""
+
+    def values(content: dict[str, Any]) -> dict[str, float]:
+        """Return the uniforms of the traits, with the request's parameters laid over them."""
+        given = content.get("parameters") or {}
+        chosen = {name: table.checked(table.parameter(name), v) for name, v in given.items()}
+        return effective_values({**explorer.parameters(), **chosen})["edit"]
+
+    def bruneton(content: dict[str, Any], progress: Progress) -> Answer:
+        begin = perf_counter()
+        texture = np.ascontiguousarray(bruneton_slice(values(content), progress), np.float32)
+        rows, columns = texture.shape[:2]
+        seconds = perf_counter() - begin
+        return {"rows": rows, "cols": columns, "seconds": seconds}, [texture.tobytes()]
+
+    def bruneton_cost(content: dict[str, Any], _progress: Progress) -> Answer:
+        from sunwidget.renderer.bruneton import precomputed_sky as bruneton
+
+        air, orders = _air_and_orders(values(content))
+        cached = bruneton.is_cached(air, orders)
+        seconds = 0.0 if cached else bruneton.bruneton_cost(orders=orders)
+        return {"cached": cached, "seconds": seconds}, []
+
+    def rmse(content: dict[str, Any], progress: Progress) -> Answer:
+        from sunwidget.renderer.gl_thread import RendererError
+
+        measurements.load()  # fails at once, before a table is made, where nothing was measured
+        models, scan = content.get("models"), content.get("scan")
+        try:
+            rows = explorer.compare_measured(tuple(models or table.MODELS), scan, progress)
+        except RendererError:
+            if models:
+                raise
+            # Without EGL there is no table; the other models need none.
+            rest = tuple(name for name in table.MODELS if name != "bruneton")
+            rows = explorer.compare_measured(rest, scan, progress)
+        return {"rows": rows}, []
+
+    def code(_content: dict[str, Any], _progress: Progress) -> Answer:
+        return {"code": explorer.code()}, []
+
+    def download(_content: dict[str, Any], progress: Progress) -> Answer:
+        measurements.download(progress=progress)
+        explorer.refresh_scans()
+        return {"scans": scans()}, []
+
+    def snapshot(content: dict[str, Any], progress: Progress) -> Answer:
+        width, height = content.get("size") or _SNAPSHOT_SIZE
+        size = _snapshot_edge(width), _snapshot_edge(height)
+        picture = explorer.render(size, progress=progress)
+        return {"name": "sky.png", "type": "image/png"}, [encode_png(picture)]
+
+    return {
+        "bruneton": bruneton,
+        "bruneton_cost": bruneton_cost,
+        "rmse": rmse,
+        "code": code,
+        "download_measurements": download,
+        "snapshot": snapshot,
+    }
+
+
+def bruneton_slice(
+    values: Mapping[str, float], progress: Progress | None = None
+) -> NDArray[np.float32]:
+    """Return the slice of Bruneton's table for these uniforms; made first, if need be."""
+    from sunwidget.renderer.bruneton.precomputed_sky import bruneton_table
+
+    air, orders = _air_and_orders(values)
+    return bruneton_table(air, orders=orders, progress=progress).slice()
+
+
+def scans() -> list[dict[str, Any]]:
+    """Return the measured scans on this machine as the browser lists them, or none."""
+    return measurements.load().scans_json() if measurements.is_available() else []
+
+
+def _air_and_orders(values: Mapping[str, float]) -> tuple[Atmosphere, int]:
+    """Return what Bruneton's table depends on."""
+    air = Atmosphere(**{name: values[name] for name in table.AIR})
+    return air, round(values["scattering_orders"])
+
+
+def _snapshot_edge(pixels: Any) -> int:
+    return int(np.clip(pixels, 1, _LARGEST_SNAPSHOT))

@@ -1,0 +1,1 @@
+"""What every widget shares: traits, requests, threads, what travels to the browser."""

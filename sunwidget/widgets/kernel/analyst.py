@@ -1,0 +1,158 @@
+"""Analyse a photo behind a widget's back, and again whenever the person corrects something.
+
+One daemon thread at a time; while it works, newer corrections replace those not yet begun.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from sunwidget.analysis.analyze import analyze
+from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.scene import Scene
+from sunwidget.edit.table import Edit
+from sunwidget.widgets.kernel import background
+from sunwidget.widgets.kernel.known_scenes import remember
+
+Report = Callable[[str, float, str], None]
+
+
+class AnalysisCancelled(AnalysisError):  # noqa: N818 - a person's wish
+    """The analysis was cancelled."""
+
+
+class Analyst:
+    """Brings a scene up to date with the corrections of an edit.
+
+    Parameters
+    ----------
+    source : Photo or Scene
+        A photo is analysed first; a scene is only corrected.
+    options : dict
+        Keyword arguments of ``analyze``.
+    deliver : callable
+        ``deliver(scene)``, called on the thread with every new scene.
+    report : callable
+        ``report(stage, fraction, message)`` with stage "analysing", "ready", "cancelled" or
+        "error".
+    """
+
+    def __init__(
+        self,
+        source: Any,
+        options: dict[str, Any],
+        deliver: Callable[[Scene], None],
+        report: Report,
+    ) -> None:
+        self._base: Scene | None = source if isinstance(source, Scene) else None
+        self._photo = source
+        self._options = options
+        self._deliver = deliver
+        self._report = report
+        self._changed = threading.Condition()
+        self._wanted: Edit | None = None
+        self._busy = False
+        self._cancelled = False
+        self._scene: Scene | None = None
+        self._delivered: Scene | None = None
+        self._error: Exception | None = None
+
+    @property
+    def base(self) -> Scene | None:
+        """The scene without corrections, once there is one."""
+        return self._base
+
+    def ask(self, edit: Edit) -> None:
+        """Bring the scene up to date with the corrections of ``edit``; returns at once."""
+        with self._changed:
+            self._wanted = edit
+            if self._busy:
+                return
+            self._busy = True
+        background.start(self._work, name="sunwidget-analysis")
+
+    def cancel(self) -> None:
+        """End the work under way where it tells its progress next; without any do nothing.
+
+        What was corrected before stays. ``ask`` starts again.
+        """
+        with self._changed:
+            if self._busy:
+                self._cancelled = True
+                self._wanted = None
+
+    @property
+    def ready(self) -> bool:
+        """Whether the scene is up to date: ``wait`` would return at once."""
+        with self._changed:
+            return not self._busy and self._error is None and self._scene is not None
+
+    def wait(self, timeout: float | None = None) -> Scene:
+        """Block until the scene is up to date and return it.
+
+        Raises
+        ------
+        TimeoutError
+            After ``timeout`` seconds.
+        AnalysisError, PhotoError
+            What the analysis raised; AnalysisCancelled after ``cancel``.
+        """
+        with self._changed:
+            if not self._changed.wait_for(lambda: not self._busy, timeout):
+                raise TimeoutError(f"The analysis is not finished after {timeout:g} s.")
+            if self._error is not None:
+                raise self._error
+            assert self._scene is not None
+            return self._scene
+
+    def _work(self) -> None:
+        while True:
+            with self._changed:
+                edit, self._wanted = self._wanted, None
+                self._cancelled = False  # said of what was under way, which has ended
+                if edit is None:
+                    self._busy = False
+                    self._changed.notify_all()
+                    return
+            try:
+                self._update(edit)
+            except AnalysisCancelled as error:
+                with self._changed:
+                    self._error = error
+                self._tell("cancelled", "The analysis was cancelled.")
+            except Exception as error:  # noqa: BLE001 - shown to the person, raised by wait()
+                with self._changed:
+                    self._error = error
+                self._tell("error", str(error) or type(error).__name__)
+
+    def _tell(self, stage: str, message: str) -> None:
+        if not background.leaving():
+            self._report(stage, 1.0, message)
+
+    def _update(self, edit: Edit) -> None:
+        def progress(fraction: float, message: str) -> None:
+            with self._changed:
+                if self._cancelled or background.leaving():
+                    raise AnalysisCancelled("The analysis was cancelled. retry() starts it again.")
+            self._report("analysing", fraction, f"{message} …")
+
+        if self._base is None:
+            progress(0.0, "Analysing the photo")
+            self._base = analyze(self._photo, progress=progress, **self._options)
+            remember(self._base, self._options)
+        else:
+            progress(0.5, "Applying the correction")
+        scene = self._base.corrected(edit, progress)
+        progress(1.0, "Preparing the picture")
+        with self._changed:
+            self._error = None
+            newest = self._wanted is None
+            self._scene = scene
+        if newest:
+            # The same maps again, as when thresholds move that the method does not use.
+            if scene is not self._delivered:
+                self._deliver(scene)
+                self._delivered = scene
+            self._report("ready", 1.0, "")

@@ -1,0 +1,79 @@
+"""Rows of a parameter table as traits of a widget; the Edit's table unless another is given."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import anywidget
+import traitlets
+
+from sunwidget.edit.table import PARAMETERS, EditError, Parameter, checked, plain
+
+Check = Callable[[Parameter, Any], Any]
+
+
+class EditTrait(traitlets.TraitType):
+    """One parameter: whatever its table accepts for it, normalised as the table does.
+
+    A value that ``check`` refuses raises ``TraitError`` with the sentence that it says, and the
+    trait keeps what it held.
+
+    Parameters
+    ----------
+    parameter : Parameter
+        Row of the table.
+    check : callable, default ``edit.checked``
+        ``check(parameter, value)`` returns the value as it is kept, or raises ``EditError``.
+    """
+
+    def __init__(self, parameter: Parameter, check: Check = checked) -> None:
+        super().__init__(
+            default_value=parameter.default,
+            allow_none=parameter.default is None,
+            help=f"{parameter.help} {span_text(parameter)}".strip(),
+        )
+        self.parameter = parameter
+        self.check = check
+        self.tag(sync=True, to_json=_to_json, group=parameter.section)
+
+    def validate(self, _obj: Any, value: Any) -> Any:
+        """Return ``value`` as the table holds it."""
+        try:
+            return self.check(self.parameter, value)
+        except EditError as error:
+            raise traitlets.TraitError(str(error)) from None
+
+
+class AnswersRefusals(anywidget.AnyWidget):
+    """A widget that tells the browser when it does not take what that sent."""
+
+    _refusals: tuple[type[Exception], ...] = (traitlets.TraitError,)
+
+    def set_state(self, sync_data: dict[str, Any]) -> None:
+        """Take over what the browser sent; a value that is refused is answered, not raised."""
+        try:
+            super().set_state(sync_data)
+        except self._refusals as error:
+            self.send({"type": "error", "error": str(error)})
+            self.send_state([name for name in sync_data if name in self.keys])
+
+
+def edit_traits(
+    rows: Iterable[Parameter] = PARAMETERS, check: Check = checked
+) -> dict[str, EditTrait]:
+    """Return a trait for every row of the table, by name."""
+    return {p.name: EditTrait(p, check) for p in rows}
+
+
+def span_text(parameter: Parameter) -> str:
+    """Say range, unit and default of a parameter, for help texts."""
+    if parameter.kind != "number":
+        return ""
+    default = "found in the photo" if parameter.default is None else f"{parameter.default:g}"
+    span = f"{parameter.minimum:g} to {parameter.maximum:g} {parameter.unit}".rstrip()
+    return f"Range {span}; default {default}."
+
+
+def _to_json(value: Any, _widget: Any) -> Any:
+    return plain(value)

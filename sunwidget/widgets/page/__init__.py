@@ -1,0 +1,1 @@
+"""Widgets as HTML pages and in saved notebooks: no kernel."""
