@@ -81,7 +81,10 @@ export const shaderPlugin = {
           `export const files = ${JSON.stringify(texts)};\n` +
           `export const graph = ${JSON.stringify(graph)};\n`,
         loader: "js",
-        watchDirs: [shaders, join(shaders, "lib")],
+        watchDirs: readdirSync(shaders, { withFileTypes: true })
+          .filter((entry) => entry.isDirectory())
+          .map(({ name }) => join(shaders, name))
+          .concat(shaders),
       };
     });
   },

@@ -1,5 +1,5 @@
 // The peer's sky: single scattering marched for every pixel, and from every step towards the sun.
-// Follows lib/atmosphere.glsl, of which it uses geometry, densities and phases, but no table.
+// Follows atmosphere/atmosphere.glsl, of which it uses geometry, densities and phases, but no table.
 
 uniform vec3 camera_right;  // the level world's axes in the camera's coordinates
 uniform vec3 camera_up;

@@ -151,7 +151,7 @@ class Shader:
     def __init__(self, scene: Any, rays: Rays) -> None:
         self.rays = rays
         self.size = scene.camera.width, scene.camera.height
-        text = EGL_HEADER + resolve_includes("lib/atmosphere.glsl")
+        text = EGL_HEADER + resolve_includes("atmosphere/atmosphere.glsl")
         text += Path(__file__).with_name("march.glsl").read_text("utf-8")
         camera = scene.camera
         values = {

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 HERE = Path(__file__).parent
 JSON_PATH = HERE / "constants.json"
-GLSL_PATH = HERE.parent / "shaders" / "lib" / "constants.glsl"
+GLSL_PATH = HERE.parent / "shaders" / "atmosphere" / "constants.glsl"
 SPECTRUM_PATH = GLSL_PATH.with_name("spectrum.glsl")
 
 WAVELENGTHS = np.array([640.0, 580.0, 510.0, 440.0])
@@ -175,7 +175,7 @@ def constants() -> dict[str, Any]:
 
 
 def glsl(c: dict[str, Any]) -> str:
-    """Return the text of ``lib/constants.glsl``."""
+    """Return the text of ``atmosphere/constants.glsl``."""
 
     def vec4(values: list[float]) -> str:
         return "vec4(" + ", ".join(_float(v) for v in values) + ")"
@@ -202,7 +202,7 @@ def glsl(c: dict[str, Any]) -> str:
         f"const Length GROUND_RADIUS = {_float(c['ground_radius_m'])};",
         f"const Length TOP_RADIUS = {_float(c['top_radius_m'])};",
         f"const Length ATMOSPHERE_HEIGHT = {_float(c['top_radius_m'] - c['ground_radius_m'])};",
-        "// Standard air; what is drawn with are the uniforms of lib/atmosphere.glsl.",
+        "// Standard air; what is drawn with are the uniforms of atmosphere/atmosphere.glsl.",
         f"const Number RAYLEIGH_EXPONENT = {_float(c['rayleigh_exponent'])};",
         f"const Length RAYLEIGH_SCALE_HEIGHT = {_float(c['rayleigh_scale_height_m'])};",
         "// Above 40 km (0.9 % of the column) air thins faster; deep twilight comes from there.",
@@ -229,7 +229,7 @@ def glsl(c: dict[str, Any]) -> str:
 
 
 def spectrum_glsl(c: dict[str, Any]) -> str:
-    """Return the text of ``lib/spectrum.glsl``: what the curves need at any wavelength."""
+    """Return the text of ``atmosphere/spectrum.glsl``: what the curves need at any wavelength."""
     nm = np.array(c["table"]["wavelength_nm"])
     seen = (nm >= 380) & (nm <= 780)
     # Per Dobson unit, as in constants.glsl: cross-sections per molecule leave a float's range.

@@ -1,4 +1,4 @@
-"""The field of scattered light around a point, as moments: the twin of ``lib/multiple.glsl``.
+"""The field of scattered light around a point, as moments: twin of ``atmosphere/multiple.glsl``.
 
 Hillaire 2020 keeps its mean only and scatters it evenly. Moments up to second order are all that
 Rayleigh's phase function can see and most of what a haze does: the first two orders of scattering
@@ -317,7 +317,7 @@ def _moments(
     if orders == 2:
         return first
     # From one order to the next light spreads, until all of it falls by the same factor: the
-    # largest eigenvalue of scattering, see shaders/multiple_scattering.glsl.
+    # largest eigenvalue of scattering, see shaders/atmosphere/multiple_scattering.glsl.
     eigenvalue = np.minimum(_eigenvalue(a, extinction, quality), 0.95)
     third = second[:, :, :1] * np.sqrt(_gain(first, second) * eigenvalue)
     # What the series leaves out after its first n - 3 terms: nothing when it goes on for ever.

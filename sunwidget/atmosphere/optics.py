@@ -1,4 +1,4 @@
-"""Geometry, densities, phase functions, columns and transmittance; as ``lib/atmosphere.glsl``.
+"""Geometry, densities, phase functions, columns, transmittance; as ``atmosphere/atmosphere.glsl``.
 
 Lengths are metres, ``h`` an altitude above the ground, ``mu`` the cosine of a ray's zenith angle,
 ``nu`` that of the angle between ray and sun. Everything broadcasts and is float64.

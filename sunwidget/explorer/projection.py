@@ -1,4 +1,4 @@
-"""From pixels to directions and back: the twin of ``lib/projection.glsl``.
+"""From pixels to directions and back: the twin of ``explorer/projection.glsl``.
 
 Three projections: the dome (equidistant fisheye), the panorama (equirectangular, -10 to 90
 degrees) and the camera (perspective). Azimuths grow clockwise; in the dome one looks up, so east

@@ -36,7 +36,7 @@ Floats = NDArray[np.float32]
 _AT_ONCE = 8192
 # Share of the luminance that each channel keeps where a spectrum leaves Rec. 709, as in the frame.
 _LEAST_CHANNEL = 0.02
-# As lib/moonlight.glsl: full moon over sun, and the sky without either, kcd m⁻².
+# As sky/moonlight.glsl: full moon over sun, and the sky without either, kcd m⁻².
 MOON_OVER_SUN = np.array([1.1, 1.0, 0.8]) / 402_000
 """Full moon over sun, by channel."""
 _NIGHT_SKY = np.array([2.6e-7, 2.5e-7, 2.3e-7])

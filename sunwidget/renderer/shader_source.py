@@ -62,7 +62,7 @@ def part_shaders(row: Mapping[str, Any]) -> dict[str, float]:
     """Return the shaders that draw the pass of ``row`` and the depth of each.
 
     Only a pass with ``parts`` has more than its own: ``parts["by"]`` writes which of them draws
-    a pixel as a depth (``lib/part.glsl``), and those are drawn where it equals theirs.
+    a pixel as a depth (``frame/part.glsl``), and those are drawn where it equals theirs.
     """
     shaders = [*row.get("parts", {}).get("shaders", []), row["shader"]]
     return {shader: 0.5 * (part + 1) - 1 for part, shader in enumerate(shaders)}

@@ -3,7 +3,7 @@
 Passes that are not of the picture's size (shadows, mirrored sky, the sun's visibility …) read a
 copy of all of it; those that are read scene textures of the strip's rows alone. So the memory that
 a picture takes on the GPU does not grow with it, and no side of it needs to fit into a texture:
-rows that do not are folded, their pieces one below the other (lib/strip.glsl).
+rows that do not are folded, their pieces one below the other (frame/strip.glsl).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ RESIDENT_PIXELS = 1 << 23
 COPY_EDGE = 2048
 # What a strip has of it at most: six RGBA32F targets of 1 MP are 100 MB.
 STRIP_PIXELS = 1 << 20
-_MARGIN = 1  # rows: what a pixel reads around it (retouch.glsl)
+_MARGIN = 1  # rows: what a pixel reads around it (clouds/retouch.glsl)
 
 
 def is_resident(size: Size, limit: int) -> bool:

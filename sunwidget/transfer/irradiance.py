@@ -1,6 +1,6 @@
 """The light on a scene's land, from its fitted atmosphere, in the photo's own exposure.
 
-The NumPy twin of shaders/light.glsl and lib/daylight.glsl, for two photos that are
+The NumPy twin of shaders/atmosphere/light.glsl and sky/daylight.glsl, for two photos that are
 compared once: sky by summing the model over the sky, sun by its transmittance.
 """
 

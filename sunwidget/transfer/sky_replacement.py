@@ -124,7 +124,7 @@ def _composed(
 def _sky_share(
     matte: np.ndarray, light: np.ndarray, behind: np.ndarray, glare: np.ndarray
 ) -> np.ndarray:
-    """Share of each pixel's light that is sky, as GetSkyShare in frame.glsl.
+    """Share of each pixel's light that is sky, as GetSkyShare in frame/frame.glsl.
 
     Twigs before a bright sky are mostly sky; the light behind is known, and the rest is their
     own, without the old sky's tint.

@@ -384,12 +384,13 @@ def test_a_shader_that_does_not_compile_shows_its_line(page, state):
     message = page.evaluate(
         """() => {
           const graph = frame.graph;
-          graph.programs.delete("frame");
-          graph.files = { ...graph.files, "frame.glsl": "void main() {\\n  nonsense = 1.0;\\n}" };
+          graph.programs.delete("frame/frame");
+          const text = "void main() {\\n  nonsense = 1.0;\\n}";
+          graph.files = { ...graph.files, "frame/frame.glsl": text };
           try { drawn({}); } catch (error) { return error.message; }
         }"""
     )
-    assert 'Shader "frame" does not compile' in message
+    assert 'Shader "frame/frame" does not compile' in message
     assert "nonsense = 1.0;" in message
 
 

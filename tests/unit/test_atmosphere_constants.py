@@ -15,7 +15,7 @@ from sunwidget.renderer.shader_source import read_shader
 
 
 def glsl_constant(name):
-    text = re.sub(r"//.*", "", read_shader("lib/constants.glsl"))
+    text = re.sub(r"//.*", "", read_shader("atmosphere/constants.glsl"))
     match = re.search(rf"const \w+ {name} = ([^;]+);", text)
     assert match, name
     numbers = re.findall(r"-?\d+\.\d*(?:e[-+]?\d+)?|-?\d+e[-+]?\d+", match[1])
@@ -54,9 +54,12 @@ def test_committed_constants_are_what_the_generator_writes():
 
     generated = generate()
     assert generated["solar_W_m2_nm"] == pytest.approx(constants.solar_irradiance(), rel=1e-6)
-    assert read_shader("lib/constants.glsl").splitlines()[:20] == glsl(generated).splitlines()[:20]
+    assert (
+        read_shader("atmosphere/constants.glsl").splitlines()[:20]
+        == glsl(generated).splitlines()[:20]
+    )
     # The matrices at the end are least squares, to which another BLAS gives other last digits.
-    committed, made = read_shader("lib/spectrum.glsl"), spectrum_glsl(generated)
+    committed, made = read_shader("atmosphere/spectrum.glsl"), spectrum_glsl(generated)
     assert committed.split("const mat4x3")[0] == made.split("const mat4x3")[0]
 
 

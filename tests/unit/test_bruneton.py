@@ -119,14 +119,14 @@ def drawn(cut, air, sun, views, grid=(96, 80)):
         inputs = {"bruneton": "bruneton"}
         row = {
             "name": "bruneton_view",
-            "shader": "bruneton_view",
+            "shader": "bruneton/view",
             "size": "grid",
             "format": "rgba32f",
             "inputs": inputs,
         }
         graph = FrameGraph(Programs(context), {"bruneton": cut})
         graph._run_pass(row, grid, values, {}, {"tile_origin": (0, 0)})
-        text = EGL_HEADER + resolve_includes("lib/sky.glsl") + PROBE
+        text = EGL_HEADER + resolve_includes("atmosphere/read_sky_view.glsl") + PROBE
         probe = context.program(vertex_shader=FULL_SCREEN_TRIANGLE, fragment_shader=text)
         listed = np.zeros((1, len(views), 4), np.float32)
         listed[0, :, :3] = views

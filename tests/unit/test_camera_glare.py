@@ -79,7 +79,7 @@ def test_glare_is_as_bright_as_the_response_draws_white():
 
 
 def sun_color(fit):
-    """The colour of the glare as terms.glsl has it, of luminance 1."""
+    """The colour of the glare as frame/composite_constants.glsl has it, of luminance 1."""
     gain = np.array(fit.gain)
     color = np.sqrt(beam(fit) * (gain if gain[0] > gain[2] else 1.0))
     return color / (color @ LUMINANCE)

@@ -105,11 +105,11 @@ def test_cloud_strength_zero_relights_clouds_as_the_sky_behind_them():
     now, before = (render_pass(scene, moved, f"sky_{state}") for state in ("edit", "source"))
     ratio = now[..., :3] / before[..., :3]
     # Plain ratio in the sky, where the photo is trusted and the ratio not extreme, but for the
-    # little colour that a cloud has beside the model (lib/tint.glsl).
+    # little colour that a cloud has beside the model (sky/tint.glsl).
     plain = (scene.sky == 1) & (scene.surface()[..., 0] < 1e-4) & (scene.clouds > 0.2)
     plain &= np.abs(np.log2(ratio.mean(-1))) < 2
     assert plain.sum() > 30
-    # Light that the sky has beside the model fades, too (GetFadedLight, lib/relit_sky.glsl).
+    # Light that the sky has beside the model fades, too (GetFadedLight, sky/relit_sky.glsl).
     own, more = np.moveaxis(
         cv2.resize(render_pass(scene, moved, "own_sky")[..., :2], scene.sky.shape[::-1]), -1, 0
     )
@@ -121,7 +121,7 @@ def test_cloud_strength_zero_relights_clouds_as_the_sky_behind_them():
         -share * own / np.sqrt(1 + (own / 0.7) ** 2)
         - np.maximum(gone - share, 0) * more / np.sqrt(1 + (more / 1.2) ** 2)
     )
-    # So does a low sun redden what lies about it (GetLowSunChange, lib/low_sun.glsl).
+    # So does a low sun redden what lies about it (GetLowSunChange, sky/low_sun.glsl).
     near = np.exp((np.cos(np.radians(away_from(scene, -15, 3))) - 1) / 0.05)[..., None]
     far = np.array([0.38, -0.12, -0.17]) - 0.6
     low = 2 ** (0.3 * (far + near * (np.array([0.42, -0.08, -1.21]) - far)))

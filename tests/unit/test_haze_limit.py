@@ -59,12 +59,12 @@ def test_a_told_depth_is_not_doubted_and_a_guess_is():
 
 
 def test_the_air_is_the_shaders():
-    text = (files("sunwidget") / "shaders/lib/extinction.glsl").read_text("utf-8")
+    text = (files("sunwidget") / "shaders/atmosphere/extinction.glsl").read_text("utf-8")
     scattering, steps = (
         [float(v) for v in re.search(rf"{name} = vec3\((.*)\)", text)[1].split(",")]
         for name in ("kAirScattering", "kWavelengthSteps")
     )
     assert scattering == list(haze_limit._AIR_SCATTERING)
     assert steps == list(haze_limit._STEPS)
-    air = (files("sunwidget") / "shaders/lib/air.glsl").read_text("utf-8")
+    air = (files("sunwidget") / "shaders/land/read_air.glsl").read_text("utf-8")
     assert f"kFarthestAir = {haze_limit._FARTHEST_AIR:.1f};" in air

@@ -120,7 +120,7 @@ def in_the_open():
 
 def test_a_slope_towards_the_sun_gains_by_shading():
     # A sun behind the camera lights the wall; without shading what is below the horizon lies,
-    # but for a little just below it (GetUprightness, lib/land.glsl).
+    # but for a little just below it (GetUprightness, land/land.glsl).
     moved = Edit(sun_azimuth=175, sun_elevation=10, gloss=0, cast_shadows=0)
     wall = places(lambda z, y, x: (z == WALL) & (x > 0.65) & (x < 0.95) & (y > 0.68))
     assert wall.any()

@@ -172,7 +172,7 @@ def test_it_is_within_what_browsers_understand():
     def task(context):
         if "GL_ARB_ES3_compatibility" not in context.extensions:
             pytest.skip("this driver compiles no GLSL ES")
-        for shader in ("reference", "bruneton_view"):
+        for shader in ("explorer/reference", "bruneton/view"):
             text = header + resolve_includes(f"{shader}.glsl")
             context.program(vertex_shader=corner, fragment_shader=text)
 

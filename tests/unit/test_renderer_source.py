@@ -3,12 +3,14 @@
 import functools
 import re
 from importlib.resources import files
+from pathlib import Path
 
 import pytest
 
 from sunwidget.edit.table import METHODS, NUMBERS, PARAMETERS
 from sunwidget.explorer.table import EXPLORER_PARAMETERS, MODELS
 from sunwidget.renderer import shader_source
+from sunwidget.renderer.bruneton.precomputation import PASSES
 from sunwidget.renderer.shader_source import frame_graph, read_shader, resolve_includes
 
 SCENE_TEXTURES = {
@@ -48,11 +50,7 @@ SHADERS = sorted(shaders_of(ROWS))
 EXPLORERS = shaders_of(frame_graph("explorer")["passes"])
 EDITORS = shaders_of(frame_graph()["passes"])
 # Bruneton's table is made once for an atmosphere, outside the graphs (renderer/bruneton).
-PRECOMPUTED = {
-    f.name.removesuffix(".glsl")
-    for f in files("sunwidget").joinpath("shaders").iterdir()
-    if f.name.startswith("bruneton_")
-} - set(SHADERS)
+PRECOMPUTED = set(PASSES)
 # What a run of the explorer is asked for, beside the models: single terms of the sky.
 ASKED = {*MODELS, "orders"}
 _DECLARATION = re.compile(r"^\s*uniform\s+(\w+)\s+(\w+)\s*;", re.MULTILINE)
@@ -134,24 +132,33 @@ def test_sampling_is_texel_fetch_only_so_that_no_filter_state_exists():
         assert not re.search(r"\btexture(Lod|Grad|Offset|2D)?\s*\(", text), shader
 
 
-def test_every_shader_file_is_drawn_by_some_pass():
-    folder = files("sunwidget").joinpath("shaders")
-    names = {f.name.removesuffix(".glsl") for f in folder.iterdir() if f.name.endswith(".glsl")}
-    assert names == set(SHADERS) | PRECOMPUTED
+def shader_files():
+    """Path in the package and text of every shader file."""
+    folder = Path(str(files("sunwidget").joinpath("shaders")))
+    return {p.relative_to(folder).as_posix(): p.read_text("utf-8") for p in folder.rglob("*.glsl")}
 
 
-def test_every_library_file_is_included_by_some_pass():
-    used = set()
-    for shader in [*SHADERS, *PRECOMPUTED]:
-        pending = [f"{shader}.glsl"]
-        while pending:
-            found = re.findall(r'#include "([^"]+)"', read_shader(pending.pop()))
-            pending += [name for name in found if name not in used]
-            used |= set(found)
-    folder = files("sunwidget").joinpath("shaders", "lib")
-    # A shader of a part of a pass includes the pass's own.
-    used -= {f"{name}.glsl" for name in SHADERS}
-    assert {f"lib/{f.name}" for f in folder.iterdir()} == used
+def test_every_shader_that_draws_is_drawn_by_some_pass():
+    drawing = re.compile(r"^void (main|SetConstants)\(\)", re.MULTILINE)
+    draws = {name for name, text in shader_files().items() if drawing.search(text)}
+    drawn = {f"{name}.glsl" for name in {*SHADERS, *PRECOMPUTED}}
+    assert draws <= drawn
+    assert drawn <= shader_files().keys()
+
+
+def test_every_other_file_is_included_by_some_pass():
+    used = {f"{name}.glsl" for name in {*SHADERS, *PRECOMPUTED}}
+    pending = sorted(used)
+    while pending:
+        found = re.findall(r'^ *#include "([^"]+)"', read_shader(pending.pop()), re.MULTILINE)
+        pending += [name for name in found if name not in used]
+        used |= set(found)
+    assert used == shader_files().keys()
+
+
+def test_no_two_shader_files_share_a_name():
+    names = [path.rsplit("/", 1)[1] for path in shader_files()]
+    assert len(names) == len(set(names))
 
 
 @pytest.mark.parametrize("method", METHODS)

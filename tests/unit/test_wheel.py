@@ -20,7 +20,7 @@ KINDS = (
     r".*\.py",
     r"py\.typed",
     r"samples/\w+\.jpg",
-    r"shaders/(lib/)?\w+\.glsl",
+    r"shaders/\w+/\w+\.glsl",
     r"shaders/\w+\.json",
     r"atmosphere/constants\.json",
     r"analysis/models/(sky\.onnx|suns\.onnx|land\.onnx|panes\.onnx|MODEL_CARD\.md)",

@@ -1,4 +1,4 @@
-"""Learn what photos of a low sun show beyond a clear sky's model (shaders/lib/low_sun.glsl).
+"""Learn what photos of a low sun show beyond a clear sky's model (shaders/sky/low_sun.glsl).
 
     python -m training.skies.low_sun DATA [--photos 100]
 

@@ -1,6 +1,6 @@
 /**
  * From pixels to directions and back, three ways: the browser's twin of
- * `sunwidget/shaders/lib/projection.glsl` and `sunwidget/explorer/projection.py`.
+ * `sunwidget/shaders/explorer/projection.glsl` and `sunwidget/explorer/projection.py`.
  *
  * dome: equidistant fisheye, zenith in the middle, `view_azimuth` at the top; one looks up, so
  * east lies to the left of north. panorama: equirectangular, −10 to 90 degrees. camera:

@@ -40,7 +40,7 @@ class Backdrop:
     glare: np.ndarray
 
 
-_OCTAVES, _FINE = 10.0, 64.0  # as shaders/lib/response.glsl
+_OCTAVES, _FINE = 10.0, 64.0  # as shaders/camera/response.glsl
 
 
 def to_code(light: np.ndarray) -> np.ndarray:

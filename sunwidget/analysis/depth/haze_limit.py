@@ -16,9 +16,9 @@ from sunwidget.geometry.camera import Camera
 
 _SIDE = 320  # pixels of the copy that is looked at
 _PATCH = 0.03  # of the longer side: within which something dark is found
-_AIR_SCATTERING = np.array([7.5e-6, 1.17e-5, 2.32e-5])  # as shaders/lib/extinction.glsl
+_AIR_SCATTERING = np.array([7.5e-6, 1.17e-5, 2.32e-5])  # as shaders/atmosphere/extinction.glsl
 _STEPS = np.array([0.154, -0.0026, -0.242])
-_FARTHEST_AIR = 15000.0  # as shaders/lib/air.glsl
+_FARTHEST_AIR = 15000.0  # as shaders/land/read_air.glsl
 _NO_LAND = 1e6  # scene-linear light of what is not asked
 _ANYWHERE = 12.0  # ln(metres)
 _JUST_ABOVE = 0.6  # degrees over the horizon

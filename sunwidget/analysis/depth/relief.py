@@ -11,14 +11,14 @@ from sunwidget.analysis.networks.land import LandMaps, of_suns
 from sunwidget.geometry.camera import Camera
 
 _EDGES, _NO_EDGE = 4, 4e-4  # pixels of the working copy; squared contrast that is no edge
-_LARGEST_SHARE = 2.0  # as in shaders/lib/transfer.glsl
+_LARGEST_SHARE = 2.0  # as in shaders/land/read_transfer.glsl
 
 
 def encoded(maps: LandMaps, working: Working) -> np.ndarray:
     """Return the texture ``relief`` at working size, (h, w, 4) float32 in [0, 1].
 
     The normal's right and up as (1 + n) / 2, what of the sun reaches the surface, and the cosine
-    between normal and sun (shaders/lib/relief.glsl). The edges of shadows are the picture's.
+    between normal and sun (shaders/land/relief.glsl). The edges of shadows are the picture's.
     """
     width, height = working.width, working.height
     slope = resize(np.ascontiguousarray(0.5 + 0.5 * maps.normal[..., :2]), width, height)
@@ -30,7 +30,7 @@ def encoded(maps: LandMaps, working: Working) -> np.ndarray:
 def encoded_transfer(maps: LandMaps) -> np.ndarray:
     """Return the texture ``transfer``, (3 h, w, 4) float32 in [0, 1].
 
-    The shares' signed roots, four above four above four (shaders/lib/transfer.glsl).
+    The shares' signed roots, four above four above four (shaders/land/read_transfer.glsl).
     """
     root = np.sqrt(np.minimum(np.abs(maps.transfer) / _LARGEST_SHARE, 1))
     code = (0.5 + 0.5 * np.copysign(root, maps.transfer)).astype(np.float32)

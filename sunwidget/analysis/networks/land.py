@@ -65,7 +65,7 @@ def of_suns(direction: np.ndarray) -> np.ndarray:
     Returns
     -------
     (..., 12)
-        As ``training/land/model.py`` and ``shaders/lib/transfer.glsl`` have them.
+        As ``training/land/model.py`` and ``shaders/land/read_transfer.glsl`` have them.
     """
     x, height, z = np.moveaxis(direction, -1, 0)
     height = np.maximum(height, 0)

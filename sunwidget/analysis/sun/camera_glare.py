@@ -30,7 +30,7 @@ from sunwidget.geometry.camera import Camera
 Profile = tuple[float, float, float]
 
 # Of cameras that are not known, in units of a picture's width and of the light of its middle grey:
-# with lib/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
+# with frame/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
 _CORE, _LEVEL, _POWER = 0.02, 23.0, 1.3
 _LEAST, _MOST = 0.1, 3.0  # of that, whatever was measured
 _BURNT = (0.6, 0.9)  # display-linear light of the least channel: a coloured disc, a white one
@@ -170,7 +170,7 @@ def measured_glare(
 
 
 def before_roll_off(light: np.ndarray, response: Response) -> np.ndarray:
-    """Return the light that lib/frame_output.glsl draws as bright as the photo has ``light``."""
+    """Return the light that frame/frame_output.glsl draws as bright as the photo has ``light``."""
     knee, burns = 0.5, 1.06
     w = max(response.shoulder, 1e-4)
     over = np.clip((response.display_light(light) - knee) / (1 - knee) / burns, 0, 0.9)

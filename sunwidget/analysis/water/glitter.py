@@ -8,7 +8,7 @@ from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize
 from sunwidget.geometry.camera import Camera
 
 SIDE = 256  # px: waves average out
-STANDARD_VARIANCE = 0.5 * (1e-3 + 3.16e-3 * 5 + 3e-3 + 1.92e-3 * 5)  # lib/glint.glsl at 5 m/s
+STANDARD_VARIANCE = 0.5 * (1e-3 + 3.16e-3 * 5 + 3e-3 + 1.92e-3 * 5)  # water/glint.glsl at 5 m/s
 _FALL = 300.0
 _WIDTH = 0.3  # of the picture's width: how far from under the sun glints are looked for
 

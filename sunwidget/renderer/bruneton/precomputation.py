@@ -25,11 +25,11 @@ if TYPE_CHECKING:
 
 
 PASSES = (
-    "bruneton_first",
-    "bruneton_incident",
-    "bruneton_irradiance",
-    "bruneton_source",
-    "bruneton_table",
+    "bruneton/first",
+    "bruneton/incident",
+    "bruneton/irradiance",
+    "bruneton/source",
+    "bruneton/table",
 )
 """Shaders that are run here only; ``bruneton_view`` is a pass of the explorer's frame graph."""
 
@@ -38,7 +38,7 @@ ALL_ORDERS = 8
 
 _MOST_ORDERS = 24
 _LAST_SHARE = 0.003  # of the light, that a geometric series may stand for
-_DIRECTIONS = (16, 16)  # zeniths and azimuths of the quadrature, as in lib/bruneton_field.glsl
+_DIRECTIONS = (16, 16)  # zeniths and azimuths of the quadrature, as in bruneton/field.glsl
 _BAND_SECONDS = 0.15
 _FIRST_BAND_TEXELS = 2048
 
@@ -61,10 +61,10 @@ class Size:
         r, mu_s, theta, phi = self.field
         incident = r * mu_s * math.prod(_DIRECTIONS)
         return {
-            "bruneton_first": incident,
-            "bruneton_incident": incident,
-            "bruneton_source": 2 * r * mu_s * theta * phi,
-            "bruneton_table": math.prod(self.table),
+            "bruneton/first": incident,
+            "bruneton/incident": incident,
+            "bruneton/source": 2 * r * mu_s * theta * phi,
+            "bruneton/table": math.prod(self.table),
         }
 
 
@@ -96,9 +96,9 @@ class Precomputation:
         cost = size.texels()
         # Relative cost of one texel of each pass, for the progress alone.
         more = self.orders - 1
-        self.todo_before_tables = 3.0 * (cost["bruneton_first"] + more * cost["bruneton_source"])
-        self.todo_before_tables += 10.0 * max(more - 1, 0) * cost["bruneton_incident"]
-        self.todo = self.todo_before_tables + 16.0 * cost["bruneton_table"]
+        self.todo_before_tables = 3.0 * (cost["bruneton/first"] + more * cost["bruneton/source"])
+        self.todo_before_tables += 10.0 * max(more - 1, 0) * cost["bruneton/incident"]
+        self.todo = self.todo_before_tables + 16.0 * cost["bruneton/table"]
         self.done = 0.0
 
     def run(self) -> Floats:
@@ -113,25 +113,25 @@ class Precomputation:
         zeniths, azimuths = _DIRECTIONS
         directions = (mu_s * azimuths, r * zeniths)
         source_size, irradiance_size = (mu_s * phi, 2 * r * theta), (mu_s, 1)
-        self._draw("columns", "columns", (256, 64), 0.0)
-        self._draw("bruneton_first", "incident", directions, 3.0)
+        self._draw("atmosphere/columns", "columns", (256, 64), 0.0)
+        self._draw("bruneton/first", "incident", directions, 3.0)
         sources, irradiances = [], []
         for order in range(2, (_MOST_ORDERS if self.all else self.orders) + 1):
             message = f"scattering, order {order}"
-            self._draw("bruneton_irradiance", "irradiance", irradiance_size, 0.0, message)
-            self._draw("bruneton_source", "source", source_size, 3.0, message)
+            self._draw("bruneton/irradiance", "irradiance", irradiance_size, 0.0, message)
+            self._draw("bruneton/source", "source", source_size, 3.0, message)
             irradiances.append(self._read("irradiance"))
             sources.append(self._read("source"))
             if self._is_last(order, sources):
                 break
-            self._draw("bruneton_incident", "incident", directions, 10.0, message)
+            self._draw("bruneton/incident", "incident", directions, 10.0, message)
         self.done = self.todo_before_tables
         self.upload("source", self._sum(sources, source_size))
         self.upload("irradiance", self._sum(irradiances, irradiance_size))
         tables = []
         for part, message in enumerate(("single scattering", "haze", "all orders")):
             weight = 10.0 if part == 2 else 3.0
-            self._draw("bruneton_table", "table", self.size.atlas, weight, message, part=part)
+            self._draw("bruneton/table", "table", self.size.atlas, weight, message, part=part)
             tables.append(self._read("table"))
         r, mu, mu_s, nu = self.size.table
         return np.stack(tables).reshape(3, r, mu_s, mu, nu, 4)
@@ -173,7 +173,7 @@ class Precomputation:
 
         framebuffer = on_gl_thread(prepare)
         # More orders than expected stand still in the progress, fewer leap ahead.
-        limit = self.todo if shader == "bruneton_table" else self.todo_before_tables
+        limit = self.todo if shader == "bruneton/table" else self.todo_before_tables
         top, rows = 0, max(1, _FIRST_BAND_TEXELS // width)
         while top < height:
             band = (0, top, width, min(rows, height - top))
@@ -265,9 +265,9 @@ def measured_rates() -> dict[str, float]:
             framebuffer = context.framebuffer([work.textures["target"]])
             bound = {name: work.textures[name] for name in shapes if name != "target"}
             for kind, shader, part in (
-                ("single", "bruneton_table", 0),
-                ("gather", "bruneton_table", 2),
-                ("source", "bruneton_source", 0),
+                ("single", "bruneton/table", 0),
+                ("gather", "bruneton/table", 2),
+                ("source", "bruneton/source", 0),
             ):
                 values = {**work.values, "part": part}
                 # The first draw compiles.

@@ -1,12 +1,12 @@
 """The precomputed sky: all orders of scattering for every altitude, view and sun, in one table.
 
 After Bruneton & Neyret, "Precomputed Atmospheric Scattering" (2008) and Bruneton's second
-implementation (2017), with shaders of our own (``shaders/bruneton_*.glsl``, run on EGL by
+implementation (2017), with shaders of our own (``shaders/bruneton/``, run on EGL by
 ``precomputation.py``). A table is made for one state of the air, once: then the sun and the camera
 move for nothing. It differs from his in this: four wavelengths; single scattering by haze in a
 table of its own; samples where light varies most, and logarithms between them
-(``lib/bruneton.glsl``); and orders that are iterated on a quadrature of directions, so that the
-large table is filled once at the end and not for every order.
+(``bruneton/coordinates.glsl``); and orders that are iterated on a quadrature of directions, so that
+the large table is filled once at the end and not for every order.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float32]
 
-# As in lib/bruneton.glsl.
+# As in bruneton/coordinates.glsl.
 _LOWEST_SUN, _TERMINATOR, _DAY, _NIGHT = -0.314, 0.36, 0.1, 0.08
 _DARK = np.float32(1e-12)
 
@@ -107,7 +107,7 @@ class BrunetonTable:
     ) -> NDArray[np.float64]:
         """Return the sky's radiance in W m⁻² sr⁻¹ nm⁻¹, shape (..., 4): see ``SkyTable.radiance``.
 
-        The look-up of ``bruneton_view.glsl`` in NumPy.
+        The look-up of ``bruneton/view.glsl`` in NumPy.
         """
         elevation, azimuth, sun = np.broadcast_arrays(
             *(
@@ -199,10 +199,13 @@ def bruneton_cost(size: str = "small", orders: int = 0) -> float:
     texels = samples.texels()
     rates = measured_rates()
     repeated = (orders or ALL_ORDERS) - 1
-    work = texels["bruneton_first"] + 2 * texels["bruneton_table"], texels["bruneton_table"]
+    work = (
+        texels["bruneton/first"] + 2 * texels["bruneton/table"],
+        texels["bruneton/table"],
+    )
     seconds = work[0] * rates["single"] + work[1] * rates["gather"]
-    each = texels["bruneton_incident"] * rates["gather"]
-    each += texels["bruneton_source"] * rates["source"]
+    each = texels["bruneton/incident"] * rates["gather"]
+    each += texels["bruneton/source"] * rates["source"]
     return float(seconds + repeated * each)
 
 
@@ -215,7 +218,7 @@ def _size(name: str) -> Size:
 def _key(atmosphere: Atmosphere, orders: int, size: Size) -> str:
     air = {name: value for name, value in atmosphere.parameters().items() if name != "altitude"}
     # The expanded shaders are part of the key: whoever changes one makes new tables.
-    shaders = [resolve_includes(f"{name}.glsl") for name in ("columns", *PASSES)]
+    shaders = [resolve_includes(f"{name}.glsl") for name in ("atmosphere/columns", *PASSES)]
     return table_cache.key(air, orders, dataclasses.astuple(size), shaders)
 
 
@@ -224,7 +227,7 @@ def _altitude_coordinate(h: float) -> float:
 
 
 def _view_coordinate(h: float, mu: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Twin of GetViewCoordinate in ``lib/bruneton.glsl``."""
+    """Twin of GetViewCoordinate in ``bruneton/coordinates.glsl``."""
     rho = math.sqrt(h * (2 * GROUND_RADIUS + h))
     d, ground = optics.distance_to_boundary(h, mu)
     shortest = optics.ATMOSPHERE_HEIGHT - h
@@ -235,13 +238,13 @@ def _view_coordinate(h: float, mu: NDArray[np.float64], count: int) -> NDArray[n
 
 
 def _fading(mu_s: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Twin of GetFading in ``lib/bruneton.glsl``."""
+    """Twin of GetFading in ``bruneton/coordinates.glsl``."""
     below = np.minimum(mu_s, 0)
     return np.asarray(np.exp(-0.5 * GROUND_RADIUS / TWILIGHT_SCALE_HEIGHT * below**2))
 
 
 def _sun_coordinate(mu_s: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Twin of GetSunCoordinate in ``lib/bruneton.glsl``."""
+    """Twin of GetSunCoordinate in ``bruneton/coordinates.glsl``."""
     e = np.arcsin(np.clip(mu_s, -1, 1))
     night = _TERMINATOR * (1 - np.arcsinh(-e / _NIGHT) / np.arcsinh(-_LOWEST_SUN / _NIGHT))
     day = _TERMINATOR + (1 - _TERMINATOR) * np.arcsinh(e / _DAY) / np.arcsinh(0.5 * np.pi / _DAY)
@@ -249,7 +252,7 @@ def _sun_coordinate(mu_s: NDArray[np.float64], count: int) -> NDArray[np.float64
 
 
 def _azimuth_coordinate(cosine: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Twin of GetAzimuthCoordinate in ``lib/bruneton.glsl``."""
+    """Twin of GetAzimuthCoordinate in ``bruneton/coordinates.glsl``."""
     angle = np.arccos(np.clip(cosine, -1, 1))
     index = np.minimum(np.floor(angle / np.pi * (count - 1)), count - 2)
     near, far = np.cos(np.pi * index / (count - 1)), np.cos(np.pi * (index + 1) / (count - 1))

@@ -1,0 +1,61 @@
+// Radiance of once-scattered sunlight at a point, per unit of solar irradiance (1/sr), for the
+// quadrature of the light field. See atmosphere/multiple.glsl.
+
+#include "atmosphere/multiple.glsl"
+
+uniform vec2 pass_size;
+uniform vec2 tile_origin;
+uniform sampler2D columns;
+out vec4 result;
+
+const int STEPS = 20;
+const int LOBE_SAMPLES = 5;
+
+// Mean of the aerosol's phase function over the cell of directions that a node stands for: a
+// node that a narrow lobe falls on would else count it for the whole cell.
+Number GetMeanMiePhase(int zenith, int azimuth, Number mu_s) {
+  float side = zenith < 4 ? 1.0 : -1.0;
+  int node = zenith < 4 ? zenith : zenith - 4;
+  float level = sqrt(1.0 - mu_s * mu_s);
+  float sum = 0.0;
+  for (int i = 0; i < LOBE_SAMPLES; ++i) {
+    float part = (float(i) + 0.5) / float(LOBE_SAMPLES);
+    float mu = side * mix(EDGES[node], EDGES[node + 1], part);
+    float across = sqrt(1.0 - mu * mu) * level;
+    for (int k = 0; k < LOBE_SAMPLES; ++k) {
+      float turn = (float(azimuth) + (float(k) + 0.5) / float(LOBE_SAMPLES)) / float(AZIMUTHS);
+      sum += MiePhase(aerosol_asymmetry, mu * mu_s + across * cos(PI * turn));
+    }
+  }
+  return sum / float(LOBE_SAMPLES * LOBE_SAMPLES);
+}
+
+void main() {
+  FieldRay ray = GetFieldRay(ivec2(gl_FragCoord.xy + tile_origin), ivec2(pass_size), AZIMUTHS);
+  mat3x4 coefficients = GetExtinctionCoefficients();
+  float rayleigh_phase = RayleighPhase(ray.nu);
+  float mie_phase = GetMeanMiePhase(ray.tile.y, ray.tile.x, ray.mu_s) * aerosol_albedo;
+  float r = GROUND_RADIUS + ray.h;
+  vec4 transmittance = vec4(1.0);
+  vec4 radiance = vec4(0.0);
+  for (int i = 0; i < STEPS; ++i) {
+    float u = (float(i) + 0.5) / float(STEPS);
+    float t = ray.d * u * u;
+    float dt = 2.0 * ray.d * u / float(STEPS);
+    float h_t = GetAltitudeAlongRay(ray.h, ray.mu, t);
+    float mu_s_t = clamp((r * ray.mu_s + t * ray.nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
+    vec3 density = GetDensity(h_t);
+    vec4 rayleigh = coefficients[0] * density.x;
+    vec4 mie = coefficients[1] * density.y;
+    vec4 extinction = coefficients * density;
+    radiance += transmittance * (rayleigh * rayleigh_phase + mie * mie_phase)
+        * GetTransmittanceToSun(columns, h_t, mu_s_t) * IntegrateTransmittance(extinction, dt);
+    transmittance *= exp(-(extinction * dt));
+  }
+  if (ray.ground) {
+    float mu_s_ground = clamp((r * ray.mu_s + ray.d * ray.nu) / GROUND_RADIUS, -1.0, 1.0);
+    radiance += transmittance * ground_albedo / PI * max(mu_s_ground, 0.0)
+        * GetTransmittanceToSun(columns, 0.0, mu_s_ground);
+  }
+  result = radiance;
+}

@@ -1,0 +1,131 @@
+// Looking up the sky view, and the sun's disc.
+//
+// The sky view holds radiance divided by a rough guess of it, so that what is interpolated is
+// smooth even inside the aureole of a haze with g = 0.95. The last row is its own description
+// (sun, haze, horizon), so a look-up needs nothing but the texture: the source's sky and the
+// edited one are read by the same function.
+//
+// Directions are unit vectors in the camera's level frame: x right, y up, z heading.
+
+#include "atmosphere/atmosphere.glsl"
+
+const float SKY_SHARE = 0.85;  // of the rows, above the horizon
+
+struct SkyView {
+  vec3 sun;             // direction of the sun's centre
+  float asymmetry;      // Cornette-Shanks g
+  vec4 rayleigh;        // weights of the guess
+  vec4 mie;
+  float horizon;        // elevation of the geometric horizon, radians, <= 0
+};
+
+vec3 GetSunDirection(float azimuth_degrees, float elevation_degrees) {
+  float azimuth = radians(azimuth_degrees);
+  float elevation = radians(elevation_degrees);
+  return vec3(cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth));
+}
+
+// `origin` and `size` are the part of a texture that one view takes.
+SkyView ReadSkyView(sampler2D sky_view, ivec2 origin, ivec2 size) {
+  ivec2 row = origin + ivec2(0, size.y - 1);
+  vec4 first = texelFetch(sky_view, row, 0);
+  return SkyView(first.xyz, first.w, texelFetch(sky_view, row + ivec2(1, 0), 0),
+                 texelFetch(sky_view, row + ivec2(2, 0), 0),
+                 texelFetch(sky_view, row + ivec2(3, 0), 0).x);
+}
+
+SkyView ReadSkyView(sampler2D sky_view) {
+  return ReadSkyView(sky_view, ivec2(0), textureSize(sky_view, 0));
+}
+
+// The guess: scattering once by thin air and thin haze, plus an even share for all other orders.
+vec4 GuessRadiance(SkyView view, Number nu) {
+  return view.rayleigh * (RayleighPhase(nu) + 0.04) + view.mie * MiePhase(view.asymmetry, nu);
+}
+
+// Number of rows above the horizon and in all, without the description.
+ivec2 GetSkyViewRows(int height) {
+  return ivec2(int(float(height - 1) * SKY_SHARE), height - 1);
+}
+
+// Rows are denser near the horizon (square root), columns near the sun's azimuth.
+Angle GetElevationOfRow(float row, ivec2 rows, Angle horizon) {
+  if (row < float(rows.x)) {
+    float v = 1.0 - row / float(rows.x - 1);
+    return horizon + (0.5 * PI - horizon) * v * v;
+  }
+  float v = (row - float(rows.x)) / float(rows.y - rows.x - 1);
+  return horizon - (0.5 * PI + horizon) * v * v;
+}
+
+float GetRowOfElevation(Angle elevation, ivec2 rows, Angle horizon) {
+  if (elevation >= horizon) {
+    float v = sqrt((elevation - horizon) / (0.5 * PI - horizon));
+    return (1.0 - min(v, 1.0)) * float(rows.x - 1);
+  }
+  float v = sqrt((horizon - elevation) / (0.5 * PI + horizon));
+  return float(rows.x) + min(v, 1.0) * float(rows.y - rows.x - 1);
+}
+
+// azimuth = pi (0.3 u + 0.7 u^2), relative to the sun's, 0..pi.
+Angle GetAzimuthOfColumn(float u) {
+  return PI * u * (0.3 + 0.7 * u);
+}
+
+float GetColumnOfAzimuth(Angle azimuth) {
+  return (sqrt(0.09 + 2.8 * azimuth / PI) - 0.3) / 1.4;
+}
+
+RadianceSpectrum GetSkyRadiance(sampler2D sky_view, SkyView view, ivec2 origin, ivec2 size,
+                                vec3 direction) {
+  ivec2 rows = GetSkyViewRows(size.y);
+  float elevation = asin(clamp(direction.y, -1.0, 1.0));
+  float azimuth = abs(atan(view.sun.z * direction.x - view.sun.x * direction.z,
+                           view.sun.x * direction.x + view.sun.z * direction.z));
+  float row = GetRowOfElevation(elevation, rows, view.horizon);
+  float column = clamp(GetColumnOfAzimuth(azimuth), 0.0, 1.0) * float(size.x - 1);
+  // Never interpolate across the horizon.
+  int first_row = row < float(rows.x) ? min(int(row), rows.x - 2)
+                                      : clamp(int(row), rows.x, rows.y - 2);
+  ivec2 corner = ivec2(min(int(column), size.x - 2), first_row);
+  vec2 part = vec2(column, row) - vec2(corner);
+  ivec2 texel = origin + corner;
+  vec4 top = mix(texelFetch(sky_view, texel, 0),
+                 texelFetch(sky_view, texel + ivec2(1, 0), 0), part.x);
+  vec4 bottom = mix(texelFetch(sky_view, texel + ivec2(0, 1), 0),
+                    texelFetch(sky_view, texel + ivec2(1, 1), 0), part.x);
+  float nu = dot(direction, view.sun);
+  return mix(top, bottom, part.y) * GuessRadiance(view, nu);
+}
+
+RadianceSpectrum GetSkyRadiance(sampler2D sky_view, vec3 direction) {
+  return GetSkyRadiance(sky_view, ReadSkyView(sky_view), ivec2(0), textureSize(sky_view, 0), direction);
+}
+
+// Radiance of the disc, zero outside it. `size` is its diameter in units of the true 0.533
+// degrees (radiance stays), `softness` the angle of one pixel. Each direction is reddened by its
+// own path; what lies below the horizon is dark.
+RadianceSpectrum GetSunDiscRadiance(sampler2D columns, vec3 direction, vec3 sun, Length altitude,
+                                    Number size, Angle softness) {
+  float radius = SUN_ANGULAR_RADIUS * size;
+  // The chord keeps its digits where acos(dot) has none.
+  float angle = 2.0 * asin(min(0.5 * length(direction - sun), 1.0));
+  float coverage = clamp((radius - angle) / max(softness, 1e-6) + 0.5, 0.0, 1.0);
+  if (size <= 0.0 || coverage <= 0.0) {
+    return vec4(0.0);
+  }
+  float x = min(angle / radius, 1.0);
+  float mu = sqrt(max(1.0 - x * x, 1e-4));
+  // mu^a averages 2 / (a + 2) over the disc, so this profile averages one.
+  vec4 profile = pow(vec4(mu), LIMB_DARKENING) * (0.5 * LIMB_DARKENING + 1.0);
+  vec4 radiance = SOLAR_IRRADIANCE / (PI * SUN_ANGULAR_RADIUS * SUN_ANGULAR_RADIUS);
+  float above = direction.y - GetCosineOfHorizon(altitude);
+  float risen = clamp(above / max(softness, 1e-6) + 0.5, 0.0, 1.0);
+  return coverage * risen * profile * radiance
+      * GetTransmittanceToTop(columns, altitude, direction.y);
+}
+
+// Linear Rec. 709 in kcd m^-2; outside the gamut a channel is negative.
+vec3 SpectralToRec709(RadianceSpectrum radiance) {
+  return SPECTRAL_TO_REC709 * radiance;
+}

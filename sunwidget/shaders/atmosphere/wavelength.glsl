@@ -1,0 +1,17 @@
+// The coefficients of atmosphere/atmosphere.glsl at any wavelength (nm): at density one, 1/m.
+
+#include "atmosphere/atmosphere.glsl"
+#include "atmosphere/spectrum.glsl"
+
+Number GetRayleighScatteringAt(Number wavelength) {
+  return air_density * GetBodhaineScattering(wavelength)
+      * pow(wavelength / 550.0, RAYLEIGH_EXPONENT - rayleigh_exponent);
+}
+
+Number GetMieExtinctionAt(Number wavelength) {
+  return aerosol_optical_depth / aerosol_scale_height * pow(wavelength / 550.0, -angstrom_exponent);
+}
+
+Number GetOzoneAbsorptionAt(Number wavelength) {
+  return ozone / (0.5 * (OZONE_TOP - OZONE_BOTTOM)) * GetOzoneDepthPerDobson(wavelength);
+}

@@ -1,0 +1,120 @@
+// Coordinates of the precomputed sky, after Bruneton & Neyret, "Precomputed Atmospheric
+// Scattering" (2008) and Bruneton's second implementation (2017): radiance over
+//   r     altitude h, evenly in the fourth root of h, for haze lies low (Bruneton: square root)
+//   mu    view zenith angle, by the distance to what the ray meets: the ground in the first
+//         half of the samples, the top of the atmosphere in the second, so that no look-up
+//         interpolates across the horizon (Bruneton 2017, "Scattering texture"). Towards the top
+//         evenly in its square root, or the highest 40 degrees would lie between two samples
+//   mu_s  sun zenith angle, dense about the terminator
+//   nu    angle between view and sun, as their difference in azimuth. Bruneton spaces nu itself
+//         evenly over [-1, 1], half of which cannot occur; here every sample counts.
+// The table is held over GetFading, a guess of how light falls once the sun is down; unlike
+// GetTwilight of atmosphere/multiple.glsl it knows no parameter, so that a table outlives its sliders.
+
+#include "atmosphere/multiple.glsl"
+
+// ---- Altitude -------------------------------------------------------------------------------
+
+float GetAltitudeCoordinate(Length h) {
+  return sqrt(sqrt(GetSquaredHorizonDistance(h)) / LONGEST_HORIZON);
+}
+
+Length GetAltitudeOfCoordinate(float y) {
+  float rho = y * y * LONGEST_HORIZON;
+  return rho * rho / (sqrt(GROUND_RADIUS * GROUND_RADIUS + rho * rho) + GROUND_RADIUS);
+}
+
+// ---- View -----------------------------------------------------------------------------------
+
+// Place of a view among `count` samples: 0 is straight down, count / 2 - 1 the ground at the
+// horizon, count / 2 the zenith, count - 1 the sky at the horizon.
+float GetViewCoordinate(Length h, Number mu, bool ground, int count) {
+  float rho = sqrt(GetSquaredHorizonDistance(h));
+  float last = float(count / 2 - 1);
+  if (ground) {
+    float x = rho > h ? (GetDistanceToGround(h, mu) - h) / (rho - h) : 0.0;
+    return last * clamp(x, 0.0, 1.0);
+  }
+  float d_min = ATMOSPHERE_HEIGHT - h;
+  float x = (GetDistanceToTop(h, mu) - d_min) / (rho + LONGEST_HORIZON - d_min);
+  return last + 1.0 + last * sqrt(clamp(x, 0.0, 1.0));
+}
+
+// Zenith cosine in x and distance to the ground or the top in y, of sample `index`.
+vec2 GetViewOfSample(Length h, int index, int count) {
+  float rho2 = GetSquaredHorizonDistance(h);
+  float rho = sqrt(rho2);
+  float last = float(count / 2 - 1);
+  float r = GROUND_RADIUS + h;
+  if (index < count / 2) {
+    float d = h + float(index) / last * (rho - h);
+    // From |ground|^2 = r^2 + d^2 + 2 r d mu.
+    return vec2(d > 0.0 ? clamp(-(rho2 + d * d) / (2.0 * r * d), -1.0, 1.0) : -1.0, d);
+  }
+  float d_min = ATMOSPHERE_HEIGHT - h;
+  float x = float(index - count / 2) / last;
+  float d = d_min + x * x * (rho + LONGEST_HORIZON - d_min);
+  float shell = (ATMOSPHERE_HEIGHT - h) * (TOP_RADIUS + GROUND_RADIUS + h);
+  return vec2(d > 0.0 ? clamp((shell - d * d) / (2.0 * r * d), -1.0, 1.0) : 1.0, d);
+}
+
+// ---- Sun and azimuth ------------------------------------------------------------------------
+
+// Even in the inverse hyperbolic sine of the elevation: dense about the terminator, where the path
+// through the air to the sun changes fastest, and down to -18 degrees; by day close enough that
+// the aureole moves by little from sample to sample.
+const Angle LOWEST_SUN = -0.314;
+const float TERMINATOR = 0.36;  // place of mu_s = 0 in [0, 1]
+const Angle DAY_SCALE = 0.1;
+const Angle NIGHT_SCALE = 0.08;
+
+float GetSunCoordinate(Number mu_s, int count) {
+  float elevation = asin(clamp(mu_s, -1.0, 1.0));
+  float x = elevation < 0.0
+      ? TERMINATOR * (1.0 - asinh(-elevation / NIGHT_SCALE) / asinh(-LOWEST_SUN / NIGHT_SCALE))
+      : TERMINATOR + (1.0 - TERMINATOR) * asinh(elevation / DAY_SCALE) / asinh(0.5 * PI / DAY_SCALE);
+  return clamp(x, 0.0, 1.0) * float(count - 1);
+}
+
+Number GetSunCosineOfSample(int index, int count) {
+  float x = float(index) / float(count - 1);
+  float night = max(1.0 - x / TERMINATOR, 0.0);
+  float day = max(x - TERMINATOR, 0.0) / (1.0 - TERMINATOR);
+  return sin(DAY_SCALE * sinh(day * asinh(0.5 * PI / DAY_SCALE))
+      - NIGHT_SCALE * sinh(night * asinh(-LOWEST_SUN / NIGHT_SCALE)));
+}
+
+Number GetFading(Number mu_s) {
+  float down = min(mu_s, 0.0);
+  return exp(-0.5 * GROUND_RADIUS / TWILIGHT_SCALE_HEIGHT * down * down);
+}
+
+// Between two suns light is interpolated by its logarithm: it fades as the exponential of a path.
+vec4 MixSuns(vec4 low, vec4 high, float part) {
+  return exp(mix(log(max(low, vec4(1e-12))), log(max(high, vec4(1e-12))), part));
+}
+
+// Cosine of the azimuth between view and sun. Undefined at the zenith, where it matters to none.
+Number GetCosineOfAzimuth(Number mu, Number mu_s, Number nu) {
+  float across = sqrt(max((1.0 - mu * mu) * (1.0 - mu_s * mu_s), 1e-12));
+  return clamp((nu - mu * mu_s) / across, -1.0, 1.0);
+}
+
+Number GetScatteringCosine(Number mu, Number mu_s, Number cosine_of_azimuth) {
+  float across = sqrt(max((1.0 - mu * mu) * (1.0 - mu_s * mu_s), 0.0));
+  return clamp(mu * mu_s + across * cosine_of_azimuth, -1.0, 1.0);
+}
+
+Number GetCosineOfAzimuthSample(float index, int count) {
+  return cos(PI * index / float(count - 1));
+}
+
+// Place among `count` samples from azimuth 0 to pi. They are even in the angle, but light varies
+// with its cosine: linear in that, the slope at both ends comes out flat as it is.
+float GetAzimuthCoordinate(Number cosine_of_azimuth, int count) {
+  float index = floor(acos(cosine_of_azimuth) / PI * float(count - 1));
+  index = min(index, float(count - 2));
+  float near = GetCosineOfAzimuthSample(index, count);
+  float far = GetCosineOfAzimuthSample(index + 1.0, count);
+  return index + clamp((near - cosine_of_azimuth) / (near - far), 0.0, 1.0);
+}

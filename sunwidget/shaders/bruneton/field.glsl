@@ -1,0 +1,150 @@
+// Scattered light by direction at every altitude and sun: what the orders of scattering are made
+// of while the precomputed sky is under way.
+//
+// Two textures, both over GetFading and per unit of solar irradiance:
+//   incident   radiance of one order in each direction of a quadrature (eight-point
+//              Gauss-Legendre on each hemisphere times FIELD_AZIMUTHS over half a circle), that is
+//              tiles of azimuth along x and zenith along y; in each mu_s along x, r along y
+//   source     what air (upper half) and haze (lower half) send on of it towards a viewer who
+//              looks along theta, phi, for a scattering coefficient of one, that is the mean of
+//              the radiance over their phase functions. Tiles of phi along x and theta along y.
+// Bruneton keeps the density of scattered light itself; without the density of the air it varies
+// slowly with altitude, so that a coarse r is enough.
+
+#include "bruneton/coordinates.glsl"
+
+uniform ivec4 field_size;  // samples of r, mu_s, theta, phi
+uniform sampler2D source;
+uniform sampler2D irradiance;  // scattered light on level ground, mu_s along x
+
+const int FIELD_ZENITHS = 16;
+const int FIELD_AZIMUTHS = 16;
+const float FIELD_NODES[8] = float[8](0.0198550718, 0.1016667613, 0.2372337950, 0.4082826788,
+    0.5917173212, 0.7627662050, 0.8983332387, 0.9801449282);
+const float FIELD_WEIGHTS[8] = float[8](0.0506142681, 0.1111905172, 0.1568533229, 0.1813418917,
+    0.1813418917, 0.1568533229, 0.1111905172, 0.0506142681);
+// The part of [0, 1] that each node stands for.
+const float FIELD_EDGES[9] = float[9](0.0000000000, 0.0506142681, 0.1618047854, 0.3186581083,
+    0.5000000000, 0.6813418917, 0.8381952146, 0.9493857319, 1.0000000000);
+
+// Upper hemisphere first; eight points each.
+Number GetFieldZenithCosine(int zenith) {
+  return zenith < 8 ? FIELD_NODES[zenith] : -FIELD_NODES[zenith - 8];
+}
+
+Number GetFieldWeight(int zenith) {
+  return 0.5 * FIELD_WEIGHTS[zenith % 8] / float(FIELD_AZIMUTHS);
+}
+
+// The ray that a texel of "incident" stands for.
+struct IncidentRay {
+  ivec2 tile;  // azimuth, zenith
+  Length h;
+  Number mu;
+  Number mu_s;
+  Number nu;
+  bool ground;
+  Length d;  // to the ground or the top
+};
+
+IncidentRay GetIncidentRay(ivec2 texel) {
+  ivec2 tile = texel / field_size.yx;
+  ivec2 cell = texel - tile * field_size.yx;
+  float mu_s = GetSunCosineOfSample(cell.x, field_size.y);
+  float h = GetAltitudeOfCoordinate(float(cell.y) / float(field_size.x - 1));
+  float mu = GetFieldZenithCosine(tile.y);
+  float nu = GetScatteringCosine(mu, mu_s, cos(GetAzimuth(tile.x, FIELD_AZIMUTHS)));
+  bool ground = RayIntersectsGround(h, mu);
+  float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
+  return IncidentRay(tile, h, mu, mu_s, nu, ground, d);
+}
+
+// Means over the phase functions of air and haze of light around a point.
+struct Source {
+  vec4 air;
+  vec4 haze;
+};
+
+// Bilinear in azimuth and altitude, for one sun.
+vec4 FetchTiles(ivec2 place, int next_tile, vec2 part) {
+  vec4 upper = mix(texelFetch(source, place, 0),
+                   texelFetch(source, place + ivec2(next_tile, 0), 0), part.x);
+  vec4 lower = mix(texelFetch(source, place + ivec2(0, 1), 0),
+                   texelFetch(source, place + ivec2(next_tile, 1), 0), part.x);
+  return mix(upper, lower, part.y);
+}
+
+// The same, and linear in the zenith angle.
+vec4 FetchDirections(ivec2 place, vec3 part) {
+  return mix(FetchTiles(place, field_size.y, part.xy),
+             FetchTiles(place + ivec2(0, field_size.x), field_size.y, part.xy), part.z);
+}
+
+vec4 FetchSource(ivec2 place, vec3 part, float sun_part) {
+  return MixSuns(FetchDirections(place, part), FetchDirections(place + ivec2(1, 0), part), sun_part);
+}
+
+Source GetSource(Length h, Number mu, Number mu_s, Number nu) {
+  vec2 place = vec2(GetSunCoordinate(mu_s, field_size.y),
+                    GetAltitudeCoordinate(h) * float(field_size.x - 1));
+  vec2 direction = vec2(
+      GetAzimuthCoordinate(GetCosineOfAzimuth(mu, mu_s, nu), field_size.w),
+      acos(clamp(mu, -1.0, 1.0)) / PI * float(field_size.z - 1));
+  ivec2 corner = clamp(ivec2(place), ivec2(0), field_size.yx - 2);
+  ivec2 tile = clamp(ivec2(direction), ivec2(0), field_size.wz - 2);
+  float sun_part = place.x - float(corner.x);
+  vec3 part = vec3(direction.x - float(tile.x), place.y - float(corner.y),
+                   direction.y - float(tile.y));
+  float twilight = GetFading(mu_s);
+  ivec2 air = tile * field_size.yx + corner;
+  ivec2 haze = air + ivec2(0, field_size.z * field_size.x);
+  return Source(twilight * FetchSource(air, part, sun_part),
+                twilight * FetchSource(haze, part, sun_part));
+}
+
+IrradianceSpectrum GetScatteredIrradiance(Number mu_s) {
+  float place = GetSunCoordinate(mu_s, field_size.y);
+  int corner = clamp(int(place), 0, field_size.y - 2);
+  return GetFading(mu_s) * MixSuns(texelFetch(irradiance, ivec2(corner, 0), 0),
+      texelFetch(irradiance, ivec2(corner + 1, 0), 0), place - float(corner));
+}
+
+// The field is smooth: one look-up serves a group of steps.
+const int SOURCE_GROUPS = 16;
+const int SOURCE_GROUP_STEPS = 2;
+
+// Radiance that the source sends towards h from along mu, and what the ground adds that it lights
+// besides `sun_on_ground`, the irradiance of the sun there.
+RadianceSpectrum GatherSource(Length h, Number mu, Number mu_s, Number nu, Length d, bool ground,
+                              IrradianceSpectrum sun_on_ground) {
+  float r = GROUND_RADIUS + h;
+  mat3x4 coefficients = GetExtinctionCoefficients();
+  vec4 transmittance = vec4(1.0);
+  vec4 radiance = vec4(0.0);
+  for (int group = 0; group < SOURCE_GROUPS; ++group) {
+    float u_group = (float(group) + 0.5) / float(SOURCE_GROUPS);
+    float t_group = d * u_group * u_group;
+    float h_group = GetAltitudeAlongRay(h, mu, t_group);
+    float r_group = GROUND_RADIUS + h_group;
+    Source light = GetSource(h_group, clamp((r * mu + t_group) / r_group, -1.0, 1.0),
+                             clamp((r * mu_s + t_group * nu) / r_group, -1.0, 1.0), nu);
+    for (int i = 0; i < SOURCE_GROUP_STEPS; ++i) {
+      float steps = float(SOURCE_GROUPS * SOURCE_GROUP_STEPS);
+      float u = (float(group * SOURCE_GROUP_STEPS + i) + 0.5) / steps;
+      float dt = 2.0 * d * u / steps;
+      vec3 density = GetDensity(GetAltitudeAlongRay(h, mu, d * u * u));
+      vec4 rayleigh = coefficients[0] * density.x;
+      vec4 mie = coefficients[1] * density.y;
+      vec4 extinction = coefficients * density;
+      radiance += transmittance * (rayleigh * light.air + mie * aerosol_albedo * light.haze)
+          * IntegrateTransmittance(extinction, dt);
+      transmittance *= exp(-extinction * dt);
+    }
+  }
+  if (ground) {
+    float mu_s_ground = clamp((r * mu_s + d * nu) / GROUND_RADIUS, -1.0, 1.0);
+    radiance += transmittance * ground_albedo / PI
+        * (sun_on_ground + GetScatteredIrradiance(mu_s_ground));
+  }
+  return radiance;
+}

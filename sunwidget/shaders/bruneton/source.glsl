@@ -1,0 +1,40 @@
+// Source of the next order from the incident light of this one (bruneton/field.glsl): its mean
+// over the phase function of air (upper half) or haze (lower half) around each direction of view
+// (Bruneton & Neyret 2008, "Delta J", without the densities).
+
+#include "bruneton/field.glsl"
+
+uniform sampler2D incident;
+out vec4 result;
+
+void main() {
+  ivec2 texel = ivec2(gl_FragCoord.xy);
+  ivec2 tile = texel / field_size.yx;
+  ivec2 cell = texel - tile * field_size.yx;
+  bool haze = tile.y >= field_size.z;
+  float theta = PI * float(haze ? tile.y - field_size.z : tile.y) / float(field_size.z - 1);
+  float phi = acos(GetCosineOfAzimuthSample(float(tile.x), field_size.w));
+  float mu = cos(theta);
+  float across = sin(theta);
+  vec4 sum = vec4(0.0);
+  float norm = 0.0;
+  for (int zenith = 0; zenith < FIELD_ZENITHS; ++zenith) {
+    float mu_i = GetFieldZenithCosine(zenith);
+    float across_i = sqrt(1.0 - mu_i * mu_i) * across;
+    float weight = GetFieldWeight(zenith);
+    for (int azimuth = 0; azimuth < FIELD_AZIMUTHS; ++azimuth) {
+      // The other half of the circle mirrors this one.
+      float phi_i = GetAzimuth(azimuth, FIELD_AZIMUTHS);
+      float left = mu * mu_i + across_i * cos(phi - phi_i);
+      float right = mu * mu_i + across_i * cos(phi + phi_i);
+      float phase = haze
+          ? MiePhase(aerosol_asymmetry, left) + MiePhase(aerosol_asymmetry, right)
+          : RayleighPhase(left) + RayleighPhase(right);
+      ivec2 place = ivec2(azimuth, zenith) * field_size.yx + cell;
+      sum += weight * phase * texelFetch(incident, place, 0);
+      norm += weight * phase;
+    }
+  }
+  // Over its own sum: a lobe between two nodes neither makes nor loses light.
+  result = sum / norm;
+}

@@ -1,0 +1,19 @@
+// The photo through the inverse camera response: scene-linear light. Drawn once a photo. Alpha
+// carries what else the frame asks about the land of a pixel: water, glitter and log-depth.
+
+#include "frame/picture.glsl"
+#include "frame/strip.glsl"
+#include "frame/packed.glsl"
+#include "camera/response.glsl"
+
+uniform sampler2D retouched;
+uniform sampler2D surface;
+uniform vec2 tile_origin;
+
+out vec4 result;
+
+void main() {
+  vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
+  vec3 levels = ReadPixel(surface, place).gba;
+  result = vec4(GetSceneLight(texelFetch(retouched, ivec2(gl_FragCoord.xy), 0).rgb), PackLevels(levels));
+}

@@ -1,0 +1,56 @@
+// What the camera and the air between put before the whole picture: light shafts and lens flare, now
+// minus with the photo's own sun. Soft, so a quarter of the size is enough; the new sun's glare is too
+// sharp for that (camera/read_veil.glsl).
+
+#include "frame/picture.glsl"
+#include "atmosphere/read_sky_view.glsl"
+#include "sky/matched_sky.glsl"
+#include "sky/daylight.glsl"
+#include "frame/srgb.glsl"
+#include "camera/flare.glsl"
+
+uniform sampler2D terms;
+uniform sampler2D light_before;
+uniform sampler2D light_edit;
+uniform sampler2D visibility_edit;
+uniform sampler2D shafts_source;
+uniform sampler2D shafts_edit;
+uniform float sun_azimuth;
+uniform float sun_elevation;
+uniform float light_shafts;
+uniform float lens_flare;
+uniform vec2 pass_size;
+
+out vec4 result;
+
+void main() {
+  vec2 place = gl_FragCoord.xy / pass_size;
+  vec4 first = texelFetch(terms, ivec2(0), 0);
+  vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
+  float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
+  // The gain of each channel was fitted to the sky and holds what that sky had of its own; what is
+  // added gets the sun's colour and the gain of all three.
+  float gain = GetLuminance(sky_gain);
+  vec3 beam_before = gain * GetLightTexel(light_before, 1);
+  vec3 beam_now = gain * GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
+
+  // What the old sun's shafts put into the photo was relit with the land and goes as it is by now.
+  float relit = GetLuminance(texelFetch(terms, ivec2(3, 0), 0).rgb) / max(GetLuminance(texelFetch(terms, ivec2(1, 0), 0).rgb), 1e-20);
+
+  float shaft_before = ReadBilinear(shafts_source, place).r;
+  float shaft_now = ReadBilinear(shafts_edit, place).r;
+  vec3 shafts = max(shaft_now, 0.0) * beam_now - max(shaft_before, 0.0) * relit * beam_before;
+  // Shadows in the haze may deepen. Where they go nothing comes instead: nobody saw that haze, and what lies in
+  // them is often the black of a silhouette.
+  shafts += min(min(shaft_now, 0.0) * beam_now - min(shaft_before, 0.0) * relit * beam_before, vec3(0.0));
+  // Two texts of one formula need not agree to the bit.
+  shafts = light_shafts * mix(shafts, vec3(0.0), bvec3(first.w < 0.0 && shaft_now == shaft_before));
+
+  vec3 at = GetPlaceOfDirection(sun_now);
+  vec2 scale_of_place = vec2(frame_size.x / frame_size.y, 1.0);
+  // The photo's own flare stays where it is: nobody knows it. The new one comes as the sun moves.
+  float flaring = lens_flare * first.y * visible_now * step(0.0, at.z);
+  vec3 flare = flaring * beam_now * GetFlare((place - 0.5) * scale_of_place, (at.xy - 0.5) * scale_of_place);
+
+  result = vec4(first.x * (shafts + flare), 0.0);
+}

@@ -1,0 +1,17 @@
+// The sky as shown.glsl puts it together: in one texture the view by `model` on the left and the one
+// by `compare` on the right, so that a pixel takes one look-up whatever is shown.
+
+#include "atmosphere/read_sky_view.glsl"
+
+uniform sampler2D shown;
+
+const int MODEL_MULTIPLE = 0;
+const int MODEL_SINGLE = 1;
+const int MODEL_BRUNETON = 2;
+const int MODEL_REFERENCE = 3;
+
+// `side` is 0 for the model, 1 for the one that it is compared with; `view` is the same for both.
+RadianceSpectrum GetShownRadiance(SkyView view, int side, vec3 direction) {
+  ivec2 size = textureSize(shown, 0) / ivec2(2, 1);
+  return GetSkyRadiance(shown, view, ivec2(side * size.x, 0), size, direction);
+}

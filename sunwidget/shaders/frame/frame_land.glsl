@@ -1,0 +1,4 @@
+// The frame where a pixel is land or water and no sky (frame_parts.glsl).
+
+#define LAND_ALONE
+#include "frame/frame.glsl"

@@ -1,0 +1,56 @@
+// The photo with a change of its scene-linear light.
+
+#include "camera/response.glsl"
+#include "frame/output.glsl"
+#include "camera/grain.glsl"
+
+uniform float output_white;  // what highlights near: 1 the display's white, more where the target holds light above it
+
+// From here on highlights roll off: display-linear.
+const float kKnee = 0.5;
+const float kInk = 0.0035;
+const float kBurns = 1.06;  // of the way to white, at infinity: the sun itself burns
+
+// Display-linear light as a good camera draws highlights. What is `brighter` than it was, 0 to 1, leaves the
+// response at the knee and nears white slowly, without a flat plate. Each channel does so for itself, which
+// makes a sunset's orange yellow, as films do; but cold colours would end in cyan, and keep their hue. The
+// core is white. All this as far as the pixel has `changed`, 0 to 1. With a higher `output_white` they rise on, by the same
+// curve about the same knee.
+vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
+  float w = max(response_shoulder, 1e-4);
+  float luminance = max(GetLuminance(scene), 1e-9);
+  vec4 r = pow(max(vec4(scene, luminance), vec4(1e-9)), vec4(response_contrast));
+  vec4 plain = (1.0 - exp(-w * r)) / w;
+  float knee = -log(1.0 - w * kKnee) / w;
+  vec4 over = (1.0 - w * kKnee) / (output_white - kKnee) * max(r - knee, vec4(0.0));
+  vec4 slow = kKnee + (output_white - kKnee) * kBurns * over / (1.0 + over);
+  vec4 level = min(plain + brighter * step(knee, r) * (slow - plain), vec4(0.9999 * output_white));
+  vec3 color = scene / luminance - 1.0;
+  color.g -= smoothstep(0.5, 0.8, level.a) * max(color.g - max(color.r, color.b), 0.0);  // no light is green
+  float x = max(color.r, max(color.g, color.b)) * level.a / (output_white - level.a);
+  vec3 same_hue = level.a + level.a * inversesqrt(1.0 + x * x) * color;
+  float warm = smoothstep(0.0, 0.8, color.r - color.b) * (1.0 - smoothstep(0.75, 1.0, level.a / output_white));
+  float bright = smoothstep(0.4, 0.8, max(plain.r, max(plain.g, plain.b)));
+  return plain.rgb + changed * bright * (mix(same_hue, level.rgb, warm) - plain.rgb);
+}
+
+// What has become darker does not drown in black, as it does not in a good print: the darker, the more is added, up to
+// kInk, and never so much that what loses light gains. Display-linear.
+float GetToe(vec3 light, vec3 before) {
+  float level = max(GetLuminance(before), 1e-9);
+  return kInk * level / (level + kInk) * max(1.0 - max(GetLuminance(light), 0.0) / level, 0.0);
+}
+
+// Written as a difference, so that what did not change adds exactly nothing. What was `filled`
+// gets the photo's noise (camera/grain.glsl).
+void WriteChange(vec3 display, vec3 scene, vec3 change, float filled, vec2 pixel) {
+  float touched = step(1e-30, dot(abs(change), vec3(1.0)));
+  vec3 representable = clamp(display, vec3(0.0), vec3(GetWhiteLevel()));
+  vec3 now = scene + change;
+  float old = GetLuminance(scene) / max(GetLuminance(now), 1e-9);
+  vec3 share = abs(change) / max(max(now, scene), vec3(1e-9));
+  float most = max(share.r, max(share.g, share.b));
+  vec3 light = GetRolledOff(now, max(1.0 - old * old, 0.0), most * most / (most * most + 0.01));
+  light += GetToe(light, representable) + GetGrain(light, representable, filled, pixel);
+  WriteFrame(display, touched * (light - representable), pixel);
+}

@@ -1,4 +1,0 @@
-// The frame where a pixel is land or water and no sky (frame_parts.glsl).
-
-#define LAND_ALONE
-#include "frame.glsl"

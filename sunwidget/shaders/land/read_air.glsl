@@ -1,0 +1,44 @@
+// The air before distant land (aerial perspective), by the strips that air.glsl draws.
+
+#include "atmosphere/atmosphere.glsl"
+#include "atmosphere/extinction.glsl"
+#include "sky/tint.glsl"
+#include "sky/sky_seen.glsl"
+
+uniform sampler2D air_source;
+uniform sampler2D air_edit;
+uniform float aerial_perspective;
+
+// Depth is a guess where it is large: beyond this it counts ever less.
+const float kFarthestAir = 15000.0;  // m
+// A pixel is no darker than the air before it, so that this share of it at most is air.
+const float kLargestShare = 0.9;
+
+int GetAirColumn(vec2 place) {
+  int columns = textureSize(air_edit, 0).x;
+  return clamp(int(place.x * float(columns)), 0, columns - 1);
+}
+
+// What the air adds to relit land when sun or haze change. `light` is the pixel's light, `gain` the
+// land's own ratio. Koschmieder 1924: I = J t + A (1 - t) with t = exp(-extinction * distance), so
+// that the land without its air, I - A (1 - t), takes the ratio and the new air comes before it:
+// I gain - A (1 - t) gain + A' (1 - t'). Nothing is divided by t.
+vec3 GetAirChange(vec2 place, float log_depth, vec3 light, vec3 gain) {
+  float distance = exp2(16.0 * log_depth);
+  distance = distance * kFarthestAir / (distance + kFarthestAir);
+  int column = GetAirColumn(place);
+  vec3 share_before = 1.0 - exp(-distance * GetExtinction(source_air_density, source_aerosol_optical_depth,
+      source_aerosol_scale_height, source_angstrom_exponent));
+  vec3 share_now = 1.0 - exp(-distance * GetExtinction(air_density, aerosol_optical_depth,
+      aerosol_scale_height, angstrom_exponent));
+  vec3 air_before = texelFetch(air_source, ivec2(column, 0), 0).rgb;
+  vec3 air_now = texelFetch(air_edit, ivec2(column, 0), 0).rgb;
+  vec3 before = share_before * air_before;
+  float believed = min(kLargestShare * GetLuminance(light) / max(GetLuminance(before), 1e-12), 1.0);
+  // Air that the photo shows in another colour than the model gives way as far as the pixel has it.
+  vec3 held = min(believed * before, kLargestShare * light);
+  vec3 change = share_now * WithoutLostTint(air_before, air_now) / max(before, vec3(1e-12));
+  vec3 given = held * change + (believed * before - held) * max(change - 1.0, 0.0);
+  vec3 taken = gain * held;
+  return GetSkySeen() * aerial_perspective * mix(given - taken, vec3(0.0), equal(given, taken));
+}

@@ -1,4 +1,0 @@
-// The first texels of terms.glsl, by way of frame_constants.glsl; what few pixels need is read from the map itself.
-
-flat in vec4 term[11];
-uniform sampler2D terms;

@@ -1,4 +1,0 @@
-// The photo itself, where no clouds are changed (cloud_parts.glsl).
-
-#define CLOUDS_UNEDITED
-#include "retouch.glsl"

@@ -1,0 +1,46 @@
+// The new sun's disc, in the photo's scene-linear unit: limb-darkened, and reddened on its way.
+// composite_constants.glsl holds log2 of its radiance as a parabola over its height. Where the photo shows its own larger, which
+// its camera burnt to white or drew by a longer lens, the new one is as large.
+
+#include "frame/read_composite_constants.glsl"
+#include "sky/described_sky.glsl"
+#include "sky/moon_disc.glsl"
+
+uniform float own_disc_burnt;  // how far the photo's own disc is white, 0 to 1
+uniform float own_disc_rim;    // where its light is halved, in units of its radius, 1.1 to 1.9
+
+const float kBurnt = 30.0;  // times its light: what lies above white in the middle of a burnt core
+
+vec3 GetDisc(vec3 view, vec3 sun) {
+  float radius = term[10].x;
+  float softness = 1.0 / (camera_focal * frame_size.y);
+  float chord = length(view - sun);
+  float coverage = step(1e-9, radius) * clamp((radius - chord) / softness + 0.5, 0.0, 1.0);
+  float horizon = described[3].x;
+  float risen = clamp((view.y - horizon * (1.0 - horizon * horizon / 6.0)) / softness + 0.5, 0.0, 1.0);
+  float x = min(chord / max(radius, 1e-9), 1.0);
+  float moon = GetMoon();
+  float limb = 0.5 * log2(max(1.0 - x * x, 1e-4));
+  float height = clamp((view.y - term[10].y) * term[10].z, -1.0, 1.0);
+  vec4 middle = vec4(term[1].w, term[2].w, term[3].w, term[4].w);
+  vec4 slope = vec4(term[5].w, term[6].w, term[7].w, term[8].w);
+  vec4 bend = vec4(term[9].w, term[10].w, described[3].zw);
+  vec4 radiance = exp2(middle + height * (slope + height * bend) + (1.0 - moon) * limb * LIMB_DARKENING);
+  vec2 place = vec2(dot(view - sun, normalize(vec3(sun.z, 0.0, -sun.x))), (view.y - sun.y) / max(length(sun.xz), 0.1));
+  float albedo = 1.0 + moon * (GetMoonAlbedo(place / max(radius, 1e-9)) - 1.0);
+  vec4 own = texelFetch(terms, ivec2(14, 0), 0);
+  if (own.a > radius) {
+    float x = chord / own.a;
+    // Even up to a sharp rim, soft from the middle on in a glow.
+    vec2 fades = mix(own_disc_rim + vec2(-0.3, 0.2), vec2(0.0, 1.2), smoothstep(1.3, 1.9, own_disc_rim));
+    float even = 1.0 - smoothstep(fades.x, fades.y, x);
+    // Of the channels that the air leaves less of the camera burns a smaller core: a low sun has a warm rim.
+    vec3 color = UnpackColor(described[0].w);
+    vec3 rim = pow(vec3(even), clamp(color.r / max(color, vec3(1e-6)), 1.0, 5.0));
+    float inside = max(1.0 - x * x, 0.0);
+    inside *= inside * inside;
+    inside *= inside;  // a multiplication is far cheaper than a power
+    return risen * (rim + kBurnt * own_disc_burnt * inside * inside) * own.rgb;
+  }
+  return albedo * coverage * risen * sky_gain * max(SpectralToRec709(radiance), vec3(0.0));
+}

@@ -1,0 +1,88 @@
+// How much brighter than the model, clouds included, the photo's sky without its sun is, slowly varying: log of
+// luminance. Second, by how much more that is than elsewhere in the sky, away from the sun. Drawn once a photo.
+
+#define PHOTOS_OWN_LIGHT
+#include "frame/picture.glsl"
+#include "atmosphere/read_sky_view.glsl"
+#include "sky/matched_sky.glsl"
+#include "sky/daylight.glsl"
+#include "clouds/cloud_light.glsl"
+#include "sky/nearness.glsl"
+#include "camera/response.glsl"
+
+uniform sampler2D layers;
+uniform sampler2D backdrop;
+uniform sampler2D sky_view;
+uniform sampler2D light_before;
+uniform float source_sun_azimuth;
+uniform float source_sun_elevation;
+uniform vec2 pass_size;
+
+out vec4 result;
+
+const float kReach = 0.1;  // two deviations, in longer sides of the picture
+const int kTaps = 6;       // on either side
+const int kElsewhere = 12;  // columns and rows of taps all over the picture
+const float kFewest = 1.0;  // taps' weight that tells half of what lies elsewhere
+
+// The model's light where `opacity` of a pixel is cloud, lit by the sky (`ambient`) and the sun (`direct`).
+vec3 GetModel(vec2 place, vec3 light, float opacity, vec3 ambient, vec3 direct) {
+  vec3 view = GetViewDirection(place);
+  vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
+  vec3 sky = GetMatchedSky(sky_view, view);
+  opacity = GetKnownOpacity(opacity, sun);
+  float share = GetSunlitShare(light, sky, ambient, direct, opacity);
+  return mix(sky, GetCloud(ambient, direct, share, sky, sun, view, opacity), opacity);
+}
+
+float GetWeight(vec2 tap) {
+  float inside = step(0.0, tap.x) * step(tap.x, 1.0) * step(0.0, tap.y) * step(tap.y, 1.0);
+  float matte = ReadPicture(layers, tap).r;
+  return inside * matte * matte;
+}
+
+// Log of luminance, photo over model.
+float GetOwn(vec2 tap, vec3 ambient, vec3 direct) {
+  vec4 layer = ReadPicture(layers, tap);
+  vec3 light = GetBackdropLight(ReadBilinear(backdrop, tap).rgb);
+  vec3 model = GetModel(tap, light, min(layer.g / layer.r, 1.0), ambient, direct);
+  return log(max(GetLuminance(light), 1e-6) / max(GetLuminance(model), 1e-6));
+}
+
+void main() {
+  vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
+  vec3 scale = sky_gain * GetLightScale(photo_light);
+  vec3 white = scale * GetCloudRadiance(light_before, 0.0);
+  vec3 direct = scale * GetCloudRadiance(light_before, 1.0) - white;
+  vec3 ambient = white - direct;
+  vec2 place = gl_FragCoord.xy / pass_size;
+  vec2 pace = kReach / float(kTaps) * max(frame_size.x, frame_size.y) / frame_size;
+  float sum = 0.0;
+  float total = 1e-6;
+  for (int i = -kTaps; i <= kTaps; ++i) {
+    for (int j = -kTaps; j <= kTaps; ++j) {
+      vec2 tap = place + vec2(i, j) * pace;
+      float weight = GetWeight(tap) * exp(-2.0 * float(i * i + j * j) / float(kTaps * kTaps));
+      if (weight < 1e-4) continue;
+      sum += weight * GetOwn(tap, ambient, direct);
+      total += weight;
+    }
+  }
+  float own = sum / total;
+
+  float elsewhere = 0.0;
+  float known = 0.0;
+  for (int i = 0; i < kElsewhere; ++i) {
+    for (int j = 0; j < kElsewhere; ++j) {
+      vec2 tap = (vec2(i, j) + 0.5) / float(kElsewhere);
+      float far = 1.0 - GetNearness(dot(GetViewDirection(tap), sun));
+      float weight = GetWeight(tap) * far * far;
+      if (weight < 1e-4) continue;
+      elsewhere += weight * GetOwn(tap, ambient, direct);
+      known += weight;
+    }
+  }
+  elsewhere /= max(known, 1e-4);
+  float more = known / (known + kFewest) * (own - elsewhere);
+  result = vec4(own, more, 0.0, 0.0);
+}

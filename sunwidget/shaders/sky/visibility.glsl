@@ -1,0 +1,60 @@
+// How much of the sun's disc the picture leaves visible: one pixel, r in [0, 1]; g the same of the
+// bright sky round it, kAureole wide, for the glow: that comes before the disc and stays after it.
+// Land hides it (sky matte), clouds veil it (opacity); the horizon itself is light.glsl's
+// affair, so only the part of the disc above it is counted here. A sun that the photo shows (its
+// glare, in `surface`) is not behind the thick cloud that its whiteness pretends. Outside the picture the
+// edge's answer fades to "visible" over a tenth of the picture. `sun_visibility` veils all of it.
+
+#include "frame/picture.glsl"
+#include "clouds/cloud_cover.glsl"
+#include "atmosphere/read_sky_view.glsl"
+
+uniform sampler2D layers;
+uniform sampler2D surface;
+uniform float sun_azimuth;
+uniform float sun_elevation;
+uniform float sun_visibility;
+
+out vec4 result;
+
+const float kDiscRadius = 0.2665;  // degrees
+const int kRings = 3;
+const int kSpokes = 12;
+
+// The added clouds are bright themselves and let light through: they take no more than this share
+// (of a cloud of optical depth 16 a third comes through), and come slowly before the sun.
+const float kCloudShade = 0.65;
+const float kCloudPenumbra = 10.0;  // in disc radii
+const float kAureole = 4.0;         // in disc radii
+
+float GetOpening(vec3 direction) {
+  vec3 at = GetPlaceOfDirection(direction);
+  if (at.z <= 0.0) return 1.0;
+  vec4 layer = ReadBilinear(layers, at.xy);
+  vec2 outside = max(max(-at.xy, at.xy - 1.0), 0.0);
+  float cloud = GetOwnOpacity(layers, at.xy) * (1.0 - 0.8 * ReadBilinear(surface, at.xy).r);
+  return mix(layer.r * (1.0 - cloud), 1.0, smoothstep(0.0, 0.1, max(outside.x, outside.y)));
+}
+
+void main() {
+  vec2 open = vec2(0.0);
+  vec2 above = vec2(0.0);
+  float shaded = 0.0;
+  for (int ring = 0; ring < kRings; ++ring) {
+    // Rings of equal area.
+    float radius = kDiscRadius * sqrt((float(ring) + 0.5) / float(kRings));
+    for (int spoke = 0; spoke < kSpokes; ++spoke) {
+      float turn = 6.28318531 * (float(spoke) + 0.5 * float(ring)) / float(kSpokes);
+      vec2 aside = radius * vec2(cos(turn), sin(turn));
+      vec2 elevation = sun_elevation + vec2(1.0, kAureole) * aside.y;
+      vec2 weight = smoothstep(-0.05, 0.05, elevation) + 1e-4;
+      open += weight * vec2(GetOpening(GetSunDirection(sun_azimuth + aside.x, elevation.x)),
+                            GetOpening(GetSunDirection(sun_azimuth + kAureole * aside.x, elevation.y)));
+      above += weight;
+      vec2 wide = kCloudPenumbra * aside;
+      shaded += GetAddedCover(GetSunDirection(sun_azimuth + wide.x, sun_elevation + wide.y));
+    }
+  }
+  float added = 1.0 - kCloudShade * shaded / float(kRings * kSpokes);
+  result = vec4(sun_visibility * added * open / above, 0.0, 1.0);
+}

@@ -1,4 +1,0 @@
-// The sky without the old sun, where no clouds are changed (cloud_parts.glsl).
-
-#define CLOUDS_UNEDITED
-#include "sky_behind.glsl"

@@ -1,0 +1,67 @@
+// How what is mirrored changes from the photo's sun to the moved one: rgb the ratio, a the new sun's
+// glints per unit of its light. On water the sky is mirrored, less the steeper one looks, and the
+// water's own light follows what falls into it; glints are left to the frame (water/water.glsl). What
+// glitters on land is mirrored sky and sun together.
+
+#include "frame/picture.glsl"
+#include "camera/response.glsl"
+#include "water/glint.glsl"
+#include "land/gloss.glsl"
+
+uniform sampler2D mirror_source;
+uniform sampler2D mirror_edit;
+uniform sampler2D surface;
+uniform sampler2D mirrored_clouds;
+uniform sampler2D terms;
+uniform sampler2D land_terms;
+uniform vec2 pass_size;
+uniform float wind_speed;
+uniform float source_wind_speed;
+uniform float glitter;
+uniform float water_strength;
+
+out vec4 result;
+
+// A clipped glint does not say how bright it was: let it fade freely, but hardly grow.
+const float kLargestGrowth = 2.0;
+// Asphalt, wet sand, roofs.
+const float kRoadRoughness = 0.3;
+// Irradiance reflectance of the sea just below its surface, between clear ocean and coast
+// (Jerlov 1976): water swallows red.
+const vec3 kBody = vec3(0.008, 0.025, 0.035);
+
+// Light of the water itself under an irradiance, of which the surface lets in what it does not
+// reflect.
+vec3 GetBody(vec3 irradiance, vec3 view, float wind) {
+  return (1.0 - GetFresnel(GetFacing(view, wind))) * kBody / 3.14159265 * irradiance;
+}
+
+vec3 GetTerm(int index) {
+  return texelFetch(terms, ivec2(index, 0), 0).rgb;
+}
+
+void main() {
+  ivec2 texel = ivec2(gl_FragCoord.xy);
+  vec2 place = gl_FragCoord.xy / pass_size;
+  vec4 marks = ReadBilinear(surface, place);
+  vec4 before = texelFetch(mirror_source, texel, 0);
+  vec4 now = texelFetch(mirror_edit, texel, 0);
+  vec3 view = GetViewDirection(place);
+
+  float cloud = texelFetch(mirrored_clouds, texel, 0).r;
+  float share = GetFresnel(GetFacing(view, source_wind_speed));
+  vec3 sky_before = before.rgb + cloud * (share * GetTerm(5) - before.rgb);
+  vec3 sky_now = now.rgb + cloud * (share * GetTerm(7) - now.rgb);
+  vec3 water = GetRatio(sky_now + GetBody(GetTerm(3), view, wind_speed),
+                        sky_before + GetBody(GetTerm(1), view, source_wind_speed));
+  // On land the sun is mirrored by a surface that is rougher than water, wide round its glints.
+  float shine_before = GetGroundLobe(view, texelFetch(land_terms, ivec2(7, 0), 0).xyz, kRoadRoughness);
+  float shine_now = GetGroundLobe(view, texelFetch(land_terms, ivec2(15, 0), 0).xyz, kRoadRoughness);
+  vec3 gleam = before.rgb + shine_before * GetTerm(11);
+  vec3 shine = min(GetRatio(now.rgb + shine_now * GetTerm(12), gleam), vec3(kLargestGrowth));
+  // Burnt glints are white in the photo, whatever their colour was.
+  vec3 bleached = gleam / GetLuminance(gleam);
+  shine *= 1.0 + marks.b * texelFetch(terms, ivec2(0, 0), 0).y * (bleached - 1.0);
+  float known = marks.g * water_strength;
+  result = vec4(shine + known * (water - shine), glitter * now.a);
+}

@@ -1,0 +1,65 @@
+// The water without the old sun's glints: its light (water_level.glsl) with the waves of the water
+// beside it, which looks the same as far away. Alpha: what waves make of new glints here
+// (water/waves.glsl), which lie on the waves that are there. Drawn once a photo. NO_GLINTS leaves out what only
+// the zone of the old glints needs (water_parts.glsl).
+
+#include "frame/picture.glsl"
+#include "frame/strip.glsl"
+#include "camera/response.glsl"
+#include "water/waves.glsl"
+
+uniform sampler2D photo;
+uniform sampler2D surface;
+uniform sampler2D water_level;
+uniform vec2 tile_origin;
+
+out vec4 result;
+
+const int kPlaces = 6;
+const float kHighestWave = 0.35;  // of natural logarithm
+const float kRock = 0.2;  // the same; so far from the water's light half is believed
+
+// Inside the picture, mirrored at its sides.
+float Reflect(float x) {
+  return 1.0 - abs(1.0 - abs(x));
+}
+
+float GetBrightness(vec3 light, vec3 level) {
+  return log(max(GetLuminance(light), 1e-5) / max(GetLuminance(level), 1e-5));
+}
+
+float GetSparkle(vec2 place, float wave) {
+  return EncodeSparkle(GetLogSparkle(GetViewDirection(place), 0.5 + 0.5 * wave / kHighestWave));
+}
+
+void main() {
+  vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
+  vec4 level = ReadBilinear(water_level, place);
+  vec3 own = GetSceneLight(ReadPixel(photo, place).rgb);
+  float seen = clamp(GetBrightness(own, level.rgb), -kHighestWave, kHighestWave);
+#ifdef NO_GLINTS
+  result = vec4(own, GetSparkle(place, seen));
+#else
+  float sum = 0.0;
+  float squares = 1e-4;
+  for (int i = 0; i < kPlaces; ++i) {
+    // No water about as far away. Leaving a loop does save time on software rendering, unlike a branch.
+    if (level.a <= 0.0) break;
+    float shift = (i % 2 == 0 ? -0.13 : 0.17) + 0.19 * float(i / 2) * (i % 2 == 0 ? -1.0 : 1.0);
+    vec2 at = vec2(Reflect(place.x + shift), place.y);
+    vec2 marks = ReadPixel(surface, at).gb;
+    float weight = smoothstep(0.5, 1.0, marks.x) * (1.0 - marks.y) * (1.0 - marks.y);
+    float wave = GetBrightness(GetSceneLight(ReadPixel(photo, at).rgb), ReadBilinear(water_level, at).rgb);
+    // Rocks that the mask calls water stand out more than waves do.
+    weight /= 1.0 + wave * wave * wave * wave / (kRock * kRock * kRock * kRock);
+    sum += weight * clamp(wave, -kHighestWave, kHighestWave);
+    squares += weight * weight;
+  }
+  // Waves of several places, as high as those of one.
+  float wave = sum * inversesqrt(squares);
+  // Where no water is without glints, nothing better is known than what is seen.
+  vec3 water = mix(own, level.rgb * exp(wave), smoothstep(0.0, 0.01, level.a));
+  wave = mix(seen, wave, ReadPixel(surface, place).b);
+  result = vec4(water, GetSparkle(place, wave));
+#endif
+}
