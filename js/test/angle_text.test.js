@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { aside, degrees, directionText, sunText } from "../src/angle_text.js";
+import { aside, degrees, directionText, sunText } from "../src/ui/angle_text.js";
 
 test("a sign is a minus, and an azimuth has a side instead", () => {
   assert.equal(degrees(-2.04), "−2.0°");

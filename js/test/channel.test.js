@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { mock, test } from "node:test";
-import { Channel } from "../src/channel.js";
+import { Channel } from "../src/host/channel.js";
 import { FakeModel } from "./fake_model.js";
 
 const open = () => {

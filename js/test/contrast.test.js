@@ -41,7 +41,7 @@ function contrast(a, b) {
   return (high + 0.05) / (low + 0.05);
 }
 
-const SHARED = tokens(read("controls/colors.css"));
+const SHARED = tokens(read("ui/colors.css"));
 const PLOTS = tokens(read("explorer/style.css"));
 
 // What stands on what; a list of grounds lies one on the other, the last at the bottom.
@@ -124,7 +124,7 @@ test("no part has colours of its own", () => {
   const sheets = readdirSync(new URL("../src", import.meta.url), { recursive: true })
     .map((path) => path.replaceAll("\\", "/"))
     .filter((path) => path.endsWith(".css"));
-  assert.ok(sheets.includes("controls/colors.css"));
+  assert.ok(sheets.includes("ui/colors.css"));
   const own = sheets.flatMap((path) =>
     read(path)
       .split("\n")

@@ -1,6 +1,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { angleBetween, clock, horizonElevation, sunAt, trueElevation, turned } from "../src/day.js";
+import {
+  angleBetween,
+  clock,
+  horizonElevation,
+  sunAt,
+  trueElevation,
+  turned,
+} from "../src/geometry/day.js";
 
 const near = (actual, expected, tolerance = 1e-6) =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${actual} is not ${expected}`);

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { FrameLoop } from "../src/frame_loop.js";
+import { FrameLoop } from "../src/gl/frame_loop.js";
 
 /** A loop whose frames come when the test says so, each after `wait` ms. */
 function loopOf(context, { dragging = () => true } = {}) {

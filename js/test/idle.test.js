@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { whenIdle } from "../src/idle.js";
+import { whenIdle } from "../src/host/idle.js";
 
 test("work that waits for idleness is done at last, and can be forgotten", () => {
   /** @type {any[]} */

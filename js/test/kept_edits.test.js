@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { KeptEdits } from "../src/kept_edits.js";
+import { KeptEdits } from "../src/edit/kept_edits.js";
 
 /** The part of Web Storage that is used, with room for so many characters. */
 class FakeStorage {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, mock, test } from "node:test";
-import { Kernel } from "../src/editor/kernel.js";
+import { Kernel } from "../src/editor/view/kernel.js";
 import { FakeModel } from "./fake_model.js";
 
 const PATIENCE_MS = 15_000;

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { keyNames, matches, runShortcut } from "../src/controls/keys.js";
+import { keyNames, matches, runShortcut } from "../src/ui/keys.js";
 
 /** A key press on an element that is met by the given selectors' parts. */
 function press(key, { on = "div", altGraph = false, ...modifiers } = {}) {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { labelRows } from "../src/editor/label_rows.js";
+import { labelRows } from "../src/editor/panel/label_rows.js";
 
 test("labels with room stay, others go down just so far that none lies on another", () => {
   assert.deepEqual(labelRows([100, 50, 200], 13), [100, 50, 200]);

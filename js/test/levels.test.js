@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { BINS, ceiling, countLevels, hill } from "../src/editor/levels.js";
+import { BINS, ceiling, countLevels, hill } from "../src/editor/inspect/levels.js";
 
 /** @param {...number[]} colours RGB of each pixel */
 const pixels = (...colours) => new Uint8ClampedArray(colours.flatMap((rgb) => [...rgb, 255]));

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, mock, test } from "node:test";
-import { Channel } from "../src/channel.js";
-import { EditState } from "../src/state.js";
+import { EditState } from "../src/edit/state.js";
+import { Channel } from "../src/host/channel.js";
 import { Notebook, randomOf } from "./notebook.js";
 
 const SEEDS = 60;

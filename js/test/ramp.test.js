@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { colours, gradient, textAt, valueAt } from "../src/editor/ramp.js";
+import { colours, gradient, textAt, valueAt } from "../src/editor/inspect/ramp.js";
 
 const share = { low: 0, high: 1, unit: "", scale: "linear" };
 const angle = { low: -45, high: 45, unit: "°", scale: "linear" };

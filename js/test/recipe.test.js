@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { checkRecipe } from "../src/recipe/check.js";
-import { readRecipe } from "../src/recipe/read.js";
-import { toJson, toPython } from "../src/recipe/write.js";
+import { checkRecipe } from "../src/edit/recipe/check.js";
+import { readRecipe } from "../src/edit/recipe/read.js";
+import { toJson, toPython } from "../src/edit/recipe/write.js";
 
 const row = (name, rest) => ({ name, unit: "", choices: [], ...rest });
 const parameters = [

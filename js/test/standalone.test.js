@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Cancelled, Channel } from "../src/channel.js";
+import { Cancelled, Channel } from "../src/host/channel.js";
 import { NO_KERNEL, StandaloneModel, stateOf } from "../src/standalone/model.js";
 
 test("binary traits stand where they were, as anywidget gives them", () => {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { EditState } from "../src/state.js";
-import { HISTORY_BYTES, HISTORY_LENGTH } from "../src/steps.js";
+import { HISTORY_BYTES, HISTORY_LENGTH } from "../src/edit/history_limit.js";
+import { EditState } from "../src/edit/state.js";
 import { FakeModel } from "./fake_model.js";
 
 const parameters = [

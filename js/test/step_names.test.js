@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { stepName } from "../src/step_names.js";
+import { stepName } from "../src/edit/step_names.js";
 
 const row = (name, section, label, kind = "number", value = null) => ({
   name,

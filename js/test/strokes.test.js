@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { meets, simplify } from "../src/editor/strokes.js";
+import { meets, simplify } from "../src/editor/tools/strokes.js";
 
 const size = { width: 200, height: 100 };
 const stroke = {

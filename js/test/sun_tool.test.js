@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { SunTool } from "../src/editor/sun_tool.js";
+import { SunTool } from "../src/ui/sun_tool.js";
 
 /** What a key of the sun's handle sets, while the photo's own sun is where it is. */
 function pressed(key) {

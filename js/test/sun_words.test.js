@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { notesOf } from "../src/editor/note_choice.js";
+import { notesOf } from "../src/editor/view/note_choice.js";
 import {
   assumedText,
   bearingText,
@@ -10,7 +10,7 @@ import {
   pointedText,
   sureText,
   whereText,
-} from "../src/editor/sun_words.js";
+} from "../src/ui/sun_words.js";
 
 const sun = (changes) => ({
   ...{ source: "unseen", at: null, visible: false, azimuth: -140, elevation: 35 },

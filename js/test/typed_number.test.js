@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { typedNumber } from "../src/controls/typed_number.js";
+import { typedNumber } from "../src/ui/typed_number.js";
 
 const azimuth = { minimum: -180, maximum: 180, unit: "°" };
 const elevation = { minimum: -12, maximum: 90, unit: "°" };

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { outline, spread } from "../src/editor/whiteness.js";
+import { outline, spread } from "../src/editor/panel/whiteness.js";
 
 test("shares below, between and above the thresholds", () => {
   // Bins of 0.4: centres 0.2, 0.6, 1.0, 1.4.

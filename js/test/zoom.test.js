@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Zoom } from "../src/zoom.js";
+import { Zoom } from "../src/geometry/zoom.js";
 
 /** A stage of 900 × 600 with a margin of 20, in which a picture of 3:2 fits. */
 function zoomOf({ size = [2000, 1333], pixelRatio = 1 } = {}) {

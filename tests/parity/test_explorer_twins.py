@@ -15,7 +15,7 @@ from sunwidget.widgets.kernel.payload import parameter_json
 
 SCRIPT = """
 import { effectiveValues } from "./src/explorer/values.js";
-import { sunAt, trueElevation } from "./src/day.js";
+import { sunAt, trueElevation } from "./src/geometry/day.js";
 import * as haze from "./src/explorer/haze.js";
 answer({
   values: asked.states.map((state) => effectiveValues(asked.parameters, state)),

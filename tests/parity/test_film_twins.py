@@ -12,7 +12,7 @@ from sunwidget.widgets.editor.key_frames import MOVED, along
 from sunwidget.widgets.kernel.payload import parameter_json
 
 SCRIPT = """
-import { EASINGS, keyFramePath } from "./src/film_path.js";
+import { EASINGS, keyFramePath } from "./src/film/film_path.js";
 const { frames, edit, parameters, automatic, count } = asked;
 const rows = {};
 for (const easing of Object.keys(EASINGS)) {

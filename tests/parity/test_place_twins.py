@@ -10,7 +10,7 @@ from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, s
 pytest.importorskip("pvlib")
 
 SCRIPT = """
-import * as place from "./src/place.js";
+import * as place from "./src/geometry/place.js";
 answer(asked.map(({ here, path, seen }) => {
   const hours = place.hoursOfDay(here);
   return {

@@ -29,9 +29,9 @@ EDITS = {
     "half known place": sw.Edit(place=sw.Place(-33.9, 151.2, "2024-12-21", 9)),
 }
 SCRIPT = """
-import { checkRecipe } from "./src/recipe/check.js";
-import { readRecipe } from "./src/recipe/read.js";
-import { toJson, toPython } from "./src/recipe/write.js";
+import { checkRecipe } from "./src/edit/recipe/check.js";
+import { readRecipe } from "./src/edit/recipe/read.js";
+import { toJson, toPython } from "./src/edit/recipe/write.js";
 const { parameters, recipes } = asked;
 answer(recipes.map((recipe) => {
   const { values, problems } = checkRecipe(parameters, readRecipe(recipe));
@@ -89,8 +89,8 @@ def test_a_value_in_the_browser_is_pythons(browser):
 
 
 def test_browser_and_kernel_keep_as_many_steps_and_versions(root):
-    steps = (root / "js/src/steps.js").read_text("utf-8")
-    versions = (root / "js/src/editor/versions.js").read_text("utf-8")
+    steps = (root / "js/src/edit/history_limit.js").read_text("utf-8")
+    versions = (root / "js/src/editor/recipe/versions.js").read_text("utf-8")
     assert f"HISTORY_LENGTH = {HISTORY_LENGTH};" in steps
     assert f"HISTORY_BYTES = {HISTORY_BYTES:_};" in steps
     assert f"MOST = {VERSIONS};" in versions

@@ -3,7 +3,7 @@
  * pictures under D65.
  */
 
-import { LIGHT } from "../srgb.js";
+import { LIGHT } from "../gl/srgb.js";
 
 const DEGREE = Math.PI / 180;
 const FAR = 25 ** 7;

@@ -1,6 +1,6 @@
 /** What each picture says about its difference from the first, measured on small copies at rest. */
 
-import { element } from "../controls/element.js";
+import { element } from "../ui/element.js";
 import { pictureDifference } from "./color_difference.js";
 
 const EDGE = 160; // longer side of a copy, pixels

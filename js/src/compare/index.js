@@ -1,6 +1,6 @@
 /** The anywidget module of Compare. */
 
-import { widget } from "../mount.js";
+import { widget } from "../host/mount.js";
 import { unseen } from "./saved.js";
 import { View } from "./view.js";
 

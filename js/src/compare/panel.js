@@ -1,13 +1,13 @@
 /** One picture of a comparison: its canvas, its label, and the sun's handle on it. */
 
-import { element, setAttributes } from "../controls/element.js";
-import { SunTool } from "../editor/sun_tool.js";
-import { equal } from "../same.js";
-import { PictureStage } from "../stage.js";
+import { equal } from "../edit/equality.js";
+import { element, setAttributes } from "../ui/element.js";
+import { PictureStage } from "../ui/stage.js";
+import { SunTool } from "../ui/sun_tool.js";
 
 /**
- * @typedef {import("../types.js").Edit} Edit
- * @typedef {import("../types.js").Point} Point
+ * @typedef {import("../host/types.js").Edit} Edit
+ * @typedef {import("../host/types.js").Point} Point
  * @typedef {import("./view.js").View} View
  * @typedef {{ label: string, recipe?: Edit, scene?: number, photo?: boolean,
  *   picture?: DataView }} Variant as the kernel sends it; the label alone as long as the photo is

@@ -1,6 +1,6 @@
 /** A saved notebook keeps small pictures of what is compared, not the photo and its maps. */
 
-import { nothing, PHOTO, saveLight, thumbnail } from "../saved_state.js";
+import { nothing, PHOTO, saveLight, thumbnail } from "../host/saved_state.js";
 
 const EDGE = 960; // of all pictures together: more of them are smaller ones
 

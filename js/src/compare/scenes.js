@@ -3,16 +3,16 @@
  * unless they have strokes or hints of their own, so there is one as a rule.
  */
 
-import { Camera } from "../camera.js";
-import { element } from "../controls/element.js";
-import { Frame, MAPS } from "../frame.js";
+import { Camera } from "../geometry/camera.js";
+import { Frame, MAPS } from "../gl/frame.js";
 import { decodePicture } from "../gl/texture.js";
+import { element } from "../ui/element.js";
 
-/** @typedef {import("../types.js").Scene & { revision: number }} Scene */
+/** @typedef {import("../host/types.js").Scene & { revision: number }} Scene */
 
 export class Scenes {
   /**
-   * @param {import("../types.js").Model} model
+   * @param {import("../host/types.js").Model} model
    * @param {number} turns how many pictures each frame draws in turn
    * @param {AbortSignal} signal frees all
    */

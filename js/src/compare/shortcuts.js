@@ -1,11 +1,11 @@
 /** Every key of a comparison; the sun's arrow keys and the divider's belong to these. */
 
-import { openHelp } from "../controls/help_dialog.js";
-import { HISTORY_KEYS, isTaken, runShortcut } from "../controls/keys.js";
+import { openHelp } from "../ui/help_dialog.js";
+import { HISTORY_KEYS, isTaken, runShortcut } from "../ui/keys.js";
 
 /** @typedef {import("./view.js").View} View */
 
-/** @type {import("../controls/keys.js").Shortcut<View>[]} */
+/** @type {import("../ui/keys.js").Shortcut<View>[]} */
 const SHORTCUTS = [
   {
     section: "Pictures",

@@ -1,10 +1,10 @@
 /** How the pictures stand, the history, and how large they are. */
 
-import { button, radioButtons } from "../controls/button.js";
-import { element } from "../controls/element.js";
-import { historyButtons } from "../controls/history.js";
-import { zoomButtons } from "../controls/zoom_buttons.js";
-import { equal } from "../same.js";
+import { equal } from "../edit/equality.js";
+import { button, radioButtons } from "../ui/button.js";
+import { element } from "../ui/element.js";
+import { historyButtons } from "../ui/history_buttons.js";
+import { zoomButtons } from "../ui/zoom_buttons.js";
 
 /** @typedef {import("./view.js").View} View */
 

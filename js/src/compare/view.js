@@ -4,20 +4,20 @@
  * share sun, zoom and pan.
  */
 
-import { sunText } from "../angle_text.js";
-import { Divider } from "../controls/divider.js";
-import { element } from "../controls/element.js";
-import { ErrorMessage } from "../controls/error_message.js";
-import { errorText } from "../error_text.js";
-import { FrameLoop } from "../frame_loop.js";
+import { parameterOf } from "../edit/parameter.js";
+import { EditState } from "../edit/state.js";
+import { Zoom } from "../geometry/zoom.js";
+import { FrameLoop } from "../gl/frame_loop.js";
 import { decodePicture } from "../gl/texture.js";
-import { onKernelError } from "../kernel_errors.js";
-import { parameterOf } from "../parameter.js";
-import { savedText } from "../saved_state.js";
-import { watchSight } from "../sight.js";
-import { EditState } from "../state.js";
-import { onTraits } from "../traits.js";
-import { Zoom } from "../zoom.js";
+import { errorText } from "../host/error_text.js";
+import { onKernelError } from "../host/kernel_errors.js";
+import { savedText } from "../host/saved_state.js";
+import { onTraits } from "../host/traits.js";
+import { watchSight } from "../host/visibility.js";
+import { sunText } from "../ui/angle_text.js";
+import { Divider } from "../ui/divider.js";
+import { element } from "../ui/element.js";
+import { ErrorMessage } from "../ui/error_message.js";
 import { Differences } from "./differences.js";
 import { layOut, placeDivider } from "./layout.js";
 import { Panel } from "./panel.js";
@@ -28,9 +28,9 @@ import { listenToKeys } from "./shortcuts.js";
 import { toolbar } from "./toolbar.js";
 
 /**
- * @typedef {import("../types.js").Model} Model
- * @typedef {import("../types.js").Parameter} Parameter
- * @typedef {import("../types.js").Status} Status
+ * @typedef {import("../host/types.js").Model} Model
+ * @typedef {import("../host/types.js").Parameter} Parameter
+ * @typedef {import("../host/types.js").Status} Status
  */
 
 // Shares of the preview's size that are drawn. Few: each draws all of the picture's passes anew.

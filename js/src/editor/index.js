@@ -1,10 +1,10 @@
 /** The anywidget module of SunEditor. */
 
-import { Frame } from "../frame.js";
+import { Frame } from "../gl/frame.js";
 import { Sketch } from "../gl/sketch.js";
-import { widget } from "../mount.js";
-import { unseen } from "./saved.js";
-import { View } from "./view.js";
+import { widget } from "../host/mount.js";
+import { unseen } from "./view/saved.js";
+import { View } from "./view/view.js";
 
 export default widget("SunEditor", "Sun editor", "sw-editor", View, unseen);
 // For tests and for pages without a kernel.

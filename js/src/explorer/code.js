@@ -11,7 +11,7 @@ export function literal(value) {
 const SUN = ["sun_azimuth", "sun_elevation"];
 
 /**
- * @param {import("../types.js").Edit} recipe values that differ from their defaults
+ * @param {import("../host/types.js").Edit} recipe values that differ from their defaults
  * @param {[number, number] | null} sun azimuth and elevation; null when it is where time, scan
  *   or the table put it
  */

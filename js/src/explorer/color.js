@@ -1,6 +1,6 @@
 /** From radiance at four wavelengths, or one wavelength, to colours on the screen. */
 
-import { encode } from "../srgb.js";
+import { encode } from "../gl/srgb.js";
 import { SPECTRAL_TO_XYZ, XYZ_TO_REC709 } from "./matrices.js";
 
 /** @typedef {[number, number, number]} Triple */

@@ -1,10 +1,10 @@
 /** Lines and letters over the sky: horizon, elevations, compass, and the seam of two models. */
 
-import { setAttributes, shape } from "../controls/element.js";
+import { setAttributes, shape } from "../ui/element.js";
 
 /**
  * @typedef {import("./view.js").View} View
- * @typedef {import("../types.js").Point} Point
+ * @typedef {import("../host/types.js").Point} Point
  */
 
 const COMPASS = [

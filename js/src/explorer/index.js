@@ -1,6 +1,6 @@
 /** The anywidget module of SkyExplorer. */
 
-import { widget } from "../mount.js";
+import { widget } from "../host/mount.js";
 import { Projection } from "./projection.js";
 import { SkyFrame } from "./sky_frame.js";
 import { View } from "./view.js";

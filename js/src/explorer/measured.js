@@ -1,13 +1,13 @@
 /** Measured skies: 81 directions over the dome, coloured by how far the model is from them. */
 
-import { degrees } from "../angle_text.js";
-import { element, shape } from "../controls/element.js";
-import { errorText } from "../error_text.js";
+import { errorText } from "../host/error_text.js";
+import { degrees } from "../ui/angle_text.js";
+import { element, shape } from "../ui/element.js";
 import { MODEL_LABELS } from "./guides.js";
 import { ERROR_GRADIENT, errorColor, relativeError } from "./sky_probe.js";
 
 /**
- * @typedef {import("../types.js").Point} Point
+ * @typedef {import("../host/types.js").Point} Point
  * @typedef {{ time: string, sun_elevation: number, sun_azimuth: number, directions: Point[],
  *   radiance: number[][] }} Scan
  * @typedef {{ model: string, rmse: number, level: number, pattern: number }} Score
@@ -141,7 +141,7 @@ export function measuredControls(view) {
   const without = element("div", {}, explain, download, ask);
   const withData = element("div", {}, choose, compare.node, table);
 
-  /** @param {string} label @param {(progress: import("../channel.js").OnProgress) => Promise<void>} work */
+  /** @param {string} label @param {(progress: import("../host/channel.js").OnProgress) => Promise<void>} work */
   function action(label, work) {
     const button = element("button", { type: "button", class: "sw-chip" }, label);
     const note = element("p", { class: "sw-hint", hidden: true, role: "status" });

@@ -1,7 +1,7 @@
 /** What the models need beyond a choice: Bruneton's table, and patience for the reference. */
 
-import { element } from "../controls/element.js";
-import { errorText } from "../error_text.js";
+import { errorText } from "../host/error_text.js";
+import { element } from "../ui/element.js";
 import { MOST_SAMPLES } from "./limits.js";
 import { SWITCHED_OFF } from "./values.js";
 

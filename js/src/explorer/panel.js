@@ -1,18 +1,18 @@
 /** The panel: sun, place and time, terms, air, model, view, measured skies. */
 
-import { chip, presetChips } from "../controls/chips.js";
-import { choice } from "../controls/choice.js";
-import { element } from "../controls/element.js";
-import { section } from "../controls/section.js";
-import { slider } from "../controls/slider.js";
-import { toggle } from "../controls/toggle.js";
+import { chip, presetChips } from "../ui/chips.js";
+import { choice } from "../ui/choice.js";
+import { element } from "../ui/element.js";
+import { section } from "../ui/section.js";
+import { slider } from "../ui/slider.js";
+import { toggle } from "../ui/toggle.js";
 import { depthOfTurbidity, depthOfVisibility, turbidity, visibility } from "./haze.js";
 import { measuredControls } from "./measured.js";
 import { MODEL_NAMES, modelControls } from "./model_controls.js";
 import { placeControls } from "./place.js";
 
 /**
- * @typedef {import("../types.js").Parameter} Parameter
+ * @typedef {import("../host/types.js").Parameter} Parameter
  * @typedef {import("./view.js").View} View
  */
 

@@ -1,10 +1,10 @@
 /** Where and when: date, place, and the clock that plays the day. */
 
-import { degrees } from "../angle_text.js";
-import { element } from "../controls/element.js";
-import { playButton } from "../controls/play_button.js";
-import { slider } from "../controls/slider.js";
-import { clock, sunAt } from "../day.js";
+import { clock, sunAt } from "../geometry/day.js";
+import { degrees } from "../ui/angle_text.js";
+import { element } from "../ui/element.js";
+import { playButton } from "../ui/play_button.js";
+import { slider } from "../ui/slider.js";
 
 const HOURS_A_SECOND = 1; // while the day plays
 

@@ -1,10 +1,10 @@
 /** The pointer on the sky: it drags the sun, turns the view, and reads what lies under it. */
 
-import { turned } from "../day.js";
-import { GRAB } from "../sun_shape.js";
+import { turned } from "../geometry/day.js";
+import { GRAB } from "../ui/sun_shape.js";
 
 /**
- * @typedef {import("../types.js").Point} Point
+ * @typedef {import("../host/types.js").Point} Point
  * @typedef {import("./view.js").View} View
  */
 

@@ -8,7 +8,7 @@
  * at the top left.
  */
 
-import { turned } from "../day.js";
+import { turned } from "../geometry/day.js";
 
 /** Diameter of the dome over the smaller side; the rest is room for names. */
 export const DOME_SHARE = 0.94;

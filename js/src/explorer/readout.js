@@ -1,8 +1,8 @@
 /** The line under the sky: the sun's place, and what lies under the pointer. */
 
-import { degrees } from "../angle_text.js";
-import { element } from "../controls/element.js";
-import { trueElevation, turned } from "../day.js";
+import { trueElevation, turned } from "../geometry/day.js";
+import { degrees } from "../ui/angle_text.js";
+import { element } from "../ui/element.js";
 import { cssColor } from "./color.js";
 import { luminanceText } from "./sky_probe.js";
 

@@ -1,8 +1,8 @@
 /** Every key of the explorer, in one table: the key handler runs it and the help shows it. */
 
-import { openHelp } from "../controls/help_dialog.js";
-import { HISTORY_KEYS } from "../controls/keys.js";
-import { turned } from "../day.js";
+import { turned } from "../geometry/day.js";
+import { openHelp } from "../ui/help_dialog.js";
+import { HISTORY_KEYS } from "../ui/keys.js";
 
 /** @typedef {import("./view.js").View} View */
 
@@ -15,7 +15,7 @@ const take = (projection) => (view) => view.state.set({ projection });
 const turn = (degrees) => (view) =>
   view.state.set({ view_azimuth: turned(view.number("view_azimuth") + degrees) });
 
-/** @type {import("../controls/keys.js").Shortcut<View>[]} */
+/** @type {import("../ui/keys.js").Shortcut<View>[]} */
 export const SHORTCUTS = [
   { section: "View", keys: ["1"], label: "Dome", run: take("dome") },
   { section: "View", keys: ["2"], label: "Panorama", run: take("panorama") },

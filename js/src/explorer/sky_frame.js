@@ -8,8 +8,8 @@ import { Surface } from "../gl/surface.js";
 import { effectiveValues } from "./values.js";
 
 /**
- * @typedef {import("../types.js").Edit} Edit
- * @typedef {import("../types.js").Parameter} Parameter
+ * @typedef {import("../host/types.js").Edit} Edit
+ * @typedef {import("../host/types.js").Parameter} Parameter
  * @typedef {import("../gl/graph.js").Frame} Frame
  */
 

@@ -3,7 +3,7 @@
 import { chromaticity, rec709OfXyz, xyzOfSpectrum } from "./color.js";
 
 /**
- * @typedef {import("../types.js").Point} Point
+ * @typedef {import("../host/types.js").Point} Point
  * @typedef {{ radiance: number[], luminance: number, xy: [number, number] | null,
  *   rgb: number[] }} Reading luminance in kcd m⁻², colour in linear Rec. 709
  */

@@ -3,11 +3,11 @@
  * the sun below the horizon. Places are CSS pixels from the picture's top left corner.
  */
 
-import { element } from "../controls/element.js";
-import { PictureStage } from "../stage.js";
+import { element } from "../ui/element.js";
+import { PictureStage } from "../ui/stage.js";
 import { ASPECTS } from "./projection.js";
 
-/** @typedef {import("../types.js").Point} Point */
+/** @typedef {import("../host/types.js").Point} Point */
 
 export class SkyStage extends PictureStage {
   /** @param {AbortSignal} signal */

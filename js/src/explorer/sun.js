@@ -1,8 +1,8 @@
 /** Where the explorer's sun stands, and what moves it: a hand, the clock, or a measured scan. */
 
-import { sunAt, turned } from "../day.js";
+import { sunAt, turned } from "../geometry/day.js";
 
-/** @typedef {import("../types.js").Point} Point azimuth and apparent elevation in degrees */
+/** @typedef {import("../host/types.js").Point} Point azimuth and apparent elevation in degrees */
 
 export class Sun {
   /** @param {import("./view.js").View} view */
@@ -15,7 +15,7 @@ export class Sun {
     return [this.view.number("sun_azimuth"), this.view.number("sun_elevation")];
   }
 
-  /** The kernel's table of the sun's path. @returns {import("../day.js").DayRow[]} */
+  /** The kernel's table of the sun's path. @returns {import("../geometry/day.js").DayRow[]} */
   day() {
     return this.view.model.get("_day") ?? [];
   }

@@ -1,7 +1,7 @@
 /** The sun's handle on the sky: drag it, also below the horizon, or move it with the arrow keys. */
 
-import { turned } from "../day.js";
-import { EDGE, keyStep, SunShape, spotOnStage } from "../sun_shape.js";
+import { turned } from "../geometry/day.js";
+import { EDGE, keyStep, SunShape, spotOnStage } from "../ui/sun_shape.js";
 
 // Round the dome there is room for all of twilight.
 const DOME_EDGE = 12;
@@ -39,7 +39,7 @@ export class SunHandle {
   /**
    * @param {number} azimuth
    * @param {number} elevation
-   * @param {import("../stage.js").Box} box
+   * @param {import("../ui/stage.js").Box} box
    */
   onStage(azimuth, elevation, box) {
     const place = this.view.placeOf([azimuth, elevation]);

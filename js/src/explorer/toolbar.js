@@ -1,14 +1,14 @@
 /** How the sky is shown, history, and the way out: code. */
 
-import { button, radioButtons } from "../controls/button.js";
-import { copied } from "../controls/clipboard.js";
-import { element } from "../controls/element.js";
-import { historyButtons } from "../controls/history.js";
-import { turned } from "../day.js";
+import { turned } from "../geometry/day.js";
+import { button, radioButtons } from "../ui/button.js";
+import { copied } from "../ui/clipboard.js";
+import { element } from "../ui/element.js";
+import { historyButtons } from "../ui/history_buttons.js";
 import { pythonCode } from "./code.js";
 import { showKeys } from "./shortcuts.js";
 
-/** @type {{ value: string, icon: import("../controls/icons.js").IconName, label: string, title: string }[]} */
+/** @type {{ value: string, icon: import("../ui/icons.js").IconName, label: string, title: string }[]} */
 const PROJECTIONS = [
   {
     value: "dome",

@@ -6,8 +6,8 @@
  */
 
 /**
- * @typedef {import("../types.js").Edit} Edit
- * @typedef {import("../types.js").Parameter} Parameter
+ * @typedef {import("../host/types.js").Edit} Edit
+ * @typedef {import("../host/types.js").Parameter} Parameter
  */
 
 /** What a switch that is off sets to zero. @type {Record<string, string>} */

@@ -5,18 +5,18 @@
  * widget goes on without a kernel.
  */
 
-import { Channel } from "../channel.js";
-import { Announcer } from "../controls/announcer.js";
-import { element } from "../controls/element.js";
-import { ErrorMessage } from "../controls/error_message.js";
-import { runShortcut } from "../controls/keys.js";
-import { angleBetween } from "../day.js";
-import { FrameLoop } from "../frame_loop.js";
-import { onKernelError } from "../kernel_errors.js";
-import { parameterOf } from "../parameter.js";
-import { watchSight } from "../sight.js";
-import { EditState } from "../state.js";
-import { onTraits } from "../traits.js";
+import { parameterOf } from "../edit/parameter.js";
+import { EditState } from "../edit/state.js";
+import { angleBetween } from "../geometry/day.js";
+import { FrameLoop } from "../gl/frame_loop.js";
+import { Channel } from "../host/channel.js";
+import { onKernelError } from "../host/kernel_errors.js";
+import { onTraits } from "../host/traits.js";
+import { watchSight } from "../host/visibility.js";
+import { Announcer } from "../ui/announcer.js";
+import { element } from "../ui/element.js";
+import { ErrorMessage } from "../ui/error_message.js";
+import { runShortcut } from "../ui/keys.js";
 import { Guides } from "./guides.js";
 import { Measured } from "./measured.js";
 import { panel } from "./panel.js";
@@ -34,9 +34,9 @@ import { toolbar } from "./toolbar.js";
 import { Tracer } from "./tracer.js";
 
 /**
- * @typedef {import("../types.js").Model} Model
- * @typedef {import("../types.js").Parameter} Parameter
- * @typedef {import("../types.js").Point} Point
+ * @typedef {import("../host/types.js").Model} Model
+ * @typedef {import("../host/types.js").Parameter} Parameter
+ * @typedef {import("../host/types.js").Point} Point
  */
 
 const MOST_PIXELS = 900_000;

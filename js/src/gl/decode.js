@@ -6,8 +6,8 @@
  * the same table.
  */
 
-import { LIGHT } from "../srgb.js";
 import { createProgram } from "./program.js";
+import { LIGHT } from "./srgb.js";
 import { createTarget } from "./target.js";
 import { createFloatTexture, createPictureTexture } from "./texture.js";
 

@@ -4,8 +4,8 @@
  */
 
 /**
- * @typedef {import("../types.js").Edit} Edit
- * @typedef {import("../types.js").Parameter} Parameter
+ * @typedef {import("../host/types.js").Edit} Edit
+ * @typedef {import("../host/types.js").Parameter} Parameter
  * @typedef {Record<string, number | number[]>} Values
  */
 

@@ -4,7 +4,7 @@
  * where the widget cannot run.
  */
 
-import { errorText } from "../error_text.js";
+import { errorText } from "../host/error_text.js";
 import { StandaloneModel, stateOf } from "./model.js";
 
 /** @param {string} id */

@@ -6,7 +6,7 @@
  */
 
 /**
- * @typedef {import("../types.js").Model} Model
+ * @typedef {import("../host/types.js").Model} Model
  * @typedef {(...args: any[]) => void} Listener
  */
 

@@ -1,6 +1,6 @@
 /** The anywidget module of Study. */
 
-import { widget } from "../mount.js";
+import { widget } from "../host/mount.js";
 import { View } from "./view.js";
 
 /** A notebook keeps the answers, not the pictures: they are megabytes each. */

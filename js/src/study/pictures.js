@@ -1,6 +1,6 @@
 /** The study's pictures as image elements, decoded before they are shown. */
 
-import { element } from "../controls/element.js";
+import { element } from "../ui/element.js";
 
 export class Pictures {
   /**

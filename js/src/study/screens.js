@@ -1,6 +1,6 @@
 /** What a rater sees before the first pair and after the last one. */
 
-import { element } from "../controls/element.js";
+import { element } from "../ui/element.js";
 
 /** @param {number} count */
 const pairs = (count) => (count === 1 ? "one pair" : `${count} pairs`);

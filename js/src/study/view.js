@@ -3,9 +3,9 @@
  * (`_answers`), so that a reload goes on where the rater was.
  */
 
-import { button } from "../controls/button.js";
-import { element } from "../controls/element.js";
-import { download } from "../editor/download.js";
+import { button } from "../ui/button.js";
+import { download } from "../ui/download.js";
+import { element } from "../ui/element.js";
 import { csv } from "./csv.js";
 import { Pictures } from "./pictures.js";
 import { endScreen, savedScreen, startScreen } from "./screens.js";
@@ -22,7 +22,7 @@ const KEYS = { ArrowLeft: "left", f: "left", ArrowRight: "right", j: "right" };
 
 export class View {
   /**
-   * @param {import("../types.js").Model} model
+   * @param {import("../host/types.js").Model} model
    * @param {HTMLElement} root
    * @param {AbortSignal} signal ends the view
    */

@@ -10,7 +10,7 @@ import traitlets
 
 from sunwidget.edit.table import PARAMETERS, Edit, EditError
 
-# Twins of those in js/src/editor/key_frames.js.
+# Twins of those in js/src/editor/export/key_frames.js.
 MOST = 100
 LONGEST = 600.0  # seconds of a film
 

@@ -41,7 +41,7 @@ MAP_TRAITS = (
     "_transfer",
     "_lamps",
 )
-_SAVED_EDGE, _SAVED_QUALITY = 640, 85  # as js/src/editor/saved.js has them
+_SAVED_EDGE, _SAVED_QUALITY = 640, 85  # as js/src/editor/view/saved.js has them
 # Above this many bytes a lossless preview costs more than it shows.
 _LOSSLESS_BYTES = 4_000_000
 _JPEG_QUALITY = 95

@@ -1,4 +1,4 @@
-"""Answer the browser's requests. The browser's twin is ``js/src/channel.js``.
+"""Answer the browser's requests. The browser's twin is ``js/src/host/channel.js``.
 
 Every request has an id and gets exactly one response, errors included; progress may come
 before it. Work runs on a thread of its own, so that a long export blocks no slider. Cancelled

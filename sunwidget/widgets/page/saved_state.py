@@ -2,7 +2,7 @@
 
 Such programs (``jupyter nbconvert --execute``, papermill) store whatever a widget tells a browser,
 and no browser listens: photo and maps would be megabytes that nobody looks at. What JupyterLab
-saves is made light by the front end, ``js/src/saved_state.js``.
+saves is made light by the front end, ``js/src/host/saved_state.js``.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 /** One plot: uPlot in the widget's dress, with a legend of HTML that tells values too. */
 
 import uPlot from "uplot";
-import { element } from "../../controls/element.js";
+import { element } from "../../ui/element.js";
 
 /**
- * @typedef {import("../../controls/theme.js").Theme} Theme
+ * @typedef {import("../../ui/theme.js").Theme} Theme
  * @typedef {{ label: string, color: string, dash?: number[], text?: (value: number) => string }} Line
  *   `color` is a name of the theme
  * @typedef {{ time?: boolean, range?: any, distr?: 1 | 3 | 100, fwd?: (v: number) => number,

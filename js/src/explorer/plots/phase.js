@@ -8,7 +8,7 @@ const CIRCLE = 2 * Math.PI;
 /** @typedef {import("./plots.js").Context} Context */
 
 export class PhasePlot {
-  /** @param {import("../../controls/theme.js").Theme} theme */
+  /** @param {import("../../ui/theme.js").Theme} theme */
   constructor(theme) {
     this.title = "Phase functions";
     this.help =

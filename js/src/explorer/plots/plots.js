@@ -5,9 +5,9 @@
  * something is dragged, and always once more at the end.
  */
 
-import { element } from "../../controls/element.js";
-import { icon } from "../../controls/icons.js";
-import { followTheme, readTheme } from "../../controls/theme.js";
+import { element } from "../../ui/element.js";
+import { icon } from "../../ui/icons.js";
+import { followTheme, readTheme } from "../../ui/theme.js";
 import { PhasePlot } from "./phase.js";
 import { PrincipalPlanePlot } from "./principal_plane.js";
 import { SunColorPlot } from "./sun_color.js";

@@ -1,7 +1,7 @@
 /** Radiance along the great circle through sun and zenith, at the four wavelengths. */
 
-import { element } from "../../controls/element.js";
-import { turned } from "../../day.js";
+import { turned } from "../../geometry/day.js";
+import { element } from "../../ui/element.js";
 import { channel, onPrincipalPlane, PLANE_ANGLES, planeDirection } from "../curves.js";
 import { Chart, short } from "./chart.js";
 
@@ -10,7 +10,7 @@ const NEAR = 8; // degrees from the plane at which a measured direction is shown
 
 export class PrincipalPlanePlot {
   /**
-   * @param {import("../../controls/theme.js").Theme} theme
+   * @param {import("../../ui/theme.js").Theme} theme
    * @param {import("./plots.js").Links} links
    */
   constructor(theme, links) {

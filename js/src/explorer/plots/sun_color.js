@@ -11,7 +11,7 @@ const illuminance = (klx) => (klx < 1 ? `${short(1000 * klx)} lx` : `${short(klx
 
 export class SunColorPlot {
   /**
-   * @param {import("../../controls/theme.js").Theme} theme
+   * @param {import("../../ui/theme.js").Theme} theme
    * @param {import("./plots.js").Links} links
    */
   constructor(theme, links) {

@@ -1,7 +1,7 @@
 /** What is left of the sun's light, by wavelength, and who took the rest. */
 
-import { degrees } from "../../angle_text.js";
-import { horizonElevation } from "../../day.js";
+import { horizonElevation } from "../../geometry/day.js";
+import { degrees } from "../../ui/angle_text.js";
 import { wavelengthColor } from "../color.js";
 import { channel, WAVELENGTHS } from "../curves.js";
 import { Chart } from "./chart.js";
@@ -12,7 +12,7 @@ const SUN_RADIUS = 0.27; // degrees
 const percent = (/** @type {number} */ share) => `${(100 * share).toFixed(0)} %`;
 
 export class TransmittancePlot {
-  /** @param {import("../../controls/theme.js").Theme} theme */
+  /** @param {import("../../ui/theme.js").Theme} theme */
   constructor(theme) {
     this.title = "Sunlight that arrives";
     this.help =

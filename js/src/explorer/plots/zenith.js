@@ -19,7 +19,7 @@ const digits = (/** @type {number} */ v) => v.toFixed(3);
 
 /** The track in CIE x, y. */
 export class ZenithTrackPlot {
-  /** @param {import("../../controls/theme.js").Theme} theme */
+  /** @param {import("../../ui/theme.js").Theme} theme */
   constructor(theme) {
     this.title = "Zenith in CIE x, y";
     this.help =
@@ -127,7 +127,7 @@ function paintDiagram() {
 /** x and y against the sun's elevation. */
 export class ZenithElevationPlot {
   /**
-   * @param {import("../../controls/theme.js").Theme} theme
+   * @param {import("../../ui/theme.js").Theme} theme
    * @param {import("./plots.js").Links} links
    */
   constructor(theme, links) {

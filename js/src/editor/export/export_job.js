@@ -1,0 +1,106 @@
+/** What the export panel has under way, and what came of it: progress, result, a name that is taken. */
+
+import { chip } from "../../ui/chips.js";
+import { download } from "../../ui/download.js";
+import { element } from "../../ui/element.js";
+import { work } from "./save.js";
+
+const SHOWN_BYTES = 20_000_000; // as in sunwidget/widgets/editor/export_files.py
+
+/**
+ * @typedef {import("../view/view.js").View} View
+ * @typedef {{ name: string, type: string, bytes: number, files: number, path?: string }} Made
+ */
+
+/**
+ * @param {View} view
+ * @param {() => boolean} isOpen whether the panel is in sight, which then shows the progress
+ * @param {AbortSignal} signal
+ */
+export function exportJob(view, isOpen, signal) {
+  const bar = element("progress", { max: 1, "aria-label": "Progress of the export" });
+  const said = element("span", { class: "sw-export-said" });
+  const cancel = chip("Cancel", "Stop; nothing of the file is left", () => view.work?.abort());
+  const running = element("div", { class: "sw-export-running", hidden: true }, bar, said, cancel);
+  const done = element("div", { class: "sw-export-done", role: "status" });
+  let url = "";
+  const forget = () => {
+    URL.revokeObjectURL(url);
+    url = "";
+  };
+  signal.addEventListener("abort", forget);
+
+  /** @param {number} fraction @param {string} text */
+  const tell = (fraction, text) => {
+    const open = isOpen();
+    bar.value = fraction;
+    said.textContent = text;
+    view.stage.setProgress(open ? null : fraction, open ? "" : text);
+  };
+
+  /** @param {Made} made @param {DataView[]} buffers @param {boolean} isFilm */
+  const show = (made, buffers, isFilm) => {
+    const blob = new Blob(/** @type {BlobPart[]} */ (buffers), { type: made.type });
+    const { name, path } = made;
+    if (!path) download(blob, name);
+    forget();
+    url = buffers.length ? URL.createObjectURL(blob) : "";
+    const files = made.files > 1 ? `${made.files} files, ` : "";
+    const text = element("p", {}, element("b", {}, name), ` · ${files}${sizeText(made.bytes)} · `);
+    text.append(path ? `written to ${path}` : again(name));
+    done.replaceChildren(text, ...(isFilm && made.bytes <= SHOWN_BYTES ? shown(made.type) : []));
+  };
+  const again = (/** @type {string} */ name) =>
+    element("a", { href: url, download: name }, "download again");
+  const shown = (/** @type {string} */ type) => {
+    if (!url) return [];
+    const node = type.startsWith("video/")
+      ? element("video", { src: url, controls: true, loop: true, playsinline: true })
+      : type.startsWith("image/")
+        ? element("img", { src: url, alt: "The film" })
+        : null;
+    if (!node) return [];
+    // A host may forbid it, or the browser lack the codec.
+    node.addEventListener("error", () => node.remove());
+    return [node];
+  };
+
+  /**
+   * Export once; a name that is taken is said, with one that is free.
+   *
+   * @param {"still" | "film"} action
+   * @param {{ name: string, [option: string]: unknown }} content
+   * @param {(name: string) => void} rename what to do with the free name
+   */
+  const run = (action, content, rename) =>
+    work(view, "The export", async (stop) => {
+      done.replaceChildren();
+      running.hidden = false;
+      tell(0, "Asking the kernel …");
+      try {
+        /** @type {import("../../host/channel.js").OnProgress} */
+        const onProgress = (fraction, text) => {
+          if (!stop.aborted) tell(fraction, text);
+        };
+        const asked = { ...content, ...view.asked(), key_frames: view.state.keyFrames() };
+        const { result, buffers } = await view.channel.request(action, asked, onProgress, [], stop);
+        if (!result.taken) return show(result, buffers, action === "film");
+        const other = chip(`Use ${result.free}`, "Export under this name", () => {
+          rename(result.free);
+          void run(action, { ...content, name: result.free }, rename);
+        });
+        const text = `${result.taken} exists already and was left as it is.`;
+        done.replaceChildren(element("p", {}, text), other);
+      } finally {
+        running.hidden = true;
+      }
+    });
+
+  return { running, done, run };
+}
+
+/** @param {number} bytes */
+export function sizeText(bytes) {
+  if (bytes < 1e6) return `${Math.max(1, Math.round(bytes / 1e3))} kB`;
+  return `${(bytes / 1e6).toFixed(bytes < 1e7 ? 1 : 0)} MB`;
+}

@@ -1,0 +1,203 @@
+/** Key frames of a film: edits at seconds, as a strip of small pictures. */
+
+import { alongEdit, movedOf } from "../../film/film_path.js";
+import { button } from "../../ui/button.js";
+import { chip } from "../../ui/chips.js";
+import { element } from "../../ui/element.js";
+import { placePhoto, thumbnails } from "../panel/thumbnails.js";
+
+/** @typedef {import("../../film/film_path.js").KeyFrame} KeyFrame */
+
+// Twins of those in sunwidget/widgets/editor/key_frames.py.
+const MOST = 100;
+const LONGEST = 600;
+const CLOSEST = 0.05;
+const APART = 2; // seconds between a new key frame and the last
+
+/**
+ * @param {import("../view/view.js").View} view
+ * @param {AbortSignal} signal
+ */
+export function keyFrames(view, signal) {
+  const { model, state, notices } = view;
+  let generation = 0; // of the scene
+  /** @type {{ frame: KeyFrame, canvas: HTMLCanvasElement }[]} */
+  let cards = [];
+
+  /** @returns {KeyFrame[]} */
+  const read = () => model.get("key_frames") ?? [];
+  /** @param {KeyFrame[]} frames */
+  const write = (frames) => {
+    const sorted = [...frames].sort((a, b) => a.seconds - b.seconds);
+    // No two stand at one time: the later gives way.
+    let least = 0;
+    const apart = sorted.map(({ seconds, recipe }) => {
+      const at = round(Math.max(seconds, least));
+      least = at + CLOSEST;
+      return { seconds: at, recipe: movedOf(view.parameters, recipe) };
+    });
+    model.set("key_frames", apart);
+    model.save_changes();
+  };
+
+  /** @param {number} i @param {KeyFrame} frame */
+  const put = (i, frame) => write(read().map((other, at) => (at === i ? frame : other)));
+
+  const list = element("ol", { class: "sw-key-frames", "aria-label": "Key frames" });
+  const add = chip("Add key frame", "The edit as it is now, as the film's next key frame", () => {
+    const frames = read();
+    const last = frames[frames.length - 1];
+    write([...frames, { seconds: last ? last.seconds + APART : 0, recipe: state.recipe() }]);
+    list.scrollLeft = list.scrollWidth;
+  });
+  const fromVersions = chip("From the versions", "The kept versions, in their order", () => {
+    const before = read();
+    write(state.versions().map(({ recipe }, i) => ({ seconds: i * APART, recipe })));
+    if (before.length) offer("The key frames were replaced.", before);
+  });
+  const clear = chip("Clear", "No key frames: from the photo to the edit as it is", () => {
+    const before = read();
+    write([]);
+    offer("The key frames were removed.", before);
+  });
+  /** @param {string} text @param {KeyFrame[]} before */
+  const offer = (text, before) =>
+    notices.show("key-frame", {
+      text,
+      actions: [{ label: "Undo", run: () => write(before) }],
+      seconds: 20,
+    });
+  const empty = element("p", { class: "sw-hint" });
+  const node = element(
+    "div",
+    { class: "sw-key-frame-strip" },
+    list,
+    empty,
+    element("div", { class: "sw-chips" }, add, fromVersions, clear),
+  );
+
+  /** @type {(frame: KeyFrame, i: number, all: KeyFrame[]) => HTMLElement} */
+  const card = (frame, i, all) => {
+    const canvas = element("canvas", { class: "sw-thumbnail", "aria-hidden": "true" });
+    placePhoto(view, canvas);
+    cards.push({ frame, canvas });
+    const name = `key frame ${i + 1}`;
+    const go = element(
+      "button",
+      { type: "button", class: "sw-key-go", "aria-label": `Go to ${name}` },
+      canvas,
+    );
+    go.title = "Go to this edit, as one step";
+    go.addEventListener("click", () => state.replace(whole(frame)));
+    const seconds = element("input", {
+      type: "number",
+      class: "sw-input",
+      min: 0,
+      max: LONGEST,
+      step: 0.1,
+      value: frame.seconds,
+      "aria-label": `Seconds of ${name}`,
+    });
+    seconds.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") seconds.blur();
+      event.stopPropagation();
+    });
+    seconds.addEventListener("change", () => {
+      const value = Number(seconds.value);
+      const good = seconds.value !== "" && seconds.checkValidity();
+      if (good) put(i, { ...frame, seconds: value });
+      else seconds.value = String(frame.seconds);
+    });
+    /** @param {number} by */
+    const move = (by) => {
+      const frames = read();
+      const other = frames[i + by];
+      const swapped = [...frames];
+      swapped[i] = { ...frame, recipe: other.recipe };
+      swapped[i + by] = { ...other, recipe: frame.recipe };
+      write(swapped);
+      /** @type {HTMLElement | null} */ (list.children[i + by]?.querySelector("button"))?.focus();
+    };
+    const earlier = button({
+      icon: "chevron",
+      label: `Move ${name} forward in the film`,
+      onClick: () => move(-1),
+    });
+    earlier.classList.add("sw-backwards");
+    earlier.disabled = i === 0;
+    const later = button({
+      icon: "chevron",
+      label: `Move ${name} back in the film`,
+      onClick: () => move(1),
+    });
+    later.disabled = i === all.length - 1;
+    const retake = button({
+      icon: "camera",
+      label: `Set ${name} to the edit as it is now`,
+      onClick: () => put(i, { ...frame, recipe: state.recipe() }),
+    });
+    const remove = button({
+      icon: "close",
+      label: `Delete ${name}`,
+      onClick: () => {
+        const before = read();
+        write(before.filter((_, at) => at !== i));
+        offer("The key frame was deleted.", before);
+        add.focus();
+      },
+    });
+    const unit = element("span", { class: "sw-unit" }, "s");
+    return element(
+      "li",
+      { class: "sw-key-frame" },
+      go,
+      element("div", { class: "sw-key-row" }, seconds, unit, remove),
+      element("div", { class: "sw-key-row" }, earlier, retake, later),
+    );
+  };
+  /** A key frame's recipe with the present edit's corrections and methods. @param {KeyFrame} frame */
+  const whole = (frame) => alongEdit(view.parameters, state.recipe(), frame.recipe);
+
+  let drawn = "";
+  const show = () => {
+    const frames = read();
+    const text = JSON.stringify(frames);
+    if (text !== drawn || !cards.length) {
+      drawn = text;
+      cards = [];
+      list.replaceChildren(...frames.map(card));
+    }
+    list.hidden = !frames.length;
+    empty.hidden = frames.length > 1;
+    empty.textContent = frames.length
+      ? "From this key frame to the edit as it is now. Move the sun and add the next."
+      : "From the photo as it was to the edit as it is now; or along key frames that you add.";
+    add.disabled = frames.length >= MOST;
+    clear.hidden = !frames.length;
+    fromVersions.hidden = state.versions().length < 2;
+    small.wake();
+  };
+  const small = thumbnails(view, signal, node, () => {
+    const shared = view.parameters.filter(({ kind }) => kind !== "data");
+    return cards.map(({ frame, canvas }) => {
+      const edit = alongEdit(view.parameters, state.values, frame.recipe);
+      const key = JSON.stringify([generation, ...shared.map(({ name }) => edit[name])]);
+      return { canvas, edit, key };
+    });
+  });
+
+  return {
+    node,
+    read,
+    write,
+    show,
+    loaded() {
+      generation += 1;
+      cards = [];
+    },
+    drawn: () => small.wake(),
+  };
+}
+
+/** @param {number} seconds */
+const round = (seconds) => Math.round(seconds * 100) / 100;

@@ -1,0 +1,249 @@
+/**
+ * Shows one map of the analysis over the picture, with its legend, how its values are spread, and
+ * the value under the pointer. A map travels when it is asked for, once for each scene.
+ */
+
+import { decodePicture } from "../../gl/texture.js";
+import { errorText } from "../../host/error_text.js";
+import { button } from "../../ui/button.js";
+import { element, setAttributes, shape } from "../../ui/element.js";
+import { ceiling, hill, spreadOf } from "./levels.js";
+import { colours, gradient, textAt } from "./ramp.js";
+
+/**
+ * @typedef {import("../../host/types.js").Point} Point
+ * @typedef {import("../../host/types.js").SceneMap} SceneMap
+ * @typedef {import("../view/view.js").View} View
+ * @typedef {{ levels: Uint8Array, width: number, height: number }} MapLevels
+ */
+
+const [SPREAD_WIDTH, SPREAD_HEIGHT] = [256, 20];
+
+export class Inspector {
+  /** @param {View} view */
+  constructor(view) {
+    this.view = view;
+    /** @type {SceneMap[]} */
+    this.maps = view.model.get("_maps") ?? [];
+    /** @type {SceneMap | null} the map that is shown */
+    this.map = null;
+    /** @type {MapLevels | null} */
+    this.data = null;
+    /** @type {unknown} the scene that `data` belongs to */
+    this.scene = null;
+    /** @type {Map<string, MapLevels>} by name, of the scene at hand */
+    this.known = new Map();
+    /** @type {unknown} */
+    this.knownScene = null;
+    this.asked = 0;
+    /** @type {Point | null} */
+    this.place = null;
+
+    this.choice = element(
+      "select",
+      { class: "sw-select sw-show", "aria-label": "Show", title: "Show a map of the analysis (M)" },
+      element("option", { value: "" }, "Picture"),
+      element(
+        "optgroup",
+        { label: "What the analysis found" },
+        ...this.maps.map(({ name, title }) => element("option", { value: name }, title)),
+      ),
+    );
+    this.choice.addEventListener("change", () => this.show(this.choice.value));
+    this.canvas = element("canvas", { class: "sw-map", "aria-hidden": "true" });
+    this.title = element("b");
+    this.help = element("span", { class: "sw-legend-help" });
+    this.marker = element("span", { class: "sw-legend-marker" });
+    this.spread = shape("path");
+    this.bar = element("span", { class: "sw-legend-bar" }, this.marker);
+    const over = shape(
+      "svg",
+      {
+        class: "sw-legend-spread",
+        viewBox: `0 0 ${SPREAD_WIDTH} ${SPREAD_HEIGHT}`,
+        preserveAspectRatio: "none",
+        "aria-hidden": "true",
+      },
+      this.spread,
+    );
+    this.low = element("span");
+    this.high = element("span");
+    // Not read out by itself: it changes with every move of the pointer.
+    this.value = element("output", {
+      class: "sw-legend-value",
+      "aria-label": "Value at pointer",
+      "aria-live": "off",
+    });
+    this.opacity = element("input", {
+      type: "range",
+      class: "sw-range",
+      min: 0.1,
+      max: 1,
+      step: 0.05,
+      value: 1,
+      "aria-label": "Opacity of the map",
+      title: "Opacity of the map",
+    });
+    this.opacity.addEventListener("input", () => this.setOpacity());
+    const ramp = element("span", { class: "sw-legend-ramp" }, over, this.bar);
+    this.scale = element("span", { class: "sw-legend-scale" }, this.low, ramp, this.high);
+    this.position = element("span", { class: "sw-legend-position" });
+    const steps = element(
+      "span",
+      { class: "sw-legend-steps" },
+      button({
+        icon: "chevron",
+        label: "Map before",
+        title: "Map before (Shift+M)",
+        onClick: () => this.step(-1),
+      }),
+      this.position,
+      button({
+        icon: "chevron",
+        label: "Next map",
+        title: "Next map (M)",
+        onClick: () => this.step(1),
+      }),
+    );
+    const close = button({
+      icon: "close",
+      label: "Close the map",
+      title: "Close the map (Esc)",
+      onClick: () => this.show(""),
+    });
+    this.node = element(
+      "div",
+      { class: "sw-legend", role: "group", "aria-label": "Map of the analysis", hidden: true },
+      element("span", { class: "sw-legend-name" }, this.title, this.value),
+      this.scale,
+      this.opacity,
+      steps,
+      close,
+      this.help,
+    );
+    this.setOpacity();
+  }
+
+  setOpacity() {
+    const share = Number(this.opacity.value);
+    this.canvas.style.opacity = String(share);
+    this.opacity.style.setProperty("--sw-share", String((share - 0.1) / 0.9));
+  }
+
+  /** Show a map by name; an empty name shows the picture again. @param {string} name */
+  show(name) {
+    this.map = this.maps.find((map) => map.name === name) ?? null;
+    this.choice.value = this.map?.name ?? "";
+    this.node.hidden = !this.map;
+    this.data = null;
+    this.scene = null;
+    this.canvas.width = 0;
+    this.view.root.classList.toggle("sw-inspecting", this.map !== null);
+    if (!this.map) return;
+    const { title, help, ramp } = this.map;
+    this.title.textContent = title;
+    this.position.textContent = `${this.maps.indexOf(this.map) + 1} / ${this.maps.length}`;
+    setAttributes(this.spread, { d: "" });
+    this.help.textContent = help;
+    this.low.textContent = textAt(this.map, 0);
+    this.high.textContent = textAt(this.map, 1);
+    this.bar.style.backgroundImage = gradient(ramp);
+    this.readValue();
+    void this.refresh();
+  }
+
+  /** The next map of the table, the picture after the last. @param {1 | -1} way */
+  step(way) {
+    const names = ["", ...this.maps.map(({ name }) => name)];
+    const at = names.indexOf(this.map?.name ?? "");
+    this.show(names[(at + way + names.length) % names.length]);
+  }
+
+  /** Ask for the map unless the one at hand is of the present scene. */
+  async refresh() {
+    const { map, view } = this;
+    if (!map || !view.scene || this.scene === view.scene) return;
+    const { scene } = view;
+    this.scene = scene;
+    this.asked += 1;
+    const { asked } = this;
+    if (this.knownScene !== scene) this.known.clear();
+    this.knownScene = scene;
+    const known = this.known.get(map.name);
+    if (known) {
+      this.node.classList.remove("sw-waiting"); // for another map, given up
+      return this.paint(map, known);
+    }
+    this.node.classList.add("sw-waiting");
+    try {
+      const { buffers } = await view.channel.request("map", { name: map.name });
+      const bitmap = await decodePicture(buffers[0]);
+      const data = levelsOf(bitmap);
+      bitmap.close();
+      if (data && this.knownScene === scene) this.known.set(map.name, data);
+      if (data && asked === this.asked && map === this.map) this.paint(map, data);
+    } catch (error) {
+      if (asked !== this.asked) return;
+      this.data = null;
+      this.canvas.width = 0;
+      // Most often the photo has no such thing, such as a sun.
+      this.help.textContent = errorText(error);
+      this.readValue();
+    } finally {
+      if (asked === this.asked) this.node.classList.remove("sw-waiting");
+    }
+  }
+
+  /** @param {SceneMap} map @param {MapLevels} data */
+  paint(map, data) {
+    const { canvas } = this;
+    const { levels, width, height } = data;
+    [canvas.width, canvas.height] = [width, height];
+    const image = new ImageData(width, height);
+    const pixels = new Uint32Array(image.data.buffer);
+    const table = new Uint32Array(colours(map.ramp).buffer);
+    for (let i = 0; i < pixels.length; i++) pixels[i] = table[levels[i]];
+    canvas.getContext("2d")?.putImageData(image, 0, 0);
+    const spread = spreadOf(levels);
+    setAttributes(this.spread, {
+      d: hill(spread, ceiling([spread]), SPREAD_WIDTH, SPREAD_HEIGHT),
+    });
+    this.data = data;
+    this.help.textContent = map.help;
+    this.readValue();
+  }
+
+  /** The pointer is at a place of the picture, or gone. @param {Point | null} place */
+  point(place) {
+    this.place = place;
+    if (this.map) this.readValue();
+  }
+
+  readValue() {
+    const { data, map, place } = this;
+    let share = null;
+    if (data && place?.every((n) => n >= 0 && n < 1)) {
+      const [x, y] = [Math.floor(place[0] * data.width), Math.floor(place[1] * data.height)];
+      share = data.levels[y * data.width + x] / 255;
+    }
+    this.marker.hidden = share === null;
+    this.value.textContent = map && share !== null ? textAt(map, share) : "";
+    if (share !== null) this.marker.style.left = `${100 * share}%`;
+  }
+}
+
+/** @param {ImageBitmap} bitmap grey levels @returns {MapLevels | null} */
+function levelsOf(bitmap) {
+  const { width, height } = bitmap;
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [width, height];
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  if (!context) return null;
+  context.drawImage(bitmap, 0, 0);
+  const { data } = context.getImageData(0, 0, width, height);
+  return {
+    levels: Uint8Array.from({ length: width * height }, (_, i) => data[4 * i]),
+    width,
+    height,
+  };
+}

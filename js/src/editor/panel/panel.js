@@ -1,0 +1,151 @@
+/**
+ * The panel: presets, a filter, and the sliders by section, drawn from the kernel's parameter
+ * table. Few sections are open; each says how many of its values are changed.
+ */
+
+import { equal } from "../../edit/equality.js";
+import { choice } from "../../ui/choice.js";
+import { element } from "../../ui/element.js";
+import { countedSection, section } from "../../ui/section.js";
+import { slider } from "../../ui/slider.js";
+import { panelFilter } from "./panel_filter.js";
+import { Softness } from "./softness.js";
+
+/**
+ * @typedef {import("../../host/types.js").Parameter} Parameter
+ * @typedef {import("../view/view.js").View} View
+ * @typedef {{ parameter: Parameter, node: HTMLElement, show: () => void }} Row
+ * @typedef {ReturnType<typeof countedSection> & {
+ *   name: string, rows: Row[], main: HTMLElement, more: HTMLDetailsElement | null,
+ *   inMore: HTMLElement,
+ * }} Section
+ */
+
+const OPEN = ["sun", "histogram"];
+
+/**
+ * Which sections are open, by model: another view of the editor starts as the last one was left.
+ *
+ * @type {WeakMap<object, Record<string, boolean>>}
+ */
+const folds = new WeakMap();
+
+/** @param {string} name */
+const title = (name) => name[0].toUpperCase() + name.slice(1);
+
+/** @param {View} view */
+export function panel(view) {
+  const { state } = view;
+  const open = { ...folds.get(view.model) };
+  /** Whether a section is open when nothing is filtered. @param {string} name */
+  const isOpen = (name) => open[name] ?? OPEN.includes(name);
+  /** @param {string} name @param {boolean} on */
+  const keepFold = (name, on) => {
+    open[name] = on;
+    folds.set(view.model, { ...open });
+  };
+  const softness = new Softness(view);
+
+  /** @param {Parameter} p */
+  const isChanged = (p) => !equal(state.values[p.name], p.default);
+
+  /** @param {string} name @param {Parameter[]} parameters @returns {Section} */
+  const makeSection = (name, parameters) => {
+    const rows = parameters.map((p) => makeRow(view, p));
+    // What the kernel has to answer is set once, not played with.
+    const folded = rows.filter(({ parameter: p }) => p.advanced || p.analysis);
+    const all = folded.length === rows.length;
+    const main = element("div", { class: "sw-section-main" });
+    main.append(...rows.filter((row) => all || !folded.includes(row)).map(({ node }) => node));
+    /** @type {HTMLDetailsElement | null} */
+    let more = null;
+    const inMore = element("span", { class: "sw-more-changed" });
+    if (folded.length && !all) {
+      const nodes = /** @type {Node[]} */ (folded.map(({ node }) => node));
+      if (name === "clouds") nodes.splice(1, 0, softness.node);
+      more = section({ title: "More", open: false, className: "sw-more" }, ...nodes);
+      more.querySelector("summary")?.append(inMore);
+    }
+    const made = countedSection(
+      {
+        title: title(name),
+        open: isOpen(name),
+        onFold: (on) => {
+          if (!filter.active()) keepFold(name, on);
+        },
+        onReset: () => state.set(Object.fromEntries(parameters.map((p) => [p.name, p.default]))),
+      },
+      main,
+      ...(more ? [more] : []),
+    );
+    made.node.dataset.section = name;
+    return { ...made, name, rows, main, more, inMore };
+  };
+
+  const shown = view.parameters.filter((p) => p.kind !== "data");
+  const names = [...new Set(shown.map((p) => p.section))];
+  const sections = names.map((name) =>
+    makeSection(
+      name,
+      shown.filter((p) => p.section === name),
+    ),
+  );
+  const filter = panelFilter(view, sections, { isChanged, isOpen });
+  const top = element("div", { class: "sw-panel-top" });
+  const node = element(
+    "div",
+    { class: "sw-panel", role: "group", "aria-label": "Parameters" },
+    top,
+    filter.node,
+    ...sections.map((made) => made.node),
+    filter.none,
+  );
+  return {
+    node,
+    /** Go to the filter. */
+    find: filter.focus,
+    /** Above the sections: presets, histogram. */
+    top,
+    isOpen,
+    keepFold,
+    /** Where a part may add its rows: below the section's own, above "More". @param {string} name */
+    section(name) {
+      const found = sections.find((made) => made.name === name);
+      if (!found) throw new Error(`The panel has no section "${name}".`);
+      return found.main;
+    },
+    show() {
+      softness.show();
+      for (const { rows, setChanged, more, inMore } of sections) {
+        for (const row of rows) row.show();
+        const changed = rows.filter(({ parameter }) => isChanged(parameter));
+        setChanged(changed.map(({ parameter }) => parameter.label));
+        const within = changed.filter(({ node: row }) => more?.contains(row)).length;
+        const text = within ? `· ${within} changed` : "";
+        if (inMore.textContent !== text) inMore.textContent = text;
+      }
+      filter.show();
+    },
+  };
+}
+
+/** One control of the table. @param {View} view @param {Parameter} p @returns {Row} */
+function makeRow(view, p) {
+  const { state } = view;
+  if (p.kind === "choice") {
+    const control = choice({ parameter: p, onChange: (value) => state.set({ [p.name]: value }) });
+    const show = () => control.show(String(state.values[p.name] ?? p.default));
+    return { parameter: p, node: control.node, show };
+  }
+  const control = slider({
+    parameter: p,
+    onBegin: () => state.begin(),
+    onInput: (value) => state.set({ [p.name]: value }),
+    onCommit: () => state.commit(),
+  });
+  const show = () => {
+    const value = /** @type {number | null} */ (state.values[p.name]);
+    control.show(value, view.scene?.automatic[p.name]);
+  };
+  return { parameter: p, node: control.node, show };
+}

@@ -1,0 +1,137 @@
+/** Finds parameters by their words, and shows those that are changed. */
+
+import { element } from "../../ui/element.js";
+import { icon } from "../../ui/icons.js";
+
+/**
+ * @typedef {import("./panel.js").Section} Section
+ * @typedef {import("../../host/types.js").Parameter} Parameter
+ */
+
+/**
+ * @param {import("../view/view.js").View} view
+ * @param {Section[]} sections
+ * @param {{ isChanged: (p: Parameter) => boolean, isOpen: (name: string) => boolean }} options
+ *   `isOpen` says how a section is left when nothing is filtered
+ */
+export function panelFilter(view, sections, { isChanged, isOpen }) {
+  const input = element("input", {
+    type: "search",
+    class: "sw-filter-field",
+    placeholder: "Find a parameter",
+    "aria-label": "Find a parameter",
+    spellcheck: "false",
+    autocomplete: "off",
+  });
+  const count = element("span", { class: "sw-count" });
+  const changed = element(
+    "button",
+    { type: "button", class: "sw-chip sw-changed", "aria-pressed": "false" },
+    "Changed",
+    count,
+  );
+  const node = element(
+    "div",
+    { class: "sw-filter", role: "search" },
+    element("span", { class: "sw-filter-box" }, icon("search"), input),
+    changed,
+  );
+  const none = element("p", { class: "sw-filter-none", role: "status", hidden: true });
+  let only = false;
+  let filtered = false; // whether the sections show a selection now
+
+  const words = () => input.value.toLowerCase().split(/\s+/).filter(Boolean);
+  const active = () => only || words().length > 0;
+
+  /**
+   * Whether something of a section is to be seen; what a part added is found by its text.
+   *
+   * @param {Element} child
+   * @param {Section} section
+   */
+  const matches = (child, section) => {
+    const row = section.rows.find((one) => one.node === child);
+    if (only) {
+      const held = child.contains(child.ownerDocument.activeElement);
+      if (!(row && (held || isChanged(row.parameter)))) return false;
+    }
+    const p = row?.parameter;
+    const text = p
+      ? `${p.label} ${p.name.replaceAll("_", " ")} ${p.name} ${p.help}`
+      : child.textContent;
+    const searched = `${section.name} ${text}`.toLowerCase();
+    return words().every((word) => searched.includes(word));
+  };
+
+  const apply = () => {
+    const on = active();
+    if (!on && !filtered) return;
+    let found = false;
+    for (const section of sections) {
+      const { main, more } = section;
+      const inMore = more ? [...(more.querySelector(".sw-section-body")?.children ?? [])] : [];
+      /** @param {Element} child */
+      const see = (child) => {
+        const seen = !on || matches(child, section);
+        child.classList.toggle("sw-filtered", !seen);
+        return seen;
+      };
+      const here = [...main.children].filter(see).length;
+      const there = inMore.filter(see).length;
+      if (more) {
+        more.classList.toggle("sw-filtered", on && !there);
+        if (on !== filtered || on) more.open = on && there > 0;
+      }
+      section.node.classList.toggle("sw-filtered", on && !here && !there);
+      section.setOpen(on || isOpen(section.name));
+      found ||= here + there > 0;
+    }
+    none.hidden = !on || found;
+    if (!none.hidden) {
+      none.textContent = only && !words().length ? "Nothing is changed." : "No parameter matches.";
+    }
+    node.parentElement?.classList.toggle("sw-finding", on);
+    filtered = on;
+  };
+
+  input.addEventListener("input", apply);
+  input.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && active()) {
+      input.value = "";
+      setOnly(false);
+      event.stopPropagation();
+    }
+  });
+  /** @param {boolean} on */
+  const setOnly = (on) => {
+    only = on;
+    changed.setAttribute("aria-pressed", String(on));
+    apply();
+    showCount();
+  };
+  changed.addEventListener("click", () => setOnly(!only));
+
+  let counted = "";
+  const showCount = () => {
+    const rows = sections.flatMap((section) => section.rows);
+    const some = rows.filter(({ parameter }) => isChanged(parameter)).length;
+    if (counted === `${some} ${only}`) return;
+    counted = `${some} ${only}`;
+    count.textContent = some ? String(some) : "";
+    count.hidden = !some;
+    changed.disabled = !some && !only;
+    changed.title = only ? "Show all parameters" : "Show only what is changed";
+  };
+
+  return {
+    node,
+    none,
+    active,
+    focus: () => input.focus(),
+    show() {
+      showCount();
+      // A row that passes its default on the way stays under the hand.
+      if (only && view.state.before === null) apply();
+    },
+  };
+}

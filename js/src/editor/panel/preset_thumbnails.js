@@ -1,0 +1,64 @@
+/** The presets, each with a small picture of what it makes of this photo. */
+
+import { presetChips } from "../../ui/chips.js";
+import { element } from "../../ui/element.js";
+import { placePhoto, thumbnails } from "./thumbnails.js";
+
+/** @typedef {import("../../ui/chips.js").Preset} Preset */
+
+const PLACES = 6;
+
+/** @type {import("../view/parts.js").MakePart} */
+export function presetThumbnails(view, signal) {
+  /** @type {{ preset: Preset, canvas: HTMLCanvasElement }[]} */
+  let all = [];
+  let generation = 0; // of the scene
+
+  const chips = presetChips(
+    view.state,
+    () => view.scene?.presets ?? [],
+    (preset) => {
+      const canvas = element("canvas", { class: "sw-thumbnail", "aria-hidden": "true" });
+      placePhoto(view, canvas);
+      all = all.filter((one) => one.preset.label !== preset.label);
+      all.push({ preset, canvas });
+      return canvas;
+    },
+  );
+  // Holds the place until the analysis has found what each preset sets.
+  const places = Array.from({ length: PLACES }, () =>
+    element("span", { class: "sw-chip" }, "\u00a0"),
+  );
+  for (const place of places) place.prepend(element("canvas", { class: "sw-thumbnail" }));
+  const waiting = element("div", { class: "sw-presets sw-preset-places", "aria-hidden": "true" });
+  waiting.append(...places);
+  view.panel.top.append(chips.node, waiting);
+
+  /** What a thumbnail shows; a sun that is moved by hand changes none. @param {Preset} preset */
+  const keyOf = (preset) => {
+    const numbers = view.parameters.filter(({ kind }) => kind !== "data");
+    return JSON.stringify([
+      generation,
+      ...numbers.map(({ name }) => preset.values[name] ?? view.state.values[name]),
+    ]);
+  };
+  const drawn = thumbnails(view, signal, chips.node, () =>
+    all.map(({ preset, canvas }) => ({
+      canvas,
+      edit: { ...view.state.values, ...preset.values },
+      key: keyOf(preset),
+    })),
+  );
+
+  return {
+    loaded() {
+      generation += 1;
+    },
+    show() {
+      chips.show();
+      waiting.hidden = !chips.node.hidden;
+      drawn.wake();
+    },
+    drawn: () => drawn.wake(),
+  };
+}

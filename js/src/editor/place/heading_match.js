@@ -1,0 +1,91 @@
+/** The heading by the photo's own sun: a button, what came of it, and the times at which it fits. */
+
+import { clock as clockText } from "../../geometry/day.js";
+import { AGREES, hoursOfDay } from "../../geometry/place.js";
+import { chip } from "../../ui/chips.js";
+import { element } from "../../ui/element.js";
+
+/** @typedef {import("../../geometry/place.js").Place} Place */
+
+/**
+ * @param {import("../view/view.js").View} view
+ * @param {import("./sun_clock.js").SunClock} clock
+ */
+export function headingMatch(view, clock) {
+  const button = chip(
+    "By the photo's sun",
+    "Set the heading so that the photo's own sun stands where place and time put it; " +
+      "the clock must stand at the photo's time",
+    () => match(),
+  );
+  const note = element("p", { class: "sw-hint", role: "status", hidden: true });
+  const offers = element("div", { class: "sw-chips", hidden: true });
+  let about = ""; // what the note is about: said no longer when that has changed
+
+  /** @param {string} text @param {Place[]} [places] times that are offered */
+  function say(text, places = []) {
+    about = key(clock.place);
+    note.textContent = text;
+    note.hidden = !text;
+    offers.hidden = !places.length;
+    offers.replaceChildren(...places.map((place, i) => offer(place, i === 0 ? clock.hours : null)));
+  }
+
+  /** @param {Place} place @param {number | null} now the clock's hours, for the nearest of them */
+  const offer = (place, now) =>
+    chip(
+      `${clockText(place.time)} UTC${now === null ? "" : shift(hoursOfDay(place) - now)}`,
+      "Take this for the photo's time, with its heading",
+      () => {
+        view.state.set({ place });
+        say("");
+      },
+    );
+
+  function match() {
+    const found = clock.match();
+    const { scene } = view;
+    if (!found || !scene) return;
+    clock.setPlace({ heading: found.place.heading });
+    const { mismatch, agreeing } = found;
+    const apart = Math.abs(mismatch).toFixed(1);
+    const guess = scene.sun?.visible
+      ? ""
+      : "The photo does not show its sun: where it stood is a guess, and so is the heading. ";
+    if (Math.abs(mismatch) <= AGREES) {
+      return say(`${guess}Time and place agree with the photo's sun to ${apart}°.`);
+    }
+    const way = mismatch > 0 ? "higher" : "lower";
+    const than = `than at ${clockText(found.place.time)} UTC`;
+    const start = `${guess}The photo's sun stands ${apart}° ${way} ${than}. `;
+    if (agreeing.length) {
+      const question = "Is the clock or its time zone wrong? The elevations agree at:";
+      return say(start + question, agreeing);
+    }
+    const level = scene.automatic.sun_elevation.toFixed(1);
+    say(`${start}On this day it never stands at ${level}°: check date and place.`);
+  }
+
+  return {
+    button,
+    nodes: [note, offers],
+    say,
+    show() {
+      const ready = clock.path.length > 0 && view.scene !== null;
+      button.disabled = !ready;
+      button.classList.toggle("sw-primary", ready && clock.place?.heading === null);
+      if (about !== key(clock.place)) say("");
+    },
+  };
+}
+
+/** Whether a difference is one of time zones, which come in whole hours. @param {number} hours */
+function shift(hours) {
+  const whole = Math.round(hours);
+  if (whole === 0 || Math.abs(hours - whole) > 0.2) return "";
+  return `, ${Math.abs(whole)} h ${whole > 0 ? "later" : "earlier"}`;
+}
+
+/** What a place is but for its time. @param {Place | null} place */
+const key = (place) =>
+  JSON.stringify(place && [place.latitude, place.longitude, place.date, place.heading]);

@@ -1,0 +1,121 @@
+/** The edit as a recipe that leaves the editor and comes back: as a file and by the clipboard. */
+
+import { checkRecipe } from "../../edit/recipe/check.js";
+import { readRecipe } from "../../edit/recipe/read.js";
+import { toJson, toPython } from "../../edit/recipe/write.js";
+import { errorText } from "../../host/error_text.js";
+import { copied, pasted } from "../../ui/clipboard.js";
+import { download } from "../../ui/download.js";
+import { pickFile } from "../../ui/pick_file.js";
+
+/** @typedef {import("../view/view.js").View} View */
+
+const FILES = ".json,.py,.txt,application/json,text/plain";
+const SECONDS = 6; // that good news stays
+
+/** @type {import("../view/parts.js").MakePart} */
+export function recipe(view, signal) {
+  const { menu } = view.toolbar;
+  const { state, root } = view;
+  /** @type {(text: string, what: string) => Promise<void>} */
+  const copy = async (text, what) => {
+    if (await copied(text)) say(view, `${what} copied.`);
+    else view.message.show(`The page may not use the clipboard. ${what}:\n${text}`);
+  };
+  menu.add({
+    group: "recipe",
+    label: "Save recipe",
+    title: "Every value that was changed, as a small JSON file",
+    run: () =>
+      download(new Blob([toJson(state.recipe())], { type: "application/json" }), fileName(view)),
+  });
+  menu.add({
+    group: "recipe",
+    label: "Load recipe …",
+    title: "Set everything as a recipe's file says, as one step",
+    run: async () => {
+      const file = await pickFile(FILES, signal);
+      if (file) await loadRecipe(view, file);
+    },
+  });
+  menu.add({
+    group: "recipe",
+    label: "Copy recipe",
+    title: "As JSON, to paste into another editor",
+    run: () => copy(toJson(state.recipe()), "Recipe"),
+  });
+  menu.add({
+    group: "recipe",
+    label: "Copy as Python",
+    title: "As code for a cell or a script",
+    run: () => copy(toPython(state.recipe()), "Python"),
+  });
+  menu.add({
+    group: "recipe",
+    label: "Paste recipe",
+    title: "JSON or Python that was copied from an editor; it is read, never run",
+    run: async () => {
+      const text = await pasted();
+      if (text !== null) useRecipe(view, text);
+      else say(view, "The page may not look at the clipboard by itself: press Ctrl+V.");
+    },
+  });
+  root.addEventListener(
+    "paste",
+    (event) => {
+      const text = event.clipboardData?.getData("text/plain");
+      if (!text || writes(event.target)) return;
+      event.preventDefault();
+      useRecipe(view, text);
+    },
+    { signal },
+  );
+  return {};
+}
+
+/** @param {EventTarget | null} target */
+const writes = (target) =>
+  target instanceof HTMLTextAreaElement ||
+  (target instanceof HTMLInputElement && target.type !== "range");
+
+/** @param {View} view @param {File} file */
+export async function loadRecipe(view, file) {
+  useRecipe(view, await file.text());
+}
+
+/**
+ * Take over a recipe from text as one step, or say what is wrong with it.
+ *
+ * @param {View} view
+ * @param {string} text
+ */
+export function useRecipe(view, text) {
+  const { state } = view;
+  try {
+    const { values, problems } = checkRecipe(view.parameters, readRecipe(text));
+    if (problems.length) throw new Error(problems.slice(0, 3).join(" "));
+    const before = state.history().past.length;
+    state.replace(values);
+    view.message.show("");
+    const moved = state.history().past.length !== before;
+    say(view, moved ? "Recipe taken over." : "This is the recipe already.", moved);
+  } catch (error) {
+    view.notices.hide("recipe"); // what it says is of another recipe
+    view.message.show(`Nothing was changed. ${errorText(error)}`);
+  }
+}
+
+/** @param {View} view @param {string} text @param {boolean} [undo] offer to take it back */
+function say({ notices, state }, text, undo = false) {
+  notices.show("recipe", {
+    text,
+    actions: undo ? [{ label: "Take it back", run: () => state.undo() }] : [],
+    seconds: SECONDS,
+  });
+}
+
+/** @param {View} view */
+function fileName({ model }) {
+  const name = String(model.get("_source")?.name ?? "").replace(/\.[^.]*$/, "");
+  return `${name || "picture"}-recipe.json`;
+}

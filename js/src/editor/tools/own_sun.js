@@ -1,0 +1,180 @@
+/**
+ * A faint ring where the photo's own sun was found. Whoever points at it, or comes to it by Tab,
+ * is told how sure that is, and can say that it is not the sun, or where it is instead.
+ */
+
+import { equal } from "../../edit/equality.js";
+import { element, setAttributes, shape } from "../../ui/element.js";
+import { markText } from "../../ui/sun_words.js";
+import { sayOutside, take } from "../view/notes.js";
+
+/** @typedef {import("../../host/types.js").Point} Point */
+
+const RADIUS = 20; // CSS pixels: round the sun's handle, which stands there until it is moved
+const NEAR = 24; // CSS pixels round its middle that mean it
+const COVERED = 30; // CSS pixels between both within which a press is the handle's
+const TAP = 5; // CSS pixels that a finger may slip
+const MARGIN = 6; // CSS pixels between the label and the stage's edge
+const OPEN_MS = 350;
+const CLOSE_MS = 400; // the way from the ring to its label
+
+/** @type {import("../view/parts.js").MakePart} */
+export function ownSun(view, signal) {
+  const { stage, state } = view;
+  const ring = element("button", {
+    type: "button",
+    class: "sw-own-sun-ring",
+    "aria-expanded": "false",
+  });
+  const circle = (/** @type {string} */ name) => shape("circle", { class: name, r: RADIUS - 1 });
+  ring.append(
+    shape(
+      "svg",
+      { viewBox: `${-RADIUS} ${-RADIUS} ${2 * RADIUS} ${2 * RADIUS}`, "aria-hidden": "true" },
+      circle("sw-own-sun-shadow"),
+      circle("sw-own-sun-line"),
+    ),
+  );
+  const text = element("span");
+  const action = (/** @type {string} */ label, /** @type {(event: MouseEvent) => void} */ run) => {
+    const act = element("button", { type: "button", class: "sw-stage-action" }, label);
+    act.addEventListener("click", (event) => {
+      setOpen(false);
+      run(event);
+    });
+    return act;
+  };
+  const actions = element(
+    "span",
+    { class: "sw-own-sun-actions" },
+    action("Not the sun", () => sayOutside(view)),
+    action("Move this mark", (event) => take(view, "pick", event)),
+  );
+  const label = element("div", { class: "sw-own-sun-label", hidden: true }, text, actions);
+  const node = element("div", { class: "sw-own-sun", hidden: true }, ring, label);
+  stage.overlay.after(node);
+
+  /** @type {unknown} what the edit says of the sun, as the scene follows it */
+  let followed;
+  /** @type {Point | null} where it is on the overlay, in CSS pixels; null while it is not shown */
+  let at = null;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+  signal.addEventListener("abort", () => clearTimeout(timer));
+
+  /** @param {boolean} open */
+  const setOpen = (open) => {
+    clearTimeout(timer);
+    timer = undefined;
+    label.hidden = !open;
+    ring.setAttribute("aria-expanded", String(open));
+    node.classList.toggle("sw-open", open);
+    if (open) place();
+  };
+  /** Open or close it after a while, unless the pointer comes back meanwhile. @param {boolean} open */
+  const wish = (open) => {
+    if (open === !label.hidden) {
+      clearTimeout(timer);
+      timer = undefined;
+    } else timer ??= setTimeout(() => setOpen(open), open ? OPEN_MS : CLOSE_MS);
+  };
+
+  /** Put the label beside the ring, where there is room for it. */
+  const place = () => {
+    if (!at || label.hidden) return;
+    const { stageWidth, stageHeight } = stage.rectangle();
+    const { offsetWidth: width, offsetHeight: height } = label;
+    const right = at[0] + RADIUS + MARGIN;
+    const fits = right + width + MARGIN <= stageWidth;
+    const left = fits ? right : at[0] - RADIUS - MARGIN - width;
+    const within = (/** @type {number} */ start, /** @type {number} */ room) =>
+      Math.max(MARGIN, Math.min(start, room - MARGIN));
+    const x = within(left, stageWidth - width);
+    // Where neither side has room, as on a phone, it goes below, or above.
+    const beside = fits || left >= MARGIN;
+    const below = at[1] + RADIUS + MARGIN;
+    const aside = below + height <= stageHeight ? below : at[1] - RADIUS - MARGIN - height;
+    const y = within(beside ? at[1] - height / 2 : aside, stageHeight - height);
+    label.style.transform = `translate(${x}px, ${y}px)`;
+  };
+
+  /** Where the mark is to be seen now. @returns {Point | null} */
+  const find = () => {
+    const sun = view.scene?.sun;
+    const usable = view.tool === "sun" || view.tool === "pick";
+    const still = state.before === null && view.pointer === null && view.passing === null;
+    // What was said in the meantime of the sun goes before what was found.
+    const current = equal(state.values.sun_hint ?? null, followed);
+    if (!sun?.at || !usable || !still || !current) return null;
+    const { stageWidth, stageHeight } = stage.rectangle();
+    const [x, y] = stage.onOverlay(sun.at);
+    return x > 0 && y > 0 && x < stageWidth && y < stageHeight ? [x, y] : null;
+  };
+
+  const draw = () => {
+    at = find();
+    node.hidden = at === null;
+    if (!at || !view.scene) return setOpen(false);
+    const { sun } = view.scene;
+    const words = markText(sun);
+    if (text.textContent !== words) text.textContent = words;
+    setAttributes(ring, { "aria-label": words });
+    actions.hidden = !view.kernel.answers;
+    ring.style.transform = `translate(${at[0] - RADIUS}px, ${at[1] - RADIUS}px)`;
+    const handle = view.tools.sun.spot?.();
+    const apart = handle ? Math.hypot(handle.x - at[0], handle.y - at[1]) : 0;
+    node.classList.toggle("sw-covered", apart < COVERED);
+    place();
+  };
+
+  /** @param {Point} place a place of the picture */
+  const isNear = (place) => {
+    const [x, y] = stage.onOverlay(place);
+    return at !== null && Math.hypot(x - at[0], y - at[1]) < NEAR;
+  };
+
+  /** @type {(target: EventTarget, name: string, listener: (event: any) => void) => void} */
+  const on = (target, name, listener) => target.addEventListener(name, listener, { signal });
+  on(node, "pointerenter", () => wish(true));
+  on(node, "pointerleave", () => wish(node.contains(focused())));
+  on(node, "focusin", () => setOpen(true));
+  on(node, "focusout", (event) => {
+    if (!node.contains(event.relatedTarget)) setOpen(false);
+  });
+  on(ring, "click", () => setOpen(true));
+  on(node, "keydown", (event) => {
+    if (event.key !== "Escape" || label.hidden) return;
+    event.stopPropagation();
+    ring.focus();
+    setOpen(false);
+  });
+  // A finger does not hover: one that taps the sun and does not drag it asks about it.
+  /** @type {{ clientX: number, clientY: number }} */
+  let down = { clientX: 0, clientY: 0 };
+  on(stage.overlay, "pointerdown", (event) => {
+    down = event;
+    setOpen(false);
+  });
+  on(stage.overlay, "pointerup", (event) => {
+    const slip = Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY);
+    if (event.pointerType === "mouse" || slip > TAP || view.tool !== "sun") return;
+    requestAnimationFrame(() => {
+      draw();
+      if (isNear(stage.placeOf(event))) setOpen(true);
+    });
+  });
+  const focused = () =>
+    /** @type {Document | ShadowRoot} */ (view.root.getRootNode()).activeElement;
+
+  return {
+    loaded() {
+      followed = state.values.sun_hint ?? null;
+    },
+    show: draw,
+    draw,
+    point(place) {
+      if (view.pointer !== null) return;
+      wish(place !== null && view.tool === "sun" ? isNear(place) : node.contains(focused()));
+    },
+  };
+}

@@ -1,0 +1,40 @@
+/** A click that says where the photo's own sun is; the kernel answers with a new fit. */
+
+import { shape } from "../../ui/element.js";
+
+/** @typedef {import("../../host/types.js").Point} Point */
+
+export class PickTool {
+  /** @param {import("../view/view.js").View} view */
+  constructor(view) {
+    this.view = view;
+    this.node = shape("g");
+    /** @type {Point | null} */
+    this.at = null;
+  }
+
+  /** @param {Point} place */
+  begin(place) {
+    this.at = place;
+  }
+
+  /** @param {Point} place */
+  move(place) {
+    this.at = place;
+  }
+
+  end() {
+    if (!this.at) return;
+    const hint = this.at.map((value) => Math.round(value * 1e5) / 1e5);
+    this.at = null;
+    // The sun starts from the place just given, not from where it was moved before.
+    this.view.state.set({ sun_hint: hint, sun_azimuth: null, sun_elevation: null });
+    this.view.setTool("sun");
+  }
+
+  cancel() {
+    this.at = null;
+  }
+
+  draw() {}
+}

@@ -1,0 +1,136 @@
+/** Strokes on the picture: all of them drawn while a brush is chosen, and which ones a place meets. */
+
+import { setAttributes, shape } from "../../ui/element.js";
+
+/**
+ * @typedef {import("../../host/types.js").Point} Point
+ * @typedef {import("../../host/types.js").Stroke} Stroke
+ * @typedef {import("../view/view.js").View} View
+ * @typedef {{ width: number, height: number }} Size
+ */
+
+/** Tools that work on strokes. */
+export const BRUSHES = ["sky", "not_sky", "erase"];
+
+/** A place in units of the picture's longer side, as radii are. @type {(place: Point, size: Size) => Point} */
+export const inLongSides = ([x, y], { width, height }) => {
+  const long = Math.max(width, height);
+  return [(x * width) / long, (y * height) / long];
+};
+
+/**
+ * Whether a disc meets what a stroke has painted.
+ *
+ * @param {Stroke} stroke
+ * @param {Point} place fractions of width and height
+ * @param {number} radius of the disc, in longer sides
+ * @param {Size} size
+ */
+export function meets(stroke, place, radius, size) {
+  const at = inLongSides(place, size);
+  const points = stroke.points.map((point) => inLongSides(point, size));
+  return points.some((point, i) => {
+    return distance(at, [points[Math.max(0, i - 1)], point]) <= radius + stroke.radius;
+  });
+}
+
+/**
+ * Leave out points that lie closer than a tolerance to the line through their neighbours
+ * (Douglas and Peucker 1973): the mark is the same, and recipe and history stay small.
+ *
+ * @param {Point[]} points
+ * @param {number} tolerance in longer sides
+ * @param {Size} size
+ * @returns {Point[]}
+ */
+export function simplify(points, tolerance, size) {
+  if (points.length < 3) return points;
+  const ends = [points[0], points[points.length - 1]];
+  let [far, most] = [0, 0];
+  for (let i = 1; i < points.length - 1; i++) {
+    const away = distance(
+      inLongSides(points[i], size),
+      ends.map((end) => inLongSides(end, size)),
+    );
+    if (away > most) [far, most] = [i, away];
+  }
+  if (most <= tolerance) return ends;
+  const head = simplify(points.slice(0, far + 1), tolerance, size);
+  return [...head.slice(0, -1), ...simplify(points.slice(far), tolerance, size)];
+}
+
+/** From a point to a line between two. @param {Point} point @param {Point[]} line */
+function distance([x, y], [a, b]) {
+  const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+  const along = ((x - a[0]) * dx + (y - a[1]) * dy) / (dx * dx + dy * dy || 1);
+  const way = Math.min(1, Math.max(0, along));
+  return Math.hypot(a[0] + way * dx - x, a[1] + way * dy - y);
+}
+
+/** The line that a stroke is drawn with; its parent scales it to the picture. */
+export function line(/** @type {string} */ label) {
+  return shape("polyline", { class: strokeClass(label) });
+}
+
+/** @param {string} label what the stroke says */
+export const strokeClass = (label) => `sw-stroke sw-stroke-${label}`;
+
+/**
+ * @param {SVGElement} node
+ * @param {Point[]} points
+ * @param {number} radius
+ * @param {Size} size
+ */
+export function setLine(node, points, radius, size) {
+  const places = points.length === 1 ? [points[0], points[0]] : points;
+  setAttributes(node, {
+    points: places.map((point) => inLongSides(point, size).join(",")).join(" "),
+    "stroke-width": 2 * radius,
+  });
+}
+
+export class StrokesLayer {
+  /** @param {View} view */
+  constructor(view) {
+    this.view = view;
+    this.node = shape("g", { class: "sw-strokes" });
+    /** @type {unknown} the strokes that the lines show */
+    this.drawn = null;
+    /** @type {SVGElement[]} */
+    this.lines = [];
+  }
+
+  /** @returns {Stroke[]} */
+  strokes() {
+    return /** @type {Stroke[]} */ (this.view.state.values.strokes ?? []);
+  }
+
+  /** Fade the strokes that are about to be erased. @param {Set<number>} doomed */
+  doom(doomed) {
+    this.lines.forEach((node, i) => {
+      node.classList.toggle("sw-doomed", doomed.has(i));
+    });
+  }
+
+  draw() {
+    const shown = BRUSHES.includes(this.view.tool);
+    setAttributes(this.node, { visibility: shown ? "visible" : "hidden" });
+    if (!shown) return;
+    setAttributes(this.node, { transform: this.transform() });
+    const strokes = this.strokes();
+    if (strokes === this.drawn) return;
+    this.drawn = strokes;
+    this.lines = strokes.map(({ label, points, radius }) => {
+      const node = line(label);
+      setLine(node, points, radius, this.view.stage.rectangle());
+      return node;
+    });
+    this.node.replaceChildren(...this.lines);
+  }
+
+  /** From longer sides to the overlay's pixels. */
+  transform() {
+    const { x, y, width, height } = this.view.stage.rectangle();
+    return `translate(${x} ${y}) scale(${Math.max(width, height)})`;
+  }
+}

@@ -1,0 +1,141 @@
+/** Tools, history, before/after and saving. */
+
+import { button, holdButton, radioButtons } from "../../ui/button.js";
+import { element } from "../../ui/element.js";
+import { historyButtons } from "../../ui/history_buttons.js";
+import { menuButton } from "../../ui/menu.js";
+import { save } from "../export/save.js";
+import { BRUSHES } from "./strokes.js";
+
+/** @typedef {import("../view/view.js").View} View */
+
+/** @type {{ value: string, icon: import("../../ui/icons.js").IconName, label: string, title: string }[]} */
+const TOOLS = [
+  {
+    value: "sun",
+    icon: "sun",
+    label: "Move the sun",
+    title: "Move the sun (1): drag it, also out of the picture",
+  },
+  {
+    value: "horizon",
+    icon: "horizon",
+    label: "Set the horizon",
+    title: "Set the horizon (2): drag the line or its ends",
+  },
+  {
+    value: "pick",
+    icon: "pick",
+    label: "Point at the photo's sun",
+    title: "Point at the photo's own sun (3)",
+  },
+  {
+    value: "sky",
+    icon: "sky",
+    label: "Brush: sky",
+    title: "Brush: this is sky (4). [ and ] change its size",
+  },
+  {
+    value: "not_sky",
+    icon: "not_sky",
+    label: "Brush: not sky",
+    title: "Brush: this is not sky (5). [ and ] change its size",
+  },
+  {
+    value: "erase",
+    icon: "erase",
+    label: "Erase strokes",
+    title: "Take whole strokes away (6)",
+  },
+];
+
+// Their texts name what the brush is about.
+const PAINTS = TOOLS.filter(({ label }) => label.startsWith("Brush"));
+
+/** @param {View} view */
+export function toolbar(view) {
+  const { state } = view;
+  const tools = radioButtons({
+    label: "Tool",
+    choices: TOOLS,
+    value: view.tool,
+    onChange: (tool) => view.setTool(tool),
+  });
+  const presets = () => view.scene?.presets ?? [];
+  const history = historyButtons(state, "Everything back to the photo", presets);
+  const before = holdButton({
+    icon: "before",
+    label: "Before",
+    title: "Show the photo as it was: hold, or click to keep (B)",
+    onChange: (on) => view.setBefore(on),
+  });
+  const saveButton = button({
+    icon: "save",
+    label: "Save",
+    title: "Render at full size and download",
+    caption: true,
+    onClick: () => save(view),
+  });
+  const size = element("input", {
+    type: "range",
+    class: "sw-range sw-brush-size",
+    min: 0.003,
+    max: 0.06,
+    step: 0.001,
+    "aria-label": "Brush size",
+  });
+  size.addEventListener("input", () => view.setBrushRadius(Number(size.value)));
+  const water = button({
+    icon: "water",
+    label: "Water",
+    title: "Brushes mark water instead of sky (W)",
+    caption: true,
+    onClick: () => view.setSubject(view.subject === "sky" ? "water" : "sky"),
+  });
+  const menu = menuButton({
+    icon: "menu",
+    label: "Menu",
+    title: "Menu: photos, recipes, and what there is beside",
+    groups: ["photo", "recipe", "picture", "help"],
+  });
+  const node = element("div", { class: "sw-toolbar", role: "group", "aria-label": "Sun editor" });
+  const end = element(
+    "div",
+    { class: "sw-group sw-end" },
+    view.inspector.choice,
+    before.node,
+    saveButton,
+    menu.node,
+  );
+  node.append(tools.node, water, size, history.node, end);
+  return {
+    node,
+    end,
+    history: history.node,
+    /** @type {HTMLButtonElement | null} opens the list of versions */
+    versions: null,
+    /** @type {HTMLButtonElement | null} opens the export panel */
+    export: null,
+    menu,
+    before,
+    save: saveButton,
+    /** The tools' buttons by name. */
+    tools: TOOLS.map(({ value }, i) => ({
+      value,
+      node: /** @type {HTMLElement} */ (tools.node.children[i]),
+    })),
+    show() {
+      tools.show(view.tool);
+      history.show();
+      saveButton.disabled = !view.scene || view.work !== null;
+      for (const { value, label, title } of PAINTS) {
+        tools.rename(value, label.replace("sky", view.subject), title.replace("sky", view.subject));
+      }
+      water.hidden = !PAINTS.some(({ value }) => value === view.tool);
+      water.setAttribute("aria-pressed", String(view.subject === "water"));
+      size.hidden = !BRUSHES.includes(view.tool);
+      size.value = String(view.brushRadius);
+      size.style.setProperty("--sw-share", String((view.brushRadius - 0.003) / 0.057));
+    },
+  };
+}

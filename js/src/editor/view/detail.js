@@ -1,0 +1,107 @@
+/**
+ * What the preview is too small to show: where it is zoomed past its own pixels, the kernel draws
+ * the part in sight from the full-size photo, and that lies over the frame while the edit rests.
+ */
+
+import { decodePicture } from "../../gl/texture.js";
+import { element } from "../../ui/element.js";
+
+const REST_MS = 800; // long enough that who goes on dragging shares no processor with it
+const READY = "ready";
+
+/** @type {import("./parts.js").MakePart} */
+export function detail(view, signal) {
+  const { stage, state } = view;
+  const canvas = element("canvas", { class: "sw-detail", "aria-hidden": "true", hidden: true });
+  stage.canvas.after(canvas);
+  let scenes = 0; // how many have come
+  let shown = ""; // the edit that the canvas is of
+  let asked = ""; // the edit and the part that were asked for last
+  let under = ""; // the edit of these
+  let request = new AbortController();
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+
+  const helps = () =>
+    view.scene !== null &&
+    view.scene.width > view.size[0] &&
+    !stage.zoom.fits && // a dense screen shows more than the preview all the time
+    stage.zoom.scale > 1 &&
+    view.kernel.answers &&
+    !view.passing;
+  const rests = () =>
+    !state.before && view.pointer === null && !view.work && view.root.dataset.stage === READY;
+  const edit = () => JSON.stringify([scenes, state.values]);
+
+  /** The part of the picture in sight, in fractions, and the screen's pixels that show it. */
+  const part = () => {
+    const { x, y, width, height, stageWidth, stageHeight } = stage.rectangle();
+    const inside = (/** @type {number} */ at) => Math.min(1, Math.max(0, at));
+    const [left, right] = [inside(-x / width), inside((stageWidth - x) / width)];
+    const [top, bottom] = [inside(-y / height), inside((stageHeight - y) / height)];
+    const ratio = window.devicePixelRatio || 1;
+    const size = [(right - left) * width * ratio, (bottom - top) * height * ratio];
+    return { box: [left, top, right, bottom], size };
+  };
+
+  const ask = async () => {
+    if (!helps()) return;
+    if (!rests()) {
+      timer = setTimeout(ask, REST_MS);
+      return;
+    }
+    const [of, wanted] = [edit(), part()];
+    const key = of + JSON.stringify(wanted);
+    if (key === asked) {
+      canvas.hidden = shown !== of;
+      return;
+    }
+    [asked, under] = [key, of];
+    request.abort();
+    request = new AbortController();
+    try {
+      const content = { ...wanted, ...view.asked() };
+      const answer = await view.channel.request("detail", content, undefined, [], request.signal);
+      const picture = await decodePicture(answer.buffers[0]);
+      if (!signal.aborted && helps() && edit() === of) put(picture, answer.result.box, of);
+      picture.close();
+    } catch {
+      // Nobody asked for it, and the frame stands: what keeps the kernel from it is said elsewhere.
+    }
+  };
+
+  /** @param {ImageBitmap} picture @param {number[]} box @param {string} of */
+  const put = (picture, [left, top, right, bottom], of) => {
+    Object.assign(canvas, { width: picture.width, height: picture.height });
+    canvas.getContext("2d", { alpha: false })?.drawImage(picture, 0, 0);
+    Object.assign(canvas.style, {
+      left: `${100 * left}%`,
+      top: `${100 * top}%`,
+      width: `${100 * (right - left)}%`,
+      height: `${100 * (bottom - top)}%`,
+    });
+    canvas.hidden = false;
+    shown = of;
+  };
+
+  signal.addEventListener("abort", () => {
+    clearTimeout(timer);
+    request.abort();
+  });
+
+  return {
+    loaded() {
+      scenes += 1;
+    },
+    draw() {
+      clearTimeout(timer);
+      const now = helps() ? edit() : "";
+      if (now !== shown) canvas.hidden = true;
+      if (now !== under) {
+        request.abort(); // the kernel has better things to do
+        asked = under = "";
+      }
+      if (now) timer = setTimeout(ask, REST_MS);
+    },
+  };
+}

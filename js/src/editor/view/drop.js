@@ -1,0 +1,113 @@
+/** A photo or a recipe comes into the editor: dropped, pasted or chosen. */
+
+import { errorText } from "../../host/error_text.js";
+import { element } from "../../ui/element.js";
+import { pickFile } from "../../ui/pick_file.js";
+import { loadRecipe } from "../recipe/recipe.js";
+
+/** @typedef {import("./view.js").View} View */
+
+const CHUNK = 4_000_000; // bytes: a message of 10 MiB breaks the connection
+const PHOTOS = "image/*,.tif,.tiff,.heic,.avif";
+const RECIPE = /\.(json|py|txt)$/i;
+
+/** @type {import("./parts.js").MakePart} */
+export function drop(view, signal) {
+  const { root } = view;
+  const veil = element(
+    "div",
+    { class: "sw-drop", "aria-hidden": "true" },
+    element("span", {}, "Drop a photo or a recipe"),
+  );
+  root.append(veil);
+  let inside = 0; // a child's enter comes before its parent's leave
+  /** @param {number} depth */
+  const enter = (depth) => {
+    inside = depth;
+    root.classList.toggle("sw-dropping", inside > 0);
+  };
+  /** @type {Record<string, (event: DragEvent) => void>} */
+  const handlers = {
+    dragenter: () => enter(inside + 1),
+    dragleave: () => enter(Math.max(0, inside - 1)),
+    dragover: (event) => event.preventDefault(),
+    drop: (event) => {
+      enter(0);
+      event.preventDefault();
+      // Not the notebook's business: JupyterLab would upload it into its folder.
+      event.stopPropagation();
+      const file = event.dataTransfer?.files[0];
+      if (file) void take(view, file);
+    },
+  };
+  for (const [name, handler] of Object.entries(handlers)) {
+    root.addEventListener(
+      name,
+      (event) => {
+        const drag = /** @type {DragEvent} */ (event);
+        if (drag.dataTransfer?.types.includes("Files")) handler(drag);
+      },
+      { signal },
+    );
+  }
+  root.addEventListener(
+    "paste",
+    (event) => {
+      const file = event.clipboardData?.files[0];
+      if (!file) return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      void take(view, file);
+    },
+    { signal },
+  );
+  view.toolbar.menu.add({
+    group: "photo",
+    label: "Open photo …",
+    title: "Another photo in this editor; this one's edit is set aside",
+    enabled: () => view.kernel.answers,
+    run: async () => {
+      const file = await pickFile(PHOTOS, signal);
+      if (file) await take(view, file);
+    },
+  });
+  return {};
+}
+
+/** @param {View} view @param {File} file */
+async function take(view, file) {
+  try {
+    if (RECIPE.test(file.name)) await loadRecipe(view, file);
+    else await upload(view, file);
+  } catch (error) {
+    view.message.show(`${file.name} was not opened: ${errorText(error)}`);
+  }
+}
+
+/**
+ * Bring a photo to the kernel in pieces; it then comes back as a preview.
+ *
+ * @param {View} view
+ * @param {File} file
+ */
+async function upload(view, file) {
+  if (!view.kernel.answers) {
+    throw new Error("a photo is analysed by the kernel, and there is none. Run the cell again.");
+  }
+  view.state.commit();
+  view.message.show("");
+  const key = crypto.randomUUID?.() ?? String(Math.random());
+  const { name, size } = file;
+  try {
+    let offset = 0;
+    do {
+      const piece = await file.slice(offset, offset + CHUNK).arrayBuffer();
+      view.stage.setProgress(offset / Math.max(1, size), "Uploading …");
+      await view.channel.request("upload", { upload: key, name, size, offset }, undefined, [piece]);
+      offset += piece.byteLength;
+    } while (offset < size);
+  } catch (error) {
+    view.showStatus();
+    throw error;
+  }
+}

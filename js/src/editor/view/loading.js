@@ -1,0 +1,97 @@
+/** What the kernel sends of a photo: the preview at once, later what the analysis found. */
+
+import { Camera } from "../../geometry/camera.js";
+import { MAPS } from "../../gl/frame.js";
+import { decodePicture } from "../../gl/texture.js";
+import { errorText } from "../../host/error_text.js";
+import { onTraits } from "../../host/traits.js";
+
+/** @typedef {import("../../host/types.js").Scene} Scene */
+
+export class Loading {
+  /**
+   * @param {import("./view.js").View} view
+   * @param {AbortSignal} signal
+   */
+  constructor(view, signal) {
+    this.view = view;
+    this.signal = signal;
+    this.loads = 0;
+    /** @type {Map<string, unknown>} the bytes of the pictures that the frame has */
+    this.taken = new Map();
+    onTraits(view.model, ["_photo"], () => void this.photo(), signal);
+    onTraits(view.model, ["_scene"], () => void this.scene(), signal);
+    signal.addEventListener("abort", () => {
+      this.loads += 1; // pictures that are being decoded come too late
+    });
+  }
+
+  async photo() {
+    const { model, stage } = this.view;
+    const bytes = model.get("_photo");
+    if (!bytes?.byteLength) return;
+    try {
+      await stage.setPhoto(bytes);
+    } catch {
+      if (bytes !== model.get("_photo")) return; // another is on its way
+      this.view.message.show("The browser cannot decode the preview that the kernel sent.");
+      return;
+    }
+    // Not before the photo is on the screen: compiling keeps the browser's graphics process busy.
+    requestAnimationFrame(() => setTimeout(() => this.prepare()));
+  }
+
+  /** Begin to compile the shaders while the kernel analyses: some drivers take seconds. */
+  prepare() {
+    const { frame, loop, scene, state } = this.view;
+    if (this.signal.aborted || scene || !loop.inSight) return;
+    try {
+      frame.withGraph((graph) => graph.prepare([String(state.values.method)]));
+    } catch {
+      // The first frame will say what is wrong, when there is something to draw.
+    }
+  }
+
+  /** Take over what the analysis found: decode its maps, then swap all at once. */
+  async scene() {
+    const { view } = this;
+    /** @type {Scene | null} */
+    const scene = view.model.get("_scene");
+    const photo = view.model.get("_photo");
+    if (!scene?.uniforms) this.forget();
+    if (!scene?.uniforms || !photo?.byteLength) return;
+    this.loads += 1;
+    const load = this.loads;
+    try {
+      // A correction changes some of the maps and never the photo.
+      const sent = ["photo", ...MAPS].map((name) => ({ name, bytes: view.model.get(`_${name}`) }));
+      const fresh = sent.filter(({ name, bytes }) => bytes !== this.taken.get(name));
+      const bitmaps = await Promise.all(fresh.map(({ bytes }) => decodePicture(bytes)));
+      if (load !== this.loads) {
+        for (const bitmap of bitmaps) bitmap.close();
+        return;
+      }
+      fresh.forEach(({ name, bytes }, i) => {
+        const { width, height } = bitmaps[i];
+        view.frame.setPicture(name, bitmaps[i]);
+        this.taken.set(name, bytes);
+        if (name === "photo") view.size = [width, height];
+      });
+    } catch (error) {
+      if (load !== this.loads) return;
+      view.message.show(`The maps of the analysis cannot be shown: ${errorText(error)}`);
+      return;
+    }
+    const { fov_vertical_deg, pitch, roll } = scene.camera;
+    const camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
+    view.loop.first = true;
+    view.takeScene(scene, camera);
+  }
+
+  /** Another photo is on its way: nothing of the last one is true of it. */
+  forget() {
+    if (!this.view.scene) return;
+    this.loads += 1;
+    this.view.forgetScene();
+  }
+}

@@ -1,0 +1,55 @@
+/** Which notes stand under the picture, and what each offers to do. */
+
+import { assumedText, DOUBTED, doubtText } from "../../ui/sun_words.js";
+
+/**
+ * @typedef {"pick" | "not_sun" | "take_back" | "moon_is_sun" | "horizon" | "paint" | "leave"} NoteAction
+ * @typedef {{ text: string, actions: NoteAction[], stays?: boolean }} Note `stays` cannot be put away
+ * @typedef {{
+ *   live: boolean, inside: boolean, picking: boolean, pending: boolean, hint: unknown,
+ * }} Now `live`: a kernel answers; `inside`: the assumed sun lies in the picture; `picking`: the
+ *   tool that points at the sun is chosen; `pending`: the scene does not follow yet what was said
+ *   of the sun; `hint`: what the edit says of it
+ */
+
+/** What can be done about a note of the analysis. @type {Record<string, NoteAction[]>} */
+const ACTIONS = {
+  sky: ["paint"],
+  unseen_sun: ["pick"],
+  told_outside: ["take_back", "pick"],
+  doubtful_sun: ["not_sun", "pick"],
+  moon: ["moon_is_sun"],
+  night_sun: ["take_back"],
+  sun_mask: ["pick", "not_sun"],
+  horizon: ["horizon"],
+};
+const OF_THE_SUN = ["unseen_sun", "told_outside", "doubtful_sun", "moon", "night_sun", "sun_mask"];
+
+/** @type {Note} */
+const PICKING = {
+  text: "Click where the photo’s sun is. It may be hidden, or lie outside the picture.",
+  actions: ["leave"],
+  stays: true,
+};
+
+/**
+ * @param {Pick<import("../../host/types.js").Scene, "notes" | "sun">} scene
+ * @param {Now} now
+ * @returns {Note[]}
+ */
+export function notesOf({ notes, sun }, now) {
+  const rows = [...notes];
+  if (sun.source === "found" && sun.confidence < DOUBTED) {
+    rows.unshift({ about: "doubtful_sun", text: doubtText(sun) });
+  }
+  // What is being said anew is not worth reading.
+  const said = now.picking || now.pending;
+  const chosen = rows.filter(({ about }) => !said || !OF_THE_SUN.includes(about));
+  const shown = chosen.map(({ about, text }) => ({
+    text: about === "unseen_sun" || about === "told_outside" ? assumedText(sun, now) : text,
+    actions: (now.live ? (ACTIONS[about] ?? []) : []).filter(
+      (action) => action !== "take_back" || now.hint !== null,
+    ),
+  }));
+  return now.picking ? [PICKING, ...shown] : shown;
+}

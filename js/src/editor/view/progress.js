@@ -1,0 +1,45 @@
+/** How far the kernel's work is, what it is doing, and a way to cancel it and to try again. */
+
+import { element } from "../../ui/element.js";
+
+/** @type {import("./parts.js").MakePart} */
+export function progress(view, signal) {
+  const { channel, kernel, model, notices, stage } = view;
+  const cancel = element("button", { type: "button", class: "sw-progress-cancel" }, "Cancel");
+  stage.progress.append(element("div", { class: "sw-progress-line" }, stage.caption, cancel));
+
+  // What goes wrong on the way is said by the part that watches the kernel.
+  const ask = (/** @type {string} */ action) => channel.request(action).catch(() => kernel.check());
+
+  cancel.addEventListener("click", () => {
+    stage.caption.textContent = "Cancelling …";
+    cancel.disabled = true;
+    if (view.work) view.work.abort();
+    else void ask("cancel");
+  });
+
+  const again = { label: "Try again", run: () => void ask("retry") };
+  /** @type {Record<string, () => string>} */
+  const texts = {
+    cancelled: () =>
+      view.scene
+        ? "The correction was cancelled: the picture does not follow it yet."
+        : "The analysis was cancelled. A correction starts it again, too.",
+    error: () => "The analysis went wrong; below the picture is said why.",
+  };
+  const show = () => {
+    const at = model.get("_status")?.stage;
+    cancel.disabled = false;
+    if (at in texts && kernel.answers) {
+      notices.show("analysis", { text: texts[at](), actions: [again] });
+    } else notices.hide("analysis");
+  };
+  model.on("change:_status", show);
+  signal.addEventListener("abort", () => model.off("change:_status", show));
+  show();
+  return {
+    show() {
+      cancel.disabled = false;
+    },
+  };
+}

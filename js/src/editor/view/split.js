@@ -1,0 +1,62 @@
+/**
+ * Before and after side by side: left of a divider the photo as it was, right of it the picture now.
+ * The divider stays in sight at every zoom.
+ */
+
+import { button } from "../../ui/button.js";
+import { Divider } from "../../ui/divider.js";
+
+/** @type {[string, string]} */
+const SIDES = ["Before", "After"];
+
+export class Split {
+  /** @param {import("./view.js").View} view */
+  constructor(view) {
+    this.view = view;
+    this.on = false;
+    this.button = button({
+      icon: "split",
+      label: "Split",
+      title: "Before and after side by side (S)",
+      onClick: () => this.toggle(),
+    });
+    this.button.setAttribute("aria-pressed", "false");
+    const label = "Divider between before and after";
+    this.divider = new Divider({ label, onMove: () => this.draw() });
+    this.divider.node.hidden = true;
+    view.stage.overlay.after(this.divider.node);
+    view.toolbar.before.node.after(this.button);
+  }
+
+  toggle() {
+    this.on = !this.on;
+    this.button.setAttribute("aria-pressed", String(this.on));
+    this.divider.node.hidden = !this.on;
+    this.view.stage.setOriginal(this.on || this.view.toolbar.before.isOn());
+    this.view.root.classList.toggle("sw-split", this.on);
+    this.draw();
+  }
+
+  draw() {
+    const { canvas } = this.view.stage;
+    if (!this.on) {
+      canvas.style.clipPath = "";
+      return;
+    }
+    const box = this.view.stage.rectangle();
+    const inSight = {
+      left: Math.max(0, box.x),
+      right: Math.min(box.stageWidth, box.x + box.width),
+      top: Math.max(0, box.y),
+      bottom: Math.min(box.stageHeight, box.y + box.height),
+    };
+    const x = this.divider.place(inSight, SIDES);
+    canvas.style.clipPath = `inset(0 0 0 ${(100 * (x - box.x)) / box.width}%)`;
+  }
+}
+
+/** @type {import("./parts.js").MakePart} */
+export function split(view) {
+  view.split = new Split(view);
+  return view.split;
+}

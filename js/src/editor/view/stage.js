@@ -1,0 +1,297 @@
+/**
+ * Where the picture stands: the photo at once, the canvas over it, handles above both.
+ *
+ * Places on the picture are fractions of its width and height, (0, 0) at the top left corner
+ * and also outside 0–1. The overlay lies over the whole stage, margin included, in CSS pixels.
+ * The picture fits the window in its middle until it is zoomed; then it may cover the whole stage.
+ */
+
+import { Zoom } from "../../geometry/zoom.js";
+import { element, setAttributes } from "../../ui/element.js";
+import { PictureStage } from "../../ui/stage.js";
+
+/** @typedef {import("../../host/types.js").Point} Point */
+
+const WHEEL = 0.002; // what a CSS pixel of the wheel zooms by, as a logarithm
+const PINCH = 0.01; // and of two fingers on a touchpad, which sends smaller steps
+const WHEEL_NOTCH = 50; // CSS pixels: a wheel sends more at once, two fingers less
+const LINE = 33; // CSS pixels to a line, which some browsers count in
+const STAGE = 0.75; // of the height in sight that the picture and its margin may take
+const MARGIN = 24; // CSS pixels round the picture (stage.css)
+const SMALLEST = 240; // CSS pixels
+const NOTEBOOK = ".jp-WindowedPanel-outer"; // what scrolls in JupyterLab and Notebook 7
+const PIXELS_FROM = 2; // the scale from which the preview's pixels are shown as squares
+
+export class Stage extends PictureStage {
+  /** @param {AbortSignal} signal */
+  constructor(signal) {
+    const photo = element("img", { class: "sw-photo", alt: "The photo as it was taken" });
+    const original = element("canvas", {
+      class: "sw-original",
+      width: 0,
+      height: 0,
+      "aria-hidden": "true",
+    });
+    const canvas = element("canvas", {
+      class: "sw-canvas",
+      role: "img",
+      "aria-label": "The photo with the sun moved",
+    });
+    const mask = element("canvas", { class: "sw-mask", "aria-hidden": "true" });
+    const picture = element("div", { class: "sw-picture" }, photo, original, canvas, mask);
+    const room = element("div", { class: "sw-window" }, picture);
+    super(picture, { content: room, className: "sw-photo-stage", signal });
+    setAttributes(this.node, {
+      tabindex: 0,
+      role: "application",
+      "aria-label": "Picture: arrow keys move a cross, Enter uses the tool there, + and − zoom",
+    });
+    this.window = room;
+    this.photo = photo;
+    this.original = original;
+    this.canvas = canvas;
+    this.mask = mask;
+    this.zoom = new Zoom();
+    this.focusing = false; // while a pointer gives it the focus
+    this.full = true; // whether the canvas holds the frame at its full size
+    this.url = ""; // of the photo that is shown
+    this.coming = ""; // of the one that is decoded
+    signal.addEventListener("abort", () => {
+      this.coming = "";
+      URL.revokeObjectURL(this.url);
+    });
+    this.watchScreen(signal);
+    this.bound();
+    window.addEventListener("resize", () => this.bound(), { signal });
+    this.node.addEventListener("wheel", (event) => this.onWheel(event), { passive: false, signal });
+  }
+
+  /**
+   * How tall the picture may be: with toolbar and foot it is seen at once. In a frame, whose height
+   * may follow its content, the screen tells.
+   */
+  bound() {
+    const host = this.node.closest(NOTEBOOK)?.clientHeight || Infinity;
+    const tallest =
+      window === window.top
+        ? STAGE * Math.min(window.innerHeight, host) - 2 * MARGIN
+        : 0.72 * window.screen.availHeight;
+    const height = Math.round(Math.min(900, Math.max(SMALLEST, tallest)));
+    this.node.style.setProperty("--sw-tallest", `${height}px`);
+  }
+
+  /** The window may come to a screen with denser or coarser pixels. @param {AbortSignal} signal */
+  watchScreen(signal) {
+    const same = window.matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
+    const changed = () => {
+      this.layOut();
+      this.watchScreen(signal);
+    };
+    same.addEventListener("change", changed, { once: true, signal });
+  }
+
+  /**
+   * Show the photo as it is.
+   *
+   * @param {ArrayBufferView} bytes PNG or JPEG
+   */
+  async setPhoto(bytes) {
+    const url = URL.createObjectURL(new Blob([/** @type {BlobPart} */ (bytes)]));
+    const image = new Image();
+    image.src = url;
+    this.coming = url;
+    try {
+      await image.decode();
+    } finally {
+      // A small photo that came later may be decoded before a large one.
+      if (this.coming !== url || !image.naturalWidth) URL.revokeObjectURL(url);
+    }
+    if (this.coming !== url) return;
+    URL.revokeObjectURL(this.url);
+    this.url = url;
+    this.photo.src = url;
+    const { naturalWidth: width, naturalHeight: height } = image;
+    if (width !== this.zoom.size[0] || height !== this.zoom.size[1]) this.zoom.fit();
+    this.zoom.size = [width, height];
+    this.node.style.setProperty("--sw-aspect", String(width / height));
+    this.node.classList.add("sw-has-photo");
+    this.redrawOriginal();
+    this.layOut();
+  }
+
+  /** The photo is another, or its canvas was emptied. */
+  redrawOriginal() {
+    if (!this.original.width) return;
+    this.setOriginal(false);
+    this.setOriginal(true);
+  }
+
+  /**
+   * The photo is compared with the frame: it is drawn as that is, on a canvas, since browsers make
+   * images smaller by other means, and the one would look softer than the other.
+   *
+   * @param {boolean} on
+   */
+  setOriginal(on) {
+    const { original, photo } = this;
+    if (on === original.width > 0) return;
+    original.width = on ? photo.naturalWidth : 0;
+    original.height = on ? photo.naturalHeight : 0;
+    original.getContext("2d", { alpha: false })?.drawImage(photo, 0, 0);
+  }
+
+  /**
+   * Place on the picture of a pointer, also outside it.
+   *
+   * @param {{ clientX: number, clientY: number }} event
+   * @returns {Point}
+   */
+  placeOf(event) {
+    const box = this.picture.getBoundingClientRect();
+    return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+  }
+
+  /**
+   * Where in the overlay a place of the picture is, in CSS pixels.
+   *
+   * @param {Point} place
+   * @returns {Point}
+   */
+  onOverlay([x, y]) {
+    const box = this.rectangle();
+    return [box.x + x * box.width, box.y + y * box.height];
+  }
+
+  /**
+   * Plain wheel scrolls the page; with Ctrl or Cmd it zooms about the pointer, and so it does where
+   * nothing else can be meant: in full screen, and while the keyboard's cross is on the picture.
+   *
+   * @param {WheelEvent} event
+   */
+  onWheel(event) {
+    const alone = this.node.matches(".sw-crossing, .sw-full *");
+    if (!alone && !event.ctrlKey && !event.metaKey) return;
+    event.preventDefault();
+    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : LINE);
+    const pinch = event.ctrlKey && Math.abs(pixels) < WHEEL_NOTCH;
+    const much = Math.min(200, Math.max(-200, pixels)) * (pinch ? PINCH : WHEEL);
+    this.zoomTo(this.zoom.scale * Math.exp(-much), event);
+  }
+
+  /**
+   * The scale of 1 shows a pixel of the preview on one of the screen.
+   *
+   * @param {number} scale
+   * @param {{ clientX: number, clientY: number }} [about] what stays where it is
+   */
+  zoomTo(scale, about) {
+    this.zoom.zoomTo(scale, about && this.pointOf(about));
+    this.layOut();
+  }
+
+  /**
+   * Zoom and shift the picture so that a place of it is where two fingers hold it.
+   *
+   * @param {Point} place
+   * @param {{ clientX: number, clientY: number }} at
+   * @param {number} scale
+   */
+  hold(place, at, scale) {
+    if (scale !== this.zoom.scale) this.zoom.zoomTo(scale);
+    this.zoom.bring(place, this.pointOf(at));
+    this.layOut();
+  }
+
+  /** @param {1 | -1} way */
+  stepZoom(way) {
+    this.zoom.step(way);
+    this.layOut();
+  }
+
+  /** Between all of the picture and 100 %. */
+  toggleZoom() {
+    this.zoom.toggle();
+    this.layOut();
+  }
+
+  fit() {
+    this.zoom.fit();
+    this.layOut();
+  }
+
+  /**
+   * Shift the zoomed picture, never past its own edge.
+   *
+   * @param {number} x CSS pixels
+   * @param {number} y
+   */
+  pan(x, y) {
+    this.zoom.pan(x, y);
+    this.layOut();
+  }
+
+  /** Bring a place of the zoomed picture to the middle. @param {Point} place */
+  bring(place) {
+    this.zoom.bring(place);
+    this.layOut();
+  }
+
+  /** A pointer's point on the stage in CSS pixels. @param {{ clientX: number, clientY: number }} event @returns {Point} */
+  pointOf(event) {
+    const { left, top } = this.node.getBoundingClientRect();
+    return [event.clientX - left, event.clientY - top];
+  }
+
+  /** Keys reach the editor from now on; the keyboard's cross stays away. */
+  focus() {
+    this.focusing = true;
+    this.node.focus({ preventScroll: true });
+    this.focusing = false;
+  }
+
+  resized() {
+    this.bound();
+    this.layOut();
+  }
+
+  /** A drag may draw smaller: blocks of such a frame are no pixels of the preview. @param {boolean} full */
+  setFull(full) {
+    this.full = full;
+    this.showPixels();
+  }
+
+  showPixels() {
+    const squares = this.full && this.zoom.scale >= PIXELS_FROM;
+    this.node.classList.toggle("sw-pixels", squares);
+  }
+
+  /** Put the picture where the zoom says. */
+  layOut() {
+    const { zoom } = this;
+    const stage = this.node.getBoundingClientRect();
+    const fit = this.window.getBoundingClientRect();
+    if (!fit.width || !fit.height) return;
+    const [x0, y0] = [fit.left - stage.left, fit.top - stage.top];
+    const pixelRatio = window.devicePixelRatio || 1;
+    zoom.setRoom({
+      width: stage.width,
+      height: stage.height,
+      fit: { x: x0, y: y0, width: fit.width, height: fit.height },
+      pixelRatio,
+    });
+    const { style } = this.picture;
+    if (zoom.fits) style.width = style.height = style.transform = "";
+    else {
+      // Browsers put boxes on whole pixels, of CSS at worst, and leave transforms as they are: one
+      // by whole pixels of the screen keeps 100 % sharp.
+      const { x, y, width } = zoom.box();
+      const [left, top] = [x, y].map((at) => Math.round(at * pixelRatio) / pixelRatio);
+      style.width = `${zoom.size[0]}px`;
+      style.height = `${zoom.size[1]}px`;
+      style.transform = `translate(${left}px, ${top}px) scale(${width / zoom.size[0]})`;
+    }
+    this.node.classList.toggle("sw-zoomed", !zoom.fits);
+    this.showPixels();
+    this.onLayout();
+  }
+}

@@ -1,0 +1,30 @@
+/** The line under the picture: where the sun stands, how sure the fitted sky is. */
+
+import { sunText } from "../../ui/angle_text.js";
+import { element } from "../../ui/element.js";
+
+const SURENESS =
+  "Whether the sky that was fitted to the photo will change with the sun as the real one would";
+
+/** Of a probability. A percentage would promise more than it says. @param {number} share */
+const wordOf = (share) => (share >= 0.6 ? "fits well" : share >= 0.3 ? "fits roughly" : "a guess");
+
+export class Foot {
+  constructor() {
+    this.readout = element("div", { class: "sw-readout" });
+    this.sureness = element("div", { class: "sw-sureness", title: SURENESS });
+    this.node = element("div", { class: "sw-foot" }, this.readout, this.sureness);
+  }
+
+  /** What the analysis says of the photo; null while there is none. @param {import("../../host/types.js").Scene | null} scene */
+  showScene(scene) {
+    const { sureness = null } = scene ?? {};
+    this.sureness.textContent =
+      typeof sureness === "number" ? `Atmosphere: ${wordOf(sureness)}` : "";
+  }
+
+  /** @param {number} azimuth degrees @param {number} elevation degrees */
+  showSun(azimuth, elevation) {
+    this.readout.textContent = sunText(azimuth, elevation);
+  }
+}

@@ -1,0 +1,13 @@
+/** How large the picture is shown, in the corner of the stage. */
+
+import { zoomButtons } from "../../ui/zoom_buttons.js";
+
+/** @type {import("./parts.js").MakePart} */
+export function zoomControl({ stage }) {
+  const buttons = zoomButtons(stage.zoom, stage, "sw-zoom-control");
+  stage.node.append(buttons.node);
+  return {
+    draw: () => buttons.show(),
+    drawn: (scale) => stage.setFull(scale === 1),
+  };
+}

@@ -1,0 +1,148 @@
+/**
+ * How large the picture is drawn and which part of it is in sight: numbers only, no page.
+ *
+ * A scale of 1 (100 %) shows a pixel of the preview on a pixel of the screen. As long as nobody
+ * zooms, the picture fits the room that it has and follows it. Lengths are CSS pixels of the stage.
+ */
+
+/**
+ * @typedef {import("../host/types.js").Point} Point
+ * @typedef {{ x: number, y: number, width: number, height: number }} Rectangle
+ * @typedef {{ width: number, height: number, fit: Rectangle, pixelRatio: number }} Room the stage,
+ *   where the picture fits in it, and the screen's pixels to a CSS pixel
+ */
+
+// What the keys and buttons stop at, besides the fit.
+const STEPS = [0.125, 0.167, 0.25, 0.333, 0.5, 0.667, 1, 1.5, 2, 3, 4, 6, 8, 12, 16];
+const MOST = 8; // nothing more is to be seen in a pixel as large as this
+const MOST_OF_FIT = 4; // but a small preview may grow to so many times its fit
+
+export class Zoom {
+  constructor() {
+    /** @type {number | null} the screen's pixels to a pixel of the preview; null fits the stage */
+    this.chosen = null;
+    /** @type {Point} the place of the picture in the middle of the stage */
+    this.centre = [0.5, 0.5];
+    /** @type {Point} the preview in pixels */
+    this.size = [1, 1];
+    /** @type {Room} */
+    this.room = { width: 1, height: 1, fit: { x: 0, y: 0, width: 1, height: 1 }, pixelRatio: 1 };
+  }
+
+  get fits() {
+    return this.chosen === null;
+  }
+
+  /** The scale at which all of the picture just has room. */
+  get fitScale() {
+    return (this.room.fit.width * this.room.pixelRatio) / this.size[0];
+  }
+
+  get scale() {
+    return this.chosen ?? this.fitScale;
+  }
+
+  /** The smallest and the largest scale. @returns {Point} */
+  get bounds() {
+    return [Math.min(1, this.fitScale), Math.max(MOST, MOST_OF_FIT * this.fitScale)];
+  }
+
+  /** @param {Room} room */
+  setRoom(room) {
+    this.room = room;
+    if (this.scale < this.bounds[0]) this.fit();
+  }
+
+  /** Where the picture lies on the stage. @returns {Rectangle} */
+  box() {
+    const { fit, width, height, pixelRatio } = this.room;
+    if (this.chosen === null) return fit;
+    const whole = (/** @type {number} */ length) => Math.max(1, Math.round(length)) / pixelRatio;
+    const [w, h] = this.size.map((length) => whole(length * this.scale));
+    const margin = Math.max(0, Math.min(fit.x, fit.y));
+    return {
+      x: start(w, width, margin, width / 2 - this.centre[0] * w),
+      y: start(h, height, margin, height / 2 - this.centre[1] * h),
+      width: w,
+      height: h,
+    };
+  }
+
+  fit() {
+    this.chosen = null;
+    this.centre = [0.5, 0.5];
+  }
+
+  /**
+   * Take a scale; the place of the picture at `anchor` stays where it is, as far as there is
+   * picture.
+   *
+   * @param {number} scale
+   * @param {Point} [anchor] on the stage, its middle unless given
+   */
+  zoomTo(scale, anchor = this.middle()) {
+    const [least, most] = this.bounds;
+    const wanted = Math.min(most, Math.max(least, scale));
+    if (wanted === this.fitScale) return this.fit();
+    const place = this.placeAt(anchor);
+    this.chosen = wanted;
+    this.bring(place, anchor);
+  }
+
+  /** The next larger (1) or smaller (-1) step, the fit being one. @param {1 | -1} way @param {Point} [anchor] */
+  step(way, anchor) {
+    const [least, most] = this.bounds;
+    const steps = [...STEPS, this.fitScale].sort((a, b) => a - b);
+    if (way < 0) steps.reverse();
+    const past = (/** @type {number} */ step) => way * (step / this.scale - 1) > 1e-3;
+    const next = steps.find((step) => past(step) && step >= least && step <= most);
+    if (next !== undefined) this.zoomTo(next, anchor);
+  }
+
+  /** Between the fit and 100 %; where these are the same, 200 %. @param {Point} [anchor] */
+  toggle(anchor) {
+    if (!this.fits) return this.fit();
+    this.zoomTo(Math.abs(this.fitScale - 1) < 0.02 ? 2 : 1, anchor);
+  }
+
+  /** Shift the picture. @param {number} x @param {number} y */
+  pan(x, y) {
+    const [left, top] = this.middle();
+    this.bring(this.placeAt([left, top]), [left + x, top + y]);
+  }
+
+  /** Shift the picture until a place of it is at a point of the stage, as far as there is picture. @param {Point} place @param {Point} [at] */
+  bring(place, at = this.middle()) {
+    if (this.fits) return;
+    const { width, height } = this.box();
+    const [mx, my] = this.middle();
+    this.centre = [place[0] + (mx - at[0]) / width, place[1] + (my - at[1]) / height];
+    // What would be past the picture's edge is not kept: the way back begins at once.
+    this.centre = this.placeAt(this.middle());
+  }
+
+  /** The place of the picture at a point of the stage. @param {Point} point @returns {Point} */
+  placeAt([x, y]) {
+    const box = this.box();
+    return [(x - box.x) / box.width, (y - box.y) / box.height];
+  }
+
+  /** @returns {Point} */
+  middle() {
+    return [this.room.width / 2, this.room.height / 2];
+  }
+}
+
+/**
+ * Where the picture begins along one side of the stage: in the middle where it has room, else never
+ * farther in than the margin.
+ *
+ * @param {number} length of the picture
+ * @param {number} room of the stage
+ * @param {number} margin
+ * @param {number} wanted
+ */
+function start(length, room, margin, wanted) {
+  if (length <= room - 2 * margin) return (room - length) / 2;
+  return Math.min(margin, Math.max(room - margin - length, wanted));
+}

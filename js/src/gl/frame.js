@@ -1,0 +1,85 @@
+/** The composited frame of one editor: pictures and scene in, pixels on a canvas out. */
+
+import { graph as description, files } from "sunwidget:shaders/editor";
+import { Surface } from "./surface.js";
+import { states } from "./values.js";
+
+/**
+ * @typedef {import("../host/types.js").Edit} Edit
+ * @typedef {import("../host/types.js").Parameter} Parameter
+ * @typedef {import("../host/types.js").Scene} Scene
+ * @typedef {import("./texture.js").Pixels} Pixels
+ */
+
+/** The scene textures that the analysis makes; the photo itself is one as well. */
+export const MAPS = ["layers", "surface", "backdrop", "clear_sky", "relief", "transfer", "lamps"];
+
+/**
+ * What the host adds to every frame: encode as sRGB, dither by half a level, show all of it.
+ *
+ * @type {import("./values.js").Values}
+ */
+const HOST = {
+  output_transfer: 1,
+  output_levels: 255,
+  output_white: 1,
+  dither: 0.5,
+  view: [0, 0, 1, 1],
+};
+
+export class Frame extends Surface {
+  /**
+   * @param {HTMLCanvasElement} canvas the visible canvas
+   * @param {Parameter[]} parameters the kernel's table
+   */
+  constructor(canvas, parameters) {
+    super(canvas, description, files, { alpha: false });
+    this.parameters = parameters;
+    /** @type {Pick<Scene, "automatic" | "uniforms"> | null} */
+    this.scene = null;
+    this.host = { ...HOST };
+  }
+
+  /**
+   * @param {string} name scene texture: photo or one of `MAPS`
+   * @param {Pixels} pixels
+   */
+  setPicture(name, pixels) {
+    this.setTexture(name, pixels);
+  }
+
+  /** @param {Pick<Scene, "automatic" | "uniforms">} scene */
+  setScene(scene) {
+    this.scene = scene;
+  }
+
+  /**
+   * What the graph needs to draw an edit at a size in pixels; null before the scene is there.
+   *
+   * @param {Edit} edit
+   * @param {[number, number]} size
+   * @returns {import("./graph.js").Frame | null}
+   */
+  describe(edit, size) {
+    if (!this.scene) return null;
+    return {
+      states: states(this.parameters, edit, this.scene.automatic),
+      scene: this.scene.uniforms,
+      host: this.host,
+      size,
+      methods: [String(edit.method ?? "ratio")],
+    };
+  }
+
+  /**
+   * Draw the edit at a size in pixels. Returns false when the context was lost meanwhile: the
+   * canvas then keeps its last frame, and another call draws anew.
+   *
+   * @param {Edit} edit
+   * @param {[number, number]} size
+   */
+  draw(edit, size) {
+    const frame = this.describe(edit, size);
+    return frame !== null && this.show(frame);
+  }
+}

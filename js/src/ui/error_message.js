@@ -1,0 +1,37 @@
+/** The line below a picture that says what went wrong. */
+
+import { errorText } from "../host/error_text.js";
+import { element } from "./element.js";
+
+export class ErrorMessage {
+  constructor() {
+    this.node = element("div", { class: "sw-message", role: "alert", hidden: true });
+    this.failure = ""; // of the last drawing
+  }
+
+  /** Text is shown as text: a file name may hold HTML. @param {string} text "" hides the line */
+  show(text) {
+    this.node.hidden = !text;
+    this.node.textContent = text;
+  }
+
+  /**
+   * Draw. What goes wrong is said until drawing works again.
+   *
+   * @template T
+   * @param {() => T} draw
+   * @returns {T | null} null when it went wrong
+   */
+  attempt(draw) {
+    try {
+      const drawn = draw();
+      if (this.failure && this.node.textContent === this.failure) this.show("");
+      this.failure = "";
+      return drawn;
+    } catch (error) {
+      this.failure = errorText(error);
+      this.show(this.failure);
+      return null;
+    }
+  }
+}
