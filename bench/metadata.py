@@ -32,7 +32,7 @@ from PIL import Image
 
 import sunwidget as sw
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "unit"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 import photo_corpus as corpus
 import raw_files
 

@@ -40,7 +40,7 @@ with atheris.instrument_imports(
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "unit"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 import heif_files
 import photo_corpus
 import raw_files

@@ -41,7 +41,7 @@ with atheris.instrument_imports(
 import numpy as np
 from PIL import Image
 
-sys.path[:0] = [str(Path(__file__).parents[1] / "unit"), str(Path(__file__).parent)]
+sys.path[:0] = [str(Path(__file__).parents[1] / "support"), str(Path(__file__).parent)]
 import photo_corpus  # noqa: E402 - a neighbour's folder
 import photo_readers  # noqa: E402 - which are no packages
 

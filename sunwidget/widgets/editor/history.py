@@ -235,7 +235,7 @@ def _checked_name(name: Any) -> str:
 
 
 def newest(steps: list[Recipe]) -> list[Recipe]:
-    """Return the last steps, as many as may be kept; twin of ``newest`` in ``js/src/edit/state.js``."""
+    """Return the last steps, as many as may be kept; twin of ``newest`` in ``state.js``."""
     kept: list[Recipe] = []
     size = 0
     for recipe in reversed(steps[-HISTORY_LENGTH:]):
