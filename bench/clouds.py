@@ -16,6 +16,7 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
+from sunwidget.analysis import correct
 from sunwidget.analysis.clouds.clouds import METHODS
 
 
@@ -27,7 +28,7 @@ def score(folder: Path, limit: int | None) -> dict[str, tuple[float, float, floa
         cloud, known = mask > 191, (mask > 191) | (mask < 64)
         scene = sw.analyze(path)
         for name in METHODS:
-            opacity = scene.corrected(sw.Edit(cloud_method=name)).clouds
+            opacity = correct.corrected(scene, sw.Edit(cloud_method=name)).clouds
             found = cv2.resize(opacity, mask.shape[::-1], interpolation=cv2.INTER_LINEAR) > 0.5
             both, either = found & cloud & known, (found | cloud) & known
             wrong = (found != cloud) & known

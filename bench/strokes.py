@@ -22,6 +22,7 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
+from sunwidget.analysis.correct import corrected as corrected_scene
 from sunwidget.analysis.strokes.sky import set_strokes
 
 GOAL = 0.98
@@ -119,7 +120,7 @@ def correct(path: Path, mask: Path, most: int) -> dict[str, Any] | None:
             break
         strokes += (stroke,)
         begin = time.perf_counter()
-        corrected = scene.corrected(sw.Edit(strokes=strokes))
+        corrected = corrected_scene(scene, sw.Edit(strokes=strokes))
         seconds.append(time.perf_counter() - begin)
         sky = corrected.sky > 0.5
         scores.append(iou(sky, truth, judged))

@@ -106,8 +106,8 @@ def hosts() -> Iterator[Row]:
     at = report._At(9, "hosts against each other; bounds of the picture as Bruneton 2017")  # noqa: SLF001
     name = "shaders on EGL and NumPy"
     try:
+        from sunwidget.errors import RendererError
         from sunwidget.explorer.draw import draw
-        from sunwidget.renderer.gl_thread import RendererError
 
         draw(state(20.0), (8, 8))
     except (ImportError, RendererError) as error:

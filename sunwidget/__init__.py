@@ -13,16 +13,25 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from sunwidget.version import __version__
+
 # What type checkers and editors see; a test holds it equal to the table below.
 if TYPE_CHECKING:
     from sunwidget.analysis.analyze import analyze
-    from sunwidget.analysis.errors import AnalysisError
     from sunwidget.analysis.scene import Scene
     from sunwidget.analysis.segmentation.sky_network import SkyNetwork
     from sunwidget.batches.report import BatchReport
     from sunwidget.batches.run import batch
     from sunwidget.dome.source import Dome, analyze_dome
-    from sunwidget.edit.table import PARAMETERS, Edit, EditError, Stroke
+    from sunwidget.edit.table import PARAMETERS, Edit, Stroke
+    from sunwidget.errors import (
+        AnalysisError,
+        EditError,
+        PhotoError,
+        PhotoWarning,
+        RendererError,
+        StudyError,
+    )
     from sunwidget.export.dome.photo import to_dome
     from sunwidget.export.environment import environment_map
     from sunwidget.export.stills import save
@@ -31,14 +40,12 @@ if TYPE_CHECKING:
     from sunwidget.film.sweep import sweep
     from sunwidget.geometry.camera import Camera
     from sunwidget.geometry.place import Place
-    from sunwidget.photo.photo import Photo, PhotoError, PhotoWarning
+    from sunwidget.photo.photo import Photo
     from sunwidget.photo.photo import open_photo as open  # noqa: A004 - sw.open, as Image.open
     from sunwidget.presets import PRESETS
     from sunwidget.presets import edit as preset
-    from sunwidget.renderer.gl_thread import RendererError
     from sunwidget.renderer.offscreen import render
     from sunwidget.samples import sample
-    from sunwidget.study import StudyError
     from sunwidget.timelapses.timelapse import timelapse
     from sunwidget.transfer.look import transfer_look
     from sunwidget.transfer.sky_replacement import replace_sky
@@ -48,11 +55,9 @@ if TYPE_CHECKING:
     from sunwidget.widgets.page.headless import to_html
     from sunwidget.widgets.study import Study
 
-__version__ = "0.1.0"
-
 # Public name -> (module, name in it).
 _HOMES: dict[str, tuple[str, str]] = {
-    "AnalysisError": ("sunwidget.analysis.errors", "AnalysisError"),
+    "AnalysisError": ("sunwidget.errors", "AnalysisError"),
     "PARAMETERS": ("sunwidget.edit.table", "PARAMETERS"),
     "PRESETS": ("sunwidget.presets", "PRESETS"),
     "BatchReport": ("sunwidget.batches.report", "BatchReport"),
@@ -61,18 +66,18 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Day": ("sunwidget.film.day", "Day"),
     "Dome": ("sunwidget.dome.source", "Dome"),
     "Edit": ("sunwidget.edit.table", "Edit"),
-    "EditError": ("sunwidget.edit.table", "EditError"),
+    "EditError": ("sunwidget.errors", "EditError"),
     "Photo": ("sunwidget.photo.photo", "Photo"),
-    "PhotoError": ("sunwidget.photo.photo", "PhotoError"),
-    "PhotoWarning": ("sunwidget.photo.photo", "PhotoWarning"),
+    "PhotoError": ("sunwidget.errors", "PhotoError"),
+    "PhotoWarning": ("sunwidget.errors", "PhotoWarning"),
     "Place": ("sunwidget.geometry.place", "Place"),
-    "RendererError": ("sunwidget.renderer.gl_thread", "RendererError"),
+    "RendererError": ("sunwidget.errors", "RendererError"),
     "Scene": ("sunwidget.analysis.scene", "Scene"),
     "SkyExplorer": ("sunwidget.widgets.explorer.sky_explorer", "SkyExplorer"),
     "SkyNetwork": ("sunwidget.analysis.segmentation.sky_network", "SkyNetwork"),
     "Stroke": ("sunwidget.edit.table", "Stroke"),
     "Study": ("sunwidget.widgets.study", "Study"),
-    "StudyError": ("sunwidget.study", "StudyError"),
+    "StudyError": ("sunwidget.errors", "StudyError"),
     "SunEditor": ("sunwidget.widgets.editor.sun_editor", "SunEditor"),
     "analyze": ("sunwidget.analysis.analyze", "analyze"),
     "analyze_dome": ("sunwidget.dome.source", "analyze_dome"),

@@ -11,9 +11,11 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sunwidget.analysis.errors import checked_scene
+from sunwidget.analysis.correct import corrected
+from sunwidget.analysis.scene import checked_scene
 from sunwidget.edit.recipe import edit_of
-from sunwidget.edit.table import Edit, EditError
+from sunwidget.edit.table import Edit
+from sunwidget.errors import EditError
 from sunwidget.messages import shown
 
 if TYPE_CHECKING:
@@ -161,5 +163,5 @@ def edit(name: str, scene: Scene, base: Edit | dict[str, Any] | None = None) -> 
     found = values(name, checked_scene(scene))
     base = edit_of(base)
     if base.sun_hint or base.horizon_hint or base.fov_hint:
-        found["sun_azimuth"] = azimuth(find(name), scene.corrected(base))
+        found["sun_azimuth"] = azimuth(find(name), corrected(scene, base))
     return base.replace(**found)

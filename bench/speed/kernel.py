@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sunwidget as sw
+from sunwidget.analysis import correct
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.segmentation import coarse_sky
 
@@ -38,6 +39,7 @@ def rows(effort: Effort) -> Rows:
         sw.Stroke("sky", ((0.4 + 0.02 * i, 0.7), (0.45 + 0.02 * i, 0.7)), 0.005) for i in range(6)
     ]
     corrected = timed(
-        lambda i: scene.corrected(sw.Edit(strokes=tuple(strokes[: 1 + i]))), min(5, effort.runs)
+        lambda i: correct.corrected(scene, sw.Edit(strokes=tuple(strokes[: 1 + i]))),
+        min(5, effort.runs),
     )
     yield of_times("stroke", f"a brush stroke answered, {width}×{height}", corrected, "s")

@@ -35,7 +35,8 @@ def processor() -> str:
 
 def renderer() -> str:
     """Return the name of the OpenGL driver that the kernel draws with."""
-    from sunwidget.renderer.gl_thread import RendererError, on_gl_thread
+    from sunwidget.errors import RendererError
+    from sunwidget.renderer.gl_thread import on_gl_thread
 
     try:
         return str(on_gl_thread(lambda context: context.info["GL_RENDERER"]))

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from sunwidget.analysis.depth import depth as depth_stage
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.hints import (
     Hints,
     check_fov,
@@ -15,16 +14,15 @@ from sunwidget.analysis.hints import (
     check_strokes,
     check_sun,
 )
-from sunwidget.analysis.horizon.horizon import Horizon
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.pipeline import METHODS, Steps, check_method, complete
-from sunwidget.analysis.scene import Scene
+from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import coarse_sky, patches
 from sunwidget.analysis.segmentation.plausible import plausible
 from sunwidget.analysis.strokes.retouch import stroked
-from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.edit.table import Stroke, SunHint
-from sunwidget.geometry.camera import Camera, Point
+from sunwidget.errors import AnalysisError
+from sunwidget.geometry.camera import Point
 from sunwidget.photo.photo import open_photo
 from sunwidget.progress import Progress
 
@@ -126,28 +124,5 @@ def analyze(
         kept = believed * patches.settle(decision.sky, coarse, working)
         doubted = float(np.mean((decision.sky > 0.5) & (kept <= 0.5)))
         decision = decision._replace(sky=kept)
-    camera = Camera(photo.width, photo.height, hints.fov or photo.field_of_view.vertical)
-    empty = np.zeros((1, 1), np.float32)
-    start = Scene(
-        photo=photo,
-        sky=empty,
-        coarse_map=coarse,
-        cloud_map=empty,
-        softness_map=empty,
-        sun=None,
-        horizon=Horizon(0.0),
-        camera=camera,
-        atmosphere=Atmosphere(),
-        water_map=empty,
-        backdrop=empty,
-        glare=empty,
-        assumed_sun=(0.0, 0.0),
-        response={},
-        warnings=(),
-        hints=hints,
-        timings=step.timings,
-        working=working,
-        decision=decision,
-        doubted=doubted,
-    )
-    return stroked(complete(start, hints, step), strokes)
+    segmentation = Segmentation(photo, working, coarse, decision, doubted)
+    return stroked(complete(segmentation, hints, step), strokes)

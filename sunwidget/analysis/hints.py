@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from sunwidget.analysis.depth.network import DepthNetwork, SeenDepth
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.edit.table import OUTSIDE, Stroke, SunHint, parameter
+from sunwidget.errors import AnalysisError
 from sunwidget.geometry.camera import Point
 
 FARTHEST = 1e7

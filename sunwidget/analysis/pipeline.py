@@ -9,18 +9,16 @@ from __future__ import annotations
 import dataclasses
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from sunwidget.analysis.backdrop.backdrop import Backdrop, behind_sun
+from sunwidget.analysis.backdrop.erase import Erased, before_land, erase, unerased
 from sunwidget.analysis.clouds import clouds as cloud_stage
 from sunwidget.analysis.clouds.clouds import Clouds
 from sunwidget.analysis.clouds.unmix import cloud_gain
 from sunwidget.analysis.depth import depth as depth_stage
-from sunwidget.analysis.depth.field import DepthField
-from sunwidget.analysis.depth.view import View
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit.fit import SkyFit, fit_sky
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import horizon as horizon_stage
@@ -28,24 +26,22 @@ from sunwidget.analysis.horizon.horizon import Horizon
 from sunwidget.analysis.images.enlarge import raise_to, take_from
 from sunwidget.analysis.images.fill import fill_by_pyramid
 from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
+from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.networks.sun import SunMaps, look_for_sun
 from sunwidget.analysis.notices import notices
+from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import matting, refine
-from sunwidget.analysis.strokes.memory import Memory
 from sunwidget.analysis.sun import sun as sun_stage
 from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
-from sunwidget.analysis.sun.erase import Erased, before_land, erase, unerased
 from sunwidget.analysis.sun.search import Peak
 from sunwidget.analysis.sun.sun import Blot, SunObservation
 from sunwidget.analysis.water import water as water_stage
+from sunwidget.errors import AnalysisError
 from sunwidget.formats.pixels import size_within
 from sunwidget.geometry.camera import Camera, Point
 from sunwidget.photo.photo import Photo
 from sunwidget.progress import Progress
-
-if TYPE_CHECKING:
-    from sunwidget.analysis.scene import Scene
 
 FIT_SIDE = 384
 _SURROUNDINGS = 0.05  # of the longer side: how far round a glow the sky tells what it hides
@@ -100,9 +96,9 @@ class Steps:
 
 
 def complete(
-    base: Scene, hints: Hints, step: Steps | None = None, matte: np.ndarray | None = None
+    base: Segmentation, hints: Hints, step: Steps | None = None, matte: np.ndarray | None = None
 ) -> Scene:
-    """Run every stage after the decision sky or land, and return a new scene.
+    """Run every stage after the decision sky or land, and return the scene.
 
     A ``matte`` (H, W) that is given, as a person's strokes made it, is not changed any more.
     """
@@ -170,8 +166,8 @@ def complete(
 
     step("water", 0.95, "Looking for water")
     water = _water(working, sky, horizon.scaled(1 / zoom_x, 1 / zoom_y), maps, hints)
-    scene = dataclasses.replace(
-        base,
+    scene = Scene(
+        **base._asdict(),
         sky=matte,
         cloud_map=cover.opacity,
         softness_map=cover.softness,
@@ -204,7 +200,7 @@ def complete(
     return scene
 
 
-def _cut_out(base: Scene, step: Steps) -> tuple[np.ndarray, np.ndarray]:
+def _cut_out(base: Segmentation, step: Steps) -> tuple[np.ndarray, np.ndarray]:
     """Return the sky at working size and the matte at the photo's size."""
     photo, working = base.photo, base.working
     matte = matting.matte(photo, working, base.decision)
@@ -430,22 +426,3 @@ def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> 
         hints=hints,
         memory=Memory(),
     )
-
-
-def depth_of(scene: Scene) -> DepthField:
-    """Return the depth that was given, or found by the method that was asked for."""
-    hints, working = scene.hints, scene.working
-    view = View.of(
-        working,
-        scene.small_sky,
-        scene.small_water,
-        scene.camera,
-        scene.horizon,
-        scene.atmosphere,
-    )
-    if isinstance(hints.depth, np.ndarray):
-        return depth_stage.field_of(view, hints.depth)
-    if hints.depth is not None:
-        return hints.depth(view, working)
-    field: DepthField = METHODS["depth"][hints.method("depth")](view)
-    return field

@@ -1,21 +1,22 @@
-"""Scene: everything the analysis knows about a photo, and what corrections make of it.
+"""Scene: everything the analysis knows about a photo, as data.
 
-``analyze`` makes it; the stages themselves, and their order, are in ``stages``.
+``analyze.py`` makes it by the stages of ``pipeline.py``; ``correct.py`` applies strokes and hints.
 """
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from sunwidget.analysis.backdrop.erase import Erased, unerased
 from sunwidget.analysis.clouds.clouds import Clouds
 from sunwidget.analysis.depth import haze_limit, levels, relief
+from sunwidget.analysis.depth.depth import find_depth
 from sunwidget.analysis.depth.field import DepthField
-from sunwidget.analysis.described import described
+from sunwidget.analysis.depth.view import View
 from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon.horizon import Horizon
@@ -23,30 +24,49 @@ from sunwidget.analysis.images import color_transfer
 from sunwidget.analysis.images.enlarge import resize_rows
 from sunwidget.analysis.images.noise import noise_level
 from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.networks.land import LandMaps, look_at_land
-from sunwidget.analysis.pipeline import Steps, complete, depth_of, find_clouds_again
 from sunwidget.analysis.segmentation import refine
-from sunwidget.analysis.strokes.memory import Memory
-from sunwidget.analysis.strokes.retouch import stroked
 from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
-from sunwidget.analysis.sun.erase import Erased, unerased
 from sunwidget.analysis.sun.sun import SunObservation
 from sunwidget.analysis.water.glitter import column_of, glitter, roughness
 from sunwidget.analysis.windows import panes
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.edit.table import PARAMETERS, Edit, parameter
+from sunwidget.edit.table import PARAMETERS
+from sunwidget.errors import AnalysisError
 from sunwidget.formats.pixels import size_within
 from sunwidget.geometry.camera import Camera, Point
 from sunwidget.photo.photo import Photo
-from sunwidget.progress import Progress
-
-# What an edit says that leaves the clouds to ``analyze``.
-_ANALYSED_CLOUDS = {
-    name: parameter(name).default for name in ("cloud_method", "cloud_ratio_min", "cloud_ratio_max")
-}
 
 _DEPTH_EDGE = 2048
 _SHADOW = 2.0**-7  # display-linear luminance below which a picture's key is no lower
+
+
+class Segmentation(NamedTuple):
+    """Which pixels are sky, decided; what the stages of ``pipeline.py`` start from.
+
+    Attributes
+    ----------
+    photo : Photo
+    working : Working
+        The small copy that the stages look at.
+    coarse_map : (h, w) float32
+        The sky before refinement.
+    decision : Decision
+        Sky or land at working size.
+    doubted : float
+        Share of the picture that was dropped from the sky as unlikely.
+    known_depth, known_land : DepthField, LandMaps or None
+        How the land of the view lies, where other pictures of it have told.
+    """
+
+    photo: Photo
+    working: Working
+    coarse_map: np.ndarray
+    decision: refine.Decision
+    doubted: float = 0.0
+    known_depth: DepthField | None = None
+    known_land: LandMaps | None = None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -129,7 +149,12 @@ class Scene:
     memory: Memory = field(default_factory=Memory)
 
     def __repr__(self) -> str:
-        return described(self)
+        return _described(self)
+
+    @property
+    def segmentation(self) -> Segmentation:
+        """What the stages after the decision sky or land start from."""
+        return Segmentation(**{name: getattr(self, name) for name in Segmentation._fields})
 
     @property
     def width(self) -> int:
@@ -257,7 +282,11 @@ class Scene:
     @cached_property
     def depth_field(self) -> DepthField:
         """The depth at any size (analysis/depth/field.py); found when asked for."""
-        return self.known_depth or depth_of(self)
+        if self.known_depth is not None:
+            return self.known_depth
+        seen = self.working, self.small_sky, self.small_water
+        view = View.of(*seen, self.camera, self.horizon, self.atmosphere)
+        return find_depth(view, self.hints.depth, self.hints.method("depth"))
 
     def _log_depth(self, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
         """Return ln(metres), the sky as its nearest land: (height, width) float32, or ``rows``."""
@@ -428,69 +457,44 @@ class Scene:
             axis=-1,
         )
 
-    def corrected(self, edit: Edit, progress: Progress | None = None) -> Scene:
-        """Return the scene with the edit's strokes, hints and choice of clouds applied.
-
-        The same edit always gives the same maps, to the bit; an edit that corrects nothing
-        gives this very object. Thresholds correct nothing when clouds are un-mixed.
-
-        Parameters
-        ----------
-        edit : Edit
-            Strokes and hints in fractions of the picture.
-        progress : callable, optional
-            As for ``analyze``: what it raises cancels, and nothing has changed then.
-
-        Returns
-        -------
-        Scene
-
-        Raises
-        ------
-        AnalysisError
-            When a hint cannot be used.
-        """
-        clouds = self._cloud_choice(edit)
-        hints = (edit.sun_hint, edit.horizon_hint, edit.fov_hint)
-        if hints == (None, None, None) and clouds is None and not edit.strokes:
-            return self
-        # Strokes come last, on the scene with the hints: they leave its camera and fit alone.
-        base = self.unstroked or self
-        if hints != (None, None, None):
-            bare = base
-            base = bare.memory.scene(
-                hints, lambda: complete(bare, self._with_hints(edit), Steps(progress))
-            )
-        if clouds is not None:
-            plain = base
-            base = plain.memory.scene(clouds, lambda: find_clouds_again(plain, *clouds))
-        return stroked(base, self.hints.strokes + edit.strokes, progress)
-
-    def _cloud_choice(self, edit: Edit) -> tuple[str, tuple[float, float]] | None:
-        """Return method and thresholds of the clouds where they differ from the analysis'."""
-        analysed = self.hints.method("clouds")
-        method = analysed if edit.cloud_method == "analysed" else edit.cloud_method
-        ratios = (edit.cloud_ratio_min, edit.cloud_ratio_max)
-        if method == analysed and (method == "unmix" or ratios == self.hints.cloud_ratios):
-            return None
-        return method, ratios
-
-    def _with_hints(self, edit: Edit) -> Hints:
-        def pixels(point: Point) -> Point:
-            return point[0] * self.width, point[1] * self.height
-
-        changes: dict[str, Any] = {"strokes": ()}
-        if edit.sun_hint is not None:
-            hint = edit.sun_hint
-            changes["sun"] = pixels(hint) if isinstance(hint, tuple) else hint
-        if edit.horizon_hint is not None:
-            changes["horizon"] = (pixels(edit.horizon_hint[0]), pixels(edit.horizon_hint[1]))
-        if edit.fov_hint is not None:
-            changes["fov"] = edit.fov_hint
-        return dataclasses.replace(self.hints, **changes)
-
 
 def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:
     total = max(float(weight.sum()), 1e-6)
     mean = weight.ravel() @ linear.reshape(-1, 3) / total
     return (float(mean[0]), float(mean[1]), float(mean[2]))
+
+
+def checked_scene(scene: Any) -> Scene:
+    """Return what ``analyze`` returned; raises AnalysisError for a photo, a path or any other."""
+    if not hasattr(scene, "automatic"):
+        raise AnalysisError(
+            f"A Scene is needed here, not {type(scene).__name__}: scene = sw.analyze(photo)."
+        )
+    found: Scene = scene
+    return found
+
+
+def _described(scene: Scene) -> str:
+    """Return the photo, where sun, horizon and camera are, and what shares of it are what."""
+    return (
+        f"<Scene of {scene.photo.name!r}, {scene.width}×{scene.height}\n"
+        f" {_sun(scene)}; horizon in row {scene.horizon.row:.0f}; "
+        f"field of view {scene.camera.fov_vertical_deg:.3g}°\n"
+        f" {_shares(scene)}>"
+    )
+
+
+def _sun(scene: Scene) -> str:
+    azimuth, elevation = scene.automatic["sun_azimuth"], scene.automatic["sun_elevation"]
+    body = "moon" if scene.lit_by_moon else "sun"
+    how = "assumed" if scene.sun is None and scene.moon is None else "seen"
+    if scene.sun is not None and scene.sun.source == "hint":
+        how = "told"
+    return f"{body} at azimuth {azimuth:.1f}°, elevation {elevation:.1f}° ({how})"
+
+
+def _shares(scene: Scene) -> str:
+    sky = scene.small_sky
+    clouds = resize(scene.cloud_map, scene.working.width, scene.working.height) * sky
+    parts = {"sky": sky, "clouds": clouds, "water": scene.small_water}
+    return ", ".join(f"{name} {100 * float(np.mean(part)):.0f} %" for name, part in parts.items())

@@ -17,9 +17,9 @@ import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from sunwidget import __version__
 from sunwidget.batches.request import Wish
 from sunwidget.progress import Progress, part
+from sunwidget.version import __version__
 
 # Two photos at a time in one process would take twice the memory for one GL context.
 _one_at_a_time = threading.Lock()
@@ -70,7 +70,7 @@ def develop(job: Job, progress: Progress | None = None) -> Outcome:
     RuntimeError
         When the batch was started by another version of sunwidget.
     """
-    from sunwidget.renderer.gl_thread import RendererError
+    from sunwidget.errors import RendererError
 
     if job.version != __version__:
         raise RuntimeError(f"it has sunwidget {__version__}, the batch is run by {job.version}")
@@ -143,17 +143,18 @@ def _is_ours(category: type[Warning]) -> bool:
 
 
 def _save(job: Job, photo: Path, path: Path, progress: Progress | None) -> tuple[str, ...]:
-    import sunwidget as sw
+    from sunwidget.analysis.analyze import analyze
+    from sunwidget.export.stills import save
     from sunwidget.photo.decode_apart import open_apart
 
     wish = job.wish
     report = _stopping(progress)
-    scene = sw.analyze(open_apart(photo), progress=part(report, 0.0, 0.6), **wish.analysis)
+    scene = analyze(open_apart(photo), progress=part(report, 0.0, 0.6), **wish.analysis)
     edit = wish.edit_of(scene)
     own = scene.photo.size
     size = own if wish.long_edge is None else scene.photo.size_within(wish.long_edge)
     rest = part(report, 0.6, 1.0)
-    sw.save((scene, edit), path, size=None if size == own else size, progress=rest, **wish.options)
+    save((scene, edit), path, size=None if size == own else size, progress=rest, **wish.options)
     return scene.warnings
 
 

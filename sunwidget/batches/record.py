@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget import __version__
 from sunwidget.batches.develop import digest_of
 from sunwidget.batches.request import Wish
+from sunwidget.version import __version__
 
 FILE_NAME = ".sunwidget-batch.jsonl"
 

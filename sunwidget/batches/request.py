@@ -12,7 +12,8 @@ from typing import Any
 
 from sunwidget import presets
 from sunwidget.edit.recipe import edit_of, is_recipe_file, read_recipe
-from sunwidget.edit.table import Edit, EditError
+from sunwidget.edit.table import Edit
+from sunwidget.errors import EditError
 from sunwidget.messages import shown
 
 # What a recipe says about one photo only.

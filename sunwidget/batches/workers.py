@@ -9,9 +9,9 @@ from concurrent.futures import CancelledError
 from pathlib import Path
 from typing import Any, Protocol
 
-from sunwidget import __version__
 from sunwidget.batches.develop import Job, Outcome, develop, sentence
 from sunwidget.photo.decode_apart import kept
+from sunwidget.version import __version__
 
 # How long to wait for the first worker, and for one to come back when all are gone.
 PATIENCE = 60.0
@@ -133,7 +133,7 @@ class DaskWorkers:
     def _outcomes(self, jobs: Iterator[Job], condemn: Callable[[Job], object]) -> Iterator[Outcome]:
         from distributed import KilledWorker
 
-        from sunwidget.renderer.gl_thread import RendererError
+        from sunwidget.errors import RendererError
 
         pending: dict[Any, Job] = {}
         try:

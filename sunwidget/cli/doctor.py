@@ -59,7 +59,8 @@ def _python() -> Iterator[Finding]:
 
 
 def _graphics() -> Iterator[Finding]:
-    from sunwidget.renderer.gl_thread import RendererError, on_gl_thread
+    from sunwidget.errors import RendererError
+    from sunwidget.renderer.gl_thread import on_gl_thread
     from sunwidget.renderer.missing_gl import cause, remedy
 
     try:
@@ -82,7 +83,8 @@ def _graphics() -> Iterator[Finding]:
 
 
 def _shaders() -> Iterator[Finding]:
-    from sunwidget.renderer.gl_thread import RendererError, on_gl_thread
+    from sunwidget.errors import RendererError
+    from sunwidget.renderer.gl_thread import on_gl_thread
     from sunwidget.renderer.graph import Programs
     from sunwidget.renderer.shader_source import frame_graph, part_shaders
 

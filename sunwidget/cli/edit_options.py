@@ -11,7 +11,8 @@ from sunwidget import presets
 from sunwidget.cli.photo_options import flag, given
 from sunwidget.cli.place_options import is_placed, placed
 from sunwidget.edit.recipe import read_recipe
-from sunwidget.edit.table import PARAMETERS, Edit, EditError, Parameter
+from sunwidget.edit.table import PARAMETERS, Edit, Parameter
+from sunwidget.errors import EditError
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene

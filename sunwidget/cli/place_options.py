@@ -145,7 +145,7 @@ def _whole_day(options: argparse.Namespace) -> bool:
 
 def _facing(scene: Scene, place: Place, date: str | None, time: float | None) -> Place:
     """Return the place with the heading that the photo's sun gives at the photo's own time."""
-    from sunwidget.geometry.heading import heading_by_sun
+    from sunwidget.analysis.heading import heading_by_sun
 
     if date is None or time is None:
         raise ValueError(

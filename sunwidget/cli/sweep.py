@@ -11,7 +11,8 @@ from sunwidget.cli.edit_options import add_edit, add_number, edit_of_flags, edit
 from sunwidget.cli.film_options import add_film, add_steps, film_options
 from sunwidget.cli.photo_options import Progress, add_photo, refuse_existing, scene_to_draw
 from sunwidget.cli.place_options import add_place, is_placed, place_of
-from sunwidget.edit.table import NUMBERS, Edit, EditError, parameter
+from sunwidget.edit.table import NUMBERS, Edit, parameter
+from sunwidget.errors import EditError
 from sunwidget.export.formats import check_format, check_quality
 from sunwidget.film.path import (
     DEFAULT_SECONDS,

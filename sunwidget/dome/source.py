@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.segmentation.coarse_sky import mask_from
 from sunwidget.dome.air import closedness, fit_air, hidden_sun, sunlight
@@ -16,8 +15,9 @@ from sunwidget.dome.sky import find_sky
 from sunwidget.dome.sphere import angles, solid_angles
 from sunwidget.dome.sun import FoundSun, find_disc
 from sunwidget.edit.table import OUTSIDE
+from sunwidget.errors import AnalysisError, PhotoError
 from sunwidget.formats.color import LUMINANCE
-from sunwidget.photo.photo import Photo, PhotoError, open_photo
+from sunwidget.photo.photo import Photo, open_photo
 
 if TYPE_CHECKING:
     from sunwidget.edit.table import SunHint

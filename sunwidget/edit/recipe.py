@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from sunwidget.edit.table import Edit, EditError
+from sunwidget.edit.table import Edit
+from sunwidget.errors import EditError
 from sunwidget.messages import shown
 
 # Strokes make a recipe long; more than this is another kind of file.

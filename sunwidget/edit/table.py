@@ -16,6 +16,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal, NamedTuple, Self
 
+from sunwidget.errors import EditError, UnknownParameterError
 from sunwidget.geometry.place import Place, sun_at
 from sunwidget.messages import called, shown
 
@@ -34,20 +35,12 @@ Point = tuple[float, float]
 SunHint = Point | Literal["outside"]
 
 
-class EditError(ValueError):
-    """A recipe or parameter value that cannot be used; the message says what to do."""
-
-
-class UnknownParameterError(EditError, TypeError):
-    """A name that is no parameter; also a TypeError, as for any unknown keyword."""
-
-
 class Parameter(NamedTuple):
     """One row of the table, as seen by sliders, uniforms, flags and the docs.
 
     ``kind`` is ``"number"``, ``"choice"`` or ``"data"`` (strokes, hints and the place: kept in
     the recipe, never a slider or a uniform). ``analysis`` says that the photo's maps follow the
-    parameter, so that a host has to ask ``Scene.corrected`` for them when it changes.
+    parameter, so that a host has to ask ``correct.corrected`` for them when it changes.
     """
 
     name: str

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sunwidget.edit.table import EditError
+from sunwidget.errors import EditError
 from sunwidget.explorer.projection import Projection
 from sunwidget.explorer.values import effective_values
 from sunwidget.renderer.gl_thread import on_gl_thread

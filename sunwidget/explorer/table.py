@@ -13,7 +13,8 @@ from typing import Any
 
 from sunwidget.atmosphere.parameters import RANGES, Atmosphere
 from sunwidget.edit import table
-from sunwidget.edit.table import EditError, Parameter
+from sunwidget.edit.table import Parameter
+from sunwidget.errors import EditError
 
 MODELS = ("multiple", "single", "bruneton", "reference")
 COMPARISONS = ("none", *MODELS)

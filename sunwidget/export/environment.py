@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.analysis.errors import checked_scene
+from sunwidget.analysis.correct import corrected
 from sunwidget.dome.disc import sun_disc
 from sunwidget.edit.recipe import edit_of
+from sunwidget.errors import PhotoError
 from sunwidget.files import complete_or_absent, target
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.messages import shown
-from sunwidget.photo.photo import PhotoError
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -155,7 +155,7 @@ def environment(scene: Scene, edit: Edit, size: tuple[int, int], *, sun: bool = 
     from sunwidget.atmosphere.color import spectral_to_rec709
     from sunwidget.explorer.draw import radiance_at
 
-    scene = checked_scene(scene).corrected(edit)
+    scene = corrected(scene, edit)
     values = explorer_values(scene, edit)
     width, height = size
     azimuth = ((np.arange(width) + 0.5) / width - 0.5) * 360

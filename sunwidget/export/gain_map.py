@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.edit.table import Edit
-from sunwidget.export.formats import Still, jpeg
+from sunwidget.export.formats import jpeg
 from sunwidget.export.lost import warn_lost
+from sunwidget.export.still import Still
 from sunwidget.formats.color import LUMINANCE, ColorProfile
 from sunwidget.formats.gain_map import GainMap, packed
 from sunwidget.progress import Progress

@@ -18,13 +18,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.analysis.correct import corrected
 from sunwidget.formats.color import strips
 from sunwidget.formats.pixels import size_within
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
     from sunwidget.edit.table import Edit
-    from sunwidget.export.formats import Still
+    from sunwidget.export.still import Still
 
 Floats = NDArray[np.float32]
 
@@ -60,7 +61,7 @@ def layers_of(
         of ``codes``; floats are not bounded above.
     """
     clear = draw(edit.replace(cloud_opacity=0.0, added_clouds=0.0))
-    scene = scene.corrected(edit)
+    scene = corrected(scene, edit)
     height, width = codes.shape[:2]
     matte, opacity = _resized(scene.sky, width, height), _resized(scene.clouds, width, height)
     top = np.float32(1 if codes.dtype.kind == "f" else np.iinfo(codes.dtype).max)

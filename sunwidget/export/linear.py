@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from sunwidget.export.formats import Still
+    from sunwidget.export.still import Still
 
 # EXIF tag -> OpenEXR's standard attribute ("Standard Optional Attributes").
 _OF_SHOT = {0x829A: "expTime", 0x829D: "aperture", 0x8827: "isoSpeed"}

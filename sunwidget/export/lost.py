@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 
-from sunwidget.formats.pixels import PhotoWarning
+from sunwidget.errors import PhotoWarning
 
 # Of whoever calls save(): this function, the encoder, save() itself, its caller.
 _CALLER = 4

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sunwidget.analysis.errors import checked_scene
 from sunwidget.analysis.maps import MAPS, levels, shares_of
+from sunwidget.analysis.scene import checked_scene
 from sunwidget.files import complete_or_absent, explained, folder_target
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ _SOFTWARE = 0x0131
 
 def software() -> str:
     """Return program and version, as files name them."""
-    from sunwidget import __version__
+    from sunwidget.version import __version__
 
     return f"sunwidget {__version__}"
 

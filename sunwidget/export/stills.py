@@ -16,13 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.edit.table import Edit
-from sunwidget.export.formats import Format, Still, check_format, check_quality
+from sunwidget.errors import PhotoError
+from sunwidget.export.formats import Format, check_format, check_quality
 from sunwidget.export.gain_map import gain_map_of
 from sunwidget.export.layers import LAYERS, layer_alone, layers_of
 from sunwidget.export.metadata import told
+from sunwidget.export.still import Still
 from sunwidget.files import complete_or_absent, target
 from sunwidget.formats.color import strips
-from sunwidget.photo.photo import Photo, PhotoError, open_photo
+from sunwidget.photo.photo import Photo, open_photo
 from sunwidget.progress import Progress
 
 __all__ = ["check_format", "encode_like", "save"]

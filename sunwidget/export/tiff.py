@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.errors import PhotoError
 from sunwidget.formats import exif as exif_tags
-from sunwidget.formats.pixels import PhotoError
 
 if TYPE_CHECKING:
-    from sunwidget.export.formats import Still
+    from sunwidget.export.still import Still
 
 _STRIP_BYTES = 1 << 20
 _LARGEST = 2**32 - 1

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sunwidget.analysis.errors import checked_scene
+from sunwidget.analysis.scene import checked_scene
 from sunwidget.export.sheet import sheet
 from sunwidget.files import target
 from sunwidget.film.day import Day
@@ -100,7 +100,7 @@ def contact_sheet(
 
 
 def _name(scene: Scene, edit: Edit, *, timed: bool) -> str:
-    from sunwidget.geometry.heading import clock
+    from sunwidget.analysis.heading import clock
 
     elevation = edit.sun_elevation
     if elevation is None:

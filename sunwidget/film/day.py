@@ -104,7 +104,7 @@ class Day:
         return row
 
     def _place(self, scene: Scene) -> Place:
-        from sunwidget.geometry.heading import heading_by_sun
+        from sunwidget.analysis.heading import heading_by_sun
         from sunwidget.photo.place import from_photo
 
         place = self.place or self.edit.place or from_photo(scene.photo).place

@@ -13,8 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget import presets
+from sunwidget.analysis.correct import corrected
 from sunwidget.edit.recipe import edit_of, is_recipe_file, read_recipe
-from sunwidget.edit.table import NUMBERS, PARAMETERS, Edit, EditError
+from sunwidget.edit.table import NUMBERS, PARAMETERS, Edit
+from sunwidget.errors import EditError
 from sunwidget.film.day import Day
 from sunwidget.film.easing import EASINGS
 from sunwidget.messages import shown
@@ -225,7 +227,7 @@ def frame_count(fps: float, frames: int | None, seconds: float | None, otherwise
 def _along(stations: _Stations, row: list[float], easing: str, scene: Scene) -> list[Edit]:
     """Return the edits at the shares ``row`` (0–1) of the way through the stations."""
     # What is automatic follows the strokes and hints, which all stations share.
-    scene = scene.corrected(stations.edits[0])
+    scene = corrected(scene, stations.edits[0])
     edits = _agreeing(stations.edits, "moon" if scene.lit_by_moon else "sun")
     knots = np.array(stations.shares)
     shares = np.array([_eased(share, knots, EASINGS[easing]) for share in row])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.analysis.errors import checked_scene
+from sunwidget.analysis.scene import checked_scene
 from sunwidget.export.formats import check_quality
 from sunwidget.film.path import SunPath, film_edits
 from sunwidget.film.prefetch import ahead

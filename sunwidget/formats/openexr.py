@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.errors import PhotoError
 from sunwidget.formats.color import REC709_CHROMATICITIES, primaries_to_rec709
-from sunwidget.formats.pixels import PhotoError, check_size
+from sunwidget.formats.pixels import check_size
 
 MAGIC = b"v/1\x01"
 _NOTE = "sunwidget."

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.errors import PhotoError
 from sunwidget.formats.color import LUMINANCE
 
 MAX_PIXELS = 200_000_000
@@ -14,14 +15,6 @@ MAX_PIXELS = 200_000_000
 
 MAX_LIGHT = 1e18
 """Brightest light that is opened, 1 = white: its square is still a float of single precision."""
-
-
-class PhotoError(ValueError):
-    """A picture that cannot be opened or written; the message says what to do."""
-
-
-class PhotoWarning(UserWarning):
-    """A picture was opened, but not everything in it could be kept."""
 
 
 def size_within(size: tuple[int, int], long_edge: float) -> tuple[int, int]:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.errors import PhotoError
 from sunwidget.formats.color import (
     REC709_CHROMATICITIES,
     REC709_TO_XYZ,
@@ -21,7 +22,7 @@ from sunwidget.formats.color import (
     strips,
 )
 from sunwidget.formats.deep import by_opencv
-from sunwidget.formats.pixels import PhotoError, check_size
+from sunwidget.formats.pixels import check_size
 
 MAGIC = (b"#?RADIANCE", b"#?RGBE")
 # Readers with a fixed buffer (128 bytes in OpenCV) take a longer line for two.

@@ -20,12 +20,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.errors import PhotoError
 from sunwidget.formats import apple_gain_map, openexr, radiance, xmp
 from sunwidget.formats import exif as exif_tags
 from sunwidget.formats import gain_map as gain_maps
 from sunwidget.formats.color import SRGB, ColorProfile
 from sunwidget.formats.deep import by_opencv, is_deep, tiff_tags
-from sunwidget.formats.pixels import PhotoError, check_light, check_size, split_alpha, upright
+from sunwidget.formats.pixels import check_light, check_size, split_alpha, upright
 from sunwidget.photo import decode_heif, decode_raw
 from sunwidget.photo.color_management import Coded, by_hints, by_primaries, by_profile, cmyk_to_srgb
 

@@ -19,7 +19,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from sunwidget.formats.pixels import PhotoError, PhotoWarning
+from sunwidget.errors import PhotoError, PhotoWarning
 from sunwidget.photo.photo import Photo, open_photo
 from sunwidget.photo.sources import file_of
 

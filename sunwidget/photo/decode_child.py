@@ -22,10 +22,11 @@ from typing import IO, Any
 
 import numpy as np
 
+from sunwidget.errors import PhotoError
 from sunwidget.formats.color import SRGB, ColorProfile, ParametricCurve, TableCurve
 from sunwidget.formats.exif import CameraFacts
 from sunwidget.formats.gain_map import GainMap
-from sunwidget.formats.pixels import MAX_PIXELS, PhotoError
+from sunwidget.formats.pixels import MAX_PIXELS
 from sunwidget.photo.decode import decode_bytes, reason
 from sunwidget.photo.decode_heif import DepthMap
 from sunwidget.photo.photo import Photo, photo_of

@@ -11,10 +11,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.errors import PhotoError
 from sunwidget.formats import apple_gain_map
 from sunwidget.formats import exif as exif_tags
 from sunwidget.formats.gain_map import GainMap
-from sunwidget.formats.pixels import PhotoError, check_size
+from sunwidget.formats.pixels import check_size
 
 # Pillow reads AVIF, which has the same container.
 _BRANDS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"hevm", b"hevs")

@@ -14,12 +14,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.edit.table import Edit, EditError
+from sunwidget.edit.table import Edit
+from sunwidget.errors import EditError, PhotoError, PhotoWarning
 from sunwidget.formats import exif as exif_tags
 from sunwidget.formats import xmp as xmp_packet
 from sunwidget.formats.color import SRGB, ColorProfile, strips
 from sunwidget.formats.gain_map import GainMap
-from sunwidget.formats.pixels import PhotoError, PhotoWarning, size_within
+from sunwidget.formats.pixels import size_within
 from sunwidget.formats.png import cell_output
 from sunwidget.photo.decode import Decoded
 from sunwidget.photo.decode_heif import DepthMap

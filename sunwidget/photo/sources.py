@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.formats.pixels import PhotoError, check_light, check_size, split_alpha
+from sunwidget.errors import PhotoError
+from sunwidget.formats.pixels import check_light, check_size, split_alpha
 from sunwidget.photo.decode import Decoded, decode_bytes, decode_image, reason
 
 _TYPES = (

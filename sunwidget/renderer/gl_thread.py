@@ -16,6 +16,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, TypeVar
 
+from sunwidget.errors import RendererError
 from sunwidget.renderer.missing_gl import NO_FLOATS, explain
 
 if TYPE_CHECKING:
@@ -26,10 +27,6 @@ T = TypeVar("T")
 _MOST_DEVICES = 8
 # After these, what was drawn is none; moderngl has no name for a lost context's code.
 _FAILURES = ("GL_OUT_OF_MEMORY", "GL_INVALID_FRAMEBUFFER_OPERATION", "GL_UNKNOWN_ERROR")
-
-
-class RendererError(RuntimeError):
-    """The kernel's renderer cannot work; the message says what is missing."""
 
 
 class _Worker:

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sunwidget.analysis.errors import checked_scene
+from sunwidget.analysis.correct import corrected
+from sunwidget.analysis.scene import checked_scene
 from sunwidget.edit.recipe import edit_of
-from sunwidget.edit.table import METHODS, Edit, EditError
+from sunwidget.edit.table import METHODS, Edit
+from sunwidget.errors import EditError
 from sunwidget.formats.pixels import MAX_PIXELS
 from sunwidget.messages import shown
 from sunwidget.renderer.gl_thread import on_gl_thread
@@ -215,7 +217,7 @@ def strips_of(
         raise EditError(f"dtype must be 'uint8', 'uint16' or 'float32', not {shown(dtype, 40)}.")
     white = 2.0 ** checked_headroom(headroom, dtype)
     edit = edit_of(edit)
-    scene = checked_scene(scene).corrected(edit)
+    scene = corrected(scene, edit)
     size = scene.photo.size if size is None else checked_size(size)
     lit = edit.window_lights > 0
     drawing, limit = on_gl_thread(
@@ -279,7 +281,7 @@ def render_pass(
     scene: Scene, edit: Edit, name: str, size: tuple[int, int] | None = None
 ) -> npt.NDArray[np.float32]:
     """Return what one pass of the frame graph draws, (h, w, 4) float32: for tests and lessons."""
-    scene = scene.corrected(edit)
+    scene = corrected(scene, edit)
     size = scene.photo.size if size is None else checked_size(size)
 
     def task(context: moderngl.Context) -> npt.NDArray[np.float32]:

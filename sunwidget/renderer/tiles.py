@@ -104,7 +104,7 @@ def scene_textures(scene: Scene, size: Size, *, lit: bool = True) -> dict[str, A
 
     ``lit`` False leaves dark what only lit windows need, and no network looks for them.
     """
-    from sunwidget.analysis.backdrop.clear_sky import clear_sky
+    from sunwidget.analysis.clear_sky import clear_sky
 
     return {
         **_picture(scene, size),

@@ -10,7 +10,8 @@ from __future__ import annotations
 import difflib
 from importlib import resources
 
-from sunwidget.photo.photo import Photo, PhotoError, open_photo
+from sunwidget.errors import PhotoError
+from sunwidget.photo.photo import Photo, open_photo
 
 NAMES = ("coast", "mountains", "meadow", "harbour")
 """Names that :func:`sample` knows."""

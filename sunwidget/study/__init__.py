@@ -4,7 +4,8 @@
 >>> sunwidget.study.bradley_terry(sunwidget.study.read_csv("anna.csv", "bert.csv"))
 """
 
-from sunwidget.study.answers import Answer, StudyError, read_csv, write_csv
+from sunwidget.errors import StudyError
+from sunwidget.study.answers import Answer, read_csv, write_csv
 from sunwidget.study.bradley_terry import BradleyTerry, bradley_terry, by_rater
 
 __all__ = [

@@ -9,14 +9,11 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from sunwidget.errors import StudyError
 from sunwidget.files import complete_or_absent, target
 
 CHOICES = ("left", "right", "tie")
 _SHOWN = 80  # characters of a refused value
-
-
-class StudyError(ValueError):
-    """Answers or pictures that cannot be used; the message says what to do."""
 
 
 class Answer(NamedTuple):

@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.study.answers import Answer, StudyError
+from sunwidget.errors import StudyError
+from sunwidget.study.answers import Answer
 
 PRIOR = 0.5
 _STEPS = 100  # Newton needs about six

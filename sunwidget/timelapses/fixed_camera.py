@@ -16,13 +16,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from sunwidget.analysis.analyze import analyze
+from sunwidget.analysis.correct import corrected
 from sunwidget.analysis.depth.field import DepthField
 from sunwidget.analysis.images.noise import noise_level
 from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize
+from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.segmentation import coarse_sky, patches, refine
 from sunwidget.analysis.segmentation.plausible import plausible
-from sunwidget.analysis.strokes.memory import Memory
 from sunwidget.edit.table import CORRECTIONS, Edit
 from sunwidget.formats.color import SRGB, strips
 from sunwidget.photo.photo import Photo
@@ -102,8 +103,8 @@ class FixedCamera:
                 hints.get("refine", "grabcut_mask"),
             )
         scene = analyze(plate, **hints, progress=progress)
-        scene = scene.corrected(
-            Edit().replace(**{name: getattr(corrections, name) for name in CORRECTIONS})
+        scene = corrected(
+            scene, Edit().replace(**{name: getattr(corrections, name) for name in CORRECTIONS})
         )
         noise = [noise_level(photo, scene.sky) for photo in kept]
         # A median picture is less noisy than its frames.

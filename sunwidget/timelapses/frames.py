@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from sunwidget.errors import PhotoError
 from sunwidget.formats.color import SRGB
-from sunwidget.formats.pixels import PhotoError
 from sunwidget.photo.decode_apart import open_apart
 from sunwidget.photo.photo import Photo
 

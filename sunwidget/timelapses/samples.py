@@ -11,7 +11,7 @@ from sunwidget.analysis.fit.fit import fit_sky
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.pipeline import clouds_by_colour
-from sunwidget.formats.pixels import PhotoError
+from sunwidget.errors import PhotoError
 from sunwidget.geometry.place import Place
 from sunwidget.photo.photo import Photo
 from sunwidget.photo.place import from_photo

@@ -18,12 +18,13 @@ from sunwidget.analysis.backdrop.backdrop import behind_sun
 from sunwidget.analysis.clouds.unmix import cloud_gain
 from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
+from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.networks.sun import look_for_sun
 from sunwidget.analysis.pipeline import clouds_by_colour, erased_for, unmix_clouds
 from sunwidget.analysis.scene import Scene
-from sunwidget.analysis.strokes.memory import Memory
 from sunwidget.edit.table import Edit
-from sunwidget.formats.pixels import PhotoError, size_within
+from sunwidget.errors import PhotoError
+from sunwidget.formats.pixels import size_within
 from sunwidget.geometry.place import Place
 from sunwidget.photo.photo import Photo
 from sunwidget.progress import Progress

@@ -15,6 +15,7 @@ import numpy as np
 
 from sunwidget.analysis.analyze import analyze
 from sunwidget.analysis.scene import Scene
+from sunwidget.errors import PhotoError, PhotoWarning
 from sunwidget.export.formats import check_quality
 from sunwidget.export.stills import save
 from sunwidget.files import folder_target
@@ -31,7 +32,6 @@ from sunwidget.film.writer import (
     whole_film,
     writer,
 )
-from sunwidget.formats.pixels import PhotoError, PhotoWarning
 from sunwidget.geometry.place import Place
 from sunwidget.photo.decode_apart import kept
 from sunwidget.progress import Progress, part, with_time_left

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sunwidget.analysis.backdrop.backdrop import matched_sky, to_light
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit.fit import SkyFit, view_angles
 from sunwidget.analysis.images.fill import fill_by_pyramid
 from sunwidget.analysis.images.working_copy import resize
+from sunwidget.errors import AnalysisError
 from sunwidget.formats.pixels import size_within
 from sunwidget.geometry.camera import Camera
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sunwidget.analysis.errors import AnalysisError
+from sunwidget.errors import AnalysisError
 from sunwidget.export.stills import encode_like
 
 if TYPE_CHECKING:

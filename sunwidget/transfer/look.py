@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.images.working_copy import Working, resize, shrink
 from sunwidget.analysis.segmentation import coarse_sky
+from sunwidget.errors import AnalysisError
 from sunwidget.formats.color import linear_to_srgb, srgb_to_linear, strips
 from sunwidget.photo.photo import Photo, open_photo
 from sunwidget.transfer.correspondence import correspond, normalisation

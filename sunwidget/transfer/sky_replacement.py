@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.images.fill import fill_by_pyramid
 from sunwidget.analysis.images.working_copy import LUMINANCE, resize
+from sunwidget.errors import AnalysisError
 from sunwidget.formats.color import strips
 from sunwidget.transfer.donor_sky import DonorSky, directions, donor_sky
 from sunwidget.transfer.encode import check_strength, photo_like, scene_of

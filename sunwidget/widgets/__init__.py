@@ -1,5 +1,6 @@
 """Widgets for Jupyter: traits and messages only; the picture is drawn in ``js/``."""
 
+import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -10,11 +11,16 @@ if TYPE_CHECKING:
 
 __all__ = ["Compare", "SkyExplorer", "Study", "SunEditor"]
 
+_HOMES = {
+    "Compare": "compare.compare",
+    "SkyExplorer": "explorer.sky_explorer",
+    "Study": "study",
+    "SunEditor": "editor.sun_editor",
+}
+
 
 def __getattr__(name: str) -> Any:
     # On first use: a person waits for the first editor, which needs none of the other widgets.
-    if name not in __all__:
+    if name not in _HOMES:
         raise AttributeError(f"module 'sunwidget.widgets' has no attribute {name!r}")
-    import sunwidget
-
-    return getattr(sunwidget, name)
+    return getattr(importlib.import_module(f"sunwidget.widgets.{_HOMES[name]}"), name)

@@ -7,6 +7,7 @@ import pytest
 from chromium import connect, widget_state
 
 import sunwidget as sw
+from sunwidget.analysis import correct
 from sunwidget.widgets import SunEditor
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
@@ -134,7 +135,7 @@ def test_not_the_sun_leaves_the_photo_without_one_and_can_be_undone(told):
 
 def test_a_note_leads_to_the_tool_that_points_at_the_sun(page, coast):
     """The trap it mends: a click while the first tool was chosen moved the new sun."""
-    unseen = coast.corrected(sw.Edit(sun_hint="outside"))
+    unseen = correct.corrected(coast, sw.Edit(sun_hint="outside"))
     hints = dataclasses.replace(unseen.hints, sun=None)
     widget = SunEditor(dataclasses.replace(unseen, hints=hints)).wait(120)
     connect(page, widget)

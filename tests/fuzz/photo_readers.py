@@ -30,11 +30,12 @@ with atheris.instrument_imports(
         *(f"PIL.{name}ImagePlugin" for name in ("Bmp", "Gif", "Jpeg", "Mpo", "Png", "Tiff")),
     ]
 ):
+    from sunwidget.errors import PhotoError, PhotoWarning
     from sunwidget.export.gain_map_file import beside, told_of
     from sunwidget.formats import exif, icc, pixels, xmp
     from sunwidget.formats.gain_map import GainMap, packed
     from sunwidget.photo.decode import _formats
-    from sunwidget.photo.photo import Photo, PhotoError, PhotoWarning, open_photo
+    from sunwidget.photo.photo import Photo, open_photo
 
     _formats()  # loads Pillow's readers
 

@@ -33,9 +33,10 @@ with atheris.instrument_imports(
 ):
     import sunwidget as sw
     from sunwidget.analysis import analyze as _analysis  # noqa: F401 - the fuzzer's coverage
-    from sunwidget.edit.table import Edit, EditError
+    from sunwidget.edit.table import Edit
+    from sunwidget.errors import EditError, PhotoError, PhotoWarning
     from sunwidget.formats import pixels, xmp
-    from sunwidget.photo.photo import Photo, PhotoError, PhotoWarning, open_photo
+    from sunwidget.photo.photo import Photo, open_photo
     from sunwidget.widgets.page import html as _page  # noqa: F401 - likewise
 
 import numpy as np

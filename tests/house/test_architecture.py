@@ -3,22 +3,98 @@
 import ast
 import graphlib
 import importlib
+import os
 import re
 import statistics
+from pathlib import Path
 
 import pytest
 
+# A room imports only rooms above it. Imports for type checkers count, too.
+ROOMS = [
+    "version",
+    "errors",
+    "messages",
+    "progress",
+    "cache",
+    "files",
+    "atmosphere",
+    "geometry",
+    "formats",
+    "edit",
+    "photo",
+    "samples",
+    "analysis",
+    "presets",
+    "renderer",
+    "explorer",
+    "validation",
+    "study",
+    "dome",
+    "export",
+    "film",
+    "transfer",
+    "batches",
+    "timelapses",
+    "widgets",
+    "cli",
+]
+
+# The same inside analysis/.
+STAGES = [
+    "images",
+    "fit",
+    "networks",
+    "horizon",
+    "sun",
+    "segmentation",
+    "backdrop",
+    "depth",
+    "water",
+    "clouds",
+    "windows",
+    "hints",
+    "notices",
+    "memory",
+    "scene",
+    "clear_sky",
+    "maps",
+    "heading",
+    "pipeline",
+    "strokes",
+    "correct",
+    "analyze",
+]
+
+FRONT_END = [
+    "host",
+    "geometry",
+    "gl",
+    "film",
+    "edit",
+    "ui",
+    "editor",
+    "explorer",
+    "compare",
+    "study",
+    "standalone",
+]
+
+# Effects include each other both ways (clouds dim the sky, the sky lights clouds), but no pass
+# of the editor's frame needs what another picture is made of.
+APART = ("thesis", "explorer", "bruneton")
+
 
 def imports(path, root):
-    """Yield the sunwidget modules that a file imports, wherever in the file."""
+    """Yield the modules of ours that a file imports, wherever in the file."""
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
             for alias in node.names:
                 inner = f"{node.module}.{alias.name}"
-                is_module = (root / inner.replace(".", "/")).with_suffix(".py").exists()
-                yield inner if is_module else node.module
+                file = root / inner.replace(".", "/")
+                yield inner if file.with_suffix(".py").exists() or file.is_dir() else node.module
 
 
 @pytest.fixture(scope="module")
@@ -27,72 +103,90 @@ def graph(root):
     graph = {}
     for path in sorted((root / "sunwidget").rglob("*.py")):
         name = ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__")
-        found = {module for module in imports(path, root) if module.startswith("sunwidget.")}
+        found = {module for module in imports(path, root) if module.split(".")[0] == "sunwidget"}
         graph[name] = found - {name}
     return graph
 
 
-# Who may know whom. A room that is not named here may be known by all.
-FORBIDDEN = {
-    "analysis": ("widgets", "explorer", "renderer", "export", "cli", "demo", "doctor"),
-    "renderer": ("widgets", "explorer", "photo", "decode", "export", "cli", "demo", "doctor"),
-    "atmosphere": (
-        "widgets",
-        "explorer",
-        "renderer",
-        "export",
-        "cli",
-        "analysis",
-        "photo",
-        "demo",
-        "doctor",
-    ),
-    "dome": ("widgets", "explorer", "renderer", "export", "cli", "demo", "doctor"),
-    "camera": ("widgets", "renderer", "export", "cli", "analysis", "demo", "doctor"),
-    "edit": ("widgets", "renderer", "export", "cli", "analysis", "photo", "demo", "doctor"),
-    "photo": ("widgets", "renderer", "export", "cli", "analysis", "demo", "doctor"),
-    "explorer": ("widgets", "export", "cli", "analysis", "photo", "demo", "doctor"),
-    "export": ("widgets", "cli", "demo", "doctor"),
-    "widgets": ("cli", "demo", "doctor"),
-}
+def wrong_way(edges, order):
+    """Arrows between two names of ``order`` that do not point upwards in it."""
+    return [
+        f"{source} → {target}"
+        for source, target, a, b in edges
+        if a != b and order.index(a) <= order.index(b)
+    ]
 
 
-def room(module):
-    return module.split(".")[1] if "." in module else ""
-
-
-def type_only(path, target):
-    """Tell whether ``target`` is imported under TYPE_CHECKING alone: no run-time dependency."""
-    text = path.read_text("utf-8")
-    block = re.search(r"^if TYPE_CHECKING:\n((?:[ \t]+.*\n|\n)+)", text, re.MULTILINE)
-    outside = text.replace(block.group(0), "") if block else text
-    return block is not None and target in block.group(0) and f"from {target} " not in outside
-
-
-def module_file(root, module):
-    path = root / module.replace(".", "/")
-    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
-
-
-def test_dependencies_point_one_way(graph, root):
-    assert len(graph) > 20
-    wrong = [
-        f"{module} → {target}"
-        for module, targets in graph.items()
+def test_rooms_import_only_rooms_above_them(graph):
+    assert len(graph) > 200
+    edges = [
+        (source, target, source.split(".")[1], target.split(".")[1])
+        for source, targets in graph.items()
+        if source not in ("sunwidget", "sunwidget.__main__")
         for target in targets
-        if room(target) in FORBIDDEN.get(room(module), ())
-        and not type_only(module_file(root, module), target)
+        if target != "sunwidget"
+    ]
+    assert wrong_way(edges, ROOMS) == []
+
+
+def test_no_module_imports_the_whole_package_but_to_find_its_folder(graph):
+    knowing = {name for name, targets in graph.items() if "sunwidget" in targets}
+    # The command line does what any user does.
+    rest = {name for name in knowing if not name.startswith("sunwidget.cli.")}
+    assert rest == {"sunwidget.photo.decode_apart", "sunwidget.batches.cluster"}
+
+
+def test_every_room_is_in_the_list(graph):
+    assert {name.split(".")[1] for name in graph if "." in name} - {"__main__"} == set(ROOMS)
+    inside = {n.split(".")[2] for n in graph if n.startswith("sunwidget.analysis.")}
+    assert inside == set(STAGES)
+
+
+def test_stages_of_the_analysis_import_only_stages_above_them(graph):
+    def stage(module):
+        return module.split(".")[2] if module.startswith("sunwidget.analysis.") else None
+
+    edges = [
+        (source, target, stage(source), stage(target))
+        for source, targets in graph.items()
+        for target in targets
+        if stage(source) and stage(target)
+    ]
+    assert len(edges) > 100
+    assert wrong_way(edges, STAGES) == []
+
+
+def test_no_module_imports_itself_in_a_circle(graph):
+    # static_order raises CycleError, which names the circle. The top names all that is public.
+    rest = {name: targets - {"sunwidget"} for name, targets in graph.items() if "." in name}
+    assert list(graphlib.TopologicalSorter(rest).static_order())
+
+
+JS_IMPORT = re.compile(r"""(?:from|import)\s*\(?\s*["'](\.{1,2}/[^"']+)["']""")
+
+
+def test_rooms_of_the_front_end_import_only_rooms_above_them(root):
+    # JSDoc's import("…") counts: who names a type knows it.
+    source = root / "js" / "src"
+    edges = []
+    for path in sorted(source.rglob("*.js")):
+        for target in JS_IMPORT.findall(path.read_text("utf-8")):
+            found = Path(os.path.normpath(path.parent / target)).relative_to(source)
+            here = path.relative_to(source)
+            edges.append((here.as_posix(), found.as_posix(), here.parts[0], found.parts[0]))
+    assert len(edges) > 400
+    assert wrong_way(edges, FRONT_END) == []
+
+
+def test_shaders_of_other_pictures_are_included_by_those_alone(root):
+    folder = root / "sunwidget" / "shaders"
+    wrong = [
+        (path.relative_to(folder).as_posix(), name)
+        for path in folder.rglob("*.glsl")
+        for name in re.findall(r'^ *#include "([^"]+)"', path.read_text("utf-8"), re.MULTILINE)
+        if name.split("/")[0] in APART and path.parent.name != name.split("/")[0]
     ]
     assert wrong == []
-
-
-def test_no_module_imports_itself_in_a_circle(graph, root):
-    at_run_time = {
-        module: {t for t in targets if not type_only(module_file(root, module), t)}
-        for module, targets in graph.items()
-    }
-    # static_order raises CycleError, which names the circle.
-    assert list(graphlib.TopologicalSorter(at_run_time).static_order())
 
 
 def test_every_module_imports_on_its_own(graph):

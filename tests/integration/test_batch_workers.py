@@ -24,7 +24,7 @@ LOW = sw.Edit(sun_elevation=3)
 # Loaded by each worker: photos are copied in a moment, and one of them kills whoever opens it.
 STAND_IN = """
 import os
-from sunwidget.export.batch import develop
+from sunwidget.batches import develop
 
 def save(job, photo, path, progress):
     if photo.name == "poison.png":

@@ -10,6 +10,7 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
+from sunwidget.analysis import correct
 from sunwidget.widgets import SunEditor
 from sunwidget.widgets.kernel.analyst import AnalysisCancelled, Analyst
 from sunwidget.widgets.kernel.requests import Requests
@@ -71,7 +72,7 @@ def test_a_cancelled_correction_leaves_the_scene_and_the_next_one_is_whole(scene
     edit = sw.Edit(strokes=(STROKE,))
     analyst.ask(edit)
     again = analyst.wait(120)
-    fresh = sw.analyze(scene.photo).corrected(edit)
+    fresh = correct.corrected(sw.analyze(scene.photo), edit)
     assert (again.sky == fresh.sky).all()
 
 

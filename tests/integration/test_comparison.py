@@ -8,7 +8,8 @@ from relight_scenes import sample_scene
 from traitlets import TraitError
 
 import sunwidget as sw
-from sunwidget.edit.table import Edit, EditError
+from sunwidget.edit.table import Edit
+from sunwidget.errors import EditError
 from sunwidget.study import StudyError
 from sunwidget.widgets.compare.compare import Compare
 from sunwidget.widgets.kernel.front_end import front_end

@@ -12,9 +12,10 @@ from PIL import Image
 
 import sunwidget as sw
 from sunwidget.batches import develop
+from sunwidget.errors import PhotoError, PhotoWarning
 from sunwidget.photo import decode_apart
 from sunwidget.photo.decode_apart import open_apart, release
-from sunwidget.photo.photo import PhotoError, PhotoWarning, open_photo
+from sunwidget.photo.photo import open_photo
 from sunwidget.timelapses.frames import read_frame
 from sunwidget.widgets.editor.uploads import Uploads
 

@@ -9,12 +9,12 @@ import pytest
 import sunwidget as sw
 from sunwidget.cli.main import main
 from sunwidget.dome.sphere import angles, distance, irradiance, solid_angles
+from sunwidget.errors import PhotoError
 from sunwidget.export.dome.light import dome_light
 from sunwidget.export.dome.mirror import mirror_of
 from sunwidget.export.dome.picture import light_of
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
-from sunwidget.photo.photo import PhotoError
 
 WIDTH = 512
 MOVED = sw.Edit(sun_azimuth=100, sun_elevation=25)

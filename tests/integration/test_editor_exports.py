@@ -12,7 +12,7 @@ import traitlets
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.edit.table import EditError
+from sunwidget.errors import EditError
 from sunwidget.widgets import SunEditor
 from sunwidget.widgets.editor.export_files import FILMS, STILLS
 from sunwidget.widgets.editor.exports import _film_day

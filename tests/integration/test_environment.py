@@ -8,8 +8,8 @@ import sunwidget as sw
 from sunwidget.atmosphere.color import spectral_to_rec709
 from sunwidget.atmosphere.sky import SkyTable
 from sunwidget.atmosphere.sun import disc_radiance
+from sunwidget.errors import PhotoError
 from sunwidget.export.environment import environment
-from sunwidget.photo.photo import PhotoError
 
 SIZE = (256, 128)
 

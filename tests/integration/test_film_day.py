@@ -5,10 +5,10 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
+from sunwidget.analysis.heading import heading_by_sun
 from sunwidget.cli import sweep
 from sunwidget.cli.main import main
 from sunwidget.film.path import film_edits
-from sunwidget.geometry.heading import heading_by_sun
 from sunwidget.geometry.place import Place, sun_at
 from sunwidget.photo.place import from_photo
 

@@ -6,7 +6,7 @@ import pytest
 from frames_of_a_camera import EXPOSURES, SHAKEN, frame
 
 from sunwidget.edit.table import Edit
-from sunwidget.formats.pixels import PhotoError
+from sunwidget.errors import PhotoError
 from sunwidget.geometry.place import Place, sun_at
 from sunwidget.photo.photo import open_photo
 from sunwidget.renderer.offscreen import render

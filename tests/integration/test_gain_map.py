@@ -10,14 +10,13 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.edit.table import EditError
+from sunwidget.errors import EditError, PhotoError, PhotoWarning
 from sunwidget.export.gain_map import map_between
 from sunwidget.export.gain_map_file import beside, told_of
 from sunwidget.formats import gain_map as gain_maps
 from sunwidget.formats import xmp
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.formats.gain_map import GainMap, segments
-from sunwidget.photo.photo import PhotoError, PhotoWarning
 
 SIZE = (768, 512)
 EDIT = sw.Edit(sun_elevation=5)

@@ -15,12 +15,12 @@ from PIL import Image
 import sunwidget as sw
 from sunwidget.analysis.depth.depth import given
 from sunwidget.analysis.depth.network import SeenDepth
+from sunwidget.errors import PhotoError, PhotoWarning
 from sunwidget.export.gain_map_file import beside
 from sunwidget.formats import apple_gain_map, exif
 from sunwidget.formats.color import SRGB_CURVE
 from sunwidget.formats.gain_map import GainMap
 from sunwidget.photo.decode_heif import DepthMap, is_heif
-from sunwidget.photo.photo import PhotoError, PhotoWarning
 
 needs_libheif = pytest.mark.skipif(
     importlib.util.find_spec("pillow_heif") is None,

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.edit.table import EditError
-from sunwidget.photo.photo import PhotoError
+from sunwidget.errors import EditError, PhotoError
 from sunwidget.widgets import SunEditor
 from sunwidget.widgets.editor.history import HISTORY_BYTES, HISTORY_LENGTH, newest
 from sunwidget.widgets.editor.uploads import UPLOAD_BYTES, Uploads, fingerprint

@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.renderer.gl_thread import RendererError
+from sunwidget.errors import RendererError
 from sunwidget.widgets import SkyExplorer, SunEditor
 from sunwidget.widgets.page import html as module
 from sunwidget.widgets.page import standalone as parts

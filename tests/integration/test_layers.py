@@ -7,9 +7,10 @@ import pytest
 import tifffile
 
 from sunwidget.edit.table import Edit
+from sunwidget.errors import PhotoError
 from sunwidget.export.layers import LAYERS, layers_of
 from sunwidget.export.stills import save
-from sunwidget.photo.photo import PhotoError, open_photo
+from sunwidget.photo.photo import open_photo
 
 HEIGHT, WIDTH = 60, 90
 

@@ -10,10 +10,11 @@ import pytest
 import tifffile
 
 from sunwidget.edit.table import Edit
+from sunwidget.errors import PhotoError, PhotoWarning
 from sunwidget.export.stills import save
 from sunwidget.formats import exif, openexr, radiance
 from sunwidget.formats.color import primaries_to_rec709
-from sunwidget.photo.photo import PhotoError, PhotoWarning, open_photo
+from sunwidget.photo.photo import open_photo
 
 ENDINGS = (".exr", ".hdr", ".tif")
 P3 = (0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329)

@@ -6,7 +6,7 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.analysis.errors import AnalysisError
+from sunwidget.errors import AnalysisError
 from sunwidget.transfer.correspondence import correspond, normalisation
 from sunwidget.transfer.local_affine import apply, global_affine, local_affine, ordered
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from sunwidget.renderer.gl_thread import RendererError
+from sunwidget.errors import RendererError
 from sunwidget.widgets.kernel import output
 
 FLAG = "--HistoryManager.hist_file=:memory:"

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 import sunwidget as sw
-from sunwidget.renderer.gl_thread import RendererError
+from sunwidget.errors import RendererError
 
 READABLE = corpus.readable()
 ODD = (

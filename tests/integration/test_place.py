@@ -9,12 +9,12 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
+from sunwidget.analysis.heading import heading_by_sun, match
 from sunwidget.cli import sweep
 from sunwidget.cli.main import _parser, main
 from sunwidget.cli.place_options import placed
-from sunwidget.edit.table import EditError
+from sunwidget.errors import EditError
 from sunwidget.film.path import film_edits
-from sunwidget.geometry.heading import heading_by_sun, match
 from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, solar_day, sun_at
 from sunwidget.photo.place import date_and_hours, from_photo, zone_name
 

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 import raw_files
 
+from sunwidget.errors import PhotoError
 from sunwidget.export.stills import save
 from sunwidget.formats import exif
-from sunwidget.photo.photo import PhotoError, open_photo
+from sunwidget.photo.photo import open_photo
 
 INSIDE = slice(4, -4)
 

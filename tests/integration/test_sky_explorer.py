@@ -14,7 +14,8 @@ from traitlets import TraitError
 import sunwidget as sw
 from sunwidget.atmosphere.parameters import RANGES, Atmosphere
 from sunwidget.atmosphere.presets import PRESETS
-from sunwidget.edit.table import PARAMETERS, EditError
+from sunwidget.edit.table import PARAMETERS
+from sunwidget.errors import EditError
 from sunwidget.explorer.table import EXPLORER_PARAMETERS, GRIDS, MODELS, checked, parameter
 from sunwidget.explorer.values import effective_values
 from sunwidget.validation import measurements
@@ -313,7 +314,8 @@ def test_without_measured_skies_the_browser_reads_how_to_get_them(explorer, sent
 
 @pytest.fixture(scope="module")
 def egl():
-    from sunwidget.renderer.gl_thread import RendererError, on_gl_thread
+    from sunwidget.errors import RendererError
+    from sunwidget.renderer.gl_thread import on_gl_thread
 
     try:
         on_gl_thread(lambda context: context.info)
@@ -364,8 +366,8 @@ def test_viewers_without_widgets_get_a_picture(explorer, egl):
 
 
 def test_without_egl_the_widget_is_shown_all_the_same(explorer, monkeypatch):
+    from sunwidget.errors import RendererError
     from sunwidget.explorer import draw
-    from sunwidget.renderer.gl_thread import RendererError
 
     def no_context(*_args, **_kwargs):
         raise RendererError("no EGL")
@@ -440,8 +442,8 @@ def test_the_browser_gets_the_errors_against_the_measured_skies(measured, monkey
 
 
 def test_without_egl_the_other_models_are_compared_all_the_same(measured, monkeypatch):
+    from sunwidget.errors import RendererError
     from sunwidget.renderer.bruneton import precomputed_sky
-    from sunwidget.renderer.gl_thread import RendererError
 
     def no_context(*_args, **_kwargs):
         raise RendererError("no EGL")

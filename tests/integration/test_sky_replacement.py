@@ -7,7 +7,7 @@ from PIL import Image
 from relight_scenes import sample_scene
 
 import sunwidget as sw
-from sunwidget.analysis.errors import AnalysisError
+from sunwidget.errors import AnalysisError
 from sunwidget.transfer.donor_sky import directions, donor_sky
 
 SIZE = (384, 256)

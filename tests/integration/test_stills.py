@@ -15,11 +15,12 @@ import tifffile
 from PIL import Image, PngImagePlugin
 
 from sunwidget.edit.table import Edit, Stroke
+from sunwidget.errors import PhotoError, PhotoWarning
 from sunwidget.export import stills
 from sunwidget.export.stills import encode_like, save
 from sunwidget.formats import exif, xmp
 from sunwidget.formats.color import linear_to_srgb
-from sunwidget.photo.photo import PhotoError, PhotoWarning, open_photo
+from sunwidget.photo.photo import open_photo
 
 LOSSLESS = (".png", ".tif", ".tiff")
 ALL = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp")
@@ -530,7 +531,7 @@ def test_stills_needs_no_renderer_until_a_scene_is_saved():
 @pytest.mark.parametrize("deep", [False, True])
 def test_the_real_renderer_keeps_every_code_of_an_unmoved_photo(tmp_path, icc, deep):
     import sunwidget as sw
-    from sunwidget.renderer.gl_thread import RendererError
+    from sunwidget.errors import RendererError
 
     codes = np.ascontiguousarray(sw.sample("coast").encoded[::8, ::8])
     if deep:

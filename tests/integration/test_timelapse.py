@@ -6,7 +6,7 @@ from PIL import Image
 
 import sunwidget as sw
 from sunwidget.edit.table import Edit
-from sunwidget.formats.pixels import PhotoError, PhotoWarning
+from sunwidget.errors import PhotoError, PhotoWarning
 from sunwidget.timelapses import timelapse as module
 from sunwidget.timelapses.scenes import Trouble
 from sunwidget.timelapses.timelapse import timelapse

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from sunwidget.analysis.heading import match
 from sunwidget.edit.table import Edit
-from sunwidget.geometry.heading import match
 from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, solar_day
 
 pytest.importorskip("pvlib")

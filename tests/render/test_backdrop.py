@@ -13,8 +13,8 @@ from sunwidget.analysis.backdrop.backdrop import (
     to_code,
     to_light,
 )
+from sunwidget.analysis.backdrop.erase import unerased
 from sunwidget.analysis.images.working_copy import Working
-from sunwidget.analysis.sun.erase import unerased
 from sunwidget.edit.table import Edit
 from sunwidget.photo.photo import open_photo
 from sunwidget.renderer import render, render_pass

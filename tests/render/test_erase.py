@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from sunwidget.analysis.backdrop.erase import erase, unerased
 from sunwidget.analysis.images.working_copy import Working, encode
 from sunwidget.analysis.networks.sun import LIGHT_FLOOR, SunMaps
-from sunwidget.analysis.sun.erase import erase, unerased
 from sunwidget.analysis.sun.sun import SunObservation
 from sunwidget.photo.photo import open_photo
 

@@ -7,7 +7,7 @@ from sunwidget.atmosphere import optics
 from sunwidget.atmosphere.color import chromaticity, spectral_to_rec709, spectral_to_xyz
 from sunwidget.atmosphere.parameters import RANGES, Atmosphere
 from sunwidget.atmosphere.sky import SHADER, SkyTable
-from sunwidget.edit.table import EditError
+from sunwidget.errors import EditError
 from sunwidget.explorer import draw as module
 from sunwidget.explorer.draw import (
     BACKGROUND,

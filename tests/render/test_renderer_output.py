@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo, known_scene
 
-from sunwidget.edit.table import METHODS, Edit, EditError
+from sunwidget.edit.table import METHODS, Edit
+from sunwidget.errors import EditError
 from sunwidget.renderer import graph as graph_module
 from sunwidget.renderer import render, render_pass
 from sunwidget.renderer.gl_thread import on_gl_thread

@@ -14,7 +14,7 @@ const SUN = ["sun_azimuth", "sun_elevation", "place"];
  * @param {Edit} from
  * @param {Edit} to
  * @param {{ parameters: Parameter[], versions?: Version[],
- *   presets?: import("../ui/chips.js").Preset[] }} known
+ *   presets?: import("../host/types.js").Preset[] }} known
  */
 export function stepName(from, to, { parameters, versions = [], presets = [] }) {
   const changed = parameters.filter(({ name }) => !equal(from[name], to[name]));

@@ -1,6 +1,6 @@
 /**
  * Where and when a photo is taken, which way its camera looks, and where the sun then stands:
- * twins of `sunwidget/geometry/place.py` and `sunwidget/geometry/heading.py`, read from the kernel's path of a day.
+ * twins of `sunwidget/geometry/place.py` and `sunwidget/analysis/heading.py`, read from the kernel's path of a day.
  */
 
 import { sunAt, turned } from "./day.js";

@@ -106,6 +106,12 @@ export interface Kept extends History {
 }
 
 /** Which photo it is (trait `_source`). */
+export interface Preset {
+  label: string;
+  title: string;
+  values: Record<string, unknown>;
+}
+
 export interface Source {
   name: string;
   /** Of the photo's pixels. */

@@ -3,7 +3,7 @@
 import { equal } from "../edit/equality.js";
 import { element } from "./element.js";
 
-/** @typedef {{ label: string, title: string, values: Record<string, unknown> }} Preset */
+/** @typedef {import("../host/types.js").Preset} Preset */
 
 /** @type {(label: string, title: string, onClick: () => void) => HTMLButtonElement} */
 export function chip(label, title, onClick) {

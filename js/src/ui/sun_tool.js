@@ -9,10 +9,13 @@ import { GRAB, keyStep, SunShape, spotOnStage } from "./sun_shape.js";
 
 /**
  * @typedef {import("../host/types.js").Point} Point
- * @typedef {import("../editor/view/view.js").View} View
- * @typedef {Pick<View, "camera" | "scene" | "value" | "parameter"> & {
- *   stage: Pick<View["stage"], "rectangle">,
- *   state: Pick<View["state"], "begin" | "commit" | "cancel" | "set">,
+ * @typedef {{
+ *   camera: import("../geometry/camera.js").Camera | null,
+ *   scene: import("../host/types.js").Scene | null,
+ *   value: (name: string) => number,
+ *   parameter: (name: string) => import("../host/types.js").Parameter,
+ *   stage: Pick<import("./stage.js").PictureStage, "rectangle">,
+ *   state: Pick<import("../edit/state.js").EditState, "begin" | "commit" | "cancel" | "set">,
  * }} SunHost what the handle needs of a view
  * @typedef {{
  *   takes: (place: Point, onSun: boolean) => boolean,

@@ -11,11 +11,11 @@ from functools import lru_cache
 
 import numpy as np
 
+from sunwidget.analysis.backdrop.erase import Erased
 from sunwidget.analysis.backdrop.sky_detail import DETAILED
 from sunwidget.analysis.fit.fit import SkyFit, view_angles
 from sunwidget.analysis.images.fill import fill_by_pyramid
 from sunwidget.analysis.images.working_copy import resize, smoothstep
-from sunwidget.analysis.sun.erase import Erased
 from sunwidget.formats.pixels import size_within
 from sunwidget.geometry.camera import Camera
 

@@ -9,22 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from sunwidget.analysis.backdrop.backdrop import matched_sky
 from sunwidget.analysis.clouds.unmix import cloud_white, unmix
 from sunwidget.analysis.depth.field import guided
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.fit.overcast import believable, overcast
 from sunwidget.analysis.images.working_copy import LONG_SIDE, Working, saturation
 from sunwidget.edit.table import parameter
+from sunwidget.errors import AnalysisError
 from sunwidget.geometry.camera import Camera
-
-if TYPE_CHECKING:
-    from sunwidget.analysis.scene import Scene
 
 MINIMUM: float = parameter("cloud_ratio_min").default
 MAXIMUM: float = parameter("cloud_ratio_max").default
@@ -220,18 +217,3 @@ def without(clouds: Clouds, mask: np.ndarray) -> Clouds:
     """Take the sun's pixels out: r/b calls them cloud (thesis 3.1.3)."""
     keep = 1 - mask
     return Clouds(clouds.opacity * keep, clouds.softness * keep, clouds.shade)
-
-
-def softness_histogram(scene: Scene, bins: int = 32) -> np.ndarray:
-    """Return the share of the sky's pixels in each bin of the softness C^s, (bins,) float64.
-
-    Weighted by the matte, it sums to 1 (to 0 without sky). Thesis 4.2: m_min and m_max are well
-    chosen when it is spread; all at 0 or all at 1 says that they miss the photo's clouds.
-    """
-    counts, _ = np.histogram(
-        scene.cloud_softness / np.maximum(scene.sky, 1e-6),
-        bins=bins,
-        range=(0, 1 + 1e-6),
-        weights=scene.sky,
-    )
-    return np.asarray(counts / max(float(counts.sum()), 1e-9))

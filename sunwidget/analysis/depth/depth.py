@@ -18,10 +18,10 @@ from sunwidget.analysis.depth.field import DepthField, guided
 from sunwidget.analysis.depth.levels import fill_sky
 from sunwidget.analysis.depth.network import DepthNetwork, SeenDepth
 from sunwidget.analysis.depth.view import View
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.images.working_copy import resize, smoothstep
 from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.segmentation.coarse_sky import check_proportions, plain_numbers
+from sunwidget.errors import AnalysisError
 from sunwidget.photo.decode_heif import DepthMap
 
 _LYING = 0.9, 0.99  # cosines of slopes between which a place is ground
@@ -160,3 +160,13 @@ def _field(view: View, share: np.ndarray, log_depth: np.ndarray, error: np.ndarr
     confidence = (1 / (1 + (2 * np.asarray(error)) ** 2)).astype(np.float32)
     horizon_error = view.horizon_error / view.shape[0]
     return DepthField(share, log_depth, confidence, view.camera, horizon_error)
+
+
+def find_depth(view: View, told: Given, method: str) -> DepthField:
+    """Return the depth that was told, as metres or as a network, or found by a method's name."""
+    if isinstance(told, np.ndarray):
+        return field_of(view, told)
+    if told is not None:
+        return told(view, view.working)
+    found: DepthField = METHODS[method](view)
+    return found

@@ -16,10 +16,10 @@ from sunwidget.analysis.depth import flat_ground
 from sunwidget.analysis.depth.field import DepthField
 from sunwidget.analysis.depth.levels import fill_sky
 from sunwidget.analysis.depth.view import View
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks import segmentation_output
 from sunwidget.analysis.networks.onnx_file import Opened
+from sunwidget.errors import AnalysisError
 
 IMAGENET = ((0.485, 0.456, 0.406), (0.229, 0.224, 0.225))
 _SIDES = (384, 518, 256)  # MiDaS and DPT, Depth Anything (a multiple of 14), MiDaS small

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.images.working_copy import resize
 from sunwidget.analysis.networks import segmentation_output
 from sunwidget.analysis.networks.onnx_runtime import onnx_runtime
 from sunwidget.analysis.networks.segmentation_output import Output
+from sunwidget.errors import AnalysisError
 
 SIDE = 384  # of the picture for networks that take any size, as in the thesis
 LARGEST = 4096  # a side of the picture: a float copy of it is 200 MB

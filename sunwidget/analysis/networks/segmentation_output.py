@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.errors import AnalysisError
+from sunwidget.errors import AnalysisError
 
 LABELS = {1: 0, 2: 1, 19: 10, 150: 2, 151: 3}
 """Index of "sky" by the number of classes: sky alone, land and sky, Cityscapes, ADE20K, and

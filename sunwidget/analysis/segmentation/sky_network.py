@@ -14,10 +14,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks import segmentation_output
 from sunwidget.analysis.networks.onnx_file import SIDE, Opened, Scale
+from sunwidget.errors import AnalysisError
 
 BUNDLED = Path(__file__).parents[1] / "models" / "sky.onnx"
 # Mean and deviation in use, in units of [0, 1]; the first of equally good ones is taken.

@@ -18,6 +18,7 @@ from sunwidget.analysis.backdrop.backdrop import behind_sun
 from sunwidget.analysis.clouds import clouds as cloud_stage
 from sunwidget.analysis.images.enlarge import Box, enlarged_part, pixels_of, resize_rows
 from sunwidget.analysis.images.working_copy import resize
+from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.notices import notices
 from sunwidget.analysis.pipeline import Steps, complete
 from sunwidget.analysis.segmentation.matting import (
@@ -29,7 +30,6 @@ from sunwidget.analysis.segmentation.matting import (
 )
 from sunwidget.analysis.segmentation.refine import MINIMUM_SIDE, Decision
 from sunwidget.analysis.strokes.brush import set_strokes
-from sunwidget.analysis.strokes.memory import Memory
 from sunwidget.analysis.strokes.sky import Painting
 from sunwidget.analysis.strokes.water import LABELS as WATER
 from sunwidget.analysis.strokes.water import with_water
@@ -70,7 +70,7 @@ def _draw(base: Scene, strokes: tuple[Stroke, ...], progress: Progress | None) -
         return _retouch(base, source, painting, strokes, base.memory.scenes.get(strokes[:-1]), step)
     decision = painting.on(base.shown)
     hints = dataclasses.replace(base.hints, strokes=strokes)
-    scene = complete(base, hints, step, _matte_after(base, decision, strokes))
+    scene = complete(base.segmentation, hints, step, _matte_after(base, decision, strokes))
     return dataclasses.replace(scene, decision=decision, unstroked=base)
 
 

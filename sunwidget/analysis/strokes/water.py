@@ -14,9 +14,9 @@ import numpy as np
 
 from sunwidget.analysis.horizon import horizon
 from sunwidget.analysis.images.working_copy import resize, shrink
+from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.segmentation.refine import SIDE
 from sunwidget.analysis.strokes.brush import paint, set_strokes
-from sunwidget.analysis.strokes.memory import Memory
 from sunwidget.analysis.water.water import soft_edged
 
 if TYPE_CHECKING:

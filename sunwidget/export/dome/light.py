@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.analysis.correct import corrected
 from sunwidget.analysis.images.working_copy import smoothstep
 from sunwidget.dome.disc import sun_disc
 from sunwidget.dome.sphere import angles, distance, irradiance, solid_angles
@@ -101,7 +102,7 @@ def _below(width: int) -> NDArray[np.bool_]:
 
 def _upper(scene: Scene, edit: Edit, width: int) -> DomeLight:
     """Return the dome without its ground."""
-    scene = scene.corrected(edit)
+    scene = corrected(scene, edit)
     size = (width, width // 2)
     values = explorer_values(scene, edit)
     direction = (values["sun_azimuth"], values["sun_elevation"])
@@ -173,15 +174,15 @@ def _continued(
 
 def _land_albedo(scene: Scene, edit: Edit) -> NDArray[np.float64]:
     """Return the albedo (3,) of the photo's land: its mean light over what falls on the level."""
-    corrected = scene.corrected(edit)
-    fit = corrected.fitted
-    land = (corrected.small_sky < 0.1) & (corrected.small_water < 0.3)
+    scene = corrected(scene, edit)
+    fit = scene.fitted
+    land = (scene.small_sky < 0.1) & (scene.small_water < 0.3)
     if fit is None or np.count_nonzero(land) < 100:
         return np.full(3, _GRASS)
-    before = _upper(corrected, Edit(), _SMALL)
+    before = _upper(scene, Edit(), _SMALL)
     beam = max(np.sin(np.radians(before.direction[1])), 0) * before.direct
     lit = irradiance(before.sky) + beam
-    light = light_of(corrected, corrected.working.linear[land]).mean(0)
+    light = light_of(scene, scene.working.linear[land]).mean(0)
     return np.clip(np.pi * light / np.maximum(lit, 1e-12), *_ALBEDOS)
 
 

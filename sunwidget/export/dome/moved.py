@@ -12,7 +12,7 @@ from sunwidget.dome.air import with_air
 from sunwidget.dome.relight import Relit, relit, without_sun_of
 from sunwidget.dome.source import plain_light, sky_share
 from sunwidget.dome.sphere import irradiance
-from sunwidget.edit.table import EditError
+from sunwidget.errors import EditError
 from sunwidget.export.dome.facts import FORMAT, PROJECTION, digits, rounded, sun_facts
 from sunwidget.formats.color import LUMINANCE
 

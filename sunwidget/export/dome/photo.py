@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sunwidget.analysis.correct import corrected
 from sunwidget.dome.sphere import irradiance, solid_angles
 from sunwidget.edit.recipe import edit_of
 from sunwidget.export.dome.facts import FORMAT, PROJECTION, digits, rounded, sun_facts
@@ -80,7 +81,7 @@ def to_dome(
     RendererError
         When this machine has no EGL; a Dome needs none.
     """
-    from sunwidget.analysis.errors import checked_scene
+    from sunwidget.analysis.scene import checked_scene
     from sunwidget.dome.source import Dome
 
     place = target(path, overwrite=overwrite)
@@ -105,7 +106,7 @@ def write_dome(
     place: Path, scene: Scene, edit: Edit, dome: DomeLight, *, sun: bool, overwrite: bool
 ) -> None:
     """Write a dome that is made, and its json beside it."""
-    facts = described(scene.corrected(edit), edit, dome, place.name, sun=sun)
+    facts = described(corrected(scene, edit), edit, dome, place.name, sun=sun)
     _write(place, dome.sky + dome.disc if sun else dome.sky, facts, edit, overwrite, white=1000.0)
 
 

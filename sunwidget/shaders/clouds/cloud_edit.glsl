@@ -7,7 +7,7 @@
 
 uniform float added_clouds;
 
-// Slow fields are kept as logarithms of light over matched model (analysis/backdrop/clear_sky.py).
+// Slow fields are kept as logarithms of light over matched model (analysis/clear_sky.py).
 vec3 DecodeResidual(vec3 code) {
   return exp(4.0 * code - 2.0);
 }

@@ -1,4 +1,4 @@
-// The photo's own clouds, thinner, thicker or softer (clear_sky: analysis/backdrop/clear_sky.py).
+// The photo's own clouds, thinner, thicker or softer (clear_sky: analysis/clear_sky.py).
 
 #include "frame/picture.glsl"
 

@@ -1,5 +1,5 @@
 // The sky's scene-linear light with its clouds' edges dissolved: the photo, blurred within the sky as
-// far as the opacity in clear_sky's alpha is (analysis/backdrop/clear_sky.py).
+// far as the opacity in clear_sky's alpha is (analysis/clear_sky.py).
 
 #include "frame/picture.glsl"
 #include "camera/response.glsl"

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import traitlets
 
+from sunwidget.analysis import correct
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit.recipe import edit_of
 from sunwidget.edit.table import Edit, parameter
@@ -260,7 +261,7 @@ class Compare(Analysed, AnswersRefusals):
             if corrections(edit) in places:
                 continue
             places[corrections(edit)] = len(scenes)
-            corrected = scene.corrected(edit)
+            corrected = correct.corrected(scene, edit)
             self._revision += 1
             scenes.append({"scene": scene_json(corrected, self._revision)} | encode_maps(corrected))
         with self._lock, self.hold_sync():
@@ -281,7 +282,7 @@ class Compare(Analysed, AnswersRefusals):
 
     def _static_picture(self) -> bytes:
         """Return a small PNG: all pictures where they can be had at once, else the photo."""
-        from sunwidget.renderer.gl_thread import RendererError
+        from sunwidget.errors import RendererError
 
         if self._can_show_edits():
             try:

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 from sunwidget import presets
 from sunwidget.analysis.scene import Scene
-from sunwidget.edit.table import CORRECTIONS, METHODS, Edit, EditError
+from sunwidget.edit.table import CORRECTIONS, METHODS, Edit
+from sunwidget.errors import EditError
 
 PHOTO = "photo"
 MOST = 9

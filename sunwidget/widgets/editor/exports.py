@@ -7,7 +7,8 @@ from typing import Any
 
 from sunwidget import presets
 from sunwidget.edit.recipe import edit_of
-from sunwidget.edit.table import Edit, EditError
+from sunwidget.edit.table import Edit
+from sunwidget.errors import EditError
 from sunwidget.export.formats import FORMATS
 from sunwidget.film.day import Day
 from sunwidget.geometry.place import at_hours

@@ -17,7 +17,8 @@ from typing import Any
 import traitlets
 
 from sunwidget.edit.recipe import edit_of
-from sunwidget.edit.table import PARAMETERS, Edit, EditError
+from sunwidget.edit.table import PARAMETERS, Edit
+from sunwidget.errors import EditError
 from sunwidget.widgets.kernel.edit_traits import AnswersRefusals, edit_traits
 
 NAMES = tuple(p.name for p in PARAMETERS)

@@ -8,7 +8,8 @@ from typing import Any
 
 import traitlets
 
-from sunwidget.edit.table import PARAMETERS, Edit, EditError
+from sunwidget.edit.table import PARAMETERS, Edit
+from sunwidget.errors import EditError
 
 # Twins of those in js/src/editor/export/key_frames.js.
 MOST = 100

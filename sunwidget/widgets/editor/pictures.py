@@ -176,7 +176,7 @@ class Pictures(EditHistory, Analysed):
 
     def _thumbnail(self) -> bytes:
         """Return a small PNG: the edit where it can be had at once, else the photo."""
-        from sunwidget.renderer.gl_thread import RendererError
+        from sunwidget.errors import RendererError
 
         # The first frame of a session takes a second, which an untouched photo is not worth.
         if self.edit != Edit() and self._can_show_edits():

@@ -10,8 +10,9 @@ from typing import Any
 
 import traitlets
 
-from sunwidget.edit.table import Edit, EditError
-from sunwidget.geometry.heading import HeadingMatch, heading_by_sun
+from sunwidget.analysis.heading import HeadingMatch, heading_by_sun
+from sunwidget.edit.table import Edit
+from sunwidget.errors import EditError
 from sunwidget.geometry.place import Place, day_table, solar_day
 from sunwidget.photo.photo import Photo
 from sunwidget.photo.place import PhotoPlace, from_photo

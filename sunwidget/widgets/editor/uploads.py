@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from sunwidget.errors import PhotoError
 from sunwidget.photo.decode_apart import kept, open_apart
-from sunwidget.photo.photo import Photo, PhotoError
+from sunwidget.photo.photo import Photo
 from sunwidget.progress import Progress
 from sunwidget.widgets.kernel.requests import Answer
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -19,13 +19,32 @@ from sunwidget.widgets.kernel.requests import Action, Answer
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from sunwidget.widgets.explorer.sky_explorer import SkyExplorer
-
 _SNAPSHOT_SIZE = (960, 640)
 _LARGEST_SNAPSHOT = 4096
 
 
-def actions(explorer: SkyExplorer) -> dict[str, Action]:
+class Explorer(Protocol):
+    """What the answers ask of a SkyExplorer."""
+
+    def parameters(self) -> dict[str, Any]:
+        """Return the values of all parameters by name."""
+
+    def compare_measured(
+        self, models: Any, scan: int | None, progress: Progress | None
+    ) -> list[dict[str, Any]]:
+        """Return how far models are from a measured sky, or from all."""
+
+    def code(self) -> str:
+        """Return Python that makes this explorer."""
+
+    def refresh_scans(self) -> None:
+        """Tell the browser again what measured skies there are."""
+
+    def render(self, size: tuple[int, int], *, progress: Progress | None) -> NDArray[np.uint8]:
+        """Draw the sky at a size (width, height)."""
+
+
+def actions(explorer: Explorer) -> dict[str, Action]:
     """Return the answers to what the browser can ask for, by name."""
 
     def values(content: dict[str, Any]) -> dict[str, float]:
@@ -50,7 +69,7 @@ def actions(explorer: SkyExplorer) -> dict[str, Action]:
         return {"cached": cached, "seconds": seconds}, []
 
     def rmse(content: dict[str, Any], progress: Progress) -> Answer:
-        from sunwidget.renderer.gl_thread import RendererError
+        from sunwidget.errors import RendererError
 
         measurements.load()  # fails at once, before a table is made, where nothing was measured
         models, scan = content.get("models"), content.get("scan")

@@ -10,9 +10,10 @@ from collections.abc import Callable
 from typing import Any
 
 from sunwidget.analysis.analyze import analyze
-from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis.correct import corrected
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit.table import Edit
+from sunwidget.errors import AnalysisError
 from sunwidget.widgets.kernel import background
 from sunwidget.widgets.kernel.known_scenes import remember
 
@@ -144,7 +145,7 @@ class Analyst:
             remember(self._base, self._options)
         else:
             progress(0.5, "Applying the correction")
-        scene = self._base.corrected(edit, progress)
+        scene = corrected(self._base, edit, progress)
         progress(1.0, "Preparing the picture")
         with self._changed:
             self._error = None

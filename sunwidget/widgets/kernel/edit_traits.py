@@ -8,7 +8,8 @@ from typing import Any
 import anywidget
 import traitlets
 
-from sunwidget.edit.table import PARAMETERS, EditError, Parameter, checked, plain
+from sunwidget.edit.table import PARAMETERS, Parameter, checked, plain
+from sunwidget.errors import EditError
 
 Check = Callable[[Parameter, Any], Any]
 

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from sunwidget.renderer.gl_thread import RendererError
+from sunwidget.errors import RendererError
 
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 # nbclient, which nbconvert runs notebooks with, starts kernels so.

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget import presets
-from sunwidget.analysis.backdrop.clear_sky import clear_sky
+from sunwidget.analysis.clear_sky import clear_sky
 from sunwidget.analysis.clouds.clouds import INDICES
 from sunwidget.analysis.horizon import horizon
 from sunwidget.analysis.images.working_copy import resize

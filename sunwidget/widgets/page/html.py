@@ -186,6 +186,6 @@ def _data_url(data: bytes) -> str:
 
 
 def _version() -> str:
-    from sunwidget import __version__
+    from sunwidget.version import __version__
 
     return __version__

@@ -50,7 +50,7 @@ def editor_page(
 
 def explorer_page(widget: Any, *, title: str) -> str:
     """Return the page of a SkyExplorer as it stands."""
-    from sunwidget.renderer.gl_thread import RendererError
+    from sunwidget.errors import RendererError
 
     still = None
     with contextlib.suppress(RendererError):
@@ -104,7 +104,7 @@ def still_of(photo: Photo, render: Callable[..., np.ndarray]) -> Still:
 
     Where this machine cannot render it is the photo as it was taken.
     """
-    from sunwidget.renderer.gl_thread import RendererError
+    from sunwidget.errors import RendererError
 
     try:
         picture = render(size=photo.size_within(_STILL_EDGE))

@@ -5,6 +5,7 @@ import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
+from sunwidget.analysis import correct
 
 OTHERS = ("rb_ratio", "rb_difference", "saturation", "learned")
 
@@ -25,7 +26,7 @@ def cloudy():
 
 @pytest.mark.parametrize("method", OTHERS)
 def test_a_method_chosen_later_is_that_of_the_analysis(cloudy, method):
-    chosen = cloudy.corrected(sw.Edit(cloud_method=method))
+    chosen = correct.corrected(cloudy, sw.Edit(cloud_method=method))
     assert chosen.hints.method("clouds") == method
     assert chosen.clouds[40, 60] > 0.8
     assert chosen.clouds[50, 170] > 0.8
@@ -36,10 +37,10 @@ def test_a_method_chosen_later_is_that_of_the_analysis(cloudy, method):
 
 def test_the_same_choice_gives_the_same_maps_by_any_way(cloudy):
     edit = sw.Edit(cloud_method="saturation", cloud_ratio_min=0.7)
-    first = cloudy.corrected(edit)
+    first = correct.corrected(cloudy, edit)
     for other in OTHERS:  # pushes the first out of the cache
-        cloudy.corrected(sw.Edit(cloud_method=other))
-    again = cloudy.corrected(edit)
+        correct.corrected(cloudy, sw.Edit(cloud_method=other))
+    again = correct.corrected(cloudy, edit)
     assert again is not first
     assert np.array_equal(again.clouds, first.clouds)
     assert np.array_equal(again.cloud_softness, first.cloud_softness)
@@ -47,23 +48,27 @@ def test_the_same_choice_gives_the_same_maps_by_any_way(cloudy):
 
 def test_a_higher_minimum_finds_less_cloud(cloudy):
     covers = [
-        float(cloudy.corrected(sw.Edit(cloud_method="rb_ratio", cloud_ratio_min=m)).clouds.mean())
+        float(
+            correct.corrected(
+                cloudy, sw.Edit(cloud_method="rb_ratio", cloud_ratio_min=m)
+            ).clouds.mean()
+        )
         for m in (0.3, 0.62, 0.99)
     ]
     assert covers[0] > covers[1] > covers[2]
 
 
 def test_thresholds_change_nothing_while_clouds_are_unmixed(cloudy):
-    assert cloudy.corrected(sw.Edit(cloud_ratio_min=0.3, cloud_ratio_max=0.9)) is cloudy
-    assert cloudy.corrected(sw.Edit(cloud_method="unmix")) is cloudy
+    assert correct.corrected(cloudy, sw.Edit(cloud_ratio_min=0.3, cloud_ratio_max=0.9)) is cloudy
+    assert correct.corrected(cloudy, sw.Edit(cloud_method="unmix")) is cloudy
 
 
 def test_a_scene_analysed_by_ratio_can_be_unmixed_later(cloudy):
     mask = cloudy.sky
     by_ratio = sw.analyze(cloudy.photo, sky=mask, clouds="rb_ratio", sun="outside")
-    assert by_ratio.corrected(sw.Edit(cloud_method="rb_ratio")) is by_ratio
-    assert by_ratio.corrected(sw.Edit(cloud_ratio_min=0.9)) is not by_ratio
-    unmixed = by_ratio.corrected(sw.Edit(cloud_method="unmix"))
+    assert correct.corrected(by_ratio, sw.Edit(cloud_method="rb_ratio")) is by_ratio
+    assert correct.corrected(by_ratio, sw.Edit(cloud_ratio_min=0.9)) is not by_ratio
+    unmixed = correct.corrected(by_ratio, sw.Edit(cloud_method="unmix"))
     assert unmixed.clouds[40, 60] > 0.7
     assert unmixed.clouds[10, 120] < 0.2
 
@@ -72,12 +77,12 @@ def test_shade_tells_a_grey_cloud_from_a_white_one(cloudy):
     shade = cloudy.cloud_shade
     assert shade.shape == cloudy.sky.shape
     assert shade[40, 60] > 1.3 * shade[50, 170] > 0
-    assert (cloudy.corrected(sw.Edit(cloud_method="learned")).cloud_shade == 1).all()
+    assert (correct.corrected(cloudy, sw.Edit(cloud_method="learned")).cloud_shade == 1).all()
 
 
 def test_strokes_and_clouds_may_both_be_chosen(cloudy):
     stroke = sw.Stroke("not_sky", ((0.2, 0.2), (0.3, 0.2)), 0.03)
-    both = cloudy.corrected(sw.Edit(strokes=(stroke,), cloud_method="rb_ratio"))
+    both = correct.corrected(cloudy, sw.Edit(strokes=(stroke,), cloud_method="rb_ratio"))
     assert both.sky[32, 60] == 0
     assert both.clouds[32, 60] == 0
     assert both.clouds[50, 170] > 0.8

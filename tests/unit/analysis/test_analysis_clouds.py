@@ -1,7 +1,5 @@
 """Clouds by colour: drawn clouds are found, thresholds act, all methods read one scale."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -82,17 +80,3 @@ def test_outside_the_sky_there_is_no_cloud():
     found = clouds.METHODS["learned"](sky_of(WHITE), 0 * SKY)
     assert found.opacity.max() == 0
     assert found.softness.max() == 0
-
-
-def test_the_histogram_counts_sky_pixels_only_and_sums_to_one():
-    softness = np.zeros((10, 10), np.float32)
-    softness[:5, :5] = 0.99
-    sky = np.zeros((10, 10), np.float32)
-    sky[:5] = 1
-    shares = clouds.softness_histogram(SimpleNamespace(cloud_softness=softness, sky=sky), 10)
-    assert shares.shape == (10,)
-    assert shares[0] == pytest.approx(0.5)
-    assert shares[9] == pytest.approx(0.5)
-    assert (
-        clouds.softness_histogram(SimpleNamespace(cloud_softness=softness, sky=0 * sky)).sum() == 0
-    )

@@ -6,7 +6,7 @@ import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
-from sunwidget.analysis.errors import AnalysisError
+from sunwidget.errors import AnalysisError
 
 SIZE = (240, 160)
 

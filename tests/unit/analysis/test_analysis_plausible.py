@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
+from sunwidget.analysis import correct
 from sunwidget.analysis.fit.fit import Response, SkyFit
 from sunwidget.analysis.fit.overcast import believable, overcast
 from sunwidget.analysis.images.working_copy import LUMINANCE, Working
@@ -55,7 +56,7 @@ def test_a_dropped_sky_is_told_and_the_named_network_keeps_it(monkeypatch):
     named = sw.analyze(flat().bytes, sky="network")
     assert named.sky[:40].mean() > 0.9
     stroke = sw.Stroke("sky", ((0.1, 0.2), (0.9, 0.2)), 0.1)
-    assert doubted.corrected(sw.Edit(strokes=(stroke,))).sky[20:28, 30:130].min() == 1
+    assert correct.corrected(doubted, sw.Edit(strokes=(stroke,))).sky[20:28, 30:130].min() == 1
 
 
 def test_a_sky_grey_from_end_to_end_is_overcast():

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis.errors import AnalysisError
+from sunwidget.analysis import correct
+from sunwidget.errors import AnalysisError
 
 HEIGHT, WIDTH, ROW = 150, 200, 90
 
@@ -92,14 +93,14 @@ def test_every_automatic_parameter_has_a_value_within_its_range(scene):
 
 
 def test_an_edit_without_corrections_gives_the_very_same_scene(scene):
-    assert scene.corrected(sw.Edit(sun_elevation=3)) is scene
+    assert correct.corrected(scene, sw.Edit(sun_elevation=3)) is scene
 
 
 def test_the_same_corrections_give_the_same_maps_to_the_bit():
     stroke = sw.Stroke("sky", ((0.3, 0.8), (0.5, 0.8)), radius=0.03)
     edit = sw.Edit(strokes=(stroke,))
-    first = sw.analyze(landscape(), sky=mask()).corrected(edit)
-    second = sw.analyze(landscape(), sky=mask()).corrected(edit)
+    first = correct.corrected(sw.analyze(landscape(), sky=mask()), edit)
+    second = correct.corrected(sw.analyze(landscape(), sky=mask()), edit)
     assert first is not second
     assert np.array_equal(first.sky, second.sky)
     assert np.array_equal(first.clouds, second.clouds)
@@ -107,19 +108,19 @@ def test_the_same_corrections_give_the_same_maps_to_the_bit():
 
 def test_a_stroke_is_set_hard_under_the_brush(scene):
     stroke = sw.Stroke("not_sky", ((0.2, 0.2), (0.4, 0.2)), radius=0.02)
-    corrected = scene.corrected(sw.Edit(strokes=(stroke,)))
+    corrected = correct.corrected(scene, sw.Edit(strokes=(stroke,)))
     assert corrected.sky[round(0.2 * HEIGHT), round(0.3 * WIDTH)] == 0
     assert scene.sky[round(0.2 * HEIGHT), round(0.3 * WIDTH)] > 0.95
 
 
 def test_edit_hints_are_fractions_of_the_picture(scene):
-    corrected = scene.corrected(
-        sw.Edit(sun_hint=(0.25, 0.2), horizon_hint=((0, 0.5), (1, 0.5)), fov_hint=60)
+    corrected = correct.corrected(
+        scene, sw.Edit(sun_hint=(0.25, 0.2), horizon_hint=((0, 0.5), (1, 0.5)), fov_hint=60)
     )
     assert (corrected.sun.x, corrected.sun.y) == pytest.approx((WIDTH / 4, HEIGHT / 5))
     assert corrected.horizon.row == pytest.approx(HEIGHT / 2)
     assert corrected.camera.fov_vertical_deg == 60
-    assert scene.corrected(sw.Edit(sun_hint=(0.25, 0.2))).horizon == scene.horizon
+    assert correct.corrected(scene, sw.Edit(sun_hint=(0.25, 0.2))).horizon == scene.horizon
 
 
 def test_a_picture_without_sky_warns_with_what_to_do():

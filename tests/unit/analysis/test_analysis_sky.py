@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.segmentation import coarse_sky
+from sunwidget.errors import AnalysisError
 from sunwidget.photo.photo import open_photo
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
+from sunwidget.analysis import correct
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import look_for_sun
@@ -260,7 +261,7 @@ def test_a_found_moon_is_told_and_a_pointed_one_is_marked():
     assert scene.sun is None
     assert any("(200, 70)" in note and "moon" in note for note in scene.warnings)
     dab = sw.Stroke("not_sky", ((0.1, 0.9),), 0.01)
-    brushed = scene.corrected(sw.Edit(strokes=(dab,)))
+    brushed = correct.corrected(scene, sw.Edit(strokes=(dab,)))
     assert any("(200, 70)" in note and "moon" in note for note in brushed.warnings)
     pointed = sw.analyze(picture, sky=SKY, sun=(200.5, 70.5))
     assert pointed.sun is not None

@@ -14,10 +14,10 @@ from sunwidget.analysis.depth import depth, flat_ground
 from sunwidget.analysis.depth import levels as depth_level
 from sunwidget.analysis.depth.network import DepthNetwork, aligned
 from sunwidget.analysis.depth.view import View
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.horizon.horizon import Horizon
 from sunwidget.analysis.images.working_copy import Working, encode, resize
 from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.errors import AnalysisError
 from sunwidget.geometry.camera import Camera
 from sunwidget.photo.photo import open_photo
 from sunwidget.renderer import quantise_map, scene_textures

@@ -5,7 +5,6 @@ import onnx_files as onnx
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis.errors import AnalysisError
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks import segmentation_output
 from sunwidget.analysis.segmentation import coarse_sky
@@ -16,6 +15,7 @@ from sunwidget.analysis.segmentation.sky_network import (
     bundled,
     calibrate,
 )
+from sunwidget.errors import AnalysisError
 from sunwidget.photo.photo import open_photo
 
 F4 = np.float32

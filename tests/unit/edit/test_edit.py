@@ -17,10 +17,10 @@ from sunwidget.edit.table import (
     PARAMETERS,
     STROKE_LABELS,
     Edit,
-    EditError,
     Stroke,
     parameter,
 )
+from sunwidget.errors import EditError
 
 # Too long for str(), so pytest must not make its name of it.
 HUGE = pytest.param(10**5000, id="huge")

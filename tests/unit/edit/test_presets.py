@@ -8,7 +8,8 @@ from relight_scenes import known_scene, sample_scene
 import sunwidget as sw
 from sunwidget import presets
 from sunwidget.cli.main import main
-from sunwidget.edit.table import Edit, EditError, Stroke, parameter
+from sunwidget.edit.table import Edit, Stroke, parameter
+from sunwidget.errors import EditError
 
 
 def with_sun_at(scene, azimuth, elevation):

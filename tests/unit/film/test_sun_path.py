@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from sunwidget import presets
-from sunwidget.edit.table import Edit, EditError, Stroke
+from sunwidget.edit.table import Edit, Stroke
+from sunwidget.errors import EditError
 from sunwidget.film.path import EASINGS, between, film_edits
 
 SCENE = SimpleNamespace(automatic={"sun_azimuth": 10.0, "sun_elevation": 20.0}, lit_by_moon=False)

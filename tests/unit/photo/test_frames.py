@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from sunwidget.formats.pixels import PhotoError
+from sunwidget.errors import PhotoError
 from sunwidget.photo.photo import open_photo
 from sunwidget.timelapses.frames import Clock, frame_sources, read_frame
 

@@ -9,8 +9,9 @@ import photo_corpus as corpus
 import pytest
 from PIL import Image
 
+from sunwidget.errors import PhotoError, PhotoWarning
 from sunwidget.formats.color import linear_to_srgb, srgb_to_linear
-from sunwidget.photo.photo import Photo, PhotoError, PhotoWarning, open_photo
+from sunwidget.photo.photo import Photo, open_photo
 
 READABLE = corpus.readable()
 UNREADABLE = corpus.unreadable()

@@ -8,10 +8,11 @@ import photo_corpus as corpus
 import pytest
 from PIL import Image, ImageCms
 
+from sunwidget.errors import PhotoWarning
 from sunwidget.export.stills import encode_like
 from sunwidget.formats.color import SRGB, linear_to_srgb, srgb_to_linear
 from sunwidget.formats.icc import ProfileError, read_profile
-from sunwidget.photo.photo import PhotoWarning, open_photo
+from sunwidget.photo.photo import open_photo
 
 CODE = np.arange(256) / 255
 PROFILES = {

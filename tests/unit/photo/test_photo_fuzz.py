@@ -13,7 +13,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from sunwidget.photo.photo import PhotoError, PhotoWarning, open_photo
+from sunwidget.errors import PhotoError, PhotoWarning
+from sunwidget.photo.photo import open_photo
 
 BASE = corpus.ramp(16, 16)
 SEEDS = {

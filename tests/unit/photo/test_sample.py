@@ -1,7 +1,7 @@
 import pytest
 
 import sunwidget as sw
-from sunwidget.photo.photo import PhotoError
+from sunwidget.errors import PhotoError
 from sunwidget.samples import NAMES
 
 

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from sunwidget.analysis.scene import Scene
-    from sunwidget.analysis.strokes.sky import Painting
-    from sunwidget.edit.table import Stroke
+from typing import Any
 
 _SCENES = 4  # each holds full-size maps
 _PAINTINGS = 64  # small copies: undo takes no time
@@ -19,16 +14,16 @@ _PAINTINGS = 64  # small copies: undo takes no time
 class Memory:
     """Scenes by correction, and paintings by their strokes; the oldest are forgotten."""
 
-    scenes: dict[Any, Scene] = field(default_factory=dict)
-    paintings: dict[tuple[Stroke, ...], Painting] = field(default_factory=dict)
+    scenes: dict[Any, Any] = field(default_factory=dict)
+    paintings: dict[Any, Any] = field(default_factory=dict)
 
-    def scene(self, key: Any, make: Callable[[], Scene]) -> Scene:
+    def scene(self, key: Any, make: Callable[[], Any]) -> Any:
         """Return the scene of a correction, made when it is not remembered."""
         scene = self.scenes.pop(key, None) or make()
         _store(self.scenes, key, scene, _SCENES)
         return scene
 
-    def painting(self, strokes: tuple[Stroke, ...], painting: Painting) -> None:
+    def painting(self, strokes: Any, painting: Any) -> None:
         """Remember what some strokes made of the small copy."""
         _store(self.paintings, strokes, painting, _PAINTINGS)
 

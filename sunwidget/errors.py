@@ -1,0 +1,29 @@
+"""The errors and warnings that a caller may catch; each message says what to do."""
+
+
+class PhotoError(ValueError):
+    """A picture that cannot be opened or written; the message says what to do."""
+
+
+class PhotoWarning(UserWarning):
+    """A picture was opened, but not everything in it could be kept."""
+
+
+class EditError(ValueError):
+    """A recipe or parameter value that cannot be used; the message says what to do."""
+
+
+class UnknownParameterError(EditError, TypeError):
+    """A name that is no parameter; also a TypeError, as for any unknown keyword."""
+
+
+class AnalysisError(ValueError):
+    """An input, hint or method that cannot be used; the message says what to do."""
+
+
+class RendererError(RuntimeError):
+    """The kernel's renderer cannot work; the message says what is missing."""
+
+
+class StudyError(ValueError):
+    """Answers or pictures that cannot be used; the message says what to do."""
