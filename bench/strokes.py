@@ -23,7 +23,7 @@ import numpy as np
 
 import sunwidget as sw
 from sunwidget.analysis.correct import corrected as corrected_scene
-from sunwidget.analysis.strokes.sky import set_strokes
+from sunwidget.analysis.strokes.brush import set_strokes
 
 GOAL = 0.98
 LONG_SIDE = 1024  # of the photos at most

@@ -9,7 +9,6 @@ import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { context } from "esbuild";
-import { minify } from "./minify_glsl.mjs";
 import { packPlugin } from "./pack.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -60,6 +59,19 @@ export function reachable(graph, files) {
   return [...found].sort();
 }
 
+/**
+ * A shader's text without comments and indentation; every line stays on its line, so that what a
+ * driver says of line 40 is found in line 40.
+ *
+ * @param {string} text
+ */
+export function stripComments(text) {
+  return text
+    .replace(/\/\*[\s\S]*?\*\//g, (comment) => comment.replace(/[^\n]/g, ""))
+    .replace(/\/\/[^\n]*/g, "")
+    .replace(/^[ \t]+|[ \t]+$/gm, "");
+}
+
 /** @type {import("esbuild").Plugin} */
 export const shaderPlugin = {
   name: "sunwidget-shaders",
@@ -75,7 +87,10 @@ export const shaderPlugin = {
       const reached = Object.fromEntries(
         reachable(graph, files).map((path) => [path, files[path]]),
       );
-      const texts = WATCHES ? reached : minify(reached); // who works on shaders reads them
+      // Who works on shaders reads them with their comments.
+      const texts = WATCHES
+        ? reached
+        : Object.fromEntries(Object.entries(reached).map(([p, text]) => [p, stripComments(text)]));
       return {
         contents:
           `export const files = ${JSON.stringify(texts)};\n` +

@@ -8,7 +8,7 @@ SCRIPT = """
 import threading
 import cv2
 import numpy as np
-from sunwidget.widgets import background
+from sunwidget.widgets.kernel import background
 
 begun = threading.Event()
 
