@@ -22,6 +22,7 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "api.md"
 GROUPS = {
     "Photo and analysis": (
         *("open", "sample", "analyze", "Photo", "Scene", "Camera", "SkyNetwork", "Stroke"),
+        "corrected",
         *("analyze_dome", "Dome"),
     ),
     "Edits": ("Edit", "preset", "Place", "Day", "PARAMETERS", "PRESETS"),

@@ -18,6 +18,7 @@ from sunwidget.version import __version__
 # What type checkers and editors see; a test holds it equal to the table below.
 if TYPE_CHECKING:
     from sunwidget.analysis.analyze import analyze
+    from sunwidget.analysis.correct import corrected
     from sunwidget.analysis.scene import Scene
     from sunwidget.analysis.segmentation.sky_network import SkyNetwork
     from sunwidget.batches.report import BatchReport
@@ -82,6 +83,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "analyze": ("sunwidget.analysis.analyze", "analyze"),
     "analyze_dome": ("sunwidget.dome.source", "analyze_dome"),
     "batch": ("sunwidget.batches.run", "batch"),
+    "corrected": ("sunwidget.analysis.correct", "corrected"),
     "contact_sheet": ("sunwidget.film.contact_sheet", "contact_sheet"),
     "environment_map": ("sunwidget.export.environment", "environment_map"),
     "open": ("sunwidget.photo.photo", "open_photo"),
@@ -125,6 +127,7 @@ __all__ = [
     "analyze_dome",
     "batch",
     "contact_sheet",
+    "corrected",
     "environment_map",
     "open",
     "preset",
