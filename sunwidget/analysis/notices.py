@@ -114,12 +114,12 @@ def _about_sky(photo: Photo, share: float, doubted: float) -> Notice | None:
         )
     if share < NO_SKY:
         return _notice(
-            f"No sky found in {photo.name} ({100 * share:.1f} % of pixels): nothing tells what "
-            "light it stands in, so all of it changes alike, and a little.",
+            f"No sky found in {photo.name} ({100 * share:.1f} % of pixels): its light is "
+            "unknown, so all of it changes alike, and only a little.",
             "Draw a sky stroke or pass sky=mask.",
             "sky",
-            "No sky was found. Nothing tells what light the picture stands in, so all of it "
-            "changes alike, and a little. If there is some sky, paint over it.",
+            "No sky was found, so the light of the picture is unknown: all of it changes "
+            "alike, and only a little. If there is some sky, paint over it.",
             "If there is some sky, pass a mask: --sky MASK.png.",
         )
     return None
@@ -137,12 +137,12 @@ def _about_sun(
         return _about_unseen_sun(photo, hints, moon, fit)
     if sun.kind == "moon":
         return _notice(
-            f"What was pointed at as the sun of {photo.name} stands in a night sky and may be the "
-            "moon. It is treated as a sun;",
-            "if it is none, take the hint back.",
+            f"The point marked as the sun of {photo.name} lies in a night sky and may be the "
+            "moon. It is treated as the sun;",
+            "if it is the moon, clear the hint.",
             "night_sun",
-            "What was pointed at as the sun stands in a night sky and may be the moon. It is "
-            "treated as a sun.",
+            "The point marked as the sun lies in a night sky and may be the moon. It is "
+            "treated as the sun.",
             "if it is none, leave --sun out.",
         )
     if sun.visible:
@@ -230,7 +230,7 @@ def _about_horizon(
 
 def _untold(fit: SkyFit | None) -> str:
     unknown = fit is not None and fit.sun_spread >= UNKNOWN
-    return ", and the photo does not tell where it is" if unknown else ""
+    return ", and the photo does not show where it is" if unknown else ""
 
 
 def _within(fit: SkyFit | None) -> str:

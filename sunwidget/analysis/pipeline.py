@@ -62,7 +62,7 @@ def check_method(stage: str, name: Any) -> None:
     methods = METHODS[stage]
     if not isinstance(name, str) or name not in methods:
         raise AnalysisError(
-            f"{stage} knows no method {name!r:.80}; choose one of {', '.join(methods)}."
+            f"{stage} has no method {name!r:.80}; choose one of {', '.join(methods)}."
         )
 
 

@@ -109,7 +109,7 @@ def names(photos: Sequence[Path], template: str, ending: str | None) -> list[str
         name = stem + (ending or (own if own in FORMATS else ".tif"))
         parts = Path(name).parts
         if Path(name).is_absolute() or ".." in parts or not stem or stem.endswith("/"):
-            raise ValueError(f"name = {template!r} makes {name!r}, which is no name of a file.")
+            raise ValueError(f"name = {template!r} makes {name!r}, which is not a valid file name.")
         # Folders of Windows and macOS do not tell capitals apart.
         other = taken.setdefault(str(Path(name)).casefold(), photo)
         if other is not photo:
@@ -125,7 +125,7 @@ def _check(template: str) -> None:
     try:
         fields = {part[1] for part in string.Formatter().parse(template) if part[1] is not None}
     except ValueError as error:
-        raise ValueError(f"name = {template!r} is no template: {error}.") from error
+        raise ValueError(f"name = {template!r} is not a valid template: {error}.") from error
     unknown = sorted(fields.difference(FIELDS))
     if unknown:
         raise ValueError(

@@ -134,8 +134,8 @@ def _refuse_missing(values: dict[str, Any]) -> None:
     if missing:
         what, flags = (" and ".join(words) for words in zip(*missing, strict=True))
         raise ValueError(
-            f"Where the sun stands follows from place, day and time, and neither the photo's file "
-            f"nor a recipe tells {what}. Give {flags}."
+            f"The sun's position needs place, day and time, but neither the photo's file "
+            f"nor a recipe gives {what}. Give {flags}."
         )
 
 
@@ -150,7 +150,7 @@ def _facing(scene: Scene, place: Place, date: str | None, time: float | None) ->
     if date is None or time is None:
         raise ValueError(
             "Which way the camera looks is found by the photo's sun at the photo's own time, "
-            "which its file does not tell. Give --heading, degrees from north."
+            "which its file does not record. Give --heading, degrees from north."
         )
     found = heading_by_sun(scene, place.replace(date=date, time=time))
     print(f"sunwidget: Heading {found.place.heading:.1f}°. {found.note}", file=sys.stderr)

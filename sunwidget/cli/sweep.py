@@ -176,7 +176,7 @@ def _key_frame(text: str) -> tuple[float, str | dict[str, float]]:
                 raise ValueError
             row = parameter(name.strip().lstrip("-").replace("-", "_"))
             if row.kind != "number":
-                raise EditError(f"{row.name} is no number, so nothing lies between two of it.")
+                raise EditError(f"{row.name} is not a number: it cannot change gradually.")
             values[row.name] = float(value)
     except EditError as error:
         raise argparse.ArgumentTypeError(str(error)) from error

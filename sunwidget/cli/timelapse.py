@@ -46,7 +46,7 @@ def add_timelapse(commands: Any) -> None:
         help="a frame that cannot be read: show the one before it, leave it out, or stop",
     )
     add_steps(command, f"{STEPS}, instead of one edit")
-    camera = command.add_argument_group("camera (default: what the files tell or show)")
+    camera = command.add_argument_group("camera (default: from the files)")
     camera.add_argument(
         "--place",
         type=coordinates,

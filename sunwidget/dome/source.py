@@ -120,8 +120,8 @@ def analyze_dome(source: Any, *, sun: SunHint | None = None, sky: Any = None) ->
     if not is_dome(photo):
         kind = "" if photo.encoded.dtype.kind == "f" else " of 8- or 16-bit code values"
         raise PhotoError(
-            f"{photo.name} is no environment map: that is linear light (.hdr, .exr, floats), twice "
-            f"as wide as high, and this is a picture{kind} of {photo.width} × {photo.height} "
+            f"{photo.name} is not an environment map: that is linear light (.hdr, .exr, floats), "
+            f"twice as wide as high, and this is a picture{kind} of {photo.width} × {photo.height} "
             "pixels. Of a photo, sw.analyze makes what to_dome takes."
         )
     light = plain_light(photo.light())
@@ -180,8 +180,8 @@ def _sun_of(
         x = y = np.nan
     if not (0 <= x <= photo.width and 0 <= y <= photo.height):
         raise AnalysisError(
-            f"sun={hint!r:.80} is no place in {photo.name}: two numbers, 0 to {photo.width} and 0 "
-            f"to {photo.height} pixels, or {OUTSIDE!r}."
+            f"sun={hint!r:.80} is not a place in {photo.name}: two numbers, 0 to {photo.width} and "
+            f"0 to {photo.height} pixels, or {OUTSIDE!r}."
         )
     place = (x / photo.width - 0.5) * 360, 90 - y / photo.height * 180
     found = find_disc(light, sky, near=place)

@@ -55,7 +55,7 @@ def read_recipe(path: str | os.PathLike[str]) -> Edit:
         reason = getattr(error, "strerror", None) or error
         raise EditError(f"The recipe {name} cannot be read: {reason}.") from error
     if len(data) > _MOST_BYTES:
-        raise EditError(f"{name} is no recipe: it has more than {_MOST_BYTES / 1e6:.0f} MB.")
+        raise EditError(f"{name} is not a recipe: it has more than {_MOST_BYTES / 1e6:.0f} MB.")
     try:
         return Edit.from_json(data)
     except EditError as error:

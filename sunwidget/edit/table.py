@@ -214,7 +214,7 @@ class Edit:
     silver_lining: float = _number(1.0, (0, 3), 0.05, "", "Silver lining", "clouds",
         "Forward scattering in thin cloud edges near the sun.")
     cloud_method: str = _choice("analysed", CLOUD_METHODS, "Found by", "clouds",
-        "How clouds are told from clear sky; analysed keeps what analyze() was asked for.",
+        "How clouds are separated from clear sky; analysed keeps the method given to analyze().",
         analysis=True)
     cloud_opacity: float = _number(1.0, (0, 2), 0.01, "×", "Opacity", "clouds",
         "Opacity of the photo's own clouds in units of what it is; 0 removes them.")

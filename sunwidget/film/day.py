@@ -110,7 +110,7 @@ class Day:
         place = self.place or self.edit.place or from_photo(scene.photo).place
         if place is None:
             raise ValueError(
-                "The photo's file does not tell where and when it was taken. Give the day its "
+                "The photo's file does not record where and when it was taken. Give the day its "
                 "place: sunwidget.Day(sunwidget.Place(latitude, longitude, date, time))."
             )
         if place.heading is not None:

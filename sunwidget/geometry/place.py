@@ -42,7 +42,7 @@ class Place:
     Raises
     ------
     ValueError
-        For a value out of its range, or that is none; the message says what it takes.
+        If a value is missing or out of range; the message says what is expected.
     """
 
     latitude: float

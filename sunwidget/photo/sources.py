@@ -68,7 +68,8 @@ def _read_path(source: Any) -> tuple[str, bytes]:
         text = os.fsdecode(os.fspath(source))
     except Exception as error:  # whatever a person's own path object may do
         kind = type(source).__name__
-        raise PhotoError(f"This {kind} names no file: {reason(error)}. Pass a path.") from error
+        told = f"This {kind} does not name a file: {reason(error)}. Pass a path."
+        raise PhotoError(told) from error
     if not text:
         raise PhotoError("The path is empty. Pass the path of a picture file.")
     if "://" in text[:10] or text.startswith("data:"):

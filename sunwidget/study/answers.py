@@ -58,7 +58,9 @@ class Answer(NamedTuple):
             raise StudyError(f"An answer has named columns; a {type(row).__name__} has none.")
         lacking = [name for name in cls._fields if row.get(name) is None]
         if lacking:
-            raise StudyError(f"An answer has columns {', '.join(cls._fields)}; {lacking[0]} lacks.")
+            raise StudyError(
+                f"An answer has columns {', '.join(cls._fields)}; it lacks {lacking[0]}."
+            )
         try:
             trial, seconds = int(row["trial"]), float(row["seconds"])
         except (TypeError, ValueError, OverflowError):
@@ -123,5 +125,5 @@ def read_csv(*paths: str | os.PathLike[str]) -> list[Answer]:
                         line = reader.line_num
                         raise StudyError(f"{Path(path).name}, line {line}: {error}") from None
         except (csv.Error, UnicodeDecodeError) as error:
-            raise StudyError(f"{Path(path).name} is no CSV file of a study: {error}") from None
+            raise StudyError(f"{Path(path).name} is not a study's CSV file: {error}") from None
     return list(found)

@@ -79,7 +79,7 @@ class BradleyTerry:
 
     def _at(self, method: str) -> int:
         if method not in self.methods:
-            raise StudyError(f"No answer is about {method!r}; there are {', '.join(self.methods)}.")
+            raise StudyError(f"No answer mentions {method!r}; there are {', '.join(self.methods)}.")
         return self.methods.index(method)
 
     def __str__(self) -> str:

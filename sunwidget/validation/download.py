@@ -202,7 +202,7 @@ def _unpack(name: str, archive: bytes) -> dict[str, bytes]:
         with py7zr.SevenZipFile(io.BytesIO(archive)) as opened:
             opened.extractall(factory=files)
     except Exception as error:  # damage shows as errors of many kinds, the decompressors' too
-        raise MeasurementsError(f"{name} is no 7z archive, or a damaged one ({error}).") from error
+        raise MeasurementsError(f"{name} is not a 7z archive or is damaged ({error}).") from error
     return {member: content.read() for member, content in files.products.items()}
 
 
@@ -217,12 +217,12 @@ def _spectrum(name: str, content: bytes) -> Array:
             return table[:, 1]
     except (ValueError, IndexError):
         pass
-    raise MeasurementsError(f"{name!r:.120} is no spectrum from 350 to 1000 nm in steps of 1 nm.")
+    raise MeasurementsError(f"{name!r:.120} is not a spectrum of 350 to 1000 nm by 1 nm.")
 
 
 def _fetch(url: str) -> bytes:
     if not url.startswith(("https://", "http://", "file://")):
-        raise MeasurementsError(f"{url!r:.120} is no address that can be fetched.")
+        raise MeasurementsError(f"{url!r:.120} is not an address that can be fetched.")
     try:
         with urllib.request.urlopen(url, timeout=_TIMEOUT_S) as answer:  # noqa: S310 - checked above
             data: bytes = answer.read(_LARGEST + 1)

@@ -200,7 +200,7 @@ def _measurements(
     for name in scans:
         match = _SCAN_NAME.fullmatch(name)
         if match is None:
-            raise MeasurementsError(f"{name!r:.80} is no name of a scan (YYYY-MM-DD___hh.mm.ss).")
+            raise MeasurementsError(f"{name!r:.80} is not a scan's name (YYYY-MM-DD___hh.mm.ss).")
         zone = dt.timezone(dt.timedelta(hours=UTC_OFFSET_HOURS))
         day, *clock = match.groups()
         times.append(

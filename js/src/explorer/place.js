@@ -124,7 +124,7 @@ export function placeControls(view, signal) {
       said.textContent = sun
         ? `${clock(Number(hours))} UTC: sun at ${degrees(sun.azimuth)}, seen at ${degrees(sun.apparent)}, ` +
           `truly at ${degrees(sun.true)}.`
-        : "The clock stands still: the sun was moved otherwise. Moving the clock puts it back on its path.";
+        : "The clock is paused: the sun was moved by hand. Moving the clock puts it back on its path.";
     },
   };
 }

@@ -87,7 +87,7 @@ def given(value: Any, size: tuple[int, int]) -> Given:
         everywhere, or has another shape than the photo by more than rounding.
     """
     choices = (
-        f"depth knows no method {value!r:.80}; choose one of {', '.join(METHODS)}, or pass the "
+        f"depth has no method {value!r:.80}; choose one of {', '.join(METHODS)}, or pass the "
         "path of an .onnx file, or an array (H, W) of metres."
     )
     if isinstance(value, DepthNetwork):

@@ -164,7 +164,7 @@ def fit_sky(
         Of a sun that is to be found: how likely each of ``confidence.HEIGHTS`` and ``TURNS`` is
         before the sky's colours are asked; alike by default.
     done : callable, optional
-        Told now and then what share of the work is done, 0 to 1; what it raises ends the fit.
+        Called with the share of the work done, 0 to 1. What it raises cancels the fit.
     sure_of_sun : float
         How likely ``sun`` is near the true one, [0, 1], when it was not given but found.
     spread : float

@@ -163,7 +163,7 @@ def mask_from(mask: Any, size: tuple[int, int] | None = None, of: str = "sky") -
 def plain_numbers(array: np.ndarray) -> np.ndarray:
     """Return whole or real numbers as float32; TypeError for anything else."""
     if array.dtype.kind not in "bfiu":
-        raise TypeError(f"{array.dtype} holds no plain numbers")
+        raise TypeError(f"{array.dtype} does not hold plain numbers")
     with np.errstate(over="ignore"):  # what is too large becomes infinite, and is refused as such
         return array.astype(np.float32)
 

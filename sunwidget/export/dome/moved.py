@@ -88,7 +88,7 @@ def described_moved(
             "radiance": "the source's",
             "kcd_per_unit": digits(1 / unit),
             "absolute": False,
-            "scale": "lux by the fitted model: a map tells no exposure",
+            "scale": "lux by the fitted model: a map does not record its exposure",
         },
         "source": {
             "name": dome.photo.name,

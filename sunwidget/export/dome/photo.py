@@ -140,7 +140,7 @@ def described(scene: Scene, edit: Edit, dome: DomeLight, name: str, *, sun: bool
             "colour": "linear Rec. 709, the photo's own white balance",
             "radiance": "kcd m^-2",
             "absolute": False,
-            "scale": "the fitted model's: a photo tells no exposure",
+            "scale": "the fitted model's: a photo does not record its exposure",
         },
         "sun": sun_facts(
             dome.direction,

@@ -120,4 +120,4 @@ def _what(what: Any) -> Edit | str:
         return what
     near = difflib.get_close_matches(what[:80].lower().replace(" ", "_"), names, n=1)
     hint = f"Did you mean {near[0]!r}?" if near else f"There are {', '.join(names)}."
-    raise EditError(f"{what[:80]!r} is no method and no preset. {hint}")
+    raise EditError(f"{what[:80]!r} is neither a method nor a preset. {hint}")

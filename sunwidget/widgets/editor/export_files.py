@@ -162,7 +162,7 @@ def _checked_stem(name: Any, suffix: str) -> str:
     if not plain or len(text) > _NAME_LENGTH:
         raise ValueError(
             f"{text[:60]!r} cannot be a file's name. Choose one of 1 to {_NAME_LENGTH} characters "
-            "without slashes and other signs that folders do not take."
+            "without slashes or other characters that file names cannot hold."
         )
     return stem
 

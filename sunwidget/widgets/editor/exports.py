@@ -179,7 +179,7 @@ class Exports(Pictures):
 def _film_day(edit: Edit, start: float, end: float) -> Day:
     """Return the hours of the place's day, counted as its path counts them."""
     if edit.place is None:
-        raise EditError("Say where the photo was taken first: Time and place, or set_place().")
+        raise EditError("Set the photo's place first, in Time and place or by set_place().")
     place = at_hours(edit.place, start)
     return Day(place, start=place.time, end=end % 24, edit=edit)
 

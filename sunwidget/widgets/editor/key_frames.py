@@ -41,7 +41,7 @@ class KeyFrames(traitlets.TraitType):
             raise traitlets.TraitError(f"A film has at most {MOST} key frames.")
         seconds = [frame[0] for frame in frames]
         if len(set(seconds)) < len(seconds):
-            raise traitlets.TraitError("Two key frames stand at the same second.")
+            raise traitlets.TraitError("Two key frames have the same time.")
         return tuple(frames)
 
 

@@ -27,7 +27,7 @@ class Snapshot:
     edit : Edit
         What it shows.
     photo : Photo
-        Of what.
+        The photo that was rendered.
     """
 
     def __init__(self, pixels: np.ndarray, edit: Edit, photo: Photo) -> None:

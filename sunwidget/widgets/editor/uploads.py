@@ -63,10 +63,10 @@ class Uploads:
             self._key, self._data = content["upload"], bytearray()
         (piece,) = content["buffers"]
         if content["upload"] != self._key or offset != len(self._data):
-            raise PhotoError("Another upload came between. Drop the photo again.")
+            raise PhotoError("Another upload interrupted this one. Drop the photo again.")
         self._data += piece
         if len(self._data) > size:
-            raise PhotoError("More of this file arrived than it is long. Drop the photo again.")
+            raise PhotoError("More bytes arrived than the file has. Drop the photo again.")
         if len(self._data) == size:
             progress(1.0, "Opening the photo …")
             file = io.BytesIO(bytes(self._data))

@@ -91,7 +91,7 @@ class Requests:
         buffers: list[bytes] = []
         try:
             if name not in self._actions:
-                raise ValueError(f"The kernel knows no action {name!r:.40}.")
+                raise ValueError(f"The kernel has no action {name!r:.40}.")
             result, buffers = self._actions[name](content, progress)
         except Exception as caught:  # noqa: BLE001 - whatever it is, the person must read it
             error = str(caught) or type(caught).__name__

@@ -1,4 +1,4 @@
-"""Pages without a notebook: an editor that no browser hears of writes them."""
+"""Stand-alone pages, written by an editor without a front end."""
 
 from __future__ import annotations
 

@@ -229,8 +229,8 @@ def test_a_given_array_is_the_depth():
     ("value", "message"),
     [
         ("stereo", "choose one of network, ground_plane"),
-        (3.0, "knows no method 3.0"),
-        (object(), "knows no method"),
+        (3.0, "has no method 3.0"),
+        (object(), "has no method"),
         (np.ones((4, 5, 2)), r"shape \(height, width\)"),
         (np.full((160, 240), np.nan), "NaN, zero or negative"),
         (np.zeros((160, 240)), "NaN, zero or negative"),

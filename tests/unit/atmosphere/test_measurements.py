@@ -67,7 +67,7 @@ def test_a_damaged_archive_is_named(published):
     middle = len(data) // 2
     broken = data[:middle] + bytes([data[middle] ^ 0x10]) + data[middle + 1 :]
     for damaged in (broken, data[:-1], data[:20], b""):
-        with pytest.raises(MeasurementsError, match=f"{name} is no 7z archive, or a damaged one"):
+        with pytest.raises(MeasurementsError, match=f"{name} is not a 7z archive or is damaged"):
             read_raw_scans({name: damaged})
 
 

@@ -150,7 +150,7 @@ class PathOf:
         ("data:image/png;base64,iVBORw0KGgo=", "never downloads"),
         ("\ud800.jpg", "Cannot read"),
         (PathOf(3), "names no file"),
-        (PathOf(RuntimeError("unplugged")), "names no file: unplugged"),
+        (PathOf(RuntimeError("unplugged")), "does not name a file: unplugged"),
         (__file__.encode(), "is a path in bytes.*os.fsdecode"),
         (f"{__file__}/x.jpg", "Not a directory"),
     ],

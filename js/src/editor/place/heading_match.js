@@ -14,8 +14,8 @@ import { element } from "../../ui/element.js";
 export function headingMatch(view, clock) {
   const button = chip(
     "By the photo's sun",
-    "Set the heading so that the photo's own sun stands where place and time put it; " +
-      "the clock must stand at the photo's time",
+    "Set the heading so that the photo's own sun is where place and time put it; " +
+      "set the clock to the photo's time first",
     () => match(),
   );
   const note = element("p", { class: "sw-hint", role: "status", hidden: true });

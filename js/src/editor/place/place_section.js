@@ -20,7 +20,7 @@ export function placeSection(view, signal) {
   const day = dayControls(view, clock, path, signal);
   const fields = placeFields(view, clock);
   const heading = headingMatch(view, clock);
-  const fromPhoto = chip("From the photo", "Place, time and heading as its file tells them", () => {
+  const fromPhoto = chip("From the photo", "Place, time and heading from the photo's file", () => {
     clock.takeFromFile();
     heading.say((clock.told.notes ?? []).join(" "));
   });
@@ -51,7 +51,7 @@ export function placeSection(view, signal) {
     if (clock.place) return clock.error || asks || "Waiting for the kernel …";
     if (asks) return asks;
     return located
-      ? "The photo's file tells where it was taken: a clock can move the sun along its true path."
+      ? "The photo's file records where it was taken: a clock can move the sun along its true path."
       : "Say where the photo was taken, and a clock moves the sun along its true path.";
   };
 

@@ -92,7 +92,7 @@ async function take(view, file) {
  */
 async function upload(view, file) {
   if (!view.kernel.answers) {
-    throw new Error("a photo is analysed by the kernel, and there is none. Run the cell again.");
+    throw new Error("the kernel analyses photos, and it is not running. Run the cell again.");
   }
   view.state.commit();
   view.message.show("");
