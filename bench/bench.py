@@ -3,7 +3,7 @@
 usage: python bench/bench.py [--quick] [--only NAME,NAME] [--compare OLD.json] [--docs]
        python bench/bench.py --against REV [--turns 3] [--quick] [--only NAME,NAME]
 
-Every goal of docs/speed.md is a row, met or MISSED, and so is every peer. Times are medians by the
+Every goal of speed.md is a row, met or MISSED, and so is every peer. Times are medians by the
 clock; beside them stand the processor's, which a busy machine hardly changes. A row that cannot be
 measured says why, and the rest goes on. Groups (--only): see bench/speed/groups.py.
 """
@@ -23,7 +23,7 @@ from speed.machine import machine
 from speed.rows import Row
 
 ROOT = Path(__file__).resolve().parents[1]
-BUILD, DOCS = ROOT / "build", ROOT / "docs"
+BUILD, DOCS = ROOT / "build", ROOT / "docs" / "developer"
 MARKS = ("<!-- the table, written by bench/bench.py --docs -->", "<!-- end of the table -->")
 
 
@@ -32,7 +32,9 @@ def main() -> int:
     parser.add_argument("--quick", action="store_true", help="fewer runs and sizes, two minutes")
     parser.add_argument("--only", default="", help=f"groups, of {', '.join(GROUPS)}")
     parser.add_argument("--compare", type=Path, metavar="OLD", help="a bench.json to compare with")
-    parser.add_argument("--docs", action="store_true", help="write docs/speed.md's table and plot")
+    parser.add_argument(
+        "--docs", action="store_true", help="write docs/developer/speed.md's table and plot"
+    )
     parser.add_argument("--against", metavar="REV", help="measure this tree and REV in turn")
     parser.add_argument("--turns", type=int, default=3, help="how often each with --against")
     options = parser.parse_args()
@@ -79,7 +81,7 @@ def write(rows: list[Row], facts: dict[str, object], seconds: dict[str, float]) 
 
 
 def write_docs(text: str) -> None:
-    """Put the table between its marks in docs/speed.md, and the plot below it."""
+    """Put the table between its marks in docs/developer/speed.md, and the plot below it."""
     page, plot = DOCS / "speed.md", BUILD / "bench-pixels.svg"
     if plot.is_file():
         shutil.copyfile(plot, DOCS / "speed-pixels.svg")

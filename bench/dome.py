@@ -1,4 +1,4 @@
-"""Domes against skies that are known all the way round (docs/dome.md).
+"""Domes against skies that are known all the way round (docs/guide/dome.md).
 
 ``python -m training.skies.domes FOLDER 0 16`` makes the skies and needs bpy;
 ``python bench/dome.py FOLDER`` then judges the domes of their photos. Nothing in a photo tells its
@@ -107,7 +107,7 @@ def _planes(light: np.ndarray, direct: np.ndarray, sun: tuple[float, float]) -> 
 
 
 def main() -> None:
-    """Print the figures of ``docs/dome.md`` and write them to build/dome.json."""
+    """Print the figures of ``docs/guide/dome.md`` and write them to build/dome.json."""
     paths = sorted(Path(sys.argv[1]).glob("*.npz"), key=lambda path: int(path.stem))
     rows = []
     for told in (True, False):

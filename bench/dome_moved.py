@@ -1,4 +1,4 @@
-"""Domes whose sun was moved, against the same weather under the other sun (docs/dome.md).
+"""Domes whose sun was moved, against the same weather under the other sun (docs/guide/dome.md).
 
 ``python -m training.skies.domes FOLDER 0 24 moved`` makes the skies and needs bpy;
 ``python bench/dome_moved.py FOLDER`` then moves each sun to where the other is. No factor is taken
@@ -83,7 +83,7 @@ def _stops(found: np.ndarray, wanted: np.ndarray) -> list[float]:
 
 
 def main() -> None:
-    """Print the figures of ``docs/dome.md`` and write them to build/dome_moved.json."""
+    """Print the figures of ``docs/guide/dome.md`` and write them to build/dome_moved.json."""
     paths = sorted(Path(sys.argv[1]).glob("*.npz"), key=lambda path: int(path.stem))
     wanted = range(*(int(n) for n in sys.argv[2:4])) if sys.argv[3:] else range(10**6)
     rows = []

@@ -2,7 +2,7 @@
 
 usage: python bench/validate.py [--paths N] [--data FOLDER]
 
-Prints the nine rows of docs/atmosphere.md and writes build/validation.json; ends with 1 when a row
+Prints the nine rows of atmosphere.md and writes build/validation.json; ends with 1 when a row
 is missed. FOLDER (default $SUNWIDGET_SHARED/data/sky-reference, else ../shared/…) may hold the
 measured skies and other models' skies; measured skies are also looked for where
 `sunwidget.validation.measurements.download()` keeps them.

@@ -1,4 +1,4 @@
-"""Write docs/api.md from the signatures and docstrings of the public names.
+"""Write docs/guide/api.md from the signatures and docstrings of the public names.
 
 usage: python scripts/api_reference.py
 """
@@ -17,7 +17,7 @@ from docstring_parser.common import DocstringExample, DocstringMeta, DocstringPa
 
 import sunwidget
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "api.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "guide" / "api.md"
 
 GROUPS = {
     "Photo and analysis": (

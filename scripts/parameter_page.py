@@ -1,4 +1,4 @@
-"""Write docs/parameters.md from the parameter tables of Edit and of SkyExplorer.
+"""Write docs/guide/parameters.md from the parameter tables of Edit and of SkyExplorer.
 
 usage: python scripts/parameter_page.py
 """
@@ -11,7 +11,7 @@ from pathlib import Path
 from sunwidget.edit.table import PARAMETERS, RECIPE_VERSION, Parameter
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "parameters.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "guide" / "parameters.md"
 
 HEAD = f"""# Parameters
 

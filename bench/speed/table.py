@@ -1,4 +1,4 @@
-"""The table in print, what changed since another run, and the table of docs/speed.md."""
+"""The table in print, what changed since another run, and the table of docs/developer/speed.md."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def compare(rows: list[Row], before: dict[str, Any]) -> None:
 
 
 def markdown(rows: list[Row], facts: dict[str, Any]) -> str:
-    """Return the tables of docs/speed.md: goals first, then peers."""
+    """Return the tables of docs/developer/speed.md: goals first, then peers."""
     goals = [row for row in rows if row.goal is not None]
     peers = [row for row in rows if row.peer is not None]
     where = (

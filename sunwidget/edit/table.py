@@ -151,7 +151,7 @@ class Edit:
     Parameters
     ----------
     **values
-        Any row of ``PARAMETERS`` by name; docs/parameters.md lists them with units and ranges.
+        Any row of ``PARAMETERS`` by name; docs/guide/parameters.md lists them with units.
         ``None`` is what the photo has.
 
     Raises

@@ -1,6 +1,6 @@
 """SkyExplorer's picture and curves, drawn by the kernel from the passes that the browser runs.
 
-``docs/frame-graph.md`` describes the passes; ``js/src/explorer/sky_frame.js`` is the twin.
+``frame-graph.md`` describes the passes; ``js/src/explorer/sky_frame.js`` is the twin.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ def radiance_map(
 
 
 def curve(values: Mapping[str, Any], name: str, *, bruneton: Floats | None = None) -> Floats:
-    """Return one of ``CURVES``, (N, 4) float32; ``docs/frame-graph.md`` says what it holds.
+    """Return one of ``CURVES``, (N, 4) float32; ``frame-graph.md`` says what it holds.
 
     Raises
     ------

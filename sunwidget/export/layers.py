@@ -185,7 +185,7 @@ def own_opacity(clouds: Floats, matte: Floats) -> Floats:
 
 
 def edited_opacity(opacity: Floats, edit: Edit) -> Floats:
-    """Opacity as the edit makes it (docs/clouds.md)."""
+    """Opacity as the edit makes it (docs/methods/clouds.md)."""
     q = np.float32(edit.cloud_opacity)
     if q <= 1:
         return q * opacity

@@ -1,4 +1,4 @@
-"""Run the frame graph on EGL. ``docs/frame-graph.md`` is the contract.
+"""Run the frame graph on EGL. ``docs/developer/frame-graph.md`` is the contract.
 
 The browser's twin is ``js/src/gl/graph.js``. A runner knows nothing about skies: it
 compiles the passes, hands them uniforms and textures, and runs again only what changed.

@@ -60,7 +60,7 @@ def explain(error: BaseException) -> str:
     return (
         "sunwidget draws with OpenGL 3.3; that needs no display, but a driver. "
         f"Here {cause(error)}.\n{remedy(error)}\n"
-        "`sunwidget doctor` looks again; docs/troubleshooting.md says more."
+        "`sunwidget doctor` looks again; docs/guide/troubleshooting.md says more."
     )
 
 

@@ -1,6 +1,6 @@
 """How far the clear sky is from what others have measured, printed and computed.
 
-Each function is a row of the table in docs/atmosphere.md and returns figures beside their bounds;
+Each function is a row of the table in atmosphere.md and returns figures beside their bounds;
 ``make validate`` prints them all, the tests assert them. Sources are independent of sunwidget.
 What needs data or a package that is not there says so and is neither met nor missed.
 """

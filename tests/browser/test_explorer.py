@@ -225,7 +225,7 @@ def test_plots_follow_the_sun(explorer):
     assert "sun below −1°" in card(page, "The sun's colour").text_content()
     assert "the sun is down" in card(page, "Sunlight that arrives").text_content()
     x, y = told("Zenith in CIE x, y", r"[\d.]+")
-    # As docs/atmosphere.md has the zenith at −6°.
+    # As docs/methods/atmosphere.md has the zenith at −6°.
     assert (x, y) == (pytest.approx(0.235, abs=0.01), pytest.approx(0.235, abs=0.01))
 
 

@@ -75,7 +75,7 @@ def test_the_comparison_shows_all_its_pictures(outputs):
 
 
 def test_of_a_notebook_saved_with_its_widgets_the_picture_can_be_had(tmp_path):
-    # As ``docs/export.md`` tells it.
+    # As ``docs/guide/export.md`` tells it.
     data = {
         "image/png": "cGljdHVyZQ==",
         "application/vnd.jupyter.widget-view+json": {"model_id": "7"},

@@ -59,7 +59,7 @@ def parsed(value):
 
 
 def test_the_api_page_is_what_the_docstrings_say(root, reference):
-    page = (root / "docs" / "api.md").read_text("utf-8")
+    page = (root / "docs" / "guide" / "api.md").read_text("utf-8")
     assert page == reference.page(), "run: python scripts/api_reference.py"
 
 

@@ -120,6 +120,6 @@ def test_what_is_always_installed_serves_the_package_itself(declared, imported):
 
 
 def test_the_page_gives_a_reason_for_every_dependency_and_no_other(declared, root):
-    page = (root / "docs" / "dependencies.md").read_text("utf-8")
+    page = (root / "docs" / "developer" / "dependencies.md").read_text("utf-8")
     listed = re.findall(r"^\| `([\w.-]+)` \|", page, re.MULTILINE)
     assert sorted(map(canonical, listed)) == sorted(set().union(*declared.values()))

@@ -25,7 +25,7 @@ def pages(root):
         text=True,
         check=False,
     ).stdout.split()
-    paths = [root / name for name in listed] or [*root.glob("*.md"), *root.glob("docs/*.md")]
+    paths = [root / name for name in listed] or [*root.glob("*.md"), *root.glob("docs/**/*.md")]
     pages = {path: path.read_text("utf-8") for path in paths if path.is_file()}
     for path, text in pages.items():
         if path.suffix == ".ipynb":
@@ -37,7 +37,7 @@ def pages(root):
 
 @pytest.fixture(scope="module")
 def docs(pages, root):
-    return {path: text for path, text in pages.items() if path.parent == root / "docs"}
+    return {path: text for path, text in pages.items() if path.is_relative_to(root / "docs")}
 
 
 def test_every_relative_link_leads_to_a_file(pages):

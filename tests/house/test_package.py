@@ -51,7 +51,7 @@ def test_the_parameter_page_is_what_the_table_says(root):
         text=True,
         check=True,
     )
-    page = (root / "docs" / "parameters.md").read_text("utf-8")
+    page = (root / "docs" / "guide" / "parameters.md").read_text("utf-8")
     assert page == done.stdout, "run: python scripts/parameter_page.py"
 
 

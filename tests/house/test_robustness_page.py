@@ -25,7 +25,7 @@ def names_in(path):
 
 
 def test_the_page_has_its_three_parts_and_rows_in_each(root):
-    page = (root / "docs/robustness.md").read_text("utf-8")
+    page = (root / "docs/developer/robustness.md").read_text("utf-8")
     assert re.findall(r"^## (.+)$", page, re.MULTILINE) == SECTIONS
     for part in page.split("\n## ")[1:]:
         assert len(list(rows(part))) >= 5
@@ -33,7 +33,7 @@ def test_the_page_has_its_three_parts_and_rows_in_each(root):
 
 def test_every_row_names_tests_that_exist(root):
     homes = [*root.glob("tests/**/*.py"), *root.glob("js/test/**/*.js")]
-    for row in rows((root / "docs/robustness.md").read_text("utf-8")):
+    for row in rows((root / "docs/developer/robustness.md").read_text("utf-8")):
         named = GUARD.findall(row)
         assert named, f"no test guards: {row}"
         for file, test in named:

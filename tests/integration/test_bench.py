@@ -93,7 +93,7 @@ def test_time_and_memory_are_drawn_against_pixels(speed, tmp_path):
 
 
 def test_the_page_has_a_place_for_the_table(root):
-    page = (root / "docs" / "speed.md").read_text("utf-8")
+    page = (root / "docs" / "developer" / "speed.md").read_text("utf-8")
     source = (root / "bench" / "bench.py").read_text("utf-8")
     marks = [line for line in page.splitlines() if line.startswith("<!--")]
     assert len(marks) == 2

@@ -54,7 +54,7 @@ def floor(request, tmp_path, monkeypatch, root):
     )
     bpy = importlib.import_module("bpy")
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    page = (root / "docs" / "dome.md").read_text("utf-8")
+    page = (root / "docs" / "guide" / "dome.md").read_text("utf-8")
     (code,) = (block for block in blocks(page, "python") if "bpy" in block)
     monkeypatch.chdir(tmp_path)
     exec(compile(code, "dome.md", "exec"), {})

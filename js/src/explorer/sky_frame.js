@@ -1,6 +1,6 @@
 /**
  * SkyExplorer's picture and curves on WebGL2. The kernel's twin is `sunwidget/explorer/draw.py`;
- * `docs/frame-graph.md` says what the passes draw.
+ * `docs/developer/frame-graph.md` says what the passes draw.
  */
 
 import { graph as description, files } from "sunwidget:shaders/explorer";

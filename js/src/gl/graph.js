@@ -1,5 +1,5 @@
 /**
- * Run the frame graph on WebGL2. `docs/frame-graph.md` is the contract; the kernel's twin is
+ * Run the frame graph on WebGL2. `docs/developer/frame-graph.md` is the contract; the kernel's twin is
  * `sunwidget/renderer/graph.py`. A runner knows nothing about skies: it compiles the passes,
  * hands them uniforms and textures, and runs again only what changed.
  */

@@ -73,7 +73,7 @@ def moved(dome: Dome, edit: Edit, width: int) -> Relit:
 def described_moved(
     dome: Dome, edit: Edit, light: Relit, name: str, *, drawn: bool
 ) -> dict[str, Any]:
-    """Return what the json of a moved dome says; ``docs/dome.md`` explains it."""
+    """Return what the json of a moved dome says; ``docs/guide/dome.md`` explains it."""
     unit = float(np.array(dome.fit.gain) @ LUMINANCE)
     heading = edit.place.heading if edit.place is not None else None
     share = sky_share(dome)

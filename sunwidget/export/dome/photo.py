@@ -127,7 +127,7 @@ def _write(
 
 
 def described(scene: Scene, edit: Edit, dome: DomeLight, name: str, *, sun: bool) -> dict[str, Any]:
-    """Return what the json says; ``docs/dome.md`` explains it."""
+    """Return what the json says; ``docs/guide/dome.md`` explains it."""
     camera = scene.camera
     heading = edit.place.heading if edit.place is not None else None
     heading = scene.photo.heading if heading is None else heading

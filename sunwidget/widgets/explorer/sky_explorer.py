@@ -323,7 +323,7 @@ class SkyExplorer(AnswersRefusals):
     def curve(self, name: str) -> NDArray[np.float32]:
         """Return one of the curves beside the picture, shape (n, 4).
 
-        What it holds is told in docs/frame-graph.md.
+        What it holds is told in docs/developer/frame-graph.md.
 
         Parameters
         ----------
