@@ -1,4 +1,4 @@
-"""The reference sky against measured skies and other models: rows 3 and 4 of docs/methods/atmosphere.md.
+"""The reference sky against measured skies and other models: rows 3 and 4 of atmosphere.md.
 
 Kider et al. 2014: 15 scans of 81 directions on one clear day, 360-720 nm, cleaned as Bruneton 2017
 did. The data belong to others and are not part of the project: without them, skipped.
