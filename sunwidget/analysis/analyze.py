@@ -19,7 +19,7 @@ from sunwidget.analysis.pipeline import METHODS, Steps, check_method, complete
 from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import coarse_sky, patches
 from sunwidget.analysis.segmentation.plausible import plausible
-from sunwidget.analysis.strokes.retouch import stroked
+from sunwidget.analysis.strokes.apply import stroked
 from sunwidget.edit.table import Stroke, SunHint
 from sunwidget.errors import AnalysisError
 from sunwidget.geometry.camera import Point

@@ -8,7 +8,7 @@ from typing import Any
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.pipeline import Steps, complete, find_clouds_again
 from sunwidget.analysis.scene import Scene, checked_scene
-from sunwidget.analysis.strokes.retouch import stroked
+from sunwidget.analysis.strokes.apply import stroked
 from sunwidget.edit.table import Edit
 from sunwidget.geometry.camera import Point
 from sunwidget.progress import Progress

@@ -25,7 +25,7 @@ with atheris.instrument_imports(
         *(f"sunwidget.{name}" for name in ("openexr", "photo", "radiance", "recipe", "xmp")),
         *(f"sunwidget.analysis.{name}" for name in ("analyze", "horizon", "strokes", "sun")),
         *(
-            "sunwidget.analysis.strokes.retouch",
+            "sunwidget.analysis.strokes.apply",
             "sunwidget.widgets.page.html",
             "sunwidget.widgets.page.standalone",
         ),

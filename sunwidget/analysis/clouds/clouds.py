@@ -2,7 +2,8 @@
 
 ``METHODS`` maps a name to a function ``(Working, sky, minimum, maximum) -> Clouds``. The four
 methods by colour alone (``INDICES``) put whiteness on one scale, that of red over blue: 0 is the
-deepest blue and 1 is white. So m_min and m_max mean the same whichever method is chosen.
+deepest blue and 1 is white. So m_min and m_max mean the same whichever method is chosen. A new
+method is also named in ``CLOUD_METHODS`` of edit/table.py.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ import { exportFilm } from "./export_film.js";
 import { exportJob } from "./export_job.js";
 import { exportStill } from "./export_still.js";
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function exportPanel(view, signal) {
   const { kernel, toolbar } = view;
   const id = `sw-export-${Math.random().toString(36).slice(2)}`;

@@ -44,7 +44,7 @@ export const save = (view) =>
     view.kernel.answers ? fromKernel(view, "save", signal) : savePreview(view),
   );
 
-/** The editor itself as a file. @type {import("../view/parts.js").MakePart} */
+/** The editor itself as a file. @type {import("../parts.js").MakePart} */
 export function webPage(view) {
   view.toolbar.menu.add({
     group: "picture",

@@ -25,7 +25,7 @@ const CHANNELS = /** @type {const} */ (["red", "green", "blue"]);
 const UNKNOWN = { role: "img", "aria-label": "Not counted yet" };
 const WORTH_SAYING = 0.001; // share of the picture that is clipped
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function histogram(view, signal) {
   const hills = CHANNELS.map((name) => shape("path", { class: `sw-levels-${name}` }));
   const luminance = shape("path", { class: "sw-levels-luminance" });

@@ -1,6 +1,7 @@
 /**
  * The panel: presets, a filter, and the sliders by section, drawn from the kernel's parameter
- * table. Few sections are open; each says how many of its values are changed.
+ * table. Few sections are open; each says how many of its values are changed. A section that is no
+ * row of sliders is a part of its own (`parts.js`).
  */
 
 import { equal } from "../../edit/equality.js";

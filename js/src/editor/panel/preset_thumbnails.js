@@ -8,7 +8,7 @@ import { placePhoto, thumbnails } from "./thumbnails.js";
 
 const PLACES = 6;
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function presetThumbnails(view, signal) {
   /** @type {{ preset: Preset, canvas: HTMLCanvasElement }[]} */
   let all = [];

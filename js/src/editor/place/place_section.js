@@ -11,7 +11,7 @@ import { SunPath } from "./sun_path.js";
 
 const TRAITS = ["_day", "_photo_place"];
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function placeSection(view, signal) {
   const clock = new SunClock(view);
   const path = new SunPath(view, clock);

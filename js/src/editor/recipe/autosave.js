@@ -35,7 +35,7 @@ function living() {
   return page[SESSIONS];
 }
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function autosave(view, signal) {
   const { model, state, kernel, notices } = view;
   const store = new KeptEdits();

@@ -13,7 +13,7 @@ import { pickFile } from "../../ui/pick_file.js";
 const FILES = ".json,.py,.txt,application/json,text/plain";
 const SECONDS = 6; // that good news stays
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function recipe(view, signal) {
   const { menu } = view.toolbar;
   const { state, root } = view;

@@ -11,7 +11,7 @@ import { popup } from "../../ui/popup.js";
 const MOST = 100;
 const NAME_LENGTH = 80;
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function versions(view) {
   const { state, notices } = view;
   const trigger = button({

@@ -15,7 +15,7 @@ const STEP = 16; // CSS pixels; with Shift ten times as many, with Alt one
 /** @type {Record<string, Point>} */
 const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function cross(view, signal) {
   const { stage } = view;
   const node = shape(

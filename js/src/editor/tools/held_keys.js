@@ -2,7 +2,7 @@
 
 import { isTaken } from "../../ui/keys.js";
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function heldKeys(view, signal) {
   const { root, toolbar } = view;
   /** @param {string} key @param {boolean} down */

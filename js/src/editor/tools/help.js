@@ -3,7 +3,7 @@
 import { button } from "../../ui/button.js";
 import { showKeys } from "./shortcuts.js";
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function help(view) {
   const node = button({
     icon: "help",

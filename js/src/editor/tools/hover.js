@@ -5,7 +5,7 @@ import { element } from "../../ui/element.js";
 
 /** @typedef {import("../../host/types.js").Point} Point */
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function hover(view, signal) {
   const { stage } = view;
   const direction = element("span", { class: "sw-hover-direction" });

@@ -18,7 +18,7 @@ const MARGIN = 6; // CSS pixels between the label and the stage's edge
 const OPEN_MS = 350;
 const CLOSE_MS = 400; // the way from the ring to its label
 
-/** @type {import("../view/parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function ownSun(view, signal) {
   const { stage, state } = view;
   const ring = element("button", {

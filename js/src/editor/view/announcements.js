@@ -23,7 +23,7 @@ function texts(view) {
 /** What tells of itself while it has the focus. @type {Record<string, string>} */
 const TELLS = { tool: '[role="radio"]', before: "[aria-pressed]", sun: ".sw-sun, input" };
 
-/** @type {import("./parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function announcements(view, signal) {
   /** @type {Record<string, string> | null} what stands there at first is read when one comes to it */
   let known = null;

@@ -9,7 +9,7 @@ import { element } from "../../ui/element.js";
 const REST_MS = 800; // long enough that who goes on dragging shares no processor with it
 const READY = "ready";
 
-/** @type {import("./parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function detail(view, signal) {
   const { stage, state } = view;
   const canvas = element("canvas", { class: "sw-detail", "aria-hidden": "true", hidden: true });

@@ -11,7 +11,7 @@ const CHUNK = 4_000_000; // bytes: a message of 10 MiB breaks the connection
 const PHOTOS = "image/*,.tif,.tiff,.heic,.avif";
 const RECIPE = /\.(json|py|txt)$/i;
 
-/** @type {import("./parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function drop(view, signal) {
   const { root } = view;
   const veil = element(

@@ -71,7 +71,7 @@ export class FullScreen {
   }
 }
 
-/** @type {import("./parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function fullScreen(view, signal) {
   view.fullScreen = new FullScreen(view, signal);
   return {};

@@ -11,7 +11,7 @@ const REASONS = {
   lost: "Needs the kernel: run the cell again",
 };
 
-/** @type {import("./parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function needsKernel(view) {
   const { kernel, panel, root, toolbar } = view;
   const corrections = view.parameters.filter((p) => p.analysis).map((p) => p.name);

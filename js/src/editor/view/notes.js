@@ -61,7 +61,7 @@ export function take(view, tool, event) {
   else view.stage.node.focus({ preventScroll: true });
 }
 
-/** @type {import("./parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function notes(view) {
   const list = element("div", { class: "sw-notes-list" });
   const back = element("button", { type: "button", class: "sw-notes-back", hidden: true });

@@ -2,7 +2,7 @@
 
 import { element } from "../../ui/element.js";
 
-/** @type {import("./parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function progress(view, signal) {
   const { channel, kernel, model, notices, stage } = view;
   const cancel = element("button", { type: "button", class: "sw-progress-cancel" }, "Cancel");

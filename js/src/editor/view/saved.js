@@ -11,7 +11,7 @@ export const unseen = () => ({
   _scene: {},
 });
 
-/** @type {import("./parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function saved(view, signal) {
   const { model, stage, root, panel } = view;
   // Without maps no slider moves the picture.

@@ -55,7 +55,7 @@ export class Split {
   }
 }
 
-/** @type {import("./parts.js").MakePart} */
+/** @type {import("../parts.js").MakePart} */
 export function split(view) {
   view.split = new Split(view);
   return view.split;

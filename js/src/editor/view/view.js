@@ -20,6 +20,7 @@ import { ErrorMessage } from "../../ui/error_message.js";
 import { SunTool } from "../../ui/sun_tool.js";
 import { Inspector } from "../inspect/inspector.js";
 import { panel } from "../panel/panel.js";
+import { makeParts } from "../parts.js";
 import { paintBrushMask, SUBJECTS } from "../tools/brush_mask.js";
 import { BrushTool, EraseTool } from "../tools/brush_tool.js";
 import { HorizonTool } from "../tools/horizon_tool.js";
@@ -31,7 +32,6 @@ import { toolbar } from "../tools/toolbar.js";
 import { Kernel } from "./kernel.js";
 import { Loading } from "./loading.js";
 import { Notices } from "./notices.js";
-import { makeParts } from "./parts.js";
 import { Stage } from "./stage.js";
 import { Foot } from "./status_bar.js";
 
@@ -126,7 +126,7 @@ export class View {
     this.split = null;
     /** @type {import("./full_screen.js").FullScreen | null} */
     this.fullScreen = null;
-    /** @type {import("./parts.js").Part[]} */
+    /** @type {import("../parts.js").Part[]} */
     this.parts = [];
     this.build();
     this.parts = makeParts(this, signal);
