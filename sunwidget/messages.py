@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+import difflib
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 _READABLE = 1e6  # whole numbers below are written without a point
@@ -20,6 +21,24 @@ def shown(value: Any, most: int = 80) -> str:
 def printable(text: str) -> str:
     """Return a text without signs that a terminal obeys, such as escapes in a file's name."""
     return "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in text)
+
+
+def did_you_mean(
+    name: Any,
+    known: Iterable[str],
+    otherwise: str = "",
+    *,
+    cutoff: float = 0.6,
+    quote: str = "'",
+) -> str:
+    """Return a sentence that suggests the nearest of ``known``, or ``otherwise``; space first.
+
+    ``cutoff`` in [0, 1] is how alike they must be; ``otherwise`` says what to do where none is.
+    """
+    spelled = name[:80] if isinstance(name, str) else ""
+    near = difflib.get_close_matches(spelled, list(known), n=1, cutoff=cutoff)
+    sentence = f"Did you mean {quote}{near[0]}{quote}?" if near else otherwise
+    return f" {sentence}" if sentence else ""
 
 
 def called(name: str, arguments: Mapping[str, Any], module: str = "") -> str:

@@ -6,7 +6,6 @@ are on; everything else of an edit (strokes, hints, strengths, the air) stays as
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -16,7 +15,7 @@ from sunwidget.analysis.scene import checked_scene
 from sunwidget.edit.recipe import edit_of
 from sunwidget.edit.table import Edit
 from sunwidget.errors import EditError
-from sunwidget.messages import shown
+from sunwidget.messages import did_you_mean, shown
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -97,8 +96,7 @@ def find(name: str) -> Preset:
         return _BY_NAME[name]
     spelled = name[:80].strip().lower() if isinstance(name, str) else ""
     spelled = spelled.replace(" ", "_").replace("-", "_")
-    near = difflib.get_close_matches(spelled, NAMES, n=1)
-    hint = f" Did you mean {near[0]!r}?" if near else f" There are {', '.join(NAMES)}."
+    hint = did_you_mean(spelled, NAMES, f"There are {', '.join(NAMES)}.")
     raise EditError(f"Unknown preset {shown(name)}.{hint}")
 
 

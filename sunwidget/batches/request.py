@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import inspect
 import os
 from collections.abc import Iterable, Mapping
@@ -14,7 +13,7 @@ from sunwidget import presets
 from sunwidget.edit.recipe import edit_of, is_recipe_file, read_recipe
 from sunwidget.edit.table import Edit
 from sunwidget.errors import EditError
-from sunwidget.messages import shown
+from sunwidget.messages import did_you_mean, shown
 
 # What a recipe says about one photo only.
 _OF_ONE_PHOTO = ("strokes", "sun_hint", "horizon_hint", "fov_hint")
@@ -101,9 +100,8 @@ def _check_known(what: str, given: dict[str, Any], function: Any, refused: set[s
     known = [name for name in inspect.signature(function).parameters if name not in refused]
     for name in given:
         if name not in known:
-            near = difflib.get_close_matches(name, known, n=1)
-            hint = f"Did you mean {near[0]!r}?" if near else f"There are {', '.join(known)}."
-            raise TypeError(f"{what} does not take {name!r}. {hint}")
+            hint = did_you_mean(name, known, f"There are {', '.join(known)}.")
+            raise TypeError(f"{what} does not take {name!r}.{hint}")
 
 
 def check_endings(outputs: Iterable[str], wish: Wish) -> None:

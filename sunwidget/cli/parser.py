@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import re
 import sys
 from collections.abc import Sequence
@@ -11,6 +10,7 @@ from itertools import takewhile
 from typing import Any, NoReturn
 
 from sunwidget.cli.ending import one_line
+from sunwidget.messages import did_you_mean
 
 _CHOICES = re.compile(r"invalid choice: '(.*)' \(choose from (.*)\)$")
 
@@ -48,7 +48,7 @@ class Parser(argparse.ArgumentParser):
         choices = _CHOICES.search(message)
         if choices:
             names = [name.strip("'") for name in choices[2].split(", ")]
-            message += f".{_did_you_mean(choices[1], names)}"
+            message += f".{did_you_mean(choices[1], names, quote='')}"
         self.exit(2, f"{self.prog}: {one_line(message)}\n")
 
     def _refuse_misspelt(self, given: Sequence[str]) -> None:
@@ -61,9 +61,4 @@ class Parser(argparse.ArgumentParser):
             # As argparse has it, what holds a space is no flag.
             if name.startswith("--") and " " not in text and name not in known:
                 shown = [flag for flag in known if flag.startswith("--")]
-                self.error(f"unrecognized flag {name}.{_did_you_mean(name, shown)}")
-
-
-def _did_you_mean(name: str, others: Sequence[str]) -> str:
-    near = difflib.get_close_matches(name[:80], others, n=1)
-    return f" Did you mean {near[0]}?" if near else ""
+                self.error(f"unrecognized flag {name}.{did_you_mean(name, shown, quote='')}")

@@ -9,7 +9,6 @@ found in the photo (``Scene.automatic``), so an edit that names nothing moves no
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import json
 import math
 from collections.abc import Mapping
@@ -18,7 +17,7 @@ from typing import Any, Literal, NamedTuple, Self
 
 from sunwidget.errors import EditError, UnknownParameterError
 from sunwidget.geometry.place import Place, sun_at
-from sunwidget.messages import called, shown
+from sunwidget.messages import called, did_you_mean, shown
 
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
@@ -472,9 +471,7 @@ def parameter(name: str) -> Parameter:
 
 def unknown_name_message(name: str, others: tuple[str, ...] = ()) -> str:
     """Say that ``name`` is no parameter and suggest the nearest spelling, also of ``others``."""
-    spelled = name[:80] if isinstance(name, str) else ""
-    near = difflib.get_close_matches(spelled, [*_BY_NAME, *others], n=1)
-    hint = f" Did you mean {near[0]!r}?" if near else " See sunwidget.PARAMETERS for the list."
+    hint = did_you_mean(name, [*_BY_NAME, *others], "See sunwidget.PARAMETERS for the list.")
     return f"Unknown parameter {shown(name)}.{hint}"
 
 

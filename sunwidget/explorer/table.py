@@ -8,13 +8,13 @@ a uniform) and data that says where and when the sky is seen.
 from __future__ import annotations
 
 import datetime as dt
-import difflib
 from typing import Any
 
 from sunwidget.atmosphere.parameters import RANGES, Atmosphere
 from sunwidget.edit import table
 from sunwidget.edit.table import Parameter
 from sunwidget.errors import EditError
+from sunwidget.messages import did_you_mean
 
 MODELS = ("multiple", "single", "bruneton", "reference")
 COMPARISONS = ("none", *MODELS)
@@ -123,8 +123,7 @@ def parameter(name: str) -> Parameter:
 
 def unknown_name_message(name: str, others: tuple[str, ...] = ()) -> str:
     """Say that ``name`` is no parameter of SkyExplorer and suggest the nearest spelling."""
-    near = difflib.get_close_matches(str(name), [*_BY_NAME, *others], n=1)
-    hint = f" Did you mean {near[0]!r}?" if near else f" Choose among {', '.join(_BY_NAME)}."
+    hint = did_you_mean(name, [*_BY_NAME, *others], f"Choose among {', '.join(_BY_NAME)}.")
     return f"Unknown parameter {str(name)[:80]!r}.{hint}"
 
 

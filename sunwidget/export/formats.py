@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import io
 import struct
 import zlib
@@ -21,7 +20,7 @@ from sunwidget.export.still import Still
 from sunwidget.export.tiff import EFFORT, tiff
 from sunwidget.formats import exif as exif_tags
 from sunwidget.formats import openexr
-from sunwidget.messages import shown
+from sunwidget.messages import did_you_mean, shown
 
 # A JPEG segment holds 65533 bytes, of which Pillow's EXIF head takes six.
 _SEGMENT = 65_500
@@ -180,8 +179,7 @@ def check_format(
     """
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
-        near = difflib.get_close_matches(suffix, FORMATS, n=1)
-        hint = f" Did you mean {near[0]!r}?" if near else ""
+        hint = did_you_mean(suffix, FORMATS)
         raise PhotoError(
             f"{path.name} ends in {suffix or 'nothing'!r}; expected one of "
             f"{', '.join(FORMATS)}.{hint}"

@@ -7,10 +7,10 @@ place and heading in their EXIF (it agrees with the sun in the picture). MIT, li
 
 from __future__ import annotations
 
-import difflib
 from importlib import resources
 
 from sunwidget.errors import PhotoError
+from sunwidget.messages import did_you_mean
 from sunwidget.photo.photo import Photo, open_photo
 
 NAMES = ("coast", "mountains", "meadow", "harbour")
@@ -36,8 +36,7 @@ def sample(name: str = "coast") -> Photo:
         For an unknown name; the nearest spelling is suggested.
     """
     if name not in NAMES:
-        near = difflib.get_close_matches(str(name), NAMES, n=1)
-        hint = f" Did you mean {near[0]!r}?" if near else ""
+        hint = did_you_mean(name, NAMES)
         raise PhotoError(
             f"There is no sample {str(name)[:80]!r}.{hint} The samples are {', '.join(NAMES)}."
         )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import difflib
 import inspect
 import os
 import warnings
@@ -33,6 +32,7 @@ from sunwidget.film.writer import (
     writer,
 )
 from sunwidget.geometry.place import Place
+from sunwidget.messages import did_you_mean
 from sunwidget.photo.decode_apart import kept
 from sunwidget.progress import Progress, part, with_time_left
 from sunwidget.renderer.gl_thread import require_renderer
@@ -264,8 +264,7 @@ def _refuse_or_warn(troubles: Sequence[Trouble], count: int, broken: str, *, fil
 def _check(*, fps: float, loop: str, quality: int, broken: str, hints: Mapping[str, Any]) -> None:
     known = inspect.signature(analyze).parameters.keys() - {"photo", "progress"}
     if unknown := sorted(hints.keys() - known):
-        near = difflib.get_close_matches(unknown[0], [*known, *_OPTIONS], n=1)
-        hint = f" Did you mean {near[0]!r}?" if near else ""
+        hint = did_you_mean(unknown[0], [*known, *_OPTIONS])
         raise TypeError(f"timelapse() takes no {unknown[0]!r:.40}.{hint}")
     check_rate(fps)
     if loop not in LOOPS:

@@ -8,7 +8,6 @@ browser for its gestures, this class for what Python sets.
 from __future__ import annotations
 
 import contextlib
-import difflib
 import json
 import threading
 from collections.abc import Iterator
@@ -19,6 +18,7 @@ import traitlets
 from sunwidget.edit.recipe import edit_of
 from sunwidget.edit.table import PARAMETERS, Edit
 from sunwidget.errors import EditError
+from sunwidget.messages import did_you_mean
 from sunwidget.widgets.kernel.edit_traits import AnswersRefusals, edit_traits
 
 NAMES = tuple(p.name for p in PARAMETERS)
@@ -161,9 +161,8 @@ class EditHistory(AnswersRefusals):
     def _version(self, name: str) -> dict[str, Any]:
         names = [v["name"] for v in self._versions]
         if name not in names:
-            near = difflib.get_close_matches(str(name), names, n=1, cutoff=0.4)
-            hint = f"Did you mean {near[0]!r}?" if near else "editor.keep(name) keeps one."
-            raise EditError(f"No version is named {str(name)[:80]!r}. {hint}")
+            hint = did_you_mean(name, names, "editor.keep(name) keeps one.", cutoff=0.4)
+            raise EditError(f"No version is named {str(name)[:80]!r}.{hint}")
         version: dict[str, Any] = self._versions[names.index(name)]
         return version
 
