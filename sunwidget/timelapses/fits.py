@@ -16,11 +16,12 @@ import numpy as np
 
 from sunwidget.analysis.clouds.clouds import ratio_index
 from sunwidget.analysis.fit.fit import Response, SkyFit, fit_without_sky, model_sky, view_angles
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize
+from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.sun import look_for_sun
 from sunwidget.analysis.pipeline import Steps, clouds_by_colour, erased_for, fit_atmosphere
 from sunwidget.analysis.scene import Scene
 from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.timelapses.sun import Direction, Sample, observation
 
 METER_SIDE = 192

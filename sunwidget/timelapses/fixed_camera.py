@@ -19,13 +19,13 @@ from sunwidget.analysis.analyze import analyze
 from sunwidget.analysis.correct import corrected
 from sunwidget.analysis.depth.field import DepthField
 from sunwidget.analysis.images.noise import noise_level
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize
+from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.segmentation import coarse_sky, patches, refine
 from sunwidget.analysis.segmentation.plausible import plausible
 from sunwidget.edit.table import CORRECTIONS, Edit
-from sunwidget.formats.color import SRGB, strips
+from sunwidget.formats.color import LUMINANCE, SRGB, strips
 from sunwidget.photo.photo import Photo
 
 _DARK = 0.35  # of the samples' usual light: a night tells nothing about the skyline

@@ -16,10 +16,11 @@ from typing import NamedTuple
 import numpy as np
 
 from sunwidget.analysis.hints import Hints
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working
+from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import look_for_sun
 from sunwidget.analysis.pipeline import sun_blot
 from sunwidget.analysis.sun.sun import SunObservation, find, observe
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 from sunwidget.geometry.place import Place, sun_at, turned
 from sunwidget.photo.place import date_and_hours

@@ -8,10 +8,10 @@ from functools import cached_property
 import numpy as np
 
 from sunwidget.analysis.images.color_transfer import to_lab
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.photo.photo import Photo
 
 LONG_SIDE = 1024
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)
 
 
 def encode(linear: np.ndarray) -> np.ndarray:
