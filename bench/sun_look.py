@@ -23,8 +23,7 @@ import numpy as np
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.analysis.images.working_copy import LUMINANCE
-from sunwidget.formats.color import srgb_to_linear
+from sunwidget.formats.color import LUMINANCE, srgb_to_linear
 
 SUNS = {"view3": (8, 3), "view12": (-20, 12)}
 DISTANCES = (2, 5, 10, 20, 30)

@@ -18,8 +18,9 @@ import numpy as np
 from sunwidget.analysis.clouds.clouds import features
 from sunwidget.analysis.clouds.unmix import cloud_white
 from sunwidget.analysis.fit.fit import Response, SkyFit, model_sky
-from sunwidget.analysis.images.working_copy import LUMINANCE, encode
+from sunwidget.analysis.images.working_copy import encode
 from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.formats.color import LUMINANCE
 
 _PIXELS = 300  # of each sky
 

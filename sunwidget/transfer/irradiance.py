@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from sunwidget.analysis.fit.fit import model_sky
-from sunwidget.analysis.images.working_copy import LUMINANCE, resize
+from sunwidget.analysis.images.working_copy import resize
 from sunwidget.analysis.sun.search import night
 from sunwidget.atmosphere.color import spectral_to_rec709
 from sunwidget.atmosphere.optics import direct_irradiance
 from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.formats.color import LUMINANCE
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene

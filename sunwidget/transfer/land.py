@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from sunwidget.analysis.images.color_transfer import LMS_TO_LAB, RGB_TO_LMS
-from sunwidget.analysis.images.working_copy import LUMINANCE, resize
+from sunwidget.analysis.images.working_copy import resize
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.transfer.irradiance import is_night, land_light
 from sunwidget.transfer.labels import LABELS, labels_of
 

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sunwidget.analysis.images.fill import fill_by_pyramid
-from sunwidget.analysis.images.working_copy import LUMINANCE, resize
+from sunwidget.analysis.images.working_copy import resize
 from sunwidget.errors import AnalysisError
-from sunwidget.formats.color import strips
+from sunwidget.formats.color import LUMINANCE, strips
 from sunwidget.transfer.donor_sky import DonorSky, directions, donor_sky
 from sunwidget.transfer.encode import check_strength, photo_like, scene_of
 from sunwidget.transfer.land import LandChange, land_change, mean_sky, rows_at

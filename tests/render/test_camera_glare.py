@@ -7,9 +7,9 @@ import pytest
 from relight_scenes import known_photo, known_scene
 
 from sunwidget.analysis.fit.fit import Response, SkyFit
-from sunwidget.analysis.images.working_copy import LUMINANCE
 from sunwidget.analysis.sun.camera_glare import beam, glare_profile, measured_glare, strength
 from sunwidget.edit.table import Edit
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 from sunwidget.renderer import render_pass
 

@@ -7,9 +7,10 @@ from house_scenes import house_scene
 from relight_scenes import SAMPLES, known_photo, known_scene, sample_scene
 
 import sunwidget as sw
-from sunwidget.analysis.images.working_copy import LUMINANCE, smoothstep
+from sunwidget.analysis.images.working_copy import smoothstep
 from sunwidget.analysis.sun.camera_glare import angle_to_sun
 from sunwidget.edit.table import NUMBERS, Edit
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.renderer import render, render_pass
 
 OFF = {"sky_strength": 0, "land_strength": 0, "auto_exposure": 0}

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis.images.working_copy import LUMINANCE
 from sunwidget.analysis.sun.camera_glare import own_disc
+from sunwidget.formats.color import LUMINANCE
 
 HEIGHT, WIDTH, X, Y = 240, 360, 120, 110
 

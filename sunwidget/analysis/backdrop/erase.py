@@ -14,9 +14,10 @@ import numpy as np
 
 from sunwidget.analysis.backdrop.sky_detail import sky_detail
 from sunwidget.analysis.images.fill import fill_by_pyramid
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, encode, resize, smoothstep
+from sunwidget.analysis.images.working_copy import Working, encode, resize, smoothstep
 from sunwidget.analysis.networks.sun import LIGHT_FLOOR, SunMaps
 from sunwidget.analysis.sun.sun import SunObservation
+from sunwidget.formats.color import LUMINANCE
 
 # Natural logarithms of light by which the network's glare exceeds the sky.
 _FELT = (0.03, 0.12)  # less is none, more is taken away in full

@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from sunwidget.analysis.images.fill import fill_by_pyramid, mirrored
-from sunwidget.analysis.images.working_copy import LUMINANCE, resize
+from sunwidget.analysis.images.working_copy import resize
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.formats.pixels import size_within
 
 DETAILED = 512

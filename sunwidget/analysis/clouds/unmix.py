@@ -14,7 +14,8 @@ from __future__ import annotations
 import numpy as np
 
 from sunwidget.analysis.fit.fit import SkyFit, model_sky
-from sunwidget.analysis.images.working_copy import LUMINANCE, channel_sum
+from sunwidget.analysis.images.working_copy import channel_sum
+from sunwidget.formats.color import LUMINANCE
 
 _LARGEST_SHADE = 1.5
 _RIDGE = 0.02  # weight of "no cloud", as a share of the squared contrast between S and w

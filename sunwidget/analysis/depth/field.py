@@ -13,7 +13,8 @@ import numpy as np
 
 from sunwidget.analysis.depth import flat_ground
 from sunwidget.analysis.depth.view import fall_of
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize
+from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 _RADIUS, _EPSILON = 2, 2e-3  # pixels of the small map; squared contrast that is no edge

@@ -11,7 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from sunwidget.analysis.fit.fit import SkyFit
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize
+from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 _SIDE = 320  # pixels of the copy that is looked at

@@ -28,10 +28,11 @@ from sunwidget.analysis.fit.confidence import (
     likeliest_sun,
     spread_of_angles,
 )
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, encode, saturation
+from sunwidget.analysis.images.working_copy import Working, encode, saturation
 from sunwidget.atmosphere.constants import SPECTRAL_TO_REC709
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.sky import SkyTable
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 T = TypeVar("T")

@@ -13,7 +13,8 @@ import dataclasses
 import numpy as np
 
 from sunwidget.analysis.fit.fit import SkyFit
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, saturation
+from sunwidget.analysis.images.working_copy import Working, saturation
+from sunwidget.formats.color import LUMINANCE
 
 _BLUE_BALANCE = -0.6  # log(red gain / blue gain) of the fits to clear blue skies of 40 photos
 _LOW_SUN = (3.0, 10.0)  # degrees; below, sky and sun are of any colour

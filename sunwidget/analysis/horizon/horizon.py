@@ -13,8 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sunwidget.analysis.horizon.straight_edge import StraightEdge, straight_edges
-from sunwidget.analysis.images.working_copy import LUMINANCE
-from sunwidget.formats.color import strips
+from sunwidget.formats.color import LUMINANCE, strips
 from sunwidget.geometry.camera import Camera, Point
 
 TOLERANCE = 0.004  # of the height: how far a sea horizon strays from a line

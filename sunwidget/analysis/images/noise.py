@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import LUMINANCE, code_values, resize
+from sunwidget.analysis.images.working_copy import code_values, resize
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.photo.photo import Photo
 
 _KERNEL = np.array([[1, -2, 1], [-2, 4, -2], [1, -2, 1]], np.float32)

@@ -13,10 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, log_odds, resize, smoothstep
+from sunwidget.analysis.images.working_copy import Working, log_odds, resize, smoothstep
 from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.segmentation.sky_network import SkyNetwork, bundled
 from sunwidget.errors import AnalysisError, PhotoError
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.photo.photo import open_photo
 
 _LANDS_SHARE = 0.25  # of the mean of log odds that is the land network's, by day

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize
+from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.formats.color import LUMINANCE
 
 _BELIEF = 0.75  # least mean probability of a sky in daylight that fills part of a picture
 _NIGHT, _BURNT = 0.2, 0.95  # median encoded luminance of skies that the network knows less

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from sunwidget.analysis.fit.fit import Response, SkyFit
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize, smoothstep
+from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
 from sunwidget.analysis.sun.sun import SunObservation, away_from
 from sunwidget.atmosphere.constants import (
     SPECTRAL_TO_REC709,
@@ -25,6 +25,7 @@ from sunwidget.atmosphere.constants import (
     solar_irradiance,
 )
 from sunwidget.atmosphere.optics import camera_height, transmittance_to_top
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 Profile = tuple[float, float, float]

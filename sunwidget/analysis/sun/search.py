@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from sunwidget.analysis.fit.confidence import probability
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working
+from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import SunMaps
+from sunwidget.formats.color import LUMINANCE
 
 LEAST_CONFIDENCE = 0.45  # from which a sun is one
 SURE = 0.7  # the same where the sky is as dark as a night's

@@ -13,9 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize, smoothstep
+from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
 from sunwidget.analysis.sun.search import Peak, find, find_moon, night
 from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera, Point
 
 __all__ = [

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, resize
+from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 SIDE = 256  # px: waves average out

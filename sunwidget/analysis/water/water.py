@@ -11,9 +11,10 @@ from collections.abc import Callable
 import numpy as np
 
 from sunwidget.analysis.horizon.horizon import Horizon, above
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working, log_odds, resize, smoothstep
+from sunwidget.analysis.images.working_copy import Working, log_odds, resize, smoothstep
 from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.networks.sun import SunMaps
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is water in part

@@ -9,9 +9,10 @@ import sunwidget as sw
 from sunwidget.analysis import correct
 from sunwidget.analysis.fit.fit import Response, SkyFit
 from sunwidget.analysis.fit.overcast import believable, overcast
-from sunwidget.analysis.images.working_copy import LUMINANCE, Working
+from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.segmentation.plausible import plausible
 from sunwidget.atmosphere.parameters import Atmosphere
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.photo.photo import open_photo
 
 SIZE = (120, 160)
