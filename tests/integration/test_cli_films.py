@@ -29,7 +29,7 @@ def refusal(capsys, *arguments):
         ("--frames 3 --seconds 2 --to-exposure 1", "not allowed with"),
         ("--key-frame soon:sunset", "is not of the form 2.5:"),
         ("--key-frame 2:sun_elevation=low", "is not of the form 2.5:"),
-        ("--key-frame 2:method=thesis", "is no number, so nothing lies between"),
+        ("--key-frame 2:method=thesis", "is not a number: it cannot change"),
         ("--key-frame 2:sun_elevatoin=3", "sun_elevation"),
         ("--size 1920", "is not of the form 1920x1080"),
         ("--loop there", "invalid choice"),

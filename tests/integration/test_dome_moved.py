@@ -236,7 +236,7 @@ def test_what_is_no_environment_map_is_refused(tmp_path, high):
         sw.analyze_dome(np.zeros((64, 128, 3), np.uint8))
     with pytest.raises(sw.PhotoError, match="twice as wide"):
         sw.analyze_dome(np.zeros((64, 100, 3), np.float32))
-    with pytest.raises(sw.AnalysisError, match="no place in array"):
+    with pytest.raises(sw.AnalysisError, match="not a place in array"):
         dome_of(true_map(HIGH)[0], sun=(900, 20))
     with pytest.raises(sw.EditError, match="not cloud_opacity, exposure"):
         sw.to_dome(high, {"cloud_opacity": 0.5, "exposure": 1}, tmp_path / "sky.hdr")

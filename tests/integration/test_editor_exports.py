@@ -63,7 +63,7 @@ def test_key_frames_are_sorted_and_the_same_from_python_and_browser(editor):
 @pytest.mark.parametrize(
     ("wrong", "says"),
     [
-        ([(0, sw.Edit()), (0, LOW)], "same second"),
+        ([(0, sw.Edit()), (0, LOW)], "same time"),
         ([(-1, LOW)], "0 to 600"),
         ([(float("nan"), LOW)], "0 to 600"),
         ([("soon", LOW)], "a number"),
@@ -206,7 +206,7 @@ def test_a_film_is_sent_to_be_looked_at_also_from_the_folder(editor, tmp_path):
 
 def test_a_film_of_the_places_day(editor):
     pytest.importorskip("pvlib")
-    with pytest.raises(EditError, match="Say where"):
+    with pytest.raises(EditError, match="Set the photo's place"):
         film(editor, hours=[15.0, 18.0], long_edge=64)
     # Before midnight UTC, on a solar day that began the day before.
     editor.place = sw.Place(21.3, -157.9, "2024-06-22", 1.5, 270.0)

@@ -17,7 +17,7 @@ import sunwidget as sw
 from sunwidget.cli.main import main
 from sunwidget.export.maps import save_maps
 from sunwidget.files import NotWrittenError, folder_target, target
-from sunwidget.film.writer import whole_sequence
+from sunwidget.film.writer import film_target, whole_sequence
 
 resource = pytest.importorskip("resource", reason="only Unix limits the size of files")
 
@@ -167,7 +167,7 @@ def test_a_folder_that_may_not_be_entered_is_named_as_a_person_writes_it(
 def test_a_folder_with_the_name_of_a_frame_is_refused_and_kept(tmp_path):
     (tmp_path / "0001.png").mkdir()
     with pytest.raises(IsADirectoryError, match=r"0001\.png is a folder"):
-        sw.export.film.film_target(tmp_path / "%04d.png", overwrite=True)
+        film_target(tmp_path / "%04d.png", overwrite=True)
     with (
         pytest.raises(IsADirectoryError),
         whole_sequence(tmp_path / "%04d.png", overwrite=True) as unfinished,

@@ -176,7 +176,7 @@ def test_a_sheet_and_frames_one_by_one(scene, tmp_path, capsys, monkeypatch):
         (["-o", "x.gif", "--key-frame", "3"], "not of the form"),
         (["-o", "x.gif", "--key-frame", "x:sun_elevation=3"], "not of the form"),
         (["-o", "x.gif", "--key-frame", "1:sun_elevatoin=3"], "Did you mean 'sun_elevation'"),
-        (["-o", "x.gif", "--key-frame", "1:method=thesis"], "is no number"),
+        (["-o", "x.gif", "--key-frame", "1:method=thesis"], "is not a number"),
         (["-o", "x.gif", "--frames", "3", "--seconds", "2", "--day"], "not allowed with"),
     ],
 )

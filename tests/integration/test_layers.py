@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 import tifffile
 
+from sunwidget.analysis.hints import Hints
 from sunwidget.edit.table import Edit
 from sunwidget.errors import PhotoError
 from sunwidget.export.layers import LAYERS, layers_of
 from sunwidget.export.stills import save
 from sunwidget.photo.photo import open_photo
+
+UNMIXED = Hints(methods=(("clouds", "unmix"),))
 
 HEIGHT, WIDTH = 60, 90
 
@@ -25,8 +28,8 @@ def drawn_scene(edit):
     clouded = sky + opacity[..., None] * (np.array([0.95, 0.9, 0.85]) - sky)
     over = matte[..., None]
     picture, clear = (np.float32(over * s + (1 - over) * land) for s in (clouded, sky))
-    scene = SimpleNamespace(sky=np.float32(matte), clouds=np.float32(matte * opacity))
-    scene.corrected = lambda edit: scene
+    maps = {"sky": np.float32(matte), "clouds": np.float32(matte * opacity)}
+    scene = SimpleNamespace(**maps, automatic={}, hints=UNMIXED)
     return scene, picture, clear
 
 
@@ -73,7 +76,7 @@ def test_layers_make_the_picture(dtype, most):
 def test_a_picture_without_sky_is_all_land():
     _, picture, _ = drawn_scene(Edit())
     nothing = np.zeros((HEIGHT, WIDTH), np.float32)
-    scene = SimpleNamespace(sky=nothing, clouds=nothing, corrected=lambda edit: scene)
+    scene = SimpleNamespace(sky=nothing, clouds=nothing, automatic={}, hints=UNMIXED)
     layers = layers_of(scene, Edit(), picture, lambda edit: picture)
     assert np.array_equal(layers["land"][..., :3], picture)
     assert (layers["land"][..., 3] == 1).all()

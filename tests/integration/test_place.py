@@ -443,7 +443,7 @@ def test_the_command_line_says_what_is_missing(pvlib, tmp_path, capsys, scene):
     output = ["-o", str(tmp_path / "x.png")]
     assert main(["render", str(plain), "--time", "12:00", *output]) == 2
     said = capsys.readouterr().err
-    assert "tells the place and the day. Give --place LAT,LON and --date YYYY-MM-DD." in said
+    assert "gives the place and the day. Give --place LAT,LON and --date YYYY-MM-DD." in said
     assert said.count("\n") == 1  # before the analysis, and so without what that warns of
     assert main(["render", str(plain), "--place", "50,14", *output]) == 2
     assert "Give --date YYYY-MM-DD and --time HH:MM." in capsys.readouterr().err

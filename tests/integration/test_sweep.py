@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
+from sunwidget.analysis.hints import Hints
 from sunwidget.edit.table import Edit
 from sunwidget.film import sweep as module
 from sunwidget.film.sweep import sweep
 from sunwidget.film.writer import film_size
+
+UNMIXED = Hints(methods=(("clouds", "unmix"),))
 
 # The package names a function of the same name.
 RENDERER = importlib.import_module("sunwidget.renderer.offscreen")
@@ -28,14 +31,13 @@ def scene(monkeypatch):
 
     rendered = []
     monkeypatch.setattr(RENDERER, "render", flat)
-    made = SimpleNamespace(
+    return SimpleNamespace(
         automatic={"sun_azimuth": 10.0, "sun_elevation": 20.0},
         camera=SimpleNamespace(width=65, height=43),
         lit_by_moon=False,
-        corrected=lambda _edit: made,
+        hints=UNMIXED,
         rendered=rendered,
     )
-    return made
 
 
 ENDS = [Edit(sun_elevation=60), Edit(sun_elevation=0)]

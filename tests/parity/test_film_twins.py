@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
+from sunwidget.analysis.hints import Hints
 from sunwidget.edit.table import NUMBERS
 from sunwidget.film.path import EASINGS, film_edits
 from sunwidget.widgets.editor.key_frames import MOVED, along
@@ -13,6 +14,7 @@ from sunwidget.widgets.kernel.payload import parameter_json
 
 SCRIPT = """
 import { EASINGS, keyFramePath } from "./src/film/film_path.js";
+
 const { frames, edit, parameters, automatic, count } = asked;
 const rows = {};
 for (const easing of Object.keys(EASINGS)) {
@@ -39,12 +41,13 @@ EDIT = sw.Edit(
 )
 
 
+UNMIXED = Hints(methods=(("clouds", "unmix"),))
+
+
 @pytest.fixture(scope="module")
 def scene():
     automatic = {p.name: 0.5 * (p.minimum + p.maximum) for p in NUMBERS}
-    found = SimpleNamespace(automatic=automatic, lit_by_moon=False)
-    found.corrected = lambda _edit: found
-    return found
+    return SimpleNamespace(automatic=automatic, lit_by_moon=False, hints=UNMIXED)
 
 
 @pytest.fixture(scope="module")

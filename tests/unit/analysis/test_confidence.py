@@ -175,7 +175,7 @@ def test_a_photo_without_sky_is_sure_of_nothing_and_says_what_to_do():
     assert scene.atmosphere.confidence == 0
     assert scene.sun_confidence == 0
     assert scene.sun_spread == 180
-    told = "does not tell where it is. Its place is assumed; click"
+    told = "does not show where it is. Its place is assumed; click"
     assert any(told in notice for notice in scene.warnings)
 
 
@@ -199,5 +199,5 @@ def test_a_grey_sky_does_not_tell_where_the_sun_is_and_a_clear_one_does():
     for picture, untold in ((grey, True), (night, True), (clear, False)):
         scene = sw.analyze(picture, sky=sky, refine="none", sun="outside", horizon=53)
         assert (scene.sun_spread >= UNKNOWN) is untold
-        assert any("does not tell where it is" in text for text in scene.warnings) is untold
+        assert any("does not show where it is" in text for text in scene.warnings) is untold
         assert any(f"within {scene.sun_spread:.0f}°" in text for text in scene.warnings) != untold

@@ -8,13 +8,21 @@ import pytest
 from sunwidget import presets
 from sunwidget.edit.table import Edit, Stroke
 from sunwidget.errors import EditError
+from sunwidget.film import path
 from sunwidget.film.path import EASINGS, between, film_edits
 
 SCENE = SimpleNamespace(automatic={"sun_azimuth": 10.0, "sun_elevation": 20.0}, lit_by_moon=False)
-SCENE.corrected = lambda edit: CORRECTED if edit.sun_hint else SCENE
 CORRECTED = SimpleNamespace(
     automatic={"sun_azimuth": -5.0, "sun_elevation": 2.0}, lit_by_moon=False
 )
+
+
+@pytest.fixture(autouse=True)
+def corrections(monkeypatch):
+    """A hint at the sun makes another scene; nothing else corrects this one."""
+    monkeypatch.setattr(path, "corrected", lambda s, edit: CORRECTED if edit.sun_hint else s)
+
+
 ENDS = [Edit(sun_elevation=60), Edit(sun_elevation=0)]
 CORNERS = [Edit(sun_elevation=10), Edit(sun_elevation=40), Edit(sun_elevation=0)]
 

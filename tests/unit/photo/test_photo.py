@@ -149,7 +149,7 @@ class PathOf:
         ("~nobody-of-this-name/x.jpg", "home directory"),
         ("data:image/png;base64,iVBORw0KGgo=", "never downloads"),
         ("\ud800.jpg", "Cannot read"),
-        (PathOf(3), "names no file"),
+        (PathOf(3), "does not name a file"),
         (PathOf(RuntimeError("unplugged")), "does not name a file: unplugged"),
         (__file__.encode(), "is a path in bytes.*os.fsdecode"),
         (f"{__file__}/x.jpg", "Not a directory"),

@@ -217,5 +217,5 @@ def test_a_file_that_holds_no_answers_says_what_is_wrong(tmp_path, text, says):
 def test_bytes_that_are_no_text_are_refused_by_name(tmp_path):
     path = tmp_path / "photo.csv"
     path.write_bytes(b"\xff\xd8\xff\xe0" + bytes(range(256)))
-    with pytest.raises(StudyError, match="photo.csv is no CSV"):
+    with pytest.raises(StudyError, match="photo.csv is not a study's CSV"):
         read_csv(path)
