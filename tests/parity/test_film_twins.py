@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis.hints import Hints
 from sunwidget.edit.table import NUMBERS
+from sunwidget.film import path
 from sunwidget.film.path import EASINGS, film_edits
 from sunwidget.widgets.editor.key_frames import MOVED, along
 from sunwidget.widgets.kernel.payload import parameter_json
@@ -41,13 +41,10 @@ EDIT = sw.Edit(
 )
 
 
-UNMIXED = Hints(methods=(("clouds", "unmix"),))
-
-
 @pytest.fixture(scope="module")
 def scene():
     automatic = {p.name: 0.5 * (p.minimum + p.maximum) for p in NUMBERS}
-    return SimpleNamespace(automatic=automatic, lit_by_moon=False, hints=UNMIXED)
+    return SimpleNamespace(automatic=automatic, lit_by_moon=False)
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +65,8 @@ def test_the_browser_knows_the_kernels_easings(played):
 
 
 @pytest.mark.parametrize("easing", sorted(EASINGS))
-def test_what_is_played_is_what_is_written(played, scene, easing):
+def test_what_is_played_is_what_is_written(played, scene, easing, monkeypatch):
+    monkeypatch.setattr(path, "corrected", lambda scene, _edit: scene)
     written = film_edits(scene, along(FRAMES, EDIT), frames=145, easing=easing)
     moved = 0
     for mine, theirs in zip(written, played[easing], strict=True):
