@@ -50,11 +50,8 @@ if TYPE_CHECKING:
     from sunwidget.timelapses.timelapse import timelapse
     from sunwidget.transfer.look import transfer_look
     from sunwidget.transfer.sky_replacement import replace_sky
-    from sunwidget.widgets.compare.compare import Compare
-    from sunwidget.widgets.editor.sun_editor import SunEditor
-    from sunwidget.widgets.explorer.sky_explorer import SkyExplorer
+    from sunwidget.widgets import Compare, SkyExplorer, Study, SunEditor
     from sunwidget.widgets.page.headless import to_html
-    from sunwidget.widgets.study import Study
 
 # Public name -> (module, name in it).
 _HOMES: dict[str, tuple[str, str]] = {
@@ -63,7 +60,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "PRESETS": ("sunwidget.presets", "PRESETS"),
     "BatchReport": ("sunwidget.batches.report", "BatchReport"),
     "Camera": ("sunwidget.geometry.camera", "Camera"),
-    "Compare": ("sunwidget.widgets.compare.compare", "Compare"),
+    "Compare": ("sunwidget.widgets", "Compare"),
     "Day": ("sunwidget.film.day", "Day"),
     "Dome": ("sunwidget.dome.source", "Dome"),
     "Edit": ("sunwidget.edit.table", "Edit"),
@@ -74,12 +71,12 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Place": ("sunwidget.geometry.place", "Place"),
     "RendererError": ("sunwidget.errors", "RendererError"),
     "Scene": ("sunwidget.analysis.scene", "Scene"),
-    "SkyExplorer": ("sunwidget.widgets.explorer.sky_explorer", "SkyExplorer"),
+    "SkyExplorer": ("sunwidget.widgets", "SkyExplorer"),
     "SkyNetwork": ("sunwidget.analysis.segmentation.sky_network", "SkyNetwork"),
     "Stroke": ("sunwidget.edit.table", "Stroke"),
-    "Study": ("sunwidget.widgets.study", "Study"),
+    "Study": ("sunwidget.widgets", "Study"),
     "StudyError": ("sunwidget.errors", "StudyError"),
-    "SunEditor": ("sunwidget.widgets.editor.sun_editor", "SunEditor"),
+    "SunEditor": ("sunwidget.widgets", "SunEditor"),
     "analyze": ("sunwidget.analysis.analyze", "analyze"),
     "analyze_dome": ("sunwidget.dome.source", "analyze_dome"),
     "batch": ("sunwidget.batches.run", "batch"),

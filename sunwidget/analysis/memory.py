@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 _SCENES = 4  # each holds full-size maps
 _PAINTINGS = 64  # small copies: undo takes no time
@@ -17,9 +19,9 @@ class Memory:
     scenes: dict[Any, Any] = field(default_factory=dict)
     paintings: dict[Any, Any] = field(default_factory=dict)
 
-    def scene(self, key: Any, make: Callable[[], Any]) -> Any:
+    def scene(self, key: Any, make: Callable[[], T]) -> T:
         """Return the scene of a correction, made when it is not remembered."""
-        scene = self.scenes.pop(key, None) or make()
+        scene: T = self.scenes.pop(key, None) or make()
         _store(self.scenes, key, scene, _SCENES)
         return scene
 

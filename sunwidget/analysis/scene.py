@@ -438,7 +438,7 @@ class Scene:
 
         Glare is where the photo says nothing about the sky behind: the old sun's clipped core
         and its halo, fading outwards; on land its share of the light. The log-depth
-        (levels.py) is dithered; in the sky it is that of the nearest land. ``size`` and
+        (depth/levels.py) is dithered; in the sky it is that of the nearest land. ``size`` and
         ``rows`` as for ``layers``.
         """
         width, height = size or (self.width, self.height)

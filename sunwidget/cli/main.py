@@ -1,6 +1,6 @@
 """The command line: ``sunwidget render | sweep | html | analyze | replace-sky | …``.
 
-Every parameter flag comes from the one table in ``table.py``. Errors are one line on
+Every parameter flag comes from the one table in ``edit/table.py``. Errors are one line on
 stderr and exit status 2, without a traceback (``--debug`` shows it); 1 when a part of the work
 failed, 130 after Ctrl-C, 143 after SIGTERM.
 """

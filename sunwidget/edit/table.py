@@ -150,8 +150,8 @@ class Edit:
     Parameters
     ----------
     **values
-        Any row of ``PARAMETERS`` by name; docs/guide/parameters.md lists them with units.
-        ``None`` is what the photo has.
+        Any row of ``PARAMETERS`` by name; docs/guide/parameters.md lists them with units and
+        ranges. ``None`` is what the photo has.
 
     Raises
     ------

@@ -28,6 +28,6 @@ EASINGS: dict[str, Callable[[float], float]] = {
     "ease_in": _bezier((0.42, 0.0), (1.0, 1.0)),
     "ease_out": _bezier((0.0, 0.0), (0.58, 1.0)),
     "ease_in_out": _bezier((0.42, 0.0), (0.58, 1.0)),
-    # Through key frames without a stop: see _track in path.py.
+    # Through key frames without a stop: see _track in film/path.py.
     "smooth": lambda fraction: fraction,
 }

@@ -45,6 +45,6 @@ def uniform_value(shader: str, name: str, *tables: Mapping[str, Any]) -> Any:
         if name in table:
             return table[name]
     raise KeyError(
-        f"Shader {shader!r} declares uniform {name!r}, which is neither a parameter of table.py, "
-        "a scene uniform of graph.json nor a host uniform."
+        f"Shader {shader!r} declares uniform {name!r}, which is neither a parameter of "
+        "edit/table.py, a scene uniform of graph.json nor a host uniform."
     )

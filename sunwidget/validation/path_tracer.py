@@ -1,9 +1,9 @@
 """Backward Monte Carlo path tracing: all orders of scattering with their true phase functions.
 
-Slow, noisy and free of every shortcut of ``sky.py``; it exists to say how wrong those are. Paths
-start at the camera; at every scattering the sun is sampled directly (next-event estimation), and
-a path is never absorbed or lost to space, its weight falls instead. Single scattering comes from
-the deterministic march, so that noise only touches the higher orders.
+Slow, noisy and free of every shortcut of ``atmosphere/sky.py``; it exists to say how wrong those
+are. Paths start at the camera; at every scattering the sun is sampled directly (next-event
+estimation), and a path is never absorbed or lost to space, its weight falls instead. Single
+scattering comes from the deterministic march, so that noise only touches the higher orders.
 """
 
 from __future__ import annotations

@@ -11,7 +11,6 @@ import numpy as np
 import traitlets
 
 from sunwidget.export.sheet import sheet
-from sunwidget.files import target
 from sunwidget.formats.png import encode_small_png
 from sunwidget.photo.photo import open_photo
 from sunwidget.study import (
@@ -29,7 +28,7 @@ from sunwidget.widgets.kernel.output import with_picture
 from sunwidget.widgets.kernel.payload import encode_jpeg, encode_preview
 from sunwidget.widgets.page.framed import StaticPage
 from sunwidget.widgets.page.saved_state import SavedLight
-from sunwidget.widgets.page.standalone import embedded_state, write_page
+from sunwidget.widgets.page.standalone import embedded_state, written_page
 
 _MOST_REPEATS = 100
 _SMALL_EDGE = 400  # pixels, of each picture of the static one
@@ -169,9 +168,7 @@ class Study(SavedLight):
         FileExistsError
             When ``path`` exists and ``overwrite`` is false.
         """
-        place = None if path is None else target(path, overwrite=overwrite)
-        text = self._page(title)
-        return text if place is None else write_page(text, place, overwrite=overwrite)
+        return written_page(lambda: self._page(title), path, overwrite=overwrite)
 
     def render_static(self, *, title: str = "Study") -> StaticPage:
         """Return the page of ``to_html`` as a cell's output: people answer in it without a kernel.

@@ -1,6 +1,6 @@
 """The photo without its sun: the light behind disc, halo, veil and rays, by the network.
 
-The network says by how much light is to fall, at low resolution (sun.py). Where that is
+The network says by how much light is to fall, at low resolution (networks/sun.py). Where that is
 little, the photo's own detail stays and is darkened; where the glare hides the sky, the sky goes on
 from around it.
 """

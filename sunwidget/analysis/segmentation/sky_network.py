@@ -111,9 +111,8 @@ class SkyNetwork:
         opened = self.open()
         label, scale = calibrate(self, opened.stamp)
         output = opened.run(self.arrange(working.encoded), scale, label)
-        segmentation_output.label_of(
-            label, output.classes, {}, str(self.path)
-        )  # is there such a class?
+        # Is there such a class?
+        segmentation_output.label_of(label, output.classes, {}, str(self.path))
         return segmentation_output.sky_of(output, label)
 
     def open(self) -> Opened:

@@ -199,10 +199,8 @@ def bruneton_cost(size: str = "small", orders: int = 0) -> float:
     texels = samples.texels()
     rates = measured_rates()
     repeated = (orders or ALL_ORDERS) - 1
-    work = (
-        texels["bruneton/first"] + 2 * texels["bruneton/table"],
-        texels["bruneton/table"],
-    )
+    table = texels["bruneton/table"]
+    work = texels["bruneton/first"] + 2 * table, table
     seconds = work[0] * rates["single"] + work[1] * rates["gather"]
     each = texels["bruneton/incident"] * rates["gather"]
     each += texels["bruneton/source"] * rates["source"]

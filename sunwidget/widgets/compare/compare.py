@@ -19,7 +19,6 @@ from sunwidget.analysis import correct
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit.recipe import edit_of
 from sunwidget.edit.table import Edit, parameter
-from sunwidget.files import target
 from sunwidget.formats.png import encode_small_png
 from sunwidget.photo.photo import Photo, open_photo
 from sunwidget.widgets.compare.variants import common_sun, corrections, variants
@@ -38,7 +37,7 @@ from sunwidget.widgets.kernel.payload import (
 )
 from sunwidget.widgets.kernel.sources import opened
 from sunwidget.widgets.page.framed import StaticPage
-from sunwidget.widgets.page.standalone import embedded_state, write_page
+from sunwidget.widgets.page.standalone import embedded_state, written_page
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -224,9 +223,7 @@ class Compare(Analysed, AnswersRefusals):
         FileExistsError
             When ``path`` exists and ``overwrite`` is false.
         """
-        place = None if path is None else target(path, overwrite=overwrite)
-        text = self._page(title or self.photo.name)
-        return text if place is None else write_page(text, place, overwrite=overwrite)
+        return written_page(lambda: self._page(title or self.photo.name), path, overwrite=overwrite)
 
     def render_static(self, *, title: str | None = None) -> StaticPage:
         """Return the page of ``to_html`` as a cell's output: the sun moves in it without a kernel.

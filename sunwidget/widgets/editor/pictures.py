@@ -11,7 +11,6 @@ from typing import Any
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit.recipe import edit_of
 from sunwidget.edit.table import Edit, plain
-from sunwidget.files import target
 from sunwidget.formats.png import encode_small_png
 from sunwidget.progress import Progress
 from sunwidget.widgets.editor.detail import detail
@@ -22,7 +21,7 @@ from sunwidget.widgets.kernel.output import with_picture
 from sunwidget.widgets.kernel.payload import THUMBNAIL_EDGE, encode_picture, thumbnail
 from sunwidget.widgets.kernel.requests import Answer
 from sunwidget.widgets.page.framed import StaticPage
-from sunwidget.widgets.page.standalone import editor_page, embedded_state, still_of, write_page
+from sunwidget.widgets.page.standalone import editor_page, embedded_state, still_of, written_page
 
 _SUFFIXES = {"JPEG": ".jpg", "PNG": ".png", "TIFF": ".tif", "WEBP": ".webp"}
 _TYPES = {
@@ -90,9 +89,7 @@ class Pictures(EditHistory, Analysed):
         Waits for the analysis. ``path``, ``title``, ``overwrite`` and errors as for
         ``sunwidget.to_html``; without a path the page is returned as text.
         """
-        place = None if path is None else target(path, overwrite=overwrite)
-        text = self._page(self.edit, title)
-        return text if place is None else write_page(text, place, overwrite=overwrite)
+        return written_page(lambda: self._page(self.edit, title), path, overwrite=overwrite)
 
     def render_static(self, *, title: str | None = None) -> StaticPage:
         """Return the page of ``to_html`` as a cell's output: the sun moves in it without a kernel.

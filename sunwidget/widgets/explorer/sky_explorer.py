@@ -30,7 +30,6 @@ from sunwidget.atmosphere.presets import PRESETS
 from sunwidget.explorer import table
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
 from sunwidget.explorer.values import effective_values
-from sunwidget.files import target
 from sunwidget.formats.png import encode_png
 from sunwidget.geometry import solar
 from sunwidget.progress import Progress
@@ -42,7 +41,7 @@ from sunwidget.widgets.kernel.output import with_picture
 from sunwidget.widgets.kernel.payload import parameter_json
 from sunwidget.widgets.kernel.requests import Action, Requests
 from sunwidget.widgets.page.framed import StaticPage
-from sunwidget.widgets.page.standalone import explorer_page, write_page
+from sunwidget.widgets.page.standalone import explorer_page, written_page
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -303,9 +302,7 @@ class SkyExplorer(AnswersRefusals):
         OSError
             When the folder is missing or the disk full; no half-written file is left.
         """
-        place = None if path is None else target(path, overwrite=overwrite)
-        text = explorer_page(self, title=title)
-        return text if place is None else write_page(text, place, overwrite=overwrite)
+        return written_page(lambda: explorer_page(self, title=title), path, overwrite=overwrite)
 
     def render_static(self, *, title: str = "Sky explorer") -> StaticPage:
         """Return the page of ``to_html`` as a cell's output: live without a kernel.

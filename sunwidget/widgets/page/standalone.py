@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import base64
 import contextlib
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from sunwidget.files import complete_or_absent
+from sunwidget.files import complete_or_absent, target
 from sunwidget.photo.photo import Photo
 from sunwidget.widgets.page.html import Still, page
 from sunwidget.widgets.page.saved_state import SavedLight
@@ -114,8 +115,17 @@ def still_of(photo: Photo, render: Callable[..., np.ndarray]) -> Still:
     return Still(_jpeg(picture), (picture.shape[1], picture.shape[0]), text)
 
 
-def write_page(text: str, place: Path, *, overwrite: bool) -> Path:
-    """Write a page, whole or not at all."""
+def written_page(
+    make: Callable[[], str], path: str | os.PathLike[str] | None, *, overwrite: bool
+) -> Path | str:
+    """Return the page that ``make`` makes, or write it to ``path``, whole or not at all.
+
+    Where it cannot go is said before it is made.
+    """
+    if path is None:
+        return make()
+    place = target(path, overwrite=overwrite)
+    text = make()
     with complete_or_absent(place, overwrite=overwrite) as unfinished:
         unfinished.write_bytes(text.encode("utf-8"))
     return place
