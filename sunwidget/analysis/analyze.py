@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from sunwidget.analysis.hints import (
     check_sun,
 )
 from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.pipeline import METHODS, Steps, check_method, complete
 from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import coarse_sky, patches
@@ -115,9 +117,11 @@ def analyze(
     step("prepare", 0.0, "Preparing the photo")
     working = Working.of(photo)
     step("sky", 0.1, "Finding the sky")
-    coarse = coarse_sky.coarse(working, sky, photo.size, sky_label)
-    step("refine", 0.4, "Following the skyline")
-    decision = METHODS["refine"][refine](working, coarse)
+    with ThreadPoolExecutor(1) as beside:
+        beside.submit(look_at_land, working)  # later stages ask for it, and for its errors
+        coarse = coarse_sky.coarse(working, sky, photo.size, sky_label)
+        step("refine", 0.4, "Following the skyline")
+        decision = METHODS["refine"][refine](working, coarse)
     doubted = 0.0
     if sky is None:  # what a person names is taken at its word
         believed = np.float32(plausible(decision.sky, coarse, working))

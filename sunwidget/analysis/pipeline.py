@@ -9,6 +9,7 @@ from __future__ import annotations
 import dataclasses
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -160,12 +161,14 @@ def complete(
     covers = clouds_by_colour(erased.working, sky, hints, None if blot is None else blot.mask)
 
     step("fit", 0.82, "Fitting the atmosphere")
-    fitted, behind, (cover, everywhere) = fit_atmosphere(
-        working, erased, sky, covers, camera, light, hints, step
-    )
-
-    step("water", 0.95, "Looking for water")
-    water = _water(working, sky, horizon.scaled(1 / zoom_x, 1 / zoom_y), maps, hints)
+    small_horizon = horizon.scaled(1 / zoom_x, 1 / zoom_y)
+    with ThreadPoolExecutor(1) as beside:  # neither asks what the other finds
+        looked = beside.submit(_water, working, sky, small_horizon, maps, hints)
+        fitted, behind, (cover, everywhere) = fit_atmosphere(
+            working, erased, sky, covers, camera, light, hints, step
+        )
+        step("water", 0.95, "Looking for water")
+        water = looked.result()
     scene = Scene(
         **base._asdict(),
         sky=matte,

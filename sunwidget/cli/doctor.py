@@ -8,9 +8,13 @@ import os
 import platform
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from importlib.resources import files
 from typing import Any, NamedTuple
+
+_FRAME = (1024, 698)  # that of the tables in docs/developer/speed.md
+_FRAMES = 5
 
 
 class Finding(NamedTuple):
@@ -106,6 +110,34 @@ def _shaders() -> Iterator[Finding]:
         yield Finding("shaders", False, True, "not looked at", "EGL must work first")
         return
     yield Finding("shaders", True, True, f"{len(shaders)} compile")
+
+
+def _sample_photo() -> Iterator[Finding]:
+    """Do the whole way once, and tell how fast this machine is."""
+    from statistics import median
+
+    import sunwidget as sw
+    from sunwidget.errors import RendererError
+
+    begin = time.perf_counter()
+    scene = sw.analyze(sw.sample())
+    detail = f"analysed in {time.perf_counter() - begin:.1f} s"
+
+    def seconds(azimuth: int) -> float:
+        begin = time.perf_counter()
+        sw.render(scene, sw.Edit(sun_azimuth=azimuth), size=_FRAME)
+        return time.perf_counter() - begin
+
+    try:
+        taken = [seconds(azimuth) for azimuth in range(_FRAMES + 1)][1:]  # the first compiles
+    except RendererError:
+        yield Finding("sample photo", True, False, f"{detail}; drawing not looked at")
+        return
+    size = "×".join(map(str, _FRAME))
+    detail += (
+        f", {size} drawn in {1000 * median(taken):.0f} ms (the sun moved, median of {_FRAMES})"
+    )
+    yield Finding("sample photo", True, True, detail)
 
 
 def _opencv() -> Iterator[Finding]:
@@ -244,6 +276,7 @@ _CHECKS: tuple[tuple[str, bool, Callable[[], Iterator[Finding]]], ...] = (
     ("shaders", True, _shaders),
     ("OpenCV", True, _opencv),
     ("sky network", True, _sky_network),
+    ("sample photo", True, _sample_photo),
     ("photo files", True, _pillow),
     ("MP4 films", False, _films),
     ("raw files", False, _raw_files),

@@ -1,5 +1,7 @@
 """The stand-alone page, opened from a file in a browser without network."""
 
+import re
+
 import numpy as np
 import pytest
 from chromium import PATIENCE, picture_of
@@ -27,7 +29,7 @@ def path(scene, tmp_path_factory):
     return sw.to_html(scene, edit, tmp_path_factory.mktemp("page") / "coast.html")
 
 
-def opened(browser, path, **options):
+def opened(browser, path, query="", **options):
     """The page from its file: no network, and a record of all that it asks for or complains of."""
     context = browser.new_context(viewport={"width": 1180, "height": 860}, **options)
     context.set_offline(True)
@@ -40,7 +42,7 @@ def opened(browser, path, **options):
         "console",
         lambda message: page.complaints.append(message.text) if message.type == "error" else None,
     )
-    page.goto(path.as_uri())
+    page.goto(path.as_uri() + query)
     return page
 
 
@@ -128,6 +130,29 @@ def test_save_downloads_the_canvas(page, scene):
     saved = np.asarray(Image.open(download.value.path()).convert("RGB"))
     assert np.array_equal(saved, canvas_of(page))
     assert saved.shape == (SIZE[1], SIZE[0], 3)
+
+
+def test_timings_are_shown_where_the_address_asks_for_them(browser, page, path, screenshots):
+    assert page.locator(".sw-timings").count() == 0
+    timed = opened(browser, path, "?timings")
+    width, height = SIZE
+    told = re.compile(
+        rf"{width} × {height} in [\d.]+ ms \((fence|timer query), median of \d+\) · .+"
+    )
+    timed.locator(".sw-timings").filter(has_text=told).wait_for()
+    first = timed.locator(".sw-timings").inner_text()
+    timed.locator(".sw-sun").press("ArrowUp")
+    timed.wait_for_function(
+        "first => document.querySelector('.sw-timings').innerText !== first", arg=first
+    )
+    timed.screenshot(path=screenshots / "timings.png")
+    timed.keyboard.press("?")
+    assert re.search(
+        f"Drawing here: .*{width} × {height}", timed.locator(".sw-dialog").inner_text()
+    )
+    timed.screenshot(path=screenshots / "timings-help.png")
+    assert timed.complaints == []
+    timed.context.close()
 
 
 def test_a_hostile_name_is_text(page):

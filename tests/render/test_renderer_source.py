@@ -236,7 +236,10 @@ def test_every_scene_uniform_is_used_by_some_shader():
 
 @functools.cache
 def code_of_shaders(graph="graph"):
-    shaders = sorted({row["shader"] for row in frame_graph(graph)["passes"]})
+    rows = frame_graph(graph)["passes"]
+    shaders = sorted(
+        {row[stage] for row in rows for stage in ("shader", "constants") if stage in row}
+    )
     return [re.sub("//.*", "", resolve_includes(f"{shader}.glsl")) for shader in shaders]
 
 

@@ -31,6 +31,7 @@ import { notes } from "./view/notes.js";
 import { progress } from "./view/progress.js";
 import { saved } from "./view/saved.js";
 import { split } from "./view/split.js";
+import { timings } from "./view/timings.js";
 import { zoomControl } from "./view/zoom_control.js";
 
 /**
@@ -47,6 +48,7 @@ import { zoomControl } from "./view/zoom_control.js";
 /** @type {MakePart[]} */
 const PARTS = [
   zoomControl,
+  timings,
   detail,
   hover,
   notes,

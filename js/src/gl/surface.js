@@ -43,6 +43,8 @@ export class Surface {
     this.pictures = new Map();
     /** @type {Graph | null} */
     this.graph = null;
+    /** @type {import("./stopwatch.js").Stopwatch | null} what measures the frames, if anybody asks */
+    this.stopwatch = null;
     this.turns = 1; // how many edits are drawn in turn (gl/graph.js)
     this.worked = false; // whether there ever was a context
     this.losses = 0; // of contexts, since one worked
@@ -77,7 +79,9 @@ export class Surface {
     const [width, height] = frame.size;
     const drawn = this.withGraph((graph) => {
       if (resize(graph.gl.canvas, width, height)) graph.partsKey = []; // its depth is gone
-      graph.run(frame);
+      const run = () => graph.run(frame);
+      if (this.stopwatch) this.stopwatch.time(graph.gl, run);
+      else run();
       return graph.gl.canvas;
     });
     if (!drawn) return false;

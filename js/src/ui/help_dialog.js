@@ -9,8 +9,9 @@ import { keyNames } from "./keys.js";
  * @param {HTMLElement} root of the widget
  * @param {string} title
  * @param {readonly import("./keys.js").Shortcut<V>[]} shortcuts
+ * @param {string} [note] what else there is to know
  */
-export function openHelp(root, title, shortcuts) {
+export function openHelp(root, title, shortcuts, note = "") {
   const close = button({ icon: "close", label: "Close", onClick: () => dialog.close() });
   const heading = element("h2", { class: "sw-dialog-title" }, title);
   const sections = [...new Set(shortcuts.map(({ section }) => section))].map((name) =>
@@ -31,6 +32,7 @@ export function openHelp(root, title, shortcuts) {
     { class: "sw-dialog", "aria-label": title },
     element("div", { class: "sw-dialog-head" }, heading, close),
     element("div", { class: "sw-dialog-body", tabindex: 0 }, ...sections),
+    ...(note ? [element("p", { class: "sw-dialog-note" }, note)] : []),
   );
   // Keys belong to the dialog while it is open, and close it as they opened it.
   dialog.addEventListener("keydown", (event) => {

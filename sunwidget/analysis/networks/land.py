@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from threading import Lock
 from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
@@ -89,9 +90,10 @@ def look_at_land(working: Working) -> LandMaps:
     AnalysisError
         When onnxruntime is missing.
     """
-    if working not in _seen:
-        _seen[working] = _look(working)
-    return _seen[working]
+    with _looking:  # whoever comes while it is looked at waits for what the other sees
+        if working not in _seen:
+            _seen[working] = _look(working)
+        return _seen[working]
 
 
 def _look(working: Working) -> LandMaps:
@@ -120,3 +122,4 @@ def _look(working: Working) -> LandMaps:
 
 # Strokes and hints make new scenes of the same small copy.
 _seen: WeakKeyDictionary[Working, LandMaps] = WeakKeyDictionary()
+_looking = Lock()

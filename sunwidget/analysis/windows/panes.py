@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from threading import Lock
 from typing import TYPE_CHECKING, NamedTuple
 from weakref import WeakKeyDictionary
 
@@ -62,11 +63,12 @@ def look(photo: Photo) -> tuple[View, ...]:
     AnalysisError
         When onnxruntime is missing.
     """
-    if photo not in _seen:
-        picture = photo.preview(SIDE).astype(np.float32) / 255
-        scale = min(2.0, SIDE / max(picture.shape))
-        _seen[photo] = _look(picture, scale), _look(picture, 0.5 * scale)
-    return _seen[photo]
+    with _looking:  # whoever comes while it is looked at waits for what the other sees
+        if photo not in _seen:
+            picture = photo.preview(SIDE).astype(np.float32) / 255
+            scale = min(2.0, SIDE / max(picture.shape))
+            _seen[photo] = _look(picture, scale), _look(picture, 0.5 * scale)
+        return _seen[photo]
 
 
 def _look(picture: np.ndarray, scale: float) -> View:
@@ -253,3 +255,4 @@ def _light_wall(wall: shapes.Wall, light: np.ndarray, warmth: np.ndarray) -> Non
 
 
 _seen: WeakKeyDictionary[Photo, tuple[View, ...]] = WeakKeyDictionary()
+_looking = Lock()

@@ -22,6 +22,7 @@ from sunwidget.progress import Progress
 from sunwidget.widgets.editor.exports import Exports
 from sunwidget.widgets.editor.place_clock import PlaceClock
 from sunwidget.widgets.editor.uploads import Uploads, fingerprint
+from sunwidget.widgets.kernel.ahead import look_ahead
 from sunwidget.widgets.kernel.analysed import OPENING
 from sunwidget.widgets.kernel.analyst import Analyst
 from sunwidget.widgets.kernel.front_end import front_end
@@ -105,6 +106,7 @@ class SunEditor(PlaceClock, Exports):
         source, analysis = opened(source, options, "SunEditor")
         start = edit_of(recipe).replace(**options)
         self.photo: Photo = source.photo if isinstance(source, Scene) else source
+        look_ahead(source)
         self._set_asides: dict[str, dict[str, Any]] = {}  # edits of other photos, by fingerprint
         self._revision = 0
         self._shown: Scene | None = None  # the scene that the browser has
@@ -146,6 +148,7 @@ class SunEditor(PlaceClock, Exports):
             super().open()
             return
         source, analysis = opened(source, options, "SunEditor")
+        look_ahead(source)
         given = recipe is not None or bool(options)
         start = edit_of(recipe).replace(**options)
         photo = source.photo if isinstance(source, Scene) else source

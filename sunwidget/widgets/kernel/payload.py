@@ -99,25 +99,19 @@ def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
 def encode_maps(scene: Scene) -> dict[str, bytes]:
     """Return the scene textures but the photo, by trait name, as PNG at the preview's size."""
     size = scene.photo.size_within(PREVIEW_EDGE)
-
-    def encoded(read: Callable[[tuple[int, int]], NDArray[np.float32]]) -> bytes:
-        return encode_png(quantise_map(read(size)))
-
+    read: dict[str, Callable[[], NDArray[np.float32]]] = {
+        "_layers": lambda: scene.layers(size),
+        "_surface": lambda: scene.surface(size),
+        "_backdrop": lambda: scene.backdrop,
+        "_clear_sky": lambda: clear_sky(scene),
+        "_relief": lambda: scene.relief,
+        "_transfer": lambda: scene.transfer,
+        "_lamps": lambda: scene.lamps,
+    }
     # Side by side: a person waits for this after every stroke.
     with ThreadPoolExecutor(2) as pool:
-        layers, surface = pool.map(encoded, (scene.layers, scene.surface))
-    backdrop = encode_png(quantise_map(scene.backdrop))
-    behind = encode_png(quantise_map(clear_sky(scene)))
-    relief = encode_png(quantise_map(scene.relief))
-    return {
-        "_layers": layers,
-        "_surface": surface,
-        "_backdrop": backdrop,
-        "_clear_sky": behind,
-        "_relief": relief,
-        "_transfer": encode_png(quantise_map(scene.transfer)),
-        "_lamps": encode_png(quantise_map(scene.lamps)),
-    }
+        encoded = pool.map(lambda name: encode_png(quantise_map(read[name]())), MAP_TRAITS)
+        return dict(zip(MAP_TRAITS, encoded, strict=True))
 
 
 def encode_map(scene: Scene, name: str) -> bytes:

@@ -158,7 +158,10 @@ export const SHORTCUTS = [
 ];
 
 /** @param {View} view */
-export const showKeys = (view) => openHelp(view.root, "Keys of the sun editor", SHORTCUTS);
+export function showKeys(view) {
+  const note = view.speed && `Drawing here: ${view.speed}`;
+  openHelp(view.root, "Keys of the sun editor", SHORTCUTS, note);
+}
 
 /**
  * @param {View} view

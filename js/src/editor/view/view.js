@@ -88,6 +88,7 @@ export class View {
     this.passing = null;
     /** @type {import("../../host/types.js").Edit} the edit when "Before" was turned on */
     this.hidden = {};
+    this.speed = ""; // how fast the picture is drawn here, and by what (timings.js)
     /** @type {[number, number]} size of the full preview in pixels */
     this.size = [0, 0];
     /** @type {number | null} the pointer that drags */
