@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 import sunwidget as sw
+from sunwidget.analysis import frame_inputs
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs, Target
 from sunwidget.renderer.offscreen import scene_textures
@@ -20,7 +21,7 @@ class Passes:
     def __init__(self, scene: sw.Scene, size: tuple[int, int]) -> None:
         self.scene = scene
         self.size = size
-        uniforms = scene.uniforms()
+        uniforms = frame_inputs.uniforms(scene)
         self.uniforms = {name: uniforms[name] for name in frame_graph()["scene_uniforms"]}
         textures = scene_textures(scene, size)
         self.graph = on_gl_thread(lambda context: FrameGraph(Programs(context), textures))

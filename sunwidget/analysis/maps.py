@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sunwidget.analysis.frame_inputs import surface
 from sunwidget.formats.pixels import size_within
 
 if TYPE_CHECKING:
@@ -180,7 +181,7 @@ def _glitter(scene: Scene) -> np.ndarray | None:
     if not (scene.water_map > 0).any():
         return None
     small = scene.working
-    return scene.surface((small.width, small.height))[..., 2]
+    return surface(scene, (small.width, small.height))[..., 2]
 
 
 def _shade(scene: Scene) -> np.ndarray | None:

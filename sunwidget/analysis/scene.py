@@ -13,23 +13,19 @@ import numpy as np
 
 from sunwidget.analysis.backdrop.erase import Erased, unerased
 from sunwidget.analysis.clouds.clouds import Clouds
-from sunwidget.analysis.depth import haze_limit, levels, relief
+from sunwidget.analysis.depth import levels, relief
 from sunwidget.analysis.depth.depth import find_depth
 from sunwidget.analysis.depth.field import DepthField
 from sunwidget.analysis.depth.view import View
 from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon.horizon import Horizon
-from sunwidget.analysis.images import color_transfer
 from sunwidget.analysis.images.enlarge import resize_rows
-from sunwidget.analysis.images.noise import noise_level
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.networks.land import LandMaps, look_at_land
 from sunwidget.analysis.segmentation import refine
-from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
 from sunwidget.analysis.sun.sun import SunObservation
-from sunwidget.analysis.water.glitter import column_of, glitter, roughness
 from sunwidget.analysis.windows import panes
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.edit.table import PARAMETERS
@@ -39,7 +35,6 @@ from sunwidget.geometry.camera import Camera, Point
 from sunwidget.photo.photo import Photo
 
 _DEPTH_EDGE = 2048
-_SHADOW = 2.0**-7  # display-linear luminance below which a picture's key is no lower
 
 
 class Segmentation(NamedTuple):
@@ -184,9 +179,10 @@ class Scene:
     @property
     def water(self) -> np.ndarray:
         """Share of water in a pixel, none of it in the sky: (H, W) float32, made when asked for."""
-        return self._water((self.width, self.height))
+        return self.water_at((self.width, self.height))
 
-    def _water(self, size: tuple[int, int], rows: slice = slice(None)) -> np.ndarray:
+    def water_at(self, size: tuple[int, int], rows: slice = slice(None)) -> np.ndarray:
+        """Return ``water`` at another ``size`` (width, height), or some of its ``rows`` alone."""
         sky = resize_rows(self.sky, *size, rows)
         return np.minimum(resize_rows(self.water_map, *size, rows), 1 - sky)
 
@@ -267,7 +263,7 @@ class Scene:
 
         Right up to one scale at best: the eye is taken to be 1.7 m above the ground.
         """
-        metres = np.exp(self._log_depth(self.width, self.height))
+        metres = np.exp(self.log_depth(self.width, self.height))
         return np.where(self.sky > 0.5, np.float32(np.inf), metres)
 
     @cached_property
@@ -288,8 +284,8 @@ class Scene:
         view = View.of(*seen, self.camera, self.horizon, self.atmosphere)
         return find_depth(view, self.hints.depth, self.hints.method("depth"))
 
-    def _log_depth(self, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
-        """Return ln(metres), the sky as its nearest land: (height, width) float32, or ``rows``."""
+    def log_depth(self, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
+        """Return ln(metres), the sky as its nearest land: (``height``, ``width``), or ``rows`` of it."""
         # Beyond a preview's size depth has nothing finer to show.
         size = size_within((width, height), _DEPTH_EDGE)
         if size not in self._log_depths:
@@ -300,31 +296,8 @@ class Scene:
         return resize_rows(self._log_depths[size], width, height, rows)
 
     @cached_property
-    def _haze_limit(self) -> np.ndarray | None:
-        # What somebody told about depth is not doubted.
-        if self.hints.depth is not None or self.fitted is None:
-            return None
-        land = self.small_sky < 0.5
-        return haze_limit.log_limit(self.without_sun.working, land, self.camera, self.fitted)
-
-    @cached_property
     def _log_depths(self) -> dict[tuple[int, int], np.ndarray]:
         return {}  # the last one by its size: strips of a large picture ask again and again
-
-    @cached_property
-    def _glitter(self) -> np.ndarray:
-        # Of a sun that the photo does not show, only a low one ahead would glint.
-        azimuth, elevation = self.assumed_sun
-        column = None if elevation > 15 else column_of(self.camera, azimuth)
-        if self.sun is not None:
-            column = column_of(self.camera, self.sun.azimuth)
-        zone = glitter(self.working, self.small_sky, self.small_water, column)
-        # Glare before water goes with its glints; what is glare before land glints no more. White
-        # land in the light of another sun is snow.
-        glare = resize(self.glare, self.working.width, self.working.height) * (1 - self.small_sky)
-        wet = np.maximum(zone, glare)
-        dry = zone * (1 - glare) * (column is not None)
-        return (dry + self.small_water * (wet - dry)).astype(np.float32)
 
     @cached_property
     def shown(self) -> refine.Decision:
@@ -374,94 +347,6 @@ class Scene:
             for p in PARAMETERS
             if p.kind == "number" and p.default is None
         }
-
-    def uniforms(self) -> dict[str, Any]:
-        """Return the frame graph's scene uniforms by name: floats and tuples of floats."""
-        return self._uniforms
-
-    @cached_property
-    def _uniforms(self) -> dict[str, Any]:
-        small, sky = self.working, self.small_sky
-        blot = 0.0 if self.sun is None else float(self.sun.blot.mean())
-        share = float(sky.mean())
-        logs = np.log2(np.maximum(self.without_sun.working.luminance, _SHADOW))
-        own = color_transfer.statistics_of_lab(small.lab, sky)
-        found: dict[str, Any] = {
-            "camera_right": self.camera.right,
-            "camera_up": self.camera.up,
-            "camera_forward": self.camera.forward,
-            "camera_focal": self.camera.focal / self.camera.height,
-            "sun_visible": float(self.sun is not None and self.sun.visible),
-            "depth_told": float(self.hints.depth is not None),
-            "photo_light": float(self.lit_by_moon),
-            "water_roughness": self._water_roughness(),
-            "sky_share": share,
-            "photo_key": float(logs.mean()),
-            "photo_sky_key": float((logs * sky).sum() / max(float(sky.sum()), 1e-6)),
-            "sun_mask_share": min(1.0, blot / max(share, 1 / sky.size)),
-            "photo_sky_mean": own.mean,
-            "photo_sky_deviation": own.deviation,
-            "photo_sky_linear_mean": _weighted_mean(small.linear, sky),
-            "photo_land_linear_mean": _weighted_mean(small.linear, 1 - sky),
-            "response_shoulder": 0.0,
-            "response_contrast": 1.0,
-            "glare_profile": (0.0, 3.0, 2.0),
-            "noise_level": noise_level(self.photo, self.sky),
-            "photo_height": float(self.height),
-            "lamp_scale": panes.BRIGHTEST,
-            "sky_gain": (1.0, 1.0, 1.0),
-        }
-        found |= self.response | own_disc(self.sun, self.camera, small)
-        if self.fitted is not None:
-            found["glare_profile"] = glare_profile(self.fitted, self.camera)
-        return found
-
-    def _water_roughness(self) -> float:
-        if self.sun is None or not self.sun.visible:
-            return 1.0
-        return roughness(
-            self.working, self.small_water, self.camera, (self.sun.azimuth, self.sun.elevation)
-        )
-
-    def layers(self, size: tuple[int, int] | None = None, rows: slice = slice(None)) -> np.ndarray:
-        """Return sky matte, cloud opacity, cloud softness: (H, W, 3) float32 in [0, 1].
-
-        ``size`` (width, height) asks for another size than the photo's, ``rows`` for some of
-        its rows alone.
-        """
-        width, height = size or (self.width, self.height)
-        maps = (self.sky, self.cloud_map, self.softness_map)
-        return np.stack([resize_rows(image, width, height, rows) for image in maps], axis=-1)
-
-    def surface(self, size: tuple[int, int] | None = None, rows: slice = slice(None)) -> np.ndarray:
-        """Return glare, water, glitter, log-depth of the land: (H, W, 4) float32 in [0, 1].
-
-        Glare is where the photo says nothing about the sky behind: the old sun's clipped core
-        and its halo, fading outwards; on land its share of the light. The log-depth
-        (depth/levels.py) is dithered; in the sky it is that of the nearest land. ``size`` and
-        ``rows`` as for ``layers``.
-        """
-        width, height = size or (self.width, self.height)
-        log_depth = self._log_depth(width, height, rows)
-        if self._haze_limit is not None:
-            limit = resize_rows(self._haze_limit, width, height, rows)
-            log_depth = np.minimum(log_depth, limit)
-        level = levels.to_level(log_depth)
-        return np.stack(
-            [
-                resize_rows(self.glare, width, height, rows),
-                self._water((width, height), rows),
-                resize_rows(self._glitter, width, height, rows),
-                levels.dithered(level, rows.indices(height)[0]),
-            ],
-            axis=-1,
-        )
-
-
-def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:
-    total = max(float(weight.sum()), 1e-6)
-    mean = weight.ravel() @ linear.reshape(-1, 3) / total
-    return (float(mean[0]), float(mean[1]), float(mean[2]))
 
 
 def checked_scene(scene: Any) -> Scene:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sunwidget.analysis.correct import corrected
+from sunwidget.analysis.frame_inputs import texture, uniforms
 from sunwidget.analysis.scene import checked_scene
 from sunwidget.edit.recipe import edit_of
 from sunwidget.edit.table import METHODS, Edit
@@ -26,9 +27,7 @@ from sunwidget.renderer.tiles import (
     copy_size,
     folded,
     is_resident,
-    lamps,
     pieces,
-    quantise_map,
     scene_textures,
 )
 from sunwidget.renderer.values import states
@@ -63,7 +62,7 @@ class _Drawing:
     def light(self) -> None:
         """Upload the light behind windows, unless it is there: few edits switch it on."""
         if not self.lit:
-            self.graph.set_texture("lamps", lamps(self.scene))
+            self.graph.set_texture("lamps", texture(self.scene, "lamps", self.scene.photo.size))
             self.lit = True
 
     def load(self, rows: slice, limit: int) -> None:
@@ -344,8 +343,8 @@ def checked_headroom(headroom: Any, dtype: str = "float32") -> float:
 
 
 def _scene_values(scene: Scene) -> dict[str, Any]:
-    uniforms = scene.uniforms()
-    return {name: uniforms[name] for name in frame_graph()["scene_uniforms"]}
+    known = uniforms(scene)
+    return {name: known[name] for name in frame_graph()["scene_uniforms"]}
 
 
 def _host_values(size: tuple[int, int], dtype: str, white: float = 1.0) -> dict[str, Any]:
@@ -362,7 +361,6 @@ def _host_values(size: tuple[int, int], dtype: str, white: float = 1.0) -> dict[
 __all__ = [
     "METHODS",
     "checked_size",
-    "quantise_map",
     "render",
     "render_pass",
     "scene_textures",

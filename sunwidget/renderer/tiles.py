@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sunwidget.analysis.frame_inputs import TEXTURES, layers, quantise_map, surface, texture
 from sunwidget.formats.pixels import size_within
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ RESIDENT_PIXELS = 1 << 23
 COPY_EDGE = 2048
 # What a strip has of it at most: six RGBA32F targets of 1 MP are 100 MB.
 STRIP_PIXELS = 1 << 20
+_OF_ITS_SIZE = ("layers", "surface")
 _MARGIN = 1  # rows: what a pixel reads around it (clouds/retouch.glsl)
 
 
@@ -92,41 +94,23 @@ def folded(image: Array, limit: int) -> Array:
     return out
 
 
-def quantise_map(image: npt.NDArray[np.float32]) -> npt.NDArray[np.uint8]:
-    """Return a map in [0, 1] as the 8-bit levels that both hosts read."""
-    levels = image * 255
-    levels += 0.5
-    return np.clip(levels, 0, 255, out=levels).astype(np.uint8)
-
-
 def scene_textures(scene: Scene, size: Size, *, lit: bool = True) -> dict[str, Array]:
     """Return the scene textures of the frame graph at ``size`` (width, height).
 
     ``lit`` False leaves dark what only lit windows need, and no network looks for them.
     """
-    from sunwidget.analysis.clear_sky import clear_sky
-
-    return {
-        **_picture(scene, size),
-        "backdrop": quantise_map(scene.backdrop),
-        "clear_sky": quantise_map(clear_sky(scene)),
-        "relief": quantise_map(scene.relief),
-        "transfer": quantise_map(scene.transfer),
-        "lamps": lamps(scene) if lit else np.zeros((1, 1, 4), np.uint8),
-    }
-
-
-def lamps(scene: Scene) -> Array:
-    """Return the texture of the light behind windows."""
-    return quantise_map(scene.lamps)
+    textures: dict[str, Array] = {"photo": scene.photo.resized(size)}
+    for name in TEXTURES:
+        dark = name == "lamps" and not lit
+        textures[name] = np.zeros((1, 1, 4), np.uint8) if dark else texture(scene, name, size)
+    return textures
 
 
 def _picture(scene: Scene, size: Size) -> dict[str, Array]:
     """Return those of the picture's size."""
     return {
         "photo": scene.photo.resized(size),
-        "layers": quantise_map(scene.layers(size)),
-        "surface": quantise_map(scene.surface(size)),
+        **{name: texture(scene, name, size) for name in _OF_ITS_SIZE},
     }
 
 
@@ -157,7 +141,7 @@ class Strips:
             return {name: image[held] for name, image in self._resized.items()}, strip
         found: dict[str, Array] = {
             "photo": self.scene.photo.light(held),
-            "layers": quantise_map(self.scene.layers(rows=held)),
-            "surface": quantise_map(self.scene.surface(rows=held)),
+            "layers": quantise_map(layers(self.scene, rows=held)),
+            "surface": quantise_map(surface(self.scene, rows=held)),
         }
         return found, strip

@@ -384,9 +384,9 @@ def test_a_shader_that_does_not_compile_shows_its_line(page, state):
     message = page.evaluate(
         """() => {
           const graph = frame.graph;
-          graph.programs.delete("frame/frame");
+          graph.programs.made.delete("frame/frame");
           const text = "void main() {\\n  nonsense = 1.0;\\n}";
-          graph.files = { ...graph.files, "frame/frame.glsl": text };
+          graph.programs.files = { ...graph.programs.files, "frame/frame.glsl": text };
           try { drawn({}); } catch (error) { return error.message; }
         }"""
     )

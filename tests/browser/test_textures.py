@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from chromium import widget_state
 
+from sunwidget.analysis import frame_inputs
 from sunwidget.formats.png import encode_png
 from sunwidget.widgets import SunEditor
 
@@ -79,6 +80,6 @@ def test_surface_travels_with_the_depth_of_the_land_in_its_alpha(fresh_page, coa
     fresh_page.evaluate("(state) => showEditor(state)", widget_state(widget))
     fresh_page.locator(".sunwidget.sw-live").wait_for()
     surface = uploads(fresh_page)[2]
-    levels = coast.surface((768, 512))
+    levels = frame_inputs.surface(coast, (768, 512))
     assert np.abs(surface - 255 * levels).max() <= 0.51
     assert len(np.unique(surface[..., 3])) > 20

@@ -58,6 +58,7 @@ STAGES = [
     "memory",
     "scene",
     "clear_sky",
+    "frame_inputs",
     "maps",
     "heading",
     "pipeline",

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from frames_of_a_camera import EXPOSURES, SHAKEN, frame
 
+from sunwidget.analysis.frame_inputs import surface
 from sunwidget.edit.table import Edit
 from sunwidget.errors import PhotoError
 from sunwidget.geometry.place import Place, sun_at
@@ -30,7 +31,7 @@ def test_all_frames_share_what_does_not_move(film):
         assert row[number].sky is row[0].sky
         assert row[number].water_map is row[0].water_map
         assert row[number].atmosphere == row[0].atmosphere
-        assert np.array_equal(row[number].surface()[..., 3], row[0].surface()[..., 3])
+        assert np.array_equal(*(surface(scene)[..., 3] for scene in (row[number], row[0])))
 
 
 def test_a_shaken_frame_takes_the_maps_with_it(film):

@@ -8,6 +8,7 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
+from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.maps import MAPS, levels, ramp_colours, scene_map, shares_of
 from sunwidget.export.maps import save_maps
 
@@ -78,7 +79,7 @@ def test_the_horizon_map_is_the_cameras(scene):
 def test_the_glitter_map_is_the_shaders_own_and_none_without_water(scene):
     small = scene.working
     wet = dataclasses.replace(scene, water_map=(1 - scene.sky).astype(np.float32))
-    glitter = wet.surface((small.width, small.height))[..., 2]
+    glitter = frame_inputs.surface(wet, (small.width, small.height))[..., 2]
     assert glitter.max() > 0
     assert np.array_equal(scene_map("glitter").read(wet), glitter)
     dry = dataclasses.replace(scene, water_map=np.zeros_like(scene.water))

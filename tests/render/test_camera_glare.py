@@ -88,7 +88,7 @@ def sun_color(fit):
 def test_kernel_and_shader_draw_the_same_glare():
     scene = known_scene()
     fit = dataclasses.replace(scene.fitted, glare=(1.5, 4.0, 1.3))
-    light = render_pass(scene, Edit(), "terms")[0, 13, :3]
+    light = render_pass(scene, Edit(), "composite_constants")[0, 13, :3]
     visible = render_pass(scene, Edit(), "visibility_edit")[0, 0, 1]
     expected = visible * drawn(fit, 0.0) / 1.5 * sun_color(fit)
     assert np.allclose(light, expected, rtol=0.03)

@@ -7,6 +7,7 @@ from house_scenes import house_scene
 from relight_scenes import SAMPLES, known_photo, known_scene, sample_scene
 
 import sunwidget as sw
+from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.images.working_copy import smoothstep
 from sunwidget.analysis.sun.camera_glare import angle_to_sun
 from sunwidget.edit.table import NUMBERS, Edit
@@ -107,7 +108,7 @@ def test_cloud_strength_zero_relights_clouds_as_the_sky_behind_them():
     ratio = now[..., :3] / before[..., :3]
     # Plain ratio in the sky, where the photo is trusted and the ratio not extreme, but for the
     # little colour that a cloud has beside the model (sky/tint.glsl).
-    plain = (scene.sky == 1) & (scene.surface()[..., 0] < 1e-4) & (scene.clouds > 0.2)
+    plain = (scene.sky == 1) & (frame_inputs.surface(scene)[..., 0] < 1e-4) & (scene.clouds > 0.2)
     plain &= np.abs(np.log2(ratio.mean(-1))) < 2
     assert plain.sum() > 30
     # Light that the sky has beside the model fades, too (GetFadedLight, sky/relit_sky.glsl).
@@ -137,8 +138,8 @@ def away_from(scene, azimuth, elevation):
 
 
 def scene_to_display(scene, light):
-    w = scene.uniforms()["response_shoulder"]
-    return (1 - np.exp(-w * light ** scene.uniforms()["response_contrast"])) / w
+    w = frame_inputs.uniforms(scene)["response_shoulder"]
+    return (1 - np.exp(-w * light ** frame_inputs.uniforms(scene)["response_contrast"])) / w
 
 
 def test_silver_lining_shows_in_thin_cloud_only():
@@ -148,7 +149,7 @@ def test_silver_lining_shows_in_thin_cloud_only():
     lined = render(scene, moved.replace(silver_lining=3), dtype="float32")
     changed = np.abs(lined - without).max(-1) > 1e-6
     assert changed.any()
-    assert not changed[(scene.layers()[..., 1] < 1 / 512)].any()
+    assert not changed[(frame_inputs.layers(scene)[..., 1] < 1 / 512)].any()
 
 
 # What a change of each parameter is shown with: a moved sun, and what the parameter needs.

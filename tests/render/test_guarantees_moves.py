@@ -6,6 +6,7 @@ import pytest
 from relight_scenes import SAMPLES, known_photo, known_scene, sample_scene
 from skimage.color import deltaE_ciede2000, rgb2lab
 
+from sunwidget.analysis import frame_inputs
 from sunwidget.edit.table import METHODS, Edit
 from sunwidget.renderer import render, render_pass
 
@@ -121,9 +122,11 @@ def step(scene, azimuth, elevation, toward):
     pixel = camera.width / 1024
     x, y = camera.pixel(azimuth, elevation)
     rows, columns = np.mgrid[: camera.height, : camera.width] + 0.5
-    mirror = (scene.photo.encoded.min(-1) >= 200) | (scene.surface()[..., 2] > 0.02)
+    mirror = (scene.photo.encoded.min(-1) >= 200) | (frame_inputs.surface(scene)[..., 2] > 0.02)
     keep = (scene.sky > 0.98) | ~mirror
-    own = scene.uniforms()["own_disc_radius"]  # the drawn disc is as large, with its soft rim
+    own = frame_inputs.uniforms(scene)[
+        "own_disc_radius"
+    ]  # the drawn disc is as large, with its soft rim
     radius = camera.focal * max(np.tan(np.radians(0.2665)), 1.5 * own) + 2
     labs, openings = [], []
     for k in (0, 1):
@@ -209,7 +212,8 @@ def test_the_old_sun_leaves_when_the_sun_has_moved():
 def test_a_sunset_reddens_the_clouds():
     scene = known_scene()
     light = [
-        render_pass(scene, Edit(sun_elevation=e), "terms")[0, 7, :3] for e in (40, 14, 6, 3, 1, 0)
+        render_pass(scene, Edit(sun_elevation=e), "composite_constants")[0, 7, :3]
+        for e in (40, 14, 6, 3, 1, 0)
     ]
     red_over_blue = [r / b for r, _, b in light]
     assert red_over_blue == sorted(red_over_blue)

@@ -7,6 +7,7 @@ from importlib.resources import files
 import numpy as np
 from relight_scenes import exact_fit, known_photo
 
+from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.depth import haze_limit
 from sunwidget.analysis.depth.haze_limit import log_limit
 from sunwidget.analysis.images.working_copy import Working
@@ -54,8 +55,8 @@ def test_a_told_depth_is_not_doubted_and_a_guess_is():
         told, hints=photo.analyze(black).hints, known_depth=told.depth_field
     )
     level = np.log2(40_000) / 16
-    assert abs(told.surface()[..., 3][land].mean() - level) < 0.01
-    assert guess.surface()[..., 3][land].max() < np.log2(5_000) / 16
+    assert abs(frame_inputs.surface(told)[..., 3][land].mean() - level) < 0.01
+    assert frame_inputs.surface(guess)[..., 3][land].max() < np.log2(5_000) / 16
 
 
 def test_the_air_is_the_shaders():

@@ -41,7 +41,11 @@ def test_a_moon_in_the_suns_place_is_another_light():
 def test_the_moon_is_a_four_hundred_thousandth_of_the_sun():
     scene = known_scene()
     sun, moon = (
-        render_pass(scene, Edit(sun_elevation=40, light_source=light, auto_exposure=0), "terms")[0]
+        render_pass(
+            scene,
+            Edit(sun_elevation=40, light_source=light, auto_exposure=0),
+            "composite_constants",
+        )[0]
         for light in ("sun", "moon")
     )
     ratio = moon[12, :3] / sun[12, :3]  # of the direct light on water
@@ -154,7 +158,7 @@ def test_dusk_and_night_are_printed_darker_and_days_are_not():
     def stops(elevation, light="sun"):
         """EV by which the exposure stays behind the meter's."""
         edit = Edit(sun_elevation=elevation, light_source=light, auto_exposure=1)
-        gain = render_pass(scene, edit, "terms")[0, 0, 0]
+        gain = render_pass(scene, edit, "composite_constants")[0, 0, 0]
         fall = (
             render_pass(scene, edit, "meter_source")[0, 0, 0]
             - render_pass(scene, edit, "meter_edit")[0, 0, 0]

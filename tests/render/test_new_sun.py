@@ -65,7 +65,11 @@ def test_the_sky_away_from_the_sun_keeps_its_tone():
 def test_exposure_is_smooth_along_a_drag():
     scene = scene_without_sun()
     stops = [
-        np.log2(render_pass(scene, Edit(sun_azimuth=a, sun_elevation=10), "terms")[0, 0, 0])
+        np.log2(
+            render_pass(scene, Edit(sun_azimuth=a, sun_elevation=10), "composite_constants")[
+                0, 0, 0
+            ]
+        )
         for a in range(-60, 61, 2)
     ]
     assert min(stops) < -0.3  # a sun in view is exposed for

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
+from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.images.noise import noise_level
 from sunwidget.analysis.sun.camera_glare import angle_to_sun
 from sunwidget.edit.table import Edit
@@ -69,13 +70,13 @@ def filled(scene):
         (scene.width, scene.height),
         (scene.automatic["sun_azimuth"], scene.automatic["sun_elevation"]),
     )
-    return (scene.surface()[..., 0] > 0.98) & (angle > 0.5) & (scene.sky == 1)
+    return (frame_inputs.surface(scene)[..., 0] > 0.98) & (angle > 0.5) & (scene.sky == 1)
 
 
 def test_what_was_filled_is_as_rough_as_the_photos_sky(noisy):
     where = filled(noisy)
     assert where.sum() > 100
-    beside = (noisy.sky == 1) & (noisy.surface()[..., 0] < 0.01)
+    beside = (noisy.sky == 1) & (frame_inputs.surface(noisy)[..., 0] < 0.01)
     smooth, grained = (render(noisy, MOVED.replace(grain=g)) for g in (0.0, 1.0))
     expected = rough(smooth, beside)
     assert rough(smooth, where) < 0.5 * expected
@@ -83,7 +84,7 @@ def test_what_was_filled_is_as_rough_as_the_photos_sky(noisy):
 
 
 def test_where_nothing_was_filled_nothing_is_added(noisy):
-    untouched = noisy.surface()[..., 0] == 0
+    untouched = frame_inputs.surface(noisy)[..., 0] == 0
     smooth, grained = (render(noisy, MOVED.replace(grain=g), dtype="float32") for g in (0.0, 2.0))
     assert np.array_equal(smooth[untouched], grained[untouched])
     assert np.array_equal(

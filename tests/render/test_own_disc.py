@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
+from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.sun.camera_glare import own_disc
 from sunwidget.formats.color import LUMINANCE
 
@@ -54,7 +55,7 @@ def test_the_slider_of_its_size_still_scales_it():
 def test_a_red_disc_that_did_not_burn_stays_red():
     photo = evening(10, color=(0.95, 0.3, 0.2), dim=0.35)
     scene = scene_of(photo)
-    uniforms = scene.uniforms()
+    uniforms = frame_inputs.uniforms(scene)
     assert uniforms["own_disc_burnt"] == 0
     edit = sw.Edit(sun_azimuth=scene.sun.azimuth + 20, glow=0)
     x, y = scene.camera.pixel(edit.sun_azimuth, scene.sun.elevation)[:2]
@@ -65,7 +66,7 @@ def test_a_red_disc_that_did_not_burn_stays_red():
 def test_a_blot_that_grew_into_the_sky_is_no_disc():
     scene = scene_of(evening(10, color=(0.95, 0.3, 0.2)))  # as bright as the sky beside it
     assert scene.sun.radius_px > 60
-    assert scene.uniforms()["own_disc_radius"] == 0
+    assert frame_inputs.uniforms(scene)["own_disc_radius"] == 0
 
 
 def test_another_light_has_its_own_disc():
@@ -78,7 +79,9 @@ def test_another_light_has_its_own_disc():
 def test_a_soft_glow_stays_soft_and_a_sharp_disc_sharp():
     sharp = evening(8)
     soft = cv2.GaussianBlur(evening(11), (0, 0), 6)
-    sharp_rim, soft_rim = (scene_of(p).uniforms()["own_disc_rim"] for p in (sharp, soft))
+    sharp_rim, soft_rim = (
+        frame_inputs.uniforms(scene_of(p))["own_disc_rim"] for p in (sharp, soft)
+    )
     assert sharp_rim < 1.4  # of a radius that is the blot's, a quarter less than the true one here
     assert soft_rim > sharp_rim + 0.2
 
@@ -88,4 +91,4 @@ def test_a_photo_that_shows_no_sun_tells_nothing():
     found = own_disc(None, scene.camera, scene.working)
     assert found["own_disc"] == (0, 0, 0)
     assert found["own_disc_radius"] == found["own_disc_burnt"] == 0
-    assert scene.uniforms()["own_disc_radius"] == 0
+    assert frame_inputs.uniforms(scene)["own_disc_radius"] == 0

@@ -7,6 +7,7 @@ from house_scenes import SIZE, facade, house_scene
 from relight_scenes import known_photo
 
 import sunwidget as sw
+from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.windows import panes
 from sunwidget.renderer import render
 from sunwidget.widgets.kernel.payload import preset_json
@@ -79,7 +80,7 @@ def test_the_light_has_the_colour_of_a_black_body(kelvin):
     new = render(scene, edit, dtype="float32") - render(
         scene, edit.replace(window_lights=0), dtype="float32"
     )
-    found = new[138:147, 105:135].mean((0, 1)) / scene.uniforms()["sky_gain"]
+    found = new[138:147, 105:135].mean((0, 1)) / frame_inputs.uniforms(scene)["sky_gain"]
     spectrum = colour.sd_blackbody(kelvin)
     xyz = colour.sd_to_XYZ(spectrum) / 100
     expected = colour.XYZ_to_RGB(xyz, "sRGB", np.array([0.3127, 0.3290]), None)

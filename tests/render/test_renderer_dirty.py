@@ -26,7 +26,7 @@ SUN_PASSES = {
     "shaft_rings_edit",
     "shafts_edit",
     "veil",
-    "terms",
+    "composite_constants",
     "frame",
 }
 AIR_PASSES = {
@@ -88,7 +88,7 @@ def test_fewer_orders_draw_no_order_anew(passes_run_by):
 def test_exposure_runs_the_terms_and_the_frame_only(passes_run_by, name):
     passes_run_by(Edit(sun_elevation=5, **{name: 0.25}))
     assert passes_run_by(Edit(sun_elevation=5, **{name: 0.75})) == {
-        "terms",
+        "composite_constants",
         "mirror_ratio",
         "veil",
         "frame",

@@ -40,7 +40,7 @@ def test_no_direct_light_and_no_glare_of_the_camera_are_left():
     scene = with_glare(known_scene())
     edit = Edit(sun_azimuth=-10, sun_elevation=20, sun_visibility=0)
     assert render_pass(scene, edit, "visibility_edit")[0, 0, 0] == 0
-    assert not render_pass(scene, edit, "terms")[0, 13, :3].any()
+    assert not render_pass(scene, edit, "composite_constants")[0, 13, :3].any()
     seen = render_pass(scene, edit.replace(sun_visibility=1), "sky_edit")[..., 3]
     assert seen.max() > 0.5
 

@@ -14,6 +14,7 @@ from thesis_reference import (
     weighted_statistics,
 )
 
+from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.images.color_transfer import Statistics
 from sunwidget.edit.table import Edit
 from sunwidget.renderer import render, render_pass
@@ -75,7 +76,7 @@ def test_reinhards_transfer_gives_the_rendered_sky_the_photos_mean_and_deviation
     scene = known_scene()
     sky = rendered_sky(scene, parameter_values(Edit(), scene.automatic), "passes", "source")
     weight = quantised(scene.sky)
-    known = scene.uniforms()
+    known = frame_inputs.uniforms(scene)
     target = Statistics(known["photo_sky_mean"], known["photo_sky_deviation"])
     moved = transfer(sky, weighted_statistics(sky, weight), target)
     got = weighted_statistics(moved, weight)
@@ -92,7 +93,7 @@ def test_erratum_37_an_unmoved_sun_leaves_the_land_alone_and_as_printed_does_not
     scene = scene_of(name)
     assert np.allclose(land_gain(scene, Edit(method="thesis")), 1, atol=1e-5)
     printed = land_gain(scene, Edit(method="thesis_literal", sun_sky_ratio=0))
-    known = scene.uniforms()
+    known = frame_inputs.uniforms(scene)
     sky, land = (np.array(known[f"photo_{part}_linear_mean"]) for part in ("sky", "land"))
     rendered = render_pass(scene, Edit(method="thesis"), "thesis_mean_edit")[0, 0, :3]
     # Q S̄ʳ / F̄ with Q = S̄ / F̄, where the matched sky has about the photo's mean: (S̄ / F̄)².

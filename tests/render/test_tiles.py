@@ -7,6 +7,7 @@ import pytest
 from relight_scenes import known_scene, sample_scene
 
 import sunwidget as sw
+from sunwidget.analysis import frame_inputs
 from sunwidget.edit.table import METHODS
 from sunwidget.renderer import render, render_pass, tiles
 
@@ -136,5 +137,11 @@ def test_the_copy_keeps_the_shape_and_fits_into_a_texture():
 def test_maps_by_rows_are_the_maps():
     coast = sample_scene("coast", 480)
     rows = slice(101, 220)
-    assert np.abs(coast.layers(rows=rows) - coast.layers()[rows]).max() <= 2e-7
-    assert np.abs(coast.surface(rows=rows) - coast.surface()[rows]).max() <= 4e-7
+    assert (
+        np.abs(frame_inputs.layers(coast, rows=rows) - frame_inputs.layers(coast)[rows]).max()
+        <= 2e-7
+    )
+    assert (
+        np.abs(frame_inputs.surface(coast, rows=rows) - frame_inputs.surface(coast)[rows]).max()
+        <= 4e-7
+    )

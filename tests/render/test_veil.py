@@ -52,7 +52,7 @@ def test_each_is_exactly_off_at_zero_and_shows_when_it_is_on(name):
     scene = known_scene()
     edit = LOW.replace(aerosol_optical_depth=0.3, **{**OFF, name: 0.0})
     assert not veil(scene, edit).any()
-    assert not render_pass(scene, edit, "terms")[0, 13, :3].any()
+    assert not render_pass(scene, edit, "composite_constants")[0, 13, :3].any()
     shown = edit.replace(**{name: 1.0})
     assert name == "glow" or np.abs(veil(scene, shown)[..., :3]).max() > 1e-3
     assert np.abs(render(scene, shown).astype(int) - render(scene, edit)).max() >= 1
@@ -78,7 +78,7 @@ def test_glow_falls_off_as_glare_does_and_has_the_suns_colour():
     rings = [light[(near >= a) & (near < a + 2) & (old > 12)].mean(0) for a in (2.5, 5, 9)]
     level = [float(ring @ LUMINANCE) for ring in rings]
     assert level[0] > 1.5 * level[1] > 3 * level[2] > 0
-    red, _, blue = render_pass(scene, LOW, "terms")[0, 13, :3]
+    red, _, blue = render_pass(scene, LOW, "composite_constants")[0, 13, :3]
     assert red > 1.2 * blue
 
 

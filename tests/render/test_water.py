@@ -9,7 +9,7 @@ import pytest
 from relight_scenes import sample_scene
 
 import sunwidget as sw
-from sunwidget.analysis import correct
+from sunwidget.analysis import correct, frame_inputs
 from sunwidget.analysis.horizon.horizon import Horizon
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import SunMaps
@@ -256,7 +256,7 @@ def test_water_strength_zero_leaves_out_what_water_does(move):
     off = sw.render(scene, edit)
     # The zone of glints is wider where water is known, and is read at a quarter of the size.
     dry = dataclasses.replace(scene, water_map=np.zeros_like(scene.water))
-    other = scene.surface()[..., 2] != dry.surface()[..., 2]
+    other = frame_inputs.surface(scene)[..., 2] != frame_inputs.surface(dry)[..., 2]
     still = cv2.dilate(other.astype(np.uint8), np.ones((17, 17), np.uint8)) == 0
     assert still[ROW:].mean() > 0.3
     rough = sw.render(scene, edit.replace(glitter=3, wind_speed=9))

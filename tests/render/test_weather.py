@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 from relight_scenes import known_photo, known_scene
 
+from sunwidget.analysis import frame_inputs
 from sunwidget.edit.table import Edit
 from sunwidget.renderer import render
 
@@ -55,7 +56,7 @@ def test_an_evening_of_one_channel_does_not_turn_violet_as_the_sun_rises():
 
 def test_a_dark_evening_is_exposed_as_a_day_when_its_sun_has_risen():
     scene = known_photo(sun=(8.0, 4.0)).analyze()
-    told = scene.uniforms()["photo_key"]
+    told = frame_inputs.uniforms(scene)["photo_key"]
     dark = dataclasses.replace(scene, response=scene.response | {"photo_key": -4.2})
 
     def key(scene, edit):
@@ -130,8 +131,8 @@ def test_white_land_glints_only_before_a_low_sun():
     code = np.uint8(255 * picture ** (1 / 2.2))
     seen = photo.analyze(code)
     behind = dataclasses.replace(seen, sun=None, assumed_sun=(170.0, 40.0))
-    assert behind.surface()[..., 2][snow].max() == 0
-    assert seen.surface()[..., 2][snow].max() > 0.5
+    assert frame_inputs.surface(behind)[..., 2][snow].max() == 0
+    assert frame_inputs.surface(seen)[..., 2][snow].max() > 0.5
 
 
 def test_clouds_in_a_deep_blue_sky_are_grey_at_dusk():

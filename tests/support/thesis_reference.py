@@ -16,6 +16,7 @@ import re
 import cv2
 import numpy as np
 
+from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.fit.fit import Response, view_angles
 from sunwidget.analysis.images.color_transfer import Statistics, from_lab, to_lab
 from sunwidget.atmosphere.color import spectral_to_rec709
@@ -56,7 +57,7 @@ def thesis_frame(scene, edit, *, literal=None, sky="model"):
     literal = edit.method == "thesis_literal" if literal is None else literal
     source = parameter_values(Edit(), scene.automatic)
     now = parameter_values(edit, scene.automatic)
-    known = scene.uniforms()
+    known = frame_inputs.uniforms(scene)
     response = Response(known["response_shoulder"], known["response_contrast"])
     photo = scene.photo.pixels.astype(np.float64)
     matte, opacity = (quantised(m) for m in (scene.sky, scene.clouds))
@@ -116,7 +117,7 @@ def clouds(photo, opacity, now, scene, sky_first, sky_now, mask, first, moved, l
 
 def foreground(photo, matte, source, now, scene, first, moved, literal):
     """Equations 3.7 and 3.8: relit land (H, W, 3)."""
-    known = scene.uniforms()
+    known = frame_inputs.uniforms(scene)
     mean_first, mean_now = (np.average(s, axis=(0, 1), weights=w3(matte)) for s in (first, moved))
     visible_first, visible_now = visible(scene, source), visible(scene, now)
     if literal:
@@ -186,7 +187,7 @@ def rendered_sky(scene, values, origin, state):
         )
     color = spectral_to_rec709(spectral)
     color = np.maximum(color, 0.02 * np.maximum(color @ LUMINANCE, 1e-12)[..., None])
-    return color * np.array(scene.uniforms()["sky_gain"])
+    return color * np.array(frame_inputs.uniforms(scene)["sky_gain"])
 
 
 def render_pass_of(scene, values, name):
@@ -229,7 +230,7 @@ def drawn_disc(scene, values):
     size = values["sun_size"]
     angle = angle_from_sun(scene, values)
     _, elevation = view_angles(scene.camera, scene.width, scene.height)
-    pixel = np.degrees(1 / (scene.uniforms()["camera_focal"] * scene.height))
+    pixel = np.degrees(1 / (frame_inputs.uniforms(scene)["camera_focal"] * scene.height))
     radius = DISC_RADIUS * size
     coverage = np.clip((radius - angle) / pixel + 0.5, 0, 1) * (size > 0)
     atmosphere = Atmosphere(**{name: values[name] for name in _AIR})

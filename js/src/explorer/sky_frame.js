@@ -87,7 +87,7 @@ export class SkyFrame extends Surface {
   /** Paths a pixel that the reference has gathered so far; every draw adds one. */
   get samples() {
     const traced = this.last?.methods.includes("reference");
-    return traced ? (this.graph?.targets.get("reference")?.samples ?? 0) : 0;
+    return traced ? (this.graph?.targets.latest.get("reference")?.samples ?? 0) : 0;
   }
 
   /**

@@ -5,15 +5,15 @@
  */
 
 import { createLightTexture } from "./decode.js";
-import { resolveIncludes } from "./include.js";
-import { beginProgram, setUniform } from "./program.js";
-import { createTarget, deleteTarget, missingFeature, turn } from "./target.js";
+import { draw, drawParts, writeParts } from "./draw.js";
+import { Programs } from "./programs.js";
+import { missingFeature, turn } from "./target.js";
+import { same, Targets } from "./targets.js";
 import { createPictureTexture } from "./texture.js";
 import { uniformValue } from "./values.js";
 
 /**
- * @typedef {import("./program.js").Program} Program
- * @typedef {import("./target.js").Target} Target
+ * @typedef {import("./programs.js").Stage} Stage
  * @typedef {import("./texture.js").Texture} Texture
  * @typedef {import("./values.js").Values} Values
  * @typedef {number[] | "frame" | ["frame", number] | string} Size
@@ -22,7 +22,6 @@ import { uniformValue } from "./values.js";
  *   inputs: Record<string, string | string[]>, when?: string[], history?: boolean,
  *   constants?: string, parts?: { by: string, shaders: string[] },
  * }} Pass
- * @typedef {{ shader: string, constants?: string, depth?: number }} Stage what one draw is compiled of
  * @typedef {{ passes: Pass[], scene_uniforms: Record<string, string> }} Description
  * @typedef {{
  *   states: Record<string, Values>, scene: Values, host: Values, size: [number, number],
@@ -47,26 +46,13 @@ export class Graph {
     if (missing) throw new Error(missing);
     this.gl = gl;
     this.description = description;
-    this.files = files;
-    /** @type {Map<string, Program>} */
-    this.programs = new Map();
-    /** @type {Map<string, () => Program>} those under way */
-    this.compiling = new Map();
-    /** @type {Map<string, Target>} */
-    this.targets = new Map();
-    /**
-     * What passes drew at another size: a drag draws smaller, and what follows it is there already.
-     *
-     * @type {Map<string, Target[]>}
-     */
-    this.spares = new Map();
-    /** How many edits are drawn in turn: so many are kept of each table that has a size of its own. */
-    this.turns = 1;
+    this.programs = new Programs(gl, files);
+    this.targets = new Targets(gl);
     /** @type {Map<string, Texture>} */
     this.textures = new Map();
     /** @type {Record<string, number>} how often each pass was drawn */
     this.runs = {};
-    /** @type {(number | string)[]} what the canvas's depth was drawn from (writeParts) */
+    /** @type {(number | string)[]} what the canvas's depth was drawn from (draw.js) */
     this.partsKey = [];
     /** @type {Set<string>} passes that the present run may draw */
     this.drawn = new Set();
@@ -123,7 +109,7 @@ export class Graph {
       throw new Error(`The frame graph has no pass "${until}" for ${methods.join(" and ")}.`);
     }
     const passes = this.ancestors(rows, last);
-    for (const pass of passes) for (const stage of this.stages(pass)) this.begin(stage);
+    for (const pass of passes) for (const stage of this.stages(pass)) this.programs.begin(stage);
     return passes;
   }
 
@@ -164,7 +150,7 @@ export class Graph {
     const output = pass.format === "output";
     const [width, height] = passSize(pass.size, frame.size, frame.sizes);
     const stages = this.stages(pass);
-    const programs = stages.map((stage) => this.program(stage));
+    const programs = stages.map((stage) => this.programs.get(stage));
     const own = { ...host, pass_size: [width, height], canvas_flip: output ? 1 : 0 };
 
     /** @type {(number | string)[]} */
@@ -203,10 +189,12 @@ export class Graph {
     gl.bindFramebuffer(gl.FRAMEBUFFER, target ? target.framebuffer : null);
     gl.viewport(0, 0, width, height);
     if (pass.parts && programs.length > 1) {
-      this.writeParts(programs[0], key.slice(0, ends[0]), values, textures);
-      this.drawParts(programs.slice(1), values, textures);
+      const read = key.slice(0, ends[0]);
+      if (!same(this.partsKey, read)) writeParts(gl, programs[0], values, textures);
+      this.partsKey = read;
+      drawParts(gl, programs.slice(1), values, textures);
     } else {
-      this.draw(programs[0], values, textures);
+      draw(gl, programs[0], values, textures);
     }
     if (target) {
       target.key = key;
@@ -215,83 +203,6 @@ export class Graph {
       target.texture.version = this.versions;
     }
     this.runs[pass.name] = (this.runs[pass.name] ?? 0) + 1;
-  }
-
-  /**
-   * @param {Program} program
-   * @param {Record<string, number | number[]>} values
-   * @param {Record<string, Texture>} textures
-   */
-  draw(program, values, textures) {
-    const { gl } = this;
-    gl.useProgram(program.handle);
-    let unit = 0;
-    for (const uniform of program.uniforms) {
-      const texture = textures[uniform.name];
-      if (!texture) {
-        setUniform(gl, uniform, values[uniform.name]);
-        continue;
-      }
-      gl.activeTexture(gl.TEXTURE0 + unit);
-      gl.bindTexture(gl.TEXTURE_2D, texture.handle);
-      gl.uniform1i(uniform.location, unit);
-      unit += 1;
-    }
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
-  }
-
-  /**
-   * Write to which part each pixel belongs as its depth, unless it stands there already.
-   *
-   * @param {Program} program
-   * @param {(number | string)[]} key what the depth is drawn from
-   * @param {Record<string, number | number[]>} values
-   * @param {Record<string, Texture>} textures
-   */
-  writeParts(program, key, values, textures) {
-    const { gl } = this;
-    if (same(this.partsKey, key)) return;
-    gl.enable(gl.DEPTH_TEST);
-    gl.depthFunc(gl.ALWAYS);
-    gl.depthMask(true);
-    gl.colorMask(false, false, false, false);
-    this.draw(program, values, textures);
-    gl.depthMask(false);
-    gl.colorMask(true, true, true, true);
-    gl.disable(gl.DEPTH_TEST);
-    this.partsKey = key;
-  }
-
-  /**
-   * Draw each part's pixels by its program. Where the depth differs no driver runs a shader, while
-   * some compute both sides of a branch.
-   *
-   * @param {Program[]} programs
-   * @param {Record<string, number | number[]>} values
-   * @param {Record<string, Texture>} textures
-   */
-  drawParts(programs, values, textures) {
-    const { gl } = this;
-    gl.enable(gl.DEPTH_TEST);
-    gl.depthFunc(gl.EQUAL);
-    for (const program of programs) this.draw(program, values, textures);
-    gl.disable(gl.DEPTH_TEST);
-  }
-
-  /**
-   * What a pass drew last, RGBA by rows, row 0 at the top.
-   *
-   * @param {string} name
-   */
-  read(name) {
-    const { gl } = this;
-    const target = this.targets.get(name);
-    if (!target) throw new Error(`Pass "${name}" was not drawn yet.`);
-    const { width, height } = target.texture;
-    const texels = new Float32Array(4 * width * height);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
-    gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, texels);
-    return texels;
   }
 
   /**
@@ -312,52 +223,16 @@ export class Graph {
     ];
   }
 
-  /** Begin to compile what is not compiled yet. @param {Stage} stage */
-  begin({ shader, constants, depth }) {
-    if (this.programs.has(shader) || this.compiling.has(shader)) return;
-    const text = (/** @type {string} */ name) => resolveIncludes(this.files, `${name}.glsl`);
-    const vertex = { constants: constants && text(constants), depth };
-    this.compiling.set(shader, beginProgram(this.gl, shader, text(shader), vertex));
-  }
-
-  /** @param {Stage} stage */
-  program(stage) {
-    let program = this.programs.get(stage.shader);
-    if (!program) {
-      this.begin(stage);
-      program = /** @type {() => Program} */ (this.compiling.get(stage.shader))();
-      this.compiling.delete(stage.shader);
-      this.programs.set(stage.shader, program);
-    }
-    return program;
-  }
-
   /**
-   * Where a pass draws, or has drawn just this: what it drew for another size of the frame stays.
+   * Where a pass draws, or has drawn just this.
    *
    * @param {Pass} pass
    * @param {[number, number]} size
    * @param {(number | string)[]} key what the pass is drawn from
    * @param {number} frame width of the frame
    */
-  target({ name, size: asked }, size, key, frame) {
-    const table = this.turns > 1 && typeof asked[0] === "number";
-    // The one that was used last comes first.
-    const made = [this.targets.get(name), this.spares.get(name)].flatMap((t) => t ?? []);
-    const fitting = made.filter(({ texture: t }) => t.width === size[0] && t.height === size[1]);
-    const target =
-      fitting.find((t) => t.key && same(t.key, key)) ??
-      (table ? fitting[this.turns - 1] : fitting.find((t) => t.frame === frame)) ??
-      createTarget(this.gl, name, ...size);
-    target.frame = frame;
-    this.targets.set(name, target);
-    const others = made.filter((t) => t !== target);
-    // Of many sizes the picture in full is kept: it is the dearest.
-    if (!table) others.sort((a, b) => b.frame - a.frame);
-    const kept = table ? this.turns - 1 : 1;
-    this.spares.set(name, others.slice(0, kept));
-    for (const other of others.slice(kept)) deleteTarget(this.gl, other);
-    return target;
+  target(pass, size, key, frame) {
+    return this.targets.take(pass, size, key, frame);
   }
 
   /**
@@ -366,31 +241,20 @@ export class Graph {
    * @returns {Texture}
    */
   input(pass, name) {
-    const texture = this.targets.get(name)?.texture ?? this.textures.get(name);
+    const texture = this.targets.latest.get(name)?.texture ?? this.textures.get(name);
     if (!texture) {
       throw new Error(`Pass "${pass.name}" reads "${name}", which is neither drawn nor loaded.`);
     }
     return texture;
   }
 
-  /** Free what the passes drew into. */
-  deleteTargets() {
-    for (const target of [...this.targets.values(), ...[...this.spares.values()].flat()]) {
-      deleteTarget(this.gl, target);
-    }
-    this.targets.clear();
-    this.spares.clear();
-  }
-
   /** Free every GL object. */
   dispose() {
     const { gl } = this;
-    this.deleteTargets();
+    this.targets.dispose();
+    this.programs.dispose();
     for (const texture of this.textures.values()) gl.deleteTexture(texture.handle);
-    for (const program of this.programs.values()) gl.deleteProgram(program.handle);
     this.textures.clear();
-    this.programs.clear();
-    this.compiling.clear();
   }
 }
 
@@ -408,15 +272,4 @@ export function passSize(size, frame, sizes = {}) {
     return [Math.ceil(frame[0] / share), Math.ceil(frame[1] / share)];
   }
   return [Number(size[0]), Number(size[1])];
-}
-
-/**
- * Whether two keys of a pass are equal.
- *
- * @param {(number | string)[]} a
- * @param {(number | string)[]} b
- */
-export function same(a, b) {
-  // Object.is: a NaN must not draw its pass for ever.
-  return a.length === b.length && a.every((value, i) => Object.is(value, b[i]));
 }

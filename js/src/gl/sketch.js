@@ -5,7 +5,8 @@
  * of their own: what the surface has drawn stays drawn, so that its next frame costs no more.
  */
 
-import { Graph, same } from "./graph.js";
+import { Graph } from "./graph.js";
+import { same } from "./targets.js";
 
 /**
  * @typedef {import("./graph.js").Frame} Frame
@@ -17,7 +18,7 @@ import { Graph, same } from "./graph.js";
 class Borrower extends Graph {
   /** @param {Graph} lender */
   constructor(lender) {
-    super(lender.gl, lender.description, lender.files);
+    super(lender.gl, lender.description, lender.programs.files);
     this.lender = lender;
     this.programs = lender.programs;
     this.textures = lender.textures;
@@ -43,7 +44,7 @@ class Borrower extends Graph {
    * @param {number} frame
    */
   target(pass, size, key, frame) {
-    const lent = this.lender.targets.get(pass.name);
+    const lent = this.lender.targets.latest.get(pass.name);
     const { width, height } = lent?.texture ?? {};
     if (lent?.key && width === size[0] && height === size[1] && same(lent.key, key)) {
       this.lent.set(pass.name, lent);
@@ -108,7 +109,7 @@ export class Sketch {
 
   /** Free the targets; the next drawing makes them again. */
   rest() {
-    if (this.graph && this.graph.lender === this.surface.graph) this.graph.deleteTargets();
+    if (this.graph && this.graph.lender === this.surface.graph) this.graph.targets.dispose();
     this.graph = null;
   }
 }

@@ -45,7 +45,7 @@ export class Surface {
     this.graph = null;
     /** @type {import("./stopwatch.js").Stopwatch | null} what measures the frames, if anybody asks */
     this.stopwatch = null;
-    this.turns = 1; // how many edits are drawn in turn (gl/graph.js)
+    this.turns = 1; // how many edits are drawn in turn (targets.js)
     this.worked = false; // whether there ever was a context
     this.losses = 0; // of contexts, since one worked
     this.release = () => this.giveBack();
@@ -101,7 +101,7 @@ export class Surface {
   read(frame, name) {
     return this.withGraph((graph) => {
       graph.run(frame, name);
-      return graph.read(name);
+      return graph.targets.read(name);
     });
   }
 
@@ -176,7 +176,7 @@ export class Surface {
   /** @param {WebGL2RenderingContext} gl */
   makeGraph(gl) {
     const graph = new Graph(gl, this.description, this.files);
-    graph.turns = this.turns;
+    graph.targets.turns = this.turns;
     for (const [name, pixels] of this.pictures) graph.setTexture(name, pixels);
     return graph;
   }

@@ -15,7 +15,7 @@ const float kLensShare = 0.25;
 vec3 GetVeil(vec3 light, vec3 view, vec3 veil, float matte) {
   veil *= GetSkySeen();
   vec3 color = UnpackColor(described[0].w);
-  float glare = GetSkySeen() * term[0].y * described[3].y * GetCameraGlare(view, GetDescribedSun());
+  float glare = GetSkySeen() * GetMoved() * described[3].y * GetCameraGlare(view, GetDescribedSun());
   vec3 added = max(veil, vec3(0.0)) + glare * mix(kLensShare, 1.0, matte) * color;
   vec3 taken = mix(land_strength, sky_strength, matte) * min(veil, vec3(0.0));
   vec3 most = kMostTaken * max(light, vec3(1e-6));

@@ -3,13 +3,14 @@
 // sharp for that (camera/read_veil.glsl).
 
 #include "frame/picture.glsl"
+#include "frame/composite_texels.glsl"
 #include "atmosphere/read_sky_view.glsl"
 #include "sky/matched_sky.glsl"
 #include "sky/daylight.glsl"
 #include "frame/srgb.glsl"
 #include "camera/flare.glsl"
 
-uniform sampler2D terms;
+uniform sampler2D composite_constants;
 uniform sampler2D light_before;
 uniform sampler2D light_edit;
 uniform sampler2D visibility_edit;
@@ -25,7 +26,7 @@ out vec4 result;
 
 void main() {
   vec2 place = gl_FragCoord.xy / pass_size;
-  vec4 first = texelFetch(terms, ivec2(0), 0);
+  vec4 first = texelFetch(composite_constants, ivec2(kGains, 0), 0);
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
   float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
   // The gain of each channel was fitted to the sky and holds what that sky had of its own; what is
@@ -35,7 +36,7 @@ void main() {
   vec3 beam_now = gain * GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
 
   // What the old sun's shafts put into the photo was relit with the land and goes as it is by now.
-  float relit = GetLuminance(texelFetch(terms, ivec2(3, 0), 0).rgb) / max(GetLuminance(texelFetch(terms, ivec2(1, 0), 0).rgb), 1e-20);
+  float relit = GetLuminance(texelFetch(composite_constants, ivec2(kLyingNow, 0), 0).rgb) / max(GetLuminance(texelFetch(composite_constants, ivec2(kLyingBefore, 0), 0).rgb), 1e-20);
 
   float shaft_before = ReadBilinear(shafts_source, place).r;
   float shaft_now = ReadBilinear(shafts_edit, place).r;

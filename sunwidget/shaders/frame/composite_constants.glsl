@@ -1,16 +1,7 @@
 // Everything of the ratio composite that is the same for all pixels, so that no pixel computes
-// it again. Texels:
-//   0  exposure gain, how far the sun has moved (0..1), colour lost in shade; alpha: the land's gain
-//      over the picture's, negative where the sky is as it was
-//   1  light on lying land before     2  on upright land before     3, 4  the same now
-//   5  light of a cloud before        6  what its forward lobe adds, before     7, 8  now
-//   9  direction of the sun before
-//  10  the disc (sky/disc.glsl): radius, sine of its middle's elevation, inverse of half its height
-//  11  the sun's light on water before   12  now
-//  13  the camera's glare: what camera/camera_glare.glsl's profile is multiplied with
-//  14  the disc as the photo shows its own, under the new light; alpha: its radius, 0 for none
-//  Alphas of 1-4, 5-8, 9-12: log2 of the disc's radiance in its middle, slope and bend over its height.
+// it again; texels as in composite_texels.glsl.
 
+#include "frame/composite_texels.glsl"
 #include "frame/picture.glsl"
 #include "atmosphere/read_sky_view.glsl"
 #include "sky/matched_sky.glsl"
@@ -216,7 +207,7 @@ void main() {
   mat3x4 parabola = mat3x4(middle, 0.5 * (upper - lower), 0.5 * (upper + lower) - middle);
   int part = max(index - 1, 0);
   float disc = parabola[part / 4][part % 4];
-  if (index == 0) {
+  if (index == kGains) {
     float turn = degrees(2.0 * asin(min(0.5 * length(sun_now - sun_before), 1.0)));
     // As the landscape sees the sun on average, not the camera alone; a sun that comes out gives
     // the colour back.
@@ -228,28 +219,28 @@ void main() {
     float moved = GetMoon() == photo_light
         ? max(smoothstep(0.0, kGlareFade, turn), source_sun_visibility - sun_visibility) : 1.0;
     result = vec4(exp2(GetStops()), moved, 0.5 * hidden * colourfulness, (same ? -1.0 : 1.0) * exp2(GetLift()));
-  } else if (index == 9) {
+  } else if (index == kSunBefore) {
     result = vec4(sun_before, disc);
-  } else if (index == 10) {
+  } else if (index == kDisc) {
     result = vec4(radius, 0.5 * (low + high), 2.0 / (high - low), disc);
-  } else if (index == 14) {
+  } else if (index == kOwnDisc) {
     result = vec4(GetOwnDisc(), GetMoon() == photo_light ? own_disc_radius * sun_size : 0.0);
   } else {
-    vec3 light = index == 1 ? GetLandIrradiance(light_before, visible_before, source_land_facing, sun_before)
-        : index == 2 ? GetLandIrradiance(light_before, visible_before, 1.0, sun_before)
-        : index == 3 ? GetLandIrradiance(light_edit, visible_now, land_facing, sun_now)
-        : index == 4 ? GetLandIrradiance(light_edit, visible_now, 1.0, sun_now)
-        : index == 5 ? GetCloudRadiance(light_before, 0.0)
-        : index == 6 ? GetForwardLight(light_before)
-        : index == 7 ? GetCloudRadiance(light_edit, 0.0)
-        : index == 8 ? GetForwardLight(light_edit)
-        : index == 13 ? GetGlare()
-        : index == 11 ? visible_before * GetLightTexel(light_before, 1)
+    vec3 light = index == kLyingBefore ? GetLandIrradiance(light_before, visible_before, source_land_facing, sun_before)
+        : index == kUprightBefore ? GetLandIrradiance(light_before, visible_before, 1.0, sun_before)
+        : index == kLyingNow ? GetLandIrradiance(light_edit, visible_now, land_facing, sun_now)
+        : index == kUprightNow ? GetLandIrradiance(light_edit, visible_now, 1.0, sun_now)
+        : index == kCloudBefore ? GetCloudRadiance(light_before, 0.0)
+        : index == kCloudLobeBefore ? GetForwardLight(light_before)
+        : index == kCloudNow ? GetCloudRadiance(light_edit, 0.0)
+        : index == kCloudLobeNow ? GetForwardLight(light_edit)
+        : index == kGlare ? GetGlare()
+        : index == kWaterSunBefore ? visible_before * GetLightTexel(light_before, 1)
         : visible_now * GetLightTexel(light_edit, 1);
     // Without a moon no light reaches a surface but the night sky's, from half the sphere.
-    float moon = index == 3 || index == 4 || index == 7 || index == 8 || index == 12 ? GetMoon() : photo_light;
-    float night = index <= 4 ? PI : index == 5 || index == 7 ? 1.0 : 0.0;
-    result = index == 13 ? vec4(light, 0.0)
+    float moon = index == kLyingNow || index == kUprightNow || index == kCloudNow || index == kCloudLobeNow || index == kWaterSunNow ? GetMoon() : photo_light;
+    float night = index <= kUprightNow ? PI : index == kCloudBefore || index == kCloudNow ? 1.0 : 0.0;
+    result = index == kGlare ? vec4(light, 0.0)
         : vec4(sky_gain * (GetLightScale(moon) * light + night * GetNightSky(moon)), disc);
   }
 }

@@ -82,7 +82,7 @@ void main() {
 #ifndef LAND_ALONE
   vec3 sky_before = texelFetch(sky_source, texel, 0).rgb;
   // An unchanged sky is the same to the bit, whatever two programs make of the same formula.
-  vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(term[0].w < 0.0));
+  vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(IsSkyAsItWas()));
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   vec3 disc = GetDisc(view, GetDescribedSun());
   change += matte * GetSkyChange(behind, clean, opacity, glare, ReadBilinear(own_sky, place).rg, sky_before, sky_now, view, disc);
@@ -93,25 +93,25 @@ void main() {
   float water = GetSkySeen() * water_strength * wet;  // what it would mirror is not known else
   float upright = GetUprightness(view);
   vec3 lit_before = GetLitBefore(upright);
-  float gone = glare * term[0].y * (1.0 - wet);
+  float gone = glare * GetMoved() * (1.0 - wet);
   vec3 land = WithoutGlare(front, gone, lit_before);
   gone = min(gone, max(1.0 - GetLuminance(land) / max(GetLuminance(front), 1e-6), 0.0));
   float shine = GetSkySeen() * (1.0 - upright / kMostUpright) * GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
-  vec3 lifted = abs(term[0].w) * land_ratio;
+  vec3 lifted = GetLandGain() * land_ratio;
   vec3 air = GetAirChange(place, land_marks.b, land, lifted + water * (mirror.rgb - lifted));
   vec3 land_change = GetLandChange(front, land, land_ratio, GetLitNow(upright), shine, mirror.rgb, air, gone);
   vec3 horizon = texelFetch(air_edit, ivec2(GetAirColumn(place), 0), 0).rgb;
   vec3 water_change = GetWaterChange(front, clean, land_marks.g, glare, mirror, air, horizon);
   land_change += water * (water_change - land_change);
-  land_change += term[0].x * GetLampLight(place, 3.14159265 * GetLuminance(land) / max(GetLuminance(lit_before), 1e-6));
+  land_change += GetExposureGain() * GetLampLight(place, 3.14159265 * GetLuminance(land) / max(GetLuminance(lit_before), 1e-6));
   change += (1.0 - matte) * land_change;
 #endif
 
   change += GetVeil(scene + change, view, ReadBilinear(veil, place).rgb, matte);
   change += mix(land_strength, sky_strength, matte) * GetNight() * GetRodShift(scene + change);
   // What was filled where the old sun hid the sky gets the grain of the rest.
-  float filled = matte * glare * term[0].y * min(sky_strength, 1.0);
+  float filled = matte * glare * GetMoved() * min(sky_strength, 1.0);
   WriteChange(display, scene, change, filled, pixel);
 }

@@ -48,10 +48,10 @@ vec3 WithoutGlow(vec3 land, vec3 lit) {
 vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   float level = GetLuminance(land);
   float dark = 1.0 - smoothstep(0.0, kDarkLand, GetLuminance(before));
-  float lift = max(log2(max(term[0].x * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
+  float lift = max(log2(max(GetExposureGain() * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
   // Without a sky nobody knows which light the land's colours stand in.
   float turned = GetSkySeen() * GetTurned(ratio, before);
-  float risen = GetSkySeen() * GetRisen(term[9].rgb, GetDescribedSun());
+  float risen = GetSkySeen() * GetRisen(GetSunBefore(), GetDescribedSun());
   float another = max(turned, risen);  // how far its light is another
   float guessed = max(kLitColor * another, dark * lift * lift / (lift * lift + 4.0));
   // A balance that the photo's light has bent is not that of another light.
@@ -75,20 +75,12 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
 // mirror image follows `mirror_ratio`, `air` is what the air before it adds (air.glsl), `glare` the share that went.
 vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirror, vec3 mirror_ratio, vec3 air, float glare) {
   land_ratio += mirror * (mirror_ratio - land_ratio);
-  vec3 land = max(abs(term[0].w) * land_ratio * clean + air, vec3(0.0));
+  vec3 land = max(GetLandGain() * land_ratio * clean + air, vec3(0.0));
   float luminance = GetLuminance(land);
-  // (C / L - 1) s + 1, or (C / L)^s, times L with s = 1 - term[0].z.
+  // (C / L - 1) s + 1, or (C / L)^s, times L with s = 1 - GetLostColour().
   vec3 colour = max(land / max(luminance, 1e-9), vec3(1e-4));
-  vec3 lost = colour_loss == 1 ? luminance * (pow(colour, vec3(1.0 - term[0].z)) - colour) : term[0].z * (vec3(luminance) - land);
-  land = max(land + step(1e-9, abs(term[0].z)) * lost, vec3(0.0));
+  vec3 lost = colour_loss == 1 ? luminance * (pow(colour, vec3(1.0 - GetLostColour())) - colour) : GetLostColour() * (vec3(luminance) - land);
+  land = max(land + step(1e-9, abs(GetLostColour())) * lost, vec3(0.0));
   land = WithoutGuesses(land, max(clean, vec3(1e-6)), land_ratio, lit, glare);
-  return land_strength * (term[0].x * land - light);
-}
-
-vec3 GetLitBefore(float upright) {
-  return mix(term[1].rgb, term[2].rgb, upright);
-}
-
-vec3 GetLitNow(float upright) {
-  return mix(term[3].rgb, term[4].rgb, upright);
+  return land_strength * (GetExposureGain() * land - light);
 }

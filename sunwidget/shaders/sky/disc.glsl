@@ -12,7 +12,8 @@ uniform float own_disc_rim;    // where its light is halved, in units of its rad
 const float kBurnt = 30.0;  // times its light: what lies above white in the middle of a burnt core
 
 vec3 GetDisc(vec3 view, vec3 sun) {
-  float radius = term[10].x;
+  vec4 extent = composite[kDisc];
+  float radius = extent.x;
   float softness = 1.0 / (camera_focal * frame_size.y);
   float chord = length(view - sun);
   float coverage = step(1e-9, radius) * clamp((radius - chord) / softness + 0.5, 0.0, 1.0);
@@ -21,14 +22,14 @@ vec3 GetDisc(vec3 view, vec3 sun) {
   float x = min(chord / max(radius, 1e-9), 1.0);
   float moon = GetMoon();
   float limb = 0.5 * log2(max(1.0 - x * x, 1e-4));
-  float height = clamp((view.y - term[10].y) * term[10].z, -1.0, 1.0);
-  vec4 middle = vec4(term[1].w, term[2].w, term[3].w, term[4].w);
-  vec4 slope = vec4(term[5].w, term[6].w, term[7].w, term[8].w);
-  vec4 bend = vec4(term[9].w, term[10].w, described[3].zw);
+  float height = clamp((view.y - extent.y) * extent.z, -1.0, 1.0);
+  vec4 middle = vec4(composite[1].w, composite[2].w, composite[3].w, composite[4].w);
+  vec4 slope = vec4(composite[5].w, composite[6].w, composite[7].w, composite[8].w);
+  vec4 bend = vec4(composite[9].w, extent.w, described[3].zw);
   vec4 radiance = exp2(middle + height * (slope + height * bend) + (1.0 - moon) * limb * LIMB_DARKENING);
   vec2 place = vec2(dot(view - sun, normalize(vec3(sun.z, 0.0, -sun.x))), (view.y - sun.y) / max(length(sun.xz), 0.1));
   float albedo = 1.0 + moon * (GetMoonAlbedo(place / max(radius, 1e-9)) - 1.0);
-  vec4 own = texelFetch(terms, ivec2(14, 0), 0);
+  vec4 own = texelFetch(composite_constants, ivec2(kOwnDisc, 0), 0);
   if (own.a > radius) {
     float x = chord / own.a;
     // Even up to a sharp rim, soft from the middle on in a glow.

@@ -58,21 +58,21 @@ float GetFadedLight(vec2 own, float local, float change, vec3 view, vec3 sun_bef
 // beyond the model, `disc` the new disc.
 vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec3 sky_before, vec3 sky_now,
                   vec3 view, vec3 disc) {
-  float gain = term[0].x;
-  float moved = term[0].y;
+  float gain = GetExposureGain();
+  float moved = GetMoved();
   float glare = mark * moved * step(1e-6, sky_strength);
   vec3 sky = light + glare * (clean - light);
-  vec3 ambient = term[5].rgb - term[6].rgb;
-  vec3 sun_before = term[9].rgb;
+  vec3 ambient = GetCloudAmbientBefore();
+  vec3 sun_before = GetSunBefore();
   vec3 sun_now = GetDescribedSun();
   // Clouds that a person has added are known.
   float opacity = mix(GetKnownOpacity(cover, sun_before), cover, smoothstep(0.0, 0.05, added_clouds));
-  float share = GetSunlitShare(clean, sky_before, ambient, term[6].rgb, opacity);
+  float share = GetSunlitShare(clean, sky_before, ambient, GetCloudLobeBefore(), opacity);
   // From below a sun at the horizon reaches what was in the shade.
   float grazing = smoothstep(0.0, kGrazing, sun_before.y) - smoothstep(0.0, kGrazing, sun_now.y);
   float share_now = share + 0.5 * max(grazing, 0.0) * max(kUnderlit - share, 0.0);
-  vec3 cloud_before = GetCloud(ambient, term[6].rgb, share, sky_before, sun_before, view, opacity);
-  vec3 cloud_now = GetCloud(term[7].rgb - term[8].rgb, term[8].rgb, share_now, sky_now, sun_now, view, opacity);
+  vec3 cloud_before = GetCloud(ambient, GetCloudLobeBefore(), share, sky_before, sun_before, view, opacity);
+  vec3 cloud_now = GetCloud(GetCloudAmbientNow(), GetCloudLobeNow(), share_now, sky_now, sun_now, view, opacity);
   vec3 plain = GetRatio(sky_now, sky_before);
   vec3 veiled = GetRatio(mix(sky_now, cloud_now, opacity), mix(sky_before, cloud_before, opacity));
   // Where un-mixing errs a cloud ends hard in another light: it parts from the sky by less than kFarthest.
@@ -89,7 +89,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec
   relit = WithModelsColor(relit, sky, model, ratio, opacity, cloud, sky_before, sky_now, risen);
   // What of a cloud lies in shade has the sky's colour, and the more so the more the sun's differs.
   float shaded = cloud * (1.0 - smoothstep(kShaded, 0.8, GetLuminance(clean) / GetLuminance(cloud_before)));
-  vec3 shade = WithoutBalance(term[7].rgb - term[8].rgb, max(GetVividness(), risen * GetEveningsBalance()));
+  vec3 shade = WithoutBalance(GetCloudAmbientNow(), max(GetVividness(), risen * GetEveningsBalance()));
   shade *= GetLuminance(relit) / GetLuminance(shade);
   relit += kShadesColor * shaded * GetTurned(ratio, model) * (shade - relit);
   // Of what is drawn, not of the photo: where the model stands in for it there is no rim to fade.

@@ -4,6 +4,7 @@
 // glitters on land is mirrored sky and sun together.
 
 #include "frame/picture.glsl"
+#include "frame/composite_texels.glsl"
 #include "camera/response.glsl"
 #include "water/glint.glsl"
 #include "land/gloss.glsl"
@@ -12,7 +13,7 @@ uniform sampler2D mirror_source;
 uniform sampler2D mirror_edit;
 uniform sampler2D surface;
 uniform sampler2D mirrored_clouds;
-uniform sampler2D terms;
+uniform sampler2D composite_constants;
 uniform sampler2D land_terms;
 uniform vec2 pass_size;
 uniform float wind_speed;
@@ -36,8 +37,8 @@ vec3 GetBody(vec3 irradiance, vec3 view, float wind) {
   return (1.0 - GetFresnel(GetFacing(view, wind))) * kBody / 3.14159265 * irradiance;
 }
 
-vec3 GetTerm(int index) {
-  return texelFetch(terms, ivec2(index, 0), 0).rgb;
+vec3 GetConstant(int index) {
+  return texelFetch(composite_constants, ivec2(index, 0), 0).rgb;
 }
 
 void main() {
@@ -50,18 +51,18 @@ void main() {
 
   float cloud = texelFetch(mirrored_clouds, texel, 0).r;
   float share = GetFresnel(GetFacing(view, source_wind_speed));
-  vec3 sky_before = before.rgb + cloud * (share * GetTerm(5) - before.rgb);
-  vec3 sky_now = now.rgb + cloud * (share * GetTerm(7) - now.rgb);
-  vec3 water = GetRatio(sky_now + GetBody(GetTerm(3), view, wind_speed),
-                        sky_before + GetBody(GetTerm(1), view, source_wind_speed));
+  vec3 sky_before = before.rgb + cloud * (share * GetConstant(kCloudBefore) - before.rgb);
+  vec3 sky_now = now.rgb + cloud * (share * GetConstant(kCloudNow) - now.rgb);
+  vec3 water = GetRatio(sky_now + GetBody(GetConstant(kLyingNow), view, wind_speed),
+                        sky_before + GetBody(GetConstant(kLyingBefore), view, source_wind_speed));
   // On land the sun is mirrored by a surface that is rougher than water, wide round its glints.
   float shine_before = GetGroundLobe(view, texelFetch(land_terms, ivec2(7, 0), 0).xyz, kRoadRoughness);
   float shine_now = GetGroundLobe(view, texelFetch(land_terms, ivec2(15, 0), 0).xyz, kRoadRoughness);
-  vec3 gleam = before.rgb + shine_before * GetTerm(11);
-  vec3 shine = min(GetRatio(now.rgb + shine_now * GetTerm(12), gleam), vec3(kLargestGrowth));
+  vec3 gleam = before.rgb + shine_before * GetConstant(kWaterSunBefore);
+  vec3 shine = min(GetRatio(now.rgb + shine_now * GetConstant(kWaterSunNow), gleam), vec3(kLargestGrowth));
   // Burnt glints are white in the photo, whatever their colour was.
   vec3 bleached = gleam / GetLuminance(gleam);
-  shine *= 1.0 + marks.b * texelFetch(terms, ivec2(0, 0), 0).y * (bleached - 1.0);
+  shine *= 1.0 + marks.b * GetConstant(kGains).y * (bleached - 1.0);
   float known = marks.g * water_strength;
   result = vec4(shine + known * (water - shine), glitter * now.a);
 }

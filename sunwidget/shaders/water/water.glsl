@@ -23,7 +23,7 @@ const float kBrightest = 0.4;
 // How far the glints are others than the photo's, 0 to 1: with the sun, the wind and their slider.
 float GetGlitterChange() {
   float wind = 0.5 * abs(wind_speed - source_wind_speed) + 0.05 * abs(wind_direction - source_wind_direction);
-  return max(term[0].y, clamp(2.0 * abs(glitter - source_glitter) + wind, 0.0, 1.0));
+  return max(GetMoved(), clamp(2.0 * abs(glitter - source_glitter) + wind, 0.0, 1.0));
 }
 
 // `light` of the photo's water becomes the light under the new sun. `clean` is the water without the
@@ -34,13 +34,13 @@ vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirr
   vec3 calm = light + changed * mark * (clean - light);
   float shown = mirror.a * DecodeSparkle(sparkle);
   // The sun's own colour: what tints the photo's sky would dye what is nearly white.
-  vec3 sun = texelFetch(terms, ivec2(12, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
+  vec3 sun = texelFetch(composite_constants, ivec2(kWaterSunNow, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
   vec3 glints = changed * shown / (1.0 + shown / kBrightest) * sun;
   vec3 relit = max(calm * mirror.rgb + air, vec3(0.0));
-  sky = WithoutBalance(sky, GetRisen(term[9].rgb, GetDescribedSun()) * GetEveningsBalance());
+  sky = WithoutBalance(sky, GetRisen(GetSunBefore(), GetDescribedSun()) * GetEveningsBalance());
   // As in the sky (sky/tint.glsl): colour that the photo's water has beyond the model's fades.
   float level = GetLuminance(relit);
   relit += kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))) * (sky * (level / GetLuminance(sky)) - relit);
   relit += glints;
-  return land_strength * (term[0].x * relit - light);
+  return land_strength * (GetExposureGain() * relit - light);
 }

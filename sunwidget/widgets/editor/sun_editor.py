@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import traitlets
 
 from sunwidget import presets
+from sunwidget.analysis.frame_inputs import uniforms
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit.recipe import edit_of
 from sunwidget.edit.table import CORRECTIONS, Edit
@@ -106,7 +108,6 @@ class SunEditor(PlaceClock, Exports):
         source, analysis = opened(source, options, "SunEditor")
         start = edit_of(recipe).replace(**options)
         self.photo: Photo = source.photo if isinstance(source, Scene) else source
-        look_ahead(source)
         self._set_asides: dict[str, dict[str, Any]] = {}  # edits of other photos, by fingerprint
         self._revision = 0
         self._shown: Scene | None = None  # the scene that the browser has
@@ -121,6 +122,7 @@ class SunEditor(PlaceClock, Exports):
         self.observe(self._on_connection, "comm")
         self._analyst = self._analyst_of(source, analysis)
         self.observe(lambda _: self._analyst.ask(self.edit), list(CORRECTIONS))
+        look_ahead(source)
         self._analyst.ask(start)
 
     @traitlets.default("_parameters")
@@ -148,11 +150,11 @@ class SunEditor(PlaceClock, Exports):
             super().open()
             return
         source, analysis = opened(source, options, "SunEditor")
-        look_ahead(source)
         given = recipe is not None or bool(options)
         start = edit_of(recipe).replace(**options)
         photo = source.photo if isinstance(source, Scene) else source
         preview = encode_preview(photo)
+        look_ahead(source)
         with self._lock, self.hold_sync():
             self._set_asides[self._source["fingerprint"]] = self._set_aside()
             self._analyst.cancel()
@@ -246,7 +248,9 @@ class SunEditor(PlaceClock, Exports):
         return analyst
 
     def _deliver(self, scene: Scene) -> None:
-        maps = encode_maps(scene)
+        with ThreadPoolExecutor(1) as beside:
+            beside.submit(uniforms, scene)  # asked for below
+            maps = encode_maps(scene)
         with self._lock:
             if scene.photo is not self.photo:
                 return

@@ -1,4 +1,4 @@
-"""What an analysis will ask for, begun while the photo's preview is made."""
+"""What an analysis and the browser's maps will ask for, begun while its first stages work."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import weakref
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget import presets
-from sunwidget.analysis.clear_sky import clear_sky
 from sunwidget.analysis.clouds.clouds import INDICES
+from sunwidget.analysis.frame_inputs import TEXTURES, texture, uniforms
 from sunwidget.analysis.horizon import horizon
 from sunwidget.analysis.images.working_copy import resize
 from sunwidget.analysis.maps import MAPS, levels, scene_map, shares_of
@@ -26,21 +26,12 @@ from sunwidget.analysis.scene import Scene
 from sunwidget.edit.table import PARAMETERS, Parameter
 from sunwidget.formats.png import encode_png, encode_small_png
 from sunwidget.photo.photo import Photo, open_photo
-from sunwidget.renderer.offscreen import quantise_map
 from sunwidget.renderer.shader_source import frame_graph
 
 PREVIEW_EDGE = 2048
 MAP_EDGE = 1024  # of an inspected map
 THUMBNAIL_EDGE = 480
-MAP_TRAITS = (
-    "_layers",
-    "_surface",
-    "_backdrop",
-    "_clear_sky",
-    "_relief",
-    "_transfer",
-    "_lamps",
-)
+MAP_TRAITS = tuple(f"_{name}" for name in TEXTURES)
 _SAVED_EDGE, _SAVED_QUALITY = 640, 85  # as js/src/editor/view/saved.js has them
 # Above this many bytes a lossless preview costs more than it shows.
 _LOSSLESS_BYTES = 4_000_000
@@ -99,18 +90,9 @@ def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
 def encode_maps(scene: Scene) -> dict[str, bytes]:
     """Return the scene textures but the photo, by trait name, as PNG at the preview's size."""
     size = scene.photo.size_within(PREVIEW_EDGE)
-    read: dict[str, Callable[[], NDArray[np.float32]]] = {
-        "_layers": lambda: scene.layers(size),
-        "_surface": lambda: scene.surface(size),
-        "_backdrop": lambda: scene.backdrop,
-        "_clear_sky": lambda: clear_sky(scene),
-        "_relief": lambda: scene.relief,
-        "_transfer": lambda: scene.transfer,
-        "_lamps": lambda: scene.lamps,
-    }
     # Side by side: a person waits for this after every stroke.
     with ThreadPoolExecutor(2) as pool:
-        encoded = pool.map(lambda name: encode_png(quantise_map(read[name]())), MAP_TRAITS)
+        encoded = pool.map(lambda name: encode_png(texture(scene, name, size)), TEXTURES)
         return dict(zip(MAP_TRAITS, encoded, strict=True))
 
 
@@ -142,7 +124,7 @@ def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
 
     ``revision`` differs from one scene to the next, so that the trait's change is seen.
     """
-    uniforms = scene.uniforms()
+    known = uniforms(scene)
     return _plain(
         {
             "revision": revision,
@@ -154,7 +136,7 @@ def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
                 "roll": scene.camera.roll,
             },
             "automatic": scene.automatic,
-            "uniforms": {name: uniforms[name] for name in frame_graph()["scene_uniforms"]},
+            "uniforms": {name: known[name] for name in frame_graph()["scene_uniforms"]},
             "sun": _sun_json(scene),
             "horizon": {
                 "row": scene.horizon.row / scene.height,

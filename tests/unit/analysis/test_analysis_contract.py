@@ -6,6 +6,7 @@ import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
+from sunwidget.analysis import frame_inputs
 from sunwidget.errors import AnalysisError
 
 SIZE = (240, 160)
@@ -17,7 +18,7 @@ def scene():
 
 
 def test_layers_and_surface_are_stacks_in_range(scene):
-    for stack, channels in ((scene.layers(), 3), (scene.surface(), 4)):
+    for stack, channels in ((frame_inputs.layers(scene), 3), (frame_inputs.surface(scene), 4)):
         assert stack.shape == (*SIZE[::-1], channels)
         assert stack.dtype == np.float32
         assert 0 <= stack.min() <= stack.max() <= 1
@@ -44,7 +45,7 @@ def test_the_suns_angles_lead_back_to_its_pixel(scene):
 
 
 def test_uniforms_are_finite_numbers(scene):
-    for name, value in scene.uniforms().items():
+    for name, value in frame_inputs.uniforms(scene).items():
         assert np.isfinite(np.ravel(value)).all(), name
 
 

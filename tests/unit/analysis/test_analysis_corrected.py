@@ -7,7 +7,7 @@ import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
-from sunwidget.analysis import correct
+from sunwidget.analysis import correct, frame_inputs
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.strokes import brush
 
@@ -40,7 +40,7 @@ def test_a_replayed_recipe_gives_the_same_maps_to_the_bit(scene, brushed):
     again = correct.corrected(sw.analyze(seascape(), fov=45.0), recipe)
     for name in MAPS:
         assert np.array_equal(getattr(again, name), getattr(brushed, name)), name
-    assert again.uniforms() == brushed.uniforms()
+    assert frame_inputs.uniforms(again) == frame_inputs.uniforms(brushed)
     assert again.camera == brushed.camera
 
 
@@ -91,7 +91,7 @@ def test_hints_of_an_edit_equal_the_same_hints_to_analyze(scene):
         told.sun.azimuth,
         told.sun.elevation,
     )
-    assert corrected.uniforms() == told.uniforms()
+    assert frame_inputs.uniforms(corrected) == frame_inputs.uniforms(told)
     assert corrected.warnings == told.warnings
     for name in MAPS:
         assert np.array_equal(getattr(corrected, name), getattr(told, name)), name
@@ -102,7 +102,7 @@ def test_a_person_may_say_that_nothing_in_the_picture_is_the_sun(scene):
     assert scene.sun.visible
     told = correct.corrected(scene, sw.Edit(sun_hint="outside"))
     assert told.sun is None
-    assert told.uniforms()["sun_visible"] == 0
+    assert frame_inputs.uniforms(told)["sun_visible"] == 0
     assert (told.automatic["sun_azimuth"], told.automatic["sun_elevation"]) == told.assumed_sun
     assert any("said not to be in" in warning for warning in told.warnings)
     assert_same(told, sw.analyze(seascape(), fov=45.0, sun="outside"))
@@ -124,7 +124,7 @@ def test_strokes_outside_the_picture_change_nothing(scene):
 def assert_same(one, other):
     for name in (*MAPS, "sureness"):
         assert np.array_equal(getattr(one, name), getattr(other, name)), name
-    assert one.uniforms() == other.uniforms()
+    assert frame_inputs.uniforms(one) == frame_inputs.uniforms(other)
     assert one.camera == other.camera
     assert one.warnings == other.warnings
 

@@ -5,6 +5,7 @@ import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
+from sunwidget.analysis import frame_inputs
 
 
 def land(height=40, width=60):
@@ -36,7 +37,7 @@ def test_odd_photos_get_maps_in_range_and_warnings(name):
         assert 0 <= field.min() <= field.max() <= 1  # fails on NaN, too
     assert scene.depth.shape == shape
     assert not np.isnan(scene.depth).any()
-    for value in scene.uniforms().values():
+    for value in frame_inputs.uniforms(scene).values():
         assert np.isfinite(np.ravel(value)).all()
     for parameter, value in scene.automatic.items():
         assert np.isfinite(value), parameter

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import sunwidget as sw
-from sunwidget.analysis import correct
+from sunwidget.analysis import correct, frame_inputs
 from sunwidget.errors import AnalysisError
 
 HEIGHT, WIDTH, ROW = 150, 200, 90
@@ -37,8 +37,8 @@ def test_maps_have_the_photos_size_type_and_range(scene):
         assert found.dtype == np.float32, name
         assert 0 <= found.min() <= found.max() <= 1, name
     assert scene.depth.shape == (HEIGHT, WIDTH)
-    assert scene.layers().shape == (HEIGHT, WIDTH, 3)
-    assert scene.surface().shape == (HEIGHT, WIDTH, 4)
+    assert frame_inputs.layers(scene).shape == (HEIGHT, WIDTH, 3)
+    assert frame_inputs.surface(scene).shape == (HEIGHT, WIDTH, 4)
 
 
 def test_sky_is_infinitely_far_and_the_ground_nears_towards_the_feet(scene):
@@ -82,7 +82,7 @@ def test_a_sun_hinted_outside_is_known_but_not_visible():
     outside = sw.analyze(landscape(), sky=mask(), sun=(-300, -50))
     assert not outside.sun.visible
     assert outside.sun.azimuth < 0
-    assert outside.uniforms()["sun_visible"] == 0
+    assert frame_inputs.uniforms(outside)["sun_visible"] == 0
 
 
 def test_every_automatic_parameter_has_a_value_within_its_range(scene):

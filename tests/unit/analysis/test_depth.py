@@ -10,6 +10,7 @@ import pytest
 from analysis_pictures import seascape
 
 import sunwidget as sw
+from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.depth import depth, flat_ground
 from sunwidget.analysis.depth import levels as depth_level
 from sunwidget.analysis.depth.network import DepthNetwork, aligned
@@ -20,7 +21,7 @@ from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.errors import AnalysisError
 from sunwidget.geometry.camera import Camera
 from sunwidget.photo.photo import open_photo
-from sunwidget.renderer import quantise_map, scene_textures
+from sunwidget.renderer import scene_textures
 
 WIDTH, HEIGHT, ROW, FOV = 300, 200, 100, 40.0
 CAMERA = Camera.from_horizon(WIDTH, HEIGHT, FOV, ROW)
@@ -182,7 +183,7 @@ def test_sky_takes_the_depth_of_the_nearest_land():
 
 def test_dither_tells_what_lies_between_two_levels():
     between = np.full((90, 90), (100 + 0.37) / 255, np.float32)
-    levels = quantise_map(depth_level.dithered(between)).astype(float)
+    levels = frame_inputs.quantise_map(depth_level.dithered(between)).astype(float)
     assert set(np.unique(levels)) == {100, 101}
     blocks = levels.reshape(30, 3, 30, 3).mean((1, 3))
     assert np.abs(blocks - 100.37).max() < 0.2
@@ -221,7 +222,7 @@ def test_a_given_array_is_the_depth():
     assert (scene.depth_confidence == 1).all()
     assert np.isinf(scene.depth[~land]).all()
     assert np.isfinite(scene.depth[land]).all()
-    level = scene.surface()[-1, 100, 3]
+    level = frame_inputs.surface(scene)[-1, 100, 3]
     assert depth_level.to_depth(level) == pytest.approx(80, rel=0.05)
 
 
@@ -264,7 +265,7 @@ def test_a_photo_is_analysed_by_each_method():
     base = sw.analyze(photo)
     assert base.hints.method("depth") == "network"
     for method in depth.METHODS:
-        assert np.isfinite(sw.analyze(photo, depth=method).surface()).all()
+        assert np.isfinite(frame_inputs.surface(sw.analyze(photo, depth=method))).all()
 
 
 def test_inverse_depth_is_aligned_with_the_ground(plain):

@@ -1,0 +1,51 @@
+/** The programs of a graph's shaders, compiled when they are first asked for. */
+
+import { resolveIncludes } from "./include.js";
+import { beginProgram } from "./program.js";
+
+/**
+ * @typedef {import("./program.js").Program} Program
+ * @typedef {{ shader: string, constants?: string, depth?: number }} Stage what one draw is compiled of
+ */
+
+export class Programs {
+  /**
+   * @param {WebGL2RenderingContext} gl
+   * @param {Record<string, string>} files shader texts by path
+   */
+  constructor(gl, files) {
+    this.gl = gl;
+    this.files = files;
+    /** @type {Map<string, Program>} */
+    this.made = new Map();
+    /** @type {Map<string, () => Program>} those under way */
+    this.compiling = new Map();
+  }
+
+  /** Begin to compile what is not compiled yet: nobody waits for it so far. @param {Stage} stage */
+  begin({ shader, constants, depth }) {
+    if (this.made.has(shader) || this.compiling.has(shader)) return;
+    const text = (/** @type {string} */ name) => resolveIncludes(this.files, `${name}.glsl`);
+    const vertex = { constants: constants && text(constants), depth };
+    this.compiling.set(shader, beginProgram(this.gl, shader, text(shader), vertex));
+  }
+
+  /** @param {Stage} stage */
+  get(stage) {
+    let program = this.made.get(stage.shader);
+    if (!program) {
+      this.begin(stage);
+      program = /** @type {() => Program} */ (this.compiling.get(stage.shader))();
+      this.compiling.delete(stage.shader);
+      this.made.set(stage.shader, program);
+    }
+    return program;
+  }
+
+  /** Free them. */
+  dispose() {
+    for (const program of this.made.values()) this.gl.deleteProgram(program.handle);
+    this.made.clear();
+    this.compiling.clear();
+  }
+}

@@ -1,0 +1,199 @@
+"""What the frame graph draws of a Scene, for both hosts: its uniforms and its textures.
+
+Names and contents are those of docs/developer/frame-graph.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sunwidget.analysis.clear_sky import clear_sky
+from sunwidget.analysis.depth import haze_limit, levels
+from sunwidget.analysis.images import color_transfer
+from sunwidget.analysis.images.enlarge import resize_rows
+from sunwidget.analysis.images.noise import noise_level
+from sunwidget.analysis.images.working_copy import resize
+from sunwidget.analysis.scene import Scene
+from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
+from sunwidget.analysis.water.glitter import column_of, glitter, roughness
+from sunwidget.analysis.windows import panes
+
+Size = tuple[int, int]
+Map = NDArray[np.float32]
+
+_SHADOW = 2.0**-7  # display-linear luminance below which a picture's key is no lower
+
+
+def uniforms(scene: Scene) -> dict[str, Any]:
+    """Return the frame graph's scene uniforms by name: floats and tuples of floats."""
+    if scene not in _uniforms:
+        _uniforms[scene] = _measured(scene)
+    return _uniforms[scene]
+
+
+def _measured(scene: Scene) -> dict[str, Any]:
+    small, sky = scene.working, scene.small_sky
+    blot = 0.0 if scene.sun is None else float(scene.sun.blot.mean())
+    share = float(sky.mean())
+    logs = np.log2(np.maximum(scene.without_sun.working.luminance, _SHADOW))
+    own = color_transfer.statistics_of_lab(small.lab, sky)
+    found: dict[str, Any] = {
+        "camera_right": scene.camera.right,
+        "camera_up": scene.camera.up,
+        "camera_forward": scene.camera.forward,
+        "camera_focal": scene.camera.focal / scene.camera.height,
+        "sun_visible": float(scene.sun is not None and scene.sun.visible),
+        "depth_told": float(scene.hints.depth is not None),
+        "photo_light": float(scene.lit_by_moon),
+        "water_roughness": _water_roughness(scene),
+        "sky_share": share,
+        "photo_key": float(logs.mean()),
+        "photo_sky_key": float((logs * sky).sum() / max(float(sky.sum()), 1e-6)),
+        "sun_mask_share": min(1.0, blot / max(share, 1 / sky.size)),
+        "photo_sky_mean": own.mean,
+        "photo_sky_deviation": own.deviation,
+        "photo_sky_linear_mean": _weighted_mean(small.linear, sky),
+        "photo_land_linear_mean": _weighted_mean(small.linear, 1 - sky),
+        "response_shoulder": 0.0,
+        "response_contrast": 1.0,
+        "glare_profile": (0.0, 3.0, 2.0),
+        "noise_level": noise_level(scene.photo, scene.sky),
+        "photo_height": float(scene.height),
+        "lamp_scale": panes.BRIGHTEST,
+        "sky_gain": (1.0, 1.0, 1.0),
+    }
+    found |= scene.response | own_disc(scene.sun, scene.camera, small)
+    if scene.fitted is not None:
+        found["glare_profile"] = glare_profile(scene.fitted, scene.camera)
+    return found
+
+
+def _water_roughness(scene: Scene) -> float:
+    if scene.sun is None or not scene.sun.visible:
+        return 1.0
+    sun = scene.sun.azimuth, scene.sun.elevation
+    return roughness(scene.working, scene.small_water, scene.camera, sun)
+
+
+def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:
+    total = max(float(weight.sum()), 1e-6)
+    mean = weight.ravel() @ linear.reshape(-1, 3) / total
+    return (float(mean[0]), float(mean[1]), float(mean[2]))
+
+
+def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -> np.ndarray:
+    """Return sky matte, cloud opacity, cloud softness: (H, W, 3) float32 in [0, 1].
+
+    ``size`` (width, height) asks for another size than the photo's, ``rows`` for some of
+    its rows alone.
+    """
+    width, height = size or (scene.width, scene.height)
+    maps = (scene.sky, scene.cloud_map, scene.softness_map)
+    return np.stack([resize_rows(image, width, height, rows) for image in maps], axis=-1)
+
+
+def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -> np.ndarray:
+    """Return glare, water, glitter, log-depth of the land: (H, W, 4) float32 in [0, 1].
+
+    Glare is where the photo says nothing about the sky behind: the old sun's clipped core
+    and its halo, fading outwards; on land its share of the light. The log-depth
+    (depth/levels.py) is dithered; in the sky it is that of the nearest land. ``size`` and
+    ``rows`` as for ``layers``.
+    """
+    width, height = size or (scene.width, scene.height)
+    level = levels.to_level(_log_depth(scene, width, height, rows))
+    return np.stack(
+        [
+            resize_rows(scene.glare, width, height, rows),
+            scene.water_at((width, height), rows),
+            resize_rows(_glitter(scene), width, height, rows),
+            levels.dithered(level, rows.indices(height)[0]),
+        ],
+        axis=-1,
+    )
+
+
+def _log_depth(scene: Scene, width: int, height: int, rows: slice) -> np.ndarray:
+    """Return ln(metres), no more than the air lets see: (height, width) float32, or ``rows``."""
+    log_depth = scene.log_depth(width, height, rows)
+    if scene not in _haze_limits:
+        _haze_limits[scene] = _haze_limit(scene)
+    limit = _haze_limits[scene]
+    if limit is None:
+        return log_depth
+    return np.minimum(log_depth, resize_rows(limit, width, height, rows))
+
+
+def _haze_limit(scene: Scene) -> np.ndarray | None:
+    # What somebody told about depth is not doubted.
+    if scene.hints.depth is not None or scene.fitted is None:
+        return None
+    land = scene.small_sky < 0.5
+    return haze_limit.log_limit(scene.without_sun.working, land, scene.camera, scene.fitted)
+
+
+def _glitter(scene: Scene) -> np.ndarray:
+    if scene not in _glitters:
+        _glitters[scene] = _find_glitter(scene)
+    return _glitters[scene]
+
+
+def _find_glitter(scene: Scene) -> np.ndarray:
+    # Of a sun that the photo does not show, only a low one ahead would glint.
+    azimuth, elevation = scene.assumed_sun
+    column = None if elevation > 15 else column_of(scene.camera, azimuth)
+    if scene.sun is not None:
+        column = column_of(scene.camera, scene.sun.azimuth)
+    zone = glitter(scene.working, scene.small_sky, scene.small_water, column)
+    # Glare before water goes with its glints; what is glare before land glints no more. White
+    # land in the light of another sun is snow.
+    glare = resize(scene.glare, scene.working.width, scene.working.height) * (1 - scene.small_sky)
+    wet = np.maximum(zone, glare)
+    dry = zone * (1 - glare) * (column is not None)
+    return (dry + scene.small_water * (wet - dry)).astype(np.float32)
+
+
+_READ: dict[str, Callable[[Scene, Size], np.ndarray]] = {
+    "layers": layers,
+    "surface": surface,
+    "backdrop": lambda scene, _: scene.backdrop,
+    "clear_sky": lambda scene, _: clear_sky(scene),
+    "relief": lambda scene, _: scene.relief,
+    "transfer": lambda scene, _: scene.transfer,
+    "lamps": lambda scene, _: scene.lamps,
+}
+
+TEXTURES = tuple(_READ)
+"""The scene textures that the analysis makes; the photo itself is one as well."""
+
+
+def texture(scene: Scene, name: str, size: Size) -> NDArray[np.uint8]:
+    """Return a scene texture in the levels that both hosts read, (h, w, n) uint8.
+
+    Parameters
+    ----------
+    scene : Scene
+    name : str
+        One of ``TEXTURES``.
+    size : (width, height)
+        Of ``layers`` and ``surface``; the others have sizes of their own.
+    """
+    return quantise_map(_READ[name](scene, size))
+
+
+def quantise_map(image: Map) -> NDArray[np.uint8]:
+    """Return a map in [0, 1] as the 8-bit levels that both hosts read."""
+    quantised = image * 255
+    quantised += 0.5
+    return np.clip(quantised, 0, 255, out=quantised).astype(np.uint8)
+
+
+# Strips of a large picture, and every stroke's answer, ask again.
+_uniforms: WeakKeyDictionary[Scene, dict[str, Any]] = WeakKeyDictionary()
+_haze_limits: WeakKeyDictionary[Scene, np.ndarray | None] = WeakKeyDictionary()
+_glitters: WeakKeyDictionary[Scene, np.ndarray] = WeakKeyDictionary()
