@@ -285,7 +285,7 @@ class Scene:
         return find_depth(view, self.hints.depth, self.hints.method("depth"))
 
     def log_depth(self, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
-        """Return ln(metres), (``height``, ``width``) or ``rows`` of it; the sky as its nearest land."""
+        """Return ln(metres), (``height``, ``width``) or ``rows`` of it; sky as its nearest land."""
         # Beyond a preview's size depth has nothing finer to show.
         size = size_within((width, height), _DEPTH_EDGE)
         if size not in self._log_depths:
