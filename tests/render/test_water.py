@@ -279,6 +279,20 @@ def test_the_old_glints_go_and_new_ones_come():
     assert column_light(moved, 50, 70) > beside + 40
 
 
+def test_posts_beside_the_old_glints_neither_repeat_in_their_place_nor_darken_it():
+    posts = glittering().copy()
+    for left in (12, 33, 52, 71, 214, 229):
+        posts[ROW + 6 :, left : left + 3] = 8
+    told = {"sky": SKY, "water": 1 - SKY, "refine": "none", "horizon": float(ROW), "fov": 40.0}
+    away = sw.Edit(sun_azimuth=90, sun_elevation=35)
+    plain, posted = (
+        sw.render(each, away)[ROW + 12 :, 135:165].astype(float)
+        for each in (sunny(), sw.analyze(posts, sun=(150, 40), **told))
+    )
+    assert abs(posted.mean() - plain.mean()) < 3  # levels of 255
+    assert posted.mean((0, 2)).std() < plain.mean((0, 2)).std() + 1
+
+
 def test_glints_fade_as_the_sun_sets_and_follow_their_slider():
     scene = sunny()
     azimuth, _ = scene.camera.angles(60, ROW)
