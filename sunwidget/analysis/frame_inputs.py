@@ -5,8 +5,9 @@ Names and contents are those of docs/developer/frame-graph.md.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -23,20 +24,29 @@ from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
 from sunwidget.analysis.water.glitter import column_of, glitter, roughness
 from sunwidget.analysis.windows import panes
 
+T = TypeVar("T")
 Size = tuple[int, int]
 Map = NDArray[np.float32]
 
 _SHADOW = 2.0**-7  # display-linear luminance below which a picture's key is no lower
 
 
+def _once_a_scene(find: Callable[[Scene], T]) -> Callable[[Scene], T]:
+    """Keep what is found: strips of a large picture, and every stroke's answer, ask again."""
+    kept: WeakKeyDictionary[Scene, T] = WeakKeyDictionary()
+
+    @functools.wraps(find)
+    def found(scene: Scene) -> T:
+        if scene not in kept:
+            kept[scene] = find(scene)
+        return kept[scene]
+
+    return found
+
+
+@_once_a_scene
 def uniforms(scene: Scene) -> dict[str, Any]:
     """Return the frame graph's scene uniforms by name: floats and tuples of floats."""
-    if scene not in _uniforms:
-        _uniforms[scene] = _measured(scene)
-    return _uniforms[scene]
-
-
-def _measured(scene: Scene) -> dict[str, Any]:
     small, sky = scene.working, scene.small_sky
     blot = 0.0 if scene.sun is None else float(scene.sun.blot.mean())
     share = float(sky.mean())
@@ -121,14 +131,13 @@ def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -
 def _log_depth(scene: Scene, width: int, height: int, rows: slice) -> np.ndarray:
     """Return ln(metres), no more than the air lets see: (height, width) float32, or ``rows``."""
     log_depth = scene.log_depth(width, height, rows)
-    if scene not in _haze_limits:
-        _haze_limits[scene] = _haze_limit(scene)
-    limit = _haze_limits[scene]
+    limit = _haze_limit(scene)
     if limit is None:
         return log_depth
     return np.minimum(log_depth, resize_rows(limit, width, height, rows))
 
 
+@_once_a_scene
 def _haze_limit(scene: Scene) -> np.ndarray | None:
     # What somebody told about depth is not doubted.
     if scene.hints.depth is not None or scene.fitted is None:
@@ -137,13 +146,8 @@ def _haze_limit(scene: Scene) -> np.ndarray | None:
     return haze_limit.log_limit(scene.without_sun.working, land, scene.camera, scene.fitted)
 
 
+@_once_a_scene
 def _glitter(scene: Scene) -> np.ndarray:
-    if scene not in _glitters:
-        _glitters[scene] = _find_glitter(scene)
-    return _glitters[scene]
-
-
-def _find_glitter(scene: Scene) -> np.ndarray:
     # Of a sun that the photo does not show, only a low one ahead would glint.
     azimuth, elevation = scene.assumed_sun
     column = None if elevation > 15 else column_of(scene.camera, azimuth)
@@ -191,9 +195,3 @@ def quantise_map(image: Map) -> NDArray[np.uint8]:
     quantised = image * 255
     quantised += 0.5
     return np.clip(quantised, 0, 255, out=quantised).astype(np.uint8)
-
-
-# Strips of a large picture, and every stroke's answer, ask again.
-_uniforms: WeakKeyDictionary[Scene, dict[str, Any]] = WeakKeyDictionary()
-_haze_limits: WeakKeyDictionary[Scene, np.ndarray | None] = WeakKeyDictionary()
-_glitters: WeakKeyDictionary[Scene, np.ndarray] = WeakKeyDictionary()

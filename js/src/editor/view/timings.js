@@ -43,18 +43,15 @@ export const wantsTimings = (address) => new URL(address).searchParams.has("timi
 export function timings(view) {
   const live = wantsTimings(window.location.href);
   const timed = new Timings();
-  const row = element("div", { class: "sw-timings", hidden: !live });
+  const row = element("div", { class: "sw-timings" });
   if (live) view.foot.node.append(row);
   let card = "";
   const { frame } = view;
   frame.stopwatch = new Stopwatch((lap) => {
+    if (frame.graph) card ||= cardName(frame.graph.gl);
     timed.add(lap, `${frame.canvas.width} × ${frame.canvas.height}`);
     view.speed = `${timed.text()} · ${card}`;
     if (live) row.textContent = view.speed;
   });
-  return {
-    drawn: () => {
-      if (frame.graph) card ||= cardName(frame.graph.gl);
-    },
-  };
+  return {};
 }
