@@ -198,31 +198,31 @@ def glsl(c: dict[str, Any]) -> str:
         "#define IrradianceSpectrum vec4  // W m^-2 nm^-1",
         "#define RadianceSpectrum vec4  // W m^-2 sr^-1 nm^-1",
         "",
-        "const float PI = 3.14159265358979;",
-        f"const Length GROUND_RADIUS = {_float(c['ground_radius_m'])};",
-        f"const Length TOP_RADIUS = {_float(c['top_radius_m'])};",
-        f"const Length ATMOSPHERE_HEIGHT = {_float(c['top_radius_m'] - c['ground_radius_m'])};",
+        "const float kPi = 3.14159265358979;",
+        f"const Length kGroundRadius = {_float(c['ground_radius_m'])};",
+        f"const Length kTopRadius = {_float(c['top_radius_m'])};",
+        f"const Length kAtmosphereHeight = {_float(c['top_radius_m'] - c['ground_radius_m'])};",
         "// Standard air; what is drawn with are the uniforms of atmosphere/atmosphere.glsl.",
-        f"const Number RAYLEIGH_EXPONENT = {_float(c['rayleigh_exponent'])};",
-        f"const Length RAYLEIGH_SCALE_HEIGHT = {_float(c['rayleigh_scale_height_m'])};",
+        f"const Number kRayleighExponent = {_float(c['rayleigh_exponent'])};",
+        f"const Length kRayleighScaleHeight = {_float(c['rayleigh_scale_height_m'])};",
         "// Above 40 km (0.9 % of the column) air thins faster; deep twilight comes from there.",
-        f"const Length MESOSPHERE_ALTITUDE = {_float(c['mesosphere_altitude_m'])};",
-        f"const Length MESOSPHERE_SCALE_HEIGHT = {_float(c['mesosphere_scale_height_m'])};",
-        f"const Length OZONE_BOTTOM = {_float(low)};",
-        f"const Length OZONE_PEAK = {_float(peak)};",
-        f"const Length OZONE_TOP = {_float(high)};",
-        f"const Angle SUN_ANGULAR_RADIUS = {_float(radius)};",
-        f"const vec4 WAVELENGTHS = {vec4(c['wavelengths_nm'])};  // nm",
+        f"const Length kMesosphereAltitude = {_float(c['mesosphere_altitude_m'])};",
+        f"const Length kMesosphereScaleHeight = {_float(c['mesosphere_scale_height_m'])};",
+        f"const Length kOzoneBottom = {_float(low)};",
+        f"const Length kOzonePeak = {_float(peak)};",
+        f"const Length kOzoneTop = {_float(high)};",
+        f"const Angle kSunAngularRadius = {_float(radius)};",
+        f"const vec4 kWavelengths = {vec4(c['wavelengths_nm'])};  // nm",
         "// Bodhaine et al. 1999, sea level.",
-        f"const ScatteringSpectrum RAYLEIGH_SCATTERING = {vec4(c['rayleigh_per_m'])};",
+        f"const ScatteringSpectrum kRayleighScattering = {vec4(c['rayleigh_per_m'])};",
         "// Vertical absorption optical depth of one Dobson unit, Bird & Riordan 1984.",
-        f"const vec4 OZONE_DEPTH_PER_DOBSON = {vec4(per_dobson)};",
+        f"const vec4 kOzoneDepthPerDobson = {vec4(per_dobson)};",
         "// ASTM G-173-03 extraterrestrial, mean over 10 nm.",
-        f"const IrradianceSpectrum SOLAR_IRRADIANCE = {vec4(c['solar_W_m2_nm'])};",
+        f"const IrradianceSpectrum kSolarIrradiance = {vec4(c['solar_W_m2_nm'])};",
         "// Limb darkening mu^a; Neckel & Labs 1994 by power law.",
-        f"const vec4 LIMB_DARKENING = {vec4(list(limb))};",
+        f"const vec4 kLimbDarkening = {vec4(list(limb))};",
         "// Radiance at the four wavelengths to linear Rec. 709 in kcd m^-2.",
-        f"const mat4x3 SPECTRAL_TO_REC709 = mat4x3(\n    {matrix});",
+        f"const mat4x3 kSpectralToRec709 = mat4x3(\n    {matrix});",
         "",
     ]
     return "\n".join(lines)
@@ -254,21 +254,21 @@ Number GetBodhaineScattering(Number wavelength) {{
   float king = (78.084 * f_n2 + 20.946 * f_o2 + 0.934 + 0.036 * 1.15) / (99.964 + 0.036);
   float square = excess * (2.0 + excess);
   float lorentz = square / (3.0 + square);
-  return 24.0 * PI * PI * PI / 25.46899 * um2 * um2 * lorentz * lorentz * king;
+  return 24.0 * kPi * kPi * kPi / 25.46899 * um2 * um2 * lorentz * lorentz * king;
 }}
 
 // Vertical absorption optical depth of one Dobson unit, Bird & Riordan 1984: 380-780 nm by 5.
-const float OZONE_TABLE[{len(values)}] = float[{len(values)}](
+const float kOzoneTable[{len(values)}] = float[{len(values)}](
     {rows});
 
 Number GetOzoneDepthPerDobson(Number wavelength) {{
   float place = clamp((wavelength - 380.0) / 5.0, 0.0, {len(values) - 1}.0);
   int low = min(int(place), {len(values) - 2});
-  return mix(OZONE_TABLE[low], OZONE_TABLE[low + 1], place - float(low));
+  return mix(kOzoneTable[low], kOzoneTable[low + 1], place - float(low));
 }}
 
 // Radiance at the four wavelengths to CIE 1931 XYZ in kcd m^-2.
-const mat4x3 SPECTRAL_TO_XYZ = mat4x3(
+const mat4x3 kSpectralToXyz = mat4x3(
     {matrix});
 """
 

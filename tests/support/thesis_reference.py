@@ -32,7 +32,7 @@ from sunwidget.renderer.values import parameter_values
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 DISC_RADIUS = 0.2665
 SKY_SHARE = float(
-    re.search(r"SKY_SHARE = ([\d.]+)", read_shader("atmosphere/read_sky_view.glsl")).group(1)
+    re.search(r"kSkyShare = ([\d.]+)", read_shader("atmosphere/read_sky_view.glsl")).group(1)
 )
 _AIR = (
     "aerosol_optical_depth",

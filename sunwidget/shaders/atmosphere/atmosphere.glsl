@@ -24,24 +24,24 @@ uniform float ground_albedo;          // Lambertian, 0..1
 // single precision resolves centimetres at 6360 km.
 
 Number GetSquaredHorizonDistance(Length h) {
-  return h * (2.0 * GROUND_RADIUS + h);
+  return h * (2.0 * kGroundRadius + h);
 }
 
 Length GetAltitudeAlongRay(Length h, Number mu, Length t) {
-  float q = GetSquaredHorizonDistance(h) + t * (2.0 * (GROUND_RADIUS + h) * mu + t);
-  return max(q, 0.0) / (sqrt(GROUND_RADIUS * GROUND_RADIUS + max(q, 0.0)) + GROUND_RADIUS);
+  float q = GetSquaredHorizonDistance(h) + t * (2.0 * (kGroundRadius + h) * mu + t);
+  return max(q, 0.0) / (sqrt(kGroundRadius * kGroundRadius + max(q, 0.0)) + kGroundRadius);
 }
 
 Length GetDistanceToTop(Length h, Number mu) {
-  float r_mu = (GROUND_RADIUS + h) * mu;
-  float shell = (ATMOSPHERE_HEIGHT - h) * (TOP_RADIUS + GROUND_RADIUS + h);
+  float r_mu = (kGroundRadius + h) * mu;
+  float shell = (kAtmosphereHeight - h) * (kTopRadius + kGroundRadius + h);
   float root = sqrt(r_mu * r_mu + shell);
   // Of the two equal forms the one without cancellation.
   return r_mu > 0.0 ? shell / (root + r_mu) : root - r_mu;
 }
 
 Number GetCosineOfHorizon(Length h) {
-  return -sqrt(GetSquaredHorizonDistance(h)) / (GROUND_RADIUS + h);
+  return -sqrt(GetSquaredHorizonDistance(h)) / (kGroundRadius + h);
 }
 
 bool RayIntersectsGround(Length h, Number mu) {
@@ -49,43 +49,43 @@ bool RayIntersectsGround(Length h, Number mu) {
 }
 
 Length GetDistanceToGround(Length h, Number mu) {
-  float r_mu = -(GROUND_RADIUS + h) * mu;
+  float r_mu = -(kGroundRadius + h) * mu;
   float q = GetSquaredHorizonDistance(h);
   return q / (r_mu + sqrt(max(r_mu * r_mu - q, 0.0)));
 }
 
-// Share of the sun's disc above the horizon for a sun whose centre is `above` it (radians).
+// Share of the sun's disc above the horizon for a sun whose center is `above` it (radians).
 Number GetVisibleFractionOfDisc(Angle above) {
-  float x = clamp(above / SUN_ANGULAR_RADIUS, -1.0, 1.0);
-  return 0.5 + (x * sqrt(1.0 - x * x) + asin(x)) / PI;
+  float x = clamp(above / kSunAngularRadius, -1.0, 1.0);
+  return 0.5 + (x * sqrt(1.0 - x * x) + asin(x)) / kPi;
 }
 
 // ---- What the air is made of ----------------------------------------------------------------
 
 // Relative density of Rayleigh scatterers, aerosol and ozone at altitude h.
 vec3 GetDensity(Length h) {
-  float below = (h - OZONE_BOTTOM) / (OZONE_PEAK - OZONE_BOTTOM);
-  float above = (OZONE_TOP - h) / (OZONE_TOP - OZONE_PEAK);
+  float below = (h - kOzoneBottom) / (kOzonePeak - kOzoneBottom);
+  float above = (kOzoneTop - h) / (kOzoneTop - kOzonePeak);
   // Where the air thins faster its scale height keeps its share of the one below.
-  float thin = RAYLEIGH_SCALE_HEIGHT / MESOSPHERE_SCALE_HEIGHT - 1.0;
-  float air = (h + max(h - MESOSPHERE_ALTITUDE, 0.0) * thin) / rayleigh_scale_height;
+  float thin = kRayleighScaleHeight / kMesosphereScaleHeight - 1.0;
+  float air = (h + max(h - kMesosphereAltitude, 0.0) * thin) / rayleigh_scale_height;
   return vec3(exp(-air), exp(-h / aerosol_scale_height), max(0.0, min(below, above)));
 }
 
 // Bodhaine's coefficients, tilted where another exponent is asked for.
 ScatteringSpectrum GetRayleighScattering() {
-  return air_density * RAYLEIGH_SCATTERING
-      * pow(WAVELENGTHS / 550.0, vec4(RAYLEIGH_EXPONENT - rayleigh_exponent));
+  return air_density * kRayleighScattering
+      * pow(kWavelengths / 550.0, vec4(kRayleighExponent - rayleigh_exponent));
 }
 
 ScatteringSpectrum GetMieExtinction() {
   return aerosol_optical_depth / aerosol_scale_height
-      * pow(WAVELENGTHS / 550.0, vec4(-angstrom_exponent));
+      * pow(kWavelengths / 550.0, vec4(-angstrom_exponent));
 }
 
 ScatteringSpectrum GetOzoneAbsorption() {
   // The tent's integral is half its width.
-  return ozone / (0.5 * (OZONE_TOP - OZONE_BOTTOM)) * OZONE_DEPTH_PER_DOBSON;
+  return ozone / (0.5 * (kOzoneTop - kOzoneBottom)) * kOzoneDepthPerDobson;
 }
 
 // Extinction of the three at density one, 1/m: times densities the extinction coefficient, times
@@ -97,13 +97,13 @@ mat3x4 GetExtinctionCoefficients() {
 // ---- Phase functions (integrate to one over the sphere) -------------------------------------
 
 Number RayleighPhase(Number nu) {
-  return 3.0 / (16.0 * PI) * (1.0 + nu * nu);
+  return 3.0 / (16.0 * kPi) * (1.0 + nu * nu);
 }
 
 // Cornette & Shanks 1992, eq. 8.
 Number MiePhase(Number g, Number nu) {
   float base = max(1.0 + g * g - 2.0 * g * nu, 1e-6);
-  return 3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + nu * nu)
+  return 3.0 / (8.0 * kPi) * (1.0 - g * g) * (1.0 + nu * nu)
       / ((2.0 + g * g) * base * sqrt(base));
 }
 
@@ -113,17 +113,17 @@ Number MiePhase(Number g, Number nu) {
 // Coordinates after Bruneton 2017: x from the distance to the top, y from the distance to the
 // horizon, here on a square-root scale (h is about y^4), for haze lies low.
 
-const float LONGEST_HORIZON = 1132254.3;  // sqrt(TOP_RADIUS^2 - GROUND_RADIUS^2), m
+const float kLongestHorizon = 1132254.3;  // sqrt(kTopRadius^2 - kGroundRadius^2), m
 
 vec2 GetColumnsCoordinate(Length h, Number mu) {
   float rho = sqrt(GetSquaredHorizonDistance(h));
-  float d_min = ATMOSPHERE_HEIGHT - h;
-  float d_max = rho + LONGEST_HORIZON;
+  float d_min = kAtmosphereHeight - h;
+  float d_max = rho + kLongestHorizon;
   return vec2((GetDistanceToTop(h, mu) - d_min) / (d_max - d_min),
-              sqrt(rho / LONGEST_HORIZON));
+              sqrt(rho / kLongestHorizon));
 }
 
-// Texel centres sit on the ends of [0, 1], so that the horizon is a sample and not a guess.
+// Texel centers sit on the ends of [0, 1], so that the horizon is a sample and not a guess.
 vec4 FetchBilinear(sampler2D table, vec2 coordinate) {
   ivec2 last = textureSize(table, 0) - 1;
   vec2 place = clamp(coordinate, 0.0, 1.0) * vec2(last);
@@ -150,7 +150,7 @@ DimensionlessSpectrum GetTransmittanceToTop(sampler2D columns, Length h, Number 
 DimensionlessSpectrum GetTransmittanceToSun(sampler2D columns, Length h, Number mu_s) {
   float above = mu_s - GetCosineOfHorizon(h);
   return GetTransmittanceToTop(columns, h, mu_s)
-      * smoothstep(-SUN_ANGULAR_RADIUS, SUN_ANGULAR_RADIUS, above);
+      * smoothstep(-kSunAngularRadius, kSunAngularRadius, above);
 }
 
 // ---- Integration along a ray ----------------------------------------------------------------

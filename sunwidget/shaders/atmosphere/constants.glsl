@@ -8,31 +8,31 @@
 #define IrradianceSpectrum vec4  // W m^-2 nm^-1
 #define RadianceSpectrum vec4  // W m^-2 sr^-1 nm^-1
 
-const float PI = 3.14159265358979;
-const Length GROUND_RADIUS = 6360000.0;
-const Length TOP_RADIUS = 6460000.0;
-const Length ATMOSPHERE_HEIGHT = 100000.0;
+const float kPi = 3.14159265358979;
+const Length kGroundRadius = 6360000.0;
+const Length kTopRadius = 6460000.0;
+const Length kAtmosphereHeight = 100000.0;
 // Standard air; what is drawn with are the uniforms of atmosphere/atmosphere.glsl.
-const Number RAYLEIGH_EXPONENT = 4.09;
-const Length RAYLEIGH_SCALE_HEIGHT = 8430.0;
+const Number kRayleighExponent = 4.09;
+const Length kRayleighScaleHeight = 8430.0;
 // Above 40 km (0.9 % of the column) air thins faster; deep twilight comes from there.
-const Length MESOSPHERE_ALTITUDE = 40000.0;
-const Length MESOSPHERE_SCALE_HEIGHT = 6500.0;
-const Length OZONE_BOTTOM = 10000.0;
-const Length OZONE_PEAK = 25000.0;
-const Length OZONE_TOP = 40000.0;
-const Angle SUN_ANGULAR_RADIUS = 0.00465130246;
-const vec4 WAVELENGTHS = vec4(640.0, 580.0, 510.0, 440.0);  // nm
+const Length kMesosphereAltitude = 40000.0;
+const Length kMesosphereScaleHeight = 6500.0;
+const Length kOzoneBottom = 10000.0;
+const Length kOzonePeak = 25000.0;
+const Length kOzoneTop = 40000.0;
+const Angle kSunAngularRadius = 0.00465130246;
+const vec4 kWavelengths = vec4(640.0, 580.0, 510.0, 440.0);  // nm
 // Bodhaine et al. 1999, sea level.
-const ScatteringSpectrum RAYLEIGH_SCATTERING = vec4(6.199358e-06, 9.251008e-06, 1.564329e-05, 2.871189e-05);
+const ScatteringSpectrum kRayleighScattering = vec4(6.199358e-06, 9.251008e-06, 1.564329e-05, 2.871189e-05);
 // Vertical absorption optical depth of one Dobson unit, Bird & Riordan 1984.
-const vec4 OZONE_DEPTH_PER_DOBSON = vec4(8.03846132e-05, 0.000119565216, 3.99999926e-05, 0.0);
+const vec4 kOzoneDepthPerDobson = vec4(8.03846132e-05, 0.000119565216, 3.99999926e-05, 0.0);
 // ASTM G-173-03 extraterrestrial, mean over 10 nm.
-const IrradianceSpectrum SOLAR_IRRADIANCE = vec4(1.630338, 1.836524, 1.924005, 1.826819);
+const IrradianceSpectrum kSolarIrradiance = vec4(1.630338, 1.836524, 1.924005, 1.826819);
 // Limb darkening mu^a; Neckel & Labs 1994 by power law.
-const vec4 LIMB_DARKENING = vec4(0.429615385, 0.478538462, 0.557181818, 0.652);
+const vec4 kLimbDarkening = vec4(0.429615385, 0.478538462, 0.557181818, 0.652);
 // Radiance at the four wavelengths to linear Rec. 709 in kcd m^-2.
-const mat4x3 SPECTRAL_TO_REC709 = mat4x3(
+const mat4x3 kSpectralToRec709 = mat4x3(
     52.84948, -5.61563, 0.2595113,
     63.58361, 35.67792, -9.820315,
     -35.63638, 46.05636, 17.38775,

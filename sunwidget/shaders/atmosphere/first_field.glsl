@@ -10,7 +10,7 @@ out vec4 result;
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy + tile_origin);
-  ivec2 size = ivec2(pass_size) / ivec2(MOMENTS, 1);
+  ivec2 size = ivec2(pass_size) / ivec2(kMoments, 1);
   int moment = texel.x / size.x;
-  result = GetMoment(first_order, AZIMUTHS, moment, ivec2(texel.x - moment * size.x, texel.y), size);
+  result = GetMoment(first_order, kAzimuths, moment, ivec2(texel.x - moment * size.x, texel.y), size);
 }

@@ -8,8 +8,8 @@ uniform vec2 tile_origin;
 uniform sampler2D columns;
 out vec4 result;
 
-const int STEPS = 20;
-const int LOBE_SAMPLES = 5;
+const int kSteps = 20;
+const int kLobeSamples = 5;
 
 // Mean of the aerosol's phase function over the cell of directions that a node stands for: a
 // node that a narrow lobe falls on would else count it for the whole cell.
@@ -18,32 +18,32 @@ Number GetMeanMiePhase(int zenith, int azimuth, Number mu_s) {
   int node = zenith < 4 ? zenith : zenith - 4;
   float level = sqrt(1.0 - mu_s * mu_s);
   float sum = 0.0;
-  for (int i = 0; i < LOBE_SAMPLES; ++i) {
-    float part = (float(i) + 0.5) / float(LOBE_SAMPLES);
-    float mu = side * mix(EDGES[node], EDGES[node + 1], part);
+  for (int i = 0; i < kLobeSamples; ++i) {
+    float part = (float(i) + 0.5) / float(kLobeSamples);
+    float mu = side * mix(kEdges[node], kEdges[node + 1], part);
     float across = sqrt(1.0 - mu * mu) * level;
-    for (int k = 0; k < LOBE_SAMPLES; ++k) {
-      float turn = (float(azimuth) + (float(k) + 0.5) / float(LOBE_SAMPLES)) / float(AZIMUTHS);
-      sum += MiePhase(aerosol_asymmetry, mu * mu_s + across * cos(PI * turn));
+    for (int k = 0; k < kLobeSamples; ++k) {
+      float turn = (float(azimuth) + (float(k) + 0.5) / float(kLobeSamples)) / float(kAzimuths);
+      sum += MiePhase(aerosol_asymmetry, mu * mu_s + across * cos(kPi * turn));
     }
   }
-  return sum / float(LOBE_SAMPLES * LOBE_SAMPLES);
+  return sum / float(kLobeSamples * kLobeSamples);
 }
 
 void main() {
-  FieldRay ray = GetFieldRay(ivec2(gl_FragCoord.xy + tile_origin), ivec2(pass_size), AZIMUTHS);
+  FieldRay ray = GetFieldRay(ivec2(gl_FragCoord.xy + tile_origin), ivec2(pass_size), kAzimuths);
   mat3x4 coefficients = GetExtinctionCoefficients();
   float rayleigh_phase = RayleighPhase(ray.nu);
   float mie_phase = GetMeanMiePhase(ray.tile.y, ray.tile.x, ray.mu_s) * aerosol_albedo;
-  float r = GROUND_RADIUS + ray.h;
+  float r = kGroundRadius + ray.h;
   vec4 transmittance = vec4(1.0);
   vec4 radiance = vec4(0.0);
-  for (int i = 0; i < STEPS; ++i) {
-    float u = (float(i) + 0.5) / float(STEPS);
+  for (int i = 0; i < kSteps; ++i) {
+    float u = (float(i) + 0.5) / float(kSteps);
     float t = ray.d * u * u;
-    float dt = 2.0 * ray.d * u / float(STEPS);
+    float dt = 2.0 * ray.d * u / float(kSteps);
     float h_t = GetAltitudeAlongRay(ray.h, ray.mu, t);
-    float mu_s_t = clamp((r * ray.mu_s + t * ray.nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
+    float mu_s_t = clamp((r * ray.mu_s + t * ray.nu) / (kGroundRadius + h_t), -1.0, 1.0);
     vec3 density = GetDensity(h_t);
     vec4 rayleigh = coefficients[0] * density.x;
     vec4 mie = coefficients[1] * density.y;
@@ -53,8 +53,8 @@ void main() {
     transmittance *= exp(-(extinction * dt));
   }
   if (ray.ground) {
-    float mu_s_ground = clamp((r * ray.mu_s + ray.d * ray.nu) / GROUND_RADIUS, -1.0, 1.0);
-    radiance += transmittance * ground_albedo / PI * max(mu_s_ground, 0.0)
+    float mu_s_ground = clamp((r * ray.mu_s + ray.d * ray.nu) / kGroundRadius, -1.0, 1.0);
+    radiance += transmittance * ground_albedo / kPi * max(mu_s_ground, 0.0)
         * GetTransmittanceToSun(columns, 0.0, mu_s_ground);
   }
   result = radiance;

@@ -17,13 +17,13 @@ uniform sampler2D columns;
 out vec4 result;
 
 // Every second row and every fourth column: trapezoids over the sky view's own samples.
-const int COLUMN_STRIDE = 4;
+const int kColumnStride = 4;
 // Clouds stand in the sun after the land has lost it, the later the higher they are: 1.2 degrees
 // for cumulus (1.5 km), 3 for cirrus (9 km). Ever fewer of them ever higher let their light fade
 // without a jump.
-const Length LOWEST_CLOUD = 1500.0;
-const Length HIGHEST_CLOUD = 15000.0;
-const int CLOUD_LEVELS = 16;
+const Length kLowestCloud = 1500.0;
+const Length kHighestCloud = 15000.0;
+const int kCloudLevels = 16;
 
 // Share of the light from `direction` that counts in texel `index`.
 Number GetWeight(int index, vec3 direction) {
@@ -42,20 +42,20 @@ vec4 IntegrateSky(int index) {
   float level = length(view.sun.xz);
   vec2 towards = level > 1e-6 ? view.sun.xz / level : vec2(0.0, 1.0);
   vec2 across = vec2(towards.y, -towards.x);
-  int last_column = (size.x - 1) / COLUMN_STRIDE;
+  int last_column = (size.x - 1) / kColumnStride;
   vec4 sum = vec4(0.0);
   float norm = 0.0;
   for (int row = 0; row < rows.x; ++row) {
     float v = 1.0 - float(row) / float(rows.x - 1);
     float elevation = GetElevationOfRow(float(row), rows, view.horizon);
     // d elevation: derivative of the square-root scale; trapezoid ends count half.
-    float span = 2.0 * (0.5 * PI - view.horizon) * v / float(rows.x - 1);
+    float span = 2.0 * (0.5 * kPi - view.horizon) * v / float(rows.x - 1);
     span *= row == 0 ? 0.5 : 1.0;
     float rise = cos(elevation);
     for (int k = 0; k <= last_column; ++k) {
       float u = float(k) / float(last_column);
       float azimuth = GetAzimuthOfColumn(u);
-      float width = PI * (0.3 + 1.4 * u) / float(last_column);
+      float width = kPi * (0.3 + 1.4 * u) / float(last_column);
       width *= k == 0 || k == last_column ? 0.5 : 1.0;
       float c = cos(azimuth);
       float s = sin(azimuth);
@@ -74,20 +74,20 @@ vec4 IntegrateSky(int index) {
 void main() {
   int index = int(gl_FragCoord.x + tile_origin.x);
   vec3 sun = ReadSkyView(sky_view).sun;
-  float h = clamp(altitude, 1.0, 0.99 * ATMOSPHERE_HEIGHT);
+  float h = clamp(altitude, 1.0, 0.99 * kAtmosphereHeight);
   float above = asin(clamp(sun.y, -1.0, 1.0)) - asin(GetCosineOfHorizon(h));
-  vec4 risen = SOLAR_IRRADIANCE * GetTransmittanceToTop(columns, h, sun.y);
+  vec4 risen = kSolarIrradiance * GetTransmittanceToTop(columns, h, sun.y);
   if (index == 8) {
     vec4 sum = vec4(0.0);
     float norm = 0.0;
-    for (int i = 0; i < CLOUD_LEVELS; ++i) {
-      float part = (float(i) + 0.5) / float(CLOUD_LEVELS);
-      float level = min(h + mix(LOWEST_CLOUD, HIGHEST_CLOUD, part), 0.99 * ATMOSPHERE_HEIGHT);
+    for (int i = 0; i < kCloudLevels; ++i) {
+      float part = (float(i) + 0.5) / float(kCloudLevels);
+      float level = min(h + mix(kLowestCloud, kHighestCloud, part), 0.99 * kAtmosphereHeight);
       float weight = (1.0 - part) * (1.0 - part) * (1.0 - part);
       sum += weight * GetTransmittanceToSun(columns, level, sun.y);
       norm += weight;
     }
-    result = SOLAR_IRRADIANCE * sum / norm;
+    result = kSolarIrradiance * sum / norm;
     return;
   }
   vec4 sky = IntegrateSky(index);

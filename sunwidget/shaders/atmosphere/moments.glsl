@@ -17,10 +17,10 @@ Number GetMomentWeight(int moment, vec2 direction, Number mu_s) {
 vec4 GetMoment(sampler2D radiance, int azimuths, int moment, ivec2 cell, ivec2 size) {
   float mu_s = GetSunCosineOfField(float(cell.x) / float(size.x - 1));
   vec4 sum = vec4(0.0);
-  for (int j = 0; j < ZENITHS; ++j) {
+  for (int j = 0; j < kZeniths; ++j) {
     for (int k = 0; k < azimuths; ++k) {
       float weight = GetMomentWeight(moment, GetFieldDirection(j, k, azimuths), mu_s);
-      sum += 0.5 * WEIGHTS[j % 4] / float(azimuths) * weight
+      sum += 0.5 * kWeights[j % 4] / float(azimuths) * weight
           * texelFetch(radiance, ivec2(k, j) * size + cell, 0);
     }
   }

@@ -16,14 +16,14 @@
 
 #include "atmosphere/atmosphere.glsl"
 
-const int MOMENTS = 7;
-const int AZIMUTHS = 8;  // of the first order, over half a circle
-const int ZENITHS = 8;   // four-point Gauss-Legendre on each hemisphere
-const int SECOND_AZIMUTHS = 4;
-const float NODES[4] = float[4](0.0694318442, 0.3300094782, 0.6699905218, 0.9305681558);
-const float WEIGHTS[4] = float[4](0.1739274226, 0.3260725774, 0.3260725774, 0.1739274226);
+const int kMoments = 7;
+const int kAzimuths = 8;  // of the first order, over half a circle
+const int kZeniths = 8;   // four-point Gauss-Legendre on each hemisphere
+const int kSecondAzimuths = 4;
+const float kNodes[4] = float[4](0.0694318442, 0.3300094782, 0.6699905218, 0.9305681558);
+const float kWeights[4] = float[4](0.1739274226, 0.3260725774, 0.3260725774, 0.1739274226);
 // The part of [0, 1] that each node stands for.
-const float EDGES[5] = float[5](0.0, 0.1739274226, 0.5, 0.8260725774, 1.0);
+const float kEdges[5] = float[5](0.0, 0.1739274226, 0.5, 0.8260725774, 1.0);
 
 struct LightField {
   vec4 mean;
@@ -40,38 +40,38 @@ struct LightField {
 // Once the sun is down the light falls by a factor of e every degree, far too fast to interpolate;
 // the table holds it over a rough guess of that fall, the density at the height of the shadow.
 
-const float NIGHT_COSINE = -0.35;
-const float NIGHT_SHARE = 0.65;  // of the table
-const Length TWILIGHT_SCALE_HEIGHT = 24000.0;  // in standard air
+const float kNightCosine = -0.35;
+const float kNightShare = 0.65;  // of the table
+const Length kTwilightScaleHeight = 24000.0;  // in standard air
 
 vec2 GetFieldCoordinate(Length h, Number mu_s) {
-  float night = NIGHT_SHARE * (1.0 - pow(clamp(mu_s / NIGHT_COSINE, 0.0, 1.0), 2.0 / 3.0));
-  float day = NIGHT_SHARE + (1.0 - NIGHT_SHARE) * sqrt(max(mu_s, 0.0));
-  return vec2(mu_s < 0.0 ? night : day, pow(h / ATMOSPHERE_HEIGHT, 1.0 / 3.0));
+  float night = kNightShare * (1.0 - pow(clamp(mu_s / kNightCosine, 0.0, 1.0), 2.0 / 3.0));
+  float day = kNightShare + (1.0 - kNightShare) * sqrt(max(mu_s, 0.0));
+  return vec2(mu_s < 0.0 ? night : day, pow(h / kAtmosphereHeight, 1.0 / 3.0));
 }
 
 Number GetSunCosineOfField(Number x) {
-  float night = max(1.0 - x / NIGHT_SHARE, 0.0);
-  float day = max(x - NIGHT_SHARE, 0.0) / (1.0 - NIGHT_SHARE);
-  return NIGHT_COSINE * night * sqrt(night) + day * day;
+  float night = max(1.0 - x / kNightShare, 0.0);
+  float day = max(x - kNightShare, 0.0) / (1.0 - kNightShare);
+  return kNightCosine * night * sqrt(night) + day * day;
 }
 
 Number GetTwilight(Number mu_s) {
   float down = min(mu_s, 0.0);
-  float scale = TWILIGHT_SCALE_HEIGHT * (rayleigh_scale_height / RAYLEIGH_SCALE_HEIGHT);
-  return exp(-0.5 * GROUND_RADIUS / scale * down * down);
+  float scale = kTwilightScaleHeight * (rayleigh_scale_height / kRayleighScaleHeight);
+  return exp(-0.5 * kGroundRadius / scale * down * down);
 }
 
 Length GetAltitudeOfField(Number y) {
-  return max(y * y * y * ATMOSPHERE_HEIGHT, 1.0);
+  return max(y * y * y * kAtmosphereHeight, 1.0);
 }
 
 Number GetZenithCosine(int zenith) {
-  return zenith < 4 ? NODES[zenith] : -NODES[zenith - 4];
+  return zenith < 4 ? kNodes[zenith] : -kNodes[zenith - 4];
 }
 
 Angle GetAzimuth(int azimuth, int azimuths) {
-  return PI * (float(azimuth) + 0.5) / float(azimuths);
+  return kPi * (float(azimuth) + 0.5) / float(azimuths);
 }
 
 // Components x and z of a direction in the frame of the sun.
@@ -95,7 +95,7 @@ struct FieldRay {
 };
 
 FieldRay GetFieldRay(ivec2 texel, ivec2 size, int azimuths) {
-  size /= ivec2(azimuths, ZENITHS);
+  size /= ivec2(azimuths, kZeniths);
   ivec2 tile = texel / size;
   vec2 place = vec2(texel - tile * size) / vec2(size - 1);
   float mu_s = GetSunCosineOfField(place.x);
@@ -117,7 +117,7 @@ vec4 FetchMoment(sampler2D field, ivec2 corner, vec2 part) {
 }
 
 LightField GetLightField(sampler2D field, Length h, Number mu_s) {
-  ivec2 last = textureSize(field, 0) / ivec2(MOMENTS, 1) - 1;
+  ivec2 last = textureSize(field, 0) / ivec2(kMoments, 1) - 1;
   ivec2 next = ivec2(last.x + 1, 0);
   vec2 place = clamp(GetFieldCoordinate(h, mu_s), 0.0, 1.0) * vec2(last);
   ivec2 corner = min(ivec2(place), last - 1);
@@ -179,7 +179,7 @@ vec4 GetFieldThroughHaze(LightField field, vec2 direction, vec3 moments, Number 
 
 // Irradiance of the field on level ground, by the same series.
 vec4 GetFieldIrradiance(LightField field) {
-  return PI * max(field.mean + 2.0 * field.z + 1.875 * field.zz, 0.0);
+  return kPi * max(field.mean + 2.0 * field.z + 1.875 * field.zz, 0.0);
 }
 
 // x and z components of a view direction in the frame at a point along it.

@@ -23,17 +23,17 @@ uniform sampler2D second_order;
 uniform sampler2D transfer;
 out vec4 result;
 
-const float EIGENVALUE_ROW = 6.0 / 19.0;  // of the table: 3 km
+const float kEigenvalueRow = 6.0 / 19.0;  // of the table: 3 km
 
 // What the second order has of the first, in the mean.
 vec4 GetGain(ivec2 cell, ivec2 size) {
-  vec4 second = GetMoment(second_order, SECOND_AZIMUTHS, 0, cell, size);
+  vec4 second = GetMoment(second_order, kSecondAzimuths, 0, cell, size);
   return min(second / max(texelFetch(first_field, cell, 0), vec4(1e-30)), 1.0);
 }
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy + tile_origin);
-  ivec2 size = ivec2(pass_size) / ivec2(MOMENTS, 1);
+  ivec2 size = ivec2(pass_size) / ivec2(kMoments, 1);
   int moment = texel.x / size.x;
   ivec2 cell = ivec2(texel.x - moment * size.x, texel.y);
   vec4 even = texelFetch(transfer, ivec2(0, cell.y), 0);
@@ -41,12 +41,12 @@ void main() {
   int column = moment == 0 ? 0 : moment - 1;
   bool vanishes = moment == 1 || moment > 4;
   vec4 shape = vanishes ? vec4(0.0) : texelFetch(transfer, ivec2(column, cell.y), 0);
-  int row = int(EIGENVALUE_ROW * float(size.y - 1) + 0.5);
+  int row = int(kEigenvalueRow * float(size.y - 1) + 0.5);
   vec4 eigenvalue = sqrt(texelFetch(transfer, ivec2(0, row), 0)
       * GetGain(ivec2(size.x - 1, row), size));
   eigenvalue = min(eigenvalue, 0.95);
-  vec4 second_mean = GetMoment(second_order, SECOND_AZIMUTHS, 0, cell, size);
-  vec4 second = GetMoment(second_order, SECOND_AZIMUTHS, moment, cell, size);
+  vec4 second_mean = GetMoment(second_order, kSecondAzimuths, 0, cell, size);
+  vec4 second = GetMoment(second_order, kSecondAzimuths, moment, cell, size);
   vec4 third_mean = second_mean * sqrt(GetGain(cell, size) * eigenvalue);
   // What the series leaves out after its first n - 3 terms: nothing when it goes on for ever.
   vec4 omitted = scattering_orders == 0.0 ? vec4(0.0)

@@ -9,10 +9,10 @@
 
 #include "atmosphere/atmosphere.glsl"
 
-const float SKY_SHARE = 0.85;  // of the rows, above the horizon
+const float kSkyShare = 0.85;  // of the rows, above the horizon
 
 struct SkyView {
-  vec3 sun;             // direction of the sun's centre
+  vec3 sun;             // direction of the sun's center
   float asymmetry;      // Cornette-Shanks g
   vec4 rayleigh;        // weights of the guess
   vec4 mie;
@@ -45,35 +45,35 @@ vec4 GuessRadiance(SkyView view, Number nu) {
 
 // Number of rows above the horizon and in all, without the description.
 ivec2 GetSkyViewRows(int height) {
-  return ivec2(int(float(height - 1) * SKY_SHARE), height - 1);
+  return ivec2(int(float(height - 1) * kSkyShare), height - 1);
 }
 
 // Rows are denser near the horizon (square root), columns near the sun's azimuth.
 Angle GetElevationOfRow(float row, ivec2 rows, Angle horizon) {
   if (row < float(rows.x)) {
     float v = 1.0 - row / float(rows.x - 1);
-    return horizon + (0.5 * PI - horizon) * v * v;
+    return horizon + (0.5 * kPi - horizon) * v * v;
   }
   float v = (row - float(rows.x)) / float(rows.y - rows.x - 1);
-  return horizon - (0.5 * PI + horizon) * v * v;
+  return horizon - (0.5 * kPi + horizon) * v * v;
 }
 
 float GetRowOfElevation(Angle elevation, ivec2 rows, Angle horizon) {
   if (elevation >= horizon) {
-    float v = sqrt((elevation - horizon) / (0.5 * PI - horizon));
+    float v = sqrt((elevation - horizon) / (0.5 * kPi - horizon));
     return (1.0 - min(v, 1.0)) * float(rows.x - 1);
   }
-  float v = sqrt((horizon - elevation) / (0.5 * PI + horizon));
+  float v = sqrt((horizon - elevation) / (0.5 * kPi + horizon));
   return float(rows.x) + min(v, 1.0) * float(rows.y - rows.x - 1);
 }
 
 // azimuth = pi (0.3 u + 0.7 u^2), relative to the sun's, 0..pi.
 Angle GetAzimuthOfColumn(float u) {
-  return PI * u * (0.3 + 0.7 * u);
+  return kPi * u * (0.3 + 0.7 * u);
 }
 
 float GetColumnOfAzimuth(Angle azimuth) {
-  return (sqrt(0.09 + 2.8 * azimuth / PI) - 0.3) / 1.4;
+  return (sqrt(0.09 + 2.8 * azimuth / kPi) - 0.3) / 1.4;
 }
 
 RadianceSpectrum GetSkyRadiance(sampler2D sky_view, SkyView view, ivec2 origin, ivec2 size,
@@ -107,7 +107,7 @@ RadianceSpectrum GetSkyRadiance(sampler2D sky_view, vec3 direction) {
 // own path; what lies below the horizon is dark.
 RadianceSpectrum GetSunDiscRadiance(sampler2D columns, vec3 direction, vec3 sun, Length altitude,
                                     Number size, Angle softness) {
-  float radius = SUN_ANGULAR_RADIUS * size;
+  float radius = kSunAngularRadius * size;
   // The chord keeps its digits where acos(dot) has none.
   float angle = 2.0 * asin(min(0.5 * length(direction - sun), 1.0));
   float coverage = clamp((radius - angle) / max(softness, 1e-6) + 0.5, 0.0, 1.0);
@@ -117,8 +117,8 @@ RadianceSpectrum GetSunDiscRadiance(sampler2D columns, vec3 direction, vec3 sun,
   float x = min(angle / radius, 1.0);
   float mu = sqrt(max(1.0 - x * x, 1e-4));
   // mu^a averages 2 / (a + 2) over the disc, so this profile averages one.
-  vec4 profile = pow(vec4(mu), LIMB_DARKENING) * (0.5 * LIMB_DARKENING + 1.0);
-  vec4 radiance = SOLAR_IRRADIANCE / (PI * SUN_ANGULAR_RADIUS * SUN_ANGULAR_RADIUS);
+  vec4 profile = pow(vec4(mu), kLimbDarkening) * (0.5 * kLimbDarkening + 1.0);
+  vec4 radiance = kSolarIrradiance / (kPi * kSunAngularRadius * kSunAngularRadius);
   float above = direction.y - GetCosineOfHorizon(altitude);
   float risen = clamp(above / max(softness, 1e-6) + 0.5, 0.0, 1.0);
   return coverage * risen * profile * radiance
@@ -127,5 +127,5 @@ RadianceSpectrum GetSunDiscRadiance(sampler2D columns, vec3 direction, vec3 sun,
 
 // Linear Rec. 709 in kcd m^-2; outside the gamut a channel is negative.
 vec3 SpectralToRec709(RadianceSpectrum radiance) {
-  return SPECTRAL_TO_REC709 * radiance;
+  return kSpectralToRec709 * radiance;
 }

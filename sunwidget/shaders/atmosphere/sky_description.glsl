@@ -8,7 +8,7 @@ uniform float altitude;       // m
 
 Length GetCameraHeight() {
   // One metre keeps the horizon below the eye; grazing rays would else start in the ground.
-  return clamp(altitude, 1.0, 0.99 * ATMOSPHERE_HEIGHT);
+  return clamp(altitude, 1.0, 0.99 * kAtmosphereHeight);
 }
 
 SkyView DescribeSky() {

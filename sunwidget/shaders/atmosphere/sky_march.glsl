@@ -8,8 +8,8 @@ uniform sampler2D columns;
 uniform sampler2D multiple_scattering;
 
 // The light field is smooth: one look-up serves a group of steps.
-const int GROUPS = 16;
-const int GROUP_STEPS = 2;
+const int kGroups = 16;
+const int kGroupSteps = 2;
 
 // Single scattering alone leaves out what atmosphere/multiple.glsl knows, whichever orders that holds.
 Number GetFieldShare() {
@@ -20,11 +20,11 @@ Number GetFieldShare() {
 RadianceSpectrum GetGroundRadiance(Number mu_s) {
   vec4 sun = max(mu_s, 0.0) * GetTransmittanceToSun(columns, 0.0, mu_s);
   LightField field = GetLightField(multiple_scattering, 0.0, mu_s);
-  return ground_albedo / PI * (sun + GetFieldShare() * GetFieldIrradiance(field));
+  return ground_albedo / kPi * (sun + GetFieldShare() * GetFieldIrradiance(field));
 }
 
 RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu) {
-  float r = GROUND_RADIUS + h;
+  float r = kGroundRadius + h;
   bool ground = RayIntersectsGround(h, mu);
   float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
   mat3x4 coefficients = GetExtinctionCoefficients();
@@ -35,24 +35,24 @@ RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu)
   float lobe = GetLobe(mie_moments, nu);
   vec4 transmittance = vec4(1.0);
   vec4 radiance = vec4(0.0);
-  for (int group = 0; group < GROUPS; ++group) {
-    float u_group = (float(group) + 0.5) / float(GROUPS);
+  for (int group = 0; group < kGroups; ++group) {
+    float u_group = (float(group) + 0.5) / float(kGroups);
     float t_group = d * u_group * u_group;
     float h_group = GetAltitudeAlongRay(h, mu, t_group);
-    float r_group = GROUND_RADIUS + h_group;
+    float r_group = kGroundRadius + h_group;
     float mu_s_group = clamp((r * mu_s + t_group * nu) / r_group, -1.0, 1.0);
     float mu_group = clamp((r * mu + t_group) / r_group, -1.0, 1.0);
     LightField field = GetLightField(multiple_scattering, h_group, mu_s_group);
     vec2 view = GetDirectionInField(mu_group, mu_s_group, nu);
     vec4 through_air = GetFieldShare() * GetFieldThroughAir(field, view);
     vec4 through_haze = GetFieldShare() * GetFieldThroughHaze(field, view, mie_moments, lobe);
-    for (int i = 0; i < GROUP_STEPS; ++i) {
-      float steps = float(GROUPS * GROUP_STEPS);
-      float u = (float(group * GROUP_STEPS + i) + 0.5) / steps;
+    for (int i = 0; i < kGroupSteps; ++i) {
+      float steps = float(kGroups * kGroupSteps);
+      float u = (float(group * kGroupSteps + i) + 0.5) / steps;
       float t = d * u * u;
       float dt = 2.0 * d * u / steps;
       float h_t = GetAltitudeAlongRay(h, mu, t);
-      float mu_s_t = clamp((r * mu_s + t * nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
+      float mu_s_t = clamp((r * mu_s + t * nu) / (kGroundRadius + h_t), -1.0, 1.0);
       vec3 density = GetDensity(h_t);
       vec4 rayleigh = coefficients[0] * density.x;
       vec4 mie = coefficients[1] * density.y;
@@ -66,8 +66,8 @@ RadianceSpectrum ComputeSkyRadiance(Length h, Number mu, Number mu_s, Number nu)
     }
   }
   if (ground) {
-    float mu_s_ground = clamp((r * mu_s + d * nu) / GROUND_RADIUS, -1.0, 1.0);
+    float mu_s_ground = clamp((r * mu_s + d * nu) / kGroundRadius, -1.0, 1.0);
     radiance += transmittance * GetGroundRadiance(mu_s_ground);
   }
-  return SOLAR_IRRADIANCE * radiance;
+  return kSolarIrradiance * radiance;
 }

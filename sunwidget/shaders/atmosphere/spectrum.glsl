@@ -13,11 +13,11 @@ Number GetBodhaineScattering(Number wavelength) {
   float king = (78.084 * f_n2 + 20.946 * f_o2 + 0.934 + 0.036 * 1.15) / (99.964 + 0.036);
   float square = excess * (2.0 + excess);
   float lorentz = square / (3.0 + square);
-  return 24.0 * PI * PI * PI / 25.46899 * um2 * um2 * lorentz * lorentz * king;
+  return 24.0 * kPi * kPi * kPi / 25.46899 * um2 * um2 * lorentz * lorentz * king;
 }
 
 // Vertical absorption optical depth of one Dobson unit, Bird & Riordan 1984: 380-780 nm by 5.
-const float OZONE_TABLE[81] = float[81](
+const float kOzoneTable[81] = float[81](
     0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
     0.0, 0.0, 0.0, 0.0, 0.0, 1.5e-06, 3e-06, 4.5e-06,
     6e-06, 7.5e-06, 9e-06, 1.15e-05, 1.4e-05, 1.75e-05, 2.1e-05, 2.55e-05,
@@ -33,11 +33,11 @@ const float OZONE_TABLE[81] = float[81](
 Number GetOzoneDepthPerDobson(Number wavelength) {
   float place = clamp((wavelength - 380.0) / 5.0, 0.0, 80.0);
   int low = min(int(place), 79);
-  return mix(OZONE_TABLE[low], OZONE_TABLE[low + 1], place - float(low));
+  return mix(kOzoneTable[low], kOzoneTable[low + 1], place - float(low));
 }
 
 // Radiance at the four wavelengths to CIE 1931 XYZ in kcd m^-2.
-const mat4x3 SPECTRAL_TO_XYZ = mat4x3(
+const mat4x3 kSpectralToXyz = mat4x3(
     19.83692, 7.24235, 0.5990631,
     37.21109, 38.32887, -3.850443,
     4.907598, 26.61338, 21.32421,

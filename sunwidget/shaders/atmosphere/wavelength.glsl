@@ -5,7 +5,7 @@
 
 Number GetRayleighScatteringAt(Number wavelength) {
   return air_density * GetBodhaineScattering(wavelength)
-      * pow(wavelength / 550.0, RAYLEIGH_EXPONENT - rayleigh_exponent);
+      * pow(wavelength / 550.0, kRayleighExponent - rayleigh_exponent);
 }
 
 Number GetMieExtinctionAt(Number wavelength) {
@@ -13,5 +13,5 @@ Number GetMieExtinctionAt(Number wavelength) {
 }
 
 Number GetOzoneAbsorptionAt(Number wavelength) {
-  return ozone / (0.5 * (OZONE_TOP - OZONE_BOTTOM)) * GetOzoneDepthPerDobson(wavelength);
+  return ozone / (0.5 * (kOzoneTop - kOzoneBottom)) * GetOzoneDepthPerDobson(wavelength);
 }

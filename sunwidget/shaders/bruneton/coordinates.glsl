@@ -16,12 +16,12 @@
 // ---- Altitude -------------------------------------------------------------------------------
 
 float GetAltitudeCoordinate(Length h) {
-  return sqrt(sqrt(GetSquaredHorizonDistance(h)) / LONGEST_HORIZON);
+  return sqrt(sqrt(GetSquaredHorizonDistance(h)) / kLongestHorizon);
 }
 
 Length GetAltitudeOfCoordinate(float y) {
-  float rho = y * y * LONGEST_HORIZON;
-  return rho * rho / (sqrt(GROUND_RADIUS * GROUND_RADIUS + rho * rho) + GROUND_RADIUS);
+  float rho = y * y * kLongestHorizon;
+  return rho * rho / (sqrt(kGroundRadius * kGroundRadius + rho * rho) + kGroundRadius);
 }
 
 // ---- View -----------------------------------------------------------------------------------
@@ -35,8 +35,8 @@ float GetViewCoordinate(Length h, Number mu, bool ground, int count) {
     float x = rho > h ? (GetDistanceToGround(h, mu) - h) / (rho - h) : 0.0;
     return last * clamp(x, 0.0, 1.0);
   }
-  float d_min = ATMOSPHERE_HEIGHT - h;
-  float x = (GetDistanceToTop(h, mu) - d_min) / (rho + LONGEST_HORIZON - d_min);
+  float d_min = kAtmosphereHeight - h;
+  float x = (GetDistanceToTop(h, mu) - d_min) / (rho + kLongestHorizon - d_min);
   return last + 1.0 + last * sqrt(clamp(x, 0.0, 1.0));
 }
 
@@ -45,16 +45,16 @@ vec2 GetViewOfSample(Length h, int index, int count) {
   float rho2 = GetSquaredHorizonDistance(h);
   float rho = sqrt(rho2);
   float last = float(count / 2 - 1);
-  float r = GROUND_RADIUS + h;
+  float r = kGroundRadius + h;
   if (index < count / 2) {
     float d = h + float(index) / last * (rho - h);
     // From |ground|^2 = r^2 + d^2 + 2 r d mu.
     return vec2(d > 0.0 ? clamp(-(rho2 + d * d) / (2.0 * r * d), -1.0, 1.0) : -1.0, d);
   }
-  float d_min = ATMOSPHERE_HEIGHT - h;
+  float d_min = kAtmosphereHeight - h;
   float x = float(index - count / 2) / last;
-  float d = d_min + x * x * (rho + LONGEST_HORIZON - d_min);
-  float shell = (ATMOSPHERE_HEIGHT - h) * (TOP_RADIUS + GROUND_RADIUS + h);
+  float d = d_min + x * x * (rho + kLongestHorizon - d_min);
+  float shell = (kAtmosphereHeight - h) * (kTopRadius + kGroundRadius + h);
   return vec2(d > 0.0 ? clamp((shell - d * d) / (2.0 * r * d), -1.0, 1.0) : 1.0, d);
 }
 
@@ -63,30 +63,30 @@ vec2 GetViewOfSample(Length h, int index, int count) {
 // Even in the inverse hyperbolic sine of the elevation: dense about the terminator, where the path
 // through the air to the sun changes fastest, and down to -18 degrees; by day close enough that
 // the aureole moves by little from sample to sample.
-const Angle LOWEST_SUN = -0.314;
-const float TERMINATOR = 0.36;  // place of mu_s = 0 in [0, 1]
-const Angle DAY_SCALE = 0.1;
-const Angle NIGHT_SCALE = 0.08;
+const Angle kLowestSun = -0.314;
+const float kTerminator = 0.36;  // place of mu_s = 0 in [0, 1]
+const Angle kDayScale = 0.1;
+const Angle kNightScale = 0.08;
 
 float GetSunCoordinate(Number mu_s, int count) {
   float elevation = asin(clamp(mu_s, -1.0, 1.0));
   float x = elevation < 0.0
-      ? TERMINATOR * (1.0 - asinh(-elevation / NIGHT_SCALE) / asinh(-LOWEST_SUN / NIGHT_SCALE))
-      : TERMINATOR + (1.0 - TERMINATOR) * asinh(elevation / DAY_SCALE) / asinh(0.5 * PI / DAY_SCALE);
+      ? kTerminator * (1.0 - asinh(-elevation / kNightScale) / asinh(-kLowestSun / kNightScale))
+      : kTerminator + (1.0 - kTerminator) * asinh(elevation / kDayScale) / asinh(0.5 * kPi / kDayScale);
   return clamp(x, 0.0, 1.0) * float(count - 1);
 }
 
 Number GetSunCosineOfSample(int index, int count) {
   float x = float(index) / float(count - 1);
-  float night = max(1.0 - x / TERMINATOR, 0.0);
-  float day = max(x - TERMINATOR, 0.0) / (1.0 - TERMINATOR);
-  return sin(DAY_SCALE * sinh(day * asinh(0.5 * PI / DAY_SCALE))
-      - NIGHT_SCALE * sinh(night * asinh(-LOWEST_SUN / NIGHT_SCALE)));
+  float night = max(1.0 - x / kTerminator, 0.0);
+  float day = max(x - kTerminator, 0.0) / (1.0 - kTerminator);
+  return sin(kDayScale * sinh(day * asinh(0.5 * kPi / kDayScale))
+      - kNightScale * sinh(night * asinh(-kLowestSun / kNightScale)));
 }
 
 Number GetFading(Number mu_s) {
   float down = min(mu_s, 0.0);
-  return exp(-0.5 * GROUND_RADIUS / TWILIGHT_SCALE_HEIGHT * down * down);
+  return exp(-0.5 * kGroundRadius / kTwilightScaleHeight * down * down);
 }
 
 // Between two suns light is interpolated by its logarithm: it fades as the exponential of a path.
@@ -106,13 +106,13 @@ Number GetScatteringCosine(Number mu, Number mu_s, Number cosine_of_azimuth) {
 }
 
 Number GetCosineOfAzimuthSample(float index, int count) {
-  return cos(PI * index / float(count - 1));
+  return cos(kPi * index / float(count - 1));
 }
 
 // Place among `count` samples from azimuth 0 to pi. They are even in the angle, but light varies
 // with its cosine: linear in that, the slope at both ends comes out flat as it is.
 float GetAzimuthCoordinate(Number cosine_of_azimuth, int count) {
-  float index = floor(acos(cosine_of_azimuth) / PI * float(count - 1));
+  float index = floor(acos(cosine_of_azimuth) / kPi * float(count - 1));
   index = min(index, float(count - 2));
   float near = GetCosineOfAzimuthSample(index, count);
   float far = GetCosineOfAzimuthSample(index + 1.0, count);

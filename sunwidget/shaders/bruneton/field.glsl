@@ -3,7 +3,7 @@
 //
 // Two textures, both over GetFading and per unit of solar irradiance:
 //   incident   radiance of one order in each direction of a quadrature (eight-point
-//              Gauss-Legendre on each hemisphere times FIELD_AZIMUTHS over half a circle), that is
+//              Gauss-Legendre on each hemisphere times kFieldAzimuths over half a circle), that is
 //              tiles of azimuth along x and zenith along y; in each mu_s along x, r along y
 //   source     what air (upper half) and haze (lower half) send on of it towards a viewer who
 //              looks along theta, phi, for a scattering coefficient of one, that is the mean of
@@ -17,23 +17,23 @@ uniform ivec4 field_size;  // samples of r, mu_s, theta, phi
 uniform sampler2D source;
 uniform sampler2D irradiance;  // scattered light on level ground, mu_s along x
 
-const int FIELD_ZENITHS = 16;
-const int FIELD_AZIMUTHS = 16;
-const float FIELD_NODES[8] = float[8](0.0198550718, 0.1016667613, 0.2372337950, 0.4082826788,
+const int kFieldZeniths = 16;
+const int kFieldAzimuths = 16;
+const float kFieldNodes[8] = float[8](0.0198550718, 0.1016667613, 0.2372337950, 0.4082826788,
     0.5917173212, 0.7627662050, 0.8983332387, 0.9801449282);
-const float FIELD_WEIGHTS[8] = float[8](0.0506142681, 0.1111905172, 0.1568533229, 0.1813418917,
+const float kFieldWeights[8] = float[8](0.0506142681, 0.1111905172, 0.1568533229, 0.1813418917,
     0.1813418917, 0.1568533229, 0.1111905172, 0.0506142681);
 // The part of [0, 1] that each node stands for.
-const float FIELD_EDGES[9] = float[9](0.0000000000, 0.0506142681, 0.1618047854, 0.3186581083,
+const float kFieldEdges[9] = float[9](0.0000000000, 0.0506142681, 0.1618047854, 0.3186581083,
     0.5000000000, 0.6813418917, 0.8381952146, 0.9493857319, 1.0000000000);
 
 // Upper hemisphere first; eight points each.
 Number GetFieldZenithCosine(int zenith) {
-  return zenith < 8 ? FIELD_NODES[zenith] : -FIELD_NODES[zenith - 8];
+  return zenith < 8 ? kFieldNodes[zenith] : -kFieldNodes[zenith - 8];
 }
 
 Number GetFieldWeight(int zenith) {
-  return 0.5 * FIELD_WEIGHTS[zenith % 8] / float(FIELD_AZIMUTHS);
+  return 0.5 * kFieldWeights[zenith % 8] / float(kFieldAzimuths);
 }
 
 // The ray that a texel of "incident" stands for.
@@ -53,7 +53,7 @@ IncidentRay GetIncidentRay(ivec2 texel) {
   float mu_s = GetSunCosineOfSample(cell.x, field_size.y);
   float h = GetAltitudeOfCoordinate(float(cell.y) / float(field_size.x - 1));
   float mu = GetFieldZenithCosine(tile.y);
-  float nu = GetScatteringCosine(mu, mu_s, cos(GetAzimuth(tile.x, FIELD_AZIMUTHS)));
+  float nu = GetScatteringCosine(mu, mu_s, cos(GetAzimuth(tile.x, kFieldAzimuths)));
   bool ground = RayIntersectsGround(h, mu);
   float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
   return IncidentRay(tile, h, mu, mu_s, nu, ground, d);
@@ -89,7 +89,7 @@ Source GetSource(Length h, Number mu, Number mu_s, Number nu) {
                     GetAltitudeCoordinate(h) * float(field_size.x - 1));
   vec2 direction = vec2(
       GetAzimuthCoordinate(GetCosineOfAzimuth(mu, mu_s, nu), field_size.w),
-      acos(clamp(mu, -1.0, 1.0)) / PI * float(field_size.z - 1));
+      acos(clamp(mu, -1.0, 1.0)) / kPi * float(field_size.z - 1));
   ivec2 corner = clamp(ivec2(place), ivec2(0), field_size.yx - 2);
   ivec2 tile = clamp(ivec2(direction), ivec2(0), field_size.wz - 2);
   float sun_part = place.x - float(corner.x);
@@ -110,27 +110,27 @@ IrradianceSpectrum GetScatteredIrradiance(Number mu_s) {
 }
 
 // The field is smooth: one look-up serves a group of steps.
-const int SOURCE_GROUPS = 16;
-const int SOURCE_GROUP_STEPS = 2;
+const int kSourceGroups = 16;
+const int kSourceGroupSteps = 2;
 
 // Radiance that the source sends towards h from along mu, and what the ground adds that it lights
 // besides `sun_on_ground`, the irradiance of the sun there.
 RadianceSpectrum GatherSource(Length h, Number mu, Number mu_s, Number nu, Length d, bool ground,
                               IrradianceSpectrum sun_on_ground) {
-  float r = GROUND_RADIUS + h;
+  float r = kGroundRadius + h;
   mat3x4 coefficients = GetExtinctionCoefficients();
   vec4 transmittance = vec4(1.0);
   vec4 radiance = vec4(0.0);
-  for (int group = 0; group < SOURCE_GROUPS; ++group) {
-    float u_group = (float(group) + 0.5) / float(SOURCE_GROUPS);
+  for (int group = 0; group < kSourceGroups; ++group) {
+    float u_group = (float(group) + 0.5) / float(kSourceGroups);
     float t_group = d * u_group * u_group;
     float h_group = GetAltitudeAlongRay(h, mu, t_group);
-    float r_group = GROUND_RADIUS + h_group;
+    float r_group = kGroundRadius + h_group;
     Source light = GetSource(h_group, clamp((r * mu + t_group) / r_group, -1.0, 1.0),
                              clamp((r * mu_s + t_group * nu) / r_group, -1.0, 1.0), nu);
-    for (int i = 0; i < SOURCE_GROUP_STEPS; ++i) {
-      float steps = float(SOURCE_GROUPS * SOURCE_GROUP_STEPS);
-      float u = (float(group * SOURCE_GROUP_STEPS + i) + 0.5) / steps;
+    for (int i = 0; i < kSourceGroupSteps; ++i) {
+      float steps = float(kSourceGroups * kSourceGroupSteps);
+      float u = (float(group * kSourceGroupSteps + i) + 0.5) / steps;
       float dt = 2.0 * d * u / steps;
       vec3 density = GetDensity(GetAltitudeAlongRay(h, mu, d * u * u));
       vec4 rayleigh = coefficients[0] * density.x;
@@ -142,8 +142,8 @@ RadianceSpectrum GatherSource(Length h, Number mu, Number mu_s, Number nu, Lengt
     }
   }
   if (ground) {
-    float mu_s_ground = clamp((r * mu_s + d * nu) / GROUND_RADIUS, -1.0, 1.0);
-    radiance += transmittance * ground_albedo / PI
+    float mu_s_ground = clamp((r * mu_s + d * nu) / kGroundRadius, -1.0, 1.0);
+    radiance += transmittance * ground_albedo / kPi
         * (sun_on_ground + GetScatteredIrradiance(mu_s_ground));
   }
   return radiance;

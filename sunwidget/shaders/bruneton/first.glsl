@@ -7,7 +7,7 @@
 
 out vec4 result;
 
-const int LOBE_SAMPLES = 3;
+const int kLobeSamples = 3;
 
 // Mean of the aerosol's phase function over the cell of directions that a node stands for: a
 // node that a narrow lobe falls on would else count it for the whole cell.
@@ -16,17 +16,17 @@ Number GetMeanMiePhase(int zenith, int azimuth, Number mu_s) {
   int node = zenith % 8;
   float level = sqrt(1.0 - mu_s * mu_s);
   float sum = 0.0;
-  for (int i = 0; i < LOBE_SAMPLES; ++i) {
-    float part = (float(i) + 0.5) / float(LOBE_SAMPLES);
-    float mu = side * mix(FIELD_EDGES[node], FIELD_EDGES[node + 1], part);
+  for (int i = 0; i < kLobeSamples; ++i) {
+    float part = (float(i) + 0.5) / float(kLobeSamples);
+    float mu = side * mix(kFieldEdges[node], kFieldEdges[node + 1], part);
     float across = sqrt(1.0 - mu * mu) * level;
-    for (int k = 0; k < LOBE_SAMPLES; ++k) {
-      float turn = float(azimuth) + (float(k) + 0.5) / float(LOBE_SAMPLES);
+    for (int k = 0; k < kLobeSamples; ++k) {
+      float turn = float(azimuth) + (float(k) + 0.5) / float(kLobeSamples);
       sum += MiePhase(aerosol_asymmetry,
-                      mu * mu_s + across * cos(PI * turn / float(FIELD_AZIMUTHS)));
+                      mu * mu_s + across * cos(kPi * turn / float(kFieldAzimuths)));
     }
   }
-  return sum / float(LOBE_SAMPLES * LOBE_SAMPLES);
+  return sum / float(kLobeSamples * kLobeSamples);
 }
 
 void main() {
@@ -36,7 +36,7 @@ void main() {
       + single.haze * GetMeanMiePhase(ray.tile.y, ray.tile.x, ray.mu_s);
   if (ray.ground) {
     vec4 sun = GetSunOnGround(ray.h, ray.mu_s, ray.nu, ray.d);
-    radiance += single.transmittance * ground_albedo / PI * sun;
+    radiance += single.transmittance * ground_albedo / kPi * sun;
   }
   result = radiance / GetFading(ray.mu_s);
 }

@@ -5,7 +5,7 @@
 
 uniform sampler2D columns;
 
-const int SINGLE_STEPS = 48;
+const int kSingleSteps = 48;
 
 struct SingleScattering {
   vec4 air;
@@ -14,15 +14,15 @@ struct SingleScattering {
 };
 
 SingleScattering ComputeSingleScattering(Length h, Number mu, Number mu_s, Number nu, Length d) {
-  float r = GROUND_RADIUS + h;
+  float r = kGroundRadius + h;
   mat3x4 coefficients = GetExtinctionCoefficients();
   SingleScattering single = SingleScattering(vec4(0.0), vec4(0.0), vec4(1.0));
-  for (int i = 0; i < SINGLE_STEPS; ++i) {
-    float u = (float(i) + 0.5) / float(SINGLE_STEPS);
+  for (int i = 0; i < kSingleSteps; ++i) {
+    float u = (float(i) + 0.5) / float(kSingleSteps);
     float t = d * u * u;
-    float dt = 2.0 * d * u / float(SINGLE_STEPS);
+    float dt = 2.0 * d * u / float(kSingleSteps);
     float h_t = GetAltitudeAlongRay(h, mu, t);
-    float mu_s_t = clamp((r * mu_s + t * nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
+    float mu_s_t = clamp((r * mu_s + t * nu) / (kGroundRadius + h_t), -1.0, 1.0);
     vec3 density = GetDensity(h_t);
     vec4 rayleigh = coefficients[0] * density.x;
     vec4 mie = coefficients[1] * density.y;
@@ -38,6 +38,6 @@ SingleScattering ComputeSingleScattering(Length h, Number mu, Number mu_s, Numbe
 
 // Sunlight on level ground where the ray from h meets it.
 IrradianceSpectrum GetSunOnGround(Length h, Number mu_s, Number nu, Length d) {
-  float cosine = clamp(((GROUND_RADIUS + h) * mu_s + d * nu) / GROUND_RADIUS, -1.0, 1.0);
+  float cosine = clamp(((kGroundRadius + h) * mu_s + d * nu) / kGroundRadius, -1.0, 1.0);
   return max(cosine, 0.0) * GetTransmittanceToSun(columns, 0.0, cosine);
 }

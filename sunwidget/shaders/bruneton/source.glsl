@@ -12,19 +12,19 @@ void main() {
   ivec2 tile = texel / field_size.yx;
   ivec2 cell = texel - tile * field_size.yx;
   bool haze = tile.y >= field_size.z;
-  float theta = PI * float(haze ? tile.y - field_size.z : tile.y) / float(field_size.z - 1);
+  float theta = kPi * float(haze ? tile.y - field_size.z : tile.y) / float(field_size.z - 1);
   float phi = acos(GetCosineOfAzimuthSample(float(tile.x), field_size.w));
   float mu = cos(theta);
   float across = sin(theta);
   vec4 sum = vec4(0.0);
   float norm = 0.0;
-  for (int zenith = 0; zenith < FIELD_ZENITHS; ++zenith) {
+  for (int zenith = 0; zenith < kFieldZeniths; ++zenith) {
     float mu_i = GetFieldZenithCosine(zenith);
     float across_i = sqrt(1.0 - mu_i * mu_i) * across;
     float weight = GetFieldWeight(zenith);
-    for (int azimuth = 0; azimuth < FIELD_AZIMUTHS; ++azimuth) {
+    for (int azimuth = 0; azimuth < kFieldAzimuths; ++azimuth) {
       // The other half of the circle mirrors this one.
-      float phi_i = GetAzimuth(azimuth, FIELD_AZIMUTHS);
+      float phi_i = GetAzimuth(azimuth, kFieldAzimuths);
       float left = mu * mu_i + across_i * cos(phi - phi_i);
       float right = mu * mu_i + across_i * cos(phi + phi_i);
       float phase = haze

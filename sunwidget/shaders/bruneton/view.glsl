@@ -48,7 +48,7 @@ RadianceSpectrum LookUpSkyRadiance(Number mu, bool ground, Number mu_s, Number c
   vec4 air = FetchTable(place, azimuths, part);
   vec4 haze = FetchTable(place + ivec2(0, suns), azimuths, part);
   vec4 rest = FetchTable(place + ivec2(0, 2 * suns), azimuths, part);
-  return SOLAR_IRRADIANCE * GetFading(mu_s)
+  return kSolarIrradiance * GetFading(mu_s)
       * (air * RayleighPhase(nu) + haze * MiePhase(description.y, nu) + rest);
 }
 

@@ -1,5 +1,5 @@
 // The camera's own glare round the sun: what its lens and its sensor scatter over the whole picture, sky
-// and land alike. It is light of the sun's colour that is added: the glow in a deep blue sky is white.
+// and land alike. It is light of the sun's color that is added: the glow in a deep blue sky is white.
 // `glare_profile` (analysis/sun/camera_glare.py) is that of a sun in a well exposed picture.
 
 uniform vec3 glare_profile;  // a (scene-linear luminance), b (degrees), c
@@ -19,7 +19,7 @@ float GetGlareStrength(float illuminance) {
   return pow(max(illuminance, 1e-9) / kSunOfProfile, kGlareGrowth);
 }
 
-// The colour of the sun travels as one float: shares of red and blue in 12 bits each.
+// The color of the sun travels as one float: shares of red and blue in 12 bits each.
 float PackColor(vec3 color) {
   vec3 share = color / max(dot(color, vec3(1.0)), 1e-12);
   return floor(share.r * 4095.0 + 0.5) + 4096.0 * floor(share.b * 4095.0 + 0.5);

@@ -1,14 +1,14 @@
 // Lens flare: faint ghosts, images of the aperture by reflection between two of the lens' surfaces,
-// on the line from the sun through the picture's centre, and a ring round the centre. Per unit of the
+// on the line from the sun through the picture's center, and a ring round the center. Per unit of the
 // sun's light.
 
-float GetGhost(vec2 at, vec2 centre, float radius) {
-  float edge = length(at - centre) / radius;
+float GetGhost(vec2 at, vec2 center, float radius) {
+  float edge = length(at - center) / radius;
   // A little brighter at its rim, as ghosts are.
   return smoothstep(1.0, 0.8, edge) * (0.6 + 0.4 * edge * edge);
 }
 
-// `at` and `sun` from the picture's centre, in its heights.
+// `at` and `sun` from the picture's center, in its heights.
 vec3 GetFlare(vec2 at, vec2 sun) {
   vec3 light = vec3(0.9, 0.7, 0.5) * GetGhost(at, -0.35 * sun, 0.035);
   light += vec3(0.5, 0.8, 0.6) * GetGhost(at, -0.62 * sun, 0.06);

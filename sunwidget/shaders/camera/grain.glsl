@@ -15,7 +15,7 @@ vec3 GetGrain(vec3 light, vec3 before, float filled, vec2 pixel) {
   float level = GetLuminance(light) / max(GetLuminance(before), 1e-4);
   float deviation = grain * noise_level * min(frame_size.y / max(photo_height, 1.0), 1.0)
       * sqrt(max(1.0 - kept * kept, 0.0)) * pow(clamp(level, 0.0, 1.0), 1.0 / 2.2);
-  // Luminance has more of it than colour. Triangular noise has the deviation 0.41.
+  // Luminance has more of it than color. Triangular noise has the deviation 0.41.
   float shared_noise = GetNoise(at, 11u) - GetNoise(at, 12u);
   vec3 own = vec3(GetNoise(at, 13u), GetNoise(at, 14u), GetNoise(at, 15u)) - GetNoise(at, 16u);
   vec3 code = deviation / 0.41 * (0.9 * shared_noise + 0.4 * own);

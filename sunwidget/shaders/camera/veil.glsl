@@ -30,7 +30,7 @@ void main() {
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
   float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
   // The gain of each channel was fitted to the sky and holds what that sky had of its own; what is
-  // added gets the sun's colour and the gain of all three.
+  // added gets the sun's color and the gain of all three.
   float gain = GetLuminance(sky_gain);
   vec3 beam_before = gain * GetLightTexel(light_before, 1);
   vec3 beam_now = gain * GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);

@@ -47,7 +47,7 @@ float GetLumps(vec3 at, vec3 known) {
 }
 
 // Optical depth of a part of the way to the sun. It rises slowly with the shape, so that the inside
-// of a cloud is not all of one grey.
+// of a cloud is not all of one gray.
 float GetShadeFrom(float shape, float part) {
   return kExtinction * part * clamp(shape / 0.35, 0.0, 1.0);
 }
@@ -83,8 +83,8 @@ void main() {
   vec2 known = vec2(GetKnown(1.0, footprint), GetKnown(0.5, footprint));
   vec3 fine = vec3(GetKnown(0.5, footprint), GetKnown(0.22, footprint), GetKnown(0.1, footprint));
 
-  vec3 direct = GetLightTexel(light_before, 8) / PI;
-  vec3 above = 0.5 * (GetLightTexel(light_before, 0) + GetLightTexel(light_before, 2)) / PI;
+  vec3 direct = GetLightTexel(light_before, 8) / kPi;
+  vec3 above = 0.5 * (GetLightTexel(light_before, 0) + GetLightTexel(light_before, 2)) / kPi;
   vec3 below = 0.15 * (above + max(sun.y, 0.0) * direct);
   // What is turned aside again and again inside spreads the lobe: its peak is not that of one drop.
   vec3 lobe = 0.12 * min(GetForwardLobe(dot(sun, view)), 8.0) * direct;
@@ -92,7 +92,7 @@ void main() {
   // Where single clouds are smaller than a pixel is the share that they cover, and rows of them hide
   // the gaps between: an even bank.
   float bank = smoothstep(0.4, 1.5, grazing);
-  // Neighbours start a quarter of a step apart, else the steps show as slices; retouch.glsl averages
+  // Neighbors start a quarter of a step apart, else the steps show as slices; retouch.glsl averages
   // any four of them.
   ivec2 parity = ivec2(gl_FragCoord.xy) & 1;
   // Within its quarter each starts at random, else large pictures show combs at the fringes.

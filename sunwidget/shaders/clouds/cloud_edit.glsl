@@ -20,8 +20,8 @@ bool IsCloudEdited() {
 const float kNoCloud = 0.01;
 const float kCloud = 0.12;
 
-// Thickened, a cloud parts from its clear sky in light more than in colour, and within limits: where
-// sky and cloud are of one colour the sky behind is a guess.
+// Thickened, a cloud parts from its clear sky in light more than in color, and within limits: where
+// sky and cloud are of one color the sky behind is a guess.
 vec3 GetThickened(vec3 light, vec3 wanted) {
   vec3 ratio = clamp(wanted / max(light, vec3(1e-6)), vec3(0.5), vec3(1.6));
   float level = clamp(GetLuminance(wanted) / max(GetLuminance(light), 1e-6), 0.5, 1.6);

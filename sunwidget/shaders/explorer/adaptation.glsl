@@ -16,32 +16,32 @@ uniform float exposure;       // stops
 uniform float auto_exposure;  // 0 keeps the exposure of noon, 1 adapts fully
 out vec4 result;
 
-const float MEADOW_ALBEDO = 0.06;
-const float NOON = 2.85;    // kcd m^-2: the mean below, sun at 60 degrees in the default atmosphere
-const float KEY = 0.14;     // display light that the mean is drawn with
-const float NIGHT = 1e-9;    // no light at all
-const Angle GLOW_RADIUS = 0.011;
-const float GLOW_COLOUR = 0.6;  // share of the sun's colour that its glow has
+const float kMeadowAlbedo = 0.06;
+const float kNoon = 2.85;    // kcd m^-2: the mean below, sun at 60 degrees in the default atmosphere
+const float kKey = 0.14;     // display light that the mean is drawn with
+const float kNight = 1e-9;    // no light at all
+const Angle kGlowRadius = 0.011;
+const float kGlowColor = 0.6;  // share of the sun's color that its glow has
 
 vec3 GetIlluminance(int texel) {
   return SpectralToRec709(texelFetch(light, ivec2(texel, 0), 0));
 }
 
 float GetMeanLuminance(float sky, float sun) {
-  return 0.5 / PI * (sky + MEADOW_ALBEDO * (sky + sun));
+  return 0.5 / kPi * (sky + kMeadowAlbedo * (sky + sun));
 }
 
 void main() {
   if (gl_FragCoord.x > 1.0) {
-    float radius = GLOW_RADIUS * max(sun_size, 0.5);
+    float radius = kGlowRadius * max(sun_size, 0.5);
     result = vec4(1.0 / GetDiscReach(), 1.0 / (radius * radius), 0.0, 0.0);
     return;
   }
   vec3 sun = GetIlluminance(1);
   // Texel 0 is the sky's light on level ground; the sun's falls on it at its height.
   float height = max(sin(radians(sun_elevation)), 0.0);
-  float mean = max(GetMeanLuminance(GetLuminance(GetIlluminance(0)), GetLuminance(sun) * height), NIGHT);
-  float gain = KEY * exp2(exposure) * pow(mean, -auto_exposure) * pow(NOON, auto_exposure - 1.0);
-  vec3 glow = mix(vec3(GetLuminance(sun)), sun, GLOW_COLOUR);
+  float mean = max(GetMeanLuminance(GetLuminance(GetIlluminance(0)), GetLuminance(sun) * height), kNight);
+  float gain = kKey * exp2(exposure) * pow(mean, -auto_exposure) * pow(kNoon, auto_exposure - 1.0);
+  vec3 glow = mix(vec3(GetLuminance(sun)), sun, kGlowColor);
   result = vec4(min(sun_size, 1.0) * max(glow, 0.0), gain);
 }

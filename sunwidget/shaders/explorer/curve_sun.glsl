@@ -12,8 +12,8 @@ out vec4 result;
 void main() {
   float t = floor(gl_FragCoord.x) / (pass_size.x - 1.0);
   float elevation = radians(-1.0 + 91.0 * t * t);
-  float h = clamp(altitude, 1.0, 0.99 * ATMOSPHERE_HEIGHT);
-  vec4 irradiance = SOLAR_IRRADIANCE * GetTransmittanceToTop(columns, h, sin(elevation))
+  float h = clamp(altitude, 1.0, 0.99 * kAtmosphereHeight);
+  vec4 irradiance = kSolarIrradiance * GetTransmittanceToTop(columns, h, sin(elevation))
       * GetVisibleFractionOfDisc(elevation - asin(GetCosineOfHorizon(h)));
   vec3 light = SpectralToRec709(irradiance);
   result = vec4(light, GetLuminance(light));

@@ -11,7 +11,7 @@ out vec4 result;
 
 void main() {
   float wavelength = mix(380.0, 780.0, floor(gl_FragCoord.x) / (pass_size.x - 1.0));
-  float h = clamp(altitude, 1.0, 0.99 * ATMOSPHERE_HEIGHT);
+  float h = clamp(altitude, 1.0, 0.99 * kAtmosphereHeight);
   float mu = max(sin(radians(sun_elevation)), GetCosineOfHorizon(h));
   vec3 path = FetchBilinear(columns, GetColumnsCoordinate(h, mu)).xyz;
   vec3 depth = path * vec3(GetRayleighScatteringAt(wavelength), GetMieExtinctionAt(wavelength),

@@ -1,4 +1,4 @@
-// Colour and luminance of the zenith over the sun's elevation, -12 to 28 degrees, half a degree a
+// Color and luminance of the zenith over the sun's elevation, -12 to 28 degrees, half a degree a
 // texel: CIE 1931 x, y and luminance in cd m^-2. As many orders as the model has.
 
 #include "atmosphere/sky_march.glsl"
@@ -9,10 +9,10 @@ out vec4 result;
 
 void main() {
   float mu_s = sin(radians(-12.0 + 0.5 * floor(gl_FragCoord.x)));
-  float h = clamp(altitude, 1.0, 0.99 * ATMOSPHERE_HEIGHT);
-  vec3 xyz = SPECTRAL_TO_XYZ * ComputeSkyRadiance(h, 1.0, mu_s, mu_s);
+  float h = clamp(altitude, 1.0, 0.99 * kAtmosphereHeight);
+  vec3 xyz = kSpectralToXyz * ComputeSkyRadiance(h, 1.0, mu_s, mu_s);
   float sum = xyz.x + xyz.y + xyz.z;
-  // Where there is no light its colour is white's (E).
+  // Where there is no light its color is white's (E).
   vec2 chromaticity = sum > 0.0 ? xyz.xy / sum : vec2(1.0 / 3.0);
   result = vec4(chromaticity, 1000.0 * max(xyz.y, 0.0), 0.0);
 }

@@ -19,18 +19,18 @@ flat in vec4 scales;
 
 // Glare round the sun, far weaker than in an eye: enough to see the sun where its disc
 // is a pixel. A Moffat profile per unit of illuminance, 1/sr.
-const float GLOW = 0.8;
-const float GLOW_FALL = 1.35;
+const float kGlow = 0.8;
+const float kGlowFall = 1.35;
 
 // The way to display light runs as film does, a channel at a time, so that a low sun's light goes
 // from red over orange and yellow to white. Before it the channels are mixed a little towards
-// grey, which takes in what lies outside Rec. 709 and lets the brightest lose its colour; after it
+// gray, which takes in what lies outside Rec. 709 and lets the brightest lose its color; after it
 // they are taken apart further than that, for a picture without the dazzle of a real sky needs
-// more colour.
-const float INSET = 0.06;
-const float OUTSET = 0.3;
-const float CONTRAST = 1.25;
-const float GREY = 0.18;  // stays where it is
+// more color.
+const float kInset = 0.06;
+const float kOutset = 0.3;
+const float kContrast = 1.25;
+const float kGray = 0.18;  // stays where it is
 
 // The picture of the disc (sun_disc.glsl) where it lies, in the plane that touches the sphere of
 // directions at the sun. `scale` is one over half its side.
@@ -47,11 +47,11 @@ vec3 GetDisc(vec3 view, vec3 sun, float scale) {
 
 // Display light in [0, 1]: a response x^n / (x^n + k^n) as eyes and film have it (Naka & Rushton 1966).
 vec3 GetDisplayLight(vec3 light) {
-  vec3 inset = max(mix(light, vec3(dot(light, vec3(1.0 / 3.0))), INSET), 0.0);
-  vec3 power = pow(inset, vec3(CONTRAST));
-  vec3 shown = power / (power + pow(GREY, CONTRAST - 1.0) * (1.0 - GREY));
-  float grey = dot(shown, vec3(1.0 / 3.0));
-  return grey + (shown - grey) / (1.0 - OUTSET);
+  vec3 inset = max(mix(light, vec3(dot(light, vec3(1.0 / 3.0))), kInset), 0.0);
+  vec3 power = pow(inset, vec3(kContrast));
+  vec3 shown = power / (power + pow(kGray, kContrast - 1.0) * (1.0 - kGray));
+  float gray = dot(shown, vec3(1.0 / 3.0));
+  return gray + (shown - gray) / (1.0 - kOutset);
 }
 
 void main() {
@@ -64,10 +64,10 @@ void main() {
   vec4 radiance = GetShownRadiance(sky, right ? 1 : 0, ray.xyz);
   // Where no reference is drawn another table is bound, of another size.
   vec4 traced = texelFetch(reference, min(texel, textureSize(reference, 0) - 1), 0);
-  bool is_traced = int((right ? compare - 1.0 : model) + 0.5) == MODEL_REFERENCE;
+  bool is_traced = int((right ? compare - 1.0 : model) + 0.5) == kModelReference;
   radiance = max(radiance + (is_traced ? show_multiple * traced : vec4(0.0)), 0.0);
   vec3 away = ray.xyz - sky.sun;
-  float glow = GLOW * pow(1.0 + dot(away, away) * scales.g, -GLOW_FALL);
+  float glow = kGlow * pow(1.0 + dot(away, away) * scales.g, -kGlowFall);
   vec3 light = SpectralToRec709(radiance) + GetDisc(ray.xyz, sky.sun, scales.r) + glow * adapted.rgb;
   vec3 display = GetDisplayLight(adapted.a * light);
   float divide = compare > 0.5 ? 0.6 * clamp(1.0 - abs(from_middle), 0.0, 1.0) : 0.0;

@@ -3,7 +3,7 @@
 // probabilities of one wavelength, drawn at random, the hero. A path carries what it transports at
 // each wavelength and how likely each of the four would have made it as a hero; transport over the
 // mean of the likelihoods (the balance heuristic) is an unbiased estimate at all four, and one
-// that varies little from colour to colour.
+// that varies little from color to color.
 
 #include "atmosphere/atmosphere.glsl"
 #include "explorer/random.glsl"
@@ -12,13 +12,13 @@ uniform sampler2D columns;
 
 struct Path {
   Length h;
-  vec3 up;           // from the centre of the earth
+  vec3 up;           // from the center of the earth
   vec3 direction;    // in which the path is followed
   vec4 transport;
   vec4 likelihood;   // of every wavelength as hero; of the hero itself it is one
 };
 
-const int EVENT_STEPS = 40;
+const int kEventSteps = 40;
 
 // 1 - exp(-x) without cancellation.
 vec4 GetOpacity(vec4 x) {
@@ -46,8 +46,8 @@ bool GoToNextEvent(inout Path path, int hero, mat3x4 coefficients) {
                          PickHero(coefficients[2], hero));
   vec3 whole = vec3(0.0);
   float start = 0.0;
-  for (int i = 0; i < EVENT_STEPS; ++i) {
-    float end = GetEventDistance(float(i + 1) / float(EVENT_STEPS), d, ground);
+  for (int i = 0; i < kEventSteps; ++i) {
+    float end = GetEventDistance(float(i + 1) / float(kEventSteps), d, ground);
     whole += GetDensity(GetAltitudeAlongRay(path.h, mu, 0.5 * (start + end))) * (end - start);
     start = end;
   }
@@ -67,11 +67,11 @@ bool GoToNextEvent(inout Path path, int hero, mat3x4 coefficients) {
     float depth = 0.0;
     column = vec3(0.0);
     start = 0.0;
-    for (int i = 0; i < EVENT_STEPS; ++i) {
-      float end = GetEventDistance(float(i + 1) / float(EVENT_STEPS), d, ground);
+    for (int i = 0; i < kEventSteps; ++i) {
+      float end = GetEventDistance(float(i + 1) / float(kEventSteps), d, ground);
       density = GetDensity(GetAltitudeAlongRay(path.h, mu, 0.5 * (start + end)));
       float step_depth = dot(extinction, density) * (end - start);
-      if (depth + step_depth >= target || i == EVENT_STEPS - 1) {
+      if (depth + step_depth >= target || i == kEventSteps - 1) {
         float part = clamp((target - depth) / max(step_depth, 1e-30), 0.0, 1.0);
         column += density * (part * (end - start));
         t = mix(start, end, part);
@@ -89,7 +89,7 @@ bool GoToNextEvent(inout Path path, int hero, mat3x4 coefficients) {
     path.likelihood *= coefficients * density;
     path.likelihood /= ground ? vec4(1.0) : max(opacity, vec4(1e-30));
   }
-  path.up = normalize((GROUND_RADIUS + path.h) * path.up + t * path.direction);
+  path.up = normalize((kGroundRadius + path.h) * path.up + t * path.direction);
   // A centimetre keeps the next ray out of the ground.
   path.h = on_ground ? 0.01 : max(GetAltitudeAlongRay(path.h, mu, t), 0.01);
   return on_ground;
@@ -129,7 +129,7 @@ Number SampleRayleigh(float random) {
 // Henyey & Greenstein's has an inverse and is within a factor of 1.5 of Cornette & Shanks'.
 Number HenyeyGreenstein(Number g, Number nu) {
   float base = max(1.0 + g * g - 2.0 * g * nu, 1e-6);
-  return (1.0 - g * g) / (4.0 * PI * base * sqrt(base));
+  return (1.0 - g * g) / (4.0 * kPi * base * sqrt(base));
 }
 
 Number SampleHenyeyGreenstein(Number g, float random) {
@@ -140,7 +140,7 @@ Number SampleHenyeyGreenstein(Number g, float random) {
 
 void ReflectByGround(inout Path path) {
   // By the cosine, which cancels: what is left of Lambert's law is the albedo.
-  path.direction = GetDirectionAround(path.up, sqrt(GetRandom()), 2.0 * PI * GetRandom());
+  path.direction = GetDirectionAround(path.up, sqrt(GetRandom()), 2.0 * kPi * GetRandom());
 }
 
 // A new direction where the path meets air and haze of these scattering coefficients.
@@ -149,7 +149,7 @@ void Scatter(inout Path path, int hero, vec4 rayleigh, vec4 mie) {
   bool air = GetRandom() < PickHero(by_air, hero);
   float random = GetRandom();
   float nu = air ? SampleRayleigh(random) : SampleHenyeyGreenstein(aerosol_asymmetry, random);
-  path.direction = GetDirectionAround(path.direction, nu, 2.0 * PI * GetRandom());
+  path.direction = GetDirectionAround(path.direction, nu, 2.0 * kPi * GetRandom());
   // Whichever of the two drew it, both could have.
   float air_phase = RayleighPhase(nu);
   path.transport *= rayleigh * air_phase + mie * MiePhase(aerosol_asymmetry, nu);

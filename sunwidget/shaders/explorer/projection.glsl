@@ -3,13 +3,13 @@
 //
 //   0  dome      equidistant fisheye of the upper half of the sky, zenith in the middle, the
 //                azimuth `view_azimuth` at the top. One looks up, so east lies to the left of
-//                north. The rim, DOME_SHARE of the smaller side, leaves room for names.
+//                north. The rim, kDomeShare of the smaller side, leaves room for names.
 //   1  panorama  equirectangular, all azimuths about `view_azimuth`, elevations from -10 to 90
 //                degrees, as large as it fits
 //   2  camera    perspective towards `view_azimuth` and `view_elevation`, `fov` degrees high
 //
 // Directions are unit vectors: x towards azimuth 90, y up, z towards azimuth 0; azimuths grow
-// clockwise. A pixel's centre is at half integers, the origin is the top left corner.
+// clockwise. A pixel's center is at half integers, the origin is the top left corner.
 
 #include "frame/frame_size.glsl"
 
@@ -18,9 +18,9 @@ uniform float view_azimuth;    // degrees
 uniform float view_elevation;  // degrees
 uniform float fov;             // degrees, vertical
 
-const float DOME_SHARE = 0.94;
-const float PANORAMA_BOTTOM = -10.0;  // degrees of elevation
-const float PANORAMA_HEIGHT = 100.0;
+const float kDomeShare = 0.94;
+const float kPanoramaBottom = -10.0;  // degrees of elevation
+const float kPanoramaHeight = 100.0;
 
 vec3 GetDirectionAt(float azimuth, float elevation) {
   float level = cos(elevation);
@@ -29,12 +29,12 @@ vec3 GetDirectionAt(float azimuth, float elevation) {
 
 // Pixels from the zenith to the horizon.
 float GetDomeRadius() {
-  return 0.5 * DOME_SHARE * min(frame_size.x, frame_size.y);
+  return 0.5 * kDomeShare * min(frame_size.x, frame_size.y);
 }
 
 // Pixels a degree.
 float GetPanoramaScale() {
-  return min(frame_size.x / 360.0, frame_size.y / PANORAMA_HEIGHT);
+  return min(frame_size.x / 360.0, frame_size.y / kPanoramaHeight);
 }
 
 // Focal length in pixels.
@@ -53,7 +53,7 @@ float GetPixelAngle() {
 float GetCoverage(vec2 pixel) {
   vec2 at = abs(pixel - 0.5 * frame_size);
   if (projection < 0.5) return clamp(GetDomeRadius() - length(at) + 0.5, 0.0, 1.0);
-  vec2 half_size = 0.5 * GetPanoramaScale() * vec2(360.0, PANORAMA_HEIGHT);
+  vec2 half_size = 0.5 * GetPanoramaScale() * vec2(360.0, kPanoramaHeight);
   return projection < 1.5 ? step(at.x, half_size.x) * step(at.y, half_size.y) : 1.0;
 }
 
@@ -67,7 +67,7 @@ bool GetViewDirection(vec2 pixel, out vec3 direction) {
     direction = GetDirectionAt(heading + turn, radians(90.0) * (1.0 - from_zenith));
   } else if (projection < 1.5) {
     vec2 angles = vec2(at.x, -at.y) / GetPanoramaScale();
-    float middle = PANORAMA_BOTTOM + 0.5 * PANORAMA_HEIGHT;
+    float middle = kPanoramaBottom + 0.5 * kPanoramaHeight;
     direction = GetDirectionAt(heading + radians(angles.x), radians(middle + angles.y));
   } else {
     float rise = radians(view_elevation);

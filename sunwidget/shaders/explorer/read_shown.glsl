@@ -5,10 +5,10 @@
 
 uniform sampler2D shown;
 
-const int MODEL_MULTIPLE = 0;
-const int MODEL_SINGLE = 1;
-const int MODEL_BRUNETON = 2;
-const int MODEL_REFERENCE = 3;
+const int kModelMultiple = 0;
+const int kModelSingle = 1;
+const int kModelBruneton = 2;
+const int kModelReference = 3;
 
 // `side` is 0 for the model, 1 for the one that it is compared with; `view` is the same for both.
 RadianceSpectrum GetShownRadiance(SkyView view, int side, vec3 direction) {

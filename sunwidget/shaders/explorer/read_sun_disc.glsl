@@ -7,7 +7,7 @@ uniform float sun_size;  // diameter in units of the true one
 
 // Half the square's side, radians.
 float GetDiscReach() {
-  return SUN_ANGULAR_RADIUS * sun_size + 1.5 * GetPixelAngle();
+  return kSunAngularRadius * sun_size + 1.5 * GetPixelAngle();
 }
 
 vec3 GetDiscRight() {

@@ -18,15 +18,15 @@ uniform vec2 tile_origin;
 uniform sampler2D history;
 out vec4 result;
 
-const int MOST_ORDERS = 24;
-const int STRATA = 48;
+const int kMostOrders = 24;
+const int kStrata = 48;
 
 RadianceSpectrum MarchFirstOrder(Path path, vec3 sun, mat3x4 coefficients) {
   float mu = clamp(path.direction.y, -1.0, 1.0);
   float mu_s = sun.y;
   float nu = clamp(dot(path.direction, sun), -1.0, 1.0);
   float h = path.h;
-  float r = GROUND_RADIUS + h;
+  float r = kGroundRadius + h;
   bool ground = RayIntersectsGround(h, mu);
   float d = ground ? GetDistanceToGround(h, mu) : GetDistanceToTop(h, mu);
   float rayleigh_phase = RayleighPhase(nu);
@@ -35,15 +35,15 @@ RadianceSpectrum MarchFirstOrder(Path path, vec3 sun, mat3x4 coefficients) {
   vec4 transmittance = vec4(1.0);
   vec4 radiance = vec4(0.0);
   float start = 0.0;
-  for (int i = 0; i < STRATA; ++i) {
-    float u = float(i + 1) / float(STRATA);
+  for (int i = 0; i < kStrata; ++i) {
+    float u = float(i + 1) / float(kStrata);
     float end = d * u * u;
     // Light is drawn somewhere in the stratum, extinction in its middle: the exponential of a random
     // depth would be brighter than that of its mean.
     vec4 extinction = coefficients * GetDensity(GetAltitudeAlongRay(h, mu, 0.5 * (start + end)));
     float t = mix(start, end, place);
     float h_t = GetAltitudeAlongRay(h, mu, t);
-    float mu_s_t = clamp((r * mu_s + t * nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
+    float mu_s_t = clamp((r * mu_s + t * nu) / (kGroundRadius + h_t), -1.0, 1.0);
     vec3 density = GetDensity(h_t);
     vec4 scattered = coefficients[0] * density.x * rayleigh_phase
         + coefficients[1] * density.y * mie_phase;
@@ -53,8 +53,8 @@ RadianceSpectrum MarchFirstOrder(Path path, vec3 sun, mat3x4 coefficients) {
     start = end;
   }
   if (ground) {
-    float mu_s_ground = clamp((r * mu_s + d * nu) / GROUND_RADIUS, -1.0, 1.0);
-    radiance += transmittance * ground_albedo / PI * max(mu_s_ground, 0.0)
+    float mu_s_ground = clamp((r * mu_s + d * nu) / kGroundRadius, -1.0, 1.0);
+    radiance += transmittance * ground_albedo / kPi * max(mu_s_ground, 0.0)
         * GetTransmittanceToSun(columns, 0.0, mu_s_ground);
   }
   return radiance;
@@ -64,7 +64,7 @@ RadianceSpectrum MarchFirstOrder(Path path, vec3 sun, mat3x4 coefficients) {
 RadianceSpectrum TraceHigherOrders(Path path, vec3 sun, int orders, mat3x4 coefficients) {
   int hero = int(4.0 * GetRandom());
   vec4 radiance = vec4(0.0);
-  for (int order = 1; order <= MOST_ORDERS; ++order) {
+  for (int order = 1; order <= kMostOrders; ++order) {
     bool on_ground = GoToNextEvent(path, hero, coefficients);
     NormalizePath(path, hero);
     float mu_s = clamp(dot(path.up, sun), -1.0, 1.0);
@@ -73,7 +73,7 @@ RadianceSpectrum TraceHigherOrders(Path path, vec3 sun, int orders, mat3x4 coeff
     vec4 rayleigh = coefficients[0] * density.x;
     vec4 mie = coefficients[1] * density.y * aerosol_albedo;
     vec4 towards_sun = on_ground
-        ? vec4(ground_albedo / PI * max(mu_s, 0.0))
+        ? vec4(ground_albedo / kPi * max(mu_s, 0.0))
         : rayleigh * RayleighPhase(nu) + mie * MiePhase(aerosol_asymmetry, nu);
     if (order > 1) {
       radiance += GetPathWeight(path) * towards_sun * GetTransmittanceToSun(columns, path.h, mu_s);
@@ -106,8 +106,8 @@ void main() {
   mat3x4 coefficients = GetExtinctionCoefficients();
   Path path = Path(GetCameraHeight(), vec3(0.0, 1.0, 0.0), direction, vec4(1.0), vec4(1.0));
   vec4 radiance = MarchFirstOrder(path, sun, coefficients);
-  int orders = scattering_orders < 0.5 ? MOST_ORDERS : int(scattering_orders + 0.5);
+  int orders = scattering_orders < 0.5 ? kMostOrders : int(scattering_orders + 0.5);
   if (orders > 1) radiance += TraceHigherOrders(path, sun, orders, coefficients);
   vec4 mean = sample_index > 0.5 ? texelFetch(history, ivec2(gl_FragCoord.xy), 0) : vec4(0.0);
-  result = mix(mean, SOLAR_IRRADIANCE * radiance, 1.0 / (sample_index + 1.0));
+  result = mix(mean, kSolarIrradiance * radiance, 1.0 / (sample_index + 1.0));
 }

@@ -15,7 +15,7 @@ void main() {
   vec2 offset = (2.0 * gl_FragCoord.xy / pass_size - 1.0) * GetDiscReach();
   vec3 view = normalize(sun + offset.x * GetDiscRight() + offset.y * GetDiscUp());
   float softness = max(GetPixelAngle(), 2.0 * GetDiscReach() / pass_size.x);
-  float h = clamp(altitude, 1.0, 0.99 * ATMOSPHERE_HEIGHT);
+  float h = clamp(altitude, 1.0, 0.99 * kAtmosphereHeight);
   vec4 disc = GetSunDiscRadiance(columns, view, sun, h, sun_size, softness);
   result = vec4(max(SpectralToRec709(disc), 0.0), 1.0);
 }

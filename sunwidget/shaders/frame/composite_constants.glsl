@@ -157,10 +157,10 @@ float GetLift() {
 // log2 of the radiance in the middle of a disc at this height, without its limb's darkening.
 vec4 GetDiscRadiance(float sine_of_elevation) {
   vec4 path = log2(max(GetTransmittanceToTop(columns, altitude, sine_of_elevation), vec4(1e-30)));
-  vec4 sun = log2(SOLAR_IRRADIANCE / (PI * SUN_ANGULAR_RADIUS * SUN_ANGULAR_RADIUS)
-      * (0.5 * LIMB_DARKENING + 1.0)) + path;
-  float level = GetSceneLight(vec3(kMoonLevel)).g / GetLuminance(sky_gain * SpectralToRec709(SOLAR_IRRADIANCE));
-  vec4 moon = log2(SOLAR_IRRADIANCE * level) - GetStops() + exposure + kMoonDimming * path;
+  vec4 sun = log2(kSolarIrradiance / (kPi * kSunAngularRadius * kSunAngularRadius)
+      * (0.5 * kLimbDarkening + 1.0)) + path;
+  float level = GetSceneLight(vec3(kMoonLevel)).g / GetLuminance(sky_gain * SpectralToRec709(kSolarIrradiance));
+  vec4 moon = log2(kSolarIrradiance * level) - GetStops() + exposure + kMoonDimming * path;
   return mix(sun, moon, GetMoon()) + log2(max(sun_visibility, 1e-9));
 }
 
@@ -178,7 +178,7 @@ bool IsSkyUnchanged() {
 const float kBrightestDisc = 4.0;
 
 // The photo's own disc under the new sun's light. What burnt to white is not known to be brighter, and a camera
-// exposes for the sun it sees, so its luminance goes as glare does and its colour as the light's.
+// exposes for the sun it sees, so its luminance goes as glare does and its color as the light's.
 vec3 GetOwnDisc() {
   vec3 before = max(GetLightTexel(light_before, 1), vec3(1e-9));
   vec3 now = max(GetLightTexel(light_edit, 1), vec3(0.0));
@@ -197,7 +197,7 @@ void main() {
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
   float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;
   float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
-  float radius = SUN_ANGULAR_RADIUS * sun_size;
+  float radius = kSunAngularRadius * sun_size;
   // From the horizon, or the lower edge above it, to the upper one.
   float low = max(sun_now.y - radius, GetCosineOfHorizon(altitude));
   float high = max(sun_now.y + radius, low + 1e-4);
@@ -210,7 +210,7 @@ void main() {
   if (index == kGains) {
     float turn = degrees(2.0 * asin(min(0.5 * length(sun_now - sun_before), 1.0)));
     // As the landscape sees the sun on average, not the camera alone; a sun that comes out gives
-    // the colour back.
+    // the color back.
     vec4 reached = texelFetch(land_terms, ivec2(16, 0), 0);
     float hidden = reached.x * reached.y * source_sun_visibility - reached.z * reached.w * sun_visibility;
     bool same = visible_before == visible_now && IsSkyUnchanged();
@@ -239,7 +239,7 @@ void main() {
         : visible_now * GetLightTexel(light_edit, 1);
     // Without a moon no light reaches a surface but the night sky's, from half the sphere.
     float moon = index == kLyingNow || index == kUprightNow || index == kCloudNow || index == kCloudLobeNow || index == kWaterSunNow ? GetMoon() : photo_light;
-    float night = index <= kUprightNow ? PI : index == kCloudBefore || index == kCloudNow ? 1.0 : 0.0;
+    float night = index <= kUprightNow ? kPi : index == kCloudBefore || index == kCloudNow ? 1.0 : 0.0;
     result = index == kGlare ? vec4(light, 0.0)
         : vec4(sky_gain * (GetLightScale(moon) * light + night * GetNightSky(moon)), disc);
   }

@@ -1,6 +1,6 @@
 // The texels of composite_constants.glsl.
 
-const int kGains = 0;  // exposure gain, how far the sun has moved (0..1), colour lost in shade; alpha: the land's gain
+const int kGains = 0;  // exposure gain, how far the sun has moved (0..1), color lost in shade; alpha: the land's gain
                        // over the picture's, negative where the sky is as it was
 const int kLyingBefore = 1;       // light on lying land
 const int kUprightBefore = 2;     // on upright land

@@ -13,7 +13,7 @@ const float kBurns = 1.06;  // of the way to white, at infinity: the sun itself 
 
 // Display-linear light as a good camera draws highlights. What is `brighter` than it was, 0 to 1, leaves the
 // response at the knee and nears white slowly, without a flat plate. Each channel does so for itself, which
-// makes a sunset's orange yellow, as films do; but cold colours would end in cyan, and keep their hue. The
+// makes a sunset's orange yellow, as films do; but cold colors would end in cyan, and keep their hue. The
 // core is white. All this as far as the pixel has `changed`, 0 to 1. With a higher `output_white` they rise on, by the same
 // curve about the same knee.
 vec3 GetRolledOff(vec3 scene, float brighter, float changed) {

@@ -16,8 +16,8 @@ float GetMoved() {
   return composite[kGains].y;
 }
 
-// Share of its colour that the land loses in the shade.
-float GetLostColour() {
+// Share of its color that the land loses in the shade.
+float GetLostColor() {
   return composite[kGains].z;
 }
 

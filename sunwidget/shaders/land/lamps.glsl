@@ -28,7 +28,7 @@ vec3 GetBlackBody(float kelvin) {
 }
 
 // Scene-linear light of the panes at a place, and what falls from them on land whose albedo is `albedo`: no more
-// than white paint's, and grey, since what a photo's shade shows of a colour is half its light's.
+// than white paint's, and gray, since what a photo's shade shows of a color is half its light's.
 vec3 GetLampLight(vec2 place, float albedo) {
   if (window_lights <= 0.0) return vec3(0.0);
   vec4 lamp = ReadBilinear(lamps, place);

@@ -13,7 +13,7 @@ float GetUprightness(vec3 view) {
 
 // What exceeds that in this light is a mirror image of the sky and the sun (wet road, glass,
 // water that is not known for it): that part follows what it mirrors (mirror_ratio.glsl), the rest
-// is lit as land. A mirror image has the light's own colour: it is the channel that exceeds least
+// is lit as land. A mirror image has the light's own color: it is the channel that exceeds least
 // that counts, so that red leaves and yellow flowers mirror nothing.
 float GetMirrorShare(vec3 light, vec3 lit_before, float glitter) {
   vec3 white = (kWhitest - kGlitters * glitter) / 3.14159265 * lit_before;

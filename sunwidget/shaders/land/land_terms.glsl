@@ -60,7 +60,7 @@ vec3 GetIrradiance(bool now, int index) {
   float moon = now ? GetMoon() : photo_light;
   vec3 light = now ? GetLightTexel(light_edit, index) : GetLightTexel(light_before, index);
   // Without a moon no light reaches a surface but the night sky's, from half the sphere.
-  vec3 night = index == 1 ? vec3(0.0) : PI * GetNightSky(moon);
+  vec3 night = index == 1 ? vec3(0.0) : kPi * GetNightSky(moon);
   return sky_gain * (GetLightScale(moon) * light + night);
 }
 
@@ -70,7 +70,7 @@ vec3 GetSkyIrradiance(bool now, int part) {
   vec3 clear = GetIrradiance(now, part == 0 ? 0 : part == 4 ? 2 : part + 2);
   vec3 light = now ? GetCloudRadiance(light_edit, 0.0) : GetCloudRadiance(light_before, 0.0);
   vec3 white = sky_gain * GetLightScale(now ? GetMoon() : photo_light) * light;
-  vec3 cloud = kCloudLight * (part == 0 ? PI : 0.5 * PI) * white;
+  vec3 cloud = kCloudLight * (part == 0 ? kPi : 0.5 * kPi) * white;
   float veil = texelFetch(veil_opacity, ivec2(0), 0).r;
   float cover = now ? GetMeanCover(openness_edit, veil) : GetMeanCover(openness_source, veil);
   return clear + cover * max(cloud - clear, vec3(0.0));

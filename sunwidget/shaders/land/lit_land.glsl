@@ -79,7 +79,7 @@ vec3 GetIrradiance(int first, Relief land, float openness, float known, float up
 }
 
 // What of the photo's sun comes past clouds, and of the moved sun past land and past clouds, averaged with
-// neighbours of like depth: the march's few steps leave stripes else.
+// neighbors of like depth: the march's few steps leave stripes else.
 vec3 GetSunShare(ivec2 texel, float level) {
   ivec2 last = ivec2(pass_size) - 1;
   vec3 sum = vec3(0.0);

@@ -35,7 +35,7 @@ vec3 GetAirChange(vec2 place, float log_depth, vec3 light, vec3 gain) {
   vec3 air_now = texelFetch(air_edit, ivec2(column, 0), 0).rgb;
   vec3 before = share_before * air_before;
   float believed = min(kLargestShare * GetLuminance(light) / max(GetLuminance(before), 1e-12), 1.0);
-  // Air that the photo shows in another colour than the model gives way as far as the pixel has it.
+  // Air that the photo shows in another color than the model gives way as far as the pixel has it.
   vec3 held = min(believed * before, kLargestShare * light);
   vec3 change = share_now * WithoutLostTint(air_before, air_now) / max(before, vec3(1e-12));
   vec3 given = held * change + (believed * before - held) * max(change - 1.0, 0.0);

@@ -1,5 +1,5 @@
 // The land's log-depth map of land_depth.glsl: r the level, g how much is land. A march reads it dozens
-// of times, so a texel holds itself and its right, lower and diagonal neighbour: bilinear is one fetch.
+// of times, so a texel holds itself and its right, lower and diagonal neighbor: bilinear is one fetch.
 
 // Level and land in one number: 16 bits of the level, a 4000th of an octave, are left beside the land's 8.
 vec4 PackLandDepth(vec4 level, vec4 land) {

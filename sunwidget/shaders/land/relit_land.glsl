@@ -7,11 +7,11 @@
 #include "sky/tint.glsl"
 #include "sky/sky_seen.glsl"
 
-// Scene-linear light from which the land's own colour is known.
+// Scene-linear light from which the land's own color is known.
 const float kDarkLand = 0.15;
 // Albedo of dark land.
 const float kDarkAlbedo = 0.2;
-// How much of the colour of land whose light has turned is its light's.
+// How much of the color of land whose light has turned is its light's.
 const float kLitColor = 0.35;
 // How much of the photo's balance that light has lost then.
 const float kBalanceGone = 0.6;
@@ -42,14 +42,14 @@ vec3 WithoutGlow(vec3 land, vec3 lit) {
   return color * (GetLuminance(land) / max(GetLuminance(color), 1e-9));
 }
 
-// The more its light turns the less of the land's own colour is known; and what is dark in the photo is half
-// noise and half the lens' glare: it gets the colour of its light, `lit`, and becomes less bright than the rest.
-// What the old sun's glare, of which `glare` was the share, has coloured gets that of the land at large.
+// The more its light turns the less of the land's own color is known; and what is dark in the photo is half
+// noise and half the lens' glare: it gets the color of its light, `lit`, and becomes less bright than the rest.
+// What the old sun's glare, of which `glare` was the share, has colored gets that of the land at large.
 vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   float level = GetLuminance(land);
   float dark = 1.0 - smoothstep(0.0, kDarkLand, GetLuminance(before));
   float lift = max(log2(max(GetExposureGain() * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
-  // Without a sky nobody knows which light the land's colours stand in.
+  // Without a sky nobody knows which light the land's colors stand in.
   float turned = GetSkySeen() * GetTurned(ratio, before);
   float risen = GetSkySeen() * GetRisen(GetSunBefore(), GetDescribedSun());
   float another = max(turned, risen);  // how far its light is another
@@ -77,10 +77,10 @@ vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirr
   land_ratio += mirror * (mirror_ratio - land_ratio);
   vec3 land = max(GetLandGain() * land_ratio * clean + air, vec3(0.0));
   float luminance = GetLuminance(land);
-  // (C / L - 1) s + 1, or (C / L)^s, times L with s = 1 - GetLostColour().
-  vec3 colour = max(land / max(luminance, 1e-9), vec3(1e-4));
-  vec3 lost = colour_loss == 1 ? luminance * (pow(colour, vec3(1.0 - GetLostColour())) - colour) : GetLostColour() * (vec3(luminance) - land);
-  land = max(land + step(1e-9, abs(GetLostColour())) * lost, vec3(0.0));
+  // (C / L - 1) s + 1, or (C / L)^s, times L with s = 1 - GetLostColor().
+  vec3 color = max(land / max(luminance, 1e-9), vec3(1e-4));
+  vec3 lost = colour_loss == 1 ? luminance * (pow(color, vec3(1.0 - GetLostColor())) - color) : GetLostColor() * (vec3(luminance) - land);
+  land = max(land + step(1e-9, abs(GetLostColor())) * lost, vec3(0.0));
   land = WithoutGuesses(land, max(clean, vec3(1e-6)), land_ratio, lit, glare);
   return land_strength * (GetExposureGain() * land - light);
 }

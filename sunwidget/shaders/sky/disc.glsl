@@ -26,7 +26,7 @@ vec3 GetDisc(vec3 view, vec3 sun) {
   vec4 middle = vec4(composite[1].w, composite[2].w, composite[3].w, composite[4].w);
   vec4 slope = vec4(composite[5].w, composite[6].w, composite[7].w, composite[8].w);
   vec4 bend = vec4(composite[9].w, extent.w, described[3].zw);
-  vec4 radiance = exp2(middle + height * (slope + height * bend) + (1.0 - moon) * limb * LIMB_DARKENING);
+  vec4 radiance = exp2(middle + height * (slope + height * bend) + (1.0 - moon) * limb * kLimbDarkening);
   vec2 place = vec2(dot(view - sun, normalize(vec3(sun.z, 0.0, -sun.x))), (view.y - sun.y) / max(length(sun.xz), 0.1));
   float albedo = 1.0 + moon * (GetMoonAlbedo(place / max(radius, 1e-9)) - 1.0);
   vec4 own = texelFetch(composite_constants, ivec2(kOwnDisc, 0), 0);

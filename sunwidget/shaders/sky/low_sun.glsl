@@ -3,7 +3,7 @@
 
 #include "sky/nearness.glsl"
 
-// Log2 of colour, as bright, round the sun and far from it.
+// Log2 of color, as bright, round the sun and far from it.
 const vec3 kRoundLowSun = vec3(0.42, -0.08, -1.21);
 const vec3 kFarFromLowSun = vec3(0.38, -0.12, -0.17);
 const float kDarker = 0.6;  // far from it, log2 of light; photos say 1
@@ -21,7 +21,7 @@ vec3 GetLowSunLight(float lowness, float cosine) {
 }
 
 // Factor for a sky in the direction of `view`. Of what a photo with a low sun has of it itself no more goes than
-// comes elsewhere: when its sun rises, sky/tint.glsl turns its colours.
+// comes elsewhere: when its sun rises, sky/tint.glsl turns its colors.
 // `lit` is the share of cloud that stands in its light.
 vec3 GetLowSunChange(float lit, vec3 view, vec3 sun_before, vec3 sun_now) {
   float before = GetLowness(sun_before) * (1.0 - photo_light);

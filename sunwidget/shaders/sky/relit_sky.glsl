@@ -26,7 +26,7 @@ const float kShadeFades = 0.5;
 const float kFarAway = 0.77;
 const float kNotAway = 0.99;
 const float kMostGone = 1.2;  // log of light
-// Light of a cloud, over the model's, from which it is not all shade; how much of the colour of shade is the sky's.
+// Light of a cloud, over the model's, from which it is not all shade; how much of the color of shade is the sky's.
 const float kShaded = 0.2;
 const float kShadesColor = 0.7;
 const float kFarthest = 1.8;  // stops
@@ -87,7 +87,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec
   vec3 model = mix(sky_before, cloud_before, cloud);
   float risen = GetRisen(sun_before, sun_now);
   relit = WithModelsColor(relit, sky, model, ratio, opacity, cloud, sky_before, sky_now, risen);
-  // What of a cloud lies in shade has the sky's colour, and the more so the more the sun's differs.
+  // What of a cloud lies in shade has the sky's color, and the more so the more the sun's differs.
   float shaded = cloud * (1.0 - smoothstep(kShaded, 0.8, GetLuminance(clean) / GetLuminance(cloud_before)));
   vec3 shade = WithoutBalance(GetCloudAmbientNow(), max(GetVividness(), risen * GetEveningsBalance()));
   shade *= GetLuminance(relit) / GetLuminance(shade);

@@ -5,9 +5,9 @@
 #include "sky/matched_sky.glsl"
 #include "frame/srgb.glsl"
 
-// Sunsets are red in parts: where they would end in grey some of it stays.
+// Sunsets are red in parts: where they would end in gray some of it stays.
 const float kMostOfRed = 0.6;
-// How far the model's colour has turned (length of the log of its channels, as bright) when the photo's
+// How far the model's color has turned (length of the log of its channels, as bright) when the photo's
 // own has faded.
 const float kTurned = 1.2;
 const float kFadedAhead = 0.5;
@@ -72,7 +72,7 @@ float GetVividness() {
   return smoothstep(kBluest, kBluest + 1.0, log2(sky_gain.b / sky_gain.r));
 }
 
-// How a ratio turns a colour, as bright: log of its channels.
+// How a ratio turns a color, as bright: log of its channels.
 vec3 GetTurn(vec3 ratio, vec3 color) {
   return log(ratio * (GetLuminance(color) / GetLuminance(color * ratio)));
 }
@@ -81,8 +81,8 @@ float GetTurned(vec3 ratio, vec3 color) {
   return smoothstep(0.0, kTurned, length(GetTurn(ratio, color)));
 }
 
-// What the photo's sky has beyond the model, `sky` over `before`, is light, which stays, and colour, which
-// fades as far as the model's own colour moves away: deep blue times yellow would be green. `relit` is
+// What the photo's sky has beyond the model, `sky` over `before`, is light, which stays, and color, which
+// fades as far as the model's own color moves away: deep blue times yellow would be green. `relit` is
 // `sky` times `ratio`.
 vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacity, float cloud, vec3 sky_before,
                      vec3 sky_now, float risen) {
@@ -99,7 +99,7 @@ vec3 WithModelsColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opacit
   vec3 day = WithoutBalance(now, max((1.0 - lost) * risen * GetEveningsBalance(), cloud * GetVividness()));
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
-  // What is bluer than that, and no less green, was no evening's colour; violet was one's shade.
+  // What is bluer than that, and no less green, was no evening's color; violet was one's shade.
   vec3 redder = log(max(relit.r * model, vec3(1e-12)) / max(relit * model.r, vec3(1e-12)));
   float warmer = smoothstep(0.0, 0.5, max(max(redder.g, redder.b), redder.g - 0.5 * redder.b));
   faded = max(faded, risen * warmer);

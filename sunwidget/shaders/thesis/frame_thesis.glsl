@@ -1,6 +1,6 @@
 // The picture as the founding thesis makes it (M. Türe, METU 2017, chapter 3). Equation numbers
 // are the thesis'. method 1, "thesis": the errata corrected; method 2, "thesis_literal": as
-// printed, for teaching. All colours here are display-linear, as the thesis has them.
+// printed, for teaching. All colors here are display-linear, as the thesis has them.
 
 #include "frame/picture.glsl"
 #include "frame/strip.glsl"
@@ -41,10 +41,10 @@ RadianceSpectrum GetDiscRadiance(vec3 view) {
   float coverage = step(1e-9, radius) * clamp((radius - chord) / softness + 0.5, 0.0, 1.0);
   float risen = clamp((view.y - GetCosineOfHorizon(altitude)) / softness + 0.5, 0.0, 1.0);
   float x = min(chord / max(radius, 1e-9), 1.0);
-  vec4 limb = 0.5 * log2(max(1.0 - x * x, 1e-4)) * LIMB_DARKENING;
+  vec4 limb = 0.5 * log2(max(1.0 - x * x, 1e-4)) * kLimbDarkening;
   float height = clamp((view.y - disc_height.x) * disc_height.y, -1.0, 1.0);
   vec4 path = disc_path[0] + height * (disc_path[1] + height * disc_path[2]);
-  vec4 radiance = SOLAR_IRRADIANCE / (PI * SUN_ANGULAR_RADIUS * SUN_ANGULAR_RADIUS) * (0.5 * LIMB_DARKENING + 1.0);
+  vec4 radiance = kSolarIrradiance / (kPi * kSunAngularRadius * kSunAngularRadius) * (0.5 * kLimbDarkening + 1.0);
   return coverage * risen * radiance * exp2(path + limb);
 }
 

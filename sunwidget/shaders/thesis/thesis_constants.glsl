@@ -32,7 +32,7 @@ flat out vec4 disc_extent;      // its direction; a its radius, as a chord
 flat out vec4 disc_height;      // sine of the elevation of its visible part's middle, inverse of half its height
 flat out vec4 disc_path[3];     // log2 of the transmittance to that part: in its middle, slope and bend
 
-// The colour of the sun's light: what is left of white after its way through the air.
+// The color of the sun's light: what is left of white after its way through the air.
 vec3 GetSunColor(sampler2D light) {
   vec3 sun = GetLightTexel(light, 7);
   return sun / max(GetLuminance(sun), 1e-9);
@@ -66,7 +66,7 @@ vec4 GetPath(float sine_of_elevation) {
 }
 
 void SetDisc() {
-  disc_extent = vec4(GetSunDirection(sun_azimuth, sun_elevation), SUN_ANGULAR_RADIUS * sun_size);
+  disc_extent = vec4(GetSunDirection(sun_azimuth, sun_elevation), kSunAngularRadius * sun_size);
   // From the horizon, or the lower edge above it, to the upper one; pixels on an edge look past it.
   float reach = disc_extent.a + 0.5 / (camera_focal * frame_size.y);
   float low = max(disc_extent.y - reach, GetCosineOfHorizon(altitude));

@@ -1,4 +1,4 @@
-// The thesis' rendered sky S: the model, developed like a photo and colour-matched (3.2.3).
+// The thesis' rendered sky S: the model, developed like a photo and color-matched (3.2.3).
 // thesis_statistics holds the model's own lαβ mean and deviation at the photo's sun.
 
 uniform vec3 photo_sky_mean;       // lαβ of the photo's sky pixels

@@ -60,7 +60,7 @@ void main() {
   float shine_now = GetGroundLobe(view, texelFetch(land_terms, ivec2(15, 0), 0).xyz, kRoadRoughness);
   vec3 gleam = before.rgb + shine_before * GetConstant(kWaterSunBefore);
   vec3 shine = min(GetRatio(now.rgb + shine_now * GetConstant(kWaterSunNow), gleam), vec3(kLargestGrowth));
-  // Burnt glints are white in the photo, whatever their colour was.
+  // Burnt glints are white in the photo, whatever their color was.
   vec3 bleached = gleam / GetLuminance(gleam);
   shine *= 1.0 + marks.b * GetConstant(kGains).y * (bleached - 1.0);
   float known = marks.g * water_strength;

@@ -5,7 +5,7 @@
 #include "land/relit_land.glsl"
 #include "sky/tint.glsl"
 
-// How much of the colour of water that has turned is that of the sky at the horizon.
+// How much of the color of water that has turned is that of the sky at the horizon.
 const float kMirroredColor = 0.7;
 
 uniform float water_strength;
@@ -33,12 +33,12 @@ vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirr
   float changed = GetGlitterChange();
   vec3 calm = light + changed * mark * (clean - light);
   float shown = mirror.a * DecodeSparkle(sparkle);
-  // The sun's own colour: what tints the photo's sky would dye what is nearly white.
+  // The sun's own color: what tints the photo's sky would dye what is nearly white.
   vec3 sun = texelFetch(composite_constants, ivec2(kWaterSunNow, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
   vec3 glints = changed * shown / (1.0 + shown / kBrightest) * sun;
   vec3 relit = max(calm * mirror.rgb + air, vec3(0.0));
   sky = WithoutBalance(sky, GetRisen(GetSunBefore(), GetDescribedSun()) * GetEveningsBalance());
-  // As in the sky (sky/tint.glsl): colour that the photo's water has beyond the model's fades.
+  // As in the sky (sky/tint.glsl): color that the photo's water has beyond the model's fades.
   float level = GetLuminance(relit);
   relit += kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))) * (sky * (level / GetLuminance(sky)) - relit);
   relit += glints;
