@@ -253,7 +253,7 @@ def test_the_command_line_moves_the_sun_of_a_map(tmp_path, capsys):
     cv2.imwrite(str(mask), 255 * open_sky().astype(np.uint8))
     command = ["dome", str(source), "--sky", str(mask), "-o", str(out)]
     assert main([*command, "--fov", "40"]) == 2
-    assert "--fov is for photos" in capsys.readouterr().err
+    assert "Leave out --fov, which is for photos" in capsys.readouterr().err
     assert main([*command, "--time", "12:00"]) == 2
     assert "--heading" in capsys.readouterr().err
     assert main([*command, "--glow", "2"]) == 2
