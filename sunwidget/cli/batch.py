@@ -6,9 +6,9 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from sunwidget.batches.request import Wish
+from sunwidget.batches.request import Request
 from sunwidget.cli.edit_options import add_edit, add_headroom, recipe, warn_if_unmoved
-from sunwidget.cli.photo_options import Progress, add_methods, pick_given, methods_of_stages
+from sunwidget.cli.photo_options import Progress, add_methods, methods_of_stages, pick_given
 from sunwidget.edit.table import PARAMETERS, Edit
 
 
@@ -87,8 +87,10 @@ def _batch(options: argparse.Namespace) -> int:
     replaced = options.overwrite or (options.csv is not None and is_table(options.csv))
     if options.csv is not None:
         target(options.csv, overwrite=replaced)
-    wish = Wish(recipe(options), options.preset, pick_given(options, (p.name for p in PARAMETERS)))
-    warn_if_unmoved(moved=wish != Wish(Edit()))
+    request = Request(
+        recipe(options), options.preset, pick_given(options, (p.name for p in PARAMETERS))
+    )
+    warn_if_unmoved(moved=request != Request(Edit()))
     saving = pick_given(options, ("quality", "bit_depth"))
     if options.layers:
         saving["layers"] = True
@@ -97,7 +99,7 @@ def _batch(options: argparse.Namespace) -> int:
     with Progress("batch") as progress:
         report = sw.batch(
             options.photos,
-            wish,
+            request,
             options.output,
             scheduler=options.scheduler,
             workers=options.workers,

@@ -12,8 +12,8 @@ from sunwidget.cli.edit_options import add_edit, edit_of_flags, edit_of_scene
 from sunwidget.cli.ending import one_line
 from sunwidget.cli.photo_options import (
     add_photo,
-    pick_given,
     open_picture,
+    pick_given,
     refuse_existing,
     scene_to_draw,
 )
