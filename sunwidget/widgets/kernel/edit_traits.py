@@ -17,7 +17,8 @@ Check = Callable[[Parameter, Any], Any]
 class EditTrait(traitlets.TraitType):
     """One parameter, with the values that its table accepts, normalized as in the table.
 
-    A value that ``check`` rejects raises ``TraitError`` with its message, and the trait does not change.
+    A value that ``check`` rejects raises ``TraitError`` with its message; the trait keeps its old
+    value.
 
     Parameters
     ----------
