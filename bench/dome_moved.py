@@ -17,9 +17,9 @@ from dome import PLANES
 
 import sunwidget as sw
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.dome.disc import disc_giving
+from sunwidget.dome.disc import disc_with_illuminance
 from sunwidget.dome.sphere import angles, direction_of, distance, irradiance, solid_angles, toward
-from sunwidget.export.dome.moved import moved
+from sunwidget.export.dome.moved import move_sun
 from sunwidget.formats.color import LUMINANCE
 
 _DEVELOPED = 12  # seeds below it were looked at while the method was made
@@ -42,10 +42,10 @@ def judged(path: Path, first: int) -> dict[str, Any]:
         suns = [(float(a), float(e)) for a, e in found["directions"]]
         true_sky = found["sky"]
     second = 1 - first
-    disc = disc_giving(direct[first], Atmosphere(), suns[first], light.shape[2])
+    disc = disc_with_illuminance(direct[first], Atmosphere(), suns[first], light.shape[2])
     dome = sw.analyze_dome(np.asarray(light[first] + disc, np.float32))
     edit = sw.Edit(sun_azimuth=suns[second][0], sun_elevation=suns[second][1])
-    out = moved(dome, edit, light.shape[2])
+    out = move_sun(dome, edit, light.shape[2])
     width = light.shape[2]
     azimuth, elevation = angles(width)
     drawn = direction_of(

@@ -1,4 +1,4 @@
-"""A Dask scheduler and worker processes on this machine, for as long as one batch takes."""
+"""A Dask scheduler and worker processes on this machine for the duration of one batch."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from typing import Any
 import sunwidget
 from sunwidget.batches.workers import DaskWorkers
 
-# Dask has glibc give memory back whenever 64 kB are free: a picture's arrays are then mapped anew
-# for each operation, which doubles the time of a photo (measured). None unsets the variable.
+# Dask makes glibc return memory whenever 64 kB are free. Each operation then maps a picture's
+# arrays again, which doubles the time of a photo (measured). None unsets the variable.
 _MEMORY: dict[str, int | None] = {"MALLOC_TRIM_THRESHOLD_": None}
 _BLAS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # Dask's own: 1
-# What a worker should have at least: a photo of 24 MP takes about 1.5 GB.
+# Least memory of a worker: a photo of 24 MP takes about 1.5 GB.
 _MEMORY_OF_ONE = 2 << 30
-_ANSWER = 10.0  # seconds in which a scheduler answers
+_ANSWER = 10.0  # seconds to wait for an answer of the scheduler
 
 
 def default_workers(photos: int) -> int:
-    """Return a worker for each core, at least 2 GB of memory each, and no more than photos."""
+    """Return one worker per core, limited by 2 GB of memory each and by the number of photos."""
     from dask.system import CPU_COUNT
     from distributed.system import MEMORY_LIMIT
 
@@ -41,14 +41,14 @@ def local_workers(count: int, *, deaths: int) -> Iterator[DaskWorkers]:
     ----------
     count : int
     deaths : int
-        How many workers a photo may take down before it is given up.
+        Number of workers that may die on a photo before it is abandoned.
 
     Notes
     -----
-    The workers are started by ``dask worker`` and not by ``LocalCluster``, whose processes import
-    the script that starts them again and so need ``if __name__ == "__main__"`` in it. They have a
-    session of their own, so that Ctrl-C reaches only the process that runs the batch, and are
-    killed at the end: all that is worth keeping is in this process.
+    ``dask worker`` starts the workers, not ``LocalCluster``: its processes import the calling
+    script again, which then needs ``if __name__ == "__main__"``. The workers have a separate
+    session, so that Ctrl-C reaches only the process that runs the batch. They are killed at the
+    end, since they hold no results.
     """
     from dask.system import CPU_COUNT
     from distributed import Client, LocalCluster
@@ -64,9 +64,9 @@ def local_workers(count: int, *, deaths: int) -> Iterator[DaskWorkers]:
         cluster = stack.enter_context(
             LocalCluster(
                 n_workers=0,
-                processes=True,  # or the scheduler would listen to this process only
+                processes=True,  # otherwise the scheduler would accept this process only
                 host="127.0.0.1",
-                dashboard_address="127.0.0.1:0",  # any port: 8787 may be somebody's
+                dashboard_address="127.0.0.1:0",  # any free port: 8787 may be taken
                 silence_logs=logging.CRITICAL,
                 scheduler_kwargs={"allowed_failures": deaths},
             )
@@ -83,8 +83,8 @@ def local_workers(count: int, *, deaths: int) -> Iterator[DaskWorkers]:
                 words.seek(0)
                 last = words.read().decode(errors="replace").strip().splitlines()[-1:]
                 raise RuntimeError(
-                    f"The workers stopped: {''.join(last) or 'without a word'}. With workers=0 "
-                    "the photos are done in this process."
+                    f"The workers stopped: {''.join(last) or 'no message'}. Pass workers=0 to "
+                    "develop the photos in this process."
                 )
 
         client = stack.enter_context(Client(cluster, set_as_default=False))
@@ -99,18 +99,18 @@ def _processes(
     address: str, count: int, memory: int, threads: int, folder: Path, words: Any
 ) -> Iterator[subprocess.Popen[bytes]]:
     command = [
-        # -P: a folder of photos is no place to import from.
+        # -P: do not import modules from a folder of photos.
         *(sys.executable, "-P", "-m", "distributed.cli.dask_worker", address),
         *("--nworkers", str(count), "--nthreads", "1", "--memory-limit", str(memory)),
         *("--host", "127.0.0.1", "--no-dashboard", "--death-timeout", "60"),
         *("--local-directory", str(folder)),
     ]
     environment = _MEMORY | dict.fromkeys(_BLAS, threads)
-    # The very sunwidget that asks, also from a checkout that is not installed.
+    # Workers import the same sunwidget as this process, even from a checkout.
     path = os.pathsep.join(
         [str(Path(sunwidget.__file__).parents[1]), *filter(None, [os.environ.get("PYTHONPATH")])]
     )
-    process = subprocess.Popen(  # noqa: S603 - no shell, and no word of it comes from a photo
+    process = subprocess.Popen(  # noqa: S603 - no shell, and no argument comes from a photo
         command,
         stdin=subprocess.DEVNULL,
         stdout=words,
@@ -128,19 +128,19 @@ def _processes(
         if hasattr(os, "killpg"):
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
-        else:  # Windows: workers leave when the process that watches them is gone
+        else:  # Windows: workers exit when their parent process is gone
             process.kill()
         process.wait()
 
 
 @contextlib.contextmanager
 def remote_workers(scheduler: Any) -> Iterator[DaskWorkers]:
-    """Connect to a scheduler: its address, a Dask cluster object, or a client, which stays open.
+    """Connect to a scheduler by its address, a Dask cluster object or a client (not closed).
 
     Raises
     ------
     ConnectionError
-        When nothing answers at the address.
+        When no scheduler answers at the address.
     """
     from distributed import Client
 
@@ -151,8 +151,8 @@ def remote_workers(scheduler: Any) -> Iterator[DaskWorkers]:
         client = Client(scheduler, timeout=_ANSWER, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise ConnectionError(
-            f"No Dask scheduler answers at {scheduler}. Start one with: dask scheduler; and "
-            "workers on each machine with: dask worker tcp://… --nthreads 1"
+            f"No Dask scheduler answers at {scheduler}. Start one with: dask scheduler; then "
+            "start workers on each machine with: dask worker tcp://… --nthreads 1"
         ) from error
     with client:
         yield _ready(client)

@@ -1,8 +1,8 @@
-"""One photo of a batch, from its file to the bytes of its pictures, wherever that happens.
+"""Development of one photo of a batch, from its file to the bytes of its pictures.
 
-A worker writes nothing into the folder of the results: it hands bytes back, and the process that
-runs the batch is the only one that writes. So a worker may die at any moment, may stand on
-another machine, and no photo comes out twice or by halves.
+A worker returns bytes; only the process that runs the batch writes into the output folder. A worker
+may therefore die at any moment or run on another machine, and no picture is written twice or in
+part.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from sunwidget.batches.request import Wish
+from sunwidget.batches.request import Request
 from sunwidget.progress import Progress, part
 from sunwidget.version import __version__
 
-# Two photos at a time in one process would take twice the memory for one GL context.
+# Two photos at a time would take twice the memory but share one GL context.
 _one_at_a_time = threading.Lock()
 
 
@@ -29,16 +29,16 @@ _one_at_a_time = threading.Lock()
 class Job:
     """One photo to be developed.
 
-    ``path`` is absolute, ``digest`` the SHA-256 of its bytes, ``data`` the bytes themselves for a
-    worker that does not see the path, ``output`` the name of the picture; ``threads`` limits what
-    the libraries may use, None leaves them alone.
+    ``path`` is absolute; ``digest`` is the SHA-256 of its bytes; ``data`` holds the bytes for a
+    worker that cannot read the path; ``output`` is the name of the picture; ``threads`` limits the
+    libraries' threads, None does not.
     """
 
     number: int
     path: str
     digest: str
     output: str
-    wish: Wish
+    request: Request
     data: bytes | None = field(default=None, repr=False)
     threads: int | None = None
     version: str = __version__
@@ -46,49 +46,49 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a job: the files by name, the picture itself last, or an error's sentence.
+    """The result of a job: its files by name, the picture last, or an error message.
 
-    ``unseen`` says that this worker cannot read the photo and needs its bytes.
+    ``unreadable`` means that this worker cannot read the photo and needs its bytes.
     """
 
     number: int
     files: dict[str, bytes] = field(default_factory=dict, repr=False)
     error: str = ""
-    unseen: bool = False
+    unreadable: bool = False
     notes: tuple[str, ...] = ()
     seconds: float = 0.0
     worker: str = ""
 
 
 def develop(job: Job, progress: Progress | None = None) -> Outcome:
-    """Open, analyse, render and encode one photo. What goes wrong becomes the outcome's error.
+    """Open, analyze, render and encode one photo. Exceptions become the outcome's error.
 
     Raises
     ------
     RendererError
-        When nothing can be rendered on this machine: every other photo would fail as well.
+        When this machine cannot render: every other photo would fail as well.
     RuntimeError
-        When the batch was started by another version of sunwidget.
+        When another version of sunwidget started the batch.
     """
     from sunwidget.errors import RendererError
 
     if job.version != __version__:
-        raise RuntimeError(f"it has sunwidget {__version__}, the batch is run by {job.version}")
+        raise RuntimeError(f"it has sunwidget {__version__}, but the batch has {job.version}")
     with _one_at_a_time:
         begin = time.perf_counter()
         where = f"{socket.gethostname()}:{os.getpid()}"
         notes: list[str] = []
         try:
             files = _files(job, notes, progress)
-        except _UnseenError:
-            return Outcome(job.number, unseen=True, worker=where)
-        except _Stopped as stopped:
+        except _UnreadableError:
+            return Outcome(job.number, unreadable=True, worker=where)
+        except _CancelledError as stopped:
             raise stopped.reason from None
         except RendererError:
             raise
         except MemoryError:
-            error = "There was not enough memory for this photo. Use fewer workers."
-        except Exception as wrong:  # noqa: BLE001 - a failed photo is reported, and the rest is done
+            error = "Not enough memory for this photo. Use fewer workers."
+        except Exception as wrong:  # noqa: BLE001 - a failed photo must not end the batch
             error = sentence(wrong)
         else:
             seconds = time.perf_counter() - begin
@@ -98,19 +98,19 @@ def develop(job: Job, progress: Progress | None = None) -> Outcome:
 
 
 def sentence(error: BaseException) -> str:
-    """Return an error as one line; our own errors are sentences, others get their type's name."""
+    """Return an error as one line, with its type unless it is one of sunwidget's own."""
     text = " ".join(str(error).split())
     if type(error).__module__.startswith("sunwidget"):
         return text
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
-class _UnseenError(Exception):
-    """The photo's path does not lead to the photo here."""
+class _UnreadableError(Exception):
+    """The photo cannot be read at its path on this machine."""
 
 
-class _Stopped(BaseException):
-    """What ``progress`` raised: it ends the batch and is no failure of the photo."""
+class _CancelledError(BaseException):
+    """An exception of ``progress``, which ends the batch and is not a failure of the photo."""
 
     def __init__(self, reason: Exception) -> None:
         super().__init__(reason)
@@ -128,7 +128,7 @@ def _files(job: Job, notes: list[str], progress: Progress | None) -> dict[str, b
             try:
                 scene_notes = _save(job, photo, results / Path(job.output).name, progress)
             finally:
-                # Not once a photo and a library: only what sunwidget itself says is for people.
+                # Keep sunwidget's own warnings; those of libraries are not for users.
                 own = [str(w.message) for w in heard if _is_ours(w.category)]
                 notes.extend(dict.fromkeys(own))
         notes.extend(note for note in scene_notes if note not in notes)
@@ -147,19 +147,19 @@ def _save(job: Job, photo: Path, path: Path, progress: Progress | None) -> tuple
     from sunwidget.export.stills import save
     from sunwidget.photo.decode_apart import open_apart
 
-    wish = job.wish
-    report = _stopping(progress)
-    scene = analyze(open_apart(photo), progress=part(report, 0.0, 0.6), **wish.analysis)
-    edit = wish.edit_of(scene)
+    request = job.request
+    report = _cancel_on_error(progress)
+    scene = analyze(open_apart(photo), progress=part(report, 0.0, 0.6), **request.analysis)
+    edit = request.edit_of(scene)
     own = scene.photo.size
-    size = own if wish.long_edge is None else scene.photo.size_within(wish.long_edge)
+    size = own if request.long_edge is None else scene.photo.size_within(request.long_edge)
     rest = part(report, 0.6, 1.0)
-    save((scene, edit), path, size=None if size == own else size, progress=rest, **wish.options)
+    save((scene, edit), path, size=None if size == own else size, progress=rest, **request.options)
     return scene.warnings
 
 
-def _stopping(progress: Progress | None) -> Progress:
-    """Return ``progress`` in such a way that what it raises ends the batch, not this photo."""
+def _cancel_on_error(progress: Progress | None) -> Progress:
+    """Wrap ``progress`` so that its exceptions end the batch and not only this photo."""
 
     def report(fraction: float, message: str) -> None:
         if progress is None:
@@ -167,23 +167,23 @@ def _stopping(progress: Progress | None) -> Progress:
         try:
             progress(fraction, message)
         except Exception as reason:
-            raise _Stopped(reason) from reason
+            raise _CancelledError(reason) from reason
 
     return report
 
 
 def _photo(job: Job, folder: Path) -> Path:
-    """Return where the photo can be read: its own path, or a copy of the bytes that came."""
+    """Return a readable path of the photo: its own, or a copy of the received bytes."""
     if job.data is None:
         path = Path(job.path)
         try:
-            seen = digest_of(path) == job.digest
+            readable = digest_of(path) == job.digest
         except OSError:
-            seen = False
-        if not seen:
-            raise _UnseenError
+            readable = False
+        if not readable:
+            raise _UnreadableError
         return path
-    copy = folder / Path(job.path).name  # the name tells the kind of a raw file
+    copy = folder / Path(job.path).name  # the extension identifies the raw format
     copy.write_bytes(job.data)
     return copy
 
@@ -195,18 +195,18 @@ def digest_of(path: Path) -> str:
 
 
 def limit_threads(count: int | None) -> None:
-    """Let OpenCV, the networks and Mesa's software rendering use ``count`` threads at most."""
+    """Limit OpenCV, the networks and Mesa's software rendering to ``count`` threads."""
     if count is None:
         return
     import cv2
 
     cv2.setNumThreads(count)  # the networks follow it (analysis/networks/onnx_file.py)
-    # Mesa reads it when the context is made, with the first photo.
+    # Mesa reads the variable when the context is created, with the first photo.
     os.environ.setdefault("LP_NUM_THREADS", str(count))
 
 
 def _scratch() -> str | None:
-    """Return Dask's folder of this worker, which goes away with it; else the system's own."""
+    """Return this worker's Dask folder, deleted with the worker; None for the system's default."""
     try:
         from distributed import get_worker
 

@@ -1,4 +1,4 @@
-"""Which photos a batch is of, and what their pictures are called."""
+"""The photos of a batch and the names of their pictures."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sunwidget.export.formats import FORMATS
 
 FIELDS = ("name", "folder", "number", "ending")
 
-# What a folder is searched for. A pattern or a list names its files itself.
+# Extensions searched for in a folder. A pattern or a list may name any file.
 _PICTURES = frozenset(
     {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp", ".bmp", ".heic", ".heif", ".avif"}
     | {".dng", ".nef", ".cr2", ".cr3", ".arw", ".orf", ".rw2", ".raf", ".pef", ".srw"}
@@ -21,42 +21,42 @@ _PICTURES = frozenset(
 
 
 def find(photos: Any) -> list[Path]:
-    """Return absolute paths, each once, in the order named and sorted within a pattern.
+    """Return absolute paths without duplicates, in the given order, sorted within a pattern.
 
     Parameters
     ----------
     photos : path, pattern, folder, or an iterable of these
-        ``"photos/*.jpg"``, ``"photos/**/*.jpg"``; of a folder the pictures in it.
+        ``"photos/*.jpg"``, ``"photos/**/*.jpg"``; a folder stands for its pictures.
 
     Raises
     ------
     FileNotFoundError
-        When a pattern or folder holds nothing. A path that names one missing file is kept: the
-        batch reports it.
+        When a pattern or folder has no picture. The path of a missing file is kept: the batch
+        reports it.
     """
     named = [photos] if isinstance(photos, (str, os.PathLike)) else photos
     if not isinstance(named, Iterable):
         raise TypeError(
-            f"photos must be a path, a pattern as 'photos/*.jpg', a folder or a list of these, "
-            f"not {type(photos).__name__}."
+            f"photos must be a path, a pattern such as 'photos/*.jpg', a folder or a list of "
+            f"these, not {type(photos).__name__}."
         )
     found: dict[Path, None] = {}
     for entry in named:
         if not isinstance(entry, (str, os.PathLike)):
             raise TypeError(
-                f"A batch takes paths, not {type(entry).__name__}: a photo is known by its file "
-                "when the batch goes on. Save it first."
+                f"A batch takes paths, not {type(entry).__name__}: it identifies a photo by its "
+                "file when it resumes. Save the photo first."
             )
-        for path in _of(os.path.expanduser(os.fspath(entry))):  # noqa: PTH111 - a pattern is no path
-            # Not resolved: a link's own name is the photo's name.
+        for path in _expand(os.path.expanduser(os.fspath(entry))):  # noqa: PTH111 - a pattern, not a path
+            # Not resolved: the photo keeps the name of a link.
             found[Path(os.path.abspath(path))] = None  # noqa: PTH100
     if not found:
-        raise FileNotFoundError("No photos were named.")
+        raise FileNotFoundError("No photos were given.")
     return list(found)
 
 
-def _of(text: str) -> Sequence[str]:
-    # A file may be called IMG[1].jpg: what exists is no pattern.
+def _expand(text: str) -> Sequence[str]:
+    # An existing file is not a pattern, even if its name is IMG[1].jpg.
     if Path(text).is_dir():
         inside = sorted(p for p in Path(text).iterdir() if p.suffix.lower() in _PICTURES)
         if not inside:
@@ -71,21 +71,21 @@ def _of(text: str) -> Sequence[str]:
 
 
 def names(photos: Sequence[Path], template: str, ending: str | None) -> list[str]:
-    """Return the name of each photo's picture, relative to the folder of the results.
+    """Return the name of each photo's picture, relative to the output folder.
 
     Parameters
     ----------
     photos : sequence of Path
     template : str
-        With ``{name}``, ``{folder}``, ``{number}`` and ``{ending}`` of the photo; a slash makes a
-        folder.
+        With ``{name}``, ``{folder}``, ``{number}`` and ``{ending}`` of the photo; a slash creates a
+        subfolder.
     ending : str or None
-        ".png" …; None keeps the photo's own where it can be written, and takes .tif elsewhere.
+        File extension, ".png" …; None keeps the photo's own if it can be written, otherwise .tif.
 
     Raises
     ------
     ValueError
-        For an unknown field or ending, a name that leaves the folder, or two photos with one
+        For an unknown field or extension, a name outside the folder, or two photos with the same
         name.
     """
     _check(template)
@@ -93,7 +93,7 @@ def names(photos: Sequence[Path], template: str, ending: str | None) -> list[str
         ending = "." + ending.lower().lstrip(".")
         if ending not in FORMATS:
             raise ValueError(
-                f"format = {ending.lstrip('.')!r} cannot be written; there are "
+                f"format = {ending.lstrip('.')!r} cannot be written. Choose one of "
                 f"{', '.join(known.lstrip('.') for known in FORMATS)}."
             )
     taken: dict[str, Path] = {}
@@ -110,12 +110,12 @@ def names(photos: Sequence[Path], template: str, ending: str | None) -> list[str
         parts = Path(name).parts
         if Path(name).is_absolute() or ".." in parts or not stem or stem.endswith("/"):
             raise ValueError(f"name = {template!r} makes {name!r}, which is not a valid file name.")
-        # Folders of Windows and macOS do not tell capitals apart.
+        # File names are case-insensitive on Windows and macOS.
         other = taken.setdefault(str(Path(name)).casefold(), photo)
         if other is not photo:
             raise ValueError(
-                f"{other} and {photo} would both be called {name}. Tell them apart by name=, for "
-                "example '{folder}-{name}-sun' or '{name}-{ending}-sun'."
+                f"{other} and {photo} would both be called {name}. Distinguish them with name=, "
+                "for example '{folder}-{name}-sun' or '{name}-{ending}-sun'."
             )
         found.append(str(Path(name)))
     return found
@@ -129,6 +129,6 @@ def _check(template: str) -> None:
     unknown = sorted(fields.difference(FIELDS))
     if unknown:
         raise ValueError(
-            f"name = {template!r} asks for {{{unknown[0]}}}; there are "
+            f"name = {template!r} has the unknown field {{{unknown[0]}}}. Known fields: "
             f"{', '.join(f'{{{name}}}' for name in FIELDS)}."
         )

@@ -1,7 +1,7 @@
-"""What a batch has done, kept beside its pictures, so that it can go on where it stopped.
+"""The record of a batch, kept beside its pictures, from which an interrupted batch resumes.
 
-One line of JSON a picture, appended when the picture is whole; of a picture's lines the last one
-counts, and a line that a crash cut short counts as none.
+Each finished picture appends one line of JSON. The last line of a picture is valid; a line that a
+crash truncated is ignored.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from sunwidget.batches.develop import digest_of
-from sunwidget.batches.request import Wish
+from sunwidget.batches.request import Request
 from sunwidget.version import __version__
 
 FILE_NAME = ".sunwidget-batch.jsonl"
@@ -25,7 +25,7 @@ FILE_NAME = ".sunwidget-batch.jsonl"
 
 @dataclass(frozen=True)
 class Entry:
-    """A picture that was made: of which photo, by which recipe, and its files' SHA-256."""
+    """A finished picture: its photo, its recipe, and the SHA-256 of its files."""
 
     photo: str
     size: int
@@ -54,7 +54,7 @@ class Record:
             entry = Entry(**{f.name: stored[f.name] for f in dataclasses.fields(Entry)})
             self._keep(stored["output"], entry)
         except (ValueError, KeyError, TypeError):
-            return  # cut short, or of another version: that picture is made again
+            return  # truncated, or of another version: the picture is written again
 
     def _keep(self, output: str, entry: Entry) -> None:
         self.entries[output] = entry
@@ -62,13 +62,13 @@ class Record:
         self._sums |= entry.files
 
     def digest(self, photo: Path) -> str:
-        """Return the SHA-256 of a photo, read again only when its size or time has changed."""
+        """Return the SHA-256 of a photo; read it again only if its size or time changed."""
         stat = photo.stat()
         known = self._digests.get((str(photo), stat.st_size, stat.st_mtime_ns))
         return known or digest_of(photo)
 
     def is_done(self, output: str, digest: str, recipe: str) -> bool:
-        """Whether this very picture of this photo by this recipe is there."""
+        """Return whether the picture of this photo by this recipe exists."""
         entry = self.entries.get(output)
         return (
             entry is not None
@@ -77,12 +77,12 @@ class Record:
         )
 
     def is_own(self, name: str) -> bool:
-        """Whether a file is what a batch wrote and nobody has changed since."""
+        """Return whether a batch wrote the file and it has not changed since."""
         path = self.folder / name
         return name in self._sums and path.is_file() and digest_of(path) == self._sums[name]
 
     def has_made(self, path: Path) -> bool:
-        """Whether a path is one of the pictures of the record, and hence no photo."""
+        """Return whether a path is a picture of the record and therefore not a photo."""
         try:
             return str(path.relative_to(self.folder)) in self._sums
         except ValueError:
@@ -91,12 +91,12 @@ class Record:
     def add(
         self, output: str, photo: Path, digest: str, recipe: str, files: dict[str, bytes]
     ) -> None:
-        """Note a picture whose files have been written."""
+        """Record a picture whose files have been written."""
         stat = photo.stat()
         sums = {name: hashlib.sha256(data).hexdigest() for name, data in files.items()}
         entry = Entry(str(photo), stat.st_size, stat.st_mtime_ns, digest, recipe, sums)
         line = json.dumps({"output": output, **dataclasses.asdict(entry)}) + "\n"
-        # A line that a crash cut short must not swallow this one.
+        # Do not append to a line that a crash truncated.
         if self.path.is_file() and not _ends_in_newline(self.path):
             line = "\n" + line
         with self.path.open("a", encoding="utf-8") as file:
@@ -112,14 +112,18 @@ def _ends_in_newline(path: Path) -> bool:
         return file.read(1) == b"\n"
 
 
-def recipe_key(wish: Wish) -> str:
-    """Return what tells recipes apart: a hash of edit, preset, analysis, options and version."""
-    told = {
+def recipe_key(request: Request) -> str:
+    """Return a hash of edit, preset, analysis, options and version, which identifies a recipe."""
+    described = {
         "version": __version__,
-        "edit": wish.edit.to_dict(),
-        **{f.name: getattr(wish, f.name) for f in dataclasses.fields(wish) if f.name != "edit"},
+        "edit": request.edit.to_dict(),
+        **{
+            f.name: getattr(request, f.name)
+            for f in dataclasses.fields(request)
+            if f.name != "edit"
+        },
     }
-    text = json.dumps(told, sort_keys=True, default=_plain)
+    text = json.dumps(described, sort_keys=True, default=_plain)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -134,6 +138,6 @@ def _plain(value: Any) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return [type(value).__name__, dataclasses.asdict(value)]
     raise TypeError(
-        f"A batch cannot remember {type(value).__name__} from run to run: in analysis and options "
-        "pass numbers, texts, paths and arrays."
+        f"A batch cannot record a {type(value).__name__} for later runs. Pass numbers, strings, "
+        "paths and arrays in analysis and options."
     )

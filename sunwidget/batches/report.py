@@ -1,4 +1,4 @@
-"""What became of each photo of a batch, as rows, as text, as HTML and as CSV."""
+"""The report of a batch: one row per photo, as text, HTML and CSV."""
 
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ from sunwidget.messages import printable
 
 State = Literal["done", "skipped", "failed"]
 
-_SHOWN = 40  # rows of a table on a screen; failed ones are always shown
+_SHOWN = 40  # rows of a table on screen; failed photos are always shown
 _HEADINGS = ("photo", "picture", "state", "seconds", "what")
 
 
 @dataclass(frozen=True)
 class BatchRow:
-    """What became of one photo.
+    """The result of one photo.
 
     Attributes
     ----------
     photo : Path
     output : Path or None
-        Its picture; None when it failed.
+        The written picture; None if the photo failed.
     state : {"done", "skipped", "failed"}
-        Skipped: an earlier run had made this very picture.
+        "skipped": an earlier run wrote the same picture.
     seconds : float
-        On its worker; 0 when nothing was done.
+        Time on the worker; 0 for a skipped photo.
     error : str
-        Why it failed and what to do; else empty.
+        The cause of a failure and its remedy, or "".
     worker : str
-        Machine and process that did it.
+        Machine and process that developed the photo.
     notes : tuple of str
-        What a person should know about the photo, such as that it shows no sky.
+        Warnings about the photo, such as that it shows no sky.
     """
 
     photo: Path
@@ -60,9 +60,9 @@ class BatchReport:
     ----------
     rows : tuple of BatchRow
     seconds : float
-        The whole batch took.
+        Duration of the whole batch.
     where : str
-        Who did it: "2 worker processes", "this process" …; empty when nothing was to be done.
+        Where it ran: "2 worker processes", "this process" …; "" if there was nothing to do.
     """
 
     rows: tuple[BatchRow, ...]
@@ -71,12 +71,12 @@ class BatchReport:
 
     @property
     def done(self) -> tuple[BatchRow, ...]:
-        """Rows of the pictures that this run made."""
+        """Rows of the pictures that this run wrote."""
         return self._rows("done")
 
     @property
     def skipped(self) -> tuple[BatchRow, ...]:
-        """Rows of the pictures that were there already."""
+        """Rows of the pictures that an earlier run wrote."""
         return self._rows("skipped")
 
     @property
@@ -95,7 +95,7 @@ class BatchReport:
 
     @property
     def summary(self) -> str:
-        """One sentence: how many of each, how long, and where."""
+        """One sentence: counts by state, duration and place."""
         parts = [f"{len(self.done)} done"]
         parts += [f"{len(self.skipped)} skipped"] if self.skipped else []
         parts += [f"{len(self.failed)} failed"]
@@ -106,7 +106,7 @@ class BatchReport:
         )
 
     def __str__(self) -> str:
-        """Return the table of a terminal, with the summary below."""
+        """Return the table for a terminal, followed by the summary."""
         rows, left_out = self._shown()
         cells = [_HEADINGS[:-1], *(_cells(row)[:-1] for row in rows)]
         widths = [max(len(line[i]) for line in cells) for i in range(len(cells[0]))]
@@ -135,27 +135,27 @@ class BatchReport:
         )
 
     def _shown(self) -> tuple[list[BatchRow], int]:
-        """Return the rows for a screen, and how many are left out: never one that failed."""
-        told = [row for row in self.rows if row.state == "failed"]
-        quiet = [row for row in self.rows if row.state != "failed"]
-        kept = {id(row) for row in [*told, *quiet[: max(0, _SHOWN - len(told))]]}
+        """Return the rows for a screen and the number omitted; failed photos are never omitted."""
+        failed = [row for row in self.rows if row.state == "failed"]
+        others = [row for row in self.rows if row.state != "failed"]
+        kept = {id(row) for row in [*failed, *others[: max(0, _SHOWN - len(failed))]]}
         rows = [row for row in self.rows if id(row) in kept]
         return rows, len(self.rows) - len(rows)
 
     def to_csv(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
-        """Write all rows as CSV (UTF-8, RFC 4180) with a line of headings.
+        """Write all rows as CSV (UTF-8, RFC 4180) with a header line.
 
         Parameters
         ----------
         path : path
-            Where to write them.
+            The file to write.
         overwrite : bool
             Replace an existing file.
 
         Returns
         -------
         Path
-            Where they are.
+            The written file.
 
         Raises
         ------
@@ -172,7 +172,7 @@ class BatchReport:
             notes = " ".join(row.notes)
             writer.writerow((row.photo, output, row.state, seconds, row.error, row.worker, notes))
         with complete_or_absent(place, overwrite=overwrite) as unfinished:
-            # Names of files need not be text.
+            # File names need not be valid text.
             unfinished.write_text(text.getvalue(), "utf-8", "backslashreplace", newline="")
         return place
 
@@ -181,7 +181,7 @@ _COLUMNS = tuple(field.name for field in dataclasses.fields(BatchRow))
 
 
 def is_table(path: Path) -> bool:
-    """Whether a file is the table of an earlier run, which the same command may replace."""
+    """Return whether a file is the table of an earlier run, which a new run may replace."""
     try:
         with path.open(encoding="utf-8", newline="") as file:
             return file.readline().rstrip() == ",".join(_COLUMNS)
@@ -196,7 +196,7 @@ def _cells(row: BatchRow) -> tuple[str, ...]:
 
 
 def _first_sentence(notes: tuple[str, ...]) -> str:
-    """Return what was found wrong first; all of it, and what to do, stands in the CSV."""
+    """Return the first sentence of the first note; the CSV has all of them."""
     return re.split(r"(?<=\.)\s+(?=[A-Z])", notes[0], maxsplit=1)[0] if notes else ""
 
 

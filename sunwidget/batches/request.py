@@ -1,4 +1,4 @@
-"""What is wanted of every photo of a batch."""
+"""The request of a batch: edit and options for every photo."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from sunwidget.edit.table import Edit
 from sunwidget.errors import EditError
 from sunwidget.messages import did_you_mean, shown
 
-# What a recipe says about one photo only.
+# Parts of a recipe that apply to one photo only.
 _OF_ONE_PHOTO = ("strokes", "sun_hint", "horizon_hint", "fov_hint")
 
 
 @dataclass(frozen=True)
-class Wish:
-    """What is wanted of every photo.
+class Request:
+    """Edit and options for every photo of a batch.
 
-    ``edit`` is the recipe; ``preset`` the name of a time of day that wins over it, and ``flags``
-    values that win over both; ``analysis`` are arguments of ``analyze``, ``options`` of ``save``;
+    ``edit`` is the recipe. ``preset``, a time of day, overrides it; the values of ``flags``
+    override both. ``analysis`` are arguments of ``analyze``, ``options`` of ``save``.
     ``long_edge`` limits the picture's longer side in pixels.
     """
 
@@ -36,7 +36,7 @@ class Wish:
     long_edge: int | None = None
 
     def edit_of(self, scene: Any) -> Edit:
-        """Return the edit of this photo: a preset looks at the photo."""
+        """Return the edit of one photo, on which a preset depends."""
         from sunwidget import presets
 
         edit = self.edit
@@ -45,15 +45,15 @@ class Wish:
         return edit.replace(**self.flags)
 
 
-def wish_of(
+def check_request(
     edit: Any,
     analysis: dict[str, Any] | None,
     options: dict[str, Any],
     long_edge: int | None,
     *,
     corrections: bool,
-) -> Wish:
-    """Return what ``batch`` was asked for, checked before any work is done.
+) -> Request:
+    """Return the request of a call of ``batch``, checked before any work.
 
     Raises
     ------
@@ -69,11 +69,11 @@ def wish_of(
         "batch", options, save, {"picture", "path", "like", "overwrite", "size", "progress"}
     )
     _check_known("analysis", analysis or {}, analyze, {"photo", "progress"})
-    wish = edit if isinstance(edit, Wish) else Wish(_edit(edit), _preset(edit))
-    recipe = wish.edit
+    request = edit if isinstance(edit, Request) else Request(_edit(edit), _preset(edit))
+    recipe = request.edit
     if not corrections:
         recipe = recipe.replace(**dict.fromkeys(_OF_ONE_PHOTO[1:]), strokes=())
-    return Wish(recipe, wish.preset, wish.flags, dict(analysis or {}), options, long_edge)
+    return Request(recipe, request.preset, request.flags, dict(analysis or {}), options, long_edge)
 
 
 def _preset(edit: Any) -> str | None:
@@ -88,35 +88,35 @@ def _edit(edit: Any) -> Edit:
     if isinstance(edit, (str, os.PathLike)):
         if not is_recipe_file(edit):
             raise EditError(
-                f"There is no recipe {shown(os.fspath(edit))}; the presets are "
+                f"There is no recipe {shown(os.fspath(edit))}. The presets are "
                 f"{', '.join(presets.NAMES)}."
             )
         return read_recipe(edit)
     raise EditError(f"A batch needs an Edit, a recipe or a preset, not {type(edit).__name__}.")
 
 
-def _check_known(what: str, given: dict[str, Any], function: Any, refused: set[str]) -> None:
-    """Raise TypeError for an argument that ``function`` lacks, or that the batch sets itself."""
+def _check_known(what: str, arguments: dict[str, Any], function: Any, refused: set[str]) -> None:
+    """Raise TypeError for an argument that ``function`` lacks or that the batch sets itself."""
     known = [name for name in inspect.signature(function).parameters if name not in refused]
-    for name in given:
+    for name in arguments:
         if name not in known:
-            hint = did_you_mean(name, known, f"There are {', '.join(known)}.")
+            hint = did_you_mean(name, known, f"Known arguments: {', '.join(known)}.")
             raise TypeError(f"{what} does not take {name!r}.{hint}")
 
 
-def check_endings(outputs: Iterable[str], wish: Wish) -> None:
-    """Raise when one of the kinds of file cannot be what the options ask for."""
+def check_endings(outputs: Iterable[str], request: Request) -> None:
+    """Raise an error if a file type does not support the requested options."""
     from sunwidget.export.stills import check_format, checked_headroom
 
-    layers = bool(wish.options.get("layers"))
-    headroom = checked_headroom(wish.options.get("headroom", 0))
-    bits = wish.options.get("bit_depth")
+    layers = bool(request.options.get("layers"))
+    headroom = checked_headroom(request.options.get("headroom", 0))
+    bits = request.options.get("bit_depth")
     for suffix in sorted({Path(output).suffix for output in outputs}):
         check_format(Path("picture" + suffix), bits, layers=layers, headroom=headroom)
 
 
 def check_whole(name: str, value: Any, least: int) -> None:
-    """Raise ValueError unless a value is None or a whole number of at least ``least``."""
+    """Raise ValueError unless a value is None or an integer of at least ``least``."""
     if value is None:
         return
     if isinstance(value, bool) or not isinstance(value, int) or value < least:

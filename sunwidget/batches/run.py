@@ -1,4 +1,4 @@
-"""Many photos with one recipe: which are to be done, by whom, and what became of them."""
+"""The function ``batch``: selects the photos, assigns them to workers and collects results."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from sunwidget.batches import photos as finding
+from sunwidget.batches import photos as photo_files
 from sunwidget.batches.develop import Job, Outcome, sentence
 from sunwidget.batches.record import Record, recipe_key
 from sunwidget.batches.report import BatchReport, BatchRow
-from sunwidget.batches.request import Wish, check_endings, check_whole, wish_of
+from sunwidget.batches.request import Request, check_endings, check_request, check_whole
 from sunwidget.batches.workers import ThisProcess, Workers, has_dask, require_dask
 from sunwidget.files import complete_or_absent, explained, folder_target
 from sunwidget.progress import with_time_left
@@ -27,7 +27,7 @@ def batch(
     scheduler: Any = None,
     workers: int | None = None,
     analysis: dict[str, Any] | None = None,
-    format: str | None = None,  # noqa: A002 - the word that people know
+    format: str | None = None,  # noqa: A002 - the usual word
     name: str = "{name}-sun",
     long_edge: int | None = None,
     corrections: bool = False,
@@ -37,42 +37,43 @@ def batch(
     progress: Callable[[float, str], object] | None = None,
     **options: Any,
 ) -> BatchReport:
-    """Move the sun in many photos. A photo that fails is reported, and the rest is done.
+    """Move the sun in many photos. A failed photo is reported; the others are still written.
 
     Parameters
     ----------
     photos : path, pattern, folder, or list of these
         ``"photos/*.jpg"``, ``"photos/**/*.jpg"``, ``"photos"``.
     edit : Edit, dict, path or str
-        An edit, a recipe (``Edit.to_dict``), a recipe's JSON file, or the name of a preset.
+        An edit, a recipe (``Edit.to_dict``), a recipe file (JSON), or the name of a preset.
     out : path
-        Folder of the pictures; made when it is missing.
+        Output folder; created if missing.
     scheduler : str or distributed.Client, optional
-        Address of a Dask scheduler, ``"tcp://…"``. Default: worker processes here.
+        Address of a Dask scheduler, ``"tcp://…"``. Default: worker processes on this machine.
     workers : int, optional
-        Worker processes on this machine; 0 does one photo after another in this process.
-        Default: one for each core, 2 GB of memory at least for each; 0 without Dask.
+        Worker processes on this machine; 0 develops one photo after another in this process.
+        Default: one per core, with at least 2 GB of memory each; 0 without Dask.
     analysis : dict, optional
         Arguments of ``analyze`` for every photo, such as ``{"fov": 38}``.
     format : str, optional
-        "png", "jpg", "tif" … Default: the photo's own; TIFF where that cannot be written.
+        "png", "jpg", "tif" … Default: the photo's own; TIFF if that cannot be written.
     name : str
-        Of a picture, without its ending, from ``{name}``, ``{folder}`` (name of the photo's
-        folder), ``{number}`` (from 1; ``{number:04}`` pads it) and ``{ending}`` (of the photo).
+        Template of the file name without its extension, from ``{name}``, ``{folder}`` (name of the
+        photo's folder), ``{number}`` (from 1; ``{number:04}`` pads it) and ``{ending}`` (the
+        photo's extension).
     long_edge : int, optional
-        Most pixels on the longer side. Default: the photo's own size.
+        Limit of the longer side in pixels. Default: the photo's own size.
     corrections : bool
-        Apply also the recipe's strokes and hints, which were made for one photo: for a series of
-        one fixed camera.
+        Also apply the recipe's strokes and hints, for a series from one fixed camera. They are
+        made for one photo.
     overwrite : bool
-        Replace files that this batch did not make, or that were changed since.
+        Replace files that no batch wrote or that were changed since.
     resume : bool
-        Skip photos whose picture by this very recipe is there already. A picture that an earlier
-        run made by another recipe or of another photo, untouched since, is made again.
+        Skip photos whose picture by the same recipe exists. A picture of another recipe or photo
+        is replaced if a batch wrote it and it is unchanged.
     retries : int
-        How often a photo is given to another worker when its worker dies.
+        Number of further workers that try a photo after its worker dies.
     progress : callable, optional
-        Called as ``progress(fraction, message)``. What it raises stops the batch.
+        Called as ``progress(fraction, message)``. An exception from it stops the batch.
     **options
         Further arguments of ``save``: ``quality``, ``bit_depth`` …
 
@@ -84,16 +85,16 @@ def batch(
     Raises
     ------
     FileNotFoundError
-        When no photo is found, or ``out`` lies in no folder.
+        When no photo is found, or the parent folder of ``out`` is missing.
     EditError, ValueError, TypeError
-        For an unusable recipe or argument; nothing has been done then.
+        For an unusable recipe or argument, before any work.
     ModuleNotFoundError
-        When workers are asked for without the ``batch`` extra.
+        When workers are requested without the ``batch`` extra.
     RendererError, RuntimeError
-        When nothing can be rendered here or on a worker, or a worker has another version.
+        When this machine or a worker cannot render, or a worker has another version.
     ConnectionError, TimeoutError
-        When the scheduler or all of its workers are lost. Like Ctrl-C it leaves whole pictures
-        only, and the same call goes on where this one stopped.
+        When the scheduler or all of its workers are lost. As after Ctrl-C, only complete pictures
+        remain, and the same call resumes the batch.
 
     Examples
     --------
@@ -101,40 +102,42 @@ def batch(
     >>> report.failed
     """
     begin = time.perf_counter()
-    wish = wish_of(edit, analysis, options, long_edge, corrections=corrections)
+    request = check_request(edit, analysis, options, long_edge, corrections=corrections)
     check_whole("workers", workers, 0)
     check_whole("retries", retries, 0)
     if workers or scheduler is not None:
         require_dask()
     if workers is not None and scheduler is not None:
-        raise ValueError("workers= are processes of this machine; a scheduler= has its own.")
+        raise ValueError(
+            "Pass workers= (processes on this machine) or scheduler=, which has its own workers."
+        )
     folder = _folder(out)
     record = Record(folder)
-    found = [photo for photo in finding.find(photos) if not record.has_made(photo)]
-    outputs = finding.names(found, name, format)
-    check_endings(outputs, wish)
-    run = _Run(found, outputs, wish, record, overwrite, resume, progress)
+    found = [photo for photo in photo_files.find(photos) if not record.has_made(photo)]
+    outputs = photo_files.names(found, name, format)
+    check_endings(outputs, request)
+    run = _Run(found, outputs, request, record, overwrite, resume, progress)
     with contextlib.ExitStack() as stack:
         jobs = run.jobs()
-        # A worker costs seconds to start: none is when there is nothing to do.
+        # Starting a worker takes seconds, so start workers only if there is a job.
         first = next(jobs, None)
         where = ""
         if first is not None:
-            hands = stack.enter_context(_workers(run, scheduler, workers, retries))
-            where = hands.text
-            for outcome in hands.outcomes(_chained(first, jobs)):
+            pool = stack.enter_context(_workers(run, scheduler, workers, retries))
+            where = pool.text
+            for outcome in pool.outcomes(_chained(first, jobs)):
                 run.finish(outcome)
     return BatchReport(tuple(run.rows[i] for i in range(len(found))), _since(begin), where)
 
 
 class _Run:
-    """One batch: which photos are still to be done, and the rows of those that are not."""
+    """One batch: its pending photos, and the report rows of the others."""
 
     def __init__(
         self,
         photos: list[Path],
         outputs: list[str],
-        wish: Wish,
+        request: Request,
         record: Record,
         overwrite: bool,
         resume: bool,
@@ -142,8 +145,8 @@ class _Run:
     ) -> None:
         self.photos = photos
         self.outputs = outputs
-        self.wish = wish
-        self.recipe = recipe_key(wish)
+        self.request = request
+        self.recipe = recipe_key(request)
         self.record = record
         self.overwrite = overwrite
         self.resume = resume
@@ -153,11 +156,11 @@ class _Run:
 
     @property
     def left(self) -> int:
-        """How many photos have no row yet."""
+        """Number of photos without a row."""
         return len(self.photos) - len(self.rows)
 
     def jobs(self) -> Iterator[Job]:
-        """Yield a job for each photo that is to be done; the others get their rows."""
+        """Yield a job for each pending photo; add the rows of the others."""
         for number, (photo, output) in enumerate(zip(self.photos, self.outputs, strict=True)):
             try:
                 job = self._job(number, photo, output)
@@ -183,16 +186,16 @@ class _Run:
                 return None
             if not (self.overwrite or self.record.is_own(output)):
                 error = (
-                    f"{place} exists already and is not what a batch left there. Pass "
-                    "overwrite=True to replace it."
+                    f"{place} exists already and was not written by a batch, or was changed since. "
+                    "Pass overwrite=True to replace it."
                 )
                 self._row(number, BatchRow(photo, None, "failed", error=error))
                 return None
         self._digests[number] = digest
-        return Job(number, str(photo), digest, output, self.wish)
+        return Job(number, str(photo), digest, output, self.request)
 
     def finish(self, outcome: Outcome) -> None:
-        """Write the files of a photo, note it in the record, and make its row."""
+        """Write the files of a photo, record it, and add its row."""
         photo, output = self.photos[outcome.number], self.outputs[outcome.number]
         error = outcome.error
         if not error:
@@ -231,7 +234,7 @@ class _Run:
                 outcome.files,
             )
         except OSError:
-            # What the record does not know, the next run would take for a person's own.
+            # The next run would not recognize files that are missing from the record.
             for place in written:
                 place.unlink(missing_ok=True)
             raise
@@ -244,7 +247,7 @@ class _Run:
         self._report(len(self.rows) / total, words)
 
     def within(self, fraction: float, _message: str) -> None:
-        """Report the part of a photo that this very process is working on."""
+        """Report progress within the photo that this process is developing."""
         done, total = len(self.rows), len(self.photos)
         self._report((done + min(fraction, 0.99)) / total, f"{done} of {total} photos")
 
@@ -260,8 +263,8 @@ def _workers(run: _Run, scheduler: Any, workers: int | None, retries: int) -> It
     if scheduler is not None:
         from sunwidget.batches.cluster import remote_workers
 
-        with remote_workers(scheduler) as hands:
-            yield hands
+        with remote_workers(scheduler) as pool:
+            yield pool
         return
     if workers is None:
         from sunwidget.batches.cluster import default_workers
@@ -272,8 +275,8 @@ def _workers(run: _Run, scheduler: Any, workers: int | None, retries: int) -> It
         return
     from sunwidget.batches.cluster import local_workers
 
-    with local_workers(min(workers, run.left), deaths=retries) as hands:
-        yield hands
+    with local_workers(min(workers, run.left), deaths=retries) as pool:
+        yield pool
 
 
 def _chained(first: Job, rest: Iterator[Job]) -> Iterator[Job]:

@@ -1,4 +1,4 @@
-"""Who develops the photos of a batch: this process, or the workers of a Dask scheduler."""
+"""Workers that develop the photos of a batch: this process, or those of a Dask scheduler."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from sunwidget.batches.develop import Job, Outcome, develop, sentence
 from sunwidget.photo.decode_apart import kept
 from sunwidget.version import __version__
 
-# How long to wait for the first worker, and for one to come back when all are gone.
+# Seconds to wait for the first worker, and for a new one when all are gone.
 PATIENCE = 60.0
-# How often the wait for a result looks whether anybody works at all.
+# Seconds between checks that there are workers while waiting for a result.
 _BEAT = 1.0
 
 _NO_DASK = (
-    "Several workers need Dask: pip install 'sunwidget[batch]'. Without it pass workers=0, which "
-    "does one photo after another in this process."
+    "Several workers need Dask: pip install 'sunwidget[batch]'. Without Dask pass workers=0 to "
+    "develop one photo after another in this process."
 )
 
 
 class Workers(Protocol):
-    """Develops jobs, in any order; ``text`` says where, for the report."""
+    """Develops jobs in any order; ``text`` is the place shown in the report."""
 
     text: str
 
     def outcomes(self, jobs: Iterator[Job]) -> Iterator[Outcome]:
-        """Take jobs as there is room for them, and yield what became of each."""
+        """Take jobs as workers become free and yield their outcomes."""
 
 
 class ThisProcess:
-    """One photo after another, here."""
+    """Develops one photo after another in this process."""
 
     text = "this process"
 
@@ -42,11 +42,11 @@ class ThisProcess:
         self.progress = progress
 
     def outcomes(self, jobs: Iterator[Job]) -> Iterator[Outcome]:
-        """Yield the outcome of each job in turn; ``progress`` hears of the parts of a photo."""
+        """Yield the outcome of each job in turn; report progress within each photo."""
         with kept():
             for job in jobs:
                 outcome = develop(job, self.progress)
-                if outcome.unseen:  # it changed between the two times it was read
+                if outcome.unreadable:  # it changed between two reads
                     changed = f"{job.path} was removed or changed while it was read."
                     error = f"{changed} Run the batch again."
                     outcome = Outcome(job.number, error=error, worker=outcome.worker)
@@ -54,7 +54,7 @@ class ThisProcess:
 
 
 def has_dask() -> bool:
-    """Whether the ``batch`` extra is installed."""
+    """Return whether the ``batch`` extra is installed."""
     try:
         import distributed  # noqa: F401
     except ImportError:
@@ -63,23 +63,23 @@ def has_dask() -> bool:
 
 
 def require_dask() -> None:
-    """Raise ModuleNotFoundError, saying what to install, when Dask is missing."""
+    """Raise ModuleNotFoundError, with the remedy, if Dask is missing."""
     if not has_dask():
         raise ModuleNotFoundError(_NO_DASK)
 
 
 class DaskWorkers:
-    """The workers of a scheduler that runs somewhere.
+    """The workers of a Dask scheduler.
 
     Parameters
     ----------
     client : distributed.Client
     text : str
-        Where they are, for the report.
+        Their place, for the report.
     threads : int or None
-        Threads for a worker's libraries; None: as many as Dask gave the worker.
+        Threads of a worker's libraries; None: as many as Dask assigned to the worker.
     alive : callable, optional
-        Called while waiting; raises when the workers cannot come (any more).
+        Called while waiting; raises if no worker can appear any more.
     """
 
     def __init__(
@@ -96,7 +96,7 @@ class DaskWorkers:
         self._last_seen = time.monotonic()
 
     def count(self) -> int:
-        """Return how many workers there are now."""
+        """Return the current number of workers."""
         return len(self.client.scheduler_info(n_workers=-1)["workers"])
 
     def wait_for_one(self) -> None:
@@ -105,7 +105,7 @@ class DaskWorkers:
         Raises
         ------
         TimeoutError
-            When none comes within a minute.
+            When no worker appears within a minute.
         """
         while not self.count():
             self._check_patience()
@@ -113,24 +113,24 @@ class DaskWorkers:
         self._last_seen = time.monotonic()
 
     def outcomes(self, jobs: Iterator[Job]) -> Iterator[Outcome]:
-        """Yield outcomes as they come; a photo whose worker died is done by another one.
+        """Yield outcomes as they arrive; another worker takes over a photo whose worker died.
 
-        A photo that took down as many workers as the scheduler allows (``allowed-failures``) may
-        only have stood beside the guilty one, so it is tried once more, alone, at the end.
+        A photo on which as many workers died as the scheduler allows (``allowed-failures``) may not
+        be the cause, since workers hold several. It is tried once more, alone, at the end.
         """
-        condemned: list[Job] = []
-        yield from self._outcomes(jobs, condemned.append)
-        for job in condemned:
+        suspects: list[Job] = []
+        yield from self._outcomes(jobs, suspects.append)
+        for job in suspects:
             again: list[Job] = []
             yield from self._outcomes(iter([job]), again.append)
-            for poison in again:
+            for failed in again:
                 error = (
-                    "Its worker died each time it was tried: the photo may need more memory than "
-                    "a worker has. Try it alone with workers=0, or with fewer workers."
+                    "Its worker died at every attempt: the photo may need more memory than a "
+                    "worker has. Try it alone with workers=0, or with fewer workers."
                 )
-                yield Outcome(poison.number, error=error)
+                yield Outcome(failed.number, error=error)
 
-    def _outcomes(self, jobs: Iterator[Job], condemn: Callable[[Job], object]) -> Iterator[Outcome]:
+    def _outcomes(self, jobs: Iterator[Job], suspect: Callable[[Job], object]) -> Iterator[Outcome]:
         from distributed import KilledWorker
 
         from sunwidget.errors import RendererError
@@ -146,22 +146,22 @@ class DaskWorkers:
                     try:
                         outcome: Outcome = future.result()
                     except KilledWorker:
-                        condemn(job)
+                        suspect(job)
                         continue
                     except RendererError:
                         raise
                     except (OSError, CancelledError) as error:
-                        raise _lost(error) from error
+                        raise _connection_error(error) from error
                     except Exception as error:
                         raise RuntimeError(
-                            f"A worker cannot work: {sentence(error)}. Install sunwidget "
+                            f"A worker failed: {sentence(error)}. Install sunwidget "
                             f"{__version__} with its batch extra on every machine."
                         ) from error
                     finally:
                         future.release()
-                    if outcome.unseen:
+                    if outcome.unreadable:
                         outcome = self._send(job, pending, outcome)
-                        if outcome.unseen:
+                        if outcome.unreadable:
                             continue
                     yield outcome
         finally:
@@ -169,7 +169,7 @@ class DaskWorkers:
                 self.client.cancel(list(pending))
 
     def _fill(self, pending: dict[Any, Job], jobs: Iterator[Job]) -> None:
-        """Submit one photo more than there are workers: all are busy, and few wait in memory."""
+        """Submit one photo more than there are workers, so that all are busy and few wait."""
         while len(pending) < self.count() + 1:
             job = next(jobs, None)
             if job is None:
@@ -179,12 +179,12 @@ class DaskWorkers:
     def _submit(self, job: Job, pending: dict[Any, Job]) -> None:
         import dask
 
-        # A photo's bytes inside its task outlive any worker: that is meant, not an oversight.
+        # The task holds the photo's bytes on purpose: they outlive any worker.
         with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"}):
             pending[self.client.submit(develop_here, job, pure=False)] = job
 
     def _send(self, job: Job, pending: dict[Any, Job], outcome: Outcome) -> Outcome:
-        """Submit the job with the photo's bytes; return an error where they cannot be read."""
+        """Submit the job with the photo's bytes; return an error if they cannot be read."""
         if job.data is None:
             try:
                 data = Path(job.path).read_bytes()
@@ -198,18 +198,18 @@ class DaskWorkers:
 
         while True:
             try:
-                with self.client.as_current():  # a person's own client stays the default one
+                with self.client.as_current():  # the caller's own client stays the default
                     done: set[Any] = wait(
                         list(pending), timeout=_BEAT, return_when="FIRST_COMPLETED"
                     ).done
             except TimeoutError:
                 if self.client.status not in {"running", "connecting"}:
-                    raise _lost(None) from None
+                    raise _connection_error(None) from None
                 if self.count():
                     self._last_seen = time.monotonic()
                 self._check_patience()
             except Exception as error:
-                raise _lost(error) from error
+                raise _connection_error(error) from error
             else:
                 self._last_seen = time.monotonic()
                 return done
@@ -220,13 +220,13 @@ class DaskWorkers:
         if time.monotonic() - self._last_seen > PATIENCE:
             raise TimeoutError(
                 f"{self.client.scheduler.address} has had no worker for {PATIENCE:.0f} s. Start "
-                f"some with: dask worker {self.client.scheduler.address} --nthreads 1. Run the "
-                "batch again to go on; what is done stays done."
+                f"workers with: dask worker {self.client.scheduler.address} --nthreads 1. Then "
+                "run the batch again to resume it."
             )
 
 
 def develop_here(job: Job) -> Outcome:
-    """Develop on a Dask worker, with as many threads as it was given."""
+    """Develop on a Dask worker, with the worker's number of threads."""
     if job.threads is None:
         from distributed import get_worker
 
@@ -234,9 +234,9 @@ def develop_here(job: Job) -> Outcome:
     return develop(job)
 
 
-def _lost(error: BaseException | None) -> ConnectionError:
+def _connection_error(error: BaseException | None) -> ConnectionError:
     reason = f" ({type(error).__name__}: {error})" if error is not None else ""
     return ConnectionError(
-        f"The Dask scheduler was lost{reason}. What is done stays done: run the batch again "
-        "to go on."
+        f"The connection to the Dask scheduler was lost{reason}. Finished pictures are kept; run "
+        "the batch again to resume it."
     )

@@ -1,4 +1,4 @@
-"""The command line's many photos: ``sunwidget batch``."""
+"""The command ``sunwidget batch``, which edits many photos."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from sunwidget.batches.request import Wish
-from sunwidget.cli.edit_options import add_edit, add_headroom, recipe, told_unmoved
-from sunwidget.cli.photo_options import Progress, add_methods, given, methods_of_stages
+from sunwidget.batches.request import Request
+from sunwidget.cli.edit_options import add_edit, add_headroom, recipe, warn_if_unmoved
+from sunwidget.cli.photo_options import Progress, add_methods, methods_of_stages, pick_given
 from sunwidget.edit.table import PARAMETERS, Edit
 
 
@@ -16,15 +16,15 @@ def add_batch(commands: Any) -> None:
     """Add the command ``batch`` to a parser's commands."""
     batch = commands.add_parser(
         "batch",
-        help="many photos with one recipe, on all cores or on many machines",
-        description="A photo that fails is reported and the rest is done; exit status 1 then. The "
-        "same command goes on where an interrupted one stopped.",
+        help="edit many photos with one recipe, on all cores or on many machines",
+        description="A photo that fails is reported and the others are still written; the exit "
+        "status is then 1. Repeat an interrupted command to resume it.",
     )
     batch.add_argument(
-        "photos", nargs="+", help="files, folders, or patterns in quotes: 'photos/**/*.jpg'"
+        "photos", nargs="+", help="files, folders, or quoted patterns: 'photos/**/*.jpg'"
     )
     batch.add_argument(
-        "-o", "--output", type=Path, required=True, help="folder for the pictures; made if missing"
+        "-o", "--output", type=Path, required=True, help="output folder; created if missing"
     )
     batch.add_argument(
         "--format", metavar="ENDING", help="png, jpg, tif … (default: the photo's own)"
@@ -33,45 +33,47 @@ def add_batch(commands: Any) -> None:
         "--name",
         default="{name}-sun",
         metavar="TEMPLATE",
-        help="of a picture, from {name}, {folder}, {number}, {ending} (default {name}-sun)",
+        help="file name, from {name}, {folder}, {number}, {ending} (default {name}-sun)",
     )
-    batch.add_argument("--long-edge", type=int, metavar="N", help="most pixels on the longer side")
+    batch.add_argument("--long-edge", type=int, metavar="N", help="limit of the longer side")
     batch.add_argument(
-        "--quality", type=int, metavar="N", help="of JPEG and WebP, 1 to 100 (default 95)"
+        "--quality", type=int, metavar="N", help="for JPEG and WebP, 1 to 100 (default 95)"
     )
-    batch.add_argument("--bit-depth", type=int, choices=(8, 16, 32), help="bits a channel")
+    batch.add_argument("--bit-depth", type=int, choices=(8, 16, 32), help="bits per channel")
     add_headroom(batch)
-    batch.add_argument("--layers", action="store_true", help="also sky, clouds, land and matte")
+    batch.add_argument("--layers", action="store_true", help="also write sky, clouds, land, matte")
     batch.add_argument(
         "--corrections",
         action="store_true",
-        help="apply the recipe's strokes and hints too: for a series of one fixed camera",
+        help="also apply the recipe's strokes and hints, for a series from one fixed camera",
     )
+    batch.add_argument("--overwrite", action="store_true", help="replace files that no batch wrote")
     batch.add_argument(
-        "--overwrite", action="store_true", help="replace files that this command did not make"
+        "--no-resume", action="store_true", help="write pictures again that an earlier run finished"
     )
-    batch.add_argument(
-        "--no-resume", action="store_true", help="make pictures again that are there already"
-    )
-    batch.add_argument("--csv", type=Path, metavar="FILE", help="write the table there as well")
-    where = batch.add_argument_group("who does it (Dask: pip install 'sunwidget[batch]')")
+    batch.add_argument("--csv", type=Path, metavar="FILE", help="also write the table to this file")
+    where = batch.add_argument_group("workers (Dask: pip install 'sunwidget[batch]')")
     where.add_argument(
         "--workers",
         type=int,
         metavar="N",
-        help="processes on this machine; 0: one photo after another (default: one for each core)",
+        help="processes on this machine (default: one per core); 0: one photo after another",
     )
     where.add_argument(
-        "--scheduler", metavar="ADDRESS", help="of a running Dask scheduler, as tcp://host:8786"
+        "--scheduler",
+        metavar="ADDRESS",
+        help="address of a running Dask scheduler, such as tcp://host:8786",
     )
     where.add_argument(
         "--retries",
         type=int,
         default=2,
         metavar="N",
-        help="how often a photo is tried again when its worker dies (default 2)",
+        help="further attempts at a photo whose worker dies (default 2)",
     )
-    batch.add_argument("--fov", type=float, metavar="DEG", help="vertical field of view of all")
+    batch.add_argument(
+        "--fov", type=float, metavar="DEG", help="vertical field of view of all photos"
+    )
     add_methods(batch)
     add_edit(batch)
     batch.set_defaults(run=_batch)
@@ -85,9 +87,11 @@ def _batch(options: argparse.Namespace) -> int:
     replaced = options.overwrite or (options.csv is not None and is_table(options.csv))
     if options.csv is not None:
         target(options.csv, overwrite=replaced)
-    wish = Wish(recipe(options), options.preset, given(options, (p.name for p in PARAMETERS)))
-    told_unmoved(moved=wish != Wish(Edit()))
-    saving = given(options, ("quality", "bit_depth"))
+    request = Request(
+        recipe(options), options.preset, pick_given(options, (p.name for p in PARAMETERS))
+    )
+    warn_if_unmoved(moved=request != Request(Edit()))
+    saving = pick_given(options, ("quality", "bit_depth"))
     if options.layers:
         saving["layers"] = True
     if options.headroom:
@@ -95,11 +99,11 @@ def _batch(options: argparse.Namespace) -> int:
     with Progress("batch") as progress:
         report = sw.batch(
             options.photos,
-            wish,
+            request,
             options.output,
             scheduler=options.scheduler,
             workers=options.workers,
-            analysis=given(options, ("fov", *methods_of_stages())),
+            analysis=pick_given(options, ("fov", *methods_of_stages())),
             format=options.format,
             name=options.name,
             long_edge=options.long_edge,

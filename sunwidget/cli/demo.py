@@ -1,4 +1,4 @@
-"""What ``sunwidget demo`` makes: the whole way, once, with a bundled picture."""
+"""The command ``sunwidget demo``: every kind of output for one bundled photo."""
 
 from __future__ import annotations
 
@@ -16,10 +16,11 @@ FILM_SIZE = (960, 640)
 
 
 def demo(folder: Path, progress: Progress | None = None) -> list[tuple[Path, str]]:
-    """Analyse the sample, write its maps, a still, a recipe, a page and a sunset film.
+    """Analyze the sample and write its maps, a still, a recipe, a page and a sunset film.
 
-    Returns (path, what it is) in the order of making. Its own files are replaced. Without
-    the ``video`` extra the film is a WebP; without the built front end there is no page.
+    Returns (path, description) pairs in the order of writing. Files of an earlier demo are
+    replaced. Without the ``video`` extra the film is a WebP; without the built front end there is
+    no page.
     """
     import sunwidget as sw
     from sunwidget.export.maps import save_maps
@@ -30,7 +31,7 @@ def demo(folder: Path, progress: Progress | None = None) -> list[tuple[Path, str
     folder.mkdir(parents=True, exist_ok=True)
     scene = sw.analyze(sw.sample(SAMPLE), progress=part(report, 0.0, 0.3))
     save_maps(scene, folder / "maps", overwrite=True)
-    made = [(folder / "maps", "what the analysis found: overview.png, scene.json, every map")]
+    made = [(folder / "maps", "results of the analysis: overview.png, scene.json, every map")]
 
     still = folder / "still.png"
     sw.save((scene, STILL), still, overwrite=True)
@@ -39,7 +40,7 @@ def demo(folder: Path, progress: Progress | None = None) -> list[tuple[Path, str
     recipe.write_text(STILL.to_json() + "\n", "utf-8")
     made.append((recipe, f"its recipe: sunwidget render sample:{SAMPLE} --recipe {recipe} -o …"))
 
-    # A checkout without Node has no front end, and is told so where it is built.
+    # A checkout without Node has no front end; its build reports that.
     with contextlib.suppress(ImportError):
         page = folder / "page.html"
         sw.to_html(scene, STILL, page, title="Move the sun over the coast", overwrite=True)

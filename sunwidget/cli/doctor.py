@@ -1,4 +1,4 @@
-"""What ``sunwidget doctor`` looks at: everything that must be there, or may be, to work."""
+"""The command ``sunwidget doctor``: checks of everything that is required or optional."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from collections.abc import Callable, Iterator
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-_FRAME = (1024, 698)  # that of the tables in docs/developer/speed.md
+_FRAME = (1024, 698)  # as in the tables of docs/developer/speed.md
 _FRAMES = 5
 
 
 class Finding(NamedTuple):
     """One line of the report.
 
-    ``remedy`` says what to install or do when ``present`` is false; a missing
-    ``essential`` makes the command fail.
+    ``remedy`` is what to install or do when ``present`` is false. A missing ``essential`` item
+    makes the command fail.
     """
 
     name: str
@@ -32,19 +32,19 @@ class Finding(NamedTuple):
 
 
 def findings() -> list[Finding]:
-    """Look at this machine. Never raises: a check that breaks is a finding."""
+    """Check this machine. Never raises: a check that fails becomes a finding."""
     report: list[Finding] = []
     for name, essential, check in _CHECKS:
         try:
             report.extend(check())
-        except Exception as error:  # noqa: BLE001 - whatever is broken here is what is reported
+        except Exception as error:  # noqa: BLE001 - every error of a check is reported
             why = f"{type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}"
             report.append(Finding(name, False, essential, why, _REMEDIES.get(name, "")))
     return report
 
 
 def print_report(report: list[Finding]) -> bool:
-    """Print the findings as a table; return whether everything essential is there."""
+    """Print the findings as a table; return whether everything essential is present."""
     width = max(len(finding.name) for finding in report)
     for finding in report:
         mark = "ok" if finding.present else "MISSING" if finding.essential else "absent"
@@ -82,7 +82,7 @@ def _graphics() -> Iterator[Finding]:
         False,
         f"textures up to {largest} pixels a side (photos may be larger), "
         f"{info['GL_MAX_TEXTURE_IMAGE_UNITS']} at once",
-        "a newer graphics driver; less than 4096 was never tried",
+        "install a newer graphics driver; less than 4096 is untested",
     )
 
 
@@ -107,13 +107,13 @@ def _shaders() -> Iterator[Finding]:
     try:
         on_gl_thread(compile_all)
     except RendererError:
-        yield Finding("shaders", False, True, "not looked at", "EGL must work first")
+        yield Finding("shaders", False, True, "not checked", "EGL must work first")
         return
     yield Finding("shaders", True, True, f"{len(shaders)} compile")
 
 
 def _sample_photo() -> Iterator[Finding]:
-    """Do the whole way once, and tell how fast this machine is."""
+    """Analyze and render the sample once, and report how fast this machine is."""
     from statistics import median
 
     import sunwidget as sw
@@ -121,7 +121,7 @@ def _sample_photo() -> Iterator[Finding]:
 
     begin = time.perf_counter()
     scene = sw.analyze(sw.sample())
-    detail = f"analysed in {time.perf_counter() - begin:.1f} s"
+    detail = f"analyzed in {time.perf_counter() - begin:.1f} s"
 
     def seconds(azimuth: int) -> float:
         begin = time.perf_counter()
@@ -131,12 +131,10 @@ def _sample_photo() -> Iterator[Finding]:
     try:
         taken = [seconds(azimuth) for azimuth in range(_FRAMES + 1)][1:]  # the first compiles
     except RendererError:
-        yield Finding("sample photo", True, False, f"{detail}; drawing not looked at")
+        yield Finding("sample photo", True, False, f"{detail}; rendering not checked")
         return
     size = "×".join(map(str, _FRAME))
-    detail += (
-        f", {size} drawn in {1000 * median(taken):.0f} ms (the sun moved, median of {_FRAMES})"
-    )
+    detail += f", {size} rendered in {1000 * median(taken):.0f} ms (sun moved, median of {_FRAMES})"
     yield Finding("sample photo", True, True, detail)
 
 
@@ -182,7 +180,7 @@ def _pillow() -> Iterator[Finding]:
 def _films() -> Iterator[Finding]:
     import imageio_ffmpeg
 
-    encoders = subprocess.run(  # noqa: S603 - no shell, no outside words
+    encoders = subprocess.run(  # noqa: S603 - no shell, no user input
         [imageio_ffmpeg.get_ffmpeg_exe(), "-hide_banner", "-encoders"],
         capture_output=True,
         text=True,
@@ -215,7 +213,7 @@ def _open_exr() -> Iterator[Finding]:
 
 
 def _many_photos() -> Iterator[Finding]:
-    import distributed  # noqa: F401 - brings dask; that both import is what is looked at
+    import distributed  # noqa: F401 - imports dask; the check is that both import
 
     found = [f"{name} {importlib.metadata.version(name)}" for name in ("dask", "distributed")]
     yield Finding("many photos", True, False, f"{', '.join(found)}, {os.cpu_count()} cores")
@@ -224,7 +222,7 @@ def _many_photos() -> Iterator[Finding]:
 def _front_end() -> Iterator[Finding]:
     bundles = [f for f in files("sunwidget").joinpath("static").iterdir() if f.name.endswith(".js")]
     sizes = [f"{f.name} {len(f.read_bytes()) / 1000:.0f} kB" for f in bundles]
-    detail = ", ".join(sizes) or "sunwidget/static holds no bundle"
+    detail = ", ".join(sizes) or "sunwidget/static has no bundle"
     yield Finding("front end", bool(bundles), False, detail, _REMEDIES["front end"])
 
 
@@ -249,7 +247,7 @@ def _measured_skies() -> Iterator[Finding]:
     from sunwidget.validation import measurements
 
     there = measurements.is_available()
-    detail = f"{len(measurements.load())} scans" if there else "never fetched"
+    detail = f"{len(measurements.load())} scans" if there else "not downloaded"
     yield Finding("measured skies", there, False, detail, _REMEDIES["measured skies"])
 
 
@@ -263,11 +261,11 @@ _REMEDIES = {
     "raw files": "pip install 'sunwidget[raw]'",
     "HEIC photos": "pip install 'sunwidget[heif]' (or export them as JPEG)",
     "OpenEXR": "pip install 'sunwidget[exr]' (linear light as Radiance .hdr works without)",
-    "many photos": "pip install 'sunwidget[batch]' (one after the other works without)",
+    "many photos": "pip install 'sunwidget[batch]' (one photo after another works without)",
     "front end": "in a checkout: make build (needs Node 20 or newer); stills work without",
     "notebook": "pip install 'sunwidget[lab]'",
     "sun's path": "pip install 'sunwidget[solar]' (SkyExplorer at a date and place)",
-    "measured skies": "sunwidget.validation.measurements.download() (21 MB; only to compare with)",
+    "measured skies": "sunwidget.validation.measurements.download() (21 MB; for validation only)",
 }
 
 _CHECKS: tuple[tuple[str, bool, Callable[[], Iterator[Finding]]], ...] = (

@@ -1,4 +1,4 @@
-"""The command line's sky for 3D: ``sunwidget dome``."""
+"""The command ``sunwidget dome``, which writes skies for 3D programs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from sunwidget.cli.edit_options import add_edit, edit_of_flags, edit_of_scene
 from sunwidget.cli.ending import one_line
-from sunwidget.cli.photo_options import add_photo, given, opened, refuse_existing, scene_to_draw
+from sunwidget.cli.photo_options import (
+    add_photo,
+    open_picture,
+    pick_given,
+    refuse_existing,
+    scene_to_draw,
+)
 from sunwidget.cli.place_options import add_place, is_placed, place_of
 
 if TYPE_CHECKING:
@@ -24,9 +30,9 @@ def add_dome(commands: Any) -> None:
     """Add the command ``dome`` to a parser's commands."""
     dome = commands.add_parser(
         "dome",
-        help="write the sky all the way round, as light for 3D, and its sun as .json",
-        description="Of a photo: its sky all the way round. Of an environment map (.hdr or .exr, "
-        "twice as wide as high): the same map with its sun elsewhere.",
+        help="write the whole sky as an environment map for 3D, and its sun as .json",
+        description="For a photo: write its sky, extended all the way round. For an environment "
+        "map (.hdr or .exr, twice as wide as high): write the map with its sun moved.",
     )
     add_photo(dome)
     dome.add_argument("-o", "--output", type=Path, required=True, help=".exr or .hdr")
@@ -34,10 +40,12 @@ def add_dome(commands: Any) -> None:
         "--width",
         type=int,
         metavar="N",
-        help="pixels, twice the height (2048, or as wide as the environment map)",
+        help="in pixels, twice the height (default: 2048, or the environment map's own)",
     )
     dome.add_argument(
-        "--no-sun", action="store_true", help="leave the disc out: the .json has it as a lamp"
+        "--no-sun",
+        action="store_true",
+        help="leave out the sun's disc: the .json has it as a lamp",
     )
     add_place(dome)
     add_edit(dome)
@@ -49,14 +57,14 @@ def _dome(options: argparse.Namespace) -> int:
     from sunwidget.dome.source import is_dome
     from sunwidget.export.environment import check_map, checked_size
 
-    edit = edit_of_flags(options)  # what is wrong with it shows before the work
+    edit = edit_of_flags(options)  # report a bad edit before the analysis
     beside = options.output.with_suffix(".json")
     for path in (options.output, beside):
         refuse_existing(path, options.overwrite)
     check_map(options.output)
     if options.width is not None:
         checked_size((options.width, options.width // 2))
-    photo = opened(options.photo)
+    photo = open_picture(options.photo)
     source: Any
     if is_dome(photo):
         source, edit = _environment(options, photo, edit)
@@ -78,23 +86,23 @@ def _dome(options: argparse.Namespace) -> int:
 
 
 def _environment(options: argparse.Namespace, photo: Photo, edit: Edit) -> tuple[Any, Edit]:
-    """Return the dome of an environment map, and its edit with the clock's sun."""
+    """Return the dome of an environment map and the edit, its sun set by the clock if given."""
     import sunwidget as sw
     from sunwidget.export.dome.moved import check_edit
 
-    if others := given(options, _LENS):
+    if others := pick_given(options, _LENS):
         flags = ", ".join("--" + name.replace("_", "-") for name in others)
         raise ValueError(
-            f"{photo.name} is twice as wide as high, so it is taken for an environment map, and "
-            f"{flags} is for photos."
+            f"{photo.name} is twice as wide as high, so it is treated as an environment map. Leave "
+            f"out {flags}, which is for photos."
         )
     if is_placed(options) and options.heading is None:
         raise ValueError(
-            "Where the sun of an environment map goes follows from the clock only with --heading, "
-            "where its middle column looks, degrees from north."
+            "To place the sun of an environment map by the clock, add --heading: the direction of "
+            "its middle column, degrees from north."
         )
     check_edit(edit)
-    dome = sw.analyze_dome(photo, **given(options, ("sun", "sky")))
+    dome = sw.analyze_dome(photo, **pick_given(options, ("sun", "sky")))
     for warning in dome.warnings:
         print(f"sunwidget: {one_line(warning)}", file=sys.stderr)
     azimuth, elevation = dome.sun

@@ -1,4 +1,4 @@
-"""The command line's edit: a flag for every parameter, the recipe, the preset and the clock."""
+"""Flags for an edit: one for every parameter, the recipe and the preset."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sunwidget import presets
-from sunwidget.cli.photo_options import flag, given
+from sunwidget.cli.photo_options import flag, pick_given
 from sunwidget.cli.place_options import is_placed, placed
 from sunwidget.edit.recipe import read_recipe
 from sunwidget.edit.table import PARAMETERS, Edit, Parameter
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 def add_edit(parser: argparse.ArgumentParser) -> None:
     """Add --recipe, --preset and a flag for every parameter."""
-    parser.add_argument("--recipe", type=Path, help="JSON recipe; flags win over it")
+    parser.add_argument("--recipe", type=Path, help="JSON recipe; flags override it")
     parser.add_argument(
         "--preset",
         metavar="NAME",
         type=_preset,
-        help=f"time of day: {', '.join(presets.NAMES)}; wins over the recipe, flags win over it",
+        help=f"time of day: {', '.join(presets.NAMES)}; overrides the recipe, flags override it",
     )
     group = parser.add_argument_group("parameters")
     for p in PARAMETERS:
@@ -36,7 +36,7 @@ def add_edit(parser: argparse.ArgumentParser) -> None:
 
 
 def add_number(group: Any, p: Parameter, prefix: str) -> None:
-    """Add the flag of a number; with a prefix as in --to-… it is left out of the help."""
+    """Add the flag of a number; with a prefix (``to_``) it is hidden from the help."""
     unit = f" {p.unit}" if p.unit else ""
     default = "from the photo" if p.default is None else f"{p.default:g}"
     text = f"{p.help} {p.minimum:g} to {p.maximum:g}{unit}, default {default}."
@@ -74,35 +74,36 @@ def add_headroom(parser: argparse.ArgumentParser) -> None:
         type=float,
         default=0.0,
         metavar="STOPS",
-        help="stops of light above white, 0 to 8: in a .jpg's gain map; in .exr, .hdr, 32-bit .tif",
+        help="stops of light above white to keep, 0 to 8: as a gain map in .jpg; in .exr, .hdr, "
+        "32-bit .tif",
     )
 
 
 def recipe(options: argparse.Namespace) -> Edit:
-    """Return the edit of --recipe, an unmoved one without it."""
+    """Return the edit of --recipe; without the flag, the default edit."""
     if options.recipe is None:
         return Edit()
     return read_recipe(options.recipe)
 
 
 def edit_of_flags(options: argparse.Namespace, prefix: str = "", start: Edit | None = None) -> Edit:
-    """Return ``start``, or the recipe, with the flags that were given, the flags winning."""
+    """Return ``start``, by default the recipe, with the values of the parameter flags."""
     start = recipe(options) if start is None else start
-    return start.replace(**given(options, (p.name for p in PARAMETERS), prefix))
+    return start.replace(**pick_given(options, (p.name for p in PARAMETERS), prefix))
 
 
-def told_unmoved(*, moved: bool) -> None:
-    """Say it, unless an edit was given, when pictures are only to be written anew."""
+def warn_if_unmoved(*, moved: bool) -> None:
+    """Warn when the command line sets no edit, so that pictures are written unchanged."""
     if not moved:
         print(
-            "sunwidget: Nothing moves, so the picture stays as it is: give --sun-elevation 3, "
+            "sunwidget: Nothing moves, so the picture stays as it is. Add --sun-elevation 3, "
             "--preset sunset or --recipe FILE.",
             file=sys.stderr,
         )
 
 
 def edit_of_scene(options: argparse.Namespace, scene: Scene, edit: Edit) -> Edit:
-    """Return ``edit`` with a preset or a clock, which look at the photo; the flags win."""
+    """Return ``edit`` with the preset or clock, which depend on the photo; flags override both."""
     if options.preset is not None:
         edit = edit_of_flags(options, start=presets.edit(options.preset, scene, recipe(options)))
     if is_placed(options):

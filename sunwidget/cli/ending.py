@@ -1,4 +1,4 @@
-"""How a command of the command line ends: in order, and with one line when something is wrong."""
+"""How a command ends: it cleans up after a signal and reports an error in one line."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from typing import NoReturn
 
 from sunwidget.messages import printable
 
-_LONGEST = 800  # signs: a flag's value may be a whole file
+_LONGEST = 800  # characters: a flag's value may be a whole file
 
 
-class EndedError(BaseException):
-    """The system asked the command to end; what is half-made goes on the way out."""
+class StoppedError(BaseException):
+    """The system asked the command to stop; unfinished files are removed on the way out."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)
@@ -26,12 +26,12 @@ class EndedError(BaseException):
 
 
 @contextlib.contextmanager
-def ended_in_order() -> Iterator[None]:
-    """Let SIGTERM and SIGHUP end the command like an error, so that it leaves nothing half-made."""
+def raise_on_signals() -> Iterator[None]:
+    """Let SIGTERM and SIGHUP raise an error, so that the command removes unfinished files."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    # What is ignored, as SIGHUP is under nohup, stays ignored.
+    # Ignored signals stay ignored, such as SIGHUP under nohup.
     numbers = (getattr(signal, name, None) for name in ("SIGTERM", "SIGHUP"))
     asked = [n for n in numbers if n is not None and signal.getsignal(n) is signal.SIG_DFL]
     for number in asked:
@@ -44,12 +44,12 @@ def ended_in_order() -> Iterator[None]:
 
 
 def _end(number: int, _frame: FrameType | None) -> NoReturn:
-    signal.signal(number, signal.SIG_IGN)  # once: the way out is not to be cut short
-    raise EndedError(number)
+    signal.signal(number, signal.SIG_IGN)  # once: cleaning up must not be interrupted
+    raise StoppedError(number)
 
 
 def one_line(words: object) -> str:
-    """Return an error or a warning as one line that a terminal only shows."""
+    """Return an error or a warning as one line without control characters."""
     if isinstance(words, OSError) and words.strerror:
         name = "" if words.filename is None else f": {words.filename}"
         words = f"{words.strerror}{name}."
@@ -57,14 +57,14 @@ def one_line(words: object) -> str:
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
 
 
-def print_anything() -> None:
-    """Make standard output take every file name, also one that is no text."""
+def accept_any_file_name() -> None:
+    """Let standard output print every file name, even one that is not valid text."""
     if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
         sys.stdout.reconfigure(errors="backslashreplace")
 
 
-def nobody_reads() -> int:
-    """Return the status of a command whose output's reader has gone, as ``| head`` goes."""
-    # What is still to be flushed at the end must not fail once more.
+def discard_output() -> int:
+    """Discard further output and return the exit status of a broken pipe (``| head``)."""
+    # The flush at exit must not fail again.
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return 128 + getattr(signal, "SIGPIPE", 13)

@@ -1,7 +1,7 @@
 """The command line: ``sunwidget render | sweep | html | analyze | replace-sky | …``.
 
-Every parameter flag comes from the one table in ``edit/table.py``. Errors are one line on
-stderr and exit status 2, without a traceback (``--debug`` shows it); 1 when a part of the work
+Every parameter flag comes from the table in ``edit/table.py``. An error is one line on stderr,
+without a traceback (``--debug`` shows it). Exit status: 2 after an error, 1 when part of the work
 failed, 130 after Ctrl-C, 143 after SIGTERM.
 """
 
@@ -17,7 +17,13 @@ from typing import Any
 from sunwidget.cli.batch import add_batch
 from sunwidget.cli.dome import add_dome
 from sunwidget.cli.edit_options import add_edit, edit_of_flags, edit_of_scene
-from sunwidget.cli.ending import EndedError, ended_in_order, nobody_reads, one_line, print_anything
+from sunwidget.cli.ending import (
+    StoppedError,
+    accept_any_file_name,
+    discard_output,
+    one_line,
+    raise_on_signals,
+)
 from sunwidget.cli.parser import Parser
 from sunwidget.cli.photo_options import Progress, add_methods, add_photo, refuse_existing, scene_of
 from sunwidget.cli.place_options import add_place
@@ -35,17 +41,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help(sys.stderr)
         return 2
     options = parser.parse_args(arguments)
-    print_anything()
+    accept_any_file_name()
     try:
-        with warnings.catch_warnings(), ended_in_order():
+        with warnings.catch_warnings(), raise_on_signals():
             warnings.showwarning = _one_line_warning
             result: int = options.run(options)
-    except (KeyboardInterrupt, EndedError) as stop:
-        print("sunwidget: stopped; nothing half-written was left.", file=sys.stderr)
-        return stop.status if isinstance(stop, EndedError) else 130
+    except (KeyboardInterrupt, StoppedError) as stop:
+        print("sunwidget: stopped; no half-written file was left.", file=sys.stderr)
+        return stop.status if isinstance(stop, StoppedError) else 130
     except BrokenPipeError:
-        return nobody_reads()
-    except Exception as error:  # a person at a prompt wants the sentence, not the stack
+        return discard_output()
+    except Exception as error:  # at a prompt the message helps, the stack does not
         if "debug" in options:
             raise
         print(f"sunwidget: {one_line(error)}", file=sys.stderr)
@@ -68,11 +74,11 @@ def _parser() -> argparse.ArgumentParser:
     add_dome(commands)
 
     page = commands.add_parser(
-        "html", help="write a page in which the sun can be moved, without kernel or network"
+        "html", help="write a page in which the sun can be moved; needs no kernel or network"
     )
     add_photo(page)
     page.add_argument("-o", "--output", type=Path, required=True, help=".html")
-    page.add_argument("--title", help="of the page (default: the photo's name)")
+    page.add_argument("--title", help="page title (default: the photo's name)")
     add_place(page)
     add_edit(page)
     page.set_defaults(run=_html)
@@ -85,10 +91,10 @@ def _parser() -> argparse.ArgumentParser:
 
     add_transfer(commands)
 
-    doctor = commands.add_parser("doctor", help="what was found on this machine, what is missing")
+    doctor = commands.add_parser("doctor", help="report what this machine has and what is missing")
     doctor.set_defaults(run=_doctor)
 
-    demo = commands.add_parser("demo", help="maps, a still and a sunset film of a bundled photo")
+    demo = commands.add_parser("demo", help="write maps, a still and a sunset film of a sample")
     demo.add_argument("-o", "--output", type=Path, default=Path("sunwidget-demo"), help="folder")
     demo.set_defaults(run=_demo)
     return parser

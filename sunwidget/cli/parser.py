@@ -1,4 +1,4 @@
-"""The command line's parser: errors of one line, which name what was probably meant."""
+"""The argument parser: one-line errors that suggest the flag that was probably meant."""
 
 from __future__ import annotations
 
@@ -16,23 +16,26 @@ _CHOICES = re.compile(r"invalid choice: '(.*)' \(choose from (.*)\)$")
 
 
 class Parser(argparse.ArgumentParser):
-    """An ArgumentParser whose errors are one line and whose flags are never guessed.
+    """An ArgumentParser with one-line errors and without abbreviated flags.
 
-    ``several`` says what to do with more than one photo; None where the command takes many, or
-    none.
+    ``several`` is the error message for more than one photo; None where a command takes many
+    photos or no photo.
     """
 
     def __init__(self, **options: Any) -> None:
         super().__init__(allow_abbrev=False, **options)
         self.several: str | None = None
-        # A sun left of the picture, --sun -300,200, is a value and no flag.
+        # A sun left of the picture, --sun -300,200, is a value, not a flag.
         self._negative_number_matcher = re.compile(r"-\d[\d.,e+-]*$", re.IGNORECASE)
         self.add_argument(
-            "--debug", action="store_true", default=argparse.SUPPRESS, help="show an error's stack"
+            "--debug",
+            action="store_true",
+            default=argparse.SUPPRESS,
+            help="show an error's traceback",
         )
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """Parse; what is misspelt is told before what is missing."""
+        """Parse; report misspelled flags before missing arguments."""
         given = sys.argv[1:] if args is None else list(args)
         self._refuse_misspelt(given)
         first = list(takewhile(lambda text: not text.startswith("-"), given))
@@ -44,7 +47,7 @@ class Parser(argparse.ArgumentParser):
         return options, rest
 
     def error(self, message: str) -> NoReturn:
-        """Say what is wrong in one line, and end with status 2."""
+        """Print the error in one line and exit with status 2."""
         choices = _CHOICES.search(message)
         if choices:
             names = [name.strip("'") for name in choices[2].split(", ")]
@@ -53,12 +56,12 @@ class Parser(argparse.ArgumentParser):
 
     def _refuse_misspelt(self, given: Sequence[str]) -> None:
         flags = list(takewhile(lambda text: text != "--", given))
-        if self._subparsers is not None:  # the others are the command's
+        if self._subparsers is not None:  # later flags belong to the command
             flags = list(takewhile(lambda text: text.startswith("-"), flags))
         known = self._option_string_actions
         for text in flags:
             name = text.partition("=")[0]
-            # As argparse has it, what holds a space is no flag.
+            # As in argparse, an argument with a space is not a flag.
             if name.startswith("--") and " " not in text and name not in known:
                 shown = [flag for flag in known if flag.startswith("--")]
                 self.error(f"unrecognized flag {name}.{did_you_mean(name, shown, quote='')}")

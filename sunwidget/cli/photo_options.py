@@ -1,4 +1,4 @@
-"""The command line's photo: flags for its hints and methods, and the scene they make."""
+"""Flags for a photo, its hints and its methods, and the scene that they describe."""
 
 from __future__ import annotations
 
@@ -18,24 +18,24 @@ _HINTS = ("sun", "horizon", "fov", "sky", "sky_label")
 
 
 def add_photo(parser: Parser) -> None:
-    """Add the photo and the hints that win over detection."""
+    """Add the photo and the hints that override detection."""
     from sunwidget.analysis.segmentation import coarse_sky
 
     parser.several = "takes one photo."
     parser.add_argument("photo", help="picture file, or sample:NAME for a bundled one")
     parser.add_argument("--overwrite", action="store_true", help="replace existing files")
-    hints = parser.add_argument_group("hints (win over detection)")
+    hints = parser.add_argument_group("hints (override detection)")
     hints.add_argument(
         "--sun",
         type=_sun,
         metavar="X,Y",
-        help="the photo's sun, in pixels; outside, when nothing in the picture is the sun",
+        help="the photo's sun in pixels, or 'outside' when the sun is not in the picture",
     )
     hints.add_argument(
         "--horizon",
         type=_numbers(1, 4),
         metavar="ROW",
-        help="row at the centre, or X1,Y1,X2,Y2",
+        help="row at the center of the picture, or X1,Y1,X2,Y2",
     )
     hints.add_argument("--fov", type=float, metavar="DEG", help="vertical field of view")
     hints.add_argument(
@@ -46,12 +46,12 @@ def add_photo(parser: Parser) -> None:
         "--sky-label",
         type=_label,
         metavar="CLASS",
-        help="which class of that network is sky: index from 0, or name (ADE20K: 2)",
+        help="the network's class for sky: index from 0, or name (ADE20K: 2)",
     )
 
 
 def methods_of_stages() -> dict[str, tuple[Sequence[str], str]]:
-    """Names and default of every stage with a choice, by the parameter of ``analyze``."""
+    """Return the method names and default of each stage with a choice, by ``analyze`` parameter."""
     import inspect
 
     from sunwidget.analysis import pipeline
@@ -60,7 +60,7 @@ def methods_of_stages() -> dict[str, tuple[Sequence[str], str]]:
     parameters = inspect.signature(analyze).parameters
     found: dict[str, tuple[Sequence[str], str]] = {}
     for stage, methods in pipeline.METHODS.items():
-        # "sun" and "horizon" are hints: their methods have names of their own.
+        # "sun" and "horizon" are hints, so their methods are sun_method and horizon_method.
         name = stage if f"{stage}_method" not in parameters else f"{stage}_method"
         if len(methods) > 1:
             found[name] = (tuple(methods), parameters[name].default or next(iter(methods)))
@@ -80,12 +80,14 @@ def add_methods(parser: argparse.ArgumentParser) -> None:
 
 
 def flag(name: str) -> str:
-    """Return the flag of a parameter: sun_elevation is --sun-elevation."""
+    """Return the flag of a parameter: --sun-elevation for sun_elevation."""
     return "--" + name.replace("_", "-")
 
 
-def given(options: argparse.Namespace, names: Iterable[str], prefix: str = "") -> dict[str, Any]:
-    """Return by name the flags among ``names`` that were given."""
+def pick_given(
+    options: argparse.Namespace, names: Iterable[str], prefix: str = ""
+) -> dict[str, Any]:
+    """Return the values of the flags among ``names`` that the command line sets."""
     values = {name: getattr(options, prefix + name, None) for name in names}
     return {name: value for name, value in values.items() if value is not None}
 
@@ -102,7 +104,7 @@ def _numbers(*counts: int) -> Callable[[str], tuple[float, ...]]:
             values = ()
         if len(values) not in counts:
             wanted = " or ".join(str(n) for n in counts)
-            raise argparse.ArgumentTypeError(f"{text!r} is not {wanted} numbers joined by commas")
+            raise argparse.ArgumentTypeError(f"{text!r} is not {wanted} comma-separated numbers")
         return values
 
     return parse
@@ -112,7 +114,7 @@ def _sun(text: str) -> tuple[float, ...] | str:
     return text if text == OUTSIDE else _numbers(2)(text)
 
 
-def opened(name: str) -> Any:
+def open_picture(name: str) -> Any:
     """Open a picture file, or a bundled sample as sample:NAME."""
     import sunwidget as sw
 
@@ -121,7 +123,7 @@ def opened(name: str) -> Any:
 
 
 def refuse_existing(path: Path, overwrite: bool) -> None:
-    """Fail before the work, not after it."""
+    """Raise FileExistsError before the work instead of after it."""
     from sunwidget.files import target
 
     if target(path, overwrite=True).exists() and not overwrite:
@@ -129,7 +131,7 @@ def refuse_existing(path: Path, overwrite: bool) -> None:
 
 
 def scene_to_draw(options: argparse.Namespace, photo: Any = None) -> Any:
-    """Return ``scene_of`` the flags; fail before that where nothing can be drawn."""
+    """Return ``scene_of``, after checking that this machine can render."""
     from sunwidget.renderer.gl_thread import require_renderer
 
     require_renderer()
@@ -137,12 +139,12 @@ def scene_to_draw(options: argparse.Namespace, photo: Any = None) -> Any:
 
 
 def scene_of(options: argparse.Namespace, photo: Any = None) -> Any:
-    """Analyse the photo, opened here by default, as the flags say; print the scene's warnings."""
+    """Analyze the photo with the flags' hints and methods; print the scene's warnings."""
     import sunwidget as sw
 
-    photo = opened(options.photo) if photo is None else photo
+    photo = open_picture(options.photo) if photo is None else photo
     refuse_unplaced(options, photo)
-    hints = given(options, (*_HINTS, *methods_of_stages()))
+    hints = pick_given(options, (*_HINTS, *methods_of_stages()))
     if "horizon" in hints:
         hints["horizon"] = _horizon(hints["horizon"])
     if "sky" in hints:
@@ -150,7 +152,7 @@ def scene_of(options: argparse.Namespace, photo: Any = None) -> Any:
     with Progress("analysis") as progress:
         scene = sw.analyze(photo, progress=progress, **hints)
     for warning in scene.warnings:
-        words = getattr(warning, "flags", warning)  # of a Notice: what to do is a flag here
+        words = getattr(warning, "flags", warning)  # a Notice names flags as the remedy here
         print(f"sunwidget: {one_line(words)}", file=sys.stderr)
     return scene
 
@@ -160,7 +162,7 @@ def _horizon(values: tuple[float, ...]) -> Any:
 
 
 def _sky(text: str) -> Any:
-    """Return a mask as an array; a method's name or a network's path stays text."""
+    """Return a mask as an array; keep a method's name or a network's path as text."""
     path = Path(text)
     if path.suffix.lower() == ".onnx" or not path.suffix:
         return text
@@ -172,10 +174,7 @@ def _sky(text: str) -> Any:
 
 
 class Progress:
-    """A progress callback that keeps one line on a terminal, and is silent elsewhere.
-
-    The line tells the time that is left.
-    """
+    """A progress callback: one line with the time left on a terminal, nothing elsewhere."""
 
     def __init__(self, what: str) -> None:
         self.what = what
@@ -186,7 +185,7 @@ class Progress:
         return self
 
     def __call__(self, fraction: float, message: str) -> None:
-        """Show how far it is."""
+        """Show the progress."""
         self._report(fraction, message)
 
     def _show(self, fraction: float, message: str) -> None:

@@ -1,4 +1,4 @@
-"""The command line's stills: ``sunwidget render``."""
+"""The command ``sunwidget render``, which writes stills."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sunwidget.cli.edit_options import (
     edit_of_flags,
     edit_of_scene,
     size,
-    told_unmoved,
+    warn_if_unmoved,
 )
 from sunwidget.cli.photo_options import Progress, add_photo, refuse_existing, scene_to_draw
 from sunwidget.cli.place_options import add_place
@@ -31,14 +31,14 @@ def add_render(commands: Any) -> None:
         "--output",
         type=Path,
         required=True,
-        help=".png, .jpg, .tif, .webp; linear light: .exr, .hdr",
+        help="output file: .png, .jpg, .tif, .webp; linear light: .exr, .hdr",
     )
     render.add_argument("--size", type=size, metavar="WxH", help="pixels (default: the photo's)")
     render.add_argument(
         "--bit-depth",
         type=int,
         choices=(8, 16, 32),
-        help="bits a channel (default: the photo's); 32: floats in .tif and .exr",
+        help="bits per channel (default: the photo's); 32: floats in .tif and .exr",
     )
     render.add_argument(
         "--quality",
@@ -46,19 +46,19 @@ def add_render(commands: Any) -> None:
         choices=range(1, 101),
         default=95,
         metavar="N",
-        help="of JPEG and WebP, 1 to 100 (default 95)",
+        help="for JPEG and WebP, 1 to 100 (default 95)",
     )
     add_headroom(render)
     render.add_argument(
         "--layers",
         action="store_true",
-        help="also sky, clouds, land and matte: in a .tif or .exr, beside a .png or .webp",
+        help="also write sky, clouds, land and matte: in a .tif or .exr, beside a .png or .webp",
     )
     render.add_argument(
         "--environment",
         type=Path,
         metavar="FILE",
-        help="also the clear sky all the way round, as an environment map (.hdr, .exr)",
+        help="also write the whole clear sky as an environment map (.hdr, .exr)",
     )
     add_place(render)
     add_edit(render)
@@ -71,7 +71,7 @@ def _render(options: argparse.Namespace) -> int:
     from sunwidget.export.formats import check_format
     from sunwidget.renderer.offscreen import checked_headroom, checked_size
 
-    edit = edit_of_flags(options)  # what is wrong with it shows before the work
+    edit = edit_of_flags(options)  # report a bad edit before the analysis
     refuse_existing(options.output, options.overwrite)
     headroom = checked_headroom(options.headroom)
     check_format(options.output, options.bit_depth, layers=options.layers, headroom=headroom)
@@ -82,7 +82,7 @@ def _render(options: argparse.Namespace) -> int:
         check_map(options.environment)
     scene = scene_to_draw(options)
     edit = edit_of_scene(options, scene, edit)
-    told_unmoved(moved=edit != Edit())
+    warn_if_unmoved(moved=edit != Edit())
     begin = time.perf_counter()
     with Progress("picture") as progress:
         sw.save(

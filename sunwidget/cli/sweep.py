@@ -1,4 +1,4 @@
-"""The command line's films of one photo: ``sunwidget sweep``."""
+"""The command ``sunwidget sweep``, which writes films of one photo."""
 
 from __future__ import annotations
 
@@ -35,21 +35,24 @@ def add_sweep(commands: Any) -> None:
     sweep = commands.add_parser(
         "sweep",
         help="write a film of the sun moving",
-        description="The parameter flags set the first frame, the --to-… flags the last. Instead "
-        "of --to-…: --steps, --key-frame, --to-time or --day.",
+        description="The parameter flags set the first frame, the --to-… flags the last one. "
+        "Instead of --to-…, use --steps, --key-frame, --to-time or --day.",
     )
     add_photo(sweep)
     sweep.add_argument(
-        "-o", "--output", type=Path, help=".mp4, .gif, .webp, or frames/%%04d.png for pictures"
+        "-o", "--output", type=Path, help=".mp4, .gif, .webp, or frames/%%04d.png for single images"
     )
     sweep.add_argument(
-        "--sheet", type=Path, metavar="FILE", help="also, or only, twelve frames on one picture"
+        "--sheet",
+        type=Path,
+        metavar="FILE",
+        help="write twelve frames as one picture; -o may be left out",
     )
     add_film(sweep, LOOPS)
     length = sweep.add_mutually_exclusive_group()
     length.add_argument("--frames", type=int, help="number of frames")
     length.add_argument(
-        "--seconds", type=float, help="length (default: the last key frame's, else 5)"
+        "--seconds", type=float, help="length (default: the time of the last key frame, else 5)"
     )
     way = sweep.add_mutually_exclusive_group()
     add_steps(way)
@@ -58,8 +61,8 @@ def add_sweep(commands: Any) -> None:
         type=_key_frame,
         action="append",
         metavar="SECONDS:NAME=N,…",
-        help="where the parameters are at that second, as 2.5:sun_elevation=3,exposure=1, "
-        "or a preset, as 4:sunset; once for each",
+        help="parameters at that second, as in 2.5:sun_elevation=3,exposure=1, or a preset, as in "
+        "4:sunset; repeat the flag for each key frame",
     )
     way.add_argument("--day", action="store_true", help="from civil dawn to civil dusk")
     add_place(sweep, end=True)
@@ -104,9 +107,9 @@ def _sweep(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace, start: Edit) -> None:
-    """Refuse what cannot be made before the photo is analysed."""
+    """Report errors in the flags before the photo is analyzed."""
     if options.output is None and options.sheet is None:
-        raise ValueError("Nothing to write: give -o FILE, --sheet FILE or both.")
+        raise ValueError("Nothing to write. Add -o FILE, --sheet FILE or both.")
     if options.output is not None:
         check_film(options.output)
         if is_sequence(options.output):
@@ -129,11 +132,11 @@ def _check(options: argparse.Namespace, start: Edit) -> None:
             named_edit(what)
     if stations and (ends or options.to_time is not None):
         way = "--steps" if options.steps else "--key-frame"
-        raise ValueError(f"{way} and --to-… both say where the film goes: leave one of them out.")
+        raise ValueError(f"{way} and --to-… both set the film's end. Leave one of them out.")
     clock = options.day or options.to_time is not None
     suns = ("sun_azimuth", "sun_elevation")
     if clock and any(getattr(options, name) is not None or name in ends for name in suns):
-        raise ValueError("The clock moves the sun: leave --sun-… and --to-sun-… out.")
+        raise ValueError("The clock moves the sun. Leave out --sun-… and --to-sun-….")
     if not (stations or clock or options.preset is not None):
         _refuse_equal(start, edit_of_flags(options, "to_", start))
 
@@ -160,7 +163,7 @@ def _key_edit(scene: Scene, what: str | dict[str, float], start: Edit) -> Edit:
 
 def _refuse_equal(start: Edit, end: Edit) -> None:
     if start == end:
-        raise ValueError("Nothing moves: name an end, for example --to-sun-elevation -4.")
+        raise ValueError("Nothing moves. Set an end, for example --to-sun-elevation -4.")
 
 
 def _key_frame(text: str) -> tuple[float, str | dict[str, float]]:
@@ -176,7 +179,7 @@ def _key_frame(text: str) -> tuple[float, str | dict[str, float]]:
                 raise ValueError
             row = parameter(name.strip().lstrip("-").replace("-", "_"))
             if row.kind != "number":
-                raise EditError(f"{row.name} is not a number: it cannot change gradually.")
+                raise EditError(f"{row.name} is not a number, so it cannot change gradually.")
             values[row.name] = float(value)
     except EditError as error:
         raise argparse.ArgumentTypeError(str(error)) from error

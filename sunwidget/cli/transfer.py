@@ -1,4 +1,4 @@
-"""The command line's ``replace-sky`` and ``transfer-look``."""
+"""The commands ``sunwidget replace-sky`` and ``sunwidget transfer-look``."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from sunwidget.cli.photo_options import Progress, opened, refuse_existing
+from sunwidget.cli.photo_options import Progress, open_picture, refuse_existing
 
 _PICTURE = "picture file, or sample:NAME for a bundled one"
 
@@ -15,14 +15,16 @@ def add_transfer(commands: Any) -> None:
     """Add both commands."""
     sky = commands.add_parser("replace-sky", help="put the sky of another photo into a photo")
     _add_files(sky)
-    sky.add_argument("--sky", required=True, metavar="DONOR", help=f"whose sky: {_PICTURE}")
-    sky.add_argument("--turn", type=float, default=0.0, metavar="DEG", help="turn the sky")
+    sky.add_argument(
+        "--sky", required=True, metavar="DONOR", help=f"photo with the sky: {_PICTURE}"
+    )
+    sky.add_argument("--turn", type=float, default=0.0, metavar="DEG", help="turn the new sky")
     sky.set_defaults(run=_replace_sky)
 
     look = commands.add_parser(
         "transfer-look",
-        help="change a photo as one picture has changed to another",
-        description="BEFORE and AFTER show one view pixel by pixel.",
+        help="apply the change between two pictures to a photo",
+        description="BEFORE and AFTER must show the same view, pixel by pixel.",
     )
     _add_files(look)
     look.add_argument("--before", required=True, help=_PICTURE)
@@ -43,7 +45,7 @@ def _replace_sky(options: argparse.Namespace) -> int:
     import sunwidget as sw
 
     refuse_existing(options.output, options.overwrite)
-    photo, donor = opened(options.photo), opened(options.sky)
+    photo, donor = open_picture(options.photo), open_picture(options.sky)
     with Progress("sky") as progress:
         out = sw.replace_sky(
             photo, donor, turn=options.turn, strength=options.strength, progress=progress
@@ -56,7 +58,7 @@ def _transfer_look(options: argparse.Namespace) -> int:
     import sunwidget as sw
 
     refuse_existing(options.output, options.overwrite)
-    photo, before, after = (opened(p) for p in (options.photo, options.before, options.after))
+    photo, before, after = (open_picture(p) for p in (options.photo, options.before, options.after))
     with Progress("look") as progress:
         out = sw.transfer_look(photo, before, after, strength=options.strength, progress=progress)
     print(sw.save(out, options.output, overwrite=options.overwrite))

@@ -1,1 +1,1 @@
-"""Environment maps of real skies: their sun, sky and air, and their light under another sun."""
+"""Environment maps of real skies: analysis of sun, sky and air, and relighting."""

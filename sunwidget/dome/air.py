@@ -1,4 +1,4 @@
-"""The air of an environment map: the photos' model of the sky fitted to light that is linear."""
+"""The air of an environment map: the sky model for photos, fitted to linear light."""
 
 from __future__ import annotations
 
@@ -16,35 +16,35 @@ from sunwidget.analysis.images.working_copy import encode, smoothstep
 from sunwidget.atmosphere.color import spectral_to_rec709
 from sunwidget.atmosphere.optics import direct_irradiance
 from sunwidget.atmosphere.parameters import Atmosphere
-from sunwidget.dome.sphere import distance, sampled
+from sunwidget.dome.sphere import distance, sample
 from sunwidget.formats.color import LUMINANCE
 
 Floats = NDArray[np.float32]
 
 _SAMPLES = 700  # directions over the sphere
-_LOWEST = 2.0  # degrees
-_BESIDE_THE_SUN = 8.0  # degrees within which a lens' glare and a bright cloud are left out
-_BRIGHT, _SHOWN = 0.9, 0.7  # the quantile of the sky that is shown as this light
-_CLEAR = 0.25  # opacity
-_FEW = 60
-_SUNLIT = 0.015  # error for an air whose sun differs from the measured one by a factor 2
-_GLOW = 5.0  # degrees over which the sky is smoothed to see where it glows
-_WHITE = (0.75, 0.9)  # encoded red over blue of clear sky, and of cloud, where a sky is closed
-_CLOSED = (0.5, 0.75)  # share of the sky that is white, from which on it is closed
+_LOWEST = 2.0  # degrees of elevation
+_BESIDE_THE_SUN = 8.0  # degrees; nearer to the sun, lens glare and bright clouds are excluded
+_BRIGHT, _SHOWN = 0.9, 0.7  # quantile of the sky's light, and the display light that it maps to
+_CLEAR = 0.25  # highest opacity of a clear sample
+_FEW = 60  # least number of samples
+_SUNLIT = 0.015  # error of an air whose sun differs from the measured one by a factor of 2
+_GLOW = 5.0  # degrees over which the sky is smoothed to find its glow
+_WHITE = (0.75, 0.9)  # encoded red over blue of clear sky and of cloud, in an overcast sky
+_CLOSED = (0.5, 0.75)  # white share of the sky over which it becomes overcast
 _USUAL = Atmosphere(
     aerosol_optical_depth=0.12, aerosol_asymmetry=0.76, angstrom_exponent=1.3, aerosol_albedo=0.9
 )
-_UNDER_CLOUD = 0.4  # light of a closed sky over that of a white cloud in the sun
-# How much brighter than half of it the brightest place of a closed sky is, and the sun's height:
-# by twelve skies that were rendered.
+_UNDER_CLOUD = 0.4  # light of an overcast sky over that of a white cloud in the sun
+# Brightest over median light of an overcast sky, and the sun's elevation: from twelve rendered
+# skies.
 _GLOWS = (1.6, 2.2, 2.8), (35.0, 20.0, 5.0)
-_UNSURE = 0.3, 60.0  # confidence and spread of that
+_UNSURE = 0.3, 60.0  # confidence and spread of that elevation
 _HALF = 0.5
-_ASIDE = 30.0  # degrees of azimuth within which the glow tells more than the sky's colours
+_ASIDE = 30.0  # degrees of azimuth within which the glow is preferred to the sky's colors
 
 
 def sunlight(air: Atmosphere, elevation: float) -> NDArray[np.float64]:
-    """Return the clear sun's illuminance (3,) of a plane that faces it, klx; 0 when it is down."""
+    """Return the clear sun's illuminance (3,) on a plane facing it, klx; 0 below the horizon."""
     return np.maximum(spectral_to_rec709(direct_irradiance(air, elevation)).reshape(3), 0)
 
 
@@ -55,10 +55,10 @@ def fit_air(
     measured: NDArray[np.float64] | None,
     closed: float,
 ) -> SkyFit:
-    """Fit the air to the clear sky, and to the sun's own light where that is known.
+    """Fit the air to the clear sky and, if it is known, to the sun's light.
 
-    ``measured`` is the sun's illuminance (3,), in the unit of ``light`` times sr. A sky that is
-    ``closed`` tells no air: it gets a usual one, and the scale of its gaps or of its clouds.
+    ``measured`` is the sun's illuminance (3,), in the unit of ``light`` times sr. An overcast sky
+    (``closed``) does not determine the air: it gets a typical one, scaled by its gaps or clouds.
     """
     azimuth, elevation = directions()
     if closed > _HALF:
@@ -101,7 +101,7 @@ def cloudiness(
     elevation: NDArray[Any],
     clear: NDArray[Any] | None = None,
 ) -> Floats:
-    """Return the opacity (h, w) of clouds by un-mixing."""
+    """Return the opacity (h, w) of clouds by unmixing."""
     model = fit.model(azimuth, np.maximum(elevation, 0.2)) if clear is None else clear
     found, _ = unmix(
         np.asarray(light, np.float32),
@@ -113,7 +113,7 @@ def cloudiness(
 
 
 def closedness(light: NDArray[Any], sky: NDArray[Any]) -> float:
-    """Return how far a sky is closed, [0, 1]: 1 where it is white nearly everywhere."""
+    """Return how overcast a sky is, [0, 1]: 1 if it is white nearly everywhere."""
     shown, _, usable = _samples(light, sky, None, *directions())
     share = float(np.mean(whiteness(shown[usable]) > sum(_WHITE) / 2))
     return float(smoothstep(*_CLOSED, share))
@@ -125,7 +125,7 @@ def whiteness(shown: NDArray[Any]) -> NDArray[Any]:
 
 
 def white_opacity(light: NDArray[Any], sky: NDArray[Any]) -> Floats:
-    """Return the opacity (h, w) of a closed sky's clouds, by their whiteness."""
+    """Return the opacity (h, w) of an overcast sky's clouds, from their whiteness."""
     level = light @ LUMINANCE
     inside = sky > 0.5
     scale = _SHOWN / max(float(np.quantile(level[inside], _BRIGHT)) if inside.any() else 1, 1e-12)
@@ -151,9 +151,10 @@ def _under_cloud(light: NDArray[Any], sky: NDArray[Any], sun: tuple[float, float
 def hidden_sun(
     light: NDArray[Any], sky: NDArray[Any], closed: float
 ) -> tuple[tuple[float, float], float, float]:
-    """Return where a sun without a disc is likely to be, how sure that is, and its spread.
+    """Return the likely position of a sun without a disc, its confidence and its spread.
 
-    By where the sky glows; its height in an open sky by the sky's colours, as in a photo.
+    The azimuth follows from the sky's glow; in an open sky the elevation follows from its colors,
+    as in a photo.
     """
     import cv2
 
@@ -173,7 +174,7 @@ def hidden_sun(
         height = float(np.interp(level.max() / np.median(level), *_GLOWS))
         return (float(at[0]), height), *_UNSURE
     turns, heights = np.meshgrid(TURNS, HEIGHTS)
-    bright = sampled(np.asarray(glow, np.float32), turns, np.maximum(heights, 4.0))
+    bright = sample(np.asarray(glow, np.float32), turns, np.maximum(heights, 4.0))
     expected = np.square(bright / max(float(bright.max()), 1e-12)) + 1e-3
     azimuth, elevation = directions()
     shown, _, usable = _samples(light, sky, None, azimuth, elevation)
@@ -184,7 +185,7 @@ def hidden_sun(
 
 
 def directions(count: int = _SAMPLES) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return azimuths and elevations (n,) that lie evenly over the sky (a golden spiral)."""
+    """Return azimuths and elevations (n,) spread evenly over the sky (a golden spiral)."""
     index = np.arange(count) + 0.5
     elevation = np.degrees(np.arcsin(index / count))
     azimuth = (index * 137.50776405) % 360 - 180
@@ -199,17 +200,17 @@ def _samples(
     azimuth: NDArray[np.float64],
     elevation: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], float, NDArray[np.bool_]]:
-    """Return display light (n, 3), its scale, and which of the directions show the sky."""
+    """Return display light (n, 3), its scale, and a mask of the directions that show sky."""
     from sunwidget.analysis.images.working_copy import resize
 
     small = resize(np.asarray(light, np.float32), 360, 180)
     mask = resize(np.asarray(sky, np.float32), 360, 180)
-    seen = sampled(small, azimuth, elevation).astype(float)
-    usable = sampled(mask, azimuth, elevation) > 0.95
+    seen = sample(small, azimuth, elevation).astype(float)
+    usable = sample(mask, azimuth, elevation) > 0.95
     if sun is not None:
         usable &= distance(sun, azimuth, elevation) > _BESIDE_THE_SUN
     if not usable.any():
-        usable = sampled(mask, azimuth, elevation) > 0.5
+        usable = sample(mask, azimuth, elevation) > 0.5
     level = seen @ LUMINANCE
     scale = _SHOWN / max(float(np.quantile(level[usable], _BRIGHT)), 1e-12)
     shown = np.clip(Response().display_light(seen * scale), 1e-6, None)
@@ -217,5 +218,5 @@ def _samples(
 
 
 def with_air(fit: SkyFit, air: Atmosphere, sun: tuple[float, float]) -> SkyFit:
-    """Return a fit with other air and another sun: the same camera."""
+    """Return the fit with other air and another sun, for the same camera."""
     return dataclasses.replace(fit, atmosphere=air, sun=sun)

@@ -1,4 +1,4 @@
-"""What of an environment map is sky: the photos' network, asked in views like photos."""
+"""The sky of an environment map, found by the photos' network in perspective views."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.dome.sphere import angles, sampled
+from sunwidget.dome.sphere import angles, sample
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 Floats = NDArray[np.float32]
 
 _SIDE, _FOV = 384, 65.0
-# Pitch of the views and how many stand round: one row on the horizon, one to the zenith.
+# Pitch and number of the views: one row at the horizon, one toward the zenith.
 _VIEWS = ((12.0, 8), (58.0, 4))
-_BORDER = 40.0  # pixels at a view's border that count less and less
-_EXPOSED = 0.6, 0.4  # the quantile of a view's light, and the light that it becomes
+_BORDER = 40.0  # pixels over which a view's weight fades to its border
+_EXPOSED = 0.6, 0.4  # quantile of a view's light, and the light that it maps to
 _RADIUS, _EDGE = 0.4, 1e-4  # degrees over which the mask follows the picture; squared contrast
-_SURE = 0.15  # nearer to 0 and 1 than this a network's answer is sure
-_WIDEST = 1024  # pixels in which the views are taken
+_SURE = 0.15  # distance from 0 or 1 within which the network's answer is certain
+_WIDEST = 1024  # width in pixels of the map that the views sample
 
 
 def find_sky(light: NDArray[Any]) -> Floats:
-    """Return how likely each pixel (H, W) of a map is sky, [0, 1]; 0 below the horizon."""
+    """Return the probability of sky (H, W) for a map's pixels, [0, 1]; 0 below the horizon."""
     import cv2
 
     from sunwidget.analysis.depth.field import guided
@@ -39,7 +39,7 @@ def find_sky(light: NDArray[Any]) -> Floats:
         camera = Camera(_SIDE, _SIDE, _FOV, pitch)
         across, up = camera.angles(*np.meshgrid(np.arange(_SIDE) + 0.5, np.arange(_SIDE) + 0.5))
         for turn in np.arange(count) * 360 / count:
-            seen = exposed(sampled(small, across + turn, up))
+            seen = expose(sample(small, across + turn, up))
             encoded = encode(seen)
             found = network(Working(seen, encoded, encoded, (1.0, 1.0)))
             found = np.asarray(log_odds(resize(found, _SIDE, _SIDE)), np.float32)
@@ -51,15 +51,15 @@ def find_sky(light: NDArray[Any]) -> Floats:
             total += weight
     mask = (1 / (1 + np.exp(-odds / total))).astype(np.float32)
     mask = resize(mask, light.shape[1], light.shape[0])
-    picture = encode(exposed(np.asarray(light, np.float32)))
+    picture = encode(expose(np.asarray(light, np.float32)))
     radius = max(1, round(_RADIUS * light.shape[1] / 360))
     mask = np.clip((guided(picture, mask, radius, _EDGE) - _SURE) / (1 - 2 * _SURE), 0, 1)
     above = np.arange(light.shape[0])[:, None] < light.shape[0] // 2
     return np.asarray(mask * above, np.float32)
 
 
-def exposed(light: Floats) -> Floats:
-    """Return light as a camera would expose it, without white: 1 - e^-x of it, (…, 3)."""
+def expose(light: Floats) -> Floats:
+    """Return light (…, 3) exposed as by a camera, 1 - e^-x, which never reaches white."""
     quantile, target = _EXPOSED
     level = max(float(np.quantile(light @ LUMINANCE, quantile)), 1e-12)
     return np.asarray(1 - np.exp(-np.maximum(light, 0) * (target / level)), np.float32)

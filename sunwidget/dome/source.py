@@ -1,4 +1,4 @@
-"""From an environment map to its Dome: ``sunwidget.analyze_dome``."""
+"""Analysis of an environment map into a Dome: ``sunwidget.analyze_dome``."""
 
 from __future__ import annotations
 
@@ -24,44 +24,44 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float32]
 
-_WIDEST = 1024  # pixels of the copy that is looked at
-_LEAST_SKY = 0.2  # of the upper half that must be sky for sure
-_SURE = 0.9
-_CUT_OFF = 0.35  # of the light of a clear sun: a disc with less is clipped or veiled
-_MOST = 2.5
-_TINT = 1.6
+_WIDEST = 1024  # width in pixels of the analyzed copy
+_LEAST_SKY = 0.2  # share of the upper half that must be sky
+_SURE = 0.9  # mask value from which a pixel counts as sky
+_CUT_OFF = 0.35  # share of a clear sun's light; a disc with less is clipped or veiled
+_MOST = 2.5  # highest ratio of the sun's light to the clear model's
+_TINT = 1.6  # highest ratio of one channel's gain to the mean
 _HALF = 0.5
 
 
 @dataclass(frozen=True, eq=False)
 class Dome:
-    """An environment map whose sun can be moved. Made by ``analyze_dome``.
+    """An environment map whose sun can be moved; the result of ``analyze_dome``.
 
     Parameters
     ----------
     photo : Photo
-        The map as it was opened, twice as wide as high.
+        The opened map, twice as wide as high.
     sky : (H, W) float32
-        How much of a pixel is sky, [0, 1]; 0 below the horizon, which is the middle row.
+        Share of sky in a pixel, [0, 1]; 0 below the horizon, which is the middle row.
     fit : SkyFit
-        The air that explains the sky, and the map's light per kcd m⁻² of the model.
+        The air that fits the sky, and the map's light per kcd m⁻² of the model.
     sun : (azimuth, elevation)
         Degrees; azimuth from the middle column, to the right.
     sun_kind : {"disc", "veiled", "clipped", "hidden"}
-        "disc": found with its light. "veiled": found behind clouds. "clipped": found, but the map
-        holds no light as high as its own, which is the model's then. "hidden": not seen; where it
-        stands is a guess by the sky's glow and colours, unless it was told.
+        "disc": found, with its light. "veiled": found behind clouds. "clipped": found, but the map
+        clips its light; the model's is used. "hidden": not visible; the position is a guess from
+        the sky's glow and colors, unless a hint gives it.
     direct : (3,)
-        Illuminance by the sun on a plane that faces it, in the map's unit times sr.
+        Illuminance by the sun on a plane facing it, in the map's unit times sr.
     sun_gain : (3,)
-        The map's light per klx of the model's sun, by channel: measured, or as grey as that of the
-        sky is in all.
+        The map's light per klx of the model's sun, by channel: measured, or gray with the
+        luminance of the sky's gain.
     closed : float
-        How far the sky is closed by clouds, [0, 1].
+        How overcast the sky is, [0, 1].
     sun_confidence, sun_spread : float
-        As those of a Scene: 1 and 0 of a disc.
+        As in a Scene; 1 and 0 for a disc.
     warnings : tuple of str
-        What is doubtful.
+        Doubts about the analysis.
     """
 
     photo: Photo
@@ -86,7 +86,7 @@ class Dome:
 
 
 def is_dome(photo: Photo) -> bool:
-    """Tell a picture that may be an environment map: linear light, twice as wide as high."""
+    """Return whether a photo may be an environment map: linear light, twice as wide as high."""
     return photo.encoded.dtype.kind == "f" and photo.width == 2 * photo.height
 
 
@@ -99,44 +99,44 @@ def analyze_dome(source: Any, *, sun: SunHint | None = None, sky: Any = None) ->
         Equirectangular linear light, twice as wide as high, horizon in the middle row: ``.hdr``,
         ``.exr`` or an array (H, 2 H, 3) of floats, in any unit.
     sun : (x, y) or "outside", optional
-        Where its sun is, in pixels: the disc within 3° of it is taken, else the place itself.
-        "outside": no disc is to be seen. Default: looked for.
+        Position of the sun in pixels. A disc within 3° of it is used, otherwise the position
+        itself. "outside": no disc is visible. Default: found automatically.
     sky : mask (H, W) or path of its picture, optional
-        White where there is sky; default: found by the network in twelve views.
+        White where there is sky. Default: found by the network in twelve views.
 
     Returns
     -------
     Dome
-        For ``sunwidget.to_dome``.
+        Input for ``sunwidget.to_dome``.
 
     Raises
     ------
     PhotoError
-        For what is no environment map.
+        When the source is not an environment map.
     AnalysisError
-        When less than a fifth of the upper half is sky (a room, a wood), or a hint is wrong.
+        When less than a fifth of the upper half is sky (a room, a forest), or a hint is wrong.
     """
     photo = open_photo(source)
     if not is_dome(photo):
         kind = "" if photo.encoded.dtype.kind == "f" else " of 8- or 16-bit code values"
         raise PhotoError(
-            f"{photo.name} is not an environment map: that is linear light (.hdr, .exr, floats), "
-            f"twice as wide as high, and this is a picture{kind} of {photo.width} × {photo.height} "
-            "pixels. Of a photo, sw.analyze makes what to_dome takes."
+            f"{photo.name} is not an environment map: expected linear light (.hdr, .exr, floats), "
+            f"twice as wide as high, not a picture{kind} of {photo.width} × {photo.height} pixels. "
+            "For a photo, pass the result of sw.analyze to to_dome."
         )
     light = plain_light(photo.light())
-    mask = _sky_of(light, sky, photo)
-    small, small_sky = _shrunk(light, mask)
-    found, told = _sun_of(small, small_sky, sun, photo)
-    return _understood(photo, mask, small, small_sky, found, told)
+    mask = _find_sky(light, sky, photo)
+    small, small_sky = _shrink(light, mask)
+    found, hinted = _find_sun(small, small_sky, sun, photo)
+    return _make_dome(photo, mask, small, small_sky, found, hinted)
 
 
 def plain_light(light: NDArray[Any]) -> Floats:
-    """Return light without what is negative or no number."""
+    """Return light with negative values and NaN replaced by 0."""
     return np.maximum(np.nan_to_num(np.asarray(light, np.float32), posinf=3e38), 0)
 
 
-def _sky_of(light: Floats, sky: Any, photo: Photo) -> Floats:
+def _find_sky(light: Floats, sky: Any, photo: Photo) -> Floats:
     from sunwidget.analysis.images.working_copy import resize
 
     if sky is None:
@@ -153,13 +153,13 @@ def _sky_of(light: Floats, sky: Any, photo: Photo) -> Floats:
     least = _LEAST_SKY if sky is None else 1e-3
     if share < least:
         raise AnalysisError(
-            f"No sky found in {photo.name} ({100 * share:.0f} % of its upper half): the sun of a "
-            "room is not moved. If there is sky, pass sky=mask (--sky MASK.png), white where it is."
+            f"No sky found in {photo.name} ({100 * share:.0f} % of its upper half); a dome needs "
+            "open sky. If there is sky, pass sky=mask (--sky MASK.png), white where it is."
         )
     return mask
 
 
-def _shrunk(light: Floats, sky: Floats) -> tuple[Floats, Floats]:
+def _shrink(light: Floats, sky: Floats) -> tuple[Floats, Floats]:
     from sunwidget.analysis.images.working_copy import resize
 
     width = min(light.shape[1], _WIDEST)
@@ -167,10 +167,10 @@ def _shrunk(light: Floats, sky: Floats) -> tuple[Floats, Floats]:
     return tuple(np.asarray(resize(part, width, width // 2)) for part in (light, sky))  # type: ignore[return-value]
 
 
-def _sun_of(
+def _find_sun(
     light: Floats, sky: Floats, hint: SunHint | None, photo: Photo
 ) -> tuple[FoundSun | None, tuple[float, float] | None]:
-    """Return the disc that is found, and the place that was told and shows none."""
+    """Return the disc if one is found, or the hinted position if it shows no disc."""
     if hint is None or hint == OUTSIDE:
         found = find_disc(light, sky) if hint is None else None
         return (found if found is not None and found.stands_out else None), None
@@ -180,48 +180,48 @@ def _sun_of(
         x = y = np.nan
     if not (0 <= x <= photo.width and 0 <= y <= photo.height):
         raise AnalysisError(
-            f"sun={hint!r:.80} is not a place in {photo.name}: two numbers, 0 to {photo.width} and "
-            f"0 to {photo.height} pixels, or {OUTSIDE!r}."
+            f"sun={hint!r:.80} is not a position in {photo.name}. Pass two numbers, 0 to "
+            f"{photo.width} and 0 to {photo.height} pixels, or {OUTSIDE!r}."
         )
     place = (x / photo.width - 0.5) * 360, 90 - y / photo.height * 180
     found = find_disc(light, sky, near=place)
     return (found, None) if found.stands_out else (None, place)
 
 
-def _understood(
+def _make_dome(
     photo: Photo,
     mask: Floats,
     light: Floats,
     sky: Floats,
     found: FoundSun | None,
-    told: tuple[float, float] | None,
+    hinted: tuple[float, float] | None,
 ) -> Dome:
     closed = closedness(light, sky)
     sure, spread, warnings = 1.0, 0.0, []
     if found is not None:
         sun = (found.azimuth, found.elevation)
-    elif told is not None:
-        sun = told
+    elif hinted is not None:
+        sun = hinted
     else:
         sun, sure, spread = hidden_sun(light, sky, closed)
         warnings.append(
             f"No sun's disc stands out in {photo.name}: azimuth {sun[0]:.0f}° and elevation "
-            f"{sun[1]:.0f}° are a guess. Tell where it is with sun=(x, y) (--sun X,Y), in pixels."
+            f"{sun[1]:.0f}° are a guess. Set its position with sun=(x, y) (--sun X,Y), in pixels."
         )
     known = found is not None and not found.clipped
     measured = found.illuminance if found is not None and known else None
     fit = fit_air(light, sky, sun, measured, closed)
-    kind, direct, gain = _light_of(found, fit, closed)
+    kind, direct, gain = _measure_sun(found, fit, closed)
     if kind == "clipped":
         share = float(found.illuminance @ LUMINANCE / (direct @ LUMINANCE)) if found else 0.0
         warnings.append(
-            f"{photo.name} holds {100 * share:.0f} % of the light of a clear sun: the rest was "
-            "cut off or hidden. The moved sun has the model's light."
+            f"{photo.name} contains {100 * share:.0f} % of the light of a clear sun; the rest was "
+            "clipped or hidden. The moved sun has the model's light."
         )
     return Dome(photo, mask, fit, sun, kind, direct, gain, closed, sure, spread, tuple(warnings))
 
 
-def _light_of(
+def _measure_sun(
     found: FoundSun | None, fit: SkyFit, closed: float
 ) -> tuple[str, NDArray[np.float64], NDArray[np.float64]]:
     """Return the sun's kind, its illuminance, and its light per klx of the model's."""
@@ -236,7 +236,7 @@ def _light_of(
         return "clipped", grey * clear, grey
     level = min(level, _MOST * grey[0])
     gain = found.illuminance / np.maximum(clear, 1e-30)
-    # A lens' white and the model's red err: colours differ by less than that.
+    # White balance and the model's red have errors; the true tint is smaller than that limit.
     return "disc", found.illuminance, np.clip(gain, level / _TINT, level * _TINT)
 
 

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 
 def angles(width: int) -> tuple[Array, Array]:
-    """Return azimuth and elevation (width / 2, width) in degrees of a map's pixels."""
+    """Return azimuth and elevation (width / 2, width) of a map's pixels, in degrees."""
     azimuth = ((np.arange(width) + 0.5) / width - 0.5) * 360
     elevation = 90 - (np.arange(width // 2) + 0.5) / width * 360
     across, up = np.meshgrid(azimuth, elevation)
@@ -29,14 +29,14 @@ def solid_angles(width: int) -> Array:
 
 
 def irradiance(light: NDArray[Any], normal: tuple[float, float, float] = (0, 0, 1)) -> Any:
-    """Return the irradiance (3,) of a plane in a map, by channel.
+    """Return the irradiance (3,) of a map on a plane, by channel.
 
     Parameters
     ----------
     light : (H, W, 3)
         Radiance; in kcd m⁻² it gives klx.
     normal : (x, y, z)
-        Of the plane: x to azimuth 0, y to the left of it, z up.
+        Normal of the plane: x to azimuth 0, y to the left of it, z up.
     """
     width = light.shape[1]
     azimuth, elevation = (np.radians(a) for a in angles(width))
@@ -61,7 +61,7 @@ def toward(azimuth: Any, elevation: Any) -> Array:
 
 
 def direction_of(vector: Array) -> tuple[float, float]:
-    """Return azimuth and elevation in degrees of a vector (3,) of any length."""
+    """Return the azimuth and elevation in degrees of a vector (3,) of any length."""
     x, y, z = (float(part) for part in vector)
     return float(np.degrees(np.arctan2(-y, x))), float(np.degrees(np.arctan2(z, np.hypot(x, y))))
 
@@ -73,11 +73,11 @@ def pixel_of(azimuth: Any, elevation: Any, width: int) -> tuple[Array, Array]:
     return x, y
 
 
-def sampled(image: NDArray[np.float32], azimuth: Any, elevation: Any) -> NDArray[np.float32]:
+def sample(image: NDArray[np.float32], azimuth: Any, elevation: Any) -> NDArray[np.float32]:
     """Return a map (H, W[, n]) in some directions, interpolated across its seam."""
     import cv2
 
-    # Three columns more on either side, since OpenCV does not wrap one axis alone.
+    # Three extra columns on either side, since OpenCV cannot wrap a single axis.
     wide = np.concatenate([image[:, -3:], image, image[:, :3]], axis=1)
     x, y = pixel_of(azimuth, elevation, image.shape[1])
     shape = x.shape

@@ -1,4 +1,4 @@
-"""The sun in an environment map: where its disc stands, and how much light it gives."""
+"""The sun in an environment map: the position and the light of its disc."""
 
 from __future__ import annotations
 
@@ -13,29 +13,29 @@ from sunwidget.dome.sphere import Array, angles, direction_of, distance, solid_a
 from sunwidget.formats.color import LUMINANCE
 
 DISC = 2.5
-"""Degrees round the sun within which what exceeds its surroundings is its own light."""
+"""Degrees around the sun within which light above the surroundings is the sun's."""
 _BESIDE = (2.5, 4.0)  # degrees: the surroundings
-_CORE = 0.6  # degrees in which a disc's light falls, also where pixels are coarse
-_STANDS_OUT = 15.0  # times its surroundings: less is a bright cloud, a lamp or a disc cut off
-_NEAR_THE_TOP = 0.8  # of the brightest pixel: more of it than a disc has is a plateau
-_PLATEAU = 3.0  # times the disc's solid angle, or pixels
+_CORE = 0.6  # degrees that contain a disc's light, even with coarse pixels
+_STANDS_OUT = 15.0  # times its surroundings; less is a bright cloud, a lamp or a clipped disc
+_NEAR_THE_TOP = 0.8  # of the brightest pixel; such pixels form a plateau if they are too many
+_PLATEAU = 3.0  # times the solid angle of the disc or of a pixel
 _SMOOTH = 0.5  # degrees
 
 
 @dataclass(frozen=True)
 class FoundSun:
-    """A disc, or the brightest spot where there is none.
+    """A disc, or the brightest spot if there is no disc.
 
     Parameters
     ----------
     azimuth, elevation : float
         Degrees.
     illuminance : (3,)
-        Of a plane that faces it, by what exceeds the sky round it; the map's unit times sr.
+        On a plane facing it, by the light above the surrounding sky; the map's unit times sr.
     contrast : float
-        Mean light of its core over that of its surroundings, less 1.
+        Mean light of its core over that of its surroundings, minus 1.
     clipped : bool
-        Whether the map holds no higher light and cuts the disc off there.
+        Whether the map clips the disc's light.
     """
 
     azimuth: float
@@ -46,7 +46,7 @@ class FoundSun:
 
     @property
     def stands_out(self) -> bool:
-        """Whether it is a disc and no bright cloud."""
+        """Whether it is a disc, not a bright cloud."""
         return self.contrast > _STANDS_OUT
 
 
@@ -62,14 +62,14 @@ def find_disc(
     sky : (H, W)
         Its sky, [0, 1].
     near : (azimuth, elevation), optional
-        Where somebody says it is: looked for within 3° of it, and left there if nothing stands out.
+        A hint. The disc is searched within 3° of it; the hint is kept if no disc stands out.
     """
     import cv2
 
     width = light.shape[1]
     azimuth, elevation = angles(width)
     level = np.asarray(light @ LUMINANCE, np.float64)
-    # A bright sun lies beyond what a network takes for sky by the breadth of its glare.
+    # The network's sky mask may exclude a bright sun by the width of its glare.
     around = cv2.dilate((sky > 0.5).astype(np.uint8), np.ones((2 * (width // 180) + 1,) * 2)) > 0
     allowed = around & (elevation > -0.5)
     if near is not None:
@@ -83,7 +83,7 @@ def find_disc(
         excess = np.maximum(level - _surroundings(level, apart, elevation), 0) * (apart < DISC)
         if not excess.any():
             break
-        # By the square of the light: a glare that reaches farther on one side pulls less.
+        # Weighted by squared light, so that asymmetric glare pulls less.
         place = direction_of(((excess**2 * solid)[..., None] * vectors).sum((0, 1)))
     apart = distance(place, azimuth, elevation)
     beside = np.array([_surroundings(light[..., i], apart, elevation) for i in range(3)])

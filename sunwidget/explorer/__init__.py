@@ -1,1 +1,1 @@
-"""What SkyExplorer shows: its parameters, the values they give the shaders, and the drawing."""
+"""SkyExplorer's parameters, their values for the shaders, and the drawing."""

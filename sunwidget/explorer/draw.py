@@ -1,4 +1,4 @@
-"""SkyExplorer's picture and curves, drawn by the kernel from the passes that the browser runs.
+"""SkyExplorer's picture and curves, drawn by the kernel with the browser's passes.
 
 ``frame-graph.md`` describes the passes; ``js/src/explorer/sky_frame.js`` is the twin.
 """
@@ -32,7 +32,7 @@ CURVES = (
 BACKGROUND = (20, 22, 27)
 """Code values around the dome and the panorama."""
 
-# Pictures are drawn in bands of about this many pixels, so that memory stays bounded at any size.
+# Pictures are drawn in bands of about this many pixels, which bounds memory at any size.
 _BAND_PIXELS = 2_100_000
 _graphs: dict[int, FrameGraph] = {}
 _tables: dict[tuple[int, str], Any] = {}
@@ -55,22 +55,22 @@ def draw(
     size : (width, height)
         In pixels.
     bruneton : array, shape (rows, columns, 4), float32, optional
-        Slice of Bruneton's table for the altitude; needed where ``model`` or ``compare`` is
+        Slice of Bruneton's table for the altitude; required if ``model`` or ``compare`` is
         ``"bruneton"``.
     samples : int, default 64
-        Paths a pixel of the ``"reference"``.
+        Paths per pixel of the ``"reference"``.
     progress : callable, optional
         Called with (fraction, message) after each sample and band; raise in it to cancel.
 
     Returns
     -------
     array, (height, width, 3), uint8
-        sRGB; around the dome and the panorama lies ``BACKGROUND``.
+        sRGB, with ``BACKGROUND`` around the dome and the panorama.
 
     Raises
     ------
     EditError
-        For an impossible size, and for Bruneton's model without its table.
+        For an invalid size, and for Bruneton's model without its table.
     RendererError
         When this machine has no EGL.
     """
@@ -89,7 +89,7 @@ def radiance_map(
     bruneton: Floats | None = None,
     samples: int = 64,
 ) -> Floats:
-    """Return the sky's spectral radiance as ``draw`` would show it, without the sun's disc.
+    """Return the spectral radiance of the sky that ``draw`` shows, without the sun's disc.
 
     Returns
     -------
@@ -105,7 +105,7 @@ def radiance_map(
 
 
 def curve(values: Mapping[str, Any], name: str, *, bruneton: Floats | None = None) -> Floats:
-    """Return one of ``CURVES``, (N, 4) float32; ``frame-graph.md`` says what it holds.
+    """Return one of ``CURVES``, (N, 4) float32; ``frame-graph.md`` describes it.
 
     Raises
     ------
@@ -135,19 +135,19 @@ def radiance_at(
 
 
 def table(values: Mapping[str, Any], name: str, *, bruneton: Floats | None = None) -> Floats:
-    """Return what any pass of the explorer's graph draws, (rows, columns, 4) float32."""
+    """Return the output of a pass of the explorer's graph, (rows, columns, 4) float32."""
     return _run(values, (1, 1), {}, name, {"bruneton": bruneton})
 
 
 def projection(values: Mapping[str, Any], size: tuple[int, int]) -> Projection:
-    """Return the projection that ``values`` ask for."""
+    """Return the projection of ``values``."""
     name = values["projection"]
     view = {key: float(values[key]) for key in ("view_azimuth", "view_elevation", "fov")}
     return Projection(name=name, size=size, **view)
 
 
 def methods(values: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return what a run is for, as the rows' ``when`` name it: models, and single terms."""
+    """Return the methods of a run, as named in the rows' ``when``: models, and single terms."""
     orders = () if values["show_single"] and values["show_multiple"] else ("orders",)
     return (values["model"], values["compare"], *orders)
 
@@ -161,7 +161,7 @@ def _run(
     samples: int = 1,
     progress: Callable[[float, str], Any] | None = None,
 ) -> Floats:
-    # What is compared with stands in the picture alone, to its right.
+    # The compared model appears only in the picture, on its right half.
     asked = methods(values if until is None else {**values, "compare": "none"})
     if "bruneton" in asked and textures.get("bruneton") is None:
         raise EditError(
@@ -192,7 +192,7 @@ def _run(
         for top in range(0, height, rows):
             tile = (0, top, width, min(rows, height - top))
             if "reference" in asked:
-                graph.targets.pop("reference", None)  # a picture owes nothing to the one before
+                graph.targets.pop("reference", None)  # restart the accumulation
                 for i in range(samples - 1):
                     run("reference", tile)
                     if progress is not None:
@@ -213,7 +213,7 @@ def _texels(target: Target) -> Floats:
 def _graph(context: Any, textures: Mapping[str, Floats | None]) -> FrameGraph:
     """Return the context's one graph with ``textures`` uploaded; runs on the GL thread."""
     if id(context) not in _graphs:
-        _graphs.clear()  # of a context that was lost
+        _graphs.clear()  # drop those of a lost context
         _tables.clear()
         _graphs[id(context)] = FrameGraph(Programs(context), {}, frame_graph("explorer"))
     graph = _graphs[id(context)]
@@ -221,5 +221,5 @@ def _graph(context: Any, textures: Mapping[str, Floats | None]) -> FrameGraph:
         key = (id(context), name)
         if image is not None and _tables.get(key) is not image:
             graph.set_texture(name, np.asarray(image, np.float32))
-            _tables[key] = image  # keeps it alive, so that its identity stays its own
+            _tables[key] = image  # keeps it alive, so that its id is not reused
     return graph

@@ -1,8 +1,8 @@
-"""From pixels to directions and back: the twin of ``explorer/projection.glsl``.
+"""Conversion between pixels and directions; the twin of ``explorer/projection.glsl``.
 
 Three projections: the dome (equidistant fisheye), the panorama (equirectangular, -10 to 90
-degrees) and the camera (perspective). Azimuths grow clockwise; in the dome one looks up, so east
-lies to the left of north. ``js/src/explorer/projection.js`` is the browser's twin.
+degrees) and the camera (perspective). Azimuths increase clockwise; the dome is seen from below, so
+east is left of north. ``js/src/explorer/projection.js`` is the browser's twin.
 """
 
 from __future__ import annotations
@@ -17,25 +17,25 @@ from sunwidget.explorer.table import PROJECTIONS
 Array = NDArray[np.float64]
 
 DOME_SHARE = 0.94
-"""Diameter of the dome over the smaller side; the rest is room for names."""
+"""Diameter of the dome over the smaller side; the rest is space for labels."""
 PANORAMA_BOTTOM = -10.0
 PANORAMA_HEIGHT = 100.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Projection:
-    """How one picture shows the sky.
+    """The projection of the sky in one picture.
 
     Parameters
     ----------
     name : {"dome", "panorama", "camera"}
         Kind of projection.
     size : (width, height)
-        Of the picture in pixels.
+        Size of the picture in pixels.
     view_azimuth : float
         Azimuth at the top of the dome and in the middle of the others, degrees.
     view_elevation, fov : float
-        Elevation in the middle of the camera's picture, and its height, degrees.
+        Elevation in the middle of the camera's picture, and its vertical field of view, degrees.
 
     Raises
     ------
@@ -51,11 +51,13 @@ class Projection:
 
     def __post_init__(self) -> None:
         if self.name not in PROJECTIONS:
-            raise ValueError(f"A projection is one of {', '.join(PROJECTIONS)}, not {self.name!r}.")
+            raise ValueError(
+                f"projection must be one of {', '.join(PROJECTIONS)}, not {self.name!r}."
+            )
 
     @property
     def scale(self) -> float:
-        """Pixels: radius of the dome, a degree of the panorama, focal length of the camera."""
+        """In pixels: the dome's radius, a degree of the panorama, or the camera's focal length."""
         width, height = self.size
         if self.name == "dome":
             return 0.5 * DOME_SHARE * min(width, height)
@@ -66,7 +68,7 @@ class Projection:
     def direction(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return azimuth and elevation in degrees at picture coordinates, shape (..., 2).
 
-        NaN where a pixel shows no sky.
+        NaN for pixels without sky.
         """
         width, height = self.size
         right, up = np.broadcast_arrays(
@@ -94,7 +96,7 @@ class Projection:
     def pixel(self, azimuth: ArrayLike, elevation: ArrayLike) -> Array:
         """Return picture coordinates of directions in degrees, shape (..., 2).
 
-        Places may lie outside the picture; NaN behind the camera.
+        They may be outside the picture; NaN behind the camera.
         """
         width, height = self.size
         turn = (np.asarray(azimuth, float) - self.view_azimuth + 180) % 360 - 180

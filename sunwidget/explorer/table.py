@@ -1,8 +1,8 @@
-"""Every parameter of SkyExplorer, as rows of the same kind as the Edit's.
+"""The table of SkyExplorer's parameters, with rows like the Edit's.
 
-The sun and the air are the Edit's own rows, with the default atmosphere's values in place of
-"as found in the photo". Two kinds of row are SkyExplorer's alone: ``"switch"`` (a bool, 0 or 1 as
-a uniform) and data that says where and when the sky is seen.
+The rows of sun and air are the Edit's, with the values of the default atmosphere instead of "found
+in the photo". Two kinds of rows are specific to SkyExplorer: ``"switch"`` (a bool, 0 or 1 as a
+uniform) and data for place and time.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ GRIDS = ("96×80", "128×128", "256×128")
 AIR = tuple(RANGES)
 """The rows that are fields of ``Atmosphere``."""
 PLACE = ("date", "latitude", "longitude")
-"""The rows that, once all are set, give the sun's path over the day."""
+"""The rows that determine the sun's path over the day if all are set."""
 
 
 def _air_row(name: str) -> Parameter:
@@ -62,7 +62,7 @@ def _switch(name: str, label: str, text: str) -> Parameter:
 
 
 def _data(name: str, *row: Any) -> Parameter:
-    """Return a row as ``_number`` makes it, of a value that is no uniform and may be missing."""
+    """Return a row like ``_number`` for a value that is not a uniform and may be None."""
     return _number(name, 0.0, *row)._replace(kind="data", default=None)
 
 
@@ -122,13 +122,13 @@ def parameter(name: str) -> Parameter:
 
 
 def unknown_name_message(name: str, others: tuple[str, ...] = ()) -> str:
-    """Say that ``name`` is no parameter of SkyExplorer and suggest the nearest spelling."""
+    """Return the message for an unknown parameter, with the nearest spelling."""
     hint = did_you_mean(name, [*_BY_NAME, *others], f"Choose among {', '.join(_BY_NAME)}.")
     return f"Unknown parameter {str(name)[:80]!r}.{hint}"
 
 
 def checked(row: Parameter, value: Any) -> Any:
-    """Return ``value`` as SkyExplorer holds it.
+    """Return ``value`` checked and normalized.
 
     Parameters
     ----------
@@ -141,12 +141,12 @@ def checked(row: Parameter, value: Any) -> Any:
     Raises
     ------
     EditError
-        For a value that the row does not take; the message says what it takes.
+        For a value that the row does not accept; the message says what it accepts.
     """
     if row.kind == "switch":
         # JSON hosts send true and 1 alike.
         if not isinstance(value, (bool, int)) or value not in (0, 1):
-            raise EditError(f"{row.name} is a switch, True or False, not {value!r:.80}.")
+            raise EditError(f"{row.name} must be True or False, not {value!r:.80}.")
         return bool(value)
     if row.kind == "data":
         return None if value is None else _checked_data(row, value)
@@ -160,14 +160,14 @@ def _checked_data(row: Parameter, value: Any) -> Any:
     if row.name != "scan":
         return number
     if number != int(number):
-        raise EditError(f"scan is the index of a measured scan, 0, 1, 2 …, not {number:g}.")
+        raise EditError(f"scan must be the index of a scan, 0, 1, 2 …, not {number:g}.")
     return int(number)
 
 
 def _checked_date(value: Any) -> str:
-    if isinstance(value, dt.date):  # a datetime is one too
+    if isinstance(value, dt.date):  # includes datetime
         return value.strftime("%Y-%m-%d")
     try:
         return dt.date.fromisoformat(value).isoformat()
     except (TypeError, ValueError):
-        raise EditError(f"date must be a day as YYYY-MM-DD, not {value!r:.80}.") from None
+        raise EditError(f"date must have the form YYYY-MM-DD, not {value!r:.80}.") from None

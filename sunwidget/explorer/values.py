@@ -1,8 +1,8 @@
-"""What SkyExplorer's parameters are as uniforms; the browser's twin is ``explorer/values.js``.
+"""Conversion of SkyExplorer's parameters to uniforms; the browser's twin is ``explorer/values.js``.
 
-Switches are applied here, so that a shader knows an atmosphere without haze and not a switch
-that hides it. Two states of the frame graph: ``edit``, the atmosphere as chosen, and ``single``,
-the same with the first order of scattering alone.
+Switches are applied here: a shader receives an atmosphere without haze, not a switch. The frame
+graph has two states: ``edit``, the chosen atmosphere, and ``single``, the same with only the first
+order of scattering.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
 
-# What a switch that is off sets to zero.
+# Parameters that a switch sets to zero when it is off.
 SWITCHED_OFF = {
     "show_rayleigh": "air_density",
     "show_aerosol": "aerosol_optical_depth",
@@ -31,8 +31,8 @@ def effective_values(parameters: Mapping[str, Any]) -> dict[str, dict[str, float
     Returns
     -------
     dict
-        ``{"edit": {name: number}, "single": {name: number}}``: numbers as they are, a choice's
-        index, 0 or 1 for a switch. Data (place, date, scan) are no uniforms.
+        ``{"edit": {name: number}, "single": {name: number}}``: numbers unchanged, the index of a
+        choice, 0 or 1 for a switch. Data (place, date, scan) are not uniforms.
     """
     values: dict[str, float] = {}
     for row in EXPLORER_PARAMETERS:
@@ -44,7 +44,7 @@ def effective_values(parameters: Mapping[str, Any]) -> dict[str, dict[str, float
     for switch, name in SWITCHED_OFF.items():
         if not parameters[switch]:
             values[name] = 0.0
-    # Beside another model, the state "edit" is that model's.
+    # When compared with another model, the state "edit" belongs to that model.
     if parameters["model"] == "single" and parameters["compare"] in ("none", "single"):
         values["scattering_orders"] = 1.0
     return {"edit": values, "single": {**values, "scattering_orders": 1.0}}

@@ -1,9 +1,9 @@
-"""The sky of an edit as an environment map: light for programs that render scenes.
+"""The sky of an edit as an environment map, a light source for 3D programs.
 
-Equirectangular, also called latitude-longitude: the middle column looks where the camera's heading
-points, azimuth grows to the right by 360° over the width; the top row is the zenith, the bottom row
-the nadir. The lower half shows the model's ground, lit by sun and sky. Linear Rec. 709 in
-kcd m⁻²: times 1000 it is luminance.
+The projection is equirectangular (latitude-longitude). The middle column is the camera's heading;
+azimuth grows to the right, 360° over the width; the top row is the zenith, the bottom row the
+nadir. The lower half shows the model's ground, lit by sun and sky. Values are linear Rec. 709 in
+kcd m⁻²; 1000 times the luminance of a pixel is in cd m⁻².
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float32]
 
-# Directions asked for at a time: one row of a texture.
+# Directions evaluated at a time: one row of a texture.
 _AT_ONCE = 8192
-# Share of the luminance that each channel keeps where a spectrum leaves Rec. 709, as in the frame.
+# Least share of the luminance in each channel, for spectra outside Rec. 709; as in the frame.
 _LEAST_CHANNEL = 0.02
 # As sky/moonlight.glsl: full moon over sun, and the sky without either, kcd m⁻².
 MOON_OVER_SUN = np.array([1.1, 1.0, 0.8]) / 402_000
@@ -51,28 +51,28 @@ def environment_map(
     sun: bool = True,
     overwrite: bool = False,
 ) -> Path:
-    """Write the clear sky that was fitted to a photo, under an edit's sun, all the way round.
+    """Write the clear sky fitted to a photo, under an edit's sun, as an environment map.
 
     Parameters
     ----------
     scene : Scene
-        What ``analyze`` returned.
+        The result of ``analyze``.
     edit : Edit, dict or None
-        Whose sun and air; None is the photo's own.
+        Edit of sun and air; None is the photo's own.
     path : path
-        ``.hdr`` (Radiance) or ``.exr`` (32-bit floats: the sun is beyond half floats; needs the
-        ``exr`` extra).
+        ``.hdr`` (Radiance) or ``.exr`` (32-bit floats, since the sun exceeds half floats; needs
+        the ``exr`` extra).
     size : (width, height)
         In pixels, width twice the height.
     sun : bool
-        Draw the disc. However few pixels it has, they give off the sun's light.
+        Draw the disc. Its pixels, however few, emit the sun's whole light.
     overwrite : bool
         Replace an existing file.
 
     Returns
     -------
     Path
-        Where the map is. The recipe is in it.
+        The file, which contains the recipe.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def write_map(
 ) -> None:
     """Write an environment map (H, 2 H, 3) float32 as .hdr or .exr, by the file's ending.
 
-    ``white`` is the luminance of 1 in cd m⁻², where that is known.
+    ``white`` is the luminance of 1 in cd m⁻², if known.
     """
     from sunwidget.export.metadata import software
     from sunwidget.formats import openexr, radiance
@@ -113,10 +113,10 @@ def write_map(
             unfinished.write_bytes(radiance.pack(light, notes, software=software()))
         else:
             latitude_longitude = openexr.library().ENVMAP_LATLONG
-            told = {"envmap": latitude_longitude, "software": software()}
-            told |= {} if white is None else {"whiteLuminance": white}
+            attributes = {"envmap": latitude_longitude, "software": software()}
+            attributes |= {} if white is None else {"whiteLuminance": white}
             channels = {name: light[..., i] for i, name in enumerate("RGB")}
-            openexr.write(unfinished, channels, told, notes, bits=32)
+            openexr.write(unfinished, channels, attributes, notes, bits=32)
 
 
 def checked_size(size: Any) -> tuple[int, int]:
@@ -127,14 +127,14 @@ def checked_size(size: Any) -> tuple[int, int]:
         width = height = 0
     if width != 2 * height or not 8 <= width <= 16384:
         raise PhotoError(
-            "An environment map is twice as wide as high, 8 to 16384 pixels, not "
+            "An environment map must be twice as wide as high, 8 to 16384 pixels wide, not "
             f"{shown(size, 40)}."
         )
     return width, height
 
 
 def check_map(path: Path) -> None:
-    """Refuse a file that can hold no environment map, before any work is spent on it.
+    """Check, before any work, that a file can hold an environment map.
 
     Raises
     ------
@@ -145,7 +145,9 @@ def check_map(path: Path) -> None:
 
     kind = path.suffix.lower()
     if kind not in (".hdr", ".exr"):
-        raise PhotoError(f"An environment map ends in .hdr or .exr, not {kind or 'nothing'!r}.")
+        raise PhotoError(
+            f"An environment map's file must end in .hdr or .exr, not {kind or 'nothing'!r}."
+        )
     if kind == ".exr":
         openexr.library()
 
@@ -173,7 +175,7 @@ def environment(scene: Scene, edit: Edit, size: tuple[int, int], *, sun: bool = 
 
 
 def explorer_values(scene: Scene, edit: Edit) -> dict[str, Any]:
-    """Return SkyExplorer's parameters that show the edit's sky: the two tables share their rows."""
+    """Return SkyExplorer's parameters for the edit's sky; the two tables share names."""
     from sunwidget.explorer.table import EXPLORER_PARAMETERS, GRIDS
     from sunwidget.renderer.values import parameter_values
 
@@ -191,5 +193,5 @@ def air_of(values: dict[str, Any]) -> Atmosphere:
 
 
 def is_moonlit(scene: Scene, edit: Edit) -> bool:
-    """Tell whether the moon lights an edit's sky."""
+    """Return whether the moon lights an edit's sky."""
     return edit.light_source == "moon" or (edit.light_source == "automatic" and scene.lit_by_moon)

@@ -1,4 +1,4 @@
-"""Code values and metadata to the bytes of a picture file: the table of formats."""
+"""Encoders of code values and metadata, and the table of picture formats."""
 
 from __future__ import annotations
 
@@ -13,45 +13,45 @@ from typing import Any
 import numpy as np
 
 from sunwidget.errors import PhotoError
-from sunwidget.export.gain_map_file import beside, told_of
+from sunwidget.export.dropped import warn_dropped
+from sunwidget.export.gain_map_file import append_gain_map, with_gain_map_xmp
 from sunwidget.export.linear import exr, hdr
-from sunwidget.export.lost import warn_lost
 from sunwidget.export.still import Still
 from sunwidget.export.tiff import EFFORT, tiff
 from sunwidget.formats import exif as exif_tags
 from sunwidget.formats import openexr
 from sunwidget.messages import did_you_mean, shown
 
-# A JPEG segment holds 65533 bytes, of which Pillow's EXIF head takes six.
+# A JPEG segment holds 65533 bytes; Pillow's EXIF header uses six of them.
 _SEGMENT = 65_500
 
 
 def jpeg(still: Still) -> bytes:
-    """Encode as JPEG, 4:4:4 from quality 90 upwards, its gain map behind it. Alpha is lost."""
+    """Encode as JPEG, 4:4:4 from quality 90, followed by the gain map. Drops alpha."""
     _refuse_longer_than(still, 65_500, "JPEG")
     if still.alpha is not None:
-        warn_lost("JPEG has no transparency; it is left out. PNG, TIFF and WebP keep it.")
+        warn_dropped("JPEG has no transparency; it was dropped. PNG, TIFF and WebP keep it.")
     options: dict[str, Any] = {"subsampling": 0 if still.quality >= 90 else 2}
     if still.dpi:
         options["dpi"] = still.dpi
     block = still.exif
     if block and len(block) > _SEGMENT:
         block, missing = exif_tags.shortened(block, _SEGMENT)
-        warn_lost(
-            f"The EXIF is too long for a JPEG: its {missing} is left out. PNG and TIFF keep it."
+        warn_dropped(
+            f"The EXIF is too long for a JPEG; its {missing} was dropped. PNG and TIFF keep it."
         )
     if block:
         options["exif"] = block
     packet = still.xmp
     if packet and len(packet) > _SEGMENT:
-        warn_lost("The XMP metadata is too long for a JPEG and is left out.")
+        warn_dropped("The XMP metadata is too long for a JPEG and was dropped.")
         packet = None
     if still.gain_map is not None:
-        packet = told_of(packet, still.gain_map, _SEGMENT)
+        packet = with_gain_map_xmp(packet, still.gain_map, _SEGMENT)
     if packet:
         options["xmp"] = packet
     picture = _pillow(still, "JPEG", options)
-    return picture if still.gain_map is None else beside(picture, still.gain_map)
+    return picture if still.gain_map is None else append_gain_map(picture, still.gain_map)
 
 
 def webp(still: Still) -> bytes:
@@ -74,18 +74,18 @@ def _pillow(still: Still, format_name: str, options: dict[str, Any]) -> bytes:
 
 
 def png(still: Still) -> bytes:
-    """Encode as PNG with 8 or 16 bits: OpenCV packs the pixels, the metadata is ours."""
+    """Encode as PNG with 8 or 16 bits: OpenCV compresses the pixels, the metadata is added here."""
     import cv2
 
     samples = still.samples
     order = [2, 1, 0, 3][: samples.shape[2]]
-    done, packed = cv2.imencode(
+    succeeded, packed = cv2.imencode(
         ".png",
         np.ascontiguousarray(samples[..., order]),
         [cv2.IMWRITE_PNG_COMPRESSION, EFFORT[samples.itemsize]],
     )
-    if not done:
-        raise PhotoError("OpenCV could not pack the picture as PNG.")
+    if not succeeded:
+        raise PhotoError("OpenCV could not encode the picture as PNG.")
     data = packed.tobytes()
     chunks = []
     if still.icc:
@@ -99,7 +99,7 @@ def png(still: Still) -> bytes:
         chunks.append(_chunk(b"eXIf", still.exif.removeprefix(b"Exif\0\0")))
     if still.xmp:
         chunks.append(_chunk(b"iTXt", b"XML:com.adobe.xmp\0\0\0\0\0" + still.xmp))
-    # The signature is 8 bytes and the header chunk, always the first, 25.
+    # The signature has 8 bytes, the header chunk, always the first, 25.
     return b"".join([data[:33], *chunks, data[33:]])
 
 
@@ -111,7 +111,7 @@ def _refuse_longer_than(still: Still, limit: int, format_name: str) -> None:
     height, width = still.codes.shape[:2]
     if max(width, height) > limit:
         raise PhotoError(
-            f"{format_name} holds at most {limit} pixels a side, this picture is "
+            f"{format_name} holds at most {limit} pixels per side; this picture has "
             f"{width}×{height}. Save it as PNG or TIFF."
         )
 
@@ -128,13 +128,13 @@ class Format:
     encode : callable
         Still to bytes.
     depths : tuple of int
-        Bits a channel that it holds, the usual one of the deepest pictures first.
+        Supported bits per channel, the default for deep pictures first.
     linear : bool
-        It holds light, not code values.
+        Whether it holds light instead of code values.
     layers : {"inside", "beside", ""}
         Where layers go: into the file, into files beside it, or nowhere.
     gain_map : bool
-        It holds light above white as a gain map.
+        Whether it holds light above white as a gain map.
     """
 
     encode: Encoder
@@ -154,14 +154,14 @@ FORMATS: dict[str, Format] = {
     ".tiff": _TIFF,
     ".webp": Format(webp, (8,), layers="beside"),
     ".exr": Format(exr, (16, 32), linear=True, layers="inside"),
-    # Eight bits a channel and a common exponent: as deep as it is asked for.
+    # Eight bits per channel and a shared exponent, which count as 32.
     ".hdr": Format(hdr, (32,), linear=True),
 }
-"""File name ending to format."""
+"""Formats by file extension."""
 
 
 def check_quality(quality: Any) -> None:
-    """Refuse, before any work, what is no quality of a picture or film; a PhotoError says so."""
+    """Raise PhotoError, before any work, for an invalid quality of a picture or film."""
     if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
         raise PhotoError(f"quality must be a whole number from 1 to 100, not {shown(quality, 40)}.")
 
@@ -169,13 +169,13 @@ def check_quality(quality: Any) -> None:
 def check_format(
     path: Path, bit_depth: int | None = None, *, layers: bool = False, headroom: float = 0.0
 ) -> Format:
-    """Return the format that a file's ending chooses, before any work is spent on it.
+    """Return the format of a file's extension, checked before any work.
 
     Raises
     ------
     PhotoError
-        For an unknown ending, a depth, layers or light above white (``headroom``) that it cannot
-        hold, and EXR without its extra.
+        For an unknown extension, for a depth, layers or light above white (``headroom``) that the
+        format cannot hold, and for EXR without its extra.
     """
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
@@ -191,18 +191,19 @@ def check_format(
         held = " or ".join(str(depth) for depth in sorted(form.depths))
         others = [key for key, other in FORMATS.items() if bit_depth in other.depths]
         raise PhotoError(
-            f"{suffix} holds {held} bits a channel. Save {bit_depth} bits as {' or '.join(others)}."
+            f"{suffix} holds {held} bits per channel. Save {bit_depth} bits as "
+            f"{' or '.join(others)}."
         )
     if layers and not form.layers:
         raise PhotoError(
-            f"{suffix} holds no transparency, which layers need. Save them as .tif, .exr, .png "
+            f"{suffix} has no transparency, which layers need. Save them as .tif, .exr, .png "
             "or .webp."
         )
     if headroom and not (form.gain_map or form.linear or bit_depth == 32):
         raise PhotoError(
-            f"{suffix} holds no light above white, which headroom is. Save it as .jpg "
-            "(a gain map), .exr, .hdr, or .tif with 32 bits."
+            f"{suffix} cannot hold light above white (headroom). Save as .jpg (a gain map), .exr, "
+            ".hdr, or .tif with 32 bits."
         )
     if suffix == ".exr":
-        openexr.library()  # what is missing shows before the work
+        openexr.library()  # report a missing extra before the work
     return form

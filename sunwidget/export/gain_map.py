@@ -1,4 +1,4 @@
-"""The gain map of a rendered scene: from the picture as it is saved to its light above white."""
+"""The gain map of a rendered scene, from the saved picture to its light above white."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.edit.table import Edit
+from sunwidget.export.dropped import warn_dropped
 from sunwidget.export.formats import jpeg
-from sunwidget.export.lost import warn_lost
 from sunwidget.export.still import Still
 from sunwidget.formats.color import LUMINANCE, ColorProfile
 from sunwidget.formats.gain_map import GainMap, packed
@@ -23,24 +23,24 @@ if TYPE_CHECKING:
 
 Strips = Iterable[tuple[slice, NDArray[Any], NDArray[Any]]]
 
-_OFFSET = 1 / 1024  # of light: keeps black out of the logarithm, and the map's steps small there
-_NOTHING = 0.01  # stops: no eye sees less
-_DARKEST = -1.0  # stops: a colour that is less pale when brighter has less of some channel
+_OFFSET = 1 / 1024  # linear light: keeps the logarithm finite, and the map's steps small, at black
+_INVISIBLE = 0.01  # stops: the eye sees no smaller difference
+_DARKEST = -1.0  # stops: a color that gains saturation as it brightens loses light in a channel
 _EXACT, _PLAIN = 98, 95  # JPEG qualities of a map
 
 
 def gain_map_of(
     scene: Scene, edit: Edit, still: Still, headroom: float, progress: Progress | None = None
 ) -> GainMap | None:
-    """Draw a scene with and without light above white; return the map between the two.
+    """Draw a scene with and without light above white; return the gain map between the two.
 
     Parameters
     ----------
     scene, edit
-        What was drawn.
+        Scene and edit of the picture.
     still : Still
-        How it was, with the quality that it will have. At 100 the map also takes back what JPEG
-        has rounded of its luminance.
+        The picture, with its JPEG quality. At 100 the map also corrects the rounding of the
+        JPEG's luminance.
     headroom : float
         Stops above white.
     progress : callable, optional
@@ -49,7 +49,7 @@ def gain_map_of(
     Returns
     -------
     GainMap or None
-        None, with a PhotoWarning, when nothing is brighter than white.
+        None, with a PhotoWarning, when no pixel is brighter than white.
     """
     from sunwidget.renderer.offscreen import strips_of
 
@@ -66,32 +66,33 @@ def gain_map_of(
     read = _as_read(still) if still.quality == 100 else None
     found = map_between(both(), (width, height), scene.photo.profile, read)
     if found is None:
-        warn_lost("Nothing in this picture is brighter than white, so it has no gain map.")
+        warn_dropped("No pixel of this picture is brighter than white, so it has no gain map.")
     return found
 
 
 def map_between(
     strips: Strips, size: tuple[int, int], profile: ColorProfile, read: NDArray[Any] | None = None
 ) -> GainMap | None:
-    """Return the map that leads from one picture to a brighter one.
+    """Return the gain map from one picture to a brighter one.
 
     Parameters
     ----------
     strips : iterable of (rows, light, brighter)
         Rows of the picture and (h, W, 3) floats of each, linear Rec. 709, 1 = white.
     size : (width, height)
-        Of the picture and of the map.
+        Size of the picture and of the map.
     profile : ColorProfile
-        The picture's: its linear colours are multiplied.
+        The picture's profile; the gain multiplies its linear colors.
     read : (H, W, 3) uint8 array, optional
-        Code values that readers get of the first picture. With them the luminance of what they
-        show is right; without, what is alike in both pictures stays, and the map is small.
+        Code values that readers decode from the first picture. With them the displayed luminance
+        is exact. Without them, pixels that agree in both pictures have no gain, and the map is
+        small.
 
     Returns
     -------
     GainMap or None
-        Eight bits for all between its darkest and its brightest stop, one level of them no change
-        at all; None when nothing is brighter than white by a hundredth of a stop.
+        Eight bits span the darkest to the brightest stop; one level is exactly no change. None
+        when no pixel is brighter than white by a hundredth of a stop.
     """
     width, height = size
     stops = np.empty((height, width, 3), np.float16)
@@ -108,18 +109,18 @@ def map_between(
             wanted = other @ luminance
             gain += np.log2(wanted / np.maximum(shown @ luminance, offset / 8))[..., None]
         stops[rows] = gain
-    if brightest < 2**_NOTHING:
+    if brightest < 2**_INVISIBLE:
         return None
     high = float(stops.max())
     low = min(max(float(stops.min()), _DARKEST), 0.0)
-    # So that no change is a level of its own.
+    # Align the range so that "no change" falls on a level.
     level = int(np.ceil(255 * -low / (high - low)))
     low = -high * level / (255 - level)
     levels = np.empty(stops.shape, np.uint8)
     for row, values in enumerate(stops):
         share = (values.astype(np.float32) - low) / (high - low)
         levels[row] = np.rint(255 * np.clip(share, 0, 1))
-    told = GainMap(
+    gain_map = GainMap(
         b"",
         (low,) * 3,
         (high,) * 3,
@@ -128,7 +129,7 @@ def map_between(
         headroom=high,
     )
     quality = _PLAIN if read is None else _EXACT
-    return dataclasses.replace(told, jpeg=packed(levels, told, quality))
+    return dataclasses.replace(gain_map, jpeg=packed(levels, gain_map, quality))
 
 
 def _decoded(codes: NDArray[Any], profile: ColorProfile) -> NDArray[np.float32]:
@@ -137,7 +138,7 @@ def _decoded(codes: NDArray[Any], profile: ColorProfile) -> NDArray[np.float32]:
 
 
 def _as_read(still: Still) -> NDArray[np.uint8]:
-    """Return the code values that readers of the JPEG get."""
+    """Return the code values that readers decode from the JPEG."""
     from PIL import Image
 
     bare = Still(still.codes, quality=still.quality)

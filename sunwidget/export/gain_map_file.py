@@ -1,7 +1,7 @@
-"""JPEG with light above white: the picture as any program shows it, and a gain map behind it.
+"""JPEG with light above white: an ordinary picture, followed by its gain map.
 
-"Ultra HDR Image Format v1.1" (Android, 2024) and ISO 21496-1: the scan of the picture stays as it
-is; before it come a multi-picture index (CIPA DC-007), an entry in the XMP and the ISO's mark.
+"Ultra HDR Image Format v1.1" (Android, 2024) and ISO 21496-1 leave the picture's scan unchanged.
+Before it they add a multi-picture index (CIPA DC-007), an XMP entry and the ISO's marker.
 """
 
 from __future__ import annotations
@@ -11,17 +11,17 @@ import struct
 from sunwidget.formats import xmp
 from sunwidget.formats.gain_map import ISO_NAME, GainMap, segment, segments
 
-_INDEX = 8 + 2 + 3 * 12 + 4 + 2 * 16  # bytes of a multi-picture index of two
+_INDEX = 8 + 2 + 3 * 12 + 4 + 2 * 16  # bytes of a multi-picture index with two entries
 
 
-def beside(picture: bytes, gain_map: GainMap) -> bytes:
-    """Return the JPEG ``picture`` with its map behind it; its XMP tells of the map already."""
+def append_gain_map(picture: bytes, gain_map: GainMap) -> bytes:
+    """Return the JPEG ``picture`` followed by its map; its XMP must already announce the map."""
     end = 2
     for marker, at, body in segments(picture):
         if 0xE0 <= marker <= 0xEF:
             end = at + 4 + len(body)
     head = picture[:end] + segment(0xE2, ISO_NAME + bytes(4))  # version 0 of its reader and writer
-    # Places are counted from the index's own beginning, behind marker, length and name.
+    # Offsets count from the start of the index, after marker, length and name.
     start = len(head) + 8
     whole = start + _INDEX + len(picture) - end
     index = struct.pack(">2sHIH", b"MM", 42, 8, 3)
@@ -34,8 +34,8 @@ def beside(picture: bytes, gain_map: GainMap) -> bytes:
     return head + segment(0xE2, b"MPF\0" + index) + picture[end:] + gain_map.jpeg
 
 
-def told_of(packet: bytes | None, gain_map: GainMap, longest: int) -> bytes:
-    """Return the picture's XMP with word of its map; that alone where both would be too long."""
+def with_gain_map_xmp(packet: bytes | None, gain_map: GainMap, longest: int) -> bytes:
+    """Return the picture's XMP with the map's entry, or the entry alone if both are too long."""
     length = len(gain_map.jpeg)
     whole = xmp.with_gain_map(packet, length)
     return whole if len(whole) <= longest else xmp.with_gain_map(None, length)

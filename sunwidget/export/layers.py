@@ -1,13 +1,13 @@
-"""A rendered scene taken apart: sky, clouds and land that make up the picture again.
+"""A rendered scene separated into sky, clouds and land, which composite to the picture again.
 
-Laid over each other from the bottom, sky, clouds, land, by plain "over" with straight alpha, the
-layers give the saved picture back, to a level or two of 8 bits: of code values in PNG, TIFF and
-WebP, as programs composite them, of light in OpenEXR and 32-bit TIFF.
+Composited from the bottom (sky, clouds, land) with plain "over" and straight alpha, the layers
+reproduce the saved picture to a level or two of 8 bits. PNG, TIFF and WebP layers composite as code
+values, as programs do it; OpenEXR and 32-bit TIFF layers as linear light.
 
-The clear sky is the picture drawn again without clouds; behind land and clouds it goes on
-smoothly. An alpha is the matte's or the clouds' opacity, and more where a layer would otherwise
-need light below black or above white to give the picture (Smith & Blinn, "Blue Screen Matting",
-1996: of one picture alone foregrounds are not unique; the least opaque one is taken).
+The clear sky is the picture rendered without clouds, continued smoothly behind land and clouds. An
+alpha is the opacity of the matte or of the clouds. It is higher where a layer would otherwise need
+light below black or above white (Smith & Blinn, "Blue Screen Matting", 1996: one picture does not
+determine its foreground; the least opaque one is taken).
 """
 
 from __future__ import annotations
@@ -30,43 +30,43 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float32]
 
 LAYERS = ("sky", "clouds", "land", "matte")
-"""Names, from the bottom; the matte (1 = sky) is no part of the picture."""
+"""Names from the bottom up; the matte (1 = sky) is not composited."""
 
-# Long edge at which the sky is continued behind the land: it is smooth.
+# Long edge, in pixels, of the sky behind the land; it is smooth.
 _FILLED_EDGE = 512
-# The matte from which on a pixel shows the sky alone.
+# Matte values over which a pixel comes to show sky alone.
 _SKY_FROM, _SKY_ALONE = 0.9, 1.0
-_BRIGHTEST = np.float32(16)  # of a layer in floats, display light
+_BRIGHTEST = np.float32(16)  # display light, of a float layer
 _LEAST = np.float32(1e-6)
 
 
 def layers_of(
     scene: Scene, edit: Edit, codes: NDArray[Any], draw: Callable[[Edit], NDArray[Any]]
 ) -> dict[str, NDArray[Any]]:
-    """Take a picture apart.
+    """Separate a picture into its layers.
 
     Parameters
     ----------
     scene, edit
-        What was drawn.
+        Scene and edit of the picture.
     codes : (H, W, 3) uint8, uint16 or float32
         The picture.
     draw : callable
-        Draws another edit the same way.
+        Draws another edit at the same size and type.
 
     Returns
     -------
     dict
-        ``sky`` (H, W, 3), ``clouds`` and ``land`` (H, W, 4), ``matte`` (H, W, 1), all in the type
-        of ``codes``; floats are not bounded above.
+        ``sky`` (H, W, 3), ``clouds`` and ``land`` (H, W, 4), ``matte`` (H, W, 1), all of the type
+        of ``codes``; floats have no upper bound.
     """
     clear = draw(edit.replace(cloud_opacity=0.0, added_clouds=0.0))
     scene = corrected(scene, edit)
     height, width = codes.shape[:2]
     matte, opacity = _resized(scene.sky, width, height), _resized(scene.clouds, width, height)
     top = np.float32(1 if codes.dtype.kind == "f" else np.iinfo(codes.dtype).max)
-    around = _Around(codes, clear, matte, opacity, edit, top)
-    made = {
+    around = _BehindLand(codes, clear, matte, opacity, edit, top)
+    layers = {
         name: np.empty((height, width, count), codes.dtype)
         for name, count in zip(LAYERS, (3, 4, 4, 1), strict=True)
     }
@@ -77,16 +77,18 @@ def layers_of(
         sky = _levels(share * _shares(clear[rows], top) + (1 - share) * behind, codes.dtype)
         seen = share * _shares(codes[rows], top) + (1 - share) * veiled
         wanted = share[..., 0] * share_of_cloud + (1 - share[..., 0]) * thick
-        made["sky"][rows] = sky
-        made["clouds"][rows] = _over(_shares(sky, top), seen, wanted, codes.dtype)
-        below = _composite(_shares(sky, top), _shares(made["clouds"][rows], top))
-        made["land"][rows] = _over(below, _shares(codes[rows], top), 1 - matte[rows], codes.dtype)
-        made["matte"][rows] = _levels(matte[rows][..., None], codes.dtype)
-    return made
+        layers["sky"][rows] = sky
+        layers["clouds"][rows] = _make_layer(_shares(sky, top), seen, wanted, codes.dtype)
+        below = _composite(_shares(sky, top), _shares(layers["clouds"][rows], top))
+        layers["land"][rows] = _make_layer(
+            below, _shares(codes[rows], top), 1 - matte[rows], codes.dtype
+        )
+        layers["matte"][rows] = _levels(matte[rows][..., None], codes.dtype)
+    return layers
 
 
-def layer_alone(still: Still, name: str) -> Still:
-    """Return one layer as a picture of its own, the matte as grey."""
+def extract_layer(still: Still, name: str) -> Still:
+    """Return one layer as a separate picture, the matte as gray."""
     import dataclasses
 
     samples = still.layers[name]
@@ -95,8 +97,8 @@ def layer_alone(still: Still, name: str) -> Still:
     return dataclasses.replace(still, codes=color, alpha=alpha, layers={})
 
 
-class _Around:
-    """The sky, its clouds and their opacity where land stands before them, from around it."""
+class _BehindLand:
+    """Sky, clouds and cloud opacity behind the land, filled in from around it."""
 
     def __init__(
         self,
@@ -127,21 +129,21 @@ class _Around:
         width, height = self.size
         small_height, small_width = self.filled[0].shape[:2]
         x, y = small_width / width, small_height / height
-        # From this strip's pixels to the small picture's, centres to centres.
-        way = np.array([[x, 0, x / 2 - 0.5], [0, y, (rows.start + 0.5) * y - 0.5]])
+        # From this strip's pixels to the small picture's, center to center.
+        to_small = np.array([[x, 0, x / 2 - 0.5], [0, y, (rows.start + 0.5) * y - 0.5]])
         flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
         target = (width, rows.stop - rows.start)
         bands = [
-            cv2.warpAffine(band, way, target, flags=flags, borderMode=cv2.BORDER_REPLICATE)
+            cv2.warpAffine(band, to_small, target, flags=flags, borderMode=cv2.BORDER_REPLICATE)
             for band in self.filled
         ]
         return bands[0], bands[1], bands[2]
 
 
-def _over(below: Floats, wanted: Floats, opacity: Floats, dtype: Any) -> NDArray[Any]:
-    """Return the layer (h, W, 4) that makes ``wanted`` of ``below``, at least this opaque."""
+def _make_layer(below: Floats, wanted: Floats, opacity: Floats, dtype: Any) -> NDArray[Any]:
+    """Return the layer (h, W, 4) that turns ``below`` into ``wanted``, at least this opaque."""
     bounded = dtype.kind != "f"
-    # Less than a level apart is the same.
+    # Differences below one level do not count.
     same = np.float32(1 / np.iinfo(dtype).max) if bounded else np.float32(1e-5)
     apart = wanted - below
     need = (-apart - same) / np.maximum(below, _LEAST)
@@ -152,7 +154,7 @@ def _over(below: Floats, wanted: Floats, opacity: Floats, dtype: Any) -> NDArray
         top = np.float32(np.iinfo(dtype).max)
         alpha = np.ceil(alpha * top - np.float32(0.01)) / top
     color = below + apart / np.maximum(alpha, _LEAST)[..., None]
-    # Where it shows nothing it has the picture's own colour, so that no fringe appears at its edge.
+    # A transparent pixel keeps the picture's color, so that no fringe appears at the layer's edge.
     color = np.where(alpha[..., None] > 0, color, wanted)
     return np.dstack([_levels(color, dtype), _levels(alpha[..., None], dtype)])
 
@@ -174,18 +176,18 @@ def _levels(values: Floats, dtype: Any) -> NDArray[Any]:
 
 
 def _sky_share(matte: Floats) -> Floats:
-    """How much of what is known of the sky at a pixel is the pixel's own."""
+    """Return the weight of a pixel's own color in the sky layer; the rest is filled in."""
     x = np.clip((matte - _SKY_FROM) / (_SKY_ALONE - _SKY_FROM), 0, 1)
     return np.asarray(x * x * (3 - 2 * x), np.float32)
 
 
 def own_opacity(clouds: Floats, matte: Floats) -> Floats:
-    """Opacity of the clouds where they are seen: the map holds it times the matte."""
+    """Return the opacity of the visible clouds; the map stores it multiplied by the matte."""
     return np.clip(clouds / np.maximum(matte, np.float32(1 / 255)), 0, 1)
 
 
 def edited_opacity(opacity: Floats, edit: Edit) -> Floats:
-    """Opacity as the edit makes it (docs/methods/clouds.md)."""
+    """Return the opacity under an edit (docs/methods/clouds.md)."""
     q = np.float32(edit.cloud_opacity)
     if q <= 1:
         return q * opacity
@@ -198,5 +200,5 @@ def _resized(image: NDArray[Any], width: int, height: int) -> NDArray[Any]:
     if image.shape[:2] == (height, width):
         return image
     smaller = width <= image.shape[1] and height <= image.shape[0]
-    way = cv2.INTER_AREA if smaller else cv2.INTER_LINEAR
-    return np.asarray(cv2.resize(image, (width, height), interpolation=way))
+    filter_ = cv2.INTER_AREA if smaller else cv2.INTER_LINEAR
+    return np.asarray(cv2.resize(image, (width, height), interpolation=filter_))

@@ -1,11 +1,11 @@
-"""Short texts on pictures that the kernel makes."""
+"""Short texts drawn on pictures."""
 
 from __future__ import annotations
 
 import math
 from typing import Any
 
-# The bundled font has no such signs.
+# The bundled font lacks these characters.
 _SIGNS = str.maketrans({"×": "x", "–": "-", "—": "-", "≤": "<", "≥": ">", "−": "-", "→": ">"})
 
 
@@ -17,7 +17,7 @@ def font(size: int) -> Any:
 
 
 def width(text: str, size: int) -> int:
-    """Return how wide a text is, in pixels."""
+    """Return the width of a text in pixels."""
     return math.ceil(font(size).getlength(text.translate(_SIGNS)))
 
 
@@ -27,7 +27,7 @@ def write(draw: Any, at: tuple[int, int], text: str, size: int, colour: Any) -> 
 
 
 def cut(text: str, room: int, size: int) -> str:
-    """Return the text, or as much of it as fits, with an ellipsis."""
+    """Return the text, shortened with an ellipsis where it does not fit."""
     if width(text, size) <= room:
         return text
     while text and width(text + "…", size) > room:
@@ -36,7 +36,7 @@ def cut(text: str, room: int, size: int) -> str:
 
 
 def wrapped(text: str, room: int, size: int) -> list[str]:
-    """Break a text into lines at its blanks."""
+    """Break a text into lines at its spaces."""
     lines, line = [], ""
     for word in text.split():
         longer = f"{line} {word}".strip()

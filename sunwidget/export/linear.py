@@ -1,9 +1,9 @@
-"""Linear light to the bytes of an OpenEXR or Radiance HDR file.
+"""Encoders for linear light: OpenEXR and Radiance HDR.
 
-The light is what ``render(…, dtype="float32")`` returns: linear Rec. 709, 1 = the display's
+The light is the result of ``render(…, dtype="float32")``: linear Rec. 709, 1 = the display's
 white. The sRGB (or the photo's own) encoding is undone, the camera's tone curve is not.
-Neither format has a place for EXIF and XMP: they travel as notes that ``sunwidget.open`` reads,
-and EXR's standard attributes tell the rest of the world about the shot.
+Neither format has fields for EXIF and XMP. Both are stored as notes that ``sunwidget.open`` reads;
+EXR's standard attributes describe the shot for other programs.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sunwidget.export.lost import warn_lost
+from sunwidget.export.dropped import warn_dropped
 from sunwidget.export.metadata import software
 from sunwidget.formats import exif as exif_tags
 from sunwidget.formats import openexr, radiance
@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 
 # EXIF tag -> OpenEXR's standard attribute ("Standard Optional Attributes").
 _OF_SHOT = {0x829A: "expTime", 0x829D: "aperture", 0x8827: "isoSpeed"}
-# Channels below this are colours outside Rec. 709, not noise.
+# Channels below this are colors outside Rec. 709, not noise.
 _OUTSIDE = -1e-3
 
 
 def exr(still: Still) -> bytes:
-    """Encode as OpenEXR, half or single floats; layers as ``layer.channel``."""
+    """Encode as OpenEXR in half or single floats, with layers as ``layer.channel``."""
     channels = _channels("", still.samples)
     for name, samples in still.layers.items():
         channels |= _channels(f"{name}.", samples)
@@ -44,11 +44,11 @@ def exr(still: Still) -> bytes:
 
 
 def hdr(still: Still) -> bytes:
-    """Encode as Radiance HDR. Alpha and colours outside Rec. 709 are lost."""
+    """Encode as Radiance HDR. Drops alpha and clips colors outside Rec. 709."""
     if still.alpha is not None:
-        warn_lost("Radiance HDR has no transparency; it is left out. OpenEXR keeps it.")
+        warn_dropped("Radiance HDR has no transparency; it was dropped. OpenEXR keeps it.")
     if float(still.codes.min()) < _OUTSIDE:
-        warn_lost("Radiance HDR has no colours outside Rec. 709; they are cut. OpenEXR keeps them.")
+        warn_dropped("Radiance HDR clips colors outside Rec. 709. OpenEXR keeps them.")
     return radiance.pack(still.codes, _notes(still), software=software())
 
 
@@ -56,7 +56,7 @@ def _channels(prefix: str, samples: NDArray[np.float32]) -> dict[str, NDArray[np
     count = samples.shape[2]
     names = "RGBA"[:count] if count >= 3 else "Y"
     color = samples
-    if count == 4:  # OpenEXR's colours are multiplied by alpha
+    if count == 4:  # OpenEXR's colors are multiplied by alpha
         color = samples.copy()
         color[..., :3] *= samples[..., 3:]
     return {prefix + name: color[..., i] for i, name in enumerate(names)}

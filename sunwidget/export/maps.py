@@ -1,4 +1,4 @@
-"""Everything the analysis found, as pictures and one JSON file a person can look at."""
+"""All results of the analysis as pictures and one readable JSON file."""
 
 from __future__ import annotations
 
@@ -34,31 +34,31 @@ FACTS = (
 def save_maps(
     scene: Scene, folder: str | os.PathLike[str], *, overwrite: bool = False
 ) -> list[Path]:
-    """Write every map of ``scene`` as a grey PNG, an overview, and ``scene.json``.
+    """Write every map of ``scene`` as a gray PNG, an overview, and ``scene.json``.
 
     Parameters
     ----------
     scene : Scene
         What ``analyze`` returned.
     folder : path
-        Made when missing. Gets a PNG at the photo's size for every entry of
-        ``analysis.maps.MAPS`` that this scene has (8 bits; depth has 16), ``overview.png`` (all
-        of them small, in colours, with legends) and ``scene.json`` (what was found in numbers,
-        the seconds of every stage, and how each file's levels become values).
+        Created if missing. It receives a PNG at the photo's size for every entry of
+        ``analysis.maps.MAPS`` that this scene has (8 bits; depth has 16), ``overview.png`` (all of
+        them small, in color, with legends) and ``scene.json`` (numeric results, the seconds of
+        every stage, and how each file's levels convert to values).
     overwrite : bool
         Replace existing files.
 
     Returns
     -------
     list of Path
-        What was written, in that order.
+        The files, in that order.
 
     Raises
     ------
     FileExistsError
-        When one of the files exists and ``overwrite`` is false; nothing is written then.
+        When one of the files exists and ``overwrite`` is false. Nothing is written then.
     OSError
-        When there can be no such folder, or the disk is full: none of the files is left then.
+        When the folder cannot be created or the disk is full. No file is left then.
     """
     from PIL import Image
 
@@ -80,7 +80,7 @@ def save_maps(
     text = json.dumps(facts(scene, made), indent=2, allow_nan=False, ensure_ascii=False)
     with explained(folder), contextlib.ExitStack() as stack:
         folder.mkdir(parents=True, exist_ok=True)
-        # None gets its name before all are written.
+        # Every file is written before the first one gets its name.
         whole = [stack.enter_context(complete_or_absent(p, overwrite=overwrite)) for p in paths]
         for unfinished, image in zip(whole, images.values(), strict=False):
             image.save(unfinished)
@@ -89,7 +89,7 @@ def save_maps(
 
 
 def facts(scene: Scene, made: list[str] | None = None) -> dict[str, Any]:
-    """Return what the analysis found besides maps, as plain JSON types.
+    """Return the numeric results of the analysis as plain JSON types.
 
     ``made`` names the maps to describe: file, title, unit, and the value of a level.
     """
@@ -110,7 +110,7 @@ def facts(scene: Scene, made: list[str] | None = None) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """Return ``value`` as JSON types; arrays are maps, which have their own files."""
+    """Return ``value`` as JSON types, without arrays: the maps have their own files."""
     if dataclasses.is_dataclass(value):
         pairs = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
         return {k: _plain(v) for k, v in pairs.items() if not isinstance(v, np.ndarray)}

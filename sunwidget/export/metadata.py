@@ -1,4 +1,4 @@
-"""What a saved picture tells besides its pixels: the photo's own metadata, and the edit."""
+"""Metadata of a saved picture: the photo's own, and the edit."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ _SOFTWARE = 0x0131
 
 
 def software() -> str:
-    """Return program and version, as files name them."""
+    """Return program and version, as written into files."""
     from sunwidget.version import __version__
 
     return f"sunwidget {__version__}"
 
 
-def told(
+def metadata_for(
     photo: Photo, size: tuple[int, int], recipe: dict[str, Any] | None = None
 ) -> dict[str, Any]:
-    """Return the fields of a ``Still`` that tell of ``photo``, for a picture of ``size``.
+    """Return the metadata fields of a ``Still`` for a picture of ``photo`` at ``size``.
 
     Parameters
     ----------
     photo : Photo
-        Whose EXIF, XMP, ICC profile and resolution to keep.
+        Source of EXIF, XMP, ICC profile and resolution.
     size : (width, height)
-        Of the picture to be written; the EXIF tells it.
+        Size of the written picture, recorded in the EXIF.
     recipe : dict, optional
-        The edit that was made now: it goes into the EXIF's user comment and into the XMP, where
-        the history gets one more entry, and sunwidget becomes the file's ``Software``. Without it
-        nothing is added to what the photo had.
+        The edit. It is written into the EXIF user comment and the XMP, whose history gets one more
+        entry, and sunwidget becomes the file's ``Software``. Without it the photo's metadata stays
+        unchanged.
     """
     read = exif_tags.load(photo.exif) if photo.exif else None
     packet = photo.xmp

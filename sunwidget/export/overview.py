@@ -1,4 +1,4 @@
-"""One picture of everything the analysis found: all maps small, titled, with their legends."""
+"""One picture of all results of the analysis: small maps with titles and legends."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _BACK, _TEXT, _QUIET, _WARN = (24, 25, 27), (236, 237, 239), (160, 164, 170), (2
 
 
 def overview(scene: Scene) -> Image.Image:
-    """Return a sheet: the photo with its findings drawn in, every map over the photo, warnings.
+    """Return a sheet: the photo with its findings marked, every map over the photo, warnings.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def overview(scene: Scene) -> Image.Image:
     photo = scene.photo.preview(long_edge=_LONG_EDGE)
     height, width = photo.shape[:2]
     tiles: list[tuple[str, str, Image.Image, SceneMap | None]] = [
-        (scene.photo.name, _facts(scene), marked(scene), None)
+        (scene.photo.name, _facts(scene), draw_findings(scene), None)
     ]
     absent = []
     for entry in MAPS:
@@ -50,7 +50,7 @@ def overview(scene: Scene) -> Image.Image:
         else:
             empty = entry.low == 0 and float(shares.max()) < 1 / 255
             text = "None found: 0 everywhere." if empty else entry.help
-            tiles.append((entry.title, text, tinted(photo, shares, entry), entry))
+            tiles.append((entry.title, text, tint_map(photo, shares, entry), entry))
     cell_width = max(width, 300)
     columns = min(_COLUMNS, max(2, round(1760 / cell_width)))
     cell_height = 30 + height + 26 + 2 * _LINE + 18
@@ -84,7 +84,7 @@ def overview(scene: Scene) -> Image.Image:
     return sheet
 
 
-def marked(scene: Scene, long_edge: int = _LONG_EDGE) -> Image.Image:
+def draw_findings(scene: Scene, long_edge: int = _LONG_EDGE) -> Image.Image:
     """Return the photo with the sky's edge (blue), the horizon (red) and the sun (yellow)."""
     import cv2
     from PIL import Image, ImageDraw
@@ -110,14 +110,14 @@ def marked(scene: Scene, long_edge: int = _LONG_EDGE) -> Image.Image:
     return image
 
 
-def tinted(photo: np.ndarray, shares: np.ndarray, entry: SceneMap) -> Image.Image:
-    """Return a map in its colours over the photo in quiet grey.
+def tint_map(photo: np.ndarray, shares: np.ndarray, entry: SceneMap) -> Image.Image:
+    """Return a map in color over the photo in subdued gray.
 
     Parameters
     ----------
     photo : (h, w, 3) uint8
     shares : (h, w) float32
-        As ``shares_of`` gives them.
+        As returned by ``shares_of``.
     entry : SceneMap
     """
     from PIL import Image
@@ -133,10 +133,10 @@ def _facts(scene: Scene) -> str:
     sky = 100 * float(np.mean(scene.sky))
     parts = [f"{scene.width} x {scene.height}, sky {sky:.0f} %"]
     if scene.sun is None:
-        parts.append("no sun found, its place assumed")
+        parts.append("no sun found, position assumed")
     else:
         side = "left" if scene.sun.azimuth < 0 else "right"
-        where = "" if scene.sun.visible else " (not seen)"
+        where = "" if scene.sun.visible else " (not visible)"
         what = f"{scene.sun.kind} {abs(scene.sun.azimuth):.1f}° {side}"
         parts.append(f"{what}, {scene.sun.elevation:.1f}° up{where}")
     horizon = scene.horizon
@@ -153,7 +153,7 @@ def _facts(scene: Scene) -> str:
 
 
 def _legend(sheet: Image.Image, at: tuple[int, int], width: int, entry: SceneMap) -> None:
-    """Draw the ramp with its first and last value at its ends."""
+    """Draw the color ramp between its lowest and highest value."""
     from PIL import Image, ImageDraw
 
     colours = ramp_colours(entry.ramp, 160)

@@ -1,4 +1,4 @@
-"""Pictures beside each other with their names: one picture."""
+"""Several named pictures side by side in one picture."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sunwidget.export import lettering
 if TYPE_CHECKING:
     from PIL import Image
 
-_GAP, _BAND, _SIZE = 4, 26, 15  # pixels between pictures, above each, and of its letters
+_GAP, _BAND, _SIZE = 4, 26, 15  # pixels: between pictures, above each one, size of the letters
 _WIDEST = 5  # width over height
 _BACK, _TEXT = (32, 32, 32), (236, 236, 236)
 
@@ -26,7 +26,7 @@ def sheet(pictures: Mapping[str, np.ndarray], columns: int | None = None) -> Ima
     pictures : mapping
         (H, W, 3) uint8 arrays, sRGB, by name; at least one.
     columns : int, optional
-        Pictures in a row. Default: so that it is at most about five times as wide as high.
+        Pictures per row. Default: as many as keep the sheet at most five times as wide as high.
 
     Returns
     -------
@@ -50,7 +50,7 @@ def sheet(pictures: Mapping[str, np.ndarray], columns: int | None = None) -> Ima
 
 
 def _across(count: int, width: int, height: int) -> int:
-    """Return how many stand in a row: all, unless that makes a strip."""
+    """Return the number of pictures per row: all, unless the sheet becomes too wide."""
 
     def aspect(across: int) -> float:
         return (across * width) / (math.ceil(count / across) * height)

@@ -1,4 +1,4 @@
-"""A picture ready to be written: what every encoder takes."""
+"""The input of every encoder: a picture ready to be written."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from sunwidget.formats.gain_map import GainMap
 class Still:
     """A picture ready to be written.
 
-    ``codes`` is (H, W, 3) uint8 or uint16, or float32 linear Rec. 709; ``alpha`` (H, W) in the
-    same type (floats: 0–1) or None; ``bits`` those of a channel in the file. ``exif`` is a block as
-    Pillow makes it, with its six-byte head. ``layers`` are (H, W, 1, 3 or 4) by name, in the type
-    of ``codes``, alpha straight; ``attributes`` go into an OpenEXR's header; ``gain_map`` behind
-    a JPEG.
+    ``codes`` is (H, W, 3) uint8 or uint16, or float32 linear Rec. 709. ``alpha`` is (H, W) of the
+    same type (floats: 0–1) or None. ``bits`` is the file's bits per channel. ``exif`` is a block as
+    Pillow writes it, with its six-byte header. ``layers`` are (H, W, 1, 3 or 4) by name, typed as
+    ``codes``, with straight alpha. ``attributes`` go into an OpenEXR header, ``gain_map`` after
+    the JPEG data.
     """
 
     codes: NDArray[Any]
@@ -37,7 +37,7 @@ class Still:
 
     @property
     def samples(self) -> NDArray[Any]:
-        """Colour, and alpha where there is one: (H, W, 3 or 4)."""
+        """Color and, if present, alpha: (H, W, 3 or 4)."""
         if self.alpha is None:
             return self.codes
         return np.dstack([self.codes, self.alpha])

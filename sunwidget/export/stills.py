@@ -1,8 +1,7 @@
-"""Stills on disk: the picture in the photo's own encoding, or as light, with its metadata.
+"""Saving stills in the photo's own encoding, or as linear light, with metadata.
 
-What an edit did not touch keeps its code values exactly: an unmoved photo, saved again
-as PNG or TIFF, has the very pixels it was opened with, in 8 and 16 bits and in any
-colour profile.
+Pixels that an edit does not change keep their exact code values: an unmoved photo saved as PNG or
+TIFF has the pixels that it was opened with, in 8 and 16 bits and in any color profile.
 """
 
 from __future__ import annotations
@@ -19,8 +18,8 @@ from sunwidget.edit.table import Edit
 from sunwidget.errors import PhotoError
 from sunwidget.export.formats import Format, check_format, check_quality
 from sunwidget.export.gain_map import gain_map_of
-from sunwidget.export.layers import LAYERS, layer_alone, layers_of
-from sunwidget.export.metadata import told
+from sunwidget.export.layers import LAYERS, extract_layer, layers_of
+from sunwidget.export.metadata import metadata_for
 from sunwidget.export.still import Still
 from sunwidget.files import complete_or_absent, target
 from sunwidget.formats.color import strips
@@ -29,9 +28,8 @@ from sunwidget.progress import Progress
 
 __all__ = ["check_format", "encode_like", "save"]
 
-# Light that differs less than this from the photo's own is the photo's own: it is the
-# noise of float32 arithmetic, but near black a gamma of 2.2 would blow it up to dozens
-# of 16-bit levels.
+# Differences from the photo's light below this are float32 noise. Near black a gamma of 2.2 would
+# amplify them to dozens of 16-bit levels.
 _SAME_LIGHT = 2e-7
 _SAME_SHARE = 1e-6
 
@@ -49,64 +47,64 @@ def save(
     headroom: float = 0.0,
     progress: Progress | None = None,
 ) -> Path:
-    """Write a picture as PNG, JPEG, TIFF, WebP, OpenEXR or Radiance HDR, whole or not at all.
+    """Save a picture as PNG, JPEG, TIFF, WebP, OpenEXR or Radiance HDR.
+
+    The file appears only when it is complete.
 
     Parameters
     ----------
     picture : (Scene, Edit), Scene, Photo or (H, W, 3) array
-        A scene and an edit are rendered at full size and written in the photo's own profile and
-        bit depth, with the recipe in EXIF and XMP. uint8 and uint16 arrays are sRGB, float arrays
+        A scene and an edit are rendered at full size and saved in the photo's profile and bit
+        depth, with the recipe in EXIF and XMP. uint8 and uint16 arrays are sRGB, float arrays
         linear Rec. 709 light.
     path : path
-        The ending chooses the format: .png, .jpg, .tif, .webp; .exr (half floats; needs the
+        The extension selects the format: .png, .jpg, .tif, .webp; .exr (half floats; needs the
         ``exr`` extra) and .hdr hold linear Rec. 709 light, 1 = white.
     like : Photo or Scene, optional
-        For arrays: whose profile and metadata (EXIF, ICC, XMP, resolution) to carry.
+        For arrays: source of the profile and metadata (EXIF, ICC, XMP, resolution).
     overwrite : bool
         Replace an existing file.
     quality : int
-        Of JPEG and WebP, 1–100. WebP is lossless at 100, and a gain map then makes up for what
-        JPEG has rounded of its picture's luminance.
+        JPEG and WebP quality, 1–100. At 100 WebP is lossless, and a JPEG's gain map also corrects
+        the rounding of the picture's luminance.
     bit_depth : {8, 16, 32}, optional
-        Bits a channel. Default: the photo's or the array's own; 16 for floats. 32 are floats of
-        linear light, in .tif and .exr.
+        Bits per channel. Default: as the photo or array; 16 for floats. 32 saves floats of linear
+        light, in .tif and .exr.
     size : (width, height), optional
-        Of a rendered scene, in pixels. Default: the photo's own.
+        Size of a rendered scene in pixels. Default: the photo's own.
     layers : bool
-        Also write the sky, the clouds, the land and the matte of a scene (``export.layers``): as
-        pages of a .tif, as ``sky.R`` … of an .exr, as files ``out.sky.png`` … beside a .png or
-        .webp.
+        Also save the sky, clouds, land and matte of a scene (``export.layers``): as pages of a
+        .tif, as ``sky.R`` … in an .exr, as files ``out.sky.png`` … beside a .png or .webp.
     headroom : float, 0–8
-        Stops of light above white to keep of a rendered scene: of the moved sun, its glow and
-        glitter (``render``). In .jpg as a gain map (ISO 21496-1, "Ultra HDR"): screens that can
-        show them brighter than white, and its own pixels are the picture without. In .exr, .hdr
-        and 32-bit .tif in the light itself. An unmoved photo keeps the gain map that its file came
-        with, whatever is asked for.
+        Stops of light above white to keep of a rendered scene: the moved sun, its glow and glitter
+        (``render``). A .jpg stores them as a gain map (ISO 21496-1, "Ultra HDR"): HDR screens show
+        them brighter than white, others show the plain picture. An .exr, .hdr or 32-bit .tif
+        stores them as light. An unmoved photo always keeps the gain map of its file.
     progress : callable, optional
-        Called as ``progress(fraction, message)`` while a scene is rendered; what it raises
+        Called as ``progress(fraction, message)`` while a scene is rendered. An exception from it
         cancels the export.
 
     Returns
     -------
     Path
-        Where the picture is.
+        The saved file.
 
     Raises
     ------
     FileExistsError
         When ``path``, or a file for a layer, exists and ``overwrite`` is false.
     PhotoError
-        For an unknown ending, or a picture that this format or this function cannot take.
+        For an unknown extension, or a picture that the format or this function does not support.
     EditError
         For a size or headroom out of range.
     OSError
-        When the folder is missing or the disk full; no half-written file is left.
+        When the folder is missing or the disk is full. No half-written file is left.
 
     Warns
     -----
     PhotoWarning
-        When the format cannot keep something, such as transparency in a JPEG, and when nothing is
-        brighter than white, so that there is no gain map.
+        When the format drops something, such as transparency in a JPEG, and when no pixel is
+        brighter than white, so that no gain map is written.
     """
     place = target(path, overwrite=overwrite)
     headroom = checked_headroom(headroom)
@@ -116,12 +114,12 @@ def save(
     places = {name: place.with_suffix(f".{name}{place.suffix}") for name in names}
     for beside in places.values():
         target(beside, overwrite=overwrite)
-    wanted = _Wanted(form, bit_depth, size, layers, headroom, quality, progress)
-    still = _still(picture, _photo_of(like), wanted)
+    options = _SaveOptions(form, bit_depth, size, layers, headroom, quality, progress)
+    still = _make_still(picture, _photo_of(like), options)
     still.quality = quality
     files = {place: form.encode(still)}
     for name, beside in places.items():
-        files[beside] = form.encode(layer_alone(still, name))
+        files[beside] = form.encode(extract_layer(still, name))
     with contextlib.ExitStack() as stack:
         for where, data in files.items():
             unfinished = stack.enter_context(complete_or_absent(where, overwrite=overwrite))
@@ -136,35 +134,35 @@ def encode_like(
     bit_depth: int | None = None,
     rows: slice = slice(None),
 ) -> NDArray[Any]:
-    """Encode light in the profile of ``photo``; pixels that equal its own keep their codes.
+    """Encode light in the profile of ``photo``; unchanged pixels keep the photo's code values.
 
     Parameters
     ----------
     photo : Photo
-        Whose profile and, by default, bit depth to use.
+        Source of the profile and of the default bit depth.
     light : (H, W, 3) float array
-        Linear Rec. 709. Colours outside the profile's gamut are clamped.
+        Linear Rec. 709. Colors outside the profile's gamut are clamped.
     bit_depth : {8, 16}, optional
         Default: the photo's own, 16 for a float photo.
     rows : slice, optional
-        Which rows of the photo ``light`` is. Default: all.
+        Rows of the photo that ``light`` covers. Default: all.
 
     Returns
     -------
     (H, W, 3) uint8 or uint16 array
-        Changed pixels of 8 bits are dithered (triangular, half a level, fixed seed), so
-        that a smooth sky does not band.
+        Changed 8-bit pixels are dithered (triangular, half a level, fixed seed) against banding
+        in a smooth sky.
     """
     bits = bit_depth or min(photo.bit_depth, 16)
     dtype = np.dtype(np.uint8 if bits == 8 else np.uint16)
     first = rows.indices(photo.height)[0]
-    # Strips must not repeat one another's noise.
+    # The seed differs by strip, so that strips do not repeat the same noise.
     codes = photo.profile.encode(light, dtype, dither=dtype == np.uint8, seed=first)
     own = photo.encoded[rows]
     if own.shape != light.shape or own.dtype.kind == "f":
         return codes
     if own.dtype != dtype:
-        # 257 takes each 8-bit level to its 16-bit one, and back after rounding.
+        # A factor of 257 maps 8-bit levels to 16-bit ones, and back after rounding.
         own = own * np.uint16(257) if bits == 16 else np.rint(own / 257).astype(np.uint8)
     for part in strips(light.shape):
         was = photo.light(slice(first + part.start, first + part.stop))
@@ -174,8 +172,8 @@ def encode_like(
     return codes
 
 
-class _Wanted(NamedTuple):
-    """What was asked for besides the picture."""
+class _SaveOptions(NamedTuple):
+    """The options of ``save``."""
 
     form: Format
     bit_depth: int | None
@@ -186,20 +184,20 @@ class _Wanted(NamedTuple):
     progress: Progress | None
 
     def bits(self, own: int) -> int:
-        """Bits a channel for a picture that has ``own``."""
+        """Return the file's bits per channel for a picture with ``own`` bits."""
         if self.bit_depth is not None or self.form.linear:
             return self.bit_depth or self.form.depths[0]
         return min(16 if own > 8 else 8, self.form.depths[0])
 
     def is_light(self, bits: int) -> bool:
-        """Tell whether the file holds linear light in floats."""
+        """Return whether the file holds linear light in floats."""
         return self.form.linear or bits == 32
 
 
 def checked_headroom(headroom: Any) -> float:
-    """Return stops of light above white; an EditError says what is wrong with others."""
+    """Return the stops of light above white, or raise EditError."""
     if type(headroom) in {int, float} and headroom == 0:
-        return 0.0  # without the renderer, which pictures from elsewhere do not need
+        return 0.0  # avoids importing the renderer, which arrays and photos do not need
     from sunwidget.renderer.offscreen import checked_headroom as checked
 
     return checked(headroom)
@@ -212,20 +210,20 @@ def _photo_of(like: Any) -> Photo | None:
     raise PhotoError(f"like must be a Photo or Scene, not {type(like).__name__}.")
 
 
-def _still(picture: Any, like: Photo | None, wanted: _Wanted) -> Still:
-    """Bring whatever a person passed to codes or light, and metadata."""
+def _make_still(picture: Any, like: Photo | None, options: _SaveOptions) -> Still:
+    """Convert any accepted picture to code values or light, with metadata."""
     if hasattr(picture, "photo"):
         picture = (picture, None)
     if isinstance(picture, tuple):
-        return _of_scene(*_scene_and_edit(picture), wanted)
-    if wanted.size is not None or wanted.layers:
-        raise PhotoError("size and layers are of a rendered scene: save (scene, edit).")
-    if wanted.headroom and not isinstance(picture, Photo):
-        raise PhotoError("headroom is of a rendered scene: save (scene, edit).")
+        return _make_still_of_scene(*_scene_and_edit(picture), options)
+    if options.size is not None or options.layers:
+        raise PhotoError("size and layers apply to a rendered scene only: save (scene, edit).")
+    if options.headroom and not isinstance(picture, Photo):
+        raise PhotoError("headroom applies to a rendered scene only: save (scene, edit).")
     array = open_photo(picture)
-    bits = wanted.bits(array.bit_depth)
+    bits = options.bits(array.bit_depth)
     source = like or array
-    if wanted.is_light(bits):
+    if options.is_light(bits):
         codes: NDArray[Any] = array.pixels
     elif like is None or like.profile.is_srgb:
         codes = _own_codes(array, bits)
@@ -237,30 +235,30 @@ def _still(picture: Any, like: Photo | None, wanted: _Wanted) -> Still:
     return still
 
 
-def _of_scene(scene: Any, edit: Edit | None, wanted: _Wanted) -> Still:
+def _make_still_of_scene(scene: Any, edit: Edit | None, options: _SaveOptions) -> Still:
     photo: Photo = scene.photo
-    bits = wanted.bits(photo.bit_depth)
-    is_light = wanted.is_light(bits)
+    bits = options.bits(photo.bit_depth)
+    is_light = options.is_light(bits)
 
-    def drawn(edit: Edit | None, share: float, done: float) -> NDArray[Any]:
+    def draw(edit: Edit | None, share: float, done: float) -> NDArray[Any]:
         def progress(fraction: float, message: str) -> None:
-            if wanted.progress is not None:
-                wanted.progress(done + share * fraction, message)
+            if options.progress is not None:
+                options.progress(done + share * fraction, message)
 
-        white = wanted.headroom if is_light else 0.0
-        return _rendered(scene, edit, 32 if is_light else bits, wanted.size, progress, white)
+        white = options.headroom if is_light else 0.0
+        return _draw(scene, edit, 32 if is_light else bits, options.size, progress, white)
 
-    makes_map = wanted.form.gain_map and wanted.headroom > 0
-    codes = drawn(edit, 0.5 if wanted.layers or makes_map else 1.0, 0.0)
+    makes_map = options.form.gain_map and options.headroom > 0
+    codes = draw(edit, 0.5 if options.layers or makes_map else 1.0, 0.0)
     recipe = edit.to_dict() if edit is not None else None
     still = _with_metadata(codes, photo, photo.alpha, bits, recipe)
     if edit is None or edit == Edit() or np.array_equal(codes, photo.encoded):
         still.gain_map = photo.gain_map
     elif makes_map:
-        still.quality = wanted.quality
-        still.gain_map = gain_map_of(scene, edit, still, wanted.headroom, wanted.progress)
-    if wanted.layers:
-        still.layers = layers_of(scene, edit or Edit(), codes, lambda e: drawn(e, 0.5, 0.5))
+        still.quality = options.quality
+        still.gain_map = gain_map_of(scene, edit, still, options.headroom, options.progress)
+    if options.layers:
+        still.layers = layers_of(scene, edit or Edit(), codes, lambda e: draw(e, 0.5, 0.5))
     return still
 
 
@@ -272,7 +270,7 @@ def _scene_and_edit(pair: tuple[Any, ...]) -> tuple[Any, Edit | None]:
         if isinstance(edit, dict):
             return scene, Edit.from_dict(edit)
     raise PhotoError(
-        f"A tuple to save is (scene, edit), not ({', '.join(type(x).__name__ for x in pair)})."
+        f"A tuple must be (scene, edit), not ({', '.join(type(x).__name__ for x in pair)})."
     )
 
 
@@ -285,7 +283,7 @@ def _own_codes(photo: Photo, bits: int) -> NDArray[Any]:
     return codes
 
 
-def _rendered(
+def _draw(
     scene: Any,
     edit: Edit | None,
     bits: int,
@@ -301,7 +299,7 @@ def _rendered(
     if size is not None:
         more["size"] = size = checked_size(size)
     if bits == 8 and photo.bit_depth == 8 and photo.profile.is_srgb:
-        # The same call as sw.render: the file is the very frame that the canvas shows.
+        # The same call as sw.render: the file equals the frame that the canvas shows.
         return render(scene, edit, **more)
     if bits == 32:
         return render(scene, edit, dtype="float32", headroom=headroom, **more)
@@ -321,15 +319,15 @@ def _with_metadata(
 ) -> Still:
     height, width = codes.shape[:2]
     still = Still(codes, alpha=_alpha_codes(alpha, codes), bits=bits)
-    for name, value in told(photo, (width, height), recipe).items():
+    for name, value in metadata_for(photo, (width, height), recipe).items():
         setattr(still, name, value)
     if codes.dtype.kind == "f":
-        still.icc = None  # it is of the encoding that was undone
+        still.icc = None  # the profile describes the encoding, which was undone
     return still
 
 
 def _alpha_codes(alpha: NDArray[np.float32] | None, codes: NDArray[Any]) -> NDArray[Any] | None:
-    """Alpha in the type and size of ``codes``; None where the shape is another (a cut-out)."""
+    """Return alpha in the type and size of ``codes``; None for another aspect ratio (a crop)."""
     if alpha is None:
         return None
     (height, width), own = codes.shape[:2], alpha.shape

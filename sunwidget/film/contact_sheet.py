@@ -1,4 +1,4 @@
-"""A film at a glance: some of its frames on one sheet."""
+"""Contact sheets: some frames of a film on one sheet."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
     from sunwidget.edit.table import Edit
 
-_LONG_EDGE = 400  # of a picture on the sheet, in pixels
+_LONG_EDGE = 400  # in pixels, of a picture on the sheet
 _MOST = 400
 
 
@@ -37,24 +37,24 @@ def contact_sheet(
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> Image.Image:
-    """Return frames of a film, evenly apart, on one sheet, each with its sun's elevation.
+    """Return evenly spaced frames of a film on one sheet, each with its sun's elevation.
 
     Parameters
     ----------
     scene, path, easing
-        As for ``sweep``. The frames of a ``Day`` are named by their time in UTC.
+        As for ``sweep``. The frames of a ``Day`` are labeled with their time in UTC.
     out : path, optional
-        Where to write it as well: .png, .jpg, .tif or .webp.
+        File to save the sheet to as well: .png, .jpg, .tif or .webp.
     columns : int, optional
-        Frames in a row. Default: four, three for upright photos.
+        Frames per row. Default: four, three for upright photos.
     frames : int
-        How many, 2–400; the first and the last of the film are among them.
+        Number of frames, 2–400, including the first and the last of the film.
     size : (width, height), optional
         Pixels of one frame. Default: the photo's shape, 400 on the longer side.
     overwrite : bool
         Replace an existing file.
     progress : callable, optional
-        Called as ``progress(fraction, message)`` after every frame; what it raises cancels.
+        Called as ``progress(fraction, message)`` after every frame. An exception from it cancels.
 
     Returns
     -------
@@ -66,7 +66,7 @@ def contact_sheet(
     FileExistsError
         When ``out`` exists and ``overwrite`` is false.
     ValueError
-        For an impossible number of frames or columns, or a path that is none.
+        For an invalid number of frames or columns, or an invalid path.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""How a move starts and stops: the timing functions of CSS (CSS Easing Functions Level 1)."""
+"""Easing functions, after CSS (CSS Easing Functions Level 1)."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ def _bezier(first: tuple[float, float], second: tuple[float, float]) -> Callable
 
     def ease(fraction: float) -> float:
         low, high = 0.0, 1.0
-        for _ in range(40):  # x grows with s, so halving finds it
+        for _ in range(40):  # x increases with s, so bisection finds it
             s = (low + high) / 2
             low, high = (s, high) if at(x1, x2, s) < fraction else (low, s)
         return at(y1, y2, (low + high) / 2)
 
-    # Halving comes near the ends; a film's first and last frames are the ends.
+    # Bisection only approaches the ends, which a film's first and last frames must reach.
     return lambda fraction: fraction if fraction in (0.0, 1.0) else ease(fraction)
 
 
@@ -28,6 +28,6 @@ EASINGS: dict[str, Callable[[float], float]] = {
     "ease_in": _bezier((0.42, 0.0), (1.0, 1.0)),
     "ease_out": _bezier((0.0, 0.0), (0.58, 1.0)),
     "ease_in_out": _bezier((0.42, 0.0), (0.58, 1.0)),
-    # Through key frames without a stop: see _track in film/path.py.
+    # Passes through key frames without stopping: see _track in film/path.py.
     "smooth": lambda fraction: fraction,
 }

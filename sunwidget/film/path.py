@@ -1,4 +1,4 @@
-"""The path of a film: what a person names, and the edit of each frame that it stands for."""
+"""The path of a film: its steps, and the edit of each frame."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ Step = Edit | Mapping[str, Any] | str | os.PathLike[str]
 SunPath = Day | Sequence[Step] | Sequence[tuple[float, Step]]
 
 DEFAULT_SECONDS = 5
-# An hour at 24 frames a second: more is a slip of the keyboard.
+# An hour at 24 frames per second; more is probably a typing error.
 MOST_FRAMES = 86_400
 
 
 @dataclass(frozen=True)
 class _Stations:
-    """Edits and the share of the film (0–1, growing) at which each is reached."""
+    """Edits and the share of the film (0–1, increasing) at which each is reached."""
 
     edits: list[Edit]
     shares: list[float]
     seconds: float
-    each: bool = False  # one frame each, nothing between them
+    each: bool = False  # one frame each, without frames between
 
 
 def film_edits(
@@ -56,20 +56,20 @@ def film_edits(
     Parameters
     ----------
     scene : Scene
-        Whose values stand for what the edits leave automatic.
+        Source of the automatic values.
     path : sequence or Day
-        As ``sunwidget.sweep`` takes it.
+        As for ``sunwidget.sweep``.
     fps : float
-        Frames a second, 1–120.
+        Frames per second, 1–120.
     frames, seconds : int and float, optional
-        Length of the film, one of the two.
+        Length of the film, in one of the two.
     easing : str
         A name in ``EASINGS``.
 
     Raises
     ------
     ValueError
-        For what is no path, length or easing, or edits that no path joins (EditError).
+        For an invalid path, length or easing, or edits that cannot be interpolated (EditError).
     """
     check_rate(fps)
     _check_easing(easing)
@@ -81,40 +81,40 @@ def film_edits(
     if stations.each and frames is None and seconds is None:
         if easing != "linear":
             raise ValueError(
-                "A row of edits is one frame each. Give frames or seconds for a path through "
-                f"them, which easing={easing!r} can then ease."
+                f"A list of edits is one frame each, so easing={easing!r} has no effect. Pass "
+                "frames or seconds for a path through them."
             )
         return stations.edits
     count = frame_count(fps, frames, seconds, stations.seconds)
     row = [i / (count - 1) for i in range(count)]
-    return _along(stations, row, easing, scene)
+    return _interpolate(stations, row, easing, scene)
 
 
 def edit_at(scene: Scene, path: SunPath, share: float, easing: str = "linear") -> Edit:
-    """Return the Edit at a share (0–1) of the way along a path.
+    """Return the Edit at a share (0–1) of a path.
 
-    For films in which every frame has a scene of its own. The rest as ``film_edits``, but that
-    a row of edits is always a path through them.
+    For films whose frames have different scenes. As ``film_edits``, but a list of edits is always
+    a path through them.
     """
     _check_easing(easing)
     if isinstance(path, Day):
         return path.edits(scene, [EASINGS[easing](share)], between)[0]
-    return _along(_stations(scene, path), [share], easing, scene)[0]
+    return _interpolate(_stations(scene, path), [share], easing, scene)[0]
 
 
 def between(start: Edit, end: Edit, fraction: float, scene: Scene) -> Edit:
-    """Return the Edit at ``fraction`` (0–1) of the straight way from ``start`` to ``end``.
+    """Return the Edit at ``fraction`` (0–1) of the straight path from ``start`` to ``end``.
 
-    An automatic parameter stands for what the analysis found; the azimuth takes the shorter way
-    round. Methods, strokes and hints cannot lie between two values, so both ends must agree on
-    them; the place, which moves nothing, stays the first one's.
+    An automatic parameter takes the value that the analysis found; the azimuth turns the shorter
+    way. Methods, strokes and hints cannot be interpolated, so both ends must agree on them. The
+    place, which moves nothing, is that of ``start``.
 
     Raises
     ------
     EditError
-        When the ends differ in what cannot lie between two values.
+        When the ends differ in something that cannot be interpolated.
     """
-    return _along(_Stations([start, end], [0.0, 1.0], 1.0), [fraction], "linear", scene)[0]
+    return _interpolate(_Stations([start, end], [0.0, 1.0], 1.0), [fraction], "linear", scene)[0]
 
 
 def step(scene: Scene, what: Step, base: Edit | None = None) -> Edit:
@@ -125,7 +125,7 @@ def step(scene: Scene, what: Step, base: Edit | None = None) -> Edit:
     Raises
     ------
     EditError
-        For anything else; the message says what is understood.
+        For anything else; the message lists what is accepted.
     """
     if isinstance(what, str) and what in presets.NAMES:
         return presets.edit(what, scene, base)
@@ -133,12 +133,12 @@ def step(scene: Scene, what: Step, base: Edit | None = None) -> Edit:
 
 
 def named_edit(what: Step) -> Edit:
-    """Return the Edit that a step names, whatever the photo: any but a preset.
+    """Return the Edit of a step that does not depend on the photo: any but a preset.
 
     Raises
     ------
     EditError
-        For anything else; the message says what is understood.
+        For anything else; the message lists what is accepted.
     """
     if isinstance(what, (Edit, Mapping)):
         return edit_of(what)
@@ -150,15 +150,15 @@ def named_edit(what: Step) -> Edit:
             f"({', '.join(presets.NAMES)})."
         )
     raise EditError(
-        "A step of a path is an Edit, a recipe, a recipe's file or the name of a preset, "
+        "A step of a path is an Edit, a recipe, a recipe file or the name of a preset, "
         f"not {type(what).__name__}."
     )
 
 
 def check_rate(fps: float) -> None:
-    """Refuse, before any work, what is no number of frames a second; a ValueError says so."""
+    """Raise ValueError, before any work, for an invalid number of frames per second."""
     if not (isinstance(fps, (int, float)) and 1 <= fps <= 120):
-        raise ValueError(f"fps = {shown(fps, 40)} is outside 1 to 120 frames a second.")
+        raise ValueError(f"fps = {shown(fps, 40)} is outside 1 to 120 frames per second.")
 
 
 def _check_easing(easing: str) -> None:
@@ -177,22 +177,22 @@ def _stations(scene: Scene, path: Any) -> _Stations:
         raise ValueError("A film needs two or more edits, presets, recipes or key frames.")
     timed = [_is_key_frame(item) for item in steps]
     if all(timed):
-        given = [seconds for seconds, _ in steps]
-        apart = all(b > a for a, b in itertools.pairwise(given))
-        if not (apart and given[0] >= 0 and given[-1] < MOST_FRAMES):
+        starts = [seconds for seconds, _ in steps]
+        apart = all(b > a for a, b in itertools.pairwise(starts))
+        if not (apart and starts[0] >= 0 and starts[-1] < MOST_FRAMES):
             raise ValueError(
-                f"Key frames are in the order of their seconds, from 0 upwards, not {shown(given)}."
+                f"The seconds of key frames must increase, from 0 upwards, not {shown(starts)}."
             )
-        times = [float(seconds) for seconds in given]
+        times = [float(seconds) for seconds in starts]
         edits = [step(scene, what) for _, what in steps]
         if times[0] > 0:  # the film begins at 0 and holds the first one until then
             times, edits = [0.0, *times], [edits[0], *edits]
         return _Stations(edits, [t / times[-1] for t in times], times[-1])
     if any(timed):
-        raise ValueError("Either every step is a key frame (seconds, edit) or none is.")
+        raise ValueError("Either every step must be a key frame (seconds, edit) or no step.")
     edits = [step(scene, what) for what in steps]
     shares = [i / (len(edits) - 1) for i in range(len(edits))]
-    # Whoever made a row of Edits may have made each frame; a row of names is never that.
+    # A list of more than two Edits may hold every frame; a list of names never does.
     each = len(edits) > 2 and all(isinstance(what, Edit) for what in steps)
     return _Stations(edits, shares, DEFAULT_SECONDS, each)
 
@@ -207,9 +207,9 @@ def _is_key_frame(item: Any) -> bool:
 
 
 def frame_count(fps: float, frames: int | None, seconds: float | None, otherwise: float) -> int:
-    """Return how many frames a film has; ValueError for a length that none has."""
+    """Return the number of frames of a film; raise ValueError for an invalid length."""
     if frames is not None and seconds is not None:
-        raise ValueError("Give the length of a film in frames or in seconds, not in both.")
+        raise ValueError("Pass the length of a film as frames or as seconds, not both.")
     if frames is None:
         length = otherwise if seconds is None else seconds
         if not (isinstance(length, (int, float)) and 0 < length < MOST_FRAMES):
@@ -218,19 +218,17 @@ def frame_count(fps: float, frames: int | None, seconds: float | None, otherwise
     if isinstance(frames, bool) or not isinstance(frames, int) or frames < 2:
         raise ValueError(f"frames must be a whole number from 2 upwards, not {shown(frames, 40)}.")
     if frames > MOST_FRAMES:
-        raise ValueError(
-            f"A film of {shown(frames, 9)} frames is not possible; at most {MOST_FRAMES}."
-        )
+        raise ValueError(f"A film has at most {MOST_FRAMES} frames, not {shown(frames, 9)}.")
     return frames
 
 
-def _along(stations: _Stations, row: list[float], easing: str, scene: Scene) -> list[Edit]:
-    """Return the edits at the shares ``row`` (0–1) of the way through the stations."""
-    # What is automatic follows the strokes and hints, which all stations share.
+def _interpolate(stations: _Stations, row: list[float], easing: str, scene: Scene) -> list[Edit]:
+    """Return the edits at the shares ``row`` (0–1) of the path through the stations."""
+    # Automatic values depend on the strokes and hints, which all stations share.
     scene = corrected(scene, stations.edits[0])
-    edits = _agreeing(stations.edits, "moon" if scene.lit_by_moon else "sun")
+    edits = _check_agreement(stations.edits, "moon" if scene.lit_by_moon else "sun")
     knots = np.array(stations.shares)
-    shares = np.array([_eased(share, knots, EASINGS[easing]) for share in row])
+    shares = np.array([_ease(share, knots, EASINGS[easing]) for share in row])
     tracks = {
         p.name: _track(p.name, edits, knots, shares, scene.automatic, smooth=easing == "smooth")
         for p in NUMBERS
@@ -253,9 +251,9 @@ def _along(stations: _Stations, row: list[float], easing: str, scene: Scene) -> 
     return along
 
 
-def _agreeing(edits: list[Edit], light: str) -> list[Edit]:
+def _check_agreement(edits: list[Edit], light: str) -> list[Edit]:
     """Return the edits with one place; raise EditError when more than numbers differ."""
-    # "As in the photo" and that very light draw the same picture: presets name it, edits do not.
+    # "automatic" and the photo's own light source draw the same picture. Presets set the latter.
     if any(edit.light_source != "automatic" for edit in edits):
         edits = [
             edit.replace(light_source=light) if edit.light_source == "automatic" else edit
@@ -269,16 +267,16 @@ def _agreeing(edits: list[Edit], light: str) -> list[Edit]:
         if odd is not None:
             shown = (
                 f", not {json.dumps(getattr(first, p.name))} and "
-                f"{json.dumps(getattr(odd, p.name))}: nothing lies between them"
+                f"{json.dumps(getattr(odd, p.name))}: it cannot be interpolated"
                 if p.kind == "choice"
-                else ": nothing lies between two"
+                else ": it cannot be interpolated"
             )
             raise EditError(f"All edits of a film need the same {p.name}{shown}.")
     return [edit.replace(place=first.place) for edit in edits]
 
 
-def _eased(share: float, knots: NDArray[np.float64], ease: Callable[[float], float]) -> float:
-    """Ease the way from each station to the next, as CSS does for key frames."""
+def _ease(share: float, knots: NDArray[np.float64], ease: Callable[[float], float]) -> float:
+    """Ease each segment between two stations, as CSS does for key frames."""
     j = min(max(int(np.searchsorted(knots, share, side="right")) - 1, 0), len(knots) - 2)
     width = knots[j + 1] - knots[j]
     fraction = min(max((share - knots[j]) / width, 0.0), 1.0)
@@ -294,17 +292,17 @@ def _track(
     *,
     smooth: bool,
 ) -> NDArray[np.float64]:
-    """Return a parameter's values at ``shares``, from station to station or smoothly through.
+    """Return a parameter's values at ``shares``, interpolated linearly or smoothly.
 
-    Smoothly is by the monotone cubic of Fritsch & Butland 1984 (SciPy's PCHIP): no value goes
-    beyond the two stations that it is between, so that a sun that rises never dips.
+    Smooth means the monotone cubic of Fritsch & Butland 1984 (SciPy's PCHIP): no value leaves the
+    range of the two stations around it, so that a rising sun never dips.
     """
     values = [
         automatic[name] if value is None else value
         for value in (getattr(edit, name) for edit in edits)
     ]
     if name == "sun_azimuth":
-        for i in range(1, len(values)):  # unrolled, each the shorter way round from the last
+        for i in range(1, len(values)):  # unwrapped: each the shorter turn from the last
             values[i] = values[i - 1] + (values[i] - values[i - 1] + 180) % 360 - 180
     if smooth and len(knots) > 2:
         from scipy.interpolate import PchipInterpolator

@@ -1,4 +1,4 @@
-"""Making the next while the present one is being used."""
+"""Computing the next items of an iterator while the current one is used."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from typing import TypeVar
 
 T = TypeVar("T")
 
-# How many may wait: enough to even out a slow one, few enough for memory.
+# Items computed in advance: enough to absorb a slow one, few enough for memory.
 _AHEAD = 2
 
 
-def ahead(items: Iterator[T]) -> Generator[T]:
-    """Pass on what ``items`` yields (never None), the next two made on a thread meanwhile.
+def prefetch(items: Iterator[T]) -> Generator[T]:
+    """Yield the items of ``items`` (never None) while a thread computes the next two.
 
-    What making one raises is raised here. Closing it (``contextlib.closing``), or leaving it by
-    an error, waits for the one that is being made and makes no more.
+    Exceptions of ``items`` are raised here. Closing the generator (``contextlib.closing``), or an
+    exception in its consumer, waits for the item in progress and computes no more.
     """
-    pool = ThreadPoolExecutor(1, thread_name_prefix="sunwidget-ahead")
+    pool = ThreadPoolExecutor(1, thread_name_prefix="sunwidget-prefetch")
     try:
         waiting = deque(pool.submit(next, items, None) for _ in range(_AHEAD))
         while (item := waiting.popleft().result()) is not None:

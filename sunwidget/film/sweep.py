@@ -1,4 +1,4 @@
-"""Sweeps: a moving sun as a film, as pictures one by one, or as a sheet."""
+"""Sweeps: a moving sun as a film or as numbered pictures."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from sunwidget.analysis.scene import checked_scene
 from sunwidget.export.formats import check_quality
 from sunwidget.film.path import SunPath, film_edits
-from sunwidget.film.prefetch import ahead
+from sunwidget.film.prefetch import prefetch
 from sunwidget.film.writer import (
     LOOPS,
     Film,
@@ -21,8 +21,8 @@ from sunwidget.film.writer import (
     film_target,
     is_sequence,
     size_for,
-    told,
     whole_film,
+    with_progress,
     writer,
 )
 from sunwidget.messages import shown
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
     from sunwidget.edit.table import Edit
 
-# Frames kept for the way back; what does not fit is rendered again.
+# Bytes of frames kept for the way back; others are rendered again.
 _KEPT_BYTES = 400e6
 
 
@@ -56,54 +56,54 @@ def sweep(
     Parameters
     ----------
     scene : Scene
-        What ``analyze`` returned.
+        The result of ``analyze``.
     path : sequence or Day
-        Two steps are the ends of a move. A step is an Edit, a recipe (dict), a recipe's file
-        or the name of a preset. More than two are passed through at even distances; more than
-        two Edits are one frame each, unless ``frames`` or ``seconds`` ask for a path through
-        them. Key frames are pairs ``(seconds, step)``. A ``sunwidget.Day`` is a real day at a
-        place. Methods, strokes and hints must be the same in all.
+        Two steps are the ends of a move. A step is an Edit, a recipe (dict), a recipe file or the
+        name of a preset. More than two steps are evenly spaced stations; more than two Edits are
+        one frame each, unless ``frames`` or ``seconds`` request a path through them. Key frames
+        are pairs ``(seconds, step)``. A ``sunwidget.Day`` is a real day at a place. Methods,
+        strokes and hints must be the same in all steps.
     out : path
-        ``.mp4`` (H.264, yuv420p, tagged BT.709; needs the ``video`` extra), ``.gif``,
-        ``.webp``, or a pattern as ``frames/%04d.png`` for frames one by one, from 1.
+        ``.mp4`` (H.264, yuv420p, tagged BT.709; needs the ``video`` extra), ``.gif``, ``.webp``,
+        or a pattern such as ``frames/%04d.png`` for single frames, numbered from 1.
     fps : float
-        Frames a second, 1–120. A GIF shows at most 50.
+        Frames per second, 1–120. A GIF shows at most 50.
     frames : int, optional
         Number of frames, at least 2.
     seconds : float, optional
-        Length of the film, instead of ``frames``. Default: the last key frame's time, else 5.
-        Key frames are stretched to it.
+        Length of the film, instead of ``frames``. Default: the time of the last key frame, else
+        5. Key frames are stretched to it.
     size : (width, height), optional
         Pixels. Default: the photo's own size, at most 1920 on the longer side, 720 for a GIF.
         MP4 rounds both down to even numbers.
     easing : {"linear", "ease_in", "ease_out", "ease_in_out", "smooth"}
-        How the sun starts and stops at each step, as CSS means it. "smooth" passes through
-        the steps between without a stop, on a monotone cubic.
+        Easing of the sun at each step, as in CSS. "smooth" passes through the steps without
+        stopping, on a monotone cubic.
     loop : {"forever", "once", "there_and_back"}
-        Whether a GIF or WebP repeats; an MP4 leaves that to the player. "there_and_back" adds
-        the way back, so that the film is nearly twice as long and repeats without a jump.
+        Whether a GIF or WebP repeats; for an MP4 the player decides. "there_and_back" adds the
+        way back, so that the film is nearly twice as long and repeats without a jump.
     quality : int
-        Of MP4 and WebP, 1–100.
+        MP4 and WebP quality, 1–100.
     overwrite : bool
         Replace an existing file.
     progress : callable, optional
-        Called as ``progress(fraction, message)`` after every frame, with the time that is
-        left. What it raises cancels the export, and no half-written file is left.
+        Called as ``progress(fraction, message)`` after every frame, with the remaining time in
+        the message. An exception from it cancels the export and leaves no half-written file.
 
     Returns
     -------
     Path
-        Where the film is; for frames one by one their folder.
+        The film; for single frames, their folder.
 
     Raises
     ------
     FileExistsError
         When ``out`` exists and ``overwrite`` is false.
     ValueError
-        For an unknown file type, an impossible size, length or rate, or edits that no path
-        joins.
+        For an unknown file type, an invalid size, length or rate, or edits that cannot be
+        interpolated.
     ModuleNotFoundError
-        When MP4 is asked for without the ``video`` extra.
+        For MP4 without the ``video`` extra.
 
     Examples
     --------
@@ -125,14 +125,14 @@ def sweep(
     film = Film(size, fps, len(order), loop, quality)
     with (
         whole_film(place, overwrite=overwrite) as unfinished,
-        contextlib.closing(ahead(_rendered(scene, row, order, size))) as pictures,
+        contextlib.closing(prefetch(_render_each(scene, row, order, size))) as pictures,
     ):
-        write(told(pictures, len(order), with_time_left(progress)), unfinished, film)
+        write(with_progress(pictures, len(order), with_time_left(progress)), unfinished, film)
     return place.parent if is_sequence(place) else place
 
 
-def _rendered(scene: Scene, row: list[Edit], order: list[int], size: tuple[int, int]) -> Frames:
-    """Render the edits of ``row`` in the ``order`` of their numbers, each but once if it fits."""
+def _render_each(scene: Scene, row: list[Edit], order: list[int], size: tuple[int, int]) -> Frames:
+    """Render the edits of ``row`` in the given order; keep frames that recur, if they fit."""
     from sunwidget.renderer.offscreen import render
 
     kept: dict[int, NDArray[np.uint8]] = {}

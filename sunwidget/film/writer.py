@@ -1,4 +1,4 @@
-"""Frames to a file: MP4, GIF, WebP, or a picture each."""
+"""Writers of frames: MP4, GIF, WebP, or numbered PNG files."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from sunwidget.progress import Progress
 Frames = Iterator[NDArray[np.uint8]]
 LOOPS = ("once", "forever", "there_and_back")
 
-# Beyond this, H.264 at 4:2:0 leaves the levels that phones and browsers decode; a GIF of that
-# size has a hundred megabytes.
+# Larger H.264 at 4:2:0 exceeds the levels that phones and browsers decode. A GIF of 1920 pixels
+# has a hundred megabytes.
 _LONGEST_SIDE = {".gif": 720}
 _LONGEST_SIDE_ELSE = 1920
 
-# %d, %4d or %04d, as ffmpeg and printf name files in a row.
+# %d, %4d or %04d, as ffmpeg and printf number files.
 _NUMBER = re.compile(r"%(?:0?\d)?d(?![a-z])")
 _PNG_WORKERS = 2
 _BT709 = "colorspace=bt709:color_primaries=bt709:color_trc=bt709:range=tv"
@@ -40,7 +40,7 @@ _BT709 = "colorspace=bt709:color_primaries=bt709:color_trc=bt709:range=tv"
 
 @dataclass(frozen=True)
 class Film:
-    """What a writer needs to know: (width, height), rate, number of frames, loop, quality."""
+    """Parameters of a writer: (width, height), rate, number of frames, loop, quality."""
 
     size: tuple[int, int]
     fps: float
@@ -49,7 +49,7 @@ class Film:
     quality: int
 
     def durations(self, unit: int) -> list[int]:
-        """Return how long each frame stands in 1/unit s, so that no frame drifts off its time."""
+        """Return each frame's duration in 1/unit s, rounded so that errors do not accumulate."""
         ends = [round(i * unit / self.fps) for i in range(self.count + 1)]
         return [b - a for a, b in itertools.pairwise(ends)]
 
@@ -58,14 +58,14 @@ Writer = Callable[[Frames, Path, Film], None]
 
 
 def longest_side(path: Path) -> int:
-    """Return how many pixels a side a film of this name has at most, unless asked for more."""
+    """Return the default limit, in pixels, of the longer side of a film of this name."""
     return _LONGEST_SIDE.get(path.suffix.lower(), _LONGEST_SIDE_ELSE)
 
 
 def film_size(
     photo: tuple[int, int], size: tuple[int, int] | None, longest: int = _LONGEST_SIDE_ELSE
 ) -> tuple[int, int]:
-    """Return (width, height) of the film: ``size``, or the photo's within ``longest`` a side."""
+    """Return (width, height) of the film: ``size``, or the photo's limited to ``longest``."""
     if size is None:
         width, height = size_within(photo, longest)
         size = max(2, width), max(2, height)
@@ -77,42 +77,42 @@ def film_size(
         ) from None
     if not (2 <= width <= 8192 and 2 <= height <= 8192):
         asked = f"{shown(width, 9)}×{shown(height, 9)}"
-        raise ValueError(f"A film of {asked} is not possible; 2 to 8192 pixels a side.")
+        raise ValueError(f"A film must have 2 to 8192 pixels per side, not {asked}.")
     return width, height
 
 
 def size_for(path: Path, photo: tuple[int, int], size: tuple[int, int] | None) -> tuple[int, int]:
-    """Return (width, height) of the film of this name; MP4 has even ones."""
+    """Return (width, height) of the film of this name; both are even for MP4."""
     width, height = film_size(photo, size, longest_side(path))
     even = path.suffix.lower() == ".mp4"
     return (width - width % 2, height - height % 2) if even else (width, height)
 
 
 def is_sequence(path: Path) -> bool:
-    """Whether the name is a pattern of names in a row, as frames/%04d.png."""
+    """Return whether the name is a pattern of numbered files, such as frames/%04d.png."""
     return _NUMBER.search(path.name) is not None
 
 
 def writer(path: Path) -> Writer:
-    """Return what writes films of this ending, before the first frame is rendered.
+    """Return the writer for a film's extension, before the first frame is rendered.
 
     Raises
     ------
     ValueError
-        For an ending that is no film's; the message names those that are.
+        For an unknown extension; the message lists the known ones.
     ModuleNotFoundError
         For MP4 without the ``video`` extra.
     """
     suffix = path.suffix.lower()
     if is_sequence(path):
         if suffix != ".png" or len(_NUMBER.findall(path.name)) > 1:
-            raise ValueError(f"Frames one by one are named as frames/%04d.png, not {path.name!r}.")
+            raise ValueError(f"Name single frames like frames/%04d.png, not {path.name!r}.")
         return _write_pngs
     writers = {".mp4": _write_mp4, ".gif": _write_gif, ".webp": _write_webp}
     if suffix not in writers:
         raise ValueError(
-            f"A film ends in .mp4, .gif or .webp, not {suffix or 'nothing'!r}; frames one by one "
-            "are named as frames/%04d.png."
+            f"A film must end in .mp4, .gif or .webp, not {suffix or 'nothing'!r}. Name single "
+            "frames like frames/%04d.png."
         )
     if suffix == ".mp4":
         try:
@@ -125,7 +125,7 @@ def writer(path: Path) -> Writer:
 
 
 def _write_mp4(frames: Frames, path: Path, film: Film) -> None:
-    """Pipe frames into ffmpeg; unlike imageio's own writer, notice when ffmpeg fails."""
+    """Pipe frames into ffmpeg; unlike imageio's own writer, detect a failure of ffmpeg."""
     import imageio_ffmpeg
 
     # 18, x264's "visually lossless", at quality 85; six steps halve the file.
@@ -134,19 +134,19 @@ def _write_mp4(frames: Frames, path: Path, film: Film) -> None:
         *(imageio_ffmpeg.get_ffmpeg_exe(), "-nostdin", "-v", "error", "-y"),
         *("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{film.size[0]}x{film.size[1]}"),
         *("-r", f"{film.fps:g}", "-i", "-", "-an"),
-        # Tags that are only asked of the encoder give way to those of the frames, which have none.
+        # Tags set on the encoder alone are overridden by those of the frames, which are unset.
         *("-vf", f"scale=out_color_matrix=bt709:out_range=tv,setparams={_BT709}"),
         *("-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", f"{crf}", "-preset", "veryfast"),
         *("-movflags", "+faststart", str(path)),
     ]
     with (
         tempfile.TemporaryFile() as messages,
-        subprocess.Popen(  # noqa: S603 - no shell, and no word of it comes from a photo
+        subprocess.Popen(  # noqa: S603 - no shell, and no argument comes from a photo
             command,
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=messages,
-            # Ctrl-C goes to this process alone, which then ends ffmpeg in order.
+            # Ctrl-C reaches only this process, which then stops ffmpeg.
             process_group=0,
         ) as encoder,
     ):
@@ -156,14 +156,14 @@ def _write_mp4(frames: Frames, path: Path, film: Film) -> None:
                 encoder.stdin.write(np.ascontiguousarray(frame).data)
             encoder.stdin.close()
         except BrokenPipeError:
-            pass  # ffmpeg has given up; its exit status and last words follow
+            pass  # ffmpeg has stopped; its exit status and last message are read below
         except BaseException:
             encoder.kill()
             raise
         if encoder.wait() != 0:
             messages.seek(0)
             words = messages.read().decode(errors="replace").strip().splitlines()
-            reason = words[-1] if words else f"it ended with {encoder.returncode}"
+            reason = words[-1] if words else f"exit status {encoder.returncode}"
             said = f"ffmpeg could not write the film: {reason}"
             if os.strerror(errno.ENOSPC) in said:
                 raise OSError(errno.ENOSPC, said)
@@ -171,7 +171,7 @@ def _write_mp4(frames: Frames, path: Path, film: Film) -> None:
 
 
 def _write_gif(frames: Frames, path: Path, film: Film) -> None:
-    # Browsers show a frame of less than 2/100 s for a tenth of a second.
+    # Browsers display frames shorter than 2/100 s for a tenth of a second.
     hundredths = [max(2, n) for n in film.durations(100)]
     with path.open("wb") as file:
         write_gif(frames, file, hundredths, forever=film.loop != "once")
@@ -194,7 +194,7 @@ def _write_webp(frames: Frames, path: Path, film: Film) -> None:
 
 
 def _write_pngs(frames: Frames, folder: Path, _film: Film) -> None:
-    """Write 1.png, 2.png … into a folder; ``whole_sequence`` gives them their names."""
+    """Write 1.png, 2.png … into a folder; ``whole_sequence`` renames them."""
     from PIL import Image
 
     def save(number: int, frame: NDArray[np.uint8]) -> None:
@@ -211,40 +211,40 @@ def _write_pngs(frames: Frames, folder: Path, _film: Film) -> None:
 
 
 def film_target(path: Path, *, overwrite: bool) -> Path:
-    """Check where a film, or frames one by one, are to be written, before any work is spent."""
+    """Check the target of a film or of single frames before any work."""
     return (sequence_target if is_sequence(path) else target)(path, overwrite=overwrite)
 
 
 def whole_film(path: Path, *, overwrite: bool) -> contextlib.AbstractContextManager[Path]:
-    """Yield where to write it; what is there becomes ``path`` only when all went well."""
+    """Yield a temporary target that becomes ``path`` only if no error occurs."""
     return (whole_sequence if is_sequence(path) else complete_or_absent)(path, overwrite=overwrite)
 
 
-def told(frames: Frames, count: int, progress: Progress) -> Frames:
-    """Pass frames on and tell ``progress`` when each has been taken."""
+def with_progress(frames: Frames, count: int, progress: Progress) -> Frames:
+    """Yield the frames; report progress after each has been consumed."""
     for done, frame in enumerate(frames, start=1):
         yield frame
         progress(done / count, f"frame {done} of {count}")
 
 
 def sequence_target(path: Path, *, overwrite: bool) -> Path:
-    """Check where frames one by one are to be written, before any work is spent on it.
+    """Check the target of single frames before any work.
 
-    The folder is made when all is done; the one that it lies in must exist.
+    The folder is created at the end; its parent must exist.
 
     Raises
     ------
     FileExistsError
-        When a file has a name of the sequence and ``overwrite`` is false.
+        When a file of the sequence exists and ``overwrite`` is false.
     FileNotFoundError, NotADirectoryError, NotWrittenError
-        When there is no folder to write into, as ``folder_target``.
+        When the folder cannot be written to, as in ``folder_target``.
     """
     path = path.expanduser().absolute()
     folder_target(path.parent)
     taken = _numbered(path)
     for place in taken.values():
         if place.is_dir():
-            raise IsADirectoryError(f"{place} is a folder. Name the frames otherwise.")
+            raise IsADirectoryError(f"{place} is a folder. Choose another name for the frames.")
     if taken and not overwrite:
         raise FileExistsError(
             f"{taken[min(taken)]} exists already. Pass overwrite=True to replace the sequence."
@@ -256,8 +256,8 @@ def sequence_target(path: Path, *, overwrite: bool) -> Path:
 def whole_sequence(path: Path, *, overwrite: bool) -> Iterator[Path]:
     """Yield a folder whose 1.png, 2.png … become ``path`` numbered from 1, all or none.
 
-    With ``overwrite`` the frames of an earlier sequence of that name are replaced, and those
-    beyond the new one's end are removed: a longer one's last frames would show in the film.
+    With ``overwrite`` an earlier sequence of that name is replaced. Its frames beyond the end of
+    the new one are removed, since they would appear in the film.
     """
     folder = path.parent
     with (
@@ -269,7 +269,7 @@ def whole_sequence(path: Path, *, overwrite: bool) -> Iterator[Path]:
         unfinished = Path(name)
         yield unfinished
         done = sorted(unfinished.iterdir(), key=lambda file: int(file.stem))
-        sequence_target(path, overwrite=overwrite)  # again: the work may have taken long
+        sequence_target(path, overwrite=overwrite)  # again: files may have appeared meanwhile
         folder.mkdir(exist_ok=True)
         old = _numbered(path)
         for file in done:
@@ -280,7 +280,7 @@ def whole_sequence(path: Path, *, overwrite: bool) -> Iterator[Path]:
 
 
 def _numbered(path: Path) -> dict[int, Path]:
-    """Return the files of a sequence that are there, by number, from 1 upwards without a gap."""
+    """Return the existing files of a sequence by number, from 1 up to the first gap."""
     found: dict[int, Path] = {}
     while (file := _named(path, len(found) + 1)).exists():
         found[len(found) + 1] = file

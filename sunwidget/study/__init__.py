@@ -1,4 +1,4 @@
-"""Studies in which people compare pictures two by two: answers, their files, strengths.
+"""Studies in which people compare pairs of pictures: answers, their files, strengths.
 
 >>> import sunwidget.study
 >>> sunwidget.study.bradley_terry(sunwidget.study.read_csv("anna.csv", "bert.csv"))

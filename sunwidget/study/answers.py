@@ -22,13 +22,13 @@ class Answer(NamedTuple):
     Parameters
     ----------
     rater : str
-        Who answered.
+        The rater's name.
     trial : int
-        Place of the comparison in this rater's order, from 1.
+        Position of the comparison in this rater's order, from 1.
     picture : str
-        What both pictures show; "" in a study of one photo.
+        Name of the photo; "" in a study of one photo.
     left, right : str
-        Methods whose pictures were shown.
+        Methods of the shown pictures.
     choice : {"left", "right", "tie"}
     seconds : float
         From the pictures' appearance to the answer.
@@ -47,19 +47,19 @@ class Answer(NamedTuple):
 
     @classmethod
     def from_row(cls, row: Mapping[str, Any]) -> Answer:
-        """Return the answer of a mapping as a CSV reader or the browser gives it.
+        """Return the answer of a row from a CSV reader or from the browser.
 
         Raises
         ------
         StudyError
-            When a column is missing, or a value is none that a study writes.
+            When a column is missing or a value is invalid.
         """
         if not isinstance(row, Mapping):
-            raise StudyError(f"An answer has named columns; a {type(row).__name__} has none.")
+            raise StudyError(f"An answer must be a mapping of columns, not {type(row).__name__}.")
         lacking = [name for name in cls._fields if row.get(name) is None]
         if lacking:
             raise StudyError(
-                f"An answer has columns {', '.join(cls._fields)}; it lacks {lacking[0]}."
+                f"An answer has columns {', '.join(cls._fields)}; {lacking[0]} is missing."
             )
         try:
             trial, seconds = int(row["trial"]), float(row["seconds"])
@@ -69,21 +69,21 @@ class Answer(NamedTuple):
         answer = cls(trial=trial, seconds=seconds, **texts)
         if trial < 1 or not math.isfinite(seconds) or seconds < 0:
             raise StudyError(
-                "trial is a whole number from 1 and seconds a number from 0, not "
+                "trial must be a whole number from 1 and seconds a number from 0, not "
                 f"{str(row['trial'])[:_SHOWN]!r} and {str(row['seconds'])[:_SHOWN]!r}."
             )
         if answer.choice not in CHOICES:
-            raise StudyError(f"choice is left, right or tie, not {answer.choice[:_SHOWN]!r}.")
+            raise StudyError(f"choice must be left, right or tie, not {answer.choice[:_SHOWN]!r}.")
         if answer.left == answer.right or not answer.left or not answer.right:
             raise StudyError(
-                "left and right name two different methods, not "
+                "left and right must name two different methods, not "
                 f"{answer.left[:_SHOWN]!r} and {answer.right[:_SHOWN]!r}."
             )
         return answer
 
 
 def write_csv(answers: Iterable[Answer], path: Any, *, overwrite: bool = False) -> Path:
-    """Write one row an answer, the columns of ``Answer``, as UTF-8; returns the path.
+    """Write one row per answer, with the columns of ``Answer``, as UTF-8; return the path.
 
     Raises
     ------
@@ -102,20 +102,20 @@ def write_csv(answers: Iterable[Answer], path: Any, *, overwrite: bool = False) 
 
 
 def read_csv(*paths: str | os.PathLike[str]) -> list[Answer]:
-    """Read the answers of one or more files, as from several raters.
+    """Read the answers of one or more files, for example of several raters.
 
-    An answer that stands in several of them, as in two files of one session, counts once.
+    An answer that occurs in several files, such as two files of one session, counts once.
 
     Raises
     ------
     StudyError
-        For a file without the columns of ``Answer``, or a row that is no answer; the message
-        names file and line.
+        For a file without the columns of ``Answer``, or an invalid row; the message names file and
+        line.
     """
     found: dict[Answer, None] = {}
     for path in paths:
         try:
-            # A spreadsheet may have put a byte order mark before the first column's name.
+            # A spreadsheet may have written a byte order mark before the first column's name.
             with Path(path).open(encoding="utf-8-sig", newline="") as file:
                 reader = csv.DictReader(file)
                 for row in reader:

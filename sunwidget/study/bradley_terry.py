@@ -1,6 +1,6 @@
-"""What the answers of comparisons say: strengths by the model of Bradley and Terry.
+"""Strengths of methods from comparisons, by the model of Bradley and Terry.
 
-Every method has a strength β; of two pictures that of method i is chosen with probability
+Every method has a strength β. Method i is chosen over method j with probability
 1 / (1 + exp(β_j − β_i)) (Bradley and Terry 1952, Biometrika 39, 324–345).
 """
 
@@ -18,22 +18,22 @@ from sunwidget.errors import StudyError
 from sunwidget.study.answers import Answer
 
 PRIOR = 0.5
-_STEPS = 100  # Newton needs about six
-_CLOSE = 1e-10  # of the largest change of a strength in a step
+_STEPS = 100  # Newton's method needs about six
+_CLOSE = 1e-10  # largest change of a strength in the last step
 
 
 @dataclass(frozen=True, eq=False)
 class BradleyTerry:
-    """Strengths of methods, as ``bradley_terry`` finds them from n answers.
+    """Strengths of methods, the result of ``bradley_terry``.
 
     Parameters
     ----------
     methods : tuple of str
-        The strongest first; the order of everything below.
+        From the strongest to the weakest; the order of the arrays below.
     strengths : (K,) float64 array
         Natural logarithms; they sum to 0.
     covariance : (K, K) float64 array
-        Of the strengths under that condition; its rows sum to 0.
+        Covariance of the strengths under that condition; its rows sum to 0.
     wins : (K, K) float64 array
         ``wins[i, j]``: how often i was chosen over j; a tie is half a win for each.
     answers, ties : int
@@ -41,7 +41,7 @@ class BradleyTerry:
         Answers that chose the left picture.
     prior : float
     notes : tuple of str
-        What a reader of the numbers must know.
+        Caveats for the interpretation.
     """
 
     methods: tuple[str, ...]
@@ -60,26 +60,28 @@ class BradleyTerry:
         return np.sqrt(np.diag(self.covariance))
 
     def intervals(self, level: float = 0.95) -> NDArray[np.float64]:
-        """Return lower and upper end of each strength's Wald interval, (K, 2)."""
+        """Return the lower and upper end of each strength's Wald interval, (K, 2)."""
         from scipy.special import ndtri
 
         half = ndtri((1 + level) / 2) * self.standard_errors
         return np.stack([self.strengths - half, self.strengths + half], axis=1)
 
     def difference(self, a: str, b: str) -> tuple[float, float]:
-        """Return strength of ``a`` minus that of ``b``, and its standard error."""
+        """Return the strength of ``a`` minus that of ``b``, and its standard error."""
         i, j = self._at(a), self._at(b)
         c = self.covariance
         variance = c[i, i] + c[j, j] - 2 * c[i, j]
         return float(self.strengths[i] - self.strengths[j]), math.sqrt(max(variance, 0.0))
 
     def probability(self, a: str, b: str) -> float:
-        """Return how likely ``a`` is chosen when it is shown beside ``b``."""
+        """Return the probability that ``a`` is chosen over ``b``."""
         return float(1 / (1 + np.exp(-self.difference(a, b)[0])))
 
     def _at(self, method: str) -> int:
         if method not in self.methods:
-            raise StudyError(f"No answer mentions {method!r}; there are {', '.join(self.methods)}.")
+            raise StudyError(
+                f"No answer has method {method!r}. Methods: {', '.join(self.methods)}."
+            )
         return self.methods.index(method)
 
     def __str__(self) -> str:
@@ -107,30 +109,29 @@ class BradleyTerry:
 def bradley_terry(
     answers: Iterable[Answer], *, prior: float = PRIOR, methods: Sequence[str] = ()
 ) -> BradleyTerry:
-    """Find the strengths of methods from answers, pooled over raters and pictures.
+    """Estimate the strengths of methods from answers, pooled over raters and pictures.
 
-    The penalised likelihood of Bradley and Terry's model is maximised by Newton's method;
-    ``prior`` says by how much it is penalised: it is as if every method had won that many
-    comparisons more and lost as many, spread evenly over all others. So a method that always
-    won stays finite, and methods that were never compared stay comparable. With two methods ½
-    is Jeffreys' prior Beta(½, ½). Standard errors are from the inverse of the Hessian in the
-    space of strengths that sum to 0. They take answers as independent, which many answers of
-    few raters are not.
+    Newton's method maximizes the penalized likelihood of Bradley and Terry's model. ``prior`` is
+    the weight of the penalty: the number of additional wins, and losses, of every method, spread
+    evenly over the others. It keeps the strength of a method that always won finite and makes
+    methods comparable that were never shown together. With two methods, ½ is Jeffreys' prior
+    Beta(½, ½). Standard errors are from the inverse Hessian in the space of strengths that sum
+    to 0. They assume independent answers, which many answers of few raters are not.
 
     Parameters
     ----------
     answers : iterable of Answer
-        As ``Study.answers`` or ``read_csv`` give them.
+        From ``Study.answers`` or ``read_csv``.
     prior : float, default 0.5
         At least 0; 0 is plain maximum likelihood.
     methods : sequence of str, optional
-        Methods to list although no answer names them.
+        Methods to list even without answers.
 
     Raises
     ------
     StudyError
-        Without answers; with ``prior`` 0 when no finite maximum exists (Ford 1957: some
-        methods never lost to the others).
+        Without answers, and with ``prior`` 0 if no finite maximum exists (Ford 1957: some methods
+        never lost to the others).
 
     Examples
     --------
@@ -147,7 +148,7 @@ def bradley_terry(
     if prior == 0 and groups > 1:
         raise StudyError(
             "Without a prior these answers have no finite strengths: some methods never lost to "
-            "the others, or were never shown beside them. Leave prior at its default."
+            "the others or were never shown with them. Keep the default prior."
         )
     count = len(names)
     virtual = prior / (count - 1) * (1 - np.eye(count))
@@ -168,7 +169,7 @@ def bradley_terry(
 
 
 def by_rater(answers: Iterable[Answer], *, prior: float = PRIOR) -> dict[str, BradleyTerry]:
-    """Return what each rater's own answers say, by rater; see ``bradley_terry``."""
+    """Return the strengths from each rater's answers, by rater; see ``bradley_terry``."""
     rows = list(answers)
     methods = list(dict.fromkeys(name for row in rows for name in (row.left, row.right)))
     return {
@@ -203,13 +204,13 @@ def _fit(wins: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.flo
         information = -shown * chance * chance.T
         np.fill_diagonal(information, 0)
         np.fill_diagonal(information, -information.sum(1))
-        # Shifting all strengths changes nothing: the pseudo-inverse keeps their sum at 0.
+        # A shift of all strengths has no effect; the pseudo-inverse keeps their sum at 0.
         return (wins - shown * chance).sum(1), np.linalg.pinv(information, hermitian=True)
 
     for _ in range(_STEPS):
         gradient, inverse = terms(strengths)
         step = inverse @ gradient
-        # Far from the maximum the parabola may overshoot it.
+        # Far from the maximum, a Newton step may overshoot.
         while likelihood(strengths + step) < likelihood(strengths) - 1e-12 * shown.sum():
             step = step / 2
         strengths = strengths + step
@@ -219,14 +220,14 @@ def _fit(wins: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.flo
 
 
 def _linked_groups(wins: NDArray[np.float64]) -> int:
-    """Return how many groups there are that wins do not link in both directions."""
+    """Return the number of groups of methods that wins link in both directions."""
     from scipy.sparse.csgraph import connected_components
 
     return int(connected_components(wins > 0, directed=True, connection="strong")[0])
 
 
 def _notes(wins: NDArray[np.float64], names: list[str], groups: int) -> tuple[str, ...]:
-    """Say which strengths are finite by the prior alone."""
+    """Return notes on strengths that only the prior keeps finite."""
     notes = []
     for i, name in enumerate(names):
         won, lost = wins[i].sum(), wins[:, i].sum()
@@ -237,7 +238,7 @@ def _notes(wins: NDArray[np.float64], names: list[str], groups: int) -> tuple[st
             notes.append(f"{name} {did} every comparison: only the prior keeps it finite.")
     if groups > 1 and not notes:
         notes.append(
-            "Some methods never lost to the others, or were never shown beside them: only the "
-            "prior relates them."
+            "Some methods never lost to the others or were never shown with them: only the prior "
+            "relates them."
         )
     return tuple(notes)

@@ -1,4 +1,4 @@
-"""The edit of each frame of a time-lapse, in which every frame has a scene of its own."""
+"""The edit of each frame of a time-lapse, whose frames have different scenes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class FrameEdits:
     Parameters
     ----------
     edit : Edit, recipe, recipe file, preset name, Day, or sequence of steps
-        As ``sunwidget.timelapse`` takes it.
+        As for ``sunwidget.timelapse``.
     count : int
         Number of frames.
     easing : str
@@ -31,7 +31,7 @@ class FrameEdits:
     Raises
     ------
     ValueError
-        For what is none of these.
+        For any other value.
     """
 
     def __init__(self, edit: Any, count: int, easing: str) -> None:
@@ -44,13 +44,13 @@ class FrameEdits:
             first: Any = edit.edit
         else:
             first = self.edit if self.one else _without_time(self.edit[0])
-        # A preset is a time of day; it corrects nothing.
+        # A preset is a time of day, without corrections.
         self.corrections = Edit() if _is_preset(first) else step(None, first)  # type: ignore[arg-type]
 
     def of(self, scene: Scene, number: int, daylight: float) -> Edit:
-        """Return the edit of a frame; what corrects the maps is in the scene already.
+        """Return the edit of a frame, without corrections, which the scene already contains.
 
-        As night falls the sun moves back to where it is: what lamps light no sun can relight.
+        As daylight fades the edit fades out: light from lamps cannot be relit by a sun.
         """
         if self.one:
             edit = step(scene, self.edit)
@@ -63,16 +63,16 @@ class FrameEdits:
 
 
 def _path(edits: Any) -> list[Any]:
-    """Return the steps of a path, each of which is known to be one."""
+    """Return the steps of a path, each checked."""
     row = list(edits) if hasattr(edits, "__iter__") and not isinstance(edits, bytes) else []
     if len(row) < 2:
         raise ValueError(
-            "A time-lapse takes an Edit, a recipe, its file, a preset, or a path of two or more "
-            f"of them, not {edits!r:.80}."
+            "A time-lapse takes an Edit, a recipe, a recipe file, a preset, or a path of two or "
+            f"more of them, not {edits!r:.80}."
         )
     for what in map(_without_time, row):
         if not _is_preset(what):
-            step(None, what)  # type: ignore[arg-type]  # only a preset looks at the scene
+            step(None, what)  # type: ignore[arg-type]  # only a preset needs the scene
     return row
 
 

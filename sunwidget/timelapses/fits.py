@@ -1,8 +1,8 @@
-"""The atmosphere and the camera's gain in every frame, steady in time.
+"""The atmosphere and the camera's gain in every frame, smoothed in time.
 
-Air and response are fitted in a few frames and are one for all. Only the exposure jumps, so the
-gain is measured in each frame on always the same pixels, its slow part is smoothed and its jumps
-are kept: they are in the photo, too.
+Air and response are fitted to a few frames and shared by all. The gain is measured in each frame on
+the same pixels. Its slow part is smoothed; jumps of the exposure are kept, since the photos have
+them, too.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from sunwidget.timelapses.sun import Direction, Sample, observation
 
 METER_SIDE = 192
 _PIXELS = 400
-_LEAST_PIXELS = 40  # of sky that tell a gain; with fewer the land does
-_REACH = 3.0  # frames: deviation of the low-pass over gains
-_LEVEL, _TURN = 0.5, 4.0  # natural log of exposure, degrees of sun: frames that differ so are apart
+_LEAST_PIXELS = 40  # of sky to measure the gain; with fewer it is measured on land
+_REACH = 3.0  # frames: standard deviation of the low-pass over gains
+_LEVEL, _TURN = 0.5, 4.0  # natural log of exposure, degrees of sun: scales of unlike frames
 
 
 class Key(NamedTuple):
-    """A fit of one frame and how far it is believed."""
+    """The fit of one frame and its weight."""
 
     number: int
     fit: SkyFit
@@ -40,10 +40,10 @@ class Key(NamedTuple):
 
 
 class Reading(NamedTuple):
-    """What a frame's pixels say.
+    """Measurements of one frame.
 
-    Log gain (3,), log exposure of the land against the others, and how bright its sky is: the
-    90th percentile of the encoded luminance, 1 without sky.
+    Log gain (3,), log exposure of the land relative to the other frames, and the sky's brightness:
+    the 90th percentile of the encoded luminance, 1 without sky.
     """
 
     log_gain: np.ndarray
@@ -51,7 +51,7 @@ class Reading(NamedTuple):
     sky_light: float
 
 
-def key_of(sample: Sample, shared: Scene, sun: Direction, source: str) -> Key:
+def fit_key(sample: Sample, shared: Scene, sun: Direction, source: str) -> Key:
     """Fit air and camera to one frame with a known sun."""
     working = sample.working
     sky = np.asarray(resize(shared.sky, working.width, working.height), np.float32)
@@ -67,10 +67,10 @@ def key_of(sample: Sample, shared: Scene, sun: Direction, source: str) -> Key:
 
 @dataclass(frozen=True, eq=False)
 class Film:
-    """What the fits of some frames say about all: one air, one response, a glare that may change.
+    """The air and response shared by all frames, and a glare that may change.
 
-    Fits of single frames differ by more than the air does in a day, and a film in which the ring
-    round the sun breathes looks broken: the air is their median, weighted by their confidence.
+    Fits of single frames differ by more than the air changes in a day, and a pulsating ring around
+    the sun would spoil the film. The air is their median, weighted by confidence.
     """
 
     keys: tuple[Key, ...]
@@ -79,7 +79,7 @@ class Film:
 
     @classmethod
     def of(cls, keys: Sequence[Key]) -> Film:
-        """Find what suits the keys' frames together."""
+        """Return the air and response shared by the keys' frames."""
         votes: dict[Response, float] = defaultdict(float)
         for key in keys:
             votes[key.fit.response] += key.weight
@@ -98,7 +98,7 @@ class Film:
 
     def fit(self, number: int, sun: Direction, log_gain: np.ndarray) -> SkyFit:
         """Return the fit of a frame with its sun and gain."""
-        # Frames without their sun know nothing of its glare.
+        # Frames that do not show the sun have no glare.
         known = [key for key in self.keys if key.fit.glare[0] > 0] or list(self.keys)
         at = [key.number for key in known]
         height, width, power = (
@@ -111,12 +111,12 @@ class Film:
 
 
 class Meter:
-    """Measures gain and exposure of a frame, always on the same pixels.
+    """Measures the gain and exposure of frames on the same pixels.
 
     Parameters
     ----------
     shared : Scene
-        What the frames have in common.
+        The frames' shared scene.
     film : Film
     """
 
@@ -134,7 +134,7 @@ class Meter:
         self.usual = _log_light(small.luminance, self.still)
 
     def read(self, working: Working, sun: Direction) -> Reading:
-        """Return what a frame, at any size, says."""
+        """Return the measurements of a frame of any size."""
         light = np.asarray(resize(working.linear, *self.size), np.float32)
         level = _log_light(light @ LUMINANCE, self.still) - self.usual
         exposure = float(np.median(level))
@@ -143,7 +143,7 @@ class Meter:
             return Reading(np.log(fit.gain), exposure, 1.0)
         seen = light.reshape(-1, 3)[self.inside]
         encoded = np.asarray(resize(working.encoded, *self.size)).reshape(-1, 3)[self.inside]
-        # What is white or burnt says little, and never nothing: weights do not jump.
+        # White and clipped pixels get little weight, but not zero, so that weights do not jump.
         cloud = np.clip((ratio_index(encoded) - 0.62) / 0.1 + 0.5, 0, 1)
         weight = np.square(1 - cloud) * np.clip((0.97 - seen.max(-1)) / 0.05, 0, 1) + 0.01
         model = model_sky(self.film.atmosphere, *self.where, sun)
@@ -156,18 +156,18 @@ class Meter:
 def steady(
     readings: Sequence[Reading | None], suns: Sequence[Direction | None]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Low-pass the gains but for the camera's own jumps of exposure.
+    """Low-pass the gains, except for the camera's jumps of exposure.
 
     Parameters
     ----------
     readings : sequence of n
-        None for frames that could not be read; they take what is around them.
+        None for unreadable frames, which are interpolated.
     suns : sequence of n
 
     Returns
     -------
     log_gain (n, 3), exposure (n,) : float64
-        The gains, and the log exposures with what is missing filled in.
+        The gains, and the log exposures with missing ones interpolated.
     """
     known = np.array([i for i, reading in enumerate(readings) if reading is not None])
     gains = np.array([r.log_gain for r in readings if r is not None])
@@ -176,14 +176,14 @@ def steady(
     exposure = np.interp(every, known, exposures)
     gain = np.stack([np.interp(every, known, gains[:, i]) for i in range(3)], axis=-1)
     weights = likeness(exposure, suns)
-    # The jump of a frame is what its land has more than the land of its neighbours.
+    # A frame's jump is the exposure of its land over that of its neighbors.
     jump = exposure - _low_pass(exposure[:, None], weights)[:, 0]
     slow = _low_pass(gain - jump[:, None], weights)
     return slow + jump[:, None], exposure
 
 
 def likeness(exposure: np.ndarray, suns: Sequence[Direction | None]) -> np.ndarray:
-    """Return how far frames i and i + j, |j| ≤ 8, belong to one take: (n, 17) in [0, 1]."""
+    """Return how likely frames i and i + j, |j| ≤ 8, are of one take: (n, 17) in [0, 1]."""
     count, reach = len(exposure), 8
     angles = np.array([(np.nan, np.nan) if sun is None else sun for sun in suns], float)
     found = np.zeros((count, 2 * reach + 1))
@@ -213,7 +213,7 @@ def _low_pass(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
 
 
 def weighted_median(values: np.ndarray, weight: np.ndarray) -> float:
-    """Return the value at which half of the weight lies below."""
+    """Return the value below which half of the weight lies."""
     order = np.argsort(values)
     below = np.cumsum(weight[order])
     return float(np.interp(0.5 * below[-1], below - 0.5 * weight[order], values[order]))

@@ -1,9 +1,9 @@
-"""What all frames of one fixed camera share: found once, on several of them together.
+"""The scene shared by all frames of a fixed camera, found once from several frames.
 
-The network's sky is the median over samples, so that one frame's cloud, sun or night decides
-nothing; skyline, horizon, water and depth are found on the samples' median picture, from which
-people, cars and moving clouds are gone. A frame is laid on that picture by its land alone
-(phase correlation: Kuglin & Hines 1975), since clouds move and the camera does not.
+The network's sky is the median over samples, which removes the clouds, sun or night of single
+frames. Skyline, horizon, water and depth are found on the samples' median picture, without people,
+cars and moving clouds. A frame is registered to that picture by its land alone (phase correlation:
+Kuglin & Hines 1975), since clouds move.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from sunwidget.edit.table import CORRECTIONS, Edit
 from sunwidget.formats.color import LUMINANCE, SRGB, strips
 from sunwidget.photo.photo import Photo
 
-_DARK = 0.35  # of the samples' usual light: a night tells nothing about the skyline
-_SIDE = 512  # pixels of the longer side at which frames are laid on each other
-_SURE = 0.06  # response of a correlation that is worth believing, also of a night's lamps
-_STILL = 1.0  # of those pixels: shadows pull as much
-MOST = 0.04  # of the longer side: beyond it the picture is another one
+_DARK = 0.35  # share of the samples' median light; darker samples do not show the skyline
+_SIDE = 512  # pixels on the longer side for registration
+_SURE = 0.06  # least reliable response of a correlation, even with lamps at night
+_STILL = 1.0  # of those pixels: moving shadows cause offsets of this size
+MOST = 0.04  # of the longer side; a larger offset is another view
 
 
 class Offset(NamedTuple):
-    """How far a frame lies right of and below the shared maps, in shares of the longer side."""
+    """Offset of a frame to the right of and below the shared maps, in shares of the longer side."""
 
     x: float
     y: float
@@ -44,21 +44,21 @@ class Offset(NamedTuple):
 
     @property
     def far(self) -> bool:
-        """Whether the camera has moved rather than shaken."""
+        """Whether the camera has moved, beyond shake."""
         return self.sure and max(abs(self.x), abs(self.y)) > MOST
 
 
 @dataclass(frozen=True, eq=False)
 class FixedCamera:
-    """A scene without weather: what the frames of one camera have in common.
+    """The scene that the frames of one camera share, without weather.
 
     Attributes
     ----------
     scene : Scene
-        Of the samples' median picture. Its sky, horizon, camera, water and depth are the
-        frames'; its clouds, sun and air are not.
+        Scene of the samples' median picture. Its sky, horizon, camera, water and depth apply to
+        all frames; its clouds, sun and air do not.
     lit : tuple of bool
-        For each sample whether it was light enough to tell the skyline.
+        For each sample, whether it is bright enough to show the skyline.
     """
 
     scene: Scene
@@ -75,18 +75,18 @@ class FixedCamera:
         hints: dict[str, Any],
         progress: Callable[[float, str], Any] | None = None,
     ) -> FixedCamera:
-        """Analyse what is the same in several frames.
+        """Analyze the shared scene of several frames.
 
         Parameters
         ----------
         small : sequence of Working
-            Of each frame.
+            Working copy of each frame.
         photos : sequence of Photo or None
-            The same frames, all of one size; None for those that memory is not spent on.
+            The same frames, all of one size; None for those left out to save memory.
         corrections : Edit
-            Its strokes and hints.
+            Source of strokes and hints.
         hints : dict
-            What ``analyze`` takes.
+            Arguments of ``analyze``.
         progress : callable, optional
             As for ``analyze``.
         """
@@ -122,37 +122,37 @@ class FixedCamera:
 
     @property
     def can_place(self) -> bool:
-        """Whether there is enough land to lay frames on each other by."""
+        """Whether there is enough land to register frames."""
         return float(self.weight.mean()) > 0.03
 
     def offset(self, photo: Photo) -> Offset:
-        """Return how far ``photo`` is shifted against the median picture."""
+        """Return the offset of ``photo`` from the median picture."""
         import cv2
 
         if not self.can_place:
             return Offset(0.0, 0.0, sure=False)
         (x, y), response = cv2.phaseCorrelate(self.edges, _edges(photo, self.weight))
         side = max(self.weight.shape)
-        # phaseCorrelate answers where the second picture's content lies.
+        # phaseCorrelate returns the position of the second picture's content.
         if response < _SURE or max(abs(x), abs(y)) < _STILL:
             return Offset(0.0, 0.0, sure=bool(response >= _SURE))
         return Offset(x / side, y / side, sure=True)
 
     def shifted(self, offset: Offset) -> Scene:
-        """Return the shared scene with its maps where a shaken frame has them."""
+        """Return the shared scene with its maps shifted to a shaken frame."""
         if offset.x == offset.y == 0:
             return self.scene
         known = self.scene.known_depth
         assert known is not None
         return dataclasses.replace(
             self.scene,
-            sky=_moved(self.scene.sky, offset),
-            coarse_map=_moved(self.scene.coarse_map, offset),
-            water_map=_moved(self.scene.water_map, offset),
+            sky=_shift(self.scene.sky, offset),
+            coarse_map=_shift(self.scene.coarse_map, offset),
+            water_map=_shift(self.scene.water_map, offset),
             known_depth=dataclasses.replace(
                 known,
-                log_depth=_moved(known.log_depth, offset),
-                confidence=_moved(known.confidence, offset),
+                log_depth=_shift(known.log_depth, offset),
+                confidence=_shift(known.confidence, offset),
             ),
             memory=Memory(),
         )
@@ -182,7 +182,7 @@ def _common_sky(small: list[Working], plate: Working, method: str) -> np.ndarray
 
 
 def _depth_as_it_is(scene: Scene) -> DepthField:
-    """Return the scene's depth as a map that no frame's own picture changes any more."""
+    """Return the scene's depth as a fixed map that does not depend on a frame's picture."""
     field = scene.depth_field
     size = scene.working.width, scene.working.height
     log_depth = field.log_metres(*size, scene.working)
@@ -197,20 +197,20 @@ def _depth_as_it_is(scene: Scene) -> DepthField:
 
 
 def _land_weight(scene: Scene) -> np.ndarray:
-    """Weight of each pixel for laying frames on each other: 1 well inside the land."""
+    """Return the weight of each pixel for registration: 1 well inside the land."""
     import cv2
 
     side = _SIDE / max(scene.width, scene.height)
     size = max(8, round(scene.width * side)), max(8, round(scene.height * side))
     land = (resize(scene.sky, *size) < 0.05) & (resize(scene.water_map, *size) < 0.5)
-    # Beyond the frame the land goes on; the skyline itself may be a treetop in the wind.
+    # Land continues beyond the frame; treetops at the skyline move in the wind.
     inner = cv2.erode(land.astype(np.float32), np.ones((9, 9)))
     window = cv2.createHanningWindow(size, cv2.CV_32F) ** 0.25
     return np.asarray(cv2.GaussianBlur(inner, (0, 0), 3) * window, np.float32)
 
 
 def _edges(photo: Photo, weight: np.ndarray) -> np.ndarray:
-    """Contrast edges of the land, (h, w) float64, whatever the light: for ``phaseCorrelate``."""
+    """Return the land's contrast edges (h, w) float64, independent of its light."""
     import cv2
 
     small = SRGB.decode(photo.preview(max(weight.shape)))
@@ -224,7 +224,7 @@ def _edges(photo: Photo, weight: np.ndarray) -> np.ndarray:
     return np.asarray((steep - mean) * weight, np.float64)
 
 
-def _moved(image: np.ndarray, offset: Offset) -> np.ndarray:
+def _shift(image: np.ndarray, offset: Offset) -> np.ndarray:
     import cv2
 
     side = max(image.shape)

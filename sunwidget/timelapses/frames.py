@@ -1,4 +1,4 @@
-"""The frames of one camera: which files, in which order, how large and when they were taken."""
+"""The frames of one camera: their files, order, size and times."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from sunwidget.formats.color import SRGB
 from sunwidget.photo.decode_apart import open_apart
 from sunwidget.photo.photo import Photo
 
-# What a folder is searched for; a glob or a list may name any file.
+# Extensions searched for in a folder; a glob or a list may name any file.
 PICTURES = frozenset(
     f".{ending}"
     for group in (
@@ -27,24 +27,24 @@ PICTURES = frozenset(
     )
     for ending in group
 )
-_SAME_SHAPE = 0.01  # relative difference of the proportions that is rounding
+_SAME_SHAPE = 0.01  # relative difference of the aspect ratios due to rounding
 
 Times = str | tuple[dt.datetime, float] | Sequence[dt.datetime] | None
 
 
 def frame_sources(frames: Any) -> list[Any]:
-    """Return the frames one by one, in the order of the film.
+    """Return the sources of the frames in the order of the film.
 
     Parameters
     ----------
     frames : path or sequence
         A folder (its pictures) or a glob such as ``"frames/*.jpg"``, both in natural order:
-        ``img2`` before ``img10``. Or a sequence of what ``sunwidget.open`` takes, in its order.
+        ``img2`` before ``img10``. Or a sequence of sources for ``sunwidget.open``.
 
     Raises
     ------
     FileNotFoundError
-        When nothing is there.
+        When there are fewer than two frames.
     ValueError
         For a single picture.
     """
@@ -79,7 +79,7 @@ def _in_natural_order(path: Path) -> list[Any]:
         found = [p for p in path.iterdir() if p.suffix.lower() in PICTURES]
         what = f"The folder {path} holds"
     else:
-        # Path.glob takes no absolute pattern.
+        # Path.glob does not accept absolute patterns.
         found = [Path(p) for p in glob.glob(str(path))]  # noqa: PTH207
         what = f"{path} names"
     found = sorted((p for p in found if p.is_file() and p.name[0] != "."), key=natural_key)
@@ -90,7 +90,7 @@ def _in_natural_order(path: Path) -> list[Any]:
 
 
 def name_of(source: Any, index: int) -> str:
-    """Return what a frame is called in messages and files."""
+    """Return the name of a frame in messages and files."""
     if isinstance(source, Photo) and source.name != "array":
         return source.name
     if isinstance(source, (str, os.PathLike)):
@@ -99,22 +99,21 @@ def name_of(source: Any, index: int) -> str:
 
 
 def read_frame(source: Any, long_edge: int | None, like: tuple[int, int] | None = None) -> Photo:
-    """Open a frame in a process of its own, shrunk to at most ``long_edge``; never enlarged.
+    """Open a frame in a separate process, shrunk to at most ``long_edge``; never enlarged.
 
     Parameters
     ----------
     source
-        What ``sunwidget.open`` takes.
+        Any source for ``sunwidget.open``.
     long_edge : int or None
-        None keeps the photo as it is.
+        Pixels; None keeps the photo's size.
     like : (width, height), optional
-        The size of the other frames as ``read_frame`` gave them: a frame of another size but
-        of the same proportions gets it.
+        Size of the other frames. A frame with the same aspect ratio is resized to it.
 
     Raises
     ------
     PhotoError
-        For what cannot be opened, or has other proportions than ``like``.
+        When the frame cannot be opened or its aspect ratio differs from that of ``like``.
     """
     photo = open_apart(source)
     edge = long_edge if like is None else max(like)
@@ -123,23 +122,23 @@ def read_frame(source: Any, long_edge: int | None, like: tuple[int, int] | None 
         ratio = photo.width / photo.height * like[1] / like[0]
         if abs(ratio - 1) > _SAME_SHAPE + 2 / min(like):
             raise PhotoError(
-                f"it is {photo.width}×{photo.height}, and the frames before it have the "
-                f"proportions of {like[0]}×{like[1]}"
+                f"it is {photo.width}×{photo.height}, but the frames before it have the "
+                f"aspect ratio of {like[0]}×{like[1]}"
             )
         size = like
     return photo if size == photo.size else resized(photo, size)
 
 
 def resized(photo: Photo, size: tuple[int, int]) -> Photo:
-    """Return the photo at another size, averaged in linear light, with its facts."""
+    """Return the photo at another size, averaged in linear light, with its metadata."""
     import cv2
 
     if size == photo.size_within(max(size)) and photo.bit_depth == 8:
         codes: np.ndarray = photo.preview(max(size))
     else:
         smaller = size[0] < photo.width
-        way = cv2.INTER_AREA if smaller else cv2.INTER_LINEAR
-        codes = cv2.resize(np.asarray(photo.pixels, np.float32), size, interpolation=way)
+        filter_ = cv2.INTER_AREA if smaller else cv2.INTER_LINEAR
+        codes = cv2.resize(np.asarray(photo.pixels, np.float32), size, interpolation=filter_)
         if photo.bit_depth == 8:
             codes = SRGB.encode(codes)
     return dataclasses.replace(
@@ -148,23 +147,23 @@ def resized(photo: Photo, size: tuple[int, int]) -> Photo:
 
 
 class Clock:
-    """When each frame was taken, in UTC, as far as it is known.
+    """The times of the frames in UTC, as far as they are known.
 
     Parameters
     ----------
     times : None, str, (datetime, seconds) or sequence of datetime
-        None reads each file's EXIF; a pattern as for ``datetime.strptime`` reads the file's name
-        without its ending ("%Y%m%d_%H%M%S"); a pair is the first frame's time and the seconds
-        from one frame to the next; else one time for each frame. Without a zone times are UTC.
+        None reads each file's EXIF. A ``datetime.strptime`` pattern ("%Y%m%d_%H%M%S") reads the
+        file's name without its extension. A pair is the first frame's time and the seconds between
+        frames. A sequence has one time per frame. Times without a zone are UTC.
     count : int
         Number of frames.
     longitude : float, optional
-        Degrees east, to guess the zone of EXIF times that name none.
+        Degrees east, to guess the zone of EXIF times without one.
 
     Raises
     ------
     ValueError
-        When ``times`` is none of these.
+        For any other value of ``times``.
     """
 
     def __init__(self, times: Times, count: int, longitude: float | None = None) -> None:
@@ -185,7 +184,7 @@ class Clock:
         self.row = [_utc(moment) for moment in row]
 
     def __call__(self, index: int, source: Any, photo: Photo) -> dt.datetime | None:
-        """Return the time of a frame; None where it is not known."""
+        """Return the time of a frame; None if it is unknown."""
         if self.row is not None:
             return self.row[index]
         if self.pattern is None:
@@ -197,7 +196,7 @@ class Clock:
             return _utc(dt.datetime.strptime(name, self.pattern))  # noqa: DTZ007 - UTC by _utc
         except ValueError as error:
             raise ValueError(
-                f"The name {name!r} does not have the form {self.pattern!r} that times= gives."
+                f"The name {name!r} does not match the pattern {self.pattern!r} of times=."
             ) from error
 
 

@@ -1,4 +1,4 @@
-"""The few frames of a time-lapse that are looked at closely, and what they tell about all."""
+"""The sampled frames of a time-lapse, analyzed in detail, and what follows for all frames."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ from sunwidget.geometry.place import Place
 from sunwidget.photo.photo import Photo
 from sunwidget.photo.place import from_photo
 from sunwidget.progress import Progress
-from sunwidget.timelapses.fits import Film, key_of
+from sunwidget.timelapses.fits import Film, fit_key
 from sunwidget.timelapses.fixed_camera import FixedCamera
 from sunwidget.timelapses.frames import Clock, name_of, read_frame
 from sunwidget.timelapses.sun import (
     Direction,
     Sample,
     SunTrack,
+    find_seen_sun,
     middle_direction,
-    seen_sun,
-    track_of,
+    track_sun,
 )
 
-_SIDE = 640  # pixels of the longer side at which they are looked at
+_SIDE = 640  # pixels on the longer side of an analyzed sample
 _SEARCH_SIDE = 384
-_MOST_BYTES = 400_000_000  # of the whole photos that a median picture is made from
+_MOST_BYTES = 400_000_000  # total of the photos behind a median picture
 
 
 def open_samples(
     sources: list[Any], wanted: int, long_edge: int | None, clock: Clock, progress: Progress
 ) -> tuple[list[Sample], list[Photo | None]]:
-    """Open frames spread over the film; one that is broken gives its place to the next."""
+    """Open frames spread over the film; the next frame replaces a broken one."""
     chosen = np.unique(np.linspace(0, len(sources) - 1, min(wanted, len(sources))).astype(int))
     samples: list[Sample] = []
     photos: list[Photo | None] = []
@@ -67,22 +67,22 @@ def track_and_film(
     samples: list[Sample],
     fixed: FixedCamera,
     place: Place | None,
-    told: Direction | None,
+    hinted: Direction | None,
     progress: Progress,
 ) -> tuple[SunTrack, Film]:
-    """Return the sun's way through the frames and what suits all of them together.
+    """Return the sun's track through the frames, and the air and response shared by all.
 
-    ``told`` is where a person says the sun is.
+    ``hinted`` is the sun's direction as set by a hint.
     """
     progress(0.45, "Following the sun")
     shared = fixed.scene
     size = samples[0].working.width, samples[0].working.height
     sky = np.asarray(resize(shared.sky, *size), np.float32)
     samples = [
-        s._replace(seen=seen_sun(s.working, sky, shared.camera, shared.hints)) for s in samples
+        s._replace(seen=find_seen_sun(s.working, sky, shared.camera, shared.hints)) for s in samples
     ]
     lit = [s for s, ok in zip(samples, fixed.lit, strict=True) if ok] or samples
-    track = track_of(samples, place, told, shared.assumed_sun)
+    track = track_sun(samples, place, hinted, shared.assumed_sun)
     if track.source == "assumed":
         searched = []
         for s in lit[:: max(1, len(lit) // 4)]:
@@ -95,17 +95,17 @@ def track_and_film(
             )
         suns = [fit.sun for fit in searched]
         guess = middle_direction(suns, [0.1 + fit.sun_confidence for fit in searched])
-        track = track_of(samples, place, told, guess)
+        track = track_sun(samples, place, hinted, guess)
     keys = []
     for done, s in enumerate(lit):
         progress(0.45 + 0.15 * done / len(lit), "fitting the air")
-        keys.append(key_of(s, shared, track.at(s.number, s.moment), track.source))
+        keys.append(fit_key(s, shared, track.at(s.number, s.moment), track.source))
     return track, Film.of(keys)
 
 
-def place_of(photos: list[Photo | None], place: Place | None) -> Place | None:
-    """Return the place that was given, else the first that a photo's file tells."""
+def find_place(photos: list[Photo | None], place: Place | None) -> Place | None:
+    """Return ``place`` if it is set, otherwise the first place in a photo's metadata."""
     if place is not None:
         return place
-    told = (from_photo(photo).place for photo in photos if photo is not None)
-    return next((found for found in told if found is not None), None)
+    recorded = (from_photo(photo).place for photo in photos if photo is not None)
+    return next((found for found in recorded if found is not None), None)

@@ -1,7 +1,7 @@
-"""Scenes of the frames of one camera: what is shared, and what each frame adds.
+"""Scenes of the frames of one camera: the shared scene, completed for each frame.
 
-``FrameScenes.of`` looks at a few frames closely and at every frame briefly; iterating then opens
-each frame once more and yields its scene. Only a handful of frames is in memory at any time.
+``FrameScenes.of`` analyzes a few frames in detail and measures every frame. Iterating opens each
+frame once more and yields its scene. Only a few frames are in memory at any time.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ from sunwidget.progress import Progress
 from sunwidget.timelapses.fits import Film, Meter, Reading, likeness, steady
 from sunwidget.timelapses.fixed_camera import FixedCamera, Offset
 from sunwidget.timelapses.frames import Clock, name_of, read_frame
-from sunwidget.timelapses.samples import open_samples, place_of, track_and_film
+from sunwidget.timelapses.samples import find_place, open_samples, track_and_film
 from sunwidget.timelapses.sun import Direction, SunTrack, observation
 
 SAMPLES = 9
-_AROUND = 2  # frames before and after over which the old sun's mark is averaged
+_AROUND = 2  # frames before and after over which the old sun's glare is averaged
 
 
 class Trouble(NamedTuple):
-    """A frame that cannot be used, and why."""
+    """An unusable frame and the reason."""
 
     number: int
     name: str
@@ -53,21 +53,21 @@ class FrameScenes:
     Attributes
     ----------
     sources : list
-        What ``sunwidget.open`` takes, a frame each.
+        A source for ``sunwidget.open`` per frame.
     fixed : FixedCamera
     track : SunTrack
     film : Film
     fits : tuple of SkyFit or None
-        Of each frame; None where it cannot be used.
+        The fit of each frame; None if it is unusable.
     offsets : tuple of Offset
     alike : (n, 17) float64
-        How far the eight frames before and after each belong to the same take.
+        How likely each frame and the eight before and after it are of one take.
     daylight : tuple of float
-        How far the sun, and not lamps or the moon, lights each frame: 0 at night, 1 by day.
+        Share of sunlight, as opposed to lamps or the moon, in each frame: 0 at night, 1 by day.
     troubles : tuple of Trouble
-        Frames that cannot be used.
+        The unusable frames.
     size : (width, height)
-        Pixels of every frame's scene.
+        Size of every frame's scene in pixels.
     """
 
     sources: list[Any]
@@ -93,47 +93,47 @@ class FrameScenes:
         hints: dict[str, Any],
         progress: Progress,
     ) -> FrameScenes:
-        """Look at the frames.
+        """Analyze the frames.
 
         Parameters
         ----------
         sources : sequence
         long_edge : int or None
-            Frames are shrunk to it.
+            Limit of the longer side in pixels; larger frames are shrunk.
         corrections : Edit
-            Its strokes and hints, in fractions of the picture, are every frame's.
+            Strokes and hints, in fractions of the picture, for every frame.
         place : Place or None
-            Where the camera stands; None asks the files.
+            Position of the camera; None reads it from the files.
         clock : Clock
         hints : dict
-            What ``analyze`` takes but the sun.
+            Arguments of ``analyze``, except the sun.
         progress : callable
-            Called with (fraction, message); what it raises cancels.
+            Called with (fraction, message). An exception from it cancels.
 
         Raises
         ------
         PhotoError
-            When fewer than two frames can be used, or the camera moved.
+            When fewer than two frames are usable, or the camera moved.
         """
         sources = list(sources)
         samples, photos = open_samples(sources, SAMPLES, long_edge, clock, progress)
         size = next(photo.size for photo in photos if photo is not None)
-        place = place_of(photos, place)
+        place = find_place(photos, place)
         progress(0.2, "Finding what all frames share")
         fixed = FixedCamera.of([s.working for s in samples], photos, corrections, hints)
         del photos
-        told = fixed.scene.sun if fixed.scene.hints.sun is not None else None
+        hinted = fixed.scene.sun if fixed.scene.hints.sun is not None else None
         track, film = track_and_film(
             samples,
             fixed,
             place,
-            None if told is None else (told.azimuth, told.elevation),
+            None if hinted is None else (hinted.azimuth, hinted.elevation),
             progress,
         )
-        return cls.surveyed(sources, fixed, track, film, clock, size, progress)
+        return cls.survey(sources, fixed, track, film, clock, size, progress)
 
     @classmethod
-    def surveyed(
+    def survey(
         cls,
         sources: list[Any],
         fixed: FixedCamera,
@@ -143,7 +143,7 @@ class FrameScenes:
         size: tuple[int, int],
         progress: Progress,
     ) -> FrameScenes:
-        """Look at every frame briefly: its light, its time, and whether it lies where it should."""
+        """Measure the light, time and offset of every frame."""
         meter = Meter(fixed.scene, film)
         readings: list[Reading | None] = []
         suns: list[Direction | None] = []
@@ -188,18 +188,18 @@ class FrameScenes:
         return len(self.sources)
 
     def __iter__(self) -> Iterator[Scene | Trouble]:
-        """Yield the scene of every frame in turn, or why it cannot be used."""
-        ahead: deque[tuple[int, Scene | Trouble]] = deque()
+        """Yield the scene of every frame in turn, or its Trouble if it is unusable."""
+        waiting: deque[tuple[int, Scene | Trouble]] = deque()
         marks: dict[int, np.ndarray] = {}
         following = iter(range(len(self.sources)))
         for number in range(len(self.sources)):
-            while not ahead or ahead[-1][0] < min(number + _AROUND, len(self.sources) - 1):
+            while not waiting or waiting[-1][0] < min(number + _AROUND, len(self.sources) - 1):
                 i = next(following)
                 scene = self._scene(i)
-                ahead.append((i, scene))
+                waiting.append((i, scene))
                 if isinstance(scene, Scene):
                     marks[i] = scene.glare
-            _, scene = ahead.popleft()
+            _, scene = waiting.popleft()
             if isinstance(scene, Scene):
                 scene = dataclasses.replace(
                     scene, glare=self._steady_mark(number, marks), memory=Memory()
@@ -208,7 +208,7 @@ class FrameScenes:
             yield scene
 
     def _steady_mark(self, number: int, marks: dict[int, np.ndarray]) -> np.ndarray:
-        """Average where the old sun hides the sky over frames of the same take."""
+        """Average the old sun's glare map over frames of the same take."""
         reach = self.alike.shape[1] // 2
         total, mean = 0.0, np.zeros_like(marks[number])
         for i, mark in marks.items():
@@ -236,13 +236,13 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
     Parameters
     ----------
     photo : Photo
-        Of the size of ``shared``.
+        The frame, in the size of ``shared``.
     shared : Scene
-        What the frames have in common.
+        The frames' shared scene.
     fit : SkyFit
         The frame's air, gain and sun.
     source : str
-        How that sun is known (``SunTrack.source``).
+        Source of that sun's direction (``SunTrack.source``).
     """
     working = Working.of(photo)
     size = _size_of(working)
@@ -263,7 +263,7 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
         softness_map=cover.softness,
         shade=cover.shade,
         everywhere=everywhere,
-        # A sun that nobody knows is no observation.
+        # An assumed sun is not an observation.
         sun=None if source == "assumed" else seen,
         moon=None,
         assumed_sun=fit.sun,
@@ -286,7 +286,7 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
 
 
 def _daylight(track: SunTrack, reading: Reading | None, sun: Direction | None) -> float:
-    """Return how far the sun lights a frame: by the clock, or by how bright its sky is."""
+    """Return the sun's share of a frame's light, from the clock or from the sky's brightness."""
     if reading is None or sun is None:
         return 0.0
     if track.source == "clock":
@@ -298,15 +298,15 @@ def _refuse_too_few(readings: list[Reading | None], troubles: list[Trouble]) -> 
     if sum(reading is not None for reading in readings) < 2:
         worst = troubles[0]
         raise PhotoError(
-            f"Fewer than two of {len(readings)} frames can be used; {worst.name}: {worst.reason}"
+            f"Fewer than two of {len(readings)} frames are usable; {worst.name}: {worst.reason}"
         )
 
 
 def _moved_message(name: str, offset: Offset) -> str:
     share = max(abs(offset.x), abs(offset.y))
     return (
-        f"The camera has moved by {share:.0%} of the picture at {name}. A time-lapse needs one "
-        "view: make a film of the frames before it and another of those from it on."
+        f"The camera has moved by {share:.0%} of the picture at {name}. A time-lapse needs a "
+        "fixed view: split the frames there and make two films."
     )
 
 

@@ -1,8 +1,8 @@
-"""Where the photos' own sun stands in each frame of one camera.
+"""The direction of the photographed sun in each frame of one camera.
 
-A clock and a place tell it for every frame (solar position), and the suns that some frames show
-tell the camera's heading and what it is off by. Without a clock the suns that are seen are joined
-by straight lines; where none is seen, one direction that suits all sampled skies serves for all.
+With a clock and a place it is the solar position; suns visible in some frames give the camera's
+heading and correct its error. Without a clock, visible suns are joined by straight lines. If no
+frame shows the sun, one direction fitted to all sampled skies is used.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ from sunwidget.photo.place import date_and_hours
 
 Direction = tuple[float, float]
 _BURNT = 0.93  # encoded luminance that a disc reaches
-_NEAR = 6.0  # degrees within which a blot is taken for the sun that the clock expects
+_NEAR = 6.0  # degrees within which a bright spot matches the sun expected by the clock
 
 
 class Sample(NamedTuple):
-    """A frame that is looked at closely: its number, small copy, time, and sun if it shows one."""
+    """A sampled frame: its number, small copy, time, and the sun if it is visible."""
 
     number: int
     working: Working
@@ -46,11 +46,11 @@ class SunTrack:
     Attributes
     ----------
     samples : tuple of (index, azimuth, elevation)
-        What is joined by lines when there is no clock; degrees.
+        Directions joined by lines if there is no clock; degrees.
     place : Place or None
         With heading; None without a clock.
     correction : (azimuth, elevation)
-        Degrees to add to what the clock says, by the suns that are seen.
+        Degrees to add to the clock's sun, from the visible suns.
     source : str
         "clock", "seen", "told" or "assumed".
     """
@@ -74,8 +74,10 @@ class SunTrack:
         return turned(azimuth), float(np.interp(index, indices, elevations))
 
 
-def seen_sun(working: Working, sky: np.ndarray, camera: Camera, hints: Hints) -> Direction | None:
-    """Return the direction of the sun that a frame shows; None when it shows none."""
+def find_seen_sun(
+    working: Working, sky: np.ndarray, camera: Camera, hints: Hints
+) -> Direction | None:
+    """Return the direction of the sun in a frame; None if it is not visible."""
     if hints.sun_outside:
         return None
     focal = camera.focal / working.zoom[1]
@@ -87,44 +89,43 @@ def seen_sun(working: Working, sky: np.ndarray, camera: Camera, hints: Hints) ->
     return sun.azimuth, sun.elevation
 
 
-def track_of(
-    samples: Sequence[Sample], place: Place | None, told: Direction | None, guess: Direction
+def track_sun(
+    samples: Sequence[Sample], place: Place | None, hinted: Direction | None, guess: Direction
 ) -> SunTrack:
-    """Return the sun's way through the frames.
+    """Return the sun's track through the frames.
 
     Parameters
     ----------
     samples : sequence of Sample
         In the order of the film.
     place : Place or None
-        Where the camera stands; its date and time are not looked at. Without a heading that is
-        found by the suns that are seen, or else so that the clock's sun passes through ``guess``
-        in the middle sample.
-    told : (azimuth, elevation) or None
-        What a person said about the sun.
+        Position of the camera; date and time are ignored. A missing heading follows from the
+        visible suns, or else from placing the clock's sun at ``guess`` in the middle sample.
+    hinted : (azimuth, elevation) or None
+        Direction set by a hint.
     guess : (azimuth, elevation)
-        Where it stands when nothing tells it.
+        Direction to use if nothing else is known.
     """
     timed = [s for s in samples if s.moment is not None]
     if place is not None and timed:
         return _by_clock(timed, place, guess)
-    if told is not None:
-        return SunTrack(((0, *told),), None, (0.0, 0.0), "told")
+    if hinted is not None:
+        return SunTrack(((0, *hinted),), None, (0.0, 0.0), "told")
     seen = _on_one_way([(s.number, *s.seen) for s in samples if s.seen is not None])
-    # A bright cloud is taken for the sun now and then, the sun itself in many frames.
+    # A bright cloud is mistaken for the sun in a few frames; the sun itself is in many.
     if len(seen) >= max(2, math.ceil(len(samples) / 3)):
         return SunTrack(tuple(seen), None, (0.0, 0.0), "seen")
     return SunTrack(((0, *guess),), None, (0.0, 0.0), "assumed")
 
 
 def _on_one_way(seen: list[tuple[int, float, float]]) -> list[tuple[int, float, float]]:
-    """Leave out what lies off the straight way that most of the seen suns are on."""
+    """Drop the suns that lie off the straight line of most others."""
     if len(seen) < 3:
         return seen
     numbers = np.array([number for number, _, _ in seen], float)
     off = np.zeros(len(seen))
     for values in (np.unwrap(np.radians([s[1] for s in seen])), np.radians([s[2] for s in seen])):
-        # The slope that half of the pairs lie below (Theil 1950, Sen 1968).
+        # The median slope over all pairs (Theil 1950, Sen 1968).
         rise = np.subtract.outer(values, values)[np.triu_indices(len(seen), 1)]
         run = np.subtract.outer(numbers, numbers)[np.triu_indices(len(seen), 1)]
         rest = values - np.median(rise / run) * numbers
@@ -153,20 +154,20 @@ def _by_clock(timed: Sequence[Sample], place: Place, guess: Direction) -> SunTra
     if off:
         correction = float(np.median([a for a, _ in off])), float(np.median([e for _, e in off]))
     track = SunTrack((), facing, correction, "clock")
-    # For frames whose file tells no time.
+    # For frames whose file has no time.
     known = tuple((s.number, *track.at(s.number, s.moment)) for s in timed)
     return SunTrack(known, facing, correction, "clock")
 
 
 def _middle_angle(degrees: Sequence[float]) -> float:
-    """Return the one of some angles that the others are nearest to."""
+    """Return the angle with the least total distance to the others."""
     angles = np.array(degrees)
     apart = np.abs((angles[:, None] - angles + 180) % 360 - 180)
     return float(angles[apart.sum(axis=1).argmin()] % 360)
 
 
 def middle_direction(directions: Sequence[Direction], weights: Sequence[float]) -> Direction:
-    """Return the one of some directions that the others, by weight, are nearest to."""
+    """Return the direction with the least weighted total distance to the others."""
     azimuth, elevation = np.radians(np.array(directions, float)).T
     rays = np.stack(
         [
@@ -182,10 +183,10 @@ def middle_direction(directions: Sequence[Direction], weights: Sequence[float]) 
 def observation(
     sun: Direction, working: Working, sky: np.ndarray, camera: Camera, hints: Hints, source: str
 ) -> SunObservation:
-    """Return what a frame shows of a sun whose direction is known.
+    """Return the observation of a sun in a frame whose direction is known.
 
-    It is visible where sky is burnt at its place; behind land, behind a cloud or outside the
-    frame it is not, and then has no pixels.
+    It is visible if the sky is clipped at its position. Behind land or cloud or outside the frame
+    it is not visible and has no pixels.
     """
     size = camera.width, camera.height
     x, y = camera.pixel(*sun)

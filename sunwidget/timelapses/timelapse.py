@@ -1,4 +1,4 @@
-"""Time-lapses: many frames of one camera, one edit or a path of edits, a film or many stills."""
+"""Time-lapses: frames of one camera under an edit or a path of edits, as a film or as stills."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from sunwidget.export.formats import check_quality
 from sunwidget.export.stills import save
 from sunwidget.files import folder_target
 from sunwidget.film.path import Step, SunPath, check_rate
-from sunwidget.film.prefetch import ahead
+from sunwidget.film.prefetch import prefetch
 from sunwidget.film.writer import (
     Film,
     film_size,
@@ -27,8 +27,8 @@ from sunwidget.film.writer import (
     is_sequence,
     longest_side,
     size_for,
-    told,
     whole_film,
+    with_progress,
     writer,
 )
 from sunwidget.geometry.place import Place
@@ -43,11 +43,11 @@ from sunwidget.timelapses.scenes import FrameScenes, Trouble
 BROKEN = ("hold", "skip", "stop")
 LOOPS = ("forever", "once")
 _OPTIONS = ("fps", "size", "easing", "loop", "quality", "format", "place", "times", "broken")
-_LOOKING = 0.3  # of the work: what is done before the first frame is drawn
+_LOOKING = 0.3  # share of the work before the first frame is drawn
 
 
 class FramesWarning(PhotoWarning):
-    """Frames of a time-lapse that could not be used: ``unusable`` ones of ``count``."""
+    """Some frames of a time-lapse could not be used: ``unusable`` of ``count``."""
 
     def __init__(self, words: str, unusable: int, count: int) -> None:
         super().__init__(words)
@@ -65,7 +65,7 @@ def timelapse(
     easing: str = "linear",
     loop: str = "forever",
     quality: int = 85,
-    format: str | None = None,  # noqa: A002 - the field's word, as everywhere else
+    format: str | None = None,  # noqa: A002 - the usual word, as everywhere else
     place: Place | None = None,
     times: Times = None,
     broken: str = "hold",
@@ -75,53 +75,52 @@ def timelapse(
 ) -> Path:
     """Move the sun in every frame of a time-lapse of one fixed camera.
 
-    Skyline, horizon, camera, water and depth are found once, on several frames together; clouds,
-    exposure and the sun's own place are each frame's, steady in time, so that nothing flickers
-    that does not in the frames themselves. A camera that shakes by less than 4 % of the picture
-    is followed.
+    Skyline, horizon, camera, water and depth are found once, from several frames together. Clouds,
+    exposure and the sun's direction are found for each frame and smoothed in time, so that the edit
+    adds no flicker. Camera shake of less than 4 % of the picture is compensated.
 
     Parameters
     ----------
     frames : path or sequence
         A folder, a glob such as ``"frames/*.jpg"`` (both in natural order), or a sequence of
-        what ``sunwidget.open`` takes. They are opened twice and never held all at once.
+        sources for ``sunwidget.open``. Frames are opened twice and never held all at once.
     edit : Edit, recipe (dict), recipe file, preset name, or a path of them
         One edit for every frame, or, as for ``sunwidget.sweep``, a path of edits from the first
-        frame to the last. Automatic values are each frame's own. Strokes and hints, in fractions
-        of the picture, hold for all frames.
+        frame to the last. Automatic values are those of each frame. Strokes and hints, in fractions
+        of the picture, apply to all frames.
     out : path
-        ``.mp4``, ``.gif`` or ``.webp``; a pattern as ``"frames/%04d.png"``; or a folder, made
-        when it is not there, for stills with the frames' own names and metadata.
+        ``.mp4``, ``.gif`` or ``.webp``; a pattern such as ``"frames/%04d.png"``; or a folder,
+        created if missing, for stills with the frames' names and metadata.
     fps : float
-        Frames a second, 1–120.
+        Frames per second, 1–120.
     size : (width, height), optional
         Pixels. Default: the frames' own size; in a film at most 1920 on the longer side, 720 in
-        a GIF. MP4 rounds both down to even numbers. Stills keep their proportions within it.
+        a GIF. MP4 rounds both down to even numbers. Stills keep their aspect ratio within it.
     easing : str
-        Along a path, as in ``sunwidget.sweep``.
+        Easing along a path, as in ``sunwidget.sweep``.
     loop : {"forever", "once"}
         Whether a GIF or WebP repeats.
     quality : int
-        1–100, of MP4, WebP and JPEG.
+        MP4, WebP and JPEG quality, 1–100.
     format : str, optional
-        Ending of stills, such as "png"; default each frame's own.
+        File extension of stills, such as "png". Default: each frame's own.
     place : Place, optional
-        Where the camera stands; only latitude, longitude and heading are looked at. With times
-        the frames' own sun is where the clock says. Default: the files' GPS. Without a heading
-        that is found by the suns that frames show.
+        Position of the camera; only latitude, longitude and heading are used. Together with times
+        it determines the photographed sun. Default: the files' GPS. A missing heading follows from
+        the suns visible in the frames.
     times : optional
-        When the frames were taken: a pattern of their names as for ``strptime``
-        ("%Y%m%d_%H%M%S"), ``(first, seconds between frames)``, or a datetime for each; UTC
-        unless they name a zone. Default: the files' EXIF. Without place or times the frames'
-        own sun is where frames show it, or one direction for all is fitted.
+        Times of the frames: a ``strptime`` pattern of their names ("%Y%m%d_%H%M%S"),
+        ``(first, seconds between frames)``, or a datetime for each frame; UTC without a time zone.
+        Default: the files' EXIF. Without place or times the photographed sun follows from the
+        frames that show it; otherwise one direction is fitted for all frames.
     broken : {"hold", "skip", "stop"}
-        A frame that cannot be read: the one before it is shown again (stills: it is left out),
-        it is left out, or it is an error. What was held or left out is told by a PhotoWarning.
+        For an unreadable frame: show the one before it again (stills: omit it), omit it, or raise
+        PhotoError. A PhotoWarning lists the repeated or omitted frames.
     overwrite : bool
         Replace existing files.
     progress : callable, optional
-        Called as ``progress(fraction, message)``. What it raises cancels: of a film nothing is
-        left, of stills those that are whole.
+        Called as ``progress(fraction, message)``. An exception from it cancels; finished stills
+        remain, an unfinished film does not.
     **hints
         ``sky``, ``horizon``, ``fov``, ``water``, ``depth`` and methods as for
         ``sunwidget.analyze``, for all frames.
@@ -136,12 +135,12 @@ def timelapse(
     FileNotFoundError
         When there are no frames.
     FileExistsError
-        When what is to be written exists and ``overwrite`` is false.
+        When an output file exists and ``overwrite`` is false.
     PhotoError
-        When the camera moves, fewer than two frames can be used, or one cannot and ``broken``
-        is "stop".
+        When the camera moves, when fewer than two frames are usable, or when a frame is not usable
+        and ``broken`` is "stop".
     ValueError
-        For options that are none.
+        For invalid options.
     RendererError
         When this machine has no EGL.
 
@@ -162,7 +161,7 @@ def timelapse(
     else:
         names = _still_names(sources, place_out, format, overwrite=overwrite)
     steps = FrameEdits(edit, len(sources), easing)
-    require_renderer()  # the frames are long looked at before the first is drawn
+    require_renderer()  # before the long analysis of the frames
     report = with_time_left(progress)
     with kept():
         scenes = FrameScenes.of(
@@ -190,24 +189,24 @@ def timelapse(
         size = size_for(place_out, scenes.size, size)
         with (
             whole_film(place_out, overwrite=overwrite) as unfinished,
-            contextlib.closing(ahead(iter(scenes))) as prepared,
+            contextlib.closing(prefetch(iter(scenes))) as prepared,
             contextlib.closing(
-                ahead(_drawn(prepared, steps, scenes.daylight, size, broken))
+                prefetch(_draw_frames(prepared, steps, scenes.daylight, size, broken))
             ) as pictures,
         ):
-            row = told(pictures, count, drawing)
+            row = with_progress(pictures, count, drawing)
             write(row, unfinished, Film(size, fps, count, loop, quality))
         return place_out.parent if is_sequence(place_out) else place_out
 
 
-def _drawn(
+def _draw_frames(
     scenes: Iterator[Scene | Trouble],
     steps: FrameEdits,
     daylight: Sequence[float],
     size: tuple[int, int],
     broken: str,
 ) -> Iterator[np.ndarray]:
-    """Draw the frames; one that cannot be used shows the one before it, or the first that can."""
+    """Draw the frames; an unusable one repeats the frame before it, or the first usable one."""
     from sunwidget.renderer.offscreen import render
 
     last: np.ndarray | None = None
@@ -226,7 +225,7 @@ def _drawn(
 def _still_names(
     sources: Sequence[Any], folder: Path, ending: str | None, *, overwrite: bool
 ) -> list[Path]:
-    """Return where each still goes; raise before any work is spent when one cannot go there."""
+    """Return the path of each still; raise, before any work, if one cannot be written."""
     from sunwidget.export.formats import FORMATS
 
     folder_target(folder)
@@ -234,13 +233,13 @@ def _still_names(
     for number, source in enumerate(sources):
         name = Path(name_of(source, number))
         suffix = "." + ending.lstrip(".") if ending else name.suffix.lower()
-        # What cannot be written as it came, such as camera raw, keeps its depth in a TIFF.
+        # Formats that cannot be written, such as camera raw, become TIFF, which keeps their depth.
         names.append(folder / f"{name.stem}{suffix if suffix in FORMATS else '.tif'}")
     if ending and "." + ending.lstrip(".") not in FORMATS:
         raise ValueError(f"format= takes one of {', '.join(FORMATS)}, not {ending!r:.40}.")
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
-        raise ValueError(f"Two frames would be written as {twice.name}. Give them other names.")
+        raise ValueError(f"Two frames would be written as {twice.name}. Rename one of them.")
     taken = [name for name in names if name.exists()]
     if taken and not overwrite:
         raise FileExistsError(
@@ -257,7 +256,7 @@ def _refuse_or_warn(troubles: Sequence[Trouble], count: int, broken: str, *, fil
     words = f"{len(troubles)} of {count} frames cannot be used ({shown}{more})"
     if broken == "stop":
         raise PhotoError(f"{words}. Leave them out, or pass broken='hold' or broken='skip'.")
-    done = "the frame before each is shown again" if film and broken == "hold" else "left out"
+    done = "each repeats the frame before it" if film and broken == "hold" else "left out"
     warnings.warn(FramesWarning(f"{words}; {done}.", len(troubles), count), stacklevel=3)
 
 

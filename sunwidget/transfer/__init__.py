@@ -1,1 +1,1 @@
-"""Light taken from other photos: a donor's sky, and the look of a before/after pair."""
+"""Light transferred from other photos: a donor's sky, or the look of a before/after pair."""

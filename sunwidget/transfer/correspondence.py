@@ -1,7 +1,7 @@
-"""Which part of one picture is like which part of another.
+"""Dense correspondence between two pictures.
 
-Each pixel is described by its colour, the colour and contrast of its surroundings, its place and
-whether it is sky; the nearest descriptions are found in a k-d tree, without chance: the same two
+The descriptor of a pixel holds its color, the color and contrast of its surroundings, its position
+and whether it is sky. A k-d tree finds the nearest descriptors deterministically: the same two
 pictures always correspond in the same way, and a picture corresponds to itself pixel by pixel.
 """
 
@@ -12,38 +12,38 @@ from dataclasses import dataclass
 import numpy as np
 
 _NEIGHBOURS = 4
-# A neighbour may be this share farther than the nearest: five times as fast between unlike
-# pictures, and the same pixel is still found in the same picture.
+# A neighbor may be this share farther than the nearest: five times as fast between different
+# pictures, and a pixel still finds itself in the same picture.
 _NEARLY = 1.0
 _SURROUNDINGS = 3.0  # px, deviation of the Gaussian
-# Weights against a difference of 1 in encoded colour. Looks follow height (ground, walls,
-# sky) more than side; sky and land should not mix.
+# Weights relative to a difference of 1 in encoded color. Looks depend on height (ground, walls,
+# sky) more than on the side; sky and land should not mix.
 _SKY, _HEIGHT, _SIDE, _AROUND, _ROUGH = 1.0, 0.4, 0.12, 0.7, 1.0
-_ALIKE = 0.1  # distance of descriptions at which half of the likeness is gone
+_ALIKE = 0.1  # distance of descriptors at which the likeness is one half
 _LEAST_SHARE = 0.01
 _SPREAD = (0.6, 1.6)
 
 
 @dataclass(frozen=True, eq=False)
 class Correspondence:
-    """For each pixel of the first picture some pixels of the second, and their weights.
+    """Similar pixels of the second picture, with weights, for each pixel of the first.
 
     Attributes
     ----------
     index : (h, w, k) int
         Flat index into the second picture.
     weight : (h, w, k) float32
-        Adds up to 1.
+        Sums to 1.
     likeness : (h, w) float32
-        How like what was found is, 1 for the same, 0 for nothing alike.
+        Similarity of the nearest pixel: 1 for the same, 0 for nothing similar.
     """
 
     index: np.ndarray
     weight: np.ndarray
     likeness: np.ndarray
 
-    def carried(self, values: np.ndarray) -> np.ndarray:
-        """Carry values (h2, w2, …) of the second picture to the first."""
+    def carry(self, values: np.ndarray) -> np.ndarray:
+        """Transfer values (h2, w2, …) of the second picture to the first."""
         flat = values.reshape(-1, *values.shape[2:])
         shape = (*self.weight.shape, *(1,) * (flat.ndim - 1))
         found = sum(
@@ -56,12 +56,12 @@ class Correspondence:
 def correspond(
     first: np.ndarray, first_sky: np.ndarray, second: np.ndarray, second_sky: np.ndarray
 ) -> Correspondence:
-    """Find the pixels of ``second`` that are like each pixel of ``first``.
+    """Find the pixels of ``second`` that are similar to each pixel of ``first``.
 
     Parameters
     ----------
     first, second : (h, w, 3), (h2, w2, 3) float32
-        Encoded colours of similar level (``normalisation``).
+        Encoded colors of similar level (``normalization``).
     first_sky, second_sky : (h, w), (h2, w2) float32
     """
     from scipy.spatial import cKDTree
@@ -84,12 +84,12 @@ def correspond(
     )
 
 
-def normalisation(
+def normalization(
     first: np.ndarray, first_sky: np.ndarray, second: np.ndarray, second_sky: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Gain and shift (h, w, 3) that give ``first`` the mean and deviation of ``second``.
+    """Return gain and shift (h, w, 3) that give ``first`` the mean and deviation of ``second``.
 
-    Sky and land apart where both pictures have them. Gain 1 and shift 0 for the same picture.
+    Sky and land are separate if both pictures have them. The same picture gives gain 1, shift 0.
     """
     gain, shift = np.zeros_like(first), np.zeros_like(first)
     apart = all(_LEAST_SHARE < sky.mean() < 1 - _LEAST_SHARE for sky in (first_sky, second_sky))
@@ -111,7 +111,7 @@ def _tones(image: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarra
     total = max(float(share.sum()), 1e-9)
     mean = share @ colours / total
     deviation = np.sqrt(share @ np.square(colours - mean) / total)
-    # One spread for all channels: three would turn hues.
+    # One spread for all channels: three would change hues.
     spread = np.maximum(float(np.sqrt(np.mean(np.square(deviation)))), 1e-3)
     return mean.astype(np.float32), np.full(3, spread, np.float32)
 
@@ -124,7 +124,7 @@ def _descriptions(image: np.ndarray, sky: np.ndarray) -> np.ndarray:
     around = cv2.GaussianBlur(image, (0, 0), _SURROUNDINGS)
     variance = cv2.GaussianBlur(np.square(image), (0, 0), _SURROUNDINGS) - np.square(around)
     rough = np.sqrt(np.maximum(variance, 0)).mean(-1)
-    # Luminance and two differences of colour, so that hue counts as much as level.
+    # Luminance and two color differences, so that hue counts as much as level.
     opponent = np.array([[0.33, 0.34, 0.33], [1, -1, 0], [0.5, 0.5, -1]], np.float32)
     return np.dstack(
         [

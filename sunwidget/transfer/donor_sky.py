@@ -1,10 +1,9 @@
-"""A donor's sky, asked for by direction.
+"""A donor's sky, looked up by direction.
 
-The donor's own pixels are looked up where its camera sees sky. Its land is filled and its frame
-continued by mirroring the *residual* of photo over fitted model (backdrop.py) and putting
-it on the model of the direction that is really asked for: clouds go on as clouds, gradients go
-on as the air makes them, and nothing is stretched. A mirrored residual is without the
-donor's sun, so that there is one sun only.
+Where the donor's camera sees sky, its own pixels are used. Over its land and outside its frame, the
+*residual* of photo over fitted model (backdrop.py) is mirrored and added to the model of the
+requested direction: clouds continue, gradients follow the air, and nothing is stretched. A mirrored
+residual excludes the donor's sun, so that there is only one sun.
 """
 
 from __future__ import annotations
@@ -27,22 +26,22 @@ if TYPE_CHECKING:
 
 _LONG_SIDE = 4096  # of the donor; skies hold no finer detail
 _LEAST_SKY = 0.01  # share of the picture
-_FEATHER = 0.015  # of the long side, over which real pixels give way to continued ones
-_FURTHEST = 0.9  # natural log by which the model may change a continued sky
+_FEATHER = 0.015  # share of the long side over which real pixels blend into mirrored ones
+_FURTHEST = 0.9  # natural log by which the model may change a mirrored sky
 
 
 @dataclass(frozen=True, eq=False)
 class DonorSky:
-    """The whole sky of a donor: made by ``donor_sky``, looked up by ``towards``.
+    """The whole sky of a donor, the result of ``donor_sky``.
 
     Attributes
     ----------
     logs : (h, w, 3) float32
-        log scene-linear light of the donor's frame with its land filled.
+        Log of the scene-linear light of the donor's frame with its land filled.
     sunless : (h, w, 3) float32
         The same without the sun and its glare.
     camera : Camera
-        The donor's, at the size of ``logs``.
+        The donor's camera at the size of ``logs``.
     fitted : SkyFit
     """
 
@@ -51,8 +50,8 @@ class DonorSky:
     camera: Camera
     fitted: SkyFit
 
-    def towards(self, azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
-        """Return the sky in some directions as the donor's camera shows it.
+    def look_up(self, azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
+        """Return the sky in some directions, as rendered by the donor's camera.
 
         Parameters
         ----------
@@ -66,47 +65,47 @@ class DonorSky:
         """
         import cv2
 
-        folded_azimuth, folded_elevation, outside = self._folded(azimuth, elevation)
+        folded_azimuth, folded_elevation, outside = self._fold_into_frame(azimuth, elevation)
         x, y = self.camera.pixel(folded_azimuth, folded_elevation)
         x, y = (np.asarray(v, np.float32) - np.float32(0.5) for v in (x, y))
 
-        def look_up(image: np.ndarray) -> np.ndarray:
+        def sample(image: np.ndarray) -> np.ndarray:
             return np.asarray(cv2.remap(image, x, y, cv2.INTER_LINEAR, None, cv2.BORDER_REFLECT))
 
-        seen = look_up(self.logs)
+        seen = sample(self.logs)
         if outside.max() > 0:
             share = np.clip(outside / 2.0, 0, 1)[..., None].astype(np.float32)
-            seen = seen + share * (look_up(self.sunless) - seen)
+            seen = seen + share * (sample(self.sunless) - seen)
             change = self._model(azimuth, elevation) - self._model(folded_azimuth, folded_elevation)
             seen = seen + share * _FURTHEST * np.tanh(change / _FURTHEST)
         return self.fitted.response.display_light(np.exp(seen))
 
-    def _folded(
+    def _fold_into_frame(
         self, azimuth: np.ndarray, elevation: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Mirror directions at the edges of the donor's frame; and say how far outside they are.
+        """Mirror directions at the edges of the donor's frame; also return the distance outside.
 
-        At the edges as they are seen at that height, so that nothing jumps there.
+        The edges are taken at each direction's elevation, so that the sky is continuous there.
         """
         width, height = self.camera.width, self.camera.height
         down, along = np.linspace(0.5, height - 0.5, 64), np.linspace(0.5, width - 0.5, 64)
         left = _edge(*self.camera.angles(np.full(64, 0.5), down), elevation)
         right = _edge(*self.camera.angles(np.full(64, width - 0.5), down), elevation)
-        azimuth_in = _mirrored(azimuth, left, right)
+        azimuth_in = _fold(azimuth, left, right)
         top = _edge(*self.camera.angles(along, np.full(64, 0.5))[::-1], azimuth_in)
         bottom = _edge(*self.camera.angles(along, np.full(64, height - 0.5))[::-1], azimuth_in)
-        elevation_in = _mirrored(elevation, bottom, top)
+        elevation_in = _fold(elevation, bottom, top)
         beside = np.maximum(np.maximum(left - azimuth, azimuth - right), 0)
         above = np.maximum(np.maximum(bottom - elevation, elevation - top), 0)
         return azimuth_in, elevation_in, np.asarray(np.maximum(beside, above))
 
     def _model(self, azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
-        """Log of the clear sky without glare, (h, w, 3): smooth, so a coarse grid will do."""
+        """Return the log of the clear sky without glare (h, w, 3), from a coarse grid."""
         import cv2
 
         rows, columns = azimuth.shape
         coarse = (min(24, columns), min(24, rows))
-        # The ends of the grid are the ends of the asked ones: remapped exactly, corners included.
+        # The grid ends at the first and last directions, so that remapping is exact there.
         at = np.ix_(
             np.linspace(0, rows - 1, coarse[1]).round().astype(int),
             np.linspace(0, columns - 1, coarse[0]).round().astype(int),
@@ -130,7 +129,7 @@ def donor_sky(donor: Scene, focal: float) -> DonorSky:
     if float(np.mean(donor.sky > 0.5)) < _LEAST_SKY:
         raise AnalysisError(
             f"No sky to take from {donor.photo.name} ({np.mean(donor.sky > 0.5):.1%} of its "
-            "pixels). Choose another donor, or analyse it with sky=mask."
+            "pixels). Choose another donor, or analyze it with sky=mask."
         )
     assert donor.fitted is not None
     scale = min(1.0, focal / donor.camera.focal, _LONG_SIDE / max(donor.width, donor.height))
@@ -154,7 +153,7 @@ def donor_sky(donor: Scene, focal: float) -> DonorSky:
 def directions(
     camera: Camera, size: tuple[int, int], rows: slice, turn: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Azimuth from the donor's heading and elevation of some rows of a picture of ``size``."""
+    """Return azimuth from the donor's heading, and elevation, of rows of a picture of ``size``."""
     if size == (camera.width, camera.height):
         first, last, _ = rows.indices(size[1])
         y, x = np.mgrid[first:last, : size[0]] + 0.5
@@ -165,13 +164,13 @@ def directions(
 
 
 def _without_land(residual: np.ndarray, sky: np.ndarray) -> np.ndarray:
-    """Replace what is no sky by the sky above it, mirrored at the skyline of its column."""
+    """Replace land by the sky above it, mirrored at the skyline of its column."""
     import cv2
 
     height, width = sky.shape
     feather = max(2.0, _FEATHER * max(sky.shape))
     known = cv2.erode((sky > 0.97).astype(np.uint8), np.ones((5, 5), np.uint8))
-    # From the border of the picture no feather is wanted: the sky goes on there.
+    # No feather at the border of the picture, where the sky continues.
     padded = np.pad(known, 1, mode="edge")
     deep = np.clip(cv2.distanceTransform(padded, cv2.DIST_L2, 5)[1:-1, 1:-1] / feather, 0, 1)
     tops = np.where(known.min(0) > 0, height, known.argmin(0)).astype(np.float32)
@@ -188,7 +187,7 @@ def _without_land(residual: np.ndarray, sky: np.ndarray) -> np.ndarray:
     mirrored = cv2.remap(
         weighted, columns.copy(), above, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE
     )
-    # A column without much sky has nothing to mirror.
+    # A column with little sky has nothing to mirror.
     trust = np.clip(tops / (4 * feather) - 0.5, 0, 1) * (1 - deep)
     total = deep + trust * mirrored[..., -1]
     joined = weighted[..., :-1] + trust[..., None] * mirrored[..., :-1]
@@ -200,14 +199,14 @@ def _small(size: tuple[int, int]) -> tuple[int, int]:
     return size_within(size, 512)
 
 
-def _edge(values: np.ndarray, places: np.ndarray, asked: np.ndarray) -> np.ndarray:
-    """Where an edge of the frame (``values`` at ``places``) lies at the ``asked`` places."""
+def _edge(values: np.ndarray, places: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Interpolate an edge of the frame (``values`` at ``places``) at other places."""
     order = np.argsort(places)
-    return np.asarray(np.interp(asked, places[order], values[order]))
+    return np.asarray(np.interp(at, places[order], values[order]))
 
 
-def _mirrored(value: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-    """Fold into low … high like a strip of paper; inside nothing changes."""
+def _fold(value: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+    """Fold into low … high by mirroring; values inside do not change."""
     span = np.maximum(high - low, 1e-3)
     turns = np.mod(value - low, 2 * span)
     return np.asarray(

@@ -1,4 +1,4 @@
-"""From light to a Photo like the first: its depth, its profile, its metadata."""
+"""Encoding light as a Photo with the depth, profile and metadata of another."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 def photo_like(photo: Photo, light: np.ndarray) -> Photo:
     """Return ``light`` (H, W, 3) display-linear as a photo in the encoding of ``photo``.
 
-    What equals the photo's own light keeps its code values. The recipe is dropped: it
-    tells how the first photo was made.
+    Unchanged light keeps the photo's code values. The recipe is dropped, since it describes the
+    first photo.
     """
     if photo.encoded.dtype.kind == "f":
         codes = np.ascontiguousarray(light, np.float32)
@@ -29,8 +29,8 @@ def photo_like(photo: Photo, light: np.ndarray) -> Photo:
     return dataclasses.replace(photo, encoded=codes, recorded=None, gain_map=None)
 
 
-def scene_of(source: Any) -> Scene:
-    """Return a scene as it is, and anything else analysed."""
+def as_scene(source: Any) -> Scene:
+    """Return a scene unchanged; analyze any other source."""
     from sunwidget.analysis.analyze import analyze
     from sunwidget.analysis.scene import Scene
 

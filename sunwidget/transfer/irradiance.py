@@ -1,7 +1,7 @@
 """The light on a scene's land, from its fitted atmosphere, in the photo's own exposure.
 
-The NumPy twin of shaders/atmosphere/light.glsl and sky/daylight.glsl, for two photos that are
-compared once: sky by summing the model over the sky, sun by its transmittance.
+The NumPy twin of shaders/atmosphere/light.glsl and sky/daylight.glsl, for one comparison of two
+photos: the sky's light is the model summed over the sky, the sun's follows from its transmittance.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ _ROUGHNESS = 0.35  # of soft_cosine.glsl; chosen for two photos, less than kRoug
 
 
 class LandLight(NamedTuple):
-    """Irradiance (3,) linear Rec. 709 of surfaces that lie, and of those that face the camera.
+    """Irradiance (3,), linear Rec. 709, of level surfaces and of those facing the camera.
 
-    In all, and by the sky alone.
+    In total and by the sky alone.
     """
 
     lying: np.ndarray
@@ -40,7 +40,7 @@ class LandLight(NamedTuple):
 def land_light(scene: Scene) -> LandLight:
     """Return the light on the land of ``scene``, in its scene-linear unit times π.
 
-    At night there is no sun: what the fit took for one is not.
+    At night there is no sun, whatever the fit found.
     """
     assert scene.fitted is not None
     azimuth, elevation = scene.fitted.sun
@@ -57,9 +57,9 @@ def land_light(scene: Scene) -> LandLight:
 
 
 def sun_share(scene: Scene) -> float:
-    """Share of the direct sun that clouds let through, 0 to 1.
+    """Return the share of the direct sun that passes the clouds, 0 to 1.
 
-    Of the clouds in front of a sun that is seen; of all clouds where it is not.
+    1 if the sun is visible; otherwise from the mean opacity of all clouds.
     """
     small = scene.working
     opacity = resize(scene.clouds, small.width, small.height)
@@ -67,13 +67,13 @@ def sun_share(scene: Scene) -> float:
     if is_night(scene):
         return 0.0
     if scene.sun is not None and scene.sun.visible:
-        return 1.0  # it shines through, whatever the un-mixing says of its glare
+        return 1.0  # unmixing may take the visible sun's glare for cloud
     total = float(weight.sum())
     return 1.0 - float((opacity * weight).sum()) / total if total > 1 else 1.0
 
 
 def is_night(scene: Scene) -> bool:
-    """Whether the sky is too dark for one with a sun."""
+    """Return whether the sky is too dark for sunlight."""
     small = scene.working
     return night(small.encoded @ LUMINANCE, resize(scene.sky, small.width, small.height))
 
@@ -82,7 +82,7 @@ def is_night(scene: Scene) -> bool:
 def _light(
     atmosphere: Atmosphere, azimuth: float, elevation: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Irradiance by the sky of lying and of upright surfaces (2, 3), and by the sun (3,)."""
+    """Return the sky's irradiance of level and upright surfaces (2, 3), and the sun's (3,)."""
     height = np.arange(3.0, 90, 6)[:, None]
     around = np.arange(7.5, 360, 15)[None, :]
     towards, up = np.broadcast_arrays(around, height)

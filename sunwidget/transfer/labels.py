@@ -1,4 +1,4 @@
-"""What the land consists of, as far as it can be told without another network."""
+"""Labels of the land that need no further network."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ if TYPE_CHECKING:
     from sunwidget.geometry.camera import Camera
 
 LABELS = ("ground", "upright", "plants", "water")
-_EYE_HEIGHT = 1.7  # metres above the ground; the depth map assumes the same
-_FAR = 20_000.0  # metres
+_EYE_HEIGHT = 1.7  # meters above the ground, as assumed by the depth map
+_FAR = 20_000.0  # meters
 
 
 def labels_of(scene: Scene) -> dict[str, np.ndarray]:
-    """Return how far each pixel of the land belongs to each label: (h, w) in [0, 1], soft.
+    """Return the share of each label in each pixel, (h, w) in [0, 1], at working size.
 
-    At working size; they add up to the land.
+    The shares sum to the land.
     """
     small = scene.working
     size = (small.width, small.height)
     land = 1 - resize(scene.sky, *size)
     water = resize(scene.water, *size) * land
     total = np.maximum(small.encoded.sum(-1), 1e-3)
-    # Excess green (Woebbecke et al. 1995) tells leaves and grass; in the dark it is noise.
+    # Excess green (Woebbecke et al. 1995) detects leaves and grass; in the dark it is noise.
     excess = (2 * small.encoded[..., 1] - small.encoded[..., 0] - small.encoded[..., 2]) / total
     green = smoothstep(0.03, 0.15, excess) * smoothstep(0.08, 0.25, total)
     plants = green * (land - water)
@@ -36,7 +36,7 @@ def labels_of(scene: Scene) -> dict[str, np.ndarray]:
     below = smoothstep(0.0, -1.5, elevation)
     flat = _ground(scene.camera.resized(*size))
     depth = resize(np.minimum(scene.depth, _FAR), *size)
-    # What is much nearer than the ground would be here stands on it.
+    # Surfaces much nearer than level ground are upright.
     lying = below * smoothstep(0.5, 0.8, depth / flat)
     ground = lying * (land - water - plants)
     parts = (ground, land - water - plants - ground, plants, water)
@@ -44,7 +44,7 @@ def labels_of(scene: Scene) -> dict[str, np.ndarray]:
 
 
 def _ground(camera: Camera) -> np.ndarray:
-    """Depth (h, w) in metres of level ground under the camera, at most ``_FAR``."""
+    """Return the depth (h, w) in meters of level ground under the camera, at most ``_FAR``."""
     y, x = np.mgrid[: camera.height, : camera.width] + 0.5
     u, v = (x - camera.width / 2) / camera.focal, (y - camera.height / 2) / camera.focal
     fall = -(u * camera.up[0] + v * camera.up[1] + camera.up[2])
@@ -52,7 +52,7 @@ def _ground(camera: Camera) -> np.ndarray:
 
 
 def _soft(label: np.ndarray, guide: np.ndarray) -> np.ndarray:
-    """Follow the picture's own edges, so that no label ends in a line of its own."""
+    """Align a label with the picture's edges, so that it adds no edge."""
     import cv2
 
     radius = max(2, round(0.012 * max(label.shape)))

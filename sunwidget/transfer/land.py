@@ -1,10 +1,10 @@
-"""How the land follows a new sky: statistics of its labels, and the light of two fitted skies.
+"""The land's change under a new sky, from label statistics and the light of two fitted skies.
 
 After Tsai et al., "Sky is Not the Limit: Semantic-Aware Sky Replacement" (2016), section 5: each
-label of the photo moves towards what the donor's same label shows. Labels are what can be told
-without another network: lying ground, upright things, green plants, water. A statistic compares
-unlike materials, the ratio of two irradiances does not; so both are asked, and neither may
-change the order of brightness of land and sky beyond what the two photos show.
+label of the photo moves towards the same label of the donor. The labels need no further network:
+level ground, upright things, green plants, water. Statistics compare different materials; the
+ratio of two irradiances does not. Both are therefore combined, and limited so that the brightness
+of land relative to sky stays within the range of the two photos.
 """
 
 from __future__ import annotations
@@ -25,15 +25,15 @@ if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
 
 _FLOOR = 1e-4  # of cone response; below one step of 8 bits
-_STATISTICS = 0.5  # how much they count against the ratio of irradiances, where both are sure
+_STATISTICS = 0.5  # weight against the ratio of irradiances if both are reliable
 _DARKEST, _BRIGHTEST = -3.2, 1.8  # natural log of the change of luminance
-# Of α (yellow–blue) and β (red–green), log10: how far the light may tint the land, and how far the
-# statistics of unlike materials may tint it beyond that. No natural light is green.
+# Limits of α (yellow–blue) and β (red–green), log10, for the tint by the light and for the further
+# tint by the statistics of different materials. No natural light is green.
 _TINT_OF_LIGHT = np.array([[-0.20, -0.015], [0.20, 0.06]])
 _TINT_OF_LAND = np.array([0.05, 0.015])
-_SKY_IN_TINT = 0.3  # how much of the land's tint follows the sky that is seen
-_WELL_EXPOSED = 0.22  # luminance of land that a camera would not expose any brighter
-_MARGIN = 0.35  # natural log by which land against sky may leave the range of the two photos
+_SKY_IN_TINT = 0.3  # share of the visible sky in the land's tint
+_WELL_EXPOSED = 0.22  # luminance of land that a camera would not brighten further
+_MARGIN = 0.35  # natural log by which land over sky may leave the range of the two photos
 _CONTRAST, _COLOUR = (0.75, 1.2), (0.65, 1.25)
 _FROM_LAB = np.linalg.inv(LMS_TO_LAB)
 _FROM_LMS = np.linalg.inv(RGB_TO_LMS)
@@ -49,12 +49,12 @@ class Tones(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class LandChange:
-    """What becomes of the land's light: lαβ → mean + gain (lαβ − mean) + shift, per pixel.
+    """The change of the land's light: lαβ → mean + gain (lαβ − mean) + shift, per pixel.
 
     Attributes
     ----------
     mean, gain, shift : (h, w, 3) float32
-        At working size; slow, so that they can be read at any.
+        At working size; smooth, so that they can be enlarged.
     """
 
     mean: np.ndarray
@@ -72,23 +72,23 @@ class LandChange:
 def land_change(
     scene: Scene, donor: Scene, new_sky: np.ndarray, old_sky: np.ndarray, strength: float
 ) -> LandChange:
-    """Find how the land of ``scene`` follows the sky of ``donor``.
+    """Return the change of the land of ``scene`` under the sky of ``donor``.
 
     Parameters
     ----------
     scene, donor : Scene
     new_sky, old_sky : (3,) float
-        Mean scene-linear light of the sky in the photo, replaced and as it was.
+        Mean scene-linear light of the photo's sky, replaced and original.
     strength : float
-        0 (nothing changes) to 1.
+        0 (no change) to 1.
     """
     ours, theirs = labels_of(scene), labels_of(donor)
     own, other = _tones(scene, ours), _tones(donor, theirs)
     all_own, all_other = (_all(scene, ours), _all(donor, theirs))
     by_sky = _lab(new_sky) - _lab(old_sky)
-    lit = _light_ratio(scene, donor, by_sky) | {"water": by_sky}  # it mirrors
+    lit = _light_ratio(scene, donor, by_sky) | {"water": by_sky}  # water mirrors the sky
     lit["plants"] = 0.5 * (lit["ground"] + lit["upright"])
-    bounds = _order(scene, donor, all_own, all_other, new_sky, old_sky)
+    bounds = _bound_change(scene, donor, all_own, all_other, new_sky, old_sky)
     mean, gain, shift, total = (np.zeros((*ours["ground"].shape, 3), np.float32) for _ in range(4))
     for label in LABELS:
         if own[label].share < 1e-4:
@@ -102,16 +102,16 @@ def land_change(
         shift += weight * strength * wanted
         total += weight
     here = np.maximum(total, 1e-4)
-    # Without land there is nothing to change: gain 1, shift 0.
+    # Pixels without land do not change: gain 1, shift 0.
     sure = np.clip(total / 0.02, 0, 1)
     return LandChange(mean / here, 1 + sure * (gain / here - 1), sure * shift / here)
 
 
 def _light_ratio(scene: Scene, donor: Scene, by_sky: np.ndarray) -> dict[str, np.ndarray]:
-    """Log of the donor's light over the photo's, in lαβ, on the ground and on upright things."""
+    """Return the log ratio of the donor's to the photo's light, in lαβ, on ground and upright."""
     own, other = land_light(scene), land_light(donor)
     if is_night(scene) or is_night(donor):
-        # By night the fit means nothing, but there the sky that is seen is all the light.
+        # At night the fit is meaningless, but the visible sky is the only light.
         return {
             "ground": by_sky
             + _by_sun(other.lying, other.lying_by_sky)
@@ -139,23 +139,23 @@ def _label_change(
     by_sky: np.ndarray,
     bounds: tuple[float, float],
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Shift (3,) and gain (3,) in lαβ of one label."""
-    sure = _sure(other.share)
-    sure_of_all = _sure(all_other.share)
+    """Return the shift (3,) and gain (3,) in lαβ of one label."""
+    sure = _trust(other.share)
+    sure_of_all = _trust(all_other.share)
     like = all_other.mean - all_own.mean
     statistic = sure * (other.mean - own.mean) + (1 - sure) * like
     weight = _STATISTICS * max(sure, 0.5 * sure_of_all)
-    # A fit in the dark or under cloud may be far off; the sky that is seen is not.
+    # A fit in the dark or under cloud may be wrong; the visible sky is reliable.
     light = lit + _SKY_IN_TINT * (by_sky - lit)
     step = np.sqrt(3) * np.log10(math.e)
     light[0] = by_sky[0] + np.clip(lit[0] - by_sky[0], -step, step)
-    if lit is by_sky:  # a mirror shows the sky's colour, whatever it is
+    if lit is by_sky:  # water mirrors any color of the sky
         light = lit.copy()
     else:
         light[1:] = np.clip(light[1:], *_TINT_OF_LIGHT)
     shift = light + weight * (statistic - light)
     shift[1:] = light[1:] + np.clip(shift[1:] - light[1:], -_TINT_OF_LAND, _TINT_OF_LAND)
-    # l of lαβ is √3 times the mean log10 of the cones: nearly the luminance's.
+    # l of lαβ is √3 times the mean log10 of the cones, close to that of the luminance.
     low, high = max(bounds[0], _DARKEST), min(bounds[1], _BRIGHTEST)
     shift[0] = np.clip(shift[0], step * low, step * max(high, low))
     spread = np.sqrt(np.maximum(other.deviation, 1e-3) / np.maximum(own.deviation, 1e-3))
@@ -164,7 +164,7 @@ def _label_change(
     return shift, gain
 
 
-def _order(
+def _bound_change(
     scene: Scene,
     donor: Scene,
     own: Tones,
@@ -172,14 +172,14 @@ def _order(
     new_sky: np.ndarray,
     old_sky: np.ndarray,
 ) -> tuple[float, float]:
-    """Bounds of the land's change (natural log) that keep a dark sky's land dark.
+    """Return bounds of the land's change (natural log), so that a darker sky darkens the land.
 
-    The land stands to the new sky as it stood to the old one, or as the donor's stands to its
-    sky, or between; a darker sky never brightens the land, nor a brighter one darkens it much.
+    The ratio of land to new sky lies between that in the photo and that in the donor. A darker sky
+    never brightens the land, and a brighter one never darkens it much.
     """
     before, after = (_log_luminance(light) for light in (old_sky, new_sky))
     sky = after - before
-    sure = _sure(other.share)
+    sure = _trust(other.share)
     in_photo = _luminance(own.mean) - before
     in_donor = _luminance(other.mean) - _log_luminance(mean_sky(donor))
     change = sure * (in_donor - in_photo)
@@ -197,7 +197,7 @@ def _order(
 
 
 def mean_sky(scene: Scene) -> np.ndarray:
-    """Mean scene-linear light (3,) of a scene's sky."""
+    """Return the mean scene-linear light (3,) of a scene's sky."""
     assert scene.fitted is not None
     small = scene.working
     weight = resize(scene.sky, small.width, small.height).ravel()
@@ -225,13 +225,13 @@ def _weighted(lab: np.ndarray, weight: np.ndarray) -> Tones:
     return Tones(mean, deviation, float(share.mean()))
 
 
-def _sure(share: float) -> float:
-    """How far a label that covers this share of a picture can be trusted."""
+def _trust(share: float) -> float:
+    """Return the reliability of a label that covers this share of a picture."""
     return share / (share + 0.02)
 
 
 def _luminance(lab: np.ndarray) -> float:
-    """Natural log of the luminance of a colour in lαβ."""
+    """Return the natural log of the luminance of a color in lαβ."""
     rgb = np.power(10.0, lab @ _FROM_LAB.T) @ _FROM_LMS.T
     return _log_luminance(rgb)
 
@@ -241,13 +241,13 @@ def _log_luminance(light: np.ndarray) -> float:
 
 
 def _lab(light: np.ndarray) -> np.ndarray:
-    """Scene-linear light (..., 3) to lαβ, float32."""
+    """Convert scene-linear light (..., 3) to lαβ, float32."""
     cones = np.maximum(light @ RGB_TO_LMS.T.astype(np.float32), _FLOOR)
     return np.asarray(np.log10(cones) @ LMS_TO_LAB.T.astype(np.float32))
 
 
 def rows_at(image: np.ndarray, rows: slice, size: tuple[int, int]) -> np.ndarray:
-    """Rows of a map as if it were resized to ``size``: bilinear, without making all of it."""
+    """Return rows of a map resized to ``size`` (bilinear), without resizing all of it."""
     import cv2
 
     height, width = image.shape[:2]

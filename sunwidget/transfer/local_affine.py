@@ -1,4 +1,4 @@
-"""Locally affine colour transforms: learned from a registered pair, applied to a picture.
+"""Locally affine color transforms, learned from a registered pair and applied to a picture.
 
 A transform is a map (h, w, 3, 4): row i gives output channel i from R, G, B and 1.
 """
@@ -7,17 +7,17 @@ from __future__ import annotations
 
 import numpy as np
 
-_GRAIN = 2e-4  # variance in squared encoded units that says nothing of contrast
-_LEAST_CONTRAST = 0.45  # that a transform may leave of a difference of colours
+_GRAIN = 2e-4  # variance of grain in squared encoded units
+_LEAST_CONTRAST = 0.45  # least share of a color difference that a transform may leave
 _RIDGE = 1e-4  # of the global fit, in squared encoded units
 
 
 def global_affine(
     before: np.ndarray, after: np.ndarray, weight: np.ndarray | None = None
 ) -> np.ndarray:
-    """Least-squares affine (3, 4) from ``before`` to ``after`` (h, w, 3), near the identity.
+    """Return the least-squares affine (3, 4) from ``before`` to ``after`` (h, w, 3).
 
-    ``weight`` (h, w) says how much each pixel counts; default all the same.
+    It is regularized towards the identity. ``weight`` (h, w) weights the pixels; default equally.
     """
     x = before.reshape(-1, 3).astype(np.float64)
     y = after.reshape(-1, 3).astype(np.float64)
@@ -32,19 +32,19 @@ def global_affine(
 
 
 def local_affine(before: np.ndarray, after: np.ndarray, radius: int, epsilon: float) -> np.ndarray:
-    """Fit an affine in the window round each pixel, drawn towards the global one.
+    """Fit an affine in the window around each pixel, regularized towards the global one.
 
-    The regression of the guided filter (He et al. 2010, eq. 19) with the global affine instead of
-    zero as what a flat window falls back to.
+    The regression of the guided filter (He et al. 2010, eq. 19), in which a flat window falls back
+    to the global affine instead of zero.
 
     Parameters
     ----------
     before, after : (h, w, 3) float32
         Registered, encoded in [0, 1].
     radius : int
-        Of the window in pixels.
+        Radius of the window in pixels.
     epsilon : float
-        Variance, in squared encoded units, below which the global affine is trusted more.
+        Variance, in squared encoded units, below which the global affine dominates.
 
     Returns
     -------
@@ -67,22 +67,22 @@ def local_affine(before: np.ndarray, after: np.ndarray, radius: int, epsilon: fl
     return np.concatenate([matrix, shift[..., None]], -1).astype(np.float32)
 
 
-def ordered(transforms: np.ndarray, pivot: np.ndarray) -> np.ndarray:
-    """Keep every transform from flattening or inverting differences of colour.
+def limit_contrast_loss(transforms: np.ndarray, pivot: np.ndarray) -> np.ndarray:
+    """Prevent transforms from flattening or inverting color differences.
 
-    Where things moved between the two pictures the regression finds no contrast, or the
-    inverse: haze, white clouds turned dark. What it makes of the mean is true still.
+    Where things moved between the two pictures, the regression finds no contrast or inverts it:
+    haze, or dark instead of white clouds. Its effect on the mean is still valid.
 
     Parameters
     ----------
     transforms : (h, w, 3, 4) float32
     pivot : (h, w, 3) float32
-        Colours that become what they became: means of the neighbourhood.
+        Colors whose result is kept: means of the neighborhood.
 
     Returns
     -------
     (h, w, 3, 4) float32
-        Mixed with a plain gain until no direction keeps less than ``_LEAST_CONTRAST``.
+        Mixed with a plain gain until every direction keeps at least ``_LEAST_CONTRAST``.
     """
     matrix = transforms[..., :3]
     lowest = np.linalg.eigvalsh((matrix + np.swapaxes(matrix, -1, -2)) / 2)[..., 0]
@@ -96,10 +96,10 @@ def ordered(transforms: np.ndarray, pivot: np.ndarray) -> np.ndarray:
 
 
 def local_contrast(before: np.ndarray, after: np.ndarray, radius: int, limit: float) -> np.ndarray:
-    """Deviation of ``after`` over that of ``before`` in the window round each pixel.
+    """Return the deviation of ``after`` over that of ``before`` in the window around each pixel.
 
-    What a regression makes of detail that moved between the two pictures is haze; the
-    ratio of deviations keeps it crisp.
+    A regression blurs detail that moved between the two pictures; the ratio of deviations keeps it
+    sharp.
 
     Returns
     -------
@@ -115,14 +115,16 @@ def local_contrast(before: np.ndarray, after: np.ndarray, radius: int, limit: fl
 
 
 def base_of(image: np.ndarray, radius: int, epsilon: float) -> np.ndarray:
-    """Picture without its detail: smoothed, but not across its strong edges."""
+    """Return the picture without detail: smoothed, but not across strong edges."""
     import cv2
 
     return np.asarray(cv2.ximgproc.guidedFilter(image, image, radius, epsilon))
 
 
-def smoothed(transforms: np.ndarray, guide: np.ndarray, radius: int, epsilon: float) -> np.ndarray:
-    """Smooth a map (h, w, …) along the edges of ``guide`` (h, w, 3): no seams."""
+def smooth_along_edges(
+    transforms: np.ndarray, guide: np.ndarray, radius: int, epsilon: float
+) -> np.ndarray:
+    """Smooth a map (h, w, …) along the edges of ``guide`` (h, w, 3), without seams."""
     import cv2
 
     flat = np.asarray(transforms.reshape(*transforms.shape[:2], -1), np.float32)
@@ -134,12 +136,12 @@ def smoothed(transforms: np.ndarray, guide: np.ndarray, radius: int, epsilon: fl
 
 
 def apply(transforms: np.ndarray, image: np.ndarray) -> np.ndarray:
-    """Apply (h, w, 3, 4) transforms to (h, w, 3) colours."""
+    """Apply (h, w, 3, 4) transforms to (h, w, 3) colors."""
     return np.einsum("hwij,hwj->hwi", transforms[..., :3], image) + transforms[..., 3]
 
 
 def _mean(values: np.ndarray, radius: int) -> np.ndarray:
-    """Mean over the square window round each pixel, cut at the border; any number of channels."""
+    """Return the mean over the square window around each pixel, reflected at the border."""
     import cv2
 
     size = (2 * radius + 1, 2 * radius + 1)

@@ -1,1 +1,1 @@
-"""How far the clear sky is from what others measured and computed."""
+"""Errors of the clear-sky model against measurements and other models."""

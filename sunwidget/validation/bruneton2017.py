@@ -1,7 +1,7 @@
 """Bruneton's evaluation of clear sky models: the measured day and other models' skies.
 
-Bruneton, "A Qualitative and Quantitative Evaluation of 8 Clear Sky Models" (2017); the files are
-what his code writes, and no part of sunwidget.
+Bruneton, "A Qualitative and Quantitative Evaluation of 8 Clear Sky Models" (2017). His code writes
+the files, which are not part of sunwidget.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Evaluation:
     ----------
     folder : path
         With ``kider2014_clear_sky_models_40bins.csv``, ``csm_model_outputs/`` and
-        ``clear_sky_models_input_spectra_40bins.csv``, as his code wrote them.
+        ``clear_sky_models_input_spectra_40bins.csv``, as written by his code.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -48,14 +48,14 @@ class Evaluation:
         self.elevation = 90 - values[:, 4]
         self.measured = values[:, 6:][:, self._visible]
 
-    @functools.cache  # noqa: B019 - two models, kept as long as the program runs
+    @functools.cache  # noqa: B019 - two models, cached while the program runs
     def model(self, name: str) -> Array:
         """Return another model's sky, shape (15 · 81, 31)."""
         path = self._folder / "csm_model_outputs" / f"dump_{name}.csv"
         return _numbers(_rows(path), 1)[:, 6:][:, self._visible]
 
     def ours(self, air: Atmosphere, orders: int = 0) -> Array:
-        """Return our sky over grass of their spectral albedo: radiance is all but linear in it."""
+        """Return our sky over grass of their spectral albedo; radiance is almost linear in it."""
         dark, bright = (
             self._over(air.replace(ground_albedo=albedo), orders) for albedo in (0.0, 0.1)
         )
@@ -63,7 +63,7 @@ class Evaluation:
         return dark * (1 - share) + bright * share
 
     def per_scan(self, figure: Callable[[Any], float]) -> Array:
-        """Return ``figure(of)`` for each scan, ``of`` the rows that belong to it."""
+        """Return ``figure(rows)`` for the mask of the rows of each scan."""
         return np.array([figure(self.scan == scan) for scan in np.unique(self.scan)])
 
     def rmse(self, sky: Array) -> float:

@@ -1,7 +1,7 @@
-"""Fetch the measured skies from where their authors publish them, and read the raw files.
+"""Download of the measured skies from their authors' repository, and reading of the raw files.
 
-Opt-in: nothing is fetched unless somebody calls ``download``. Every archive is compared with its
-checksum before it is opened.
+Only a call of ``download`` accesses the network. The checksum of every archive is verified before
+it is opened.
 """
 
 from __future__ import annotations
@@ -64,12 +64,12 @@ CHECKSUMS: dict[str, str] = {
     "2013-05-27___13.30.00.7z":
         "2869ab8abfc2e85aedda095e10f0db24b901b747e1cd13d9e6dea716c72b4cde",
 }
-"""SHA-256 of the archives at that commit; 13:00 and 13:15 were never published."""
+"""SHA-256 of the archives at that commit; 13:00 and 13:15 are unpublished."""
 # fmt: on
 
 _LARGEST = 64_000_000  # bytes of one archive; the published ones have 1.4-2.3 MB
 _LARGEST_MEMBER = 4_000_000  # bytes of one file in it; the published ones have 50 kB
-_WAVELENGTHS = np.arange(350.0, 1001.0)  # what is kept of 350-2500 nm
+_WAVELENGTHS = np.arange(350.0, 1001.0)  # kept part of 350-2500 nm
 _TIMEOUT_S = 60
 # "2013-05-27___09.30.00_-_12____135.0___12.1151.asd.rad.txt": scan, index, azimuth counter-
 # clockwise, elevation. Files that end in ".asd.txt" hold raw counts.
@@ -77,11 +77,11 @@ _RADIANCE_NAME = re.compile(r"(?:.*/)?(.+)_-_(\d+)____([\d.]+)___([\d.]+)\.asd\.
 
 
 class MeasurementsError(RuntimeError):
-    """Measured skies that are missing or cannot be read; the message says what to do."""
+    """Measured skies are missing or unreadable; the message gives the remedy."""
 
 
 def default_path() -> Path:
-    """Return where ``download`` keeps the measured skies."""
+    """Return the file in which ``download`` stores the measured skies."""
     return cache_folder() / FILE_NAME
 
 
@@ -92,12 +92,12 @@ def download(
     checksums: Mapping[str, str] = CHECKSUMS,
     progress: Progress | None = None,
 ) -> Path:
-    """Fetch the measured skies of Kider et al. 2014, 21 MB, and keep what is read of them, 3 MB.
+    """Download the measured skies of Kider et al. 2014 (21 MB) and store the used part (3 MB).
 
     Parameters
     ----------
     path : path, optional
-        ``.npz`` to write; default in the user's cache folder, where ``load`` looks.
+        ``.npz`` to write. Default: in the user's cache folder, where ``load`` finds it.
     base_url : str
         Folder of the archives; ``file://`` works too.
     checksums : mapping
@@ -108,7 +108,7 @@ def download(
     Returns
     -------
     Path
-        The file. It appears at the end, complete, or not at all.
+        The file, which appears only when it is complete.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def download(
         When an archive cannot be fetched, differs from its checksum or cannot be read, and
         without py7zr.
     """
-    _py7zr()  # rather refused now than after 21 MB
+    _py7zr()  # fail before downloading 21 MB
     target = default_path() if path is None else Path(path)
     archives: dict[str, bytes] = {}
     for i, (name, checksum) in enumerate(checksums.items()):
@@ -126,8 +126,8 @@ def download(
         found = hashlib.sha256(archives[name]).hexdigest()
         if found != checksum:
             raise MeasurementsError(
-                f"{name} from {base_url} is not the file that was published: its SHA-256 is "
-                f"{found}, expected {checksum}. Nothing was kept."
+                f"{name} from {base_url} is not the published file: its SHA-256 is {found}, "
+                f"expected {checksum}. Nothing was stored."
             )
     if progress:
         progress(0.95, "Reading the scans …")
@@ -175,7 +175,7 @@ def read_raw_scans(archives: Mapping[str, bytes]) -> Raw:
         if directions is None:
             directions = order
         if not len(order) or not np.array_equal(order, directions):
-            raise MeasurementsError(f"{name} does not hold the directions that the others hold.")
+            raise MeasurementsError(f"{name} does not have the same directions as the others.")
         scans[scan] = np.array([rows[key] for key in sorted(rows)], np.float32)
     if directions is None:
         raise MeasurementsError("There are no archives with measured skies.")
@@ -188,8 +188,8 @@ def _py7zr() -> Any:
         import py7zr.io
     except ImportError as error:
         raise MeasurementsError(
-            "The archives of measured skies are opened by py7zr, which is not installed. "
-            "Run: pip install 'sunwidget[measurements]'"
+            "Reading the archives of measured skies needs py7zr: "
+            "pip install 'sunwidget[measurements]'"
         ) from error
     return py7zr
 
@@ -201,13 +201,13 @@ def _unpack(name: str, archive: bytes) -> dict[str, bytes]:
     try:
         with py7zr.SevenZipFile(io.BytesIO(archive)) as opened:
             opened.extractall(factory=files)
-    except Exception as error:  # damage shows as errors of many kinds, the decompressors' too
+    except Exception as error:  # damaged archives raise many kinds of errors
         raise MeasurementsError(f"{name} is not a 7z archive or is damaged ({error}).") from error
     return {member: content.read() for member, content in files.products.items()}
 
 
 def _spectrum(name: str, content: bytes) -> Array:
-    """Read two columns, nanometres and radiance, below one line of heading."""
+    """Read two columns, nanometers and radiance, below a header line."""
     try:
         lines = content.decode("ascii").splitlines()[1:]
         table = np.array([line.split() for line in lines if line.strip()], float)
@@ -222,14 +222,14 @@ def _spectrum(name: str, content: bytes) -> Array:
 
 def _fetch(url: str) -> bytes:
     if not url.startswith(("https://", "http://", "file://")):
-        raise MeasurementsError(f"{url!r:.120} is not an address that can be fetched.")
+        raise MeasurementsError(f"{url!r:.120} is not an https, http or file address.")
     try:
         with urllib.request.urlopen(url, timeout=_TIMEOUT_S) as answer:  # noqa: S310 - checked above
             data: bytes = answer.read(_LARGEST + 1)
     except (urllib.error.URLError, OSError) as error:
         raise MeasurementsError(
-            f"{url} cannot be fetched ({error}). Is there a connection to the network? Archives "
-            "fetched otherwise can be read with measurements.load(folder)."
+            f"{url} cannot be fetched ({error}). Check the network connection, or download the "
+            "archives in another way and call measurements.load(folder)."
         ) from error
     if len(data) > _LARGEST:
         raise MeasurementsError(f"{url} is larger than any of the published archives.")
@@ -239,7 +239,7 @@ def _fetch(url: str) -> bytes:
 def _write(
     target: Path, nm: Array, directions: Array, scans: Mapping[str, NDArray[np.float32]]
 ) -> None:
-    """Write the ``.npz``; a reader never sees half of it."""
+    """Write the ``.npz``; readers never see an incomplete file."""
     target.parent.mkdir(parents=True, exist_ok=True)
     arrays = {f"scan_{name}": values for name, values in scans.items()}
     with complete_or_absent(target, overwrite=True) as unfinished:

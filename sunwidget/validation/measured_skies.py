@@ -2,9 +2,9 @@
 
 Kider, Knowlton, Newlin, Li & Greenberg, "A Framework for the Experimental Comparison of Solar and
 Skydome Illumination" (ACM TOG 33, 2014): spectral radiance in 81 directions, Ithaca NY, on
-2013-05-27. The data belong to their authors (Apache-2.0) and are no part of sunwidget:
-``measurements.download()`` fetches them when asked. Cleaned as Bruneton, "A Qualitative and
-Quantitative Evaluation of 8 Clear Sky Models" (2017), did.
+2013-05-27. The data belong to their authors (Apache-2.0) and are not part of sunwidget;
+``measurements.download()`` fetches them. They are cleaned as in Bruneton, "A Qualitative and
+Quantitative Evaluation of 8 Clear Sky Models" (2017).
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ from sunwidget.validation.download import FILE_NAME, MeasurementsError, default_
 Array = NDArray[np.float64]
 
 LATITUDE, LONGITUDE = 42.443449, -76.481962
-UTC_OFFSET_HOURS = -4  # of the names of the scans: daylight saving time of Ithaca
+UTC_OFFSET_HOURS = -4  # of the scans' names: daylight saving time of Ithaca
 
-# True elevation of the sun by solar.solar_position, so that reading needs no pvlib (a test holds
-# them equal). Key: the scan's local time.
+# True elevation of the sun by solar.solar_position, stored so that reading needs no pvlib (a test
+# compares them). Key: the scan's local time.
 _SUN_ELEVATION = {
     "2013-05-27 09:30": 41.0665,
     "2013-05-27 09:45": 43.7955,
@@ -58,16 +58,16 @@ class Measurements:
     Parameters
     ----------
     times : tuple of datetime
-        Begin of each of the S scans, with its zone. A scan takes 80 s.
+        Start of each of the S scans, with its time zone. A scan takes 80 s.
     sun_elevation, sun_azimuth : ndarray, shape (S,)
-        Degrees; the azimuth, clockwise, is that about which the measured sky is symmetric: the
-        instrument's own north is off by 7-17°, more from scan to scan.
+        Degrees. The azimuth, clockwise, is that about which the measured sky is symmetric: the
+        instrument's north is off by 7-17°, increasing from scan to scan.
     elevation, azimuth : ndarray, shape (81,)
         Directions in degrees, azimuths clockwise in the instrument's frame.
     wavelengths : ndarray, shape (n,)
-        Nanometres.
+        Nanometers.
     radiance : ndarray, shape (S, 81, n), float32
-        W m⁻² sr⁻¹ nm⁻¹. The sample in the north, spoilt, is the mean of its neighbours.
+        W m⁻² sr⁻¹ nm⁻¹. The faulty sample in the north is replaced by the mean of its neighbors.
     """
 
     times: tuple[dt.datetime, ...]
@@ -82,7 +82,7 @@ class Measurements:
         return len(self.times)
 
     def at(self, wavelengths: Array) -> Array:
-        """Return radiance at other wavelengths, linear between: shape (S, 81, m)."""
+        """Return radiance at other wavelengths, interpolated linearly: shape (S, 81, m)."""
         place = np.interp(wavelengths, self.wavelengths, np.arange(len(self.wavelengths)))
         low = np.minimum(place.astype(int), len(self.wavelengths) - 2)
         part = place - low
@@ -106,8 +106,8 @@ class Measurements:
         -------
         dict
             ``time``, ``sun_elevation``, ``sun_azimuth``, ``directions`` [[azimuth, elevation] …],
-            ``radiance`` at the shaders' four wavelengths, a mean over 10 nm as the solar
-            spectrum's, and ``rgb`` in linear Rec. 709, kcd m⁻².
+            ``radiance`` at the shaders' four wavelengths, averaged over 10 nm like the solar
+            spectrum, and ``rgb`` in linear Rec. 709, kcd m⁻².
         """
         near = np.array([self.at(WAVELENGTHS + d)[index] for d in (-5, -2.5, 0, 2.5, 5)])
         four = near.mean(axis=0)
@@ -133,20 +133,20 @@ def load(path: Path | str | None = None) -> Measurements:
     Parameters
     ----------
     path : path, optional
-        An ``.npz`` that ``download`` made, or a folder with one, or with the published ``.7z``
-        archives. Default: ``$SUNWIDGET_MEASUREMENTS``, else where ``download`` keeps them.
+        An ``.npz`` written by ``download``, or a folder with one or with the published ``.7z``
+        archives. Default: ``$SUNWIDGET_MEASUREMENTS``, else the file of ``download``.
 
     Raises
     ------
     MeasurementsError
-        When there are none; the message says how to get them.
+        When there are no data; the message gives the remedy.
     """
     found = _find(path)
     if found is None:
         raise MeasurementsError(
             f"No measured skies in {path or default_path().parent}. They belong to their authors "
-            "and are not part of sunwidget; sunwidget.validation.measurements.download() fetches "
-            "them (21 MB, once)."
+            "and are not part of sunwidget. Call sunwidget.validation.measurements.download() "
+            "(21 MB, once)."
         )
     return _load(found, found.stat().st_mtime_ns)
 
@@ -161,7 +161,7 @@ def _load(path: Path, stamp: int) -> Measurements:
 
 
 def _find(path: Path | str | None) -> Path | None:
-    """Return the file or folder of archives that is meant, if it exists."""
+    """Return the file, or the folder of archives, if it exists."""
     if path is None:
         path = os.environ.get("SUNWIDGET_MEASUREMENTS") or default_path()
     path = Path(path)
@@ -187,7 +187,7 @@ def _read(path: Path) -> tuple[Array, Array, dict[str, NDArray[np.float32]]]:
             return file["wavelength_nm"].astype(float), file["dirs"].astype(float), scans
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
         raise MeasurementsError(
-            f"{path} holds no measured skies ({error}). Delete it and call "
+            f"{path} has no measured skies ({error}). Delete it and call "
             "sunwidget.validation.measurements.download()."
         ) from error
 
@@ -237,17 +237,17 @@ def _mend_north(radiance: NDArray[np.float32], elevation: Array, azimuth: Array)
 
 
 def azimuth_of_symmetry(radiance: Array, elevation: Array, azimuth: Array) -> float:
-    """Return the azimuth of the sun, 0-360°: that of the plane in which a clear sky mirrors itself.
+    """Return the azimuth of the sun, 0-360°, from the plane of symmetry of a clear sky.
 
     Parameters
     ----------
     radiance, elevation, azimuth : ndarray, shape (n,)
-        Of directions that lie in rings of equal elevation, evenly spaced.
+        For directions in rings of equal elevation, evenly spaced.
 
     Notes
     -----
-    Of a ring's Fourier series about that azimuth only the cosines are left. The logarithm of
-    the radiance is used, so that the aureole does not outweigh the rest; large rings count more.
+    About that azimuth, a ring's Fourier series has only cosines. The logarithm of the radiance
+    keeps the aureole from dominating; rings are weighted by their number of directions.
     """
     candidates = np.radians(np.arange(0, 360, 0.1))
     symmetry, brightness = np.zeros_like(candidates), np.zeros_like(candidates)
@@ -261,7 +261,7 @@ def azimuth_of_symmetry(radiance: Array, elevation: Array, azimuth: Array) -> fl
         turned = np.angle(series)[:, None] + k * candidates
         symmetry += count * (np.abs(series) ** 2 @ np.cos(2 * turned))
         brightness += np.abs(series[0]) * np.cos(turned[0])
-    # The sky mirrors itself about the far side too; the sun's is the brighter.
+    # The plane has two sides; the sun is on the brighter one.
     return float(np.degrees(candidates[np.argmax(np.where(brightness > 0, symmetry, -np.inf))]))
 
 

@@ -1,7 +1,7 @@
-"""How far models of the clear sky are from the measured skies of ``measured_skies``.
+"""Errors of clear-sky models against the measured skies of ``measured_skies``.
 
-The measures are those of Bruneton, "A Qualitative and Quantitative Evaluation of 8 Clear Sky
-Models" (2017): error of the radiance, level, and pattern of the brightness.
+The measures follow Bruneton, "A Qualitative and Quantitative Evaluation of 8 Clear Sky Models"
+(2017): error of the radiance, level, and pattern of the brightness.
 """
 
 from __future__ import annotations
@@ -39,20 +39,19 @@ Array = NDArray[np.float64]
 Radiance = Callable[[Array, Array, float], Array]
 
 AIR_OF_THE_DAY = Atmosphere(ground_albedo=0.05)
-"""``Atmosphere()``, whose aerosol was fitted to this very day, over grass: Bruneton 2017's spectrum
-of its albedo has a mean of 0.05 from 360 to 720 nm."""
+"""``Atmosphere()``, whose aerosol was fitted to this day, over grass. Bruneton 2017's spectral
+albedo of grass has a mean of 0.05 from 360 to 720 nm."""
 
 COMPARED_WAVELENGTHS: Array = 360 + 11.75 * np.arange(31.0)
-"""The samples of Bruneton 2017 up to 720 nm, so that figures can be compared with his."""
+"""The samples of Bruneton 2017 up to 720 nm, for comparison with his figures."""
 
 
 class Comparison(NamedTuple):
-    """How far a model is from the measured skies.
+    """Errors of a model against the measured skies.
 
     ``rmse`` in mW m⁻² sr⁻¹ nm⁻¹ over directions and 360-720 nm, quadratic mean over scans;
-    ``level`` the model's mean radiance over the measured one, a mean over scans; ``pattern`` the
-    rms deviation of the brightness distribution once both have the same mean, the largest of all
-    scans.
+    ``level``, the model's mean radiance over the measured one, mean over scans; ``pattern``, the
+    rms deviation of the brightness distributions scaled to the same mean, maximum over scans.
     """
 
     model: str
@@ -136,11 +135,11 @@ def compare_scans(
     paths: int = 30,
     progress: Progress | None = None,
 ) -> dict[str, list[Comparison]]:
-    """Compare as ``compare`` does, each scan for itself; see there."""
+    """Compare models like ``compare``, but separately for each scan."""
     data = load() if data is None else data
     air = AIR_OF_THE_DAY if atmosphere is None else atmosphere
     if scan is not None and not 0 <= scan < len(data):
-        raise ValueError(f"scan = {scan}: there are scans 0 to {len(data) - 1}.")
+        raise ValueError(f"scan must be from 0 to {len(data) - 1}, not {scan}.")
     chosen = range(len(data)) if scan is None else [scan]
     known = {"single", "multiple", "reference", *(others or {})}
     for model in models:

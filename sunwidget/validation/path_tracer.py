@@ -1,9 +1,9 @@
 """Backward Monte Carlo path tracing: all orders of scattering with their true phase functions.
 
-Slow, noisy and free of every shortcut of ``atmosphere/sky.py``; it exists to say how wrong those
-are. Paths start at the camera; at every scattering the sun is sampled directly (next-event
-estimation), and a path is never absorbed or lost to space, its weight falls instead. Single
-scattering comes from the deterministic march, so that noise only touches the higher orders.
+Slow and noisy, but without the approximations of ``atmosphere/sky.py``, whose errors it measures.
+Paths start at the camera. At every scattering event the sun is sampled directly (next-event
+estimation). Instead of being absorbed or lost to space, a path loses weight. Single scattering
+comes from the deterministic march, so that noise affects only the higher orders.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from sunwidget.atmosphere.sky import Quality, sky_radiance
 Array = NDArray[np.float64]
 
 _STEPS = 48
-_DARK = 1e-30  # 1/m: air so thin divides by no zero
+_DARK = 1e-30  # 1/m; prevents division by zero in thin air
 _EXACT = Quality(groups=100)
 
 
@@ -43,9 +43,9 @@ def trace(
     paths : int, default 1000
         Paths for each direction and wavelength.
     bounces : int, default 12
-        Orders of scattering and reflection in all: 2 is single scattering and the second order.
+        Total orders of scattering and reflection: 2 is single scattering and the second order.
     seed : int, default 0
-        Of the random numbers.
+        Seed of the random numbers.
 
     Returns
     -------
@@ -84,7 +84,7 @@ def _higher_orders(
     bounces: int,
     rng: np.random.Generator,
 ) -> Array:
-    """Light of the second order and above along ``view`` (N, 3), one path each."""
+    """Return the light of second and higher orders along ``view`` (N, 3), one path each."""
     radius = GROUND_RADIUS + optics.camera_height(a)
     place = np.zeros_like(view)
     place[:, 1] = radius
@@ -119,7 +119,7 @@ def _higher_orders(
         share = _smooth_share(mu_s - optics.cosine_of_horizon(h))
         columns = optics.columns_to_top(h, mu_s, a.heights)
         lit = share * np.exp(-np.einsum("ij,ij->i", columns, extinction))
-        # The march of ``sky_radiance`` covers what the first event in the air sees of the sun.
+        # The march of ``sky_radiance`` covers sunlight at the first event in the air.
         if order > 0:
             light += weight * lit * np.where(on_ground, reflected, phase)
         by_air = rng.random(len(view)) * (rayleigh + mie) < rayleigh
@@ -136,9 +136,9 @@ def _smooth_share(above: Array) -> Array:
 def _next_event(
     h: Array, mu: Array, extinction: Array, heights: ScaleHeights, rng: np.random.Generator
 ) -> tuple[Array, NDArray[np.bool_], Array]:
-    """Distance to the next event, whether it is the ground, and the weight of getting there."""
+    """Return the distance to the next event, whether it is the ground, and the path's weight."""
     d, ground = optics.distance_to_boundary(h, mu)
-    # Dense at both ends: a ray may leave dense air and meet it again.
+    # Steps are dense at both ends: a ray may leave dense air and enter it again.
     v = np.linspace(0, 1, _STEPS + 1)
     edges = np.where(ground[:, None], v * v * (3 - 2 * v), v * v) * d[:, None]
     middle = 0.5 * (edges[:, 1:] + edges[:, :-1])
@@ -147,7 +147,7 @@ def _next_event(
     total = np.cumsum(depth, axis=1)
     opaque = -np.expm1(-total[:, -1])
     random = rng.random(len(h))
-    # Rays to space are forced to scatter; rays to the ground choose by their transmittance.
+    # Rays to space are forced to scatter; rays to the ground scatter by their transmittance.
     on_ground = ground & (random > opaque)
     within = np.where(ground, np.minimum(random, opaque), random * opaque)
     target = -np.log1p(-np.minimum(within, opaque * (1 - 1e-12)))
@@ -179,7 +179,7 @@ def _lambert(up: Array, rng: np.random.Generator) -> Array:
 
 
 def _around(axis: Array, cosine: Array, rng: np.random.Generator) -> Array:
-    """Draw unit vectors at a given cosine from ``axis`` and a random angle about it."""
+    """Draw unit vectors at a given cosine from ``axis`` and a random angle around it."""
     helper = np.where(np.abs(axis[:, :1]) < 0.5, [[1.0, 0, 0]], [[0, 1.0, 0]])
     first = np.cross(axis, helper)
     first /= np.linalg.norm(first, axis=1)[:, None]

@@ -1,8 +1,8 @@
-"""How far the clear sky is from what others have measured, printed and computed.
+"""Errors of the clear-sky model against measurements, publications and other models.
 
-Each function is a row of the table in atmosphere.md and returns figures beside their bounds;
-``make validate`` prints them all, the tests assert them. Sources are independent of sunwidget.
-What needs data or a package that is not there says so and is neither met nor missed.
+Each function is a row of the table in atmosphere.md and returns figures with their bounds;
+``make validate`` prints them all, the tests assert them. Sources are independent of sunwidget. A
+row without its data or package names what it needs and is neither met nor missed.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ AIR = Atmosphere()
 
 
 class Row(NamedTuple):
-    """One figure beside its bound.
+    """One figure with its bound.
 
-    ``met`` is None where ``note`` says what the row needs; ``value`` is in ``unit``.
+    ``met`` is None if ``note`` names something that the row needs; ``value`` is in ``unit``.
     """
 
     number: int
@@ -74,7 +74,7 @@ class _At:
 
 
 def closed_forms() -> Iterator[Row]:
-    """Return phase functions, air mass, transmittance, and an even light, against closed forms."""
+    """Compare phase functions, air mass, transmittance and a furnace with closed forms."""
     at = _At(1, "closed forms; air mass: numerical integration of the same exponentials")
     yield at.most(
         "Rayleigh's phase function: integral - 1",
@@ -96,8 +96,8 @@ def closed_forms() -> Iterator[Row]:
     back = float(optics.cornette_shanks_phase(-1, 0.76)) / 0.0071760
     error = 100 * max(abs(forward - 1), abs(back - 1))
     yield at.most("Cornette-Shanks forward and back, g 0.76", error, 0.01, "%")
-    # Sun at 30, 10, 5 and 0°. A single exponential of 8.43 km; ours thins faster above 40 km, which
-    # moves the air mass by up to 0.16 % at the horizon.
+    # Sun at 30, 10, 5 and 0°, for a single exponential of 8.43 km. Our air is thinner above 40 km,
+    # which changes the air mass by up to 0.16 % at the horizon.
     expected = [
         [1.992, 1.999, 1.977],
         [5.540, 5.724, 5.153],
@@ -108,7 +108,7 @@ def closed_forms() -> Iterator[Row]:
     yield at.most("air mass of air, haze, ozone", 100 * np.abs(mass / expected - 1).max(), 0.2, "%")
     worst = max(along_a_ray(elevation) for elevation in (90, 30, 5, 1))
     yield at.most("transmittance multiplies along a ray", 100 * worst, 0.01, "%")
-    # What the series that stands for the late orders leaves, where half of all light is in it.
+    # The error of the series for the late orders, where it carries half of all light.
     yield at.most("furnace: deviation from an even light", 100 * furnace(), 1.5, "%")
 
 
@@ -127,8 +127,8 @@ def direct_beam() -> Iterator[Row]:
     clear = np.any([(nm >= low) & (nm <= high) for low, high in windows], axis=0)
     nm, measured = nm[clear], np.array(spectrum["direct"])[clear]
     top = np.array(spectrum["extraterrestrial"])[clear]
-    # The standard's AM1.5: AOD 0.084 at 500 nm, alpha 1.14, 343.8 DU of ozone. The sun is taken
-    # from the standard too, so that only the air is tested.
+    # The standard's AM1.5: AOD 0.084 at 500 nm, alpha 1.14, 343.8 DU of ozone. The sun's spectrum
+    # is also the standard's, so that only the air is tested.
     air = Atmosphere(
         aerosol_optical_depth=0.084 * (550 / 500) ** -1.14, angstrom_exponent=1.14, ozone=343.8
     )
@@ -180,7 +180,7 @@ def other_models(folder: Path | None = None) -> Iterator[Row]:
 
 
 def another_day() -> Iterator[Row]:
-    """Return the row of the day that nobody who works on sunwidget looks at."""
+    """Return the row of a day that is held back from the development of sunwidget."""
     at = _At(5, "Kider et al. 2014, another day")
     yield at.needs("another day's pattern", "a check from outside: this day is held back")
 
@@ -191,7 +191,7 @@ PATH_TRACED_SUNS = ((60.0, 8), (30.0, 8), (10.0, 15), (3.0, 15), (0.0, 35), (-3.
 
 
 def path_tracing(paths: int = 600) -> Iterator[Row]:
-    """Compare all orders with paths that know no shortcut; the worst of four wavelengths."""
+    """Compare all orders with path tracing, at the worst of four wavelengths."""
     at = _At(6, f"our path tracer, {paths} paths a direction; noise taken off in quadrature")
     for name, air in (("clear", AIR), ("haze of AOD 0.3", HAZE)):
         for sun, bound in PATH_TRACED_SUNS:
@@ -202,7 +202,7 @@ def path_tracing(paths: int = 600) -> Iterator[Row]:
 
 
 def twilight() -> Iterator[Row]:
-    """Return brightness and colour of the sky from sunset to the end of nautical twilight."""
+    """Return brightness and color of the sky from sunset to the end of nautical twilight."""
     at = _At(7, "American Meteorological Society, Glossary: twilight")
     table = SkyTable(AIR, quality=SHADER)
     # A factor of three: below -9° the light comes from heights where the air is a guess.
@@ -233,7 +233,7 @@ SUN_CHROMATICITY = {
 
 
 def sun_chromaticity() -> Iterator[Row]:
-    """Return how the sun reddens, in air of default haze and ozone."""
+    """Return the sun's chromaticity as it sets, with default haze and ozone."""
     at = _At(8, "regression anchors: our own spectra in steps of 5 nm")
     nm = np.arange(380, 781, 5.0)
     for elevation, expected in SUN_CHROMATICITY.items():
@@ -248,14 +248,14 @@ def rows(
     paths: int = 600,
     progress: Callable[[Row], Any] | None = None,
 ) -> list[Row]:
-    """Return all rows but the hosts' (9), which ``bench/validate.py`` adds.
+    """Return all rows except those of the hosts (9), which ``bench/validate.py`` adds.
 
     Parameters
     ----------
     folder : path, optional
         With ``kider2014_clear_sky_models_40bins.csv`` and ``csm_model_outputs/``.
     data : Measurements, optional
-        Default ``measurements.load()`` if there are any.
+        Default: ``measurements.load()``, if available.
     paths : int, default 600
         Paths for each direction and wavelength of row 6; 600 take half a minute of CPU time.
     progress : callable, optional

@@ -1,4 +1,4 @@
-"""Figures of the clear sky that ``validation`` puts beside what others have found."""
+"""Figures of the clear sky that ``validation`` compares with published ones."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def over_the_sphere(
     """Return the integral of a phase function times ``weight`` over all directions."""
     from scipy.integrate import quad
 
-    # The lobe's peak is pointed out, or a narrow one would be stepped over.
+    # The points mark the lobe's peak, which the integration might miss.
     found = quad(
         lambda mu: float(np.asarray(phase(mu))) * weight(mu), -1, 1, points=[0.9, 0.99, 0.999]
     )
@@ -32,7 +32,7 @@ def over_the_sphere(
 
 
 def along_a_ray(elevation: float, far: float = 12_000.0) -> float:
-    """Return how far columns to ``far`` and from there on are from the whole, relatively."""
+    """Return the relative error of the columns to ``far`` plus those beyond, against the whole."""
     mu = math.sin(math.radians(elevation))
     h = float(optics.altitude_along_ray(0, mu, far))
     mu_far = (GROUND_RADIUS * mu + far) / (GROUND_RADIUS + h)
@@ -44,10 +44,10 @@ def along_a_ray(elevation: float, far: float = 12_000.0) -> float:
 
 
 def furnace() -> float:
-    """Return how far an even light stays from even in air that absorbs nothing, over white ground.
+    """Return the deviation from uniform light in non-absorbing air over white ground.
 
-    Sunlight summed over all suns is an even light, and what falls in must come out: the mean
-    radiance anywhere is the sun's over 4 pi.
+    Sunlight summed over all suns is uniform light. By conservation of energy, the mean radiance
+    anywhere is then the sun's over 4 pi.
     """
     air = Atmosphere(aerosol_albedo=1, ozone=0, ground_albedo=1, aerosol_optical_depth=0.1)
     suns = np.degrees(np.arcsin((np.arange(60) + 0.5) / 30 - 1))
@@ -65,7 +65,7 @@ def path_tracing_error(air: Atmosphere, sun: float, paths: int) -> tuple[Array, 
     """Return the rms deviation from path tracing and the rms of its noise, at four wavelengths.
 
     Over 16 directions from 4° to 80° of elevation, towards the sun, beside it and away from it.
-    The deviation has the noise in it.
+    The deviation includes the noise.
     """
     elevation, azimuth = np.radians(np.meshgrid([4.0, 15, 40, 80], [0.0, 60, 120, 180]))
     level = np.cos(elevation)
@@ -79,7 +79,7 @@ def path_tracing_error(air: Atmosphere, sun: float, paths: int) -> tuple[Array, 
 
 
 def illuminance(table: SkyTable, suns: ArrayLike, nodes: int = 16) -> Array:
-    """Return the sky's illuminance of level ground in lux, under each of ``suns`` (degrees)."""
+    """Return the sky's illuminance on level ground in lux, for each of ``suns`` (degrees)."""
     x, w = np.polynomial.legendre.leggauss(nodes)
     mu, w = (x + 1) / 2, w / 2
     elevation = np.degrees(np.arcsin(mu))[:, None, None]
@@ -95,5 +95,5 @@ def zenith_chromaticity(air: Atmosphere, sun: float) -> Array:
 
 
 def zenith_x(air: Atmosphere, sun: float) -> float:
-    """Return CIE x of the zenith, which is small where it is blue."""
+    """Return CIE x of the zenith, which is small for blue."""
     return float(zenith_chromaticity(air, sun)[0])

@@ -20,7 +20,7 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:
-    # On first use: a person waits for the first editor, which needs none of the other widgets.
+    # Imported on first use, so that the first editor does not wait for the other widgets.
     if name not in _HOMES:
         raise AttributeError(f"module 'sunwidget.widgets' has no attribute {name!r}")
     return getattr(importlib.import_module(f"sunwidget.widgets.{_HOMES[name]}"), name)

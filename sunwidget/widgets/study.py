@@ -1,4 +1,4 @@
-"""Study: which of two pictures looks more realistic? Many raters, in a notebook or beside it."""
+"""Study: which of two pictures looks more realistic? For raters in a notebook or in a page."""
 
 from __future__ import annotations
 
@@ -31,36 +31,36 @@ from sunwidget.widgets.page.saved_state import SavedLight
 from sunwidget.widgets.page.standalone import embedded_state, written_page
 
 _MOST_REPEATS = 100
-_SMALL_EDGE = 400  # pixels, of each picture of the static one
+_SMALL_EDGE = 400  # pixels of each picture in the static one
 _NOTES = ("Save your answers at the end: they stay in this window, and nothing leaves it.",)
 
 
 class Study(SavedLight):
-    """Show pictures two by two and let people choose; the thesis' user study (section 6.3).
+    """Show pictures in pairs and let people choose, as in the thesis' user study (section 6.3).
 
-    Each rater sees every pair of methods of every photo, in an order and on sides drawn by
-    chance from seed and rater, and chooses by click or arrow key. Which method made a picture is
-    nowhere on the screen. Needs no kernel while people answer.
+    Each rater sees every pair of methods of every photo, in an order and on sides randomized by
+    seed and rater, and chooses by click or arrow key. The screen does not show which method made a
+    picture. Answering needs no kernel.
 
     Parameters
     ----------
     pictures : mapping
         Picture by method, ``{"ratio": a, "thesis": b}``; or such a mapping for each of several
-        photos, ``{"coast": {"ratio": a, "thesis": b}, "meadow": {...}}``. A picture is whatever
-        ``sunwidget.open`` takes; it is shown with a long edge of at most 2048 pixels.
+        photos, ``{"coast": {"ratio": a, "thesis": b}, "meadow": {...}}``. A picture is any source
+        for ``sunwidget.open``; it is shown with a long edge of at most 2048 pixels.
     question : str
     rater : str, optional
-        Who answers; people can also say so themselves.
+        The rater's name; raters can also enter it themselves.
     repeats : int, default 1
-        How often each rater sees a pair, with sides swapped from one time to the next.
+        How often each rater sees a pair, with sides swapped each time.
     ties : bool, default False
-        Whether "cannot decide" is an answer. It counts as half a win for each.
+        Whether "cannot decide" is an answer. It counts as half a win for each method.
     seed : int, default 0
 
     Raises
     ------
     StudyError
-        For fewer than two pictures of a photo, or names that are no text.
+        For fewer than two pictures of a photo, or names that are not strings.
     PhotoError
         For a picture that cannot be opened.
 
@@ -75,7 +75,7 @@ class Study(SavedLight):
 
     rater = traitlets.Unicode("", help="Who answers.").tag(sync=True)
     _pictures: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
-    # All that a saved notebook keeps of them.
+    # The only picture that a saved notebook keeps.
     _thumbnail = traitlets.Bytes().tag(sync=True, echo_update=False)
     _groups: traitlets.List = traitlets.List().tag(sync=True)
     _answers: traitlets.List = traitlets.List().tag(sync=True)
@@ -95,7 +95,7 @@ class Study(SavedLight):
         seed: int = 0,
     ) -> None:
         if not 1 <= repeats <= _MOST_REPEATS:
-            raise StudyError(f"repeats is a number from 1 to {_MOST_REPEATS}, not {repeats!r:.80}.")
+            raise StudyError(f"repeats must be from 1 to {_MOST_REPEATS}, not {repeats!r:.80}.")
         groups, files = _read(pictures)
         super().__init__(
             _pictures=files,
@@ -112,23 +112,23 @@ class Study(SavedLight):
 
     @property
     def answers(self) -> list[Answer]:
-        """All answers so far, of all raters, in the order in which they came."""
+        """All answers so far, of all raters, in order of arrival."""
         return [Answer.from_row(row) for row in self._answers]
 
     def to_csv(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
-        """Write one row an answer; see ``sunwidget.study.Answer`` for the columns.
+        """Write one row per answer; see ``sunwidget.study.Answer`` for the columns.
 
         Parameters
         ----------
         path : path
-            Where to write them.
+            The file to write.
         overwrite : bool
             Replace an existing file.
 
         Returns
         -------
         Path
-            Where they are.
+            The written file.
 
         Raises
         ------
@@ -146,22 +146,22 @@ class Study(SavedLight):
     ) -> Path | str:
         """Write a page for raters elsewhere: one file, no kernel, no network.
 
-        It begins without answers. Raters save theirs as a file when they are done, and
-        ``read_csv`` pools these.
+        The page has no answers at first. Raters save theirs to a file at the end, and ``read_csv``
+        pools the files.
 
         Parameters
         ----------
         path : path, optional
-            Where to write it. Default: nowhere, and the page is returned as text.
+            The file to write. Default: return the page as text.
         title : str
-            Of the page.
+            Title of the page.
         overwrite : bool
             Replace an existing file.
 
         Returns
         -------
         Path or str
-            Where the page is, or the page.
+            The written file, or the page.
 
         Raises
         ------
@@ -171,15 +171,15 @@ class Study(SavedLight):
         return written_page(lambda: self._page(title), path, overwrite=overwrite)
 
     def render_static(self, *, title: str = "Study") -> StaticPage:
-        """Return the page of ``to_html`` as a cell's output: people answer in it without a kernel.
+        """Return the page of ``to_html`` as a cell's output, which people answer without a kernel.
 
-        For notebooks that are exported. It begins without answers, and raters save theirs as a
-        file. The notebook grows by all pictures, at most 2048 pixels each.
+        For exported notebooks. The page has no answers at first; raters save theirs to a file. The
+        notebook grows by all pictures, at most 2048 pixels each.
 
         Parameters
         ----------
         title : str
-            Of the page.
+            Title of the page.
         """
         return StaticPage(self._page(title), title)
 
@@ -223,7 +223,7 @@ class Study(SavedLight):
         Parameters
         ----------
         prior : float
-            Comparisons that every method is taken to have won, and lost, besides.
+            Number of additional wins, and losses, assumed for every method.
 
         Returns
         -------
@@ -233,37 +233,37 @@ class Study(SavedLight):
         Raises
         ------
         StudyError
-            While there are no answers.
+            When there are no answers.
 
         See Also
         --------
-        sunwidget.study.bradley_terry : what is computed, and what ``prior`` means.
+        sunwidget.study.bradley_terry : the computation and the meaning of ``prior``.
         """
         return bradley_terry(self.answers, prior=prior, methods=self.methods)
 
     def results_by_rater(self, *, prior: float = PRIOR) -> dict[str, BradleyTerry]:
-        """Return the strengths by each rater's own answers; ``prior`` as for ``results``."""
+        """Return the strengths for each rater's answers alone; ``prior`` as for ``results``."""
         return by_rater(self.answers, prior=prior)
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """Names of the methods that are compared."""
+        """Names of the compared methods."""
         names = (method["name"] for group in self._groups for method in group["methods"])
         return tuple(dict.fromkeys(names))
 
 
 def _read(pictures: Mapping[str, Any]) -> tuple[list[dict[str, Any]], list[bytes]]:
-    """Return the photos' methods by index of their pictures, and these encoded."""
+    """Return the photos' methods with the indices of their pictures, and the encoded pictures."""
     if not isinstance(pictures, Mapping):
         raise StudyError(
-            f"Pictures are given by the name of what made them, not as {type(pictures).__name__}: "
+            f"pictures must be a mapping by method, not {type(pictures).__name__}: "
             'sw.Study({"ratio": a, "thesis": b}).'
         )
     nested = [isinstance(item, Mapping) for item in pictures.values()]
     if any(nested) and not all(nested):
         raise StudyError(
-            "Either every entry is a picture, or every entry is a mapping of pictures by method; "
-            "here both occur."
+            "Either every entry must be a picture or every entry a mapping of pictures by method; "
+            "these are mixed."
         )
     by_photo = pictures if any(nested) else {"": pictures}
     groups: list[dict[str, Any]] = []
@@ -271,13 +271,13 @@ def _read(pictures: Mapping[str, Any]) -> tuple[list[dict[str, Any]], list[bytes
     for photo, methods in by_photo.items():
         if len(methods) < 2:
             raise StudyError(
-                f"A study compares pictures two by two, but {photo or 'it'} has {len(methods)}. "
-                "Give at least two methods."
+                f"A study compares pairs of pictures, but {photo or 'it'} has {len(methods)}. "
+                "Pass at least two methods."
             )
         rows = []
         for name, picture in methods.items():
             if not isinstance(name, str) or not name or not isinstance(photo, str):
-                raise StudyError(f"Photos and methods are named by texts, not {name!r:.80}.")
+                raise StudyError(f"Names of photos and methods must be strings, not {name!r:.80}.")
             rows.append({"name": name, "picture": len(files)})
             files.append(encode_preview(open_photo(picture)))
         groups.append({"name": photo, "methods": rows})

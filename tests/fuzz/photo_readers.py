@@ -31,7 +31,7 @@ with atheris.instrument_imports(
     ]
 ):
     from sunwidget.errors import PhotoError, PhotoWarning
-    from sunwidget.export.gain_map_file import beside, told_of
+    from sunwidget.export.gain_map_file import append_gain_map, with_gain_map_xmp
     from sunwidget.formats import exif, icc, pixels, xmp
     from sunwidget.formats.gain_map import GainMap, packed
     from sunwidget.photo.decode import _formats
@@ -121,8 +121,8 @@ def seeds() -> dict[str, bytes]:
 def _with_gain_map() -> bytes:
     told = GainMap(b"", high=(2.0, 2.0, 2.0), headroom=2.0)
     told = dataclasses.replace(told, jpeg=packed(photo_corpus.ramp(), told))
-    picture = photo_corpus.jpeg_file(photo_corpus.ramp(), xmp=told_of(None, told, 65_000))
-    return beside(picture, told)
+    picture = photo_corpus.jpeg_file(photo_corpus.ramp(), xmp=with_gain_map_xmp(None, told, 65_000))
+    return append_gain_map(picture, told)
 
 
 def words(files: dict[str, bytes]) -> list[bytes]:

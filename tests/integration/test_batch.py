@@ -11,7 +11,7 @@ from PIL import Image
 import sunwidget as sw
 from sunwidget.batches import develop, photos, record
 from sunwidget.batches.report import BatchReport, BatchRow
-from sunwidget.batches.request import Wish
+from sunwidget.batches.request import Request
 from sunwidget.cli.main import main
 
 LOW = sw.Edit(sun_elevation=3)
@@ -37,7 +37,9 @@ def quick(monkeypatch):
         made.append(photo.name)
         if progress:
             progress(0.5, "half")
-        path.write_bytes(json.dumps([photo.read_bytes().hex(), job.wish.edit.to_dict()]).encode())
+        path.write_bytes(
+            json.dumps([photo.read_bytes().hex(), job.request.edit.to_dict()]).encode()
+        )
         return ("No sky found in it. Draw a stroke.",)
 
     monkeypatch.setattr(develop, "_save", save)
@@ -133,7 +135,7 @@ def test_a_machine_that_cannot_render_ends_the_batch(folder, quick, monkeypatch)
 
 
 def test_a_worker_of_another_version_says_so(folder, quick):
-    job = develop.Job(0, "0.png", "", "0-sun.png", Wish(LOW), version="0.0.1")
+    job = develop.Job(0, "0.png", "", "0-sun.png", Request(LOW), version="0.0.1")
     with pytest.raises(RuntimeError, match=r"the batch is run by 0\.0\.1"):
         develop.develop(job)
 
@@ -219,7 +221,7 @@ def test_names_follow_the_template(tmp_path):
     ]
     with pytest.raises(ValueError, match="would both be called beach-sun.png"):
         photos.names(found, "{name}-sun", "png")
-    with pytest.raises(ValueError, match="asks for {nam}; there are {name}"):
+    with pytest.raises(ValueError, match="unknown field {nam}. Known fields: {name}"):
         photos.names(found, "{nam}", None)
     with pytest.raises(ValueError, match="'gif' cannot be written"):
         photos.names(found, "{name}", "gif")

@@ -14,7 +14,7 @@ from PIL import Image
 
 import sunwidget as sw
 from sunwidget.batches import cluster
-from sunwidget.batches import workers as hands
+from sunwidget.batches import workers as batch_workers
 
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="processes are killed as on Unix")
@@ -176,7 +176,7 @@ def test_a_scheduler_that_does_not_answer_is_named(tmp_path, monkeypatch):
 def test_a_scheduler_without_workers_is_named(tmp_path, monkeypatch):
     from distributed import LocalCluster
 
-    monkeypatch.setattr(hands, "PATIENCE", 0.5)
+    monkeypatch.setattr(batch_workers, "PATIENCE", 0.5)
     photos = photos_in(tmp_path / "photos", 1)
     with (
         LocalCluster(n_workers=0, processes=True, dashboard_address="127.0.0.1:0") as empty,

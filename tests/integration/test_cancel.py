@@ -174,7 +174,7 @@ def test_an_export_that_is_cancelled_leaves_no_file(scene, tmp_path, monkeypatch
     sent = []
     requests = Requests(lambda content, buffers=(): sent.append(content), editor._actions())
     content = {"type": "request", "id": "s", "action": "save"}
-    requests._wish(content).set()
+    requests._cancel_event(content).set()
     requests._answer(content)
     assert sent[-1]["error"] == "Save was cancelled."
     assert list(tmp_path.iterdir()) == []

@@ -62,5 +62,5 @@ def test_no_more_pixels_travel_than_can_be_shown(scene):
     ],
 )
 def test_a_hostile_question_is_refused(scene, box, size):
-    with pytest.raises(ValueError, match=r"numbers are needed|has no part"):
+    with pytest.raises(ValueError, match=r"finite numbers|has no part"):
         detail(scene, EDIT, box, size)

@@ -19,11 +19,11 @@ from sunwidget.dome.sphere import (
     distance,
     irradiance,
     pixel_of,
-    sampled,
+    sample,
     solid_angles,
     toward,
 )
-from sunwidget.export.dome.moved import moved
+from sunwidget.export.dome.moved import move_sun
 from sunwidget.formats import radiance
 from sunwidget.formats.color import LUMINANCE
 
@@ -101,7 +101,7 @@ def test_the_networks_find_the_sky_and_none_in_a_room():
 
 @pytest.mark.parametrize("to", [LOW, (10.0, 20.0), (40.0, 2.0)])
 def test_a_moved_sky_is_as_the_model_has_it(high, to):
-    out = moved(high, sw.Edit(sun_azimuth=to[0], sun_elevation=to[1]), WIDTH)
+    out = move_sun(high, sw.Edit(sun_azimuth=to[0], sun_elevation=to[1]), WIDTH)
     _, wanted = true_map(to)
     ours = on_planes(out.sky, out.direct, to)
     true = on_planes(wanted, UNIT * sunlight(AIR, to[1]), to)
@@ -119,7 +119,7 @@ def test_a_moved_sky_is_as_the_model_has_it(high, to):
 
 
 def test_the_ground_changes_with_what_falls_on_it(high):
-    out = moved(high, sw.Edit(sun_azimuth=LOW[0], sun_elevation=LOW[1]), WIDTH)
+    out = move_sun(high, sw.Edit(sun_azimuth=LOW[0], sun_elevation=LOW[1]), WIDTH)
     wanted = true_map(LOW)[1][-10, 0]
     np.testing.assert_allclose(out.sky[-10, 0], wanted, rtol=0.2)
     assert not np.allclose(true_map(HIGH)[1][-10, 0], wanted, rtol=0.5)
@@ -127,11 +127,11 @@ def test_the_ground_changes_with_what_falls_on_it(high):
 
 @pytest.mark.parametrize("width", [128, 1024])
 def test_the_disc_has_the_same_light_at_any_size(high, width):
-    out = moved(high, sw.Edit(sun_elevation=20), width)
+    out = move_sun(high, sw.Edit(sun_elevation=20), width)
     given = (out.disc * solid_angles(width)[..., None]).sum((0, 1))
     np.testing.assert_allclose(given, out.direct, rtol=1e-4)
     np.testing.assert_allclose(
-        out.direct, moved(high, sw.Edit(sun_elevation=20), WIDTH).direct, rtol=0.02
+        out.direct, move_sun(high, sw.Edit(sun_elevation=20), WIDTH).direct, rtol=0.02
     )
     assert (out.disc > 0).any(axis=-1).sum() < 12
 
@@ -140,7 +140,7 @@ def test_by_night_it_is_dark(high):
     before = np.median(true_map(HIGH)[1] @ LUMINANCE)
     levels = []
     for height in (0, -4, -8, -12):
-        out = moved(high, sw.Edit(sun_elevation=height), WIDTH)
+        out = move_sun(high, sw.Edit(sun_elevation=height), WIDTH)
         levels.append(np.median(out.whole @ LUMINANCE) / before)
         if height < -1:
             assert out.direct.max() == 0
@@ -155,7 +155,7 @@ def test_a_sun_that_is_cut_off_gets_the_models_light():
     dome = dome_of(cut)
     assert dome.sun_kind == "clipped"
     assert "cut off or hidden" in dome.warnings[0]
-    out = moved(dome, sw.Edit(sun_azimuth=-60), WIDTH)
+    out = move_sun(dome, sw.Edit(sun_azimuth=-60), WIDTH)
     true = UNIT * sunlight(AIR, HIGH[1]) @ LUMINANCE
     assert out.direct @ LUMINANCE == pytest.approx(true, rel=0.4)
 
@@ -165,8 +165,8 @@ def test_a_closed_sky_has_no_disc_and_darkens_with_the_sun():
     assert dome.sun_kind == "hidden"
     assert dome.closed == 1
     assert "are a guess" in dome.warnings[0]
-    low = moved(dome, sw.Edit(sun_elevation=5), WIDTH)
-    high = moved(dome, sw.Edit(sun_elevation=50), WIDTH)
+    low = move_sun(dome, sw.Edit(sun_elevation=5), WIDTH)
+    high = move_sun(dome, sw.Edit(sun_elevation=50), WIDTH)
     assert low.disc.max() < 1e-3 * sunlight(AIR, 5).max()
     assert np.median(low.sky @ LUMINANCE) < 0.5 * np.median(high.sky @ LUMINANCE)
 
@@ -178,9 +178,9 @@ def test_land_hides_the_new_sun():
     tower = (np.abs(azimuth + 60) < 15) & (elevation > 0) & (elevation < 30)
     sky[tower], light[tower] = 0, 0.02
     dome = dome_of(light, sky=sky)
-    behind = moved(dome, sw.Edit(sun_azimuth=-60, sun_elevation=15), WIDTH)
+    behind = move_sun(dome, sw.Edit(sun_azimuth=-60, sun_elevation=15), WIDTH)
     assert behind.through < 0.01
-    assert moved(dome, sw.Edit(sun_azimuth=-90, sun_elevation=15), WIDTH).through > 0.95
+    assert move_sun(dome, sw.Edit(sun_azimuth=-90, sun_elevation=15), WIDTH).through > 0.95
 
 
 def test_a_person_tells_where_the_sun_is():
@@ -203,7 +203,7 @@ def test_an_unmoved_sun_changes_no_bit(tmp_path):
     packed = [cv2.imread(str(path), cv2.IMREAD_UNCHANGED) for path in (source, out)]
     np.testing.assert_array_equal(*packed)
     own = sw.Edit(sun_azimuth=dome.sun[0], sun_elevation=dome.sun[1])
-    np.testing.assert_array_equal(moved(dome, own, WIDTH).whole, dome.photo.light())
+    np.testing.assert_array_equal(move_sun(dome, own, WIDTH).whole, dome.photo.light())
     without = sw.to_dome(dome, None, tmp_path / "sky.hdr", sun=False)
     assert sw.open(without).pixels.max() < 0.01 * light.max()
 
@@ -253,7 +253,7 @@ def test_the_command_line_moves_the_sun_of_a_map(tmp_path, capsys):
     cv2.imwrite(str(mask), 255 * open_sky().astype(np.uint8))
     command = ["dome", str(source), "--sky", str(mask), "-o", str(out)]
     assert main([*command, "--fov", "40"]) == 2
-    assert "--fov is for photos" in capsys.readouterr().err
+    assert "Leave out --fov, which is for photos" in capsys.readouterr().err
     assert main([*command, "--time", "12:00"]) == 2
     assert "--heading" in capsys.readouterr().err
     assert main([*command, "--glow", "2"]) == 2
@@ -290,4 +290,4 @@ def test_directions_and_pixels_belong_together(azimuth):
         )
     there = np.asarray(angles(WIDTH)[1], np.float32)
     heights = np.array([-30.0, 10.0, 60.0])
-    np.testing.assert_allclose(sampled(there, azimuth, heights), heights, atol=1e-3)
+    np.testing.assert_allclose(sample(there, azimuth, heights), heights, atol=1e-3)

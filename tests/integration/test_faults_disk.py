@@ -202,10 +202,10 @@ def test_a_command_that_is_ended_leaves_no_film(
         yield from frames
 
     monkeypatch.setattr("sunwidget.cli.sweep.scene_to_draw", lambda _options: scene)
-    monkeypatch.setattr("sunwidget.film.sweep.told", ending)
+    monkeypatch.setattr("sunwidget.film.sweep.with_progress", ending)
     path = tmp_path / name
     flags = ["--to-sun-elevation", "3", "--frames", "9"]
     assert main(["sweep", "x.jpg", "-o", str(path), *flags]) == status
-    assert "nothing half-written was left" in capsys.readouterr().err
+    assert "no half-written file was left" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
     assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL

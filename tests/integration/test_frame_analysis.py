@@ -14,7 +14,7 @@ from sunwidget.renderer.offscreen import render
 from sunwidget.timelapses.fits import Reading, steady, weighted_median
 from sunwidget.timelapses.frames import Clock
 from sunwidget.timelapses.scenes import FrameScenes
-from sunwidget.timelapses.sun import Sample, middle_direction, track_of
+from sunwidget.timelapses.sun import Sample, middle_direction, track_sun
 
 MOVED = Edit(sun_elevation=4, sun_azimuth=-8)
 
@@ -87,7 +87,7 @@ def test_a_camera_that_has_moved_is_refused_by_name(film):
     away = [*film.frames[:2], frame(3, shift=(24, 0))]
     assert scenes.fixed.offset(open_photo(away[2])).far
     with pytest.raises(PhotoError, match="camera has moved by 1[123]% of the picture at frame 3"):
-        FrameScenes.surveyed(
+        FrameScenes.survey(
             away,
             scenes.fixed,
             scenes.track,
@@ -142,7 +142,7 @@ def samples(offset):
 
 
 def test_the_clock_tells_every_frames_sun_and_seen_suns_correct_it():
-    track = track_of(samples((1.0, -0.5)), PLACE, None, (0.0, 0.0))
+    track = track_sun(samples((1.0, -0.5)), PLACE, None, (0.0, 0.0))
     assert track.source == "clock"
     moment = PLACE.replace(time=17.5).moment
     true = sun_at(PLACE.replace(time=17.5))
@@ -152,13 +152,13 @@ def test_the_clock_tells_every_frames_sun_and_seen_suns_correct_it():
 
 
 def test_a_heading_is_found_by_the_suns_that_are_seen():
-    track = track_of(samples((0.0, 0.0)), PLACE.replace(heading=None), None, (0.0, 0.0))
+    track = track_sun(samples((0.0, 0.0)), PLACE.replace(heading=None), None, (0.0, 0.0))
     assert track.place.heading == pytest.approx(280, abs=0.1)
 
 
 def test_without_a_clock_seen_suns_are_joined_across_north():
     row = [Sample(0, None, None, (170.0, 20.0)), Sample(10, None, None, (-170.0, 10.0))]
-    track = track_of(row, None, None, (0.0, 0.0))
+    track = track_sun(row, None, None, (0.0, 0.0))
     assert track.source == "seen"
     assert track.at(5, None) == pytest.approx((180.0, 15.0)) or track.at(5, None)[0] == -180
     assert track.at(99, dt.datetime(2024, 1, 1, tzinfo=dt.UTC)) == pytest.approx((-170.0, 10.0))
@@ -168,10 +168,10 @@ def test_a_cloud_that_looks_like_a_sun_does_not_lead_the_way():
     sun = [(10.0 + i, 20.0 - i) for i in range(9)]
     row = [Sample(10 * i, None, None, s) for i, s in enumerate(sun)]
     row[4] = row[4]._replace(seen=(-25.0, 12.0))
-    track = track_of(row, None, None, (0.0, 0.0))
+    track = track_sun(row, None, None, (0.0, 0.0))
     assert track.at(40, None) == pytest.approx((14.0, 16.0), abs=0.01)
     only = [s._replace(seen=None) if i != 4 else s for i, s in enumerate(row)]
-    assert track_of(only, None, None, (3.0, 33.0)).source == "assumed"
+    assert track_sun(only, None, None, (3.0, 33.0)).source == "assumed"
 
 
 def test_the_direction_that_most_agree_on_wins_over_outliers():

@@ -12,7 +12,7 @@ from PIL import Image
 import sunwidget as sw
 from sunwidget.errors import EditError, PhotoError, PhotoWarning
 from sunwidget.export.gain_map import map_between
-from sunwidget.export.gain_map_file import beside, told_of
+from sunwidget.export.gain_map_file import append_gain_map, with_gain_map_xmp
 from sunwidget.formats import gain_map as gain_maps
 from sunwidget.formats import xmp
 from sunwidget.formats.color import LUMINANCE
@@ -194,9 +194,9 @@ def photo_with_map(**told):
     levels = np.repeat(np.uint8([[0, 80], [160, 255]]), 8, 0).repeat(12, 1)[..., None]
     made = dataclasses.replace(given, jpeg=gain_maps.packed(levels, given))
     out = io.BytesIO()
-    packet = told_of(None, made, 65_500)
+    packet = with_gain_map_xmp(None, made, 65_500)
     Image.fromarray(corpus.ramp()).save(out, "JPEG", quality=95, xmp=packet)
-    return beside(out.getvalue(), made), made
+    return append_gain_map(out.getvalue(), made), made
 
 
 def test_the_map_that_a_photo_came_with_is_kept_to_the_bit_while_nothing_is_moved(tmp_path):
@@ -222,7 +222,7 @@ def test_a_map_changes_nothing_of_the_picture_that_is_opened():
 
 def test_a_map_is_found_without_word_of_it_in_the_pictures_xmp():
     _, made = photo_with_map()
-    photo = sw.open(beside(corpus.jpeg_file(corpus.ramp()), made))
+    photo = sw.open(append_gain_map(corpus.jpeg_file(corpus.ramp()), made))
     assert (photo.format, photo.gain_map.jpeg) == ("JPEG", made.jpeg)
     assert photo.notes == ()
 

@@ -16,7 +16,7 @@ import sunwidget as sw
 from sunwidget.analysis.depth.depth import given
 from sunwidget.analysis.depth.network import SeenDepth
 from sunwidget.errors import PhotoError, PhotoWarning
-from sunwidget.export.gain_map_file import beside
+from sunwidget.export.gain_map_file import append_gain_map
 from sunwidget.formats import apple_gain_map, exif
 from sunwidget.formats.color import SRGB_CURVE
 from sunwidget.formats.gain_map import GainMap
@@ -150,7 +150,7 @@ def test_the_map_behind_an_iphones_jpeg_is_read_as_well(in_xmp):
     behind = corpus.pillow_file(levels, "JPEG", quality=100, xmp=packet)
     note = b"" if in_xmp else apple_note(1.0, 0.0)
     picture = corpus.jpeg_file(corpus.ramp(), exif=block(note))
-    photo = sw.open(beside(picture, GainMap(behind)))
+    photo = sw.open(append_gain_map(picture, GainMap(behind)))
     wanted = 1 + 7 * SRGB_CURVE.decode(levels / 255.0)
     found = photo.gain_map.applied(np.ones((12, 16, 3), np.float32))[..., 0]
     assert np.abs(np.log2(found / wanted)).max() < 0.1

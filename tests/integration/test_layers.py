@@ -170,7 +170,7 @@ def test_formats_without_transparency_refuse_layers(tmp_path, ending):
 
 
 def test_only_scenes_have_layers(tmp_path):
-    with pytest.raises(PhotoError, match="size and layers are of a rendered scene"):
+    with pytest.raises(PhotoError, match="size and layers apply to a rendered scene"):
         save(np.zeros((4, 4, 3), np.uint8), tmp_path / "out.tif", layers=True)
 
 

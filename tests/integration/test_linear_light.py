@@ -245,5 +245,5 @@ def test_another_size_is_rendered_at_that_size(tmp_path, scene):
     wanted = rendered(scene, edit, size=(48, 32))
     again = open_photo(save((scene, edit), tmp_path / "out.png", size=(48, 32)))
     assert np.array_equal(again.encoded, wanted)
-    with pytest.raises(PhotoError, match="size and layers are of a rendered scene"):
+    with pytest.raises(PhotoError, match="size and layers apply to a rendered scene"):
         save(scene.photo, tmp_path / "no.png", size=(48, 32))

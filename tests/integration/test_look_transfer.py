@@ -7,8 +7,8 @@ from PIL import Image
 
 import sunwidget as sw
 from sunwidget.errors import AnalysisError
-from sunwidget.transfer.correspondence import correspond, normalisation
-from sunwidget.transfer.local_affine import apply, global_affine, local_affine, ordered
+from sunwidget.transfer.correspondence import correspond, normalization
+from sunwidget.transfer.local_affine import apply, global_affine, limit_contrast_loss, local_affine
 
 SIZE = (288, 192)
 
@@ -147,12 +147,12 @@ def test_a_local_affine_finds_an_affine_and_falls_back_to_the_global_one():
 def test_a_picture_corresponds_to_itself_pixel_by_pixel(pictures):
     picture = pictures["coast"].astype(np.float32) / 255
     sky = np.zeros(picture.shape[:2], np.float32)
-    gain, shift = normalisation(picture, sky, picture, sky)
+    gain, shift = normalization(picture, sky, picture, sky)
     assert np.abs(gain - 1).max() < 1e-6
     assert np.abs(shift).max() < 1e-6
     found = correspond(picture, sky, picture, sky)
     assert np.array_equal(found.index[..., 0].ravel(), np.arange(sky.size))
-    assert np.abs(found.carried(picture) - picture).mean() < 2e-3
+    assert np.abs(found.carry(picture) - picture).mean() < 2e-3
 
 
 def test_a_time_lapse_pair_is_carried_to_its_own_frame(shared):
@@ -172,13 +172,13 @@ def test_no_transform_flattens_or_inverts():
     rng = np.random.default_rng(11)
     matrix = rng.normal(0, 0.8, (20, 30, 3, 4)).astype(np.float32)
     pivot = rng.random((20, 30, 3)).astype(np.float32)
-    kept = ordered(matrix, pivot)
+    kept = limit_contrast_loss(matrix, pivot)
     symmetric = (kept[..., :3] + np.swapaxes(kept[..., :3], -1, -2)) / 2
     assert np.linalg.eigvalsh(symmetric)[..., 0].min() > 0.44
     assert np.abs(apply(kept, pivot) - apply(matrix, pivot)).max() < 1e-4
     good = np.zeros((2, 2, 3, 4), np.float32)
     good[..., :3] = np.diag([0.6, 0.9, 1.3])
-    assert np.array_equal(ordered(good, pivot[:2, :2]), good)
+    assert np.array_equal(limit_contrast_loss(good, pivot[:2, :2]), good)
 
 
 def test_clouds_that_moved_do_not_turn_dark(pictures):

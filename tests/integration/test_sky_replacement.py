@@ -94,7 +94,7 @@ def test_the_sky_goes_on_where_the_donor_ends_without_a_seam(scenes, turn):
     sky = donor_sky(donor, donor.camera.focal)
     fov = 2 * np.degrees(np.arctan(150 / donor.camera.focal))  # as fine as the donor
     wide = sw.Camera(700, 300, fov, pitch=fov / 2 + 1)
-    seen = sky.towards(*directions(wide, (700, 300), slice(None), turn))
+    seen = sky.look_up(*directions(wide, (700, 300), slice(None), turn))
     assert np.isfinite(seen).all()
     logs = np.log(np.maximum(cv2.GaussianBlur(seen, (0, 0), 1.5), 1e-3))
     own = np.log(np.maximum(cv2.GaussianBlur(linear(donor.photo.encoded), (0, 0), 1.5), 1e-3))
@@ -111,8 +111,8 @@ def test_the_mirrored_sky_beside_the_frame_has_no_second_sun(scenes):
     twin = 2 * edge - donor.sun.azimuth  # where a mirror at the frame's edge would show it
     near = np.linspace(-2, 2, 9)
     azimuth, elevation = np.meshgrid(twin + near, donor.sun.elevation + near)
-    mirrored = sky.towards(azimuth, elevation).min(-1)
-    real = sky.towards(azimuth - twin + donor.sun.azimuth, elevation).min(-1)
+    mirrored = sky.look_up(azimuth, elevation).min(-1)
+    real = sky.look_up(azimuth - twin + donor.sun.azimuth, elevation).min(-1)
     assert real.max() > 0.9
     assert mirrored.max() < 0.8 * real.max()
 

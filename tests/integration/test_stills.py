@@ -303,7 +303,7 @@ def test_a_recipe_may_stand_for_the_edit_and_other_tuples_are_refused(tmp_path, 
     again = open_photo(save((scene, {"exposure": 1}), tmp_path / "out.png"))
     assert again.recipe == Edit(exposure=1)
     for wrong in ((scene, 3), (scene,), (scene.photo, Edit()), (1, 2)):
-        with pytest.raises(PhotoError, match=r"is \(scene, edit\), not"):
+        with pytest.raises(PhotoError, match=r"must be \(scene, edit\), not"):
             save(wrong, tmp_path / "no.png")
 
 
@@ -466,7 +466,7 @@ def test_a_senseless_quality_is_refused(tmp_path, quality):
 def test_senseless_arguments_are_refused(tmp_path):
     with pytest.raises(PhotoError, match="bit_depth must be"):
         save(corpus.ramp(), tmp_path / "out.png", bit_depth=12)
-    with pytest.raises(PhotoError, match="8 bits a channel"):
+    with pytest.raises(PhotoError, match="8 bits per channel"):
         save(corpus.ramp(), tmp_path / "out.jpg", bit_depth=16)
     with pytest.raises(PhotoError, match="like must be"):
         save(corpus.ramp(), tmp_path / "out.png", like="photo")

@@ -114,7 +114,9 @@ def test_a_recipe_is_the_start_and_keywords_win(scene):
 
 
 def test_a_scene_is_analysed_already(scene):
-    with pytest.raises(TypeError, match="takes sky= with a photo; this scene is analysed already"):
+    with pytest.raises(
+        TypeError, match="takes sky= only with a photo; this scene is already analyzed"
+    ):
         SunEditor(scene, sky=np.ones((4, 4)))
 
 

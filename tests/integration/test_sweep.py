@@ -248,7 +248,7 @@ def test_a_film_has_the_permissions_of_any_new_file(scene, tmp_path):
         ({"path": "film"}, "ends in .mp4"),
         ({"fps": 0}, "fps"),
         ({"frames": 1}, "whole number"),
-        ({"frames": 10, "seconds": 1}, "not in both"),
+        ({"frames": 10, "seconds": 1}, "not both"),
         ({"seconds": 0}, "above 0"),
         ({"seconds": float("inf")}, "above 0"),
         ({"seconds": float("nan")}, "above 0"),

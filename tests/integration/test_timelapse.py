@@ -46,7 +46,7 @@ def decoded(path):
 
 def test_a_film_holds_a_broken_frame_and_tells(frames, tmp_path):
     seen = []
-    with pytest.warns(PhotoWarning, match=r"1 of 4 frames .*f1\.png.*shown again"):
+    with pytest.warns(PhotoWarning, match=r"1 of 4 frames .*f1\.png.*repeats the frame before it"):
         path = timelapse(
             frames, MOVED, tmp_path / "a.mp4", fps=5, progress=lambda f, _message: seen.append(f)
         )
@@ -123,7 +123,7 @@ def test_at_night_the_sun_stays_where_it_is(frames, tmp_path, monkeypatch):
         ({"edit": "dusk_at_noon"}, "neither a recipe file nor a preset"),
         ({"edit": [Edit()]}, "two or more"),
         ({"easing": "bounce"}, "easing"),
-        ({"times": "%Y"}, "does not have the form"),
+        ({"times": "%Y"}, "does not match the pattern"),
     ],
 )
 def test_what_cannot_be_is_refused_before_any_work(tmp_path, options, words):

@@ -9,7 +9,7 @@ import sunwidget as sw
 from sunwidget.edit.table import NUMBERS
 from sunwidget.film import path
 from sunwidget.film.path import EASINGS, film_edits
-from sunwidget.widgets.editor.key_frames import MOVED, along
+from sunwidget.widgets.editor.key_frames import MOVED, complete_key_frames
 from sunwidget.widgets.kernel.payload import parameter_json
 
 SCRIPT = """
@@ -67,7 +67,7 @@ def test_the_browser_knows_the_kernels_easings(played):
 @pytest.mark.parametrize("easing", sorted(EASINGS))
 def test_what_is_played_is_what_is_written(played, scene, easing, monkeypatch):
     monkeypatch.setattr(path, "corrected", lambda scene, _edit: scene)
-    written = film_edits(scene, along(FRAMES, EDIT), frames=145, easing=easing)
+    written = film_edits(scene, complete_key_frames(FRAMES, EDIT), frames=145, easing=easing)
     moved = 0
     for mine, theirs in zip(written, played[easing], strict=True):
         for name in MOVED:

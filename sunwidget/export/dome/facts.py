@@ -1,4 +1,4 @@
-"""What the json beside a dome says, whatever the dome was made of."""
+"""Parts of a dome's JSON file that photos and environment maps share."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sunwidget.dome.sphere import toward
 from sunwidget.formats.color import LUMINANCE
 
 FORMAT = 1
-"""Of the json; it grows when a name changes its meaning."""
+"""Version of the JSON format; it increases when a name changes its meaning."""
 PROJECTION = {
     "kind": "equirectangular",
     "middle_column": "camera heading",
@@ -32,7 +32,7 @@ def sun_facts(
     spread: float,
     klx: float = 1.0,
 ) -> dict[str, Any]:
-    """Return the sun's part of the json; ``direct`` times ``klx`` is in klx."""
+    """Return the JSON entry of the sun; ``direct`` times ``klx`` is in klx."""
     from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
 
     azimuth, elevation = direction
@@ -55,10 +55,10 @@ def sun_facts(
 
 
 def rounded(values: NDArray[Any] | list[Any]) -> list[float]:
-    """Return numbers to five places."""
+    """Return numbers rounded to five decimal places."""
     return [round(float(value), 5) for value in values]
 
 
 def digits(value: float) -> float:
-    """Return a number to six digits."""
+    """Return a number rounded to six significant digits."""
     return float(f"{value:.6g}")

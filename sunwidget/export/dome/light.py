@@ -1,9 +1,10 @@
-"""The light of a dome: the photo's edited sky where it is seen, else its mirror and the model.
+"""The light of a dome: the photo's edited sky where visible, elsewhere its mirror and the model.
 
-A pixel of the sky is made of the model and of clouds (picture.py). Where the photo shows the
-sky these give the photo again; outside, ratio and clouds are the photo's mirrored (mirror.py)
-and the model is that of the place. So a mirrored cloud is as bright as its original, also before
-the darker blue overhead, and the clear sky keeps the model's gradient. Linear Rec. 709 in kcd m⁻².
+A sky pixel is composed of the model and of clouds (picture.py). Where the photo shows the sky, the
+two reproduce the photo. Outside, ratio and clouds are mirrored from the photo (mirror.py) and the
+model is evaluated for that direction. A mirrored cloud is therefore as bright as its original even
+in front of the darker blue overhead, and the clear sky keeps the model's gradient. Linear Rec. 709
+in kcd m⁻².
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from sunwidget.dome.disc import sun_disc
 from sunwidget.dome.sphere import angles, distance, irradiance, solid_angles
 from sunwidget.edit.table import Edit
 from sunwidget.export.dome.mirror import Mirror, mirror_of
-from sunwidget.export.dome.picture import OVERCAST, Picture, light_of, picture_of, tinted
+from sunwidget.export.dome.picture import OVERCAST, Picture, light_of, picture_of, tint
 from sunwidget.export.environment import (
     MOON_OVER_SUN,
     air_of,
@@ -35,17 +36,17 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float32]
 
-_UNVEILED = (4.0, 14.0)  # degrees round a sun that no cloud can be known to stand before
+_UNVEILED = (4.0, 14.0)  # degrees around an unseen sun that are kept free of mirrored clouds
 _FEATHER = 3.0  # degrees within the picture's border
-_FORGOTTEN = 15.0  # degrees from the picture over which the model is trusted more than the photo
+_TRUST_RANGE = 15.0  # degrees from the picture over which trust in the photo decays by e
 _ALBEDOS = (0.03, 0.7)
-_GRASS = 0.15  # where a photo shows no land
-_SMALL = 256  # width of the dome by which the land's albedo is told
+_GRASS = 0.15  # for a photo without land
+_SMALL = 256  # width of the dome that the land's albedo is computed with
 
 
 @dataclass(frozen=True)
 class DomeLight:
-    """Sky, sun and ground of a dome apart.
+    """The separate sky, sun and ground of a dome.
 
     Parameters
     ----------
@@ -54,17 +55,17 @@ class DomeLight:
     disc : (H, W, 3) float32
         The sun's disc alone.
     seen : (H, W) float32
-        How much of ``sky`` is the photo's own, [0, 1].
+        Share of ``sky`` that comes from the photo, [0, 1].
     mirrored : bool
         Whether the rest above the horizon has the photo's clouds mirrored, or is the model alone.
     direct : (3,)
         Illuminance by the sun at right angles to it, klx by channel.
     direction : (azimuth, elevation)
-        Of the sun, degrees.
+        Direction of the sun, degrees.
     through : float
-        Share of the sun's light that comes through clouds and ``sun_visibility``.
+        Share of the sun's light that passes clouds and ``sun_visibility``.
     albedo : (3,)
-        Of the ground.
+        Albedo of the ground.
     """
 
     sky: Floats
@@ -106,7 +107,7 @@ def _upper(scene: Scene, edit: Edit, width: int) -> DomeLight:
     size = (width, width // 2)
     values = explorer_values(scene, edit)
     direction = (values["sun_azimuth"], values["sun_elevation"])
-    model = tinted(scene, environment(scene, edit, size, sun=False))
+    model = tint(scene, environment(scene, edit, size, sun=False))
     disc = sun_disc(air_of(values), *direction, size)
     if is_moonlit(scene, edit):
         disc = disc * MOON_OVER_SUN
@@ -129,7 +130,7 @@ def _upper(scene: Scene, edit: Edit, width: int) -> DomeLight:
 def _with_photo(
     scene: Scene, edit: Edit, model: Floats, sun: tuple[float, float]
 ) -> tuple[Floats, Floats, float, bool]:
-    """Lay the photo over the model: light, share seen, the sun's share, whether mirrored."""
+    """Blend the photo over the model; return light, seen share, sun's share, whether mirrored."""
     width = model.shape[1]
     if scene.fitted is None or not (scene.small_sky > 0.5).any():
         return model, np.zeros(model.shape[:2], np.float32), 1.0, False
@@ -142,7 +143,7 @@ def _with_photo(
     inside = smoothstep(0, _FEATHER, np.degrees(margin / camera.focal))
     seen = np.asarray(np.nan_to_num(inside, nan=0.0) * own.known * (elevation > 0), np.float32)
     mirror = mirror_of(camera)
-    rest = model if mirror is None else _continued(mirror, picture, camera, model, sun)
+    rest = model if mirror is None else _continue_sky(mirror, picture, camera, model, sun)
     light = seen[..., None] * own.light + (1 - seen[..., None]) * rest
     cover = picture.mean_opacity
     hidden = picture.opacity_at(*camera.pixel(*sun))
@@ -151,7 +152,7 @@ def _with_photo(
     return np.asarray(np.maximum(light, 0), np.float32), seen, 1 - hidden, mirror is not None
 
 
-def _continued(
+def _continue_sky(
     mirror: Mirror, picture: Picture, camera: Camera, model: Floats, sun: tuple[float, float]
 ) -> Floats:
     """Return the sky beyond the picture: the model behind mirrored clouds."""
@@ -164,7 +165,7 @@ def _continued(
     opacity = (1 - share) * around.opacity[..., None] + share * overhead.opacity[..., None]
     clouds = (1 - share) * around.clouds + share * overhead.clouds
     far = _distance_from(camera, azimuth, elevation)
-    trust = np.exp(-far / _FORGOTTEN)[..., None]
+    trust = np.exp(-far / _TRUST_RANGE)[..., None]
     ratio = np.exp(trust * ratio + (1 - trust) * picture.mean_ratio)
     if picture.mean_opacity <= OVERCAST and not picture.holds_sun:
         open_sky = smoothstep(*_UNVEILED, distance(sun, azimuth, elevation))[..., None]
@@ -173,7 +174,7 @@ def _continued(
 
 
 def _land_albedo(scene: Scene, edit: Edit) -> NDArray[np.float64]:
-    """Return the albedo (3,) of the photo's land: its mean light over what falls on the level."""
+    """Return the albedo (3,) of the photo's land: its mean light over the light on level ground."""
     scene = corrected(scene, edit)
     fit = scene.fitted
     land = (scene.small_sky < 0.1) & (scene.small_water < 0.3)
@@ -189,6 +190,6 @@ def _land_albedo(scene: Scene, edit: Edit) -> NDArray[np.float64]:
 def _distance_from(
     camera: Camera, azimuth: NDArray[np.float64], elevation: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return degrees from the picture, about: from a cone as wide as its longer half side."""
+    """Return the approximate degrees from the picture, taken as a cone around its longer side."""
     half = np.degrees(np.arctan(max(camera.width, camera.height) / 2 / camera.focal))
     return np.maximum(distance((0.0, camera.pitch), azimuth, elevation) - half, 0)

@@ -1,9 +1,9 @@
-"""Where outside its picture a dome shows the picture again, mirrored.
+"""The mapping from a dome's directions outside the photo to mirrored places in the photo.
 
-Round the picture its columns go on mirrored at its left and right edges, stretched a little so
-that they meet behind the camera; above its upper edge rows go on mirrored. Towards the zenith such
-columns would run together in one point, so the sky there is a plane laid over it, on which the
-upper part of the picture is mirrored in both directions. Between the two is a cross-fade.
+Beside the photo its columns repeat mirrored at the left and right edges, stretched slightly so that
+they meet behind the camera; above its upper edge its rows repeat mirrored. Towards the zenith such
+columns would converge in one point. The sky there is a plane on which the upper part of the photo
+is mirrored in both directions. The two mappings cross-fade.
 """
 
 from __future__ import annotations
@@ -19,34 +19,34 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-_LOWEST_TOP = 4.0  # degrees of sky above the horizon from which there is something to mirror
-_HIGHEST_TOP = 75.0  # beyond, the rows of a picture bend round the zenith
-_WIDEST = 300.0  # degrees of azimuth; nothing is left to fill
+_LOWEST_TOP = 4.0  # least degrees of sky above the horizon that can be mirrored
+_HIGHEST_TOP = 75.0  # above, the rows of a picture bend around the zenith
+_WIDEST = 300.0  # degrees of azimuth; a wider picture leaves too little to fill
 _FADE = (-5.0, 5.0)  # degrees above the picture's upper edge
-_LEAN, _UNEVEN, _LOWER = 0.5, 0.4, 0.3  # how far no mirrored tile is like the next
-_LOWEST_ROW = 0.3  # of the picture's sky, from which up it is shown near the zenith
+_LEAN, _UNEVEN, _LOWER = 0.5, 0.4, 0.3  # variation between mirrored tiles
+_LOWEST_ROW = 0.3  # share of the picture's sky, from below, that is not shown near the zenith
 _NEARER = 1.6  # clouds overhead are nearer than those that a level camera sees
-_BEND = 5.0  # degrees by which the lines are bent that it is mirrored at
-_TURN = np.radians(33.0)  # so that the two mirrorings do not line up
+_BEND = 5.0  # degrees by which the mirror lines are bent
+_TURN = np.radians(33.0)  # keeps the two mirrorings from lining up
 
 
 @dataclass(frozen=True)
 class Mirror:
-    """The part of the sky that is mirrored: between two edges, from the horizon to ``top``.
+    """The mirrored part of the sky: between two edges, from the horizon to ``top``.
 
     Parameters
     ----------
     top : float
-        Degrees of elevation up to which the whole width of the picture shows sky.
+        Elevation in degrees below which the full width of the picture shows sky.
     edges : (3, n)
-        Elevations, rising, and the azimuths of the left and the right edge there, in degrees.
+        Increasing elevations and the azimuths of the left and right edge there, in degrees.
     """
 
     top: float
     edges: Floats
 
     def around(self, azimuth: Floats, elevation: Floats) -> tuple[Floats, Floats]:
-        """Return the direction in the picture that stands for one anywhere on the dome."""
+        """Return the direction in the picture that a direction anywhere on the dome shows."""
         low = 0.15 * self.top
         height = np.where(elevation > self.top, 2 * self.top - elevation, elevation)
         height = np.clip(height, np.minimum(elevation, low), self.top)
@@ -55,16 +55,16 @@ class Mirror:
         count = np.maximum(1, 2 * np.round((360 / width - 2) / 2) + 1)  # odd: they meet mirrored
         beyond = (azimuth - right) % 360  # 0 at the right edge, growing to the right
         outside = beyond <= 360 - width
-        way = np.where(outside, beyond / (360 - width), 0)  # 0 and 1 at the picture's edges
-        tiles = way * count + _UNEVEN * np.sin(2 * np.pi * way)
-        tiles += _LEAN * np.sin(np.pi * way) ** 2 * (height / self.top - 0.5)
+        across = np.where(outside, beyond / (360 - width), 0)  # 0 and 1 at the picture's edges
+        tiles = across * count + _UNEVEN * np.sin(2 * np.pi * across)
+        tiles += _LEAN * np.sin(np.pi * across) ** 2 * (height / self.top - 0.5)
         share = np.where(outside, _folded(tiles + 1), (azimuth - left) % 360 / width)
-        height = height * (1 - _LOWER * np.sin(np.pi * way) ** 2)
+        height = height * (1 - _LOWER * np.sin(np.pi * across) ** 2)
         left, right = self._edges_at(height)
         return left + share * (right - left), height
 
     def overhead(self, azimuth: Floats, elevation: Floats) -> tuple[Floats, Floats]:
-        """Return the direction in the picture that stands for one near the zenith."""
+        """Return the direction in the picture that a direction near the zenith shows."""
         distance = (90 - elevation) / _NEARER
         angle = np.radians(azimuth) + _TURN
         up, aside = distance * np.cos(angle), distance * np.sin(angle)
@@ -77,7 +77,7 @@ class Mirror:
         return left + 2 * half * _folded((across - middle) / (2 * half) + 0.5), height
 
     def overhead_share(self, elevation: Floats) -> Floats:
-        """How much of the sky at an elevation is ``overhead``'s, the rest ``around``'s."""
+        """Return the weight of ``overhead`` at an elevation; the rest is that of ``around``."""
         low, high = self.top + _FADE[0], min(self.top + _FADE[1], 88.0)
         x = np.clip((elevation - low) / (high - low), 0, 1)
         return np.asarray(x * x * (3 - 2 * x))
@@ -88,7 +88,7 @@ class Mirror:
 
 
 def mirror_of(camera: Camera) -> Mirror | None:
-    """Return how a camera's picture is mirrored; None where it shows too little sky for that."""
+    """Return the mirroring of a camera's picture; None if it shows too little sky."""
     across = np.linspace(0, camera.width, 65)
     _, upper = camera.angles(across, 0 * across)
     top = min(float(np.min(upper)), _HIGHEST_TOP)
@@ -108,5 +108,5 @@ def mirror_of(camera: Camera) -> Mirror | None:
 
 
 def _folded(share: Floats) -> Floats:
-    """Fold any number into [0, 1], mirrored at each whole one."""
+    """Fold any number into [0, 1], mirrored at each integer."""
     return np.asarray(1 - np.abs(share % 2 - 1))

@@ -1,4 +1,4 @@
-"""A dome whose sun was moved, as a file: the map, and the same json as that of a photo's dome."""
+"""The light and the JSON of an environment map whose sun was moved."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from sunwidget.atmosphere.parameters import RANGES
 from sunwidget.dome.air import with_air
-from sunwidget.dome.relight import Relit, relit, without_sun_of
+from sunwidget.dome.relight import Relit, relight, without_sun_of
 from sunwidget.dome.source import plain_light, sky_share
 from sunwidget.dome.sphere import irradiance
 from sunwidget.errors import EditError
@@ -22,31 +22,25 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float32]
 
-_TAKEN = ("sun_azimuth", "sun_elevation", "sun_visibility", *RANGES)
-_WITHOUT_EFFECT = ("place",)  # its sun is in the first two
+_EDITABLE = ("sun_azimuth", "sun_elevation", "sun_visibility", *RANGES)
+_WITHOUT_EFFECT = ("place",)  # its sun is already in sun_azimuth and sun_elevation
 
 
 def check_edit(edit: Edit) -> None:
-    """Refuse an edit of what a dome has not.
-
-    Raises
-    ------
-    EditError
-        Naming the parameters.
-    """
-    others = [name for name in edit.changed() if name not in (*_TAKEN, *_WITHOUT_EFFECT)]
+    """Raise EditError, naming the parameters, for an edit that a dome does not support."""
+    others = [name for name in edit.changed() if name not in (*_EDITABLE, *_WITHOUT_EFFECT)]
     if others or edit.strokes:
         names = ", ".join([*others, *(["strokes"] if edit.strokes else [])])
         raise EditError(
-            f"Of a dome the sun and the air can be edited (sun_azimuth, sun_elevation, "
+            f"An edit of a dome can change its sun and air (sun_azimuth, sun_elevation, "
             f"sun_visibility, {', '.join(RANGES)}), not {names}."
         )
 
 
-def moved(dome: Dome, edit: Edit, width: int) -> Relit:
+def move_sun(dome: Dome, edit: Edit, width: int) -> Relit:
     """Return a dome's light under an edit, ``width`` pixels wide.
 
-    An edit that moves nothing gives the map itself: ``sky`` and ``disc`` add up to it.
+    If the edit moves nothing, ``sky`` and ``disc`` add up to the map itself.
     """
     from sunwidget.analysis.images.working_copy import resize
 
@@ -59,21 +53,21 @@ def moved(dome: Dome, edit: Edit, width: int) -> Relit:
         dome.sun[0] if edit.sun_azimuth is None else edit.sun_azimuth,
         dome.sun[1] if edit.sun_elevation is None else edit.sun_elevation,
     )
-    given = {name: getattr(edit, name) for name in RANGES}
-    air = own.atmosphere.replace(**{k: v for k, v in given.items() if v is not None})
+    changes = {name: getattr(edit, name) for name in RANGES}
+    air = own.atmosphere.replace(**{k: v for k, v in changes.items() if v is not None})
     resized = np.asarray(resize(light, *size), np.float32)
     sky = np.asarray(resize(sky, *size), np.float32)
     if direction == dome.sun and air == own.atmosphere and edit.sun_visibility == 1:
         raw = raw if width == dome.photo.width else resized
         clean = without_sun_of(dome, resized, sky)
         return Relit(clean, raw - clean, dome.direct, dome.sun, 1.0, raw)
-    return relit(dome, with_air(own, air, direction), edit.sun_visibility, light=resized, sky=sky)
+    return relight(dome, with_air(own, air, direction), edit.sun_visibility, light=resized, sky=sky)
 
 
-def described_moved(
+def describe_moved(
     dome: Dome, edit: Edit, light: Relit, name: str, *, drawn: bool
 ) -> dict[str, Any]:
-    """Return what the json of a moved dome says; ``docs/guide/dome.md`` explains it."""
+    """Return the JSON of a moved dome; ``docs/guide/dome.md`` explains it."""
     unit = float(np.array(dome.fit.gain) @ LUMINANCE)
     heading = edit.place.heading if edit.place is not None else None
     share = sky_share(dome)
@@ -124,12 +118,12 @@ def described_moved(
 
 
 def _albedo(dome: Dome) -> NDArray[np.float64]:
-    """Return the mean albedo (3,) of what lies below the horizon, in the source."""
+    """Return the mean albedo (3,) of the source below the horizon."""
     light = plain_light(dome.photo.light())
     half = len(light) // 2
     upper, lower = light.copy(), light.copy()
     upper[half:], lower[:half] = 0, 0
-    # A clipped sun lit the ground although the map does not hold it.
+    # A clipped sun lit the ground although the map does not contain its light.
     lit = irradiance(upper)
     if dome.sun_kind == "clipped":
         lit = lit + max(float(np.sin(np.radians(dome.sun[1]))), 0) * dome.direct

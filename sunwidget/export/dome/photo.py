@@ -1,7 +1,7 @@
 """A dome for 3D: a photo's edited sky as an environment map, and its sun as numbers.
 
-The projection is that of ``environment_map``. The frame of vectors has x at the camera's heading,
-y to its left and z up: with these axes Blender reads the map without turning it.
+The projection is that of ``environment_map``. Vectors have x at the camera's heading, y to its left
+and z up. With these axes Blender reads the map without a rotation.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from sunwidget.dome.sphere import irradiance, solid_angles
 from sunwidget.edit.recipe import edit_of
 from sunwidget.export.dome.facts import FORMAT, PROJECTION, digits, rounded, sun_facts
 from sunwidget.export.dome.light import DomeLight, dome_light
-from sunwidget.export.dome.moved import described_moved, moved
+from sunwidget.export.dome.moved import describe_moved, move_sun
 from sunwidget.export.environment import check_map, checked_size, write_map
 from sunwidget.files import complete_or_absent, target
 from sunwidget.formats.color import LUMINANCE
@@ -41,45 +41,45 @@ def to_dome(
     sun: bool = True,
     overwrite: bool = False,
 ) -> Path:
-    """Write a photo's sky all the way round, or an environment map, under an edit's sun.
+    """Write a photo's sky, or an environment map, under an edit's sun as an environment map.
 
-    What the photo sees of the sky is its own, edited. The rest of the upper half is the fitted
-    model with the photo's clouds mirrored; the lower half has the land's mean albedo and is lit by
-    that sky. Beside the map goes a ``.json`` of the same name: the sun as a lamp of its own, what
-    was seen and what is modelled, the camera, and every convention. A Dome is relit by the model's
-    ratio of new to old; where nothing is moved the map is written as it is.
+    The sky that the photo shows is the edited photo. The rest of the upper half is the fitted model
+    with the photo's clouds mirrored. The lower half has the land's mean albedo and is lit by that
+    sky. A ``.json`` of the same name describes the sun as a separate lamp, the seen and modeled
+    parts, the camera and every convention. A Dome is relit by the model's ratio of new to old
+    light; an unmoved Dome is written unchanged.
 
     Parameters
     ----------
     scene : Scene or Dome
-        What ``analyze`` returned for a photo, or ``analyze_dome`` for an environment map.
+        The result of ``analyze`` for a photo, or of ``analyze_dome`` for an environment map.
     edit : Edit, dict or None
-        Whose sun, air and clouds; None is the source's own. Exposure, glow and other effects of a
-        lens are left out. Of a Dome only sun and air can be edited.
+        Edit of sun, air and clouds; None is the source's own. Exposure, glow and other lens effects
+        are ignored. A Dome supports edits of sun and air only.
     path : path
         ``.exr`` (32-bit floats; needs the ``exr`` extra) or ``.hdr`` (Radiance).
     width : int
-        In pixels, even, 8 to 16384; the height is half of it. Default: 2048, or the Dome's own.
+        Pixels, even, 8 to 16384; the height is half of it. Default: 2048, or the Dome's own.
     sun : bool
-        Draw the disc, 0.533° wide and as bright as its light asks for; False leaves it to a lamp.
+        Draw the disc, 0.533° wide, with the sun's whole light. False leaves it to a lamp.
     overwrite : bool
         Replace existing files.
 
     Returns
     -------
     Path
-        Where the map is.
+        The map's file.
 
     Raises
     ------
     FileExistsError
         When one of the two files exists and ``overwrite`` is false.
     PhotoError
-        For another ending or width, or EXR without its extra.
+        For another extension or width, or EXR without its extra.
     EditError
         For an edit of a Dome that changes more than sun and air.
     RendererError
-        When this machine has no EGL; a Dome needs none.
+        When this machine has no EGL. A Dome does not need it.
     """
     from sunwidget.analysis.scene import checked_scene
     from sunwidget.dome.source import Dome
@@ -93,8 +93,8 @@ def to_dome(
     size = checked_size((width, half))
     edit = edit_of(edit)
     if isinstance(scene, Dome):
-        light = moved(scene, edit, size[0])
-        facts = described_moved(scene, edit, light, place.name, drawn=sun)
+        light = move_sun(scene, edit, size[0])
+        facts = describe_moved(scene, edit, light, place.name, drawn=sun)
         _write(place, light.whole if sun else light.sky, facts, edit, overwrite, white=None)
         return place
     dome = dome_light(checked_scene(scene), edit, size[0])
@@ -105,8 +105,8 @@ def to_dome(
 def write_dome(
     place: Path, scene: Scene, edit: Edit, dome: DomeLight, *, sun: bool, overwrite: bool
 ) -> None:
-    """Write a dome that is made, and its json beside it."""
-    facts = described(corrected(scene, edit), edit, dome, place.name, sun=sun)
+    """Write a finished dome and its JSON."""
+    facts = describe(corrected(scene, edit), edit, dome, place.name, sun=sun)
     _write(place, dome.sky + dome.disc if sun else dome.sky, facts, edit, overwrite, white=1000.0)
 
 
@@ -126,8 +126,8 @@ def _write(
         unfinished.write_text(json.dumps(facts, indent=1) + "\n", "utf-8")
 
 
-def described(scene: Scene, edit: Edit, dome: DomeLight, name: str, *, sun: bool) -> dict[str, Any]:
-    """Return what the json says; ``docs/guide/dome.md`` explains it."""
+def describe(scene: Scene, edit: Edit, dome: DomeLight, name: str, *, sun: bool) -> dict[str, Any]:
+    """Return the JSON of a photo's dome; ``docs/guide/dome.md`` explains it."""
     camera = scene.camera
     heading = edit.place.heading if edit.place is not None else None
     heading = scene.photo.heading if heading is None else heading

@@ -1,11 +1,12 @@
-"""A photo's edited sky taken apart for a dome: what of the model it is, its clouds, what is known.
+"""A photo's edited sky, separated for a dome into its ratio to the model, its clouds and a mask.
 
-A pixel of the sky is (1 - a) c m + p: m the fitted model, c what the photo's clear sky is of it, a
-the opacity of its clouds and p their light; kcd m⁻².
+A sky pixel is (1 - a) c m + p, with the fitted model m, the ratio c of the photo's clear sky to it,
+the opacity a of its clouds and their light p; kcd m⁻².
 
-The sky has the photo's colours: its light over the fit's luminance gain, and the model times what
-the gain is in each channel of that. The sun's own light keeps the model's colour: a fit to a blue
-sky says what the camera made of blue, and not what it would make of the sun.
+The sky has the photo's colors: the photo's light is divided by the luminance of the fit's gain, and
+the model is multiplied by the gain of each channel relative to that luminance. The sun's own light
+keeps the model's color: a fit to a blue sky shows how the camera rendered blue, not how it would
+render the sun.
 """
 
 from __future__ import annotations
@@ -28,23 +29,23 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float32]
 
 OVERCAST = 0.85
-"""Mean opacity of the clouds from which a sky is taken to be closed."""
+"""Mean cloud opacity from which a sky counts as overcast."""
 
 _NO_LENS = {"sun_size": 0.0, "glow": 0.0, "light_shafts": 0.0, "lens_flare": 0.0, "grain": 0.0}
 _LOCKED = {"exposure": 0.0, "auto_exposure": 0.0}
-_AUREOLE = (3.0, 7.0)  # degrees: nearer to the sun a photo shows its lens and its white
-_GLOW = (7.0, 18.0)  # degrees: nearer to it nothing is mirrored, or a second sun would glow there
-_SLOW = 1.5  # degrees over which the clear sky's ratio to the model is smoothed
-_SKYLINE = 2  # pixels that the matte may err by
+_AUREOLE = (3.0, 7.0)  # degrees: nearer to the sun a photo shows lens glare and clipped white
+_GLOW = (7.0, 18.0)  # degrees: nearer to the sun nothing is mirrored, else a second sun would glow
+_SMOOTH_DEG = 1.5  # degrees over which the clear sky's ratio to the model is smoothed
+_SKYLINE = 2  # error of the matte in pixels
 _RATIOS = (0.2, 5.0)  # the photo's clear sky over the model
-_CLOUD = (0.02, 0.2)  # opacity from which on what differs from the clear sky is cloud
-_LEAST_BLUE = 0.5  # of a cloud's luminance: more blue than that in shade is the sky's, seen through
-_MODEL_WIDTH = 1024  # of the dome that the model in a picture is read from
+_CLOUD = (0.02, 0.2)  # opacity over which a difference from the clear sky becomes cloud
+_LEAST_BLUE = 0.5  # share of a cloud's luminance; more blue in its shade is sky seen through it
+_MODEL_WIDTH = 1024  # width of the dome from which the model in a picture is sampled
 
 
 @dataclass(frozen=True)
 class Read:
-    """What a picture holds in some directions."""
+    """A picture's values in some directions."""
 
     light: Floats
     known: Floats
@@ -55,9 +56,9 @@ class Read:
 
 @dataclass(frozen=True)
 class Picture:
-    """A photo's edited sky, taken apart, at the size of the dome's pixels; kcd m⁻².
+    """A photo's edited sky, separated, at the resolution of the dome; kcd m⁻².
 
-    ``fields`` are by name (h, w, n): light, ratio (a logarithm), opacity, clouds, known.
+    ``fields`` by name, (h, w, n): light, ratio (a logarithm), opacity, clouds, known.
     """
 
     fields: dict[str, Floats]
@@ -76,17 +77,16 @@ class Picture:
         return self.fields["light"].shape[1]
 
     def read(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> Read:
-        """Return what it holds at continuous pixels, beyond its border as at the border."""
+        """Return the values at continuous pixels; outside the border, those at the border."""
         import cv2
 
         at = [np.nan_to_num(a - 0.5, nan=-1e4).astype(np.float32) for a in (x, y)]
 
-        def sampled(name: str) -> Floats:
-            way = cv2.INTER_LINEAR
-            image = cv2.remap(self.fields[name], *at, way, borderMode=cv2.BORDER_REPLICATE)
-            return np.asarray(image)
+        def sample(name: str) -> Floats:
+            linear, border = cv2.INTER_LINEAR, cv2.BORDER_REPLICATE
+            return np.asarray(cv2.remap(self.fields[name], *at, linear, borderMode=border))
 
-        return Read(*(sampled(name) for name in ("light", "known", "ratio", "opacity", "clouds")))
+        return Read(*(sample(name) for name in ("light", "known", "ratio", "opacity", "clouds")))
 
     def opacity_at(self, x: float, y: float) -> float | None:
         """Return the opacity of clouds at a pixel; None outside and where land hides the sky."""
@@ -96,9 +96,9 @@ class Picture:
 
 
 def picture_of(scene: Scene, edit: Edit, sun: tuple[float, float], width: int) -> Picture:
-    """Return the edited sky of a scene taken apart, for a dome of ``width`` pixels.
+    """Separate the edited sky of a scene, for a dome ``width`` pixels wide.
 
-    ``sun`` is the edit's, azimuth and elevation in degrees.
+    ``sun`` is the edit's azimuth and elevation in degrees.
     """
     import cv2
 
@@ -111,17 +111,16 @@ def picture_of(scene: Scene, edit: Edit, sun: tuple[float, float], width: int) -
     fit = scene.fitted
     assert fit is not None
     camera = scene.camera
-    # Two pixels for each of the dome.
+    # Two pixels per pixel of the dome.
     edge = 2 * width / 360 * np.degrees(max(camera.width, camera.height) / camera.focal)
     size = size_within(scene.photo.size, int(np.clip(edge, 64, 2048)))
     bare = edit.replace(**_NO_LENS, **_LOCKED)
 
-    def drawn(wanted: Edit) -> Floats:
-        display = render(scene, wanted, dtype="float32", size=size)
-        return light_of(scene, display)
+    def draw(edit: Edit) -> Floats:
+        return light_of(scene, render(scene, edit, dtype="float32", size=size))
 
-    light = drawn(bare)
-    clear = drawn(bare.replace(cloud_opacity=0.0, added_clouds=0.0))
+    light = draw(bare)
+    clear = draw(bare.replace(cloud_opacity=0.0, added_clouds=0.0))
     azimuth, elevation = view_angles(camera, *size)
     model = _model_in(scene, edit, azimuth, elevation)
     matte = resize(scene.sky, *size)
@@ -132,16 +131,16 @@ def picture_of(scene: Scene, edit: Edit, sun: tuple[float, float], width: int) -
     inner = cv2.erode(matte, np.ones((2 * _SKYLINE + 1,) * 2, np.uint8))
     known = smoothstep(0.9, 1.0, inner) * (elevation > 0)
     known = known * smoothstep(*_AUREOLE, far)
-    if not moved:  # else the frame has filled the old sun's place
+    if not moved:  # otherwise the frame has filled in the old sun's position
         known = known * (1 - resize(scene.glare, *size))
     known = np.asarray(known, np.float32)
     off_sun = np.asarray(smoothstep(*_GLOW, far), np.float32)
-    told = known * off_sun if (known * off_sun).any() else known
+    weight = known * off_sun if (known * off_sun).any() else known
     ratio = np.log(np.clip(clear / np.maximum(model, 1e-12), *_RATIOS)).astype(np.float32)
     pixel = float(np.degrees(1 / camera.focal) * camera.width / size[0])
-    ratio, mean_ratio = _slow(ratio, told * (1 - own), pixel)
+    ratio, mean_ratio = _smooth_ratio(ratio, weight * (1 - own), pixel)
     smooth = np.exp(ratio) * model
-    # As little cloud as gives the pixel, without light below black and bluer than its shade.
+    # The least opacity that explains the pixel without negative light and without blue shade.
     blue, level = light[..., 2], light @ LUMINANCE
     sky_blue, sky_level = smooth[..., 2], np.maximum(smooth @ LUMINANCE, 1e-12)
     excess = np.maximum(sky_blue - _LEAST_BLUE * sky_level, 1e-12)
@@ -149,7 +148,7 @@ def picture_of(scene: Scene, edit: Edit, sun: tuple[float, float], width: int) -
     is_cloud = smoothstep(*_CLOUD, own)
     opacity = np.clip(np.maximum(own, least), 0, 1) * is_cloud
     opacity = opacity.astype(np.float32)
-    # What is no cloud is the clear sky's own detail.
+    # Detail outside clouds belongs to the clear sky.
     detail = np.log(np.clip(light / np.maximum(smooth, 1e-12), 0.5, 2))
     ratio = (ratio + ((1 - is_cloud) * known * off_sun)[..., None] * detail).astype(np.float32)
     clear = np.exp(ratio) * model
@@ -159,19 +158,19 @@ def picture_of(scene: Scene, edit: Edit, sun: tuple[float, float], width: int) -
     veil = fill_by_pyramid(opacity[..., None], known)[..., 0]
     cover = float((known * opacity).sum()) / max(float(known.sum()), 1e-6)
     if cover < OVERCAST:
-        # Rather no clouds than a smear of them, behind land and where the sun was.
-        soft = cv2.GaussianBlur(known, (0, 0), 2 * _SLOW / pixel)
+        # No clouds behind land and at the old sun: filled-in clouds would smear.
+        soft = cv2.GaussianBlur(known, (0, 0), 2 * _SMOOTH_DEG / pixel)
         kept = off_sun * known * smoothstep(0.55, 0.95, soft)
         opacity, clouds = opacity * kept, clouds * kept[..., None]
-        told = np.ones_like(known)
-    shown = scene.sun is not None and scene.sun.visible
+        weight = np.ones_like(known)
+    visible = scene.sun is not None and scene.sun.visible
     fields = {
         "ratio": ratio,
-        "clouds": fill_by_pyramid(clouds, told),
-        "opacity": fill_by_pyramid(opacity[..., None], told)[..., 0],
+        "clouds": fill_by_pyramid(clouds, weight),
+        "opacity": fill_by_pyramid(opacity[..., None], weight)[..., 0],
         "light": light,
         "known": known,
-        "veil": np.zeros_like(matte) if shown and not moved else veil,
+        "veil": np.zeros_like(matte) if visible and not moved else veil,
     }
     return Picture(
         {name: np.ascontiguousarray(field) for name, field in fields.items()},
@@ -181,10 +180,12 @@ def picture_of(scene: Scene, edit: Edit, sun: tuple[float, float], width: int) -
     )
 
 
-def _slow(ratio: Floats, weight: Floats, pixel: float) -> tuple[Floats, NDArray[np.float64]]:
-    """Return a smooth ``ratio`` (h, w, 3), also where it has no weight, and its mean (3,).
+def _smooth_ratio(
+    ratio: Floats, weight: Floats, pixel: float
+) -> tuple[Floats, NDArray[np.float64]]:
+    """Return ``ratio`` (h, w, 3) smoothed and filled in where it has no weight, and its mean (3,).
 
-    ``pixel`` is in degrees. What is finer than that is the clouds'.
+    ``pixel`` is in degrees. Finer detail belongs to the clouds.
     """
     import cv2
 
@@ -193,7 +194,7 @@ def _slow(ratio: Floats, weight: Floats, pixel: float) -> tuple[Floats, NDArray[
     if float(weight.sum()) < 1e-3 * weight.size:
         return np.zeros_like(ratio), np.zeros(3)
     blurred = [
-        cv2.GaussianBlur(image, (0, 0), _SLOW / pixel)
+        cv2.GaussianBlur(image, (0, 0), _SMOOTH_DEG / pixel)
         for image in (ratio * weight[..., None], weight)
     ]
     smooth = blurred[0] / np.maximum(blurred[1], 1e-6)[..., None]
@@ -211,8 +212,8 @@ def light_of(scene: Scene, display: Floats) -> Floats:
     return np.asarray(light * (MOON_OVER_SUN if scene.lit_by_moon else 1), np.float32)
 
 
-def tinted(scene: Scene, model: Floats) -> Floats:
-    """Return the model in the photo's colours, of the same luminance where it is grey."""
+def tint(scene: Scene, model: Floats) -> Floats:
+    """Return the model in the photo's colors; gray keeps its luminance."""
     if scene.fitted is None:
         return model
     gain = np.array(scene.fitted.gain)
@@ -222,12 +223,12 @@ def tinted(scene: Scene, model: Floats) -> Floats:
 def _model_in(
     scene: Scene, edit: Edit, azimuth: NDArray[np.float64], elevation: NDArray[np.float64]
 ) -> Floats:
-    """Return the model (h, w, 3) in some directions: read from a small dome, it is smooth."""
+    """Return the model (h, w, 3) in some directions, sampled from a small dome: it is smooth."""
     import cv2
 
     width = _MODEL_WIDTH
-    small = tinted(scene, environment(scene, edit, (width, width // 2), sun=False))
-    # The horizon's row below it would bring the ground in.
+    small = tint(scene, environment(scene, edit, (width, width // 2), sun=False))
+    # Interpolation at the horizon must not include the ground.
     small[width // 4 :] = small[width // 4 - 1]
     x = (azimuth / 360 + 0.5) * width - 0.5
     y = (0.5 - elevation / 180) * (width // 2) - 0.5

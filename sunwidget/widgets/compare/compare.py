@@ -1,7 +1,7 @@
 """Compare: methods or recipes side by side on one photo, under one sun.
 
-The browser draws all pictures with one frame graph in turn; the kernel analyses the photo once,
-and once more for every recipe with other strokes or hints.
+The browser draws the pictures in turn with one frame graph. The kernel analyzes the photo once, and
+corrects it once for every recipe with different strokes or hints.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ if TYPE_CHECKING:
     from PIL import Image
 
 _SUN = ("sun_azimuth", "sun_elevation")
-_SMALL_EDGE = 480  # of each picture of the static one, at most
-_SMALL_PIXELS = 300_000  # of all together: a notebook keeps them
+_SMALL_EDGE = 480  # limit of each picture in the static one
+_SMALL_PIXELS = 300_000  # limit of all together, since notebooks store them
 _NOTES = ("Drag the sun in any picture: everything happens in this file, and nothing leaves it.",)
 LAYOUTS = ("side_by_side", "wipe")
 
@@ -60,12 +60,12 @@ class Compare(Analysed, AnswersRefusals):
         The picture; see ``sunwidget.open``.
     what : list or mapping
         2 to 9 of: an ``Edit`` or a recipe; the name of a method ("ratio", "thesis",
-        "thesis_literal") or of a preset ("sunset" …); "photo", the photo as it was. A mapping
-        gives them labels: ``{"mine": edit, "thesis": "thesis"}``.
+        "thesis_literal") or of a preset ("sunset" …); "photo", the original photo. A mapping
+        sets labels: ``{"mine": edit, "thesis": "thesis"}``.
     recipe : Edit or dict, optional
-        What each of them is laid over.
+        Base that each of them overrides.
     **options
-        Any parameter of ``Edit``, which wins over ``recipe``, and any option of
+        Any parameter of ``Edit``, which overrides ``recipe``, and any option of
         ``sunwidget.analyze``.
 
     Attributes
@@ -73,19 +73,19 @@ class Compare(Analysed, AnswersRefusals):
     sun_azimuth, sun_elevation : float or None
         The sun of all pictures, in degrees; None is the photo's own.
     one_sun : bool
-        Whether there is one: at first, unless what is shown asks for different suns. While it is
-        off each picture has its own; moving the sun turns it on.
+        Whether all pictures have one sun. Initially on, unless the pictures have different suns.
+        When it is off, each picture has its own; moving the sun turns it on.
     arrangement : {"side_by_side", "wipe"}
-        All beside each other, or two over each other with a divider.
+        All side by side, or two over each other with a divider.
     difference : bool
-        Whether each picture says how much it differs from the first (CIEDE2000).
+        Whether each picture shows its difference from the first (CIEDE2000).
 
     Raises
     ------
     EditError
-        For an unknown name or a value out of range; the nearest spelling is suggested.
+        For an unknown name, with the nearest spelling, or a value out of range.
     TypeError
-        For an unknown keyword, or an option of ``analyze`` beside a Scene.
+        For an unknown keyword, or an option of ``analyze`` together with a Scene.
     PhotoError
         For a picture that cannot be opened.
 
@@ -98,7 +98,7 @@ class Compare(Analysed, AnswersRefusals):
     _esm, _css = front_end("compare", "Compare")
 
     _parameters: traitlets.List = traitlets.List().tag(sync=True)
-    # The rows that this widget itself sets, their defaults being what it began with.
+    # The rows that this widget sets, with its initial values as defaults.
     _rows: traitlets.List = traitlets.List().tag(sync=True)
     _photo = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _scenes: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
@@ -107,10 +107,10 @@ class Compare(Analysed, AnswersRefusals):
 
     one_sun = traitlets.Bool(True, help="Whether all pictures have one sun.").tag(sync=True)
     arrangement = traitlets.Enum(
-        LAYOUTS, LAYOUTS[0], help="All beside each other, or two with a divider."
+        LAYOUTS, LAYOUTS[0], help="All side by side, or two with a divider."
     ).tag(sync=True)
     difference = traitlets.Bool(
-        False, help="Whether each picture says how much it differs from the first (CIEDE2000)."
+        False, help="Whether each picture shows its difference from the first (CIEDE2000)."
     ).tag(sync=True)
 
     locals().update(edit_traits(parameter(name) for name in _SUN))
@@ -128,7 +128,7 @@ class Compare(Analysed, AnswersRefusals):
         self.photo: Photo = source.photo if isinstance(source, Scene) else source
         self._lock = threading.RLock()
         self._revision = 0
-        self._edits: dict[str, Edit] = {}  # as they were given, once the photo is analysed
+        self._edits: dict[str, Edit] = {}  # by label, once the photo is analyzed
         sun = common_sun(self._shown)
         start = {
             "sun_azimuth": None if sun is None else sun[0],
@@ -152,7 +152,7 @@ class Compare(Analysed, AnswersRefusals):
 
     @property
     def edits(self) -> dict[str, Edit]:
-        """What is shown, by label, under the sun as it is now; waits for the analysis."""
+        """The edits by label, with the current sun; waits for the analysis."""
         self._analyst.wait()
         sun = {name: getattr(self, name) for name in _SUN}
         photos = {variant.label for variant in self._shown if variant.is_photo}
@@ -174,7 +174,7 @@ class Compare(Analysed, AnswersRefusals):
         return {label: render(scene, edit, **options) for label, edit in self.edits.items()}
 
     def sheet(self, long_edge: int = 640) -> Image.Image:
-        """Return all pictures beside each other under their labels, as one picture.
+        """Return all pictures side by side, with their labels, as one picture.
 
         Parameters
         ----------
@@ -207,16 +207,16 @@ class Compare(Analysed, AnswersRefusals):
         Parameters
         ----------
         path : path, optional
-            Where to write it. Default: nowhere, and the page is returned as text.
+            The file to write. Default: return the page as text.
         title : str, optional
-            Of the page. Default: the photo's name.
+            Title of the page. Default: the photo's name.
         overwrite : bool
             Replace an existing file.
 
         Returns
         -------
         Path or str
-            Where the page is, or the page.
+            The written file, or the page.
 
         Raises
         ------
@@ -226,14 +226,14 @@ class Compare(Analysed, AnswersRefusals):
         return written_page(lambda: self._page(title or self.photo.name), path, overwrite=overwrite)
 
     def render_static(self, *, title: str | None = None) -> StaticPage:
-        """Return the page of ``to_html`` as a cell's output: the sun moves in it without a kernel.
+        """Return the page of ``to_html`` as a cell's output; its sun moves without a kernel.
 
-        For notebooks that are exported; waits for the analysis. See ``SunEditor.render_static``.
+        For exported notebooks; waits for the analysis. See ``SunEditor.render_static``.
 
         Parameters
         ----------
         title : str, optional
-            Of the page. Default: the photo's name.
+            Title of the page. Default: the photo's name.
         """
         name = title or self.photo.name
         return StaticPage(self._page(name), name)
@@ -251,7 +251,7 @@ class Compare(Analysed, AnswersRefusals):
 
     def _deliver(self, scene: Scene) -> None:
         edits = {variant.label: variant.edit(scene) for variant in self._shown}
-        # Maps are made once for all recipes that correct the photo alike.
+        # Recipes with the same corrections share their maps.
         places: dict[tuple[Any, ...], int] = {}
         scenes: list[dict[str, Any]] = []
         for edit in edits.values():
@@ -278,7 +278,7 @@ class Compare(Analysed, AnswersRefusals):
         return {"_photo": saved_photo(self.photo), "_scenes": []}
 
     def _static_picture(self) -> bytes:
-        """Return a small PNG: all pictures where they can be had at once, else the photo."""
+        """Return a small PNG: all pictures if the scene is ready, otherwise the photo."""
         from sunwidget.errors import RendererError
 
         if self._can_show_edits():

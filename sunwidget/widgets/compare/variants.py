@@ -1,4 +1,4 @@
-"""What Compare shows side by side: edits, or names of methods and presets, by label."""
+"""The panels of Compare: edits, or names of methods and presets, by label."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ class Variant(NamedTuple):
     ----------
     label : str
     what : Edit or str
-        An edit; or "photo", or the name of a method or a preset.
+        An edit, "photo", or the name of a method or a preset.
     base : Edit
-        What ``what`` is laid over.
+        The edit that ``what`` overrides.
     """
 
     label: str
@@ -35,12 +35,12 @@ class Variant(NamedTuple):
 
     @property
     def is_photo(self) -> bool:
-        """Whether it is the photo as it was, which no sun moves."""
+        """Whether it is the original photo, whose sun does not move."""
         return self.what == PHOTO
 
     @property
     def sun(self) -> Sun | None:
-        """Azimuth and elevation that it asks for; None where that depends on the photo."""
+        """Azimuth and elevation of its edit; None if they depend on the photo."""
         if isinstance(self.what, str) and self.what in presets.NAMES:
             return None
         edit = self.base if isinstance(self.what, str) else _over(self.base, self.what)
@@ -57,52 +57,52 @@ class Variant(NamedTuple):
         return presets.edit(self.what, scene, self.base)
 
 
-def variants(given: Any, base: Edit) -> tuple[Variant, ...]:
+def variants(choices: Any, base: Edit) -> tuple[Variant, ...]:
     """Return the panels of a comparison.
 
     Parameters
     ----------
-    given : mapping or iterable
+    choices : mapping or iterable
         ``{label: what}`` or a list of ``what``: an ``Edit``, a recipe, a method's or a preset's
-        name, or "photo". In a list names are their own labels, and edits are numbered.
+        name, or "photo". In a list, names are their own labels and edits are numbered.
     base : Edit
-        What each is laid over.
+        The edit that each overrides.
 
     Raises
     ------
     EditError
-        For fewer than two or more than nine, an unknown name (the nearest is suggested), or a
-        recipe that cannot be used.
+        For fewer than two or more than nine, an unknown name (with the nearest one), or an unusable
+        recipe.
     """
-    if isinstance(given, Mapping):
-        pairs = list(given.items())
-    elif isinstance(given, Iterable) and not isinstance(given, (str, bytes)):
+    if isinstance(choices, Mapping):
+        pairs = list(choices.items())
+    elif isinstance(choices, Iterable) and not isinstance(choices, (str, bytes)):
         pairs = [
             (what if isinstance(what, str) else f"Edit {i}", what)
-            for i, what in enumerate(given, 1)
+            for i, what in enumerate(choices, 1)
         ]
     else:
         raise EditError(
-            "Compare takes a list or a mapping of what to show, such as "
-            f'["ratio", "thesis"] or {{"warm": edit}}, not {type(given).__name__}.'
+            "Compare takes a list or a mapping of edits and names, such as "
+            f'["ratio", "thesis"] or {{"warm": edit}}, not {type(choices).__name__}.'
         )
     if not 2 <= len(pairs) <= MOST:
         raise EditError(f"Compare shows 2 to {MOST} pictures side by side, not {len(pairs)}.")
     found = tuple(Variant(str(label), _what(what), base) for label, what in pairs)
     labels = [variant.label for variant in found]
     if len(set(labels)) < len(labels):
-        raise EditError("Two pictures have the same label. Give a mapping with a label for each.")
+        raise EditError("Two pictures have the same label. Pass a mapping with distinct labels.")
     return found
 
 
 def common_sun(found: Iterable[Variant]) -> Sun | None:
-    """Return the one sun that all panels ask for, the photo aside; None where they differ."""
+    """Return the sun of all panels except the photo; None if they differ."""
     suns = {variant.sun for variant in found if not variant.is_photo}
     return suns.pop() if len(suns) == 1 else None
 
 
 def corrections(edit: Edit) -> tuple[Any, ...]:
-    """Return what the photo's maps follow: edits that agree in it share their maps."""
+    """Return the parameters that the photo's maps depend on: equal edits share their maps."""
     return tuple(getattr(edit, name) for name in CORRECTIONS)
 
 
@@ -119,5 +119,5 @@ def _what(what: Any) -> Edit | str:
     if what in names:
         return what
     near = difflib.get_close_matches(what[:80].lower().replace(" ", "_"), names, n=1)
-    hint = f"Did you mean {near[0]!r}?" if near else f"There are {', '.join(names)}."
+    hint = f"Did you mean {near[0]!r}?" if near else f"Choose one of {', '.join(names)}."
     raise EditError(f"{what[:80]!r} is neither a method nor a preset. {hint}")

@@ -1,6 +1,6 @@
-"""The part of a picture that a zoomed view shows, at the photo's full size.
+"""The part of a picture in a zoomed view, at the photo's full resolution.
 
-The browser holds a preview; what lies between its pixels, only the kernel can draw.
+The browser has only a preview; the kernel renders finer detail.
 """
 
 from __future__ import annotations
@@ -36,21 +36,21 @@ def detail(
     box : (left, top, right, bottom)
         The part, in fractions of the picture's width and height.
     size : (width, height)
-        How many pixels can be shown of it; more are reduced.
+        Pixels of the view; a larger part is reduced to it.
     progress : callable, optional
         Called with (fraction, message); raise in it to cancel.
 
     Returns
     -------
     box : (left, top, right, bottom)
-        The whole pixels that hold the part, in fractions again.
+        The part, extended to whole pixels, in fractions.
     pixels : array, (H, W, 3) uint8
         sRGB.
 
     Raises
     ------
     ValueError
-        For a part or a size that is none.
+        For an invalid part or size.
     """
     width, height = scene.photo.size
     left, top, right, bottom = (min(1.0, max(0.0, value)) for value in _numbers(box, 4))
@@ -80,5 +80,5 @@ def _numbers(value: Any, count: int) -> list[float]:
     """Return a message's numbers; ValueError for anything else."""
     plain = isinstance(value, list | tuple) and len(value) == count
     if not plain or not all(isinstance(one, int | float) and math.isfinite(one) for one in value):
-        raise ValueError(f"{count} finite numbers are needed, not {value!r:.80}.")
+        raise ValueError(f"Expected {count} finite numbers, not {value!r:.80}.")
     return [float(one) for one in value]

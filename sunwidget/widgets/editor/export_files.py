@@ -1,7 +1,7 @@
-"""Files that the editor's export panel asks for: their formats, their names, and how they are made.
+"""Files of the editor's export panel: formats, names and writing.
 
-What is made lies aside until it is complete. In the notebook's folder it then gets its name,
-unless that was taken meanwhile; for a download it is sent. Cancelled work leaves nothing.
+Files are written to a temporary folder. When they are complete, they are moved to the notebook's
+folder, unless the name was taken meanwhile, or sent as a download. Cancelled work leaves no file.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ from typing import Any, NamedTuple
 from sunwidget.progress import Progress
 from sunwidget.widgets.kernel.requests import Answer
 
-_SHOWN_BYTES = 20_000_000  # a smaller film is sent to be looked at, wherever it was written
+_SHOWN_BYTES = 20_000_000  # smaller films are also sent to the browser, which plays them
 _PIECE_BYTES = 8_000_000
 _FRAMES = "%04d.png"
 _NAME_LENGTH = 120
-_FORBIDDEN = '/\\:\0"<>|?*%'  # by a system's folders; % numbers frames
+_FORBIDDEN = '/\\:\0"<>|?*%'  # in file names of some system; % numbers frames
 _ZIP = "application/zip"
 
 
 class Kind(NamedTuple):
-    """A kind of file that the panel offers.
+    """A file format that the panel offers.
 
-    Whether it has a ``quality`` or is a picture a frame, and the ``module`` it needs, which the
-    extra ``extra`` installs.
+    ``quality`` and ``frames`` tell whether it has a quality and one file per frame. It needs
+    ``module``, which the extra ``extra`` installs.
     """
 
     suffix: str
@@ -42,13 +42,13 @@ class Kind(NamedTuple):
 
     @property
     def lacks(self) -> str:
-        """How to install what it needs; "" when all is there."""
+        """The command that installs a missing module, or ""."""
         if not self.module or importlib.util.find_spec(self.module) is not None:
             return ""
         return f"pip install 'sunwidget[{self.extra}]'"
 
-    def described(self) -> dict[str, Any]:
-        """Return what the panel shows of it."""
+    def describe(self) -> dict[str, Any]:
+        """Return the entry for the panel."""
         return {
             "suffix": self.suffix,
             "label": self.label,
@@ -76,14 +76,14 @@ FILMS = (
 
 
 def kind_of(kinds: tuple[Kind, ...], suffix: Any) -> Kind:
-    """Return the kind with this suffix; ValueError when there is none."""
+    """Return the format with this suffix; raise ValueError if there is none."""
     for kind in kinds:
         if kind.suffix == suffix:
             return kind
-    raise ValueError(f"There is no format {suffix!r:.40} to export to.")
+    raise ValueError(f"There is no export format {suffix!r:.40}.")
 
 
-def made(
+def make_file(
     kind: Kind,
     name: Any,
     make: Callable[[Path], object],
@@ -91,13 +91,13 @@ def made(
     *,
     in_folder: bool,
 ) -> Answer:
-    """Make a file and answer with it.
+    """Write a file and return the response to the browser.
 
     Parameters
     ----------
     kind : Kind
     name : str
-        The file's name, with or without its ending, in no other folder.
+        The file's name, with or without its extension, without a folder.
     make : callable
         ``make(path)`` writes it; ``path`` is a pattern for a format of frames.
     progress : callable
@@ -107,22 +107,22 @@ def made(
     Returns
     -------
     dict, list of bytes
-        ``name``, ``bytes``, ``type`` and, in the folder, ``path``; the file follows in pieces
-        where it is sent, or a film small enough to be shown. Several files become a folder, or
-        a ZIP. When the name is taken: ``taken`` and ``free``, and nothing was made.
+        ``name``, ``bytes``, ``type`` and, in the folder, ``path``, with the pieces of a file that
+        is sent or of a film small enough to be played. Several files become a folder or a ZIP. If
+        the name is taken: ``taken`` and ``free``, and no file is written.
     """
     stem = _checked_stem(name, kind.suffix)
     here = Path.cwd()
-    # Frames and layers lie in a folder of the name without its ending.
+    # Frames and layers go into a folder of that name without extension.
     place = here / (stem if kind.frames else stem + kind.suffix)
     if in_folder and place.exists():
         return _taken(place), []
-    # Beside its place, so that it can be moved there whole.
+    # On the same file system, so that the move is atomic.
     with tempfile.TemporaryDirectory(
         prefix=".sunwidget-", dir=here if in_folder else None
     ) as aside:
         folder = Path(aside) / stem
-        if not kind.frames:  # whose folder is made with them
+        if not kind.frames:  # the writer of frames creates the folder
             folder.mkdir()
         make(folder / (_FRAMES if kind.frames else stem + kind.suffix))
         files = sorted(path for path in folder.iterdir() if path.is_file())
@@ -141,28 +141,26 @@ def made(
             answer["path"] = str(place)
         elif single is None:
             progress(1.0, "Packing …")
-            data = _zipped(files, Path(aside) / "all.zip")
+            data = _zip(files, Path(aside) / "all.zip")
             answer |= {"name": f"{stem}.zip", "type": _ZIP, "bytes": len(data)}
     progress(1.0, "Sending …")
     return answer, [data[i : i + _PIECE_BYTES] for i in range(0, len(data), _PIECE_BYTES)]
 
 
 def possible_stem(name: str) -> str:
-    """Return a photo's name without its ending as every folder takes it."""
-    signs = (
-        sign if sign.isprintable() and sign not in _FORBIDDEN else "_" for sign in Path(name).stem
-    )
-    return "".join(signs).strip(" .")[: _NAME_LENGTH // 2] or "picture"
+    """Return a photo's name without its extension, valid as a file name on every system."""
+    characters = (c if c.isprintable() and c not in _FORBIDDEN else "_" for c in Path(name).stem)
+    return "".join(characters).strip(" .")[: _NAME_LENGTH // 2] or "picture"
 
 
 def _checked_stem(name: Any, suffix: str) -> str:
     text = name.strip() if isinstance(name, str) else ""
     stem = text.removesuffix(suffix)
-    plain = stem not in {"", ".", ".."} and not any(sign in stem for sign in _FORBIDDEN)
+    plain = stem not in {"", ".", ".."} and not any(c in stem for c in _FORBIDDEN)
     if not plain or len(text) > _NAME_LENGTH:
         raise ValueError(
-            f"{text[:60]!r} cannot be a file's name. Choose one of 1 to {_NAME_LENGTH} characters "
-            "without slashes or other characters that file names cannot hold."
+            f"{text[:60]!r} cannot be a file's name. Choose 1 to {_NAME_LENGTH} characters "
+            'without / \\ : * ? " < > % or |.'
         )
     return stem
 
@@ -173,8 +171,8 @@ def _taken(place: Path) -> dict[str, Any]:
     return {"taken": place.name, "free": free}
 
 
-def _zipped(files: list[Path], place: Path) -> bytes:
-    # Pictures are packed already.
+def _zip(files: list[Path], place: Path) -> bytes:
+    # Pictures are already compressed.
     with zipfile.ZipFile(place, "w", zipfile.ZIP_STORED) as archive:
         for path in files:
             archive.write(path, path.name)

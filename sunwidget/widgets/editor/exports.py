@@ -1,4 +1,4 @@
-"""What an editor exports: stills and films, from Python and from the panel in the browser."""
+"""Export of stills and films by an editor, from Python and from the browser's panel."""
 
 from __future__ import annotations
 
@@ -13,19 +13,24 @@ from sunwidget.export.formats import FORMATS
 from sunwidget.film.day import Day
 from sunwidget.geometry.place import at_hours
 from sunwidget.progress import Progress, with_time_left
-from sunwidget.widgets.editor.export_files import FILMS, STILLS, kind_of, made, possible_stem
-from sunwidget.widgets.editor.key_frames import KeyFrame, KeyFrames, along, key_frames_json
+from sunwidget.widgets.editor.export_files import FILMS, STILLS, kind_of, make_file, possible_stem
+from sunwidget.widgets.editor.key_frames import (
+    KeyFrame,
+    KeyFrames,
+    complete_key_frames,
+    key_frames_json,
+)
 from sunwidget.widgets.editor.pictures import Pictures
 from sunwidget.widgets.kernel.requests import Answer
 
-_HEADROOM = 3.0  # stops of light above white, where they are asked for
+_HEADROOM = 3.0  # stops of light above white, if requested
 
 
 class Exports(Pictures):
-    """A widget whose edit can be exported, as a still and as a film."""
+    """A widget whose edit can be exported as a still or as a film."""
 
     key_frames = KeyFrames(
-        help="Edits at seconds, of which sweep() makes a film: ((0.0, Edit()), (4.0, Edit(…)))."
+        help="Key frames of the film that sweep() writes: ((0.0, Edit()), (4.0, Edit(…)))."
     ).tag(sync=True, to_json=key_frames_json)
 
     def sweep(
@@ -41,27 +46,27 @@ class Exports(Pictures):
         Parameters
         ----------
         path : path
-            Where; the ending chooses the format: .mp4, .gif, .webp, or ``frames/%04d.png``.
+            The extension selects the format: .mp4, .gif, .webp, or ``frames/%04d.png``.
         to : Edit, recipe or a preset's name, optional
-            The film goes from the edit as it is to this one.
+            The end of a film that starts at the current edit.
         key_frames : optional
-            What the film goes along instead: pairs of seconds and an ``Edit``, or whatever else
-            ``sunwidget.sweep`` takes as a path, such as a ``Day``. Default: ``editor.key_frames``,
-            whose strokes, methods and hints are then those of the edit as it is. From a single
-            one, or without any from the photo as it was, the film goes to the edit as it is.
+            The path of the film instead: pairs of seconds and an ``Edit``, or any other path for
+            ``sunwidget.sweep``, such as a ``Day``. Default: ``editor.key_frames`` with the current
+            edit's strokes, methods and hints. With one key frame the film goes from it to the
+            current edit; without key frames, from the photo to the current edit.
         **options
             As for ``sunwidget.sweep``: size, seconds, easing …
 
         Returns
         -------
         Path
-            Where the film is.
+            The written film.
 
         Raises
         ------
         EditError
-            For both ``to`` and ``key_frames``, and when nothing moves. All else that
-            ``sunwidget.sweep`` raises.
+            For both ``to`` and ``key_frames``, and when nothing moves. Other errors as for
+            ``sunwidget.sweep``.
 
         Examples
         --------
@@ -70,30 +75,30 @@ class Exports(Pictures):
         >>> editor.sweep("evening.gif", size=(640, 427))
         """
         if to is not None and key_frames is not None:
-            raise EditError("Give either to= or key_frames=, not both.")
+            raise EditError("Pass either to= or key_frames=, not both.")
         edit = self.edit
         if to is not None:
             end = presets.edit(to, self.scene, edit) if isinstance(to, str) else edit_of(to)
             key_frames = [edit, end]
         elif key_frames is None:
-            key_frames = self._way(self.key_frames, edit)
+            key_frames = self._film_path(self.key_frames, edit)
         return self._sweep(key_frames, path, **options)
 
-    def _sweep(self, way: Any, path: Any, **options: Any) -> Path:
+    def _sweep(self, film_path: Any, path: Any, **options: Any) -> Path:
         from sunwidget.film.sweep import sweep
 
-        return sweep(self._base_scene(), way, path, **options)
+        return sweep(self._base_scene(), film_path, path, **options)
 
     @staticmethod
-    def _way(key_frames: tuple[KeyFrame, ...], edit: Edit) -> Any:
-        """Return a film's path: along the key frames, or from the photo on to the edit."""
-        frames = along(key_frames or ((0.0, Edit()),), edit)
+    def _film_path(key_frames: tuple[KeyFrame, ...], edit: Edit) -> Any:
+        """Return a film's path: through the key frames, or from the photo to the edit."""
+        frames = complete_key_frames(key_frames or ((0.0, Edit()),), edit)
         if len(frames) > 1:
             return frames
         ((_, start),) = frames
         if start == edit:
             raise EditError(
-                "Nothing moves: move the sun, pass to=, or set two key frames: "
+                "Nothing moves. Move the sun, pass to=, or set two key frames: "
                 "editor.key_frames = [(0, sw.Edit()), (4, sw.Edit(sun_elevation=2))]."
             )
         return [start, edit]
@@ -107,7 +112,7 @@ class Exports(Pictures):
             super()._take_up(edit, **state)
 
     def _describe_exports(self, _content: dict[str, Any], _progress: Progress) -> Answer:
-        """Answer what there is to choose from, and what suits this photo."""
+        """Return the panel's choices and the defaults for this photo."""
         photo = self.photo
         own = Path(photo.name).suffix.lower()
         known = {".jpeg": ".jpg", ".tiff": ".tif"}.get(own, own)
@@ -117,14 +122,14 @@ class Exports(Pictures):
             "suffix": known if known in {kind.suffix for kind in STILLS} else ".png",
             "bits": 16 if photo.bit_depth > 8 else 8,
             "size": list(photo.size),
-            "stills": [kind.described() | _holds(kind.suffix) for kind in STILLS],
-            "films": [kind.described() for kind in FILMS],
+            "stills": [kind.describe() | _capabilities(kind.suffix) for kind in STILLS],
+            "films": [kind.describe() for kind in FILMS],
         }, []
 
     def _export_still(self, content: dict[str, Any], progress: Progress) -> Answer:
-        """Make a still: ``name``, ``suffix``, ``bits``, ``quality``, ``long_edge`` …."""
+        """Export a still: ``name``, ``suffix``, ``bits``, ``quality``, ``long_edge`` …."""
         kind = kind_of(STILLS, content.get("suffix"))
-        holds = _holds(kind.suffix)
+        holds = _capabilities(kind.suffix)
         options = self._size_of(content)
         if len(holds["bits"]) > 1 and content.get("bits"):
             options["bit_depth"] = int(content["bits"])
@@ -134,20 +139,21 @@ class Exports(Pictures):
             options["layers"] = True
         if holds["above_white"] and content.get("above_white"):
             options["headroom"] = _HEADROOM
-        told = with_time_left(progress)
-        edit = self._asked_for(content)
+        report = with_time_left(progress)
+        edit = self._requested_edit(content)
 
         def make(path: Path) -> None:
-            told(0.0, "Rendering …")
-            self._save(edit, path, progress=told, **options)
+            report(0.0, "Rendering …")
+            self._save(edit, path, progress=report, **options)
 
         in_folder = bool(content.get("in_folder"))
-        return made(kind, content.get("name"), make, progress, in_folder=in_folder)
+        return make_file(kind, content.get("name"), make, progress, in_folder=in_folder)
 
     def _export_film(self, content: dict[str, Any], progress: Progress) -> Answer:
-        """Make a film: ``name``, ``suffix``, ``seconds``, ``fps``, ``easing``, ``loop``, ….
+        """Export a film: ``name``, ``suffix``, ``seconds``, ``fps``, ``easing``, ``loop``, ….
 
-        ``hours`` are the first and last of the place's day, else it goes along ``key_frames``.
+        ``hours``, if set, are the first and last hour of the place's day; otherwise the path
+        follows ``key_frames``.
         """
         kind = kind_of(FILMS, content.get("suffix"))
         options = self._size_of(content)
@@ -157,7 +163,7 @@ class Exports(Pictures):
         if kind.quality and content.get("quality"):
             options["quality"] = int(content["quality"])
 
-        edit = self._asked_for(content)
+        edit = self._requested_edit(content)
         frames = self.key_frames
         if content.get("key_frames") is not None:
             frames = KeyFrames().validate(self, content["key_frames"])
@@ -165,11 +171,11 @@ class Exports(Pictures):
         def make(path: Path) -> None:
             progress(0.0, "Rendering …")
             hours = content.get("hours")
-            way = _film_day(edit, *hours) if hours else self._way(frames, edit)
-            self._sweep(way, path, progress=progress, **options)
+            film_path = _film_day(edit, *hours) if hours else self._film_path(frames, edit)
+            self._sweep(film_path, path, progress=progress, **options)
 
         in_folder = bool(content.get("in_folder"))
-        return made(kind, content.get("name"), make, progress, in_folder=in_folder)
+        return make_file(kind, content.get("name"), make, progress, in_folder=in_folder)
 
     def _size_of(self, content: dict[str, Any]) -> dict[str, Any]:
         edge = content.get("long_edge")
@@ -177,15 +183,15 @@ class Exports(Pictures):
 
 
 def _film_day(edit: Edit, start: float, end: float) -> Day:
-    """Return the hours of the place's day, counted as its path counts them."""
+    """Return the day of the edit's place, between hours counted as on its sun path."""
     if edit.place is None:
-        raise EditError("Set the photo's place first, in Time and place or by set_place().")
+        raise EditError("Set the photo's place first, in Time and place or with set_place().")
     place = at_hours(edit.place, start)
     return Day(place, start=place.time, end=end % 24, edit=edit)
 
 
-def _holds(suffix: str) -> dict[str, Any]:
-    """Return what a still holds: bits a channel to choose from, layers, light above white."""
+def _capabilities(suffix: str) -> dict[str, Any]:
+    """Return what a still format supports: bits per channel, layers, light above white."""
     form = FORMATS[suffix]
     return {
         "bits": sorted(form.depths),

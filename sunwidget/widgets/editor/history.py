@@ -1,8 +1,8 @@
-"""The edit of a widget with its history: one undo over everything, and named versions.
+"""The edit of a widget with a common undo history and named versions.
 
-All of it is synchronised traits, so it is the same from Python, from the browser and in a second
-view, and comes back when the page is loaded again. Whoever makes a step writes the history: the
-browser for its gestures, this class for what Python sets.
+All of it is stored in synchronized traits, so that Python, the browser and a second view agree, and
+a reloaded page restores it. The side that makes a step writes the history: the browser for
+gestures, this class for values set in Python.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from sunwidget.widgets.kernel.edit_traits import AnswersRefusals, edit_traits
 
 NAMES = tuple(p.name for p in PARAMETERS)
 HISTORY_LENGTH = 100
-# Every step repeats all strokes, and a message of 10 MiB would break the connection.
+# Every step contains all strokes, and a message of 10 MiB would break the connection.
 HISTORY_BYTES = 2_000_000
 VERSIONS = 100
 NAME_LENGTH = 80
@@ -37,17 +37,17 @@ class EditHistory(AnswersRefusals):
     Parameters
     ----------
     start : Edit
-        What the traits begin with; no step of the history.
+        Initial values of the traits; not a step of the history.
     **state
         Values of other traits.
     """
 
-    # Recipes before and after the present one.
+    # Recipes before and after the current one.
     _history = traitlets.Dict().tag(sync=True)
-    # What was kept by name, oldest first: {"name": …, "recipe": …}.
+    # Named versions, oldest first: {"name": …, "recipe": …}.
     _versions: traitlets.List = traitlets.List().tag(sync=True)
 
-    # One trait a row of the table; a class body's locals() is the class's own dictionary.
+    # One trait per row of the table; in a class body, locals() is the class namespace.
     locals().update(edit_traits())
 
     def __init__(self, start: Edit, **state: Any) -> None:
@@ -69,42 +69,42 @@ class EditHistory(AnswersRefusals):
         self._step(edit_of(value))
 
     def undo(self) -> None:
-        """Take back the last step, whether made here or in the browser."""
+        """Undo the last step, made in Python or in the browser."""
         with self._lock:
             past, future = self._steps()
             if past:
                 self._travel(past[-1], past[:-1], [self.edit.to_dict(), *future])
 
     def redo(self) -> None:
-        """Make the last undone step again."""
+        """Redo the last undone step."""
         with self._lock:
             past, future = self._steps()
             if future:
                 self._travel(future[0], [*past, self.edit.to_dict()], future[1:])
 
     def reset(self) -> None:
-        """Set every parameter to its default, as one step: the photo as it was."""
+        """Set every parameter to its default, which shows the original photo, as one step."""
         self._step(Edit())
 
     @property
     def versions(self) -> dict[str, Edit]:
-        """What was kept by name, oldest first; see ``keep``."""
+        """The edits kept by name, oldest first; see ``keep``."""
         return {v["name"]: Edit.from_dict(v["recipe"]) for v in self._versions}
 
     def keep(self, name: str, *, overwrite: bool = False) -> None:
-        """Keep the edit as it is now under a name, to come back to with ``go_to``.
+        """Keep the current edit under a name, for ``go_to``.
 
         Parameters
         ----------
         name : str
             At most 80 characters.
         overwrite : bool, default False
-            Whether another edit may have had the name before.
+            Replace another edit of that name.
 
         Raises
         ------
         EditError
-            For a name that another edit has, an empty or too long one, or the 101st.
+            For a name of another edit, an empty or too long name, or the 101st version.
 
         Examples
         --------
@@ -118,7 +118,7 @@ class EditHistory(AnswersRefusals):
             at = next((i for i, v in enumerate(kept) if v["name"] == name), len(kept))
             version = {"name": name, "recipe": self.edit.to_dict()}
             if at == VERSIONS:
-                raise EditError(f"{VERSIONS} versions are kept already. Forget one of them first.")
+                raise EditError(f"{VERSIONS} versions are already kept. Forget one of them first.")
             if at < len(kept) and not overwrite and self.versions[name] != self.edit:
                 raise EditError(
                     f"Another edit is kept as {name!r}. Choose another name, or pass "
@@ -127,24 +127,24 @@ class EditHistory(AnswersRefusals):
             self._versions = [*kept[:at], version, *kept[at + 1 :]]
 
     def go_to(self, name: str) -> None:
-        """Set everything as it was when ``name`` was kept, as one step.
+        """Restore the edit kept as ``name``, as one step.
 
         Raises
         ------
         EditError
-            When there is no such version; the nearest name is suggested.
+            When there is no such version; the message suggests the nearest name.
         """
         with self._lock:
             self._step(Edit.from_dict(self._version(name)["recipe"]))
 
     def forget(self, name: str) -> None:
-        """Keep the version ``name`` no longer; raises EditError when there is none."""
+        """Delete the version ``name``; raises EditError if there is none."""
         with self._lock:
             version = self._version(name)
             self._versions = [v for v in self._versions if v is not version]
 
     def _set_aside(self) -> dict[str, Any]:
-        """Return edit, history and versions, to be taken up again with ``_take_up``."""
+        """Return edit, history and versions, for ``_take_up``."""
         return {
             "edit": self.edit,
             "_history": self._history,
@@ -152,7 +152,7 @@ class EditHistory(AnswersRefusals):
         }
 
     def _take_up(self, edit: Edit, **state: Any) -> None:
-        """Go on with an edit and its history instead of the present ones."""
+        """Replace the current edit and history by stored ones."""
         with self._lock, self.hold_sync():
             self._history = state.get("_history", {"past": [], "future": []})
             self._versions = state.get("_versions", [])
@@ -167,7 +167,7 @@ class EditHistory(AnswersRefusals):
         return version
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
-        """Take over what the browser sent; a value that is refused is answered, not raised."""
+        """Apply state from the browser; report a rejected value instead of raising."""
         with self._lock:
             self._browser_thread = threading.get_ident()
             try:
@@ -181,7 +181,7 @@ class EditHistory(AnswersRefusals):
         history: dict[str, Any] = proposal["value"]
         if all(isinstance(history.get(row, []), list) for row in ("past", "future")):
             return history
-        raise traitlets.TraitError("A history holds two lists of recipes, past and future.")
+        raise traitlets.TraitError("A history must have two lists of recipes, past and future.")
 
     def _steps(self) -> tuple[list[Recipe], list[Recipe]]:
         return list(self._history.get("past", [])), list(self._history.get("future", []))
@@ -221,7 +221,7 @@ class EditHistory(AnswersRefusals):
             return
         with self._lock:
             edit = self.edit
-            # Several values may have been set at once; their notifications come one by one.
+            # Values set together notify one by one; record them as one step.
             if edit != self._committed:
                 self._remember(self._committed)
                 self._committed = edit
@@ -230,12 +230,12 @@ class EditHistory(AnswersRefusals):
 def _checked_name(name: Any) -> str:
     text = name.strip() if isinstance(name, str) else ""
     if not 0 < len(text) <= NAME_LENGTH:
-        raise EditError(f"A version's name is a text of 1 to {NAME_LENGTH} characters.")
+        raise EditError(f"A version's name must be a string of 1 to {NAME_LENGTH} characters.")
     return text
 
 
 def newest(steps: list[Recipe]) -> list[Recipe]:
-    """Return the last steps, as many as may be kept; twin of ``newest`` in ``state.js``."""
+    """Return the last steps within the limits; twin of ``newest`` in ``state.js``."""
     kept: list[Recipe] = []
     size = 0
     for recipe in reversed(steps[-HISTORY_LENGTH:]):

@@ -1,4 +1,4 @@
-"""Key frames of a film, as a trait: edits at seconds."""
+"""A trait for the key frames of a film: pairs of seconds and an edit."""
 
 from __future__ import annotations
 
@@ -11,28 +11,28 @@ import traitlets
 from sunwidget.edit.table import PARAMETERS, Edit
 from sunwidget.errors import EditError
 
-# Twins of those in js/src/editor/export/key_frames.js.
+# Twins of the constants in js/src/editor/export/key_frames.js.
 MOST = 100
 LONGEST = 600.0  # seconds of a film
 
 KeyFrame = tuple[float, Edit]
 
-# What a film moves; all else is one for the whole film.
+# Parameters that a film moves; the others are constant.
 MOVED = tuple(p.name for p in PARAMETERS if p.kind == "number" and not p.analysis)
 
 
 class KeyFrames(traitlets.TraitType):
-    """Edits at seconds, sorted: ``((0.0, Edit()), (2.5, Edit(sun_elevation=3)))``.
+    """Key frames sorted by time: ``((0.0, Edit()), (2.5, Edit(sun_elevation=3)))``.
 
-    Takes pairs of seconds and an ``Edit`` or a recipe, and what travels to the browser:
-    ``{"seconds": …, "recipe": …}``. Of each edit it keeps what a film moves.
+    Accepts pairs of seconds and an ``Edit`` or a recipe, and the browser's format
+    ``{"seconds": …, "recipe": …}``. Keeps only the parameters that a film moves.
     """
 
     default_value: Any = ()
     info_text = "pairs of seconds and an Edit"
 
     def validate(self, _obj: Any, value: Any) -> tuple[KeyFrame, ...]:
-        """Return the key frames, sorted; TraitError says what is wrong with them."""
+        """Return the sorted key frames; raise TraitError if they are invalid."""
         try:
             frames = sorted((_key_frame(item) for item in value), key=lambda frame: frame[0])
         except (TypeError, ValueError) as error:
@@ -46,15 +46,15 @@ class KeyFrames(traitlets.TraitType):
 
 
 def key_frames_json(value: tuple[KeyFrame, ...], _widget: Any) -> list[dict[str, Any]]:
-    """Return key frames as they travel."""
+    """Return key frames in the browser's format."""
     return [{"seconds": seconds, "recipe": edit.to_dict()} for seconds, edit in value]
 
 
-def along(frames: tuple[KeyFrame, ...], edit: Edit) -> list[KeyFrame]:
-    """Return key frames of which ``edit`` gives all that a film does not move.
+def complete_key_frames(frames: tuple[KeyFrame, ...], edit: Edit) -> list[KeyFrame]:
+    """Return key frames with the constant parameters of ``edit``.
 
-    Strokes, methods and hints are those of ``edit`` whenever the key frame was made, so that a
-    correction made later is in all of the film.
+    Strokes, methods and hints are those of ``edit``, so that a correction made after a key frame
+    applies to the whole film.
     """
     return [
         (seconds, edit.replace(**{name: getattr(frame, name) for name in MOVED}))
@@ -67,9 +67,9 @@ def _key_frame(item: Any) -> KeyFrame:
         item = (item["seconds"], item["recipe"]) if {"seconds", "recipe"} <= item.keys() else ()
     seconds, recipe = item
     if isinstance(seconds, bool) or not isinstance(seconds, (int, float)):
-        raise TypeError(f"seconds are a number, not {seconds!r:.40}.")
+        raise TypeError(f"seconds must be a number, not {seconds!r:.40}.")
     if not (math.isfinite(seconds) and 0 <= seconds <= LONGEST):
-        raise ValueError(f"seconds go from 0 to {LONGEST:g}, not {seconds!r:.40}.")
+        raise ValueError(f"seconds must be from 0 to {LONGEST:g}, not {seconds!r:.40}.")
     try:
         edit = recipe if isinstance(recipe, Edit) else Edit.from_dict(recipe)
     except EditError as error:

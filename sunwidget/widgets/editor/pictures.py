@@ -1,4 +1,4 @@
-"""What an editor hands out: pictures, files, pages, and what static viewers see of it."""
+"""Output of an editor: pictures, files, pages, and the picture for static viewers."""
 
 from __future__ import annotations
 
@@ -39,21 +39,21 @@ class Pictures(EditHistory, Analysed):
         return f"<{type(self).__name__} of {self.photo.name!r}: {self.edit!r}>"
 
     def render(self, **options: Any) -> Any:
-        """Return the picture as it is now; ``options`` as in ``sunwidget.render``."""
+        """Return the current picture; ``options`` as in ``sunwidget.render``."""
         return self._render(self.edit, **options)
 
     def save(self, path: Any, **options: Any) -> Path:
-        """Write the picture at full size to ``path``; ``options`` as in ``sunwidget.save``.
+        """Save the picture at full size; ``options`` as in ``sunwidget.save``.
 
         Returns
         -------
         Path
-            Where it is.
+            The saved file.
         """
         return self._save(self.edit, path, **options)
 
     def snapshot(self, long_edge: int = SNAPSHOT_EDGE) -> Snapshot:
-        """Return the picture as it is now, as the output of a cell: it stays when the edit goes on.
+        """Return the current picture as a cell's output, which later edits do not change.
 
         Waits for the analysis.
 
@@ -65,7 +65,7 @@ class Pictures(EditHistory, Analysed):
         Raises
         ------
         ValueError
-            For a ``long_edge`` that is no whole number above 0.
+            For a ``long_edge`` that is not a positive integer.
 
         Examples
         --------
@@ -92,15 +92,15 @@ class Pictures(EditHistory, Analysed):
         return written_page(lambda: self._page(self.edit, title), path, overwrite=overwrite)
 
     def render_static(self, *, title: str | None = None) -> StaticPage:
-        """Return the page of ``to_html`` as a cell's output: the sun moves in it without a kernel.
+        """Return the page of ``to_html`` as a cell's output; its sun moves without a kernel.
 
-        For notebooks that are exported: ``nbconvert --to html`` keeps it live, without a network.
-        Waits for the analysis. The notebook grows by the page, 2 to 8 MB.
+        For exported notebooks: it stays live in ``nbconvert --to html``, without a network. Waits
+        for the analysis. The notebook grows by the page, 2 to 8 MB.
 
         Parameters
         ----------
         title : str, optional
-            Of the page. Default: the photo's name.
+            Title of the page. Default: the photo's name.
 
         Examples
         --------
@@ -128,26 +128,26 @@ class Pictures(EditHistory, Analysed):
         return editor_page(embedded, still, self.photo, title=title)
 
     def _base_scene(self) -> Scene:
-        # The edit's corrections are applied by the renderer, from the scene without them.
-        analyst = self._analyst  # another photo, and its analyst, may come while this one works
+        # The renderer applies the edit's corrections to the scene without them.
+        analyst = self._analyst  # may be replaced by another photo's while this one works
         analyst.wait()
         base = analyst.base
         assert base is not None
         return base
 
-    def _asked_for(self, content: dict[str, Any]) -> Edit:
-        """Return the edit that a request of the browser is about.
+    def _requested_edit(self, content: dict[str, Any]) -> Edit:
+        """Return the edit of a browser's request.
 
-        It comes with the request: hosts hold traits back while the kernel is busy, and not
-        requests, so that the kernel's own may be older than what the person saw.
+        The request contains it: while the kernel is busy, hosts delay traits but not requests, so
+        that the kernel's traits may be older than the displayed picture.
         """
         if content.get("photo") not in {None, self._source["fingerprint"]}:
-            raise ValueError("Another photo has been opened since this was asked for.")
+            raise ValueError("Another photo has been opened since this request.")
         recipe = content.get("recipe")
         return self.edit if recipe is None else edit_of(recipe)
 
     def _save_for_browser(self, content: dict[str, Any], progress: Progress) -> Answer:
-        edit = self._asked_for(content)
+        edit = self._requested_edit(content)
         progress(0.02, "Rendering at full size …")
         suffix = _SUFFIXES.get(self.photo.format or "", ".png")
         name = f"{Path(self.photo.name).stem}-sun{suffix}"
@@ -158,24 +158,24 @@ class Pictures(EditHistory, Analysed):
         return {"name": name, "type": _TYPES[suffix]}, [data]
 
     def _detail_for_browser(self, content: dict[str, Any], progress: Progress) -> Answer:
-        edit = self._asked_for(content)
+        edit = self._requested_edit(content)
         box, pixels = detail(
             self._base_scene(), edit, content.get("box"), content.get("size"), progress
         )
         return {"box": box}, [encode_picture(pixels)]
 
     def _page_for_browser(self, content: dict[str, Any], progress: Progress) -> Answer:
-        edit = self._asked_for(content)
+        edit = self._requested_edit(content)
         progress(0.05, "Writing the page …")
         data = self._page(edit).encode("utf-8")
         progress(1.0, "Sending the page …")
         return {"name": f"{Path(self.photo.name).stem}-sun.html", "type": "text/html"}, [data]
 
     def _thumbnail(self) -> bytes:
-        """Return a small PNG: the edit where it can be had at once, else the photo."""
+        """Return a small PNG: the edit if the scene is ready, otherwise the photo."""
         from sunwidget.errors import RendererError
 
-        # The first frame of a session takes a second, which an untouched photo is not worth.
+        # The first frame of a session takes a second, which an unedited photo does not need.
         if self.edit != Edit() and self._can_show_edits():
             try:
                 return encode_small_png(self.render(size=self.photo.size_within(THUMBNAIL_EDGE)))

@@ -1,4 +1,4 @@
-"""A picture of an editor as it was: a cell's output that needs no widget to be seen."""
+"""A still picture of an editor, as a cell's output that needs no widget."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ SNAPSHOT_EDGE = 1024
 
 
 class Snapshot:
-    """A picture that stays as it is: GitHub, nbconvert and every notebook show it.
+    """A fixed picture, which GitHub, nbconvert and every notebook show.
 
-    Made by ``SunEditor.snapshot``.
+    The result of ``SunEditor.snapshot``.
 
     Attributes
     ----------
     pixels : (H, W, 3) uint8
         sRGB.
     edit : Edit
-        What it shows.
+        The rendered edit.
     photo : Photo
         The photo that was rendered.
     """
@@ -40,7 +40,7 @@ class Snapshot:
         return f"<Snapshot of {self.photo.name!r}, {width}×{height}: {self.edit!r}>"
 
     def save(self, path: str | os.PathLike[str], **options: Any) -> Path:
-        """Write the picture at its own size; ``options`` as in ``sunwidget.save``."""
+        """Save the picture at its own size; ``options`` as in ``sunwidget.save``."""
         from sunwidget.export.stills import save
 
         return save(self.pixels, path, like=self.photo, **options)

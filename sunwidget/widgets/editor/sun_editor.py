@@ -24,7 +24,6 @@ from sunwidget.progress import Progress
 from sunwidget.widgets.editor.exports import Exports
 from sunwidget.widgets.editor.place_clock import PlaceClock
 from sunwidget.widgets.editor.uploads import Uploads, fingerprint
-from sunwidget.widgets.kernel.ahead import look_ahead
 from sunwidget.widgets.kernel.analysed import OPENING
 from sunwidget.widgets.kernel.analyst import Analyst
 from sunwidget.widgets.kernel.front_end import front_end
@@ -39,6 +38,7 @@ from sunwidget.widgets.kernel.payload import (
     saved_photo,
     scene_json,
 )
+from sunwidget.widgets.kernel.preload import preload
 from sunwidget.widgets.kernel.requests import Action, Answer, Requests
 from sunwidget.widgets.kernel.sources import opened
 
@@ -122,7 +122,7 @@ class SunEditor(PlaceClock, Exports):
         self.observe(self._on_connection, "comm")
         self._analyst = self._analyst_of(source, analysis)
         self.observe(lambda _: self._analyst.ask(self.edit), list(CORRECTIONS))
-        look_ahead(source)
+        preload(source)
         self._analyst.ask(start)
 
     @traitlets.default("_parameters")
@@ -154,7 +154,7 @@ class SunEditor(PlaceClock, Exports):
         start = edit_of(recipe).replace(**options)
         photo = source.photo if isinstance(source, Scene) else source
         preview = encode_preview(photo)
-        look_ahead(source)
+        preload(source)
         with self._lock, self.hold_sync():
             self._set_asides[self._source["fingerprint"]] = self._set_aside()
             self._analyst.cancel()

@@ -1,4 +1,4 @@
-"""Photos that come from the browser, and how a photo is known again."""
+"""Photos uploaded from the browser, and fingerprints that identify photos."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from sunwidget.progress import Progress
 from sunwidget.widgets.kernel.requests import Answer
 
 UPLOAD_BYTES = 400_000_000
-_SAMPLE = 512  # rows and columns that a fingerprint reads at most, roughly
+_SAMPLE = 512  # approximate limit of rows and columns that a fingerprint reads
 
 
 def fingerprint(photo: Photo) -> str:
-    """Return 32 hexadecimal digits that tell a photo by its pixels, whatever its name.
+    """Return 32 hexadecimal digits that identify a photo by its pixels, not its name.
 
-    Size, depth and a grid of pixels decide, so that 150 million of them take milliseconds too.
+    They depend on size, depth and a grid of pixels, so that 150 megapixels take milliseconds.
     """
     rows, columns = (max(1, n // _SAMPLE) for n in photo.encoded.shape[:2])
     digest = hashlib.blake2b(digest_size=16)
@@ -32,7 +32,7 @@ def fingerprint(photo: Photo) -> str:
 
 
 class Uploads:
-    """Puts a file together that arrives in pieces, since large messages break the connection.
+    """Assembles a file from pieces, since large messages break the connection.
 
     Parameters
     ----------
@@ -51,13 +51,13 @@ class Uploads:
         Raises
         ------
         PhotoError
-            When the pieces do not fit together, are too many, or are no picture.
+            When the pieces do not fit together, are too many, or are not a picture.
         """
         size, offset = int(content["size"]), int(content["offset"])
         if size > UPLOAD_BYTES:
             raise PhotoError(
-                f"This file has {size / 1e6:.0f} MB; at most {UPLOAD_BYTES / 1e6:.0f} MB travel "
-                "through the browser. Open it in Python: editor.open('its path')."
+                f"This file has {size / 1e6:.0f} MB; the limit of an upload is "
+                f"{UPLOAD_BYTES / 1e6:.0f} MB. Open it in Python: editor.open('path')."
             )
         if offset == 0:
             self._key, self._data = content["upload"], bytearray()
@@ -66,13 +66,13 @@ class Uploads:
             raise PhotoError("Another upload interrupted this one. Drop the photo again.")
         self._data += piece
         if len(self._data) > size:
-            raise PhotoError("More bytes arrived than the file has. Drop the photo again.")
+            raise PhotoError("More bytes arrived than the file's size. Drop the photo again.")
         if len(self._data) == size:
             progress(1.0, "Opening the photo …")
             file = io.BytesIO(bytes(self._data))
             self._key, self._data = None, bytearray()
             file.name = str(content["name"])[:200]
-            with kept():  # no longer: a notebook stays open for days
+            with kept():  # closed at once, since a notebook stays open for days
                 photo = open_apart(file)
             self._opened(photo)
         return {}, []

@@ -1,4 +1,4 @@
-"""What SkyExplorer's browser side can ask the kernel for; ``requests.py`` routes it here."""
+"""The actions that SkyExplorer's browser side can request; ``requests.py`` routes them here."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LARGEST_SNAPSHOT = 4096
 
 
 class Explorer(Protocol):
-    """What the answers ask of a SkyExplorer."""
+    """The part of SkyExplorer that the actions use."""
 
     def parameters(self) -> dict[str, Any]:
         """Return the values of all parameters by name."""
@@ -32,25 +32,25 @@ class Explorer(Protocol):
     def compare_measured(
         self, models: Any, scan: int | None, progress: Progress | None
     ) -> list[dict[str, Any]]:
-        """Return how far models are from a measured sky, or from all."""
+        """Return the errors of models against one measured sky, or against all."""
 
     def code(self) -> str:
-        """Return Python that makes this explorer."""
+        """Return Python code that creates this explorer."""
 
     def refresh_scans(self) -> None:
-        """Tell the browser again what measured skies there are."""
+        """Send the browser the list of measured skies again."""
 
     def render(self, size: tuple[int, int], *, progress: Progress | None) -> NDArray[np.uint8]:
         """Draw the sky at a size (width, height)."""
 
 
 def actions(explorer: Explorer) -> dict[str, Action]:
-    """Return the answers to what the browser can ask for, by name."""
+    """Return the actions that the browser can request, by name."""
 
     def values(content: dict[str, Any]) -> dict[str, float]:
-        """Return the uniforms of the traits, with the request's parameters laid over them."""
-        given = content.get("parameters") or {}
-        chosen = {name: table.checked(table.parameter(name), v) for name, v in given.items()}
+        """Return the uniforms of the traits, overridden by the request's parameters."""
+        changes = content.get("parameters") or {}
+        chosen = {name: table.checked(table.parameter(name), v) for name, v in changes.items()}
         return effective_values({**explorer.parameters(), **chosen})["edit"]
 
     def bruneton(content: dict[str, Any], progress: Progress) -> Answer:
@@ -71,14 +71,14 @@ def actions(explorer: Explorer) -> dict[str, Action]:
     def rmse(content: dict[str, Any], progress: Progress) -> Answer:
         from sunwidget.errors import RendererError
 
-        measurements.load()  # fails at once, before a table is made, where nothing was measured
+        measurements.load()  # fails before the table is computed if there are no measurements
         models, scan = content.get("models"), content.get("scan")
         try:
             rows = explorer.compare_measured(tuple(models or table.MODELS), scan, progress)
         except RendererError:
             if models:
                 raise
-            # Without EGL there is no table; the other models need none.
+            # Bruneton's table needs EGL; the other models do not.
             rest = tuple(name for name in table.MODELS if name != "bruneton")
             rows = explorer.compare_measured(rest, scan, progress)
         return {"rows": rows}, []
@@ -110,7 +110,7 @@ def actions(explorer: Explorer) -> dict[str, Action]:
 def bruneton_slice(
     values: Mapping[str, float], progress: Progress | None = None
 ) -> NDArray[np.float32]:
-    """Return the slice of Bruneton's table for these uniforms; made first, if need be."""
+    """Return the slice of Bruneton's table for these uniforms; compute the table if needed."""
     from sunwidget.renderer.bruneton.precomputed_sky import bruneton_table
 
     air, orders = _air_and_orders(values)
@@ -118,12 +118,12 @@ def bruneton_slice(
 
 
 def scans() -> list[dict[str, Any]]:
-    """Return the measured scans on this machine as the browser lists them, or none."""
+    """Return the measured scans on this machine in the browser's format; [] if there are none."""
     return measurements.load().scans_json() if measurements.is_available() else []
 
 
 def _air_and_orders(values: Mapping[str, float]) -> tuple[Atmosphere, int]:
-    """Return what Bruneton's table depends on."""
+    """Return the air and orders on which Bruneton's table depends."""
     air = Atmosphere(**{name: values[name] for name in table.AIR})
     return air, round(values["scattering_orders"])
 

@@ -1,1 +1,1 @@
-"""What every widget shares: traits, requests, threads, what travels to the browser."""
+"""Shared by all widgets: traits, requests, threads, and the data sent to the browser."""

@@ -1,4 +1,4 @@
-"""A widget of an analysed photo: it waits for the scene and tells how the work stands."""
+"""A widget of an analyzed photo, which reports the progress of the analysis."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ OPENING = {"stage": "opening", "fraction": 0.0, "message": "Opening the photo â€
 
 
 class Analysed(SavedLight):
-    """A widget that shows a photo at once, and its scene when an ``Analyst`` has it."""
+    """A widget that shows a photo at once, and its scene when the ``Analyst`` has finished."""
 
     _status = traitlets.Dict().tag(sync=True, echo_update=False)
 
@@ -28,24 +28,24 @@ class Analysed(SavedLight):
 
     @property
     def scene(self) -> Scene:
-        """The analysed photo; waits for the analysis."""
+        """The analyzed photo; waits for the analysis."""
         return self._analyst.wait()
 
     def wait(self, timeout: float | None = None) -> Self:
-        """Block until the photo is analysed and return the widget; raises what the analysis did.
+        """Block until the photo is analyzed and return the widget; raise errors of the analysis.
 
         Parameters
         ----------
         timeout : float, optional
-            Seconds after which to raise ``TimeoutError``. Default: none.
+            Seconds after which to raise ``TimeoutError``. Default: no limit.
         """
         self._analyst.wait(timeout)
         return self
 
     def _can_show_edits(self) -> bool:
-        """Return whether the scene is there; a cell that nobody attends to waits for it."""
+        """Return whether the scene is ready; in an unattended kernel, wait for it."""
         if unattended():
-            with contextlib.suppress(Exception):  # the analysis failed: there is still the photo
+            with contextlib.suppress(Exception):  # after a failure the photo is shown
                 self._analyst.wait()
         return self._analyst.ready
 

@@ -1,6 +1,6 @@
-"""Analyse a photo behind a widget's back, and again whenever the person corrects something.
+"""Analyze a widget's photo in the background, and update the scene after each correction.
 
-One daemon thread at a time; while it works, newer corrections replace those not yet begun.
+One daemon thread runs at a time. While it works, newer corrections replace waiting ones.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from sunwidget.widgets.kernel.known_scenes import remember
 Report = Callable[[str, float, str], None]
 
 
-class AnalysisCancelled(AnalysisError):  # noqa: N818 - a person's wish
+class AnalysisCancelled(AnalysisError):  # noqa: N818 - requested by the user
     """The analysis was cancelled."""
 
 
 class Analyst:
-    """Brings a scene up to date with the corrections of an edit.
+    """Keeps a scene up to date with the corrections of an edit.
 
     Parameters
     ----------
     source : Photo or Scene
-        A photo is analysed first; a scene is only corrected.
+        A photo is analyzed first; a scene is only corrected.
     options : dict
         Keyword arguments of ``analyze``.
     deliver : callable
@@ -62,11 +62,11 @@ class Analyst:
 
     @property
     def base(self) -> Scene | None:
-        """The scene without corrections, once there is one."""
+        """The scene without corrections; None until the analysis is finished."""
         return self._base
 
     def ask(self, edit: Edit) -> None:
-        """Bring the scene up to date with the corrections of ``edit``; returns at once."""
+        """Request the corrections of ``edit``; return at once."""
         with self._changed:
             self._wanted = edit
             if self._busy:
@@ -75,9 +75,9 @@ class Analyst:
         background.start(self._work, name="sunwidget-analysis")
 
     def cancel(self) -> None:
-        """End the work under way where it tells its progress next; without any do nothing.
+        """Cancel running work at its next progress report; do nothing if there is none.
 
-        What was corrected before stays. ``ask`` starts again.
+        Earlier corrections remain. ``ask`` starts again.
         """
         with self._changed:
             if self._busy:
@@ -86,7 +86,7 @@ class Analyst:
 
     @property
     def ready(self) -> bool:
-        """Whether the scene is up to date: ``wait`` would return at once."""
+        """Whether the scene is up to date, so that ``wait`` returns at once."""
         with self._changed:
             return not self._busy and self._error is None and self._scene is not None
 
@@ -98,7 +98,7 @@ class Analyst:
         TimeoutError
             After ``timeout`` seconds.
         AnalysisError, PhotoError
-            What the analysis raised; AnalysisCancelled after ``cancel``.
+            As raised by the analysis; AnalysisCancelled after ``cancel``.
         """
         with self._changed:
             if not self._changed.wait_for(lambda: not self._busy, timeout):
@@ -112,7 +112,7 @@ class Analyst:
         while True:
             with self._changed:
                 edit, self._wanted = self._wanted, None
-                self._cancelled = False  # said of what was under way, which has ended
+                self._cancelled = False  # applied to the previous work, which has ended
                 if edit is None:
                     self._busy = False
                     self._changed.notify_all()
@@ -123,7 +123,7 @@ class Analyst:
                 with self._changed:
                     self._error = error
                 self._tell("cancelled", "The analysis was cancelled.")
-            except Exception as error:  # noqa: BLE001 - shown to the person, raised by wait()
+            except Exception as error:  # noqa: BLE001 - shown to the user and raised by wait()
                 with self._changed:
                     self._error = error
                 self._tell("error", str(error) or type(error).__name__)
@@ -152,7 +152,7 @@ class Analyst:
             newest = self._wanted is None
             self._scene = scene
         if newest:
-            # The same maps again, as when thresholds move that the method does not use.
+            # The scene may be the same, for example if the method ignores a moved threshold.
             if scene is not self._delivered:
                 self._deliver(scene)
                 self._delivered = scene

@@ -1,8 +1,8 @@
-"""Threads that work behind a widget's back, and end before Python does.
+"""Background threads of widgets, which end before Python does.
 
-A daemon thread that is inside a C++ library when the interpreter ends is torn out of it, which
-aborts the whole process ("terminate called without an active exception"). So all of them are told
-that it ends, and waited for.
+A daemon thread that is inside a C++ library when the interpreter exits is killed there, which
+aborts the process ("terminate called without an active exception"). At exit, all threads are
+therefore signaled and joined.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ _leaving = threading.Event()
 
 
 def start(work: Callable[..., Any], *args: Any, name: str) -> None:
-    """Call ``work(*args)`` on a thread of its own; it should look at ``leaving`` now and then."""
+    """Call ``work(*args)`` on a new thread; it should check ``leaving`` regularly."""
     thread = threading.Thread(target=work, args=args, name=name, daemon=True)
     _running.add(thread)
     thread.start()
 
 
 def leaving() -> bool:
-    """Tell whether Python is about to end: nobody is there any more to hear of the work."""
+    """Return whether Python is about to exit, so that work should stop."""
     return _leaving.is_set()
 
 

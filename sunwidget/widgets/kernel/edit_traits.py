@@ -1,4 +1,4 @@
-"""Rows of a parameter table as traits of a widget; the Edit's table unless another is given."""
+"""Rows of a parameter table, by default the Edit's, as traits of a widget."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ Check = Callable[[Parameter, Any], Any]
 
 
 class EditTrait(traitlets.TraitType):
-    """One parameter: whatever its table accepts for it, normalised as the table does.
+    """One parameter, with the values that its table accepts, normalized as in the table.
 
-    A value that ``check`` refuses raises ``TraitError`` with the sentence that it says, and the
-    trait keeps what it held.
+    A value that ``check`` rejects raises ``TraitError`` with its message; the trait keeps its old
+    value.
 
     Parameters
     ----------
     parameter : Parameter
         Row of the table.
     check : callable, default ``edit.checked``
-        ``check(parameter, value)`` returns the value as it is kept, or raises ``EditError``.
+        ``check(parameter, value)`` returns the normalized value or raises ``EditError``.
     """
 
     def __init__(self, parameter: Parameter, check: Check = checked) -> None:
@@ -39,7 +39,7 @@ class EditTrait(traitlets.TraitType):
         self.tag(sync=True, to_json=_to_json, group=parameter.section)
 
     def validate(self, _obj: Any, value: Any) -> Any:
-        """Return ``value`` as the table holds it."""
+        """Return ``value`` normalized by the table."""
         try:
             return self.check(self.parameter, value)
         except EditError as error:
@@ -47,12 +47,12 @@ class EditTrait(traitlets.TraitType):
 
 
 class AnswersRefusals(anywidget.AnyWidget):
-    """A widget that tells the browser when it does not take what that sent."""
+    """A widget that reports rejected values to the browser."""
 
     _refusals: tuple[type[Exception], ...] = (traitlets.TraitError,)
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
-        """Take over what the browser sent; a value that is refused is answered, not raised."""
+        """Apply state from the browser; report a rejected value instead of raising."""
         try:
             super().set_state(sync_data)
         except self._refusals as error:
@@ -68,7 +68,7 @@ def edit_traits(
 
 
 def span_text(parameter: Parameter) -> str:
-    """Say range, unit and default of a parameter, for help texts."""
+    """Return range, unit and default of a parameter, for help texts."""
     if parameter.kind != "number":
         return ""
     default = "found in the photo" if parameter.default is None else f"{parameter.default:g}"

@@ -6,27 +6,27 @@ _STATIC = Path(__file__).parents[2] / "static"
 
 
 def front_end(name: str, widget: str) -> tuple[str, str]:
-    """Return the texts of the script and the style sheet of a widget.
+    """Return the text of a widget's script and of its style sheet.
 
-    The texts, not the paths: anywidget watches a file for every widget made with it, and so keeps
-    each of them, scene and all, for ever.
+    With paths instead of texts, anywidget would watch the files for every widget and thereby keep
+    each widget and its scene alive.
 
     Parameters
     ----------
     name : str
-        Of the files, without what follows the dot.
+        Name of the files without extension.
     widget : str
-        As people call it.
+        Name of the widget in messages.
 
     Raises
     ------
     ImportError
-        When they are not built; the message says how to.
+        When the files are not built; the message gives the remedy.
     """
     script = _STATIC / f"{name}.js"
     if not script.is_file():
         raise ImportError(
-            f"sunwidget's front end is not built, so there is no {widget}. In a checkout run "
-            "`make build` (Node 20 or newer); an installed package brings it along."
+            f"sunwidget's front end is not built, so {widget} is unavailable. In a checkout run "
+            "`make build` (Node 20 or newer); an installed package includes it."
         )
     return script.read_text("utf-8"), script.with_suffix(".css").read_text("utf-8")

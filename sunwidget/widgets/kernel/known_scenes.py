@@ -1,9 +1,9 @@
-"""Photos that an editor of this kernel has analysed already.
+"""Scenes of photos that this kernel has already analyzed.
 
-A cell that is run again opens the same photo again, while the notebook still holds what the first
-run made (ipywidgets keeps every widget, IPython every output). A scene of 12 megapixels takes half
-a gigabyte; scenes never change, so the second editor takes the first one's. A scene is forgotten
-as soon as nobody else holds it.
+A cell that runs again opens its photo again, while the notebook still holds the first result
+(ipywidgets keeps every widget, IPython every output). A scene of 12 megapixels takes half a
+gigabyte. Scenes are immutable, so the second editor shares the first one's. References are weak: a
+scene is dropped with its last user.
 """
 
 from __future__ import annotations
@@ -23,22 +23,21 @@ _known: list[tuple[weakref.ref[Scene], dict[str, Any]]] = []
 
 
 def remember(scene: Scene, options: dict[str, Any]) -> None:
-    """Note what ``analyze(scene.photo, **options)`` has found."""
+    """Register ``scene``, the result of ``analyze(scene.photo, **options)``."""
     with _lock:
         _known[:] = [known for known in _known if known[0]() is not None]
         _known.append((weakref.ref(scene), options))
 
 
 def recall(photo: Photo, options: dict[str, Any]) -> Scene | None:
-    """Return the living scene of the same photo and options, if there is one.
+    """Return the registered scene of the same photo and options, if it still exists.
 
-    Options that are neither numbers, names nor arrays may have changed behind our back, as a file
-    may, and are never the same.
+    Options that are not numbers, names or arrays never match: they may have changed, as a file may.
     """
     with _lock:
-        known = [(scene(), given) for scene, given in _known]
-    for scene, given in known:
-        if scene is not None and _same_options(options, given) and _same_photo(photo, scene.photo):
+        known = [(scene(), used) for scene, used in _known]
+    for scene, used in known:
+        if scene is not None and _same_options(options, used) and _same_photo(photo, scene.photo):
             return scene
     return None
 
@@ -53,7 +52,7 @@ def _same_options(a: dict[str, Any], b: dict[str, Any]) -> bool:
 
 def _plain(option: Any) -> bool:
     if isinstance(option, str):
-        return "." not in option  # a method's name, not a file's
+        return "." not in option  # the name of a method, not of a file
     return option is None or isinstance(option, (bool, int, float, tuple, np.ndarray))
 
 

@@ -1,4 +1,4 @@
-"""What a cell's output holds: the widget, and a picture for viewers that run no widgets."""
+"""The output of a cell: the widget, and a picture for viewers without widgets."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from typing import Any
 from sunwidget.errors import RendererError
 
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
-# nbclient, which nbconvert runs notebooks with, starts kernels so.
-_OF_NBCLIENT = "--HistoryManager.hist_file=:memory:"
+# nbclient, which executes notebooks for nbconvert, starts kernels with this argument.
+_NBCLIENT_ARGUMENT = "--HistoryManager.hist_file=:memory:"
 
 
 def unattended() -> bool:
-    """Return whether the running cell was sent by a program that only stores what it shows.
+    """Return whether a program, not a person, runs the cell and only stores its output.
 
-    True in the kernels of nbclient (``jupyter nbconvert --execute``). Both of its marks must be
-    there, so that a kernel which somebody keeps from writing a history is not taken for one:
-    notebooks name the cell in what they send.
+    True in the kernels of nbclient (``jupyter nbconvert --execute``), which have two marks: the
+    argument above, which a person may also set to disable the history, and requests without
+    metadata, in which notebooks name the cell.
     """
     kernel: Any = getattr(_shell(), "kernel", None)
-    if _OF_NBCLIENT not in sys.argv or not hasattr(kernel, "get_parent"):
+    if _NBCLIENT_ARGUMENT not in sys.argv or not hasattr(kernel, "get_parent"):
         return False
     return not kernel.get_parent().get("metadata")
 
@@ -34,11 +34,11 @@ def _shell() -> Any:
 
 
 def with_picture(bundle: Any, picture: Callable[[], bytes]) -> Any:
-    """Return a display bundle with the PNG that viewers without widgets show, as GitHub does.
+    """Return a display bundle with a PNG for viewers without widgets, such as GitHub.
 
-    Without EGL there may be none, and the widget works all the same. In an unattended kernel
-    the picture stands alone: nbconvert would write the widget instead, which is an empty place
-    in a page that cannot load its manager from the network.
+    Without EGL there may be no picture; the widget still works. In an unattended kernel the picture
+    replaces the widget: nbconvert would prefer the widget, which stays empty in a page that cannot
+    load the widget manager from the network.
     """
     if bundle is None:
         return None

@@ -1,13 +1,13 @@
 """Answer the browser's requests. The browser's twin is ``js/src/host/channel.js``.
 
-Every request has an id and gets exactly one response, errors included; progress may come
-before it. Work runs on a thread of its own, so that a long export blocks no slider. Cancelled
-work ends where it tells its progress next.
+Every request has an id and gets exactly one response, errors included; progress may precede it.
+Each request runs on its own thread, so that a long export does not block a slider. Cancelled work
+ends at its next progress report.
 
 browser → kernel  ``{type: "request", id, action, …}``
                   ``{type: "cancel", id}``
 kernel → browser  ``{type: "progress", id, fraction, message}``
-                  ``{type: "piece", id}`` with a buffer that comes before the response's own
+                  ``{type: "piece", id}`` with a buffer that precedes the response's own
                   ``{type: "response", id, result, error}`` with buffers
 """
 
@@ -23,12 +23,12 @@ from sunwidget.widgets.kernel import background
 Answer = tuple[dict[str, Any], list[bytes]]
 Action = Callable[[dict[str, Any], Progress], Answer]
 
-# Buffers beyond this travel in messages of their own: one very large message breaks connections.
+# Larger buffers are sent in separate messages: one very large message breaks connections.
 _MESSAGE_BYTES = 16_000_000
 
 
-class Cancelled(Exception):  # noqa: N818 - a person's wish, no error
-    """The work was cancelled: raised in it where it tells its progress."""
+class Cancelled(Exception):  # noqa: N818 - requested by the user, not an error
+    """The work was cancelled; raised where it reports its progress."""
 
 
 class Requests:
@@ -46,12 +46,12 @@ class Requests:
         self._send = send
         self._actions = actions
         self._lock = threading.Lock()
-        self._running: dict[str, threading.Event] = {}  # set: to be cancelled
+        self._running: dict[str, threading.Event] = {}  # set when cancelled
 
     def __call__(self, _widget: Any, content: Any, buffers: Any) -> None:
-        """Take a custom message; anything but a request is somebody else's.
+        """Handle a custom message; ignore all but requests and cancellations.
 
-        An action finds the message's buffers in its content.
+        An action receives the message's buffers in its content.
         """
         if not isinstance(content, dict):
             return
@@ -61,28 +61,28 @@ class Requests:
             return
         with self._lock:
             key = str(content.get("id"))
-            if key in self._running:  # the message came twice
+            if key in self._running:  # the message arrived twice
                 return
-            self._running[key] = threading.Event()  # so that it can be cancelled from now on
+            self._running[key] = threading.Event()  # allows cancelling from now on
         background.start(self._answer, {**content, "buffers": buffers}, name="sunwidget-request")
 
     def cancel(self, key: str | None = None) -> None:
-        """Cancel the request with this id, or all that are under way."""
+        """Cancel the request with this id, or all running requests."""
         with self._lock:
-            for own, wish in self._running.items():
+            for own, cancelled in self._running.items():
                 if key in {None, own}:
-                    wish.set()
+                    cancelled.set()
 
-    def _wish(self, content: dict[str, Any]) -> threading.Event:
+    def _cancel_event(self, content: dict[str, Any]) -> threading.Event:
         with self._lock:
             return self._running.setdefault(str(content.get("id")), threading.Event())
 
     def _answer(self, content: dict[str, Any]) -> None:
         key, name = content.get("id"), content.get("action")
-        wish = self._wish(content)
+        cancelled = self._cancel_event(content)
 
         def progress(fraction: float, message: str) -> None:
-            if wish.is_set() or background.leaving():
+            if cancelled.is_set() or background.leaving():
                 raise Cancelled(f"{str(name).capitalize()} was cancelled.")
             self._send({"type": "progress", "id": key, "fraction": fraction, "message": message})
 
@@ -93,7 +93,7 @@ class Requests:
             if name not in self._actions:
                 raise ValueError(f"The kernel has no action {name!r:.40}.")
             result, buffers = self._actions[name](content, progress)
-        except Exception as caught:  # noqa: BLE001 - whatever it is, the person must read it
+        except Exception as caught:  # noqa: BLE001 - the browser shows every error
             error = str(caught) or type(caught).__name__
         finally:
             with self._lock:
@@ -101,7 +101,7 @@ class Requests:
         if background.leaving():
             return
         while len(buffers) > 1 and sum(map(len, buffers)) > _MESSAGE_BYTES:
-            if wish.is_set():  # nobody listens any more
+            if cancelled.is_set():  # the browser no longer waits
                 buffers = []
                 break
             self._send({"type": "piece", "id": key}, buffers[:1])

@@ -1,4 +1,4 @@
-"""What the editors take: a photo or a scene, with keywords for its analysis and its edit."""
+"""The arguments of editors: a photo or a scene, with keywords for analysis and edit."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sunwidget.photo.photo import Photo, open_photo
 from sunwidget.widgets.kernel.known_scenes import recall
 
 _NAMES = tuple(p.name for p in PARAMETERS)
-# Strokes are a parameter of the edit, and progress has its own line on the stage.
+# Strokes belong to the edit, and the widget shows progress itself.
 _ANALYSIS = tuple(
     name
     for name, p in inspect.signature(analyze).parameters.items()
@@ -23,20 +23,20 @@ _ANALYSIS = tuple(
 def opened(
     source: Any, options: dict[str, Any], widget: str
 ) -> tuple[Photo | Scene, dict[str, Any]]:
-    """Open ``source`` and take the options of ``analyze`` out of ``options``.
+    """Open ``source`` and remove the options of ``analyze`` from ``options``.
 
     Returns
     -------
     Photo or Scene
-        A scene where one was given, or where this photo was analysed before.
+        A scene if ``source`` is one or if this photo was analyzed before.
     dict
-        Options for the analysis that is still to come.
+        Options for the analysis, if it is still needed.
 
     Raises
     ------
     TypeError
-        For a keyword that neither ``Edit`` nor ``analyze`` has, and for one of ``analyze``
-        beside a Scene. ``widget`` is the name in the message.
+        For a keyword of neither ``Edit`` nor ``analyze``, and for one of ``analyze`` together with
+        a Scene. The message names ``widget``.
     """
     for name in options:
         if name not in _NAMES and name not in _ANALYSIS:
@@ -48,7 +48,7 @@ def opened(
         return (photo, analysis) if known is None else (known, {})
     if analysis:
         raise TypeError(
-            f"{widget} takes {next(iter(analysis))}= with a photo; this scene is analysed "
-            "already. Pass the photo, or analyze(photo, ...) with the option."
+            f"{widget} takes {next(iter(analysis))}= only with a photo; this scene is already "
+            "analyzed. Pass the photo, or the result of analyze(photo, ...) with the option."
         )
     return source, analysis

@@ -16,7 +16,7 @@ from sunwidget.analysis.sun import sun
 from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
 from sunwidget.geometry.camera import Camera
 from sunwidget.photo.photo import open_photo
-from sunwidget.timelapses.sun import seen_sun
+from sunwidget.timelapses.sun import find_seen_sun
 
 SIZE = (320, 214)
 CAMERA = Camera.from_horizon(*SIZE, 40.0, 150.0)
@@ -222,8 +222,8 @@ def test_a_hinted_sun_outside_the_picture_keeps_its_place_and_is_not_visible():
 def test_no_frame_shows_a_sun_that_is_said_not_to_be_in_the_picture():
     frame = evening(disc=(90.5, 60.5))
     hints = Hints(methods=(("sun", "disc_fit"),))
-    assert seen_sun(frame, SKY, CAMERA, hints) is not None
-    assert seen_sun(frame, SKY, CAMERA, dataclasses.replace(hints, sun="outside")) is None
+    assert find_seen_sun(frame, SKY, CAMERA, hints) is not None
+    assert find_seen_sun(frame, SKY, CAMERA, dataclasses.replace(hints, sun="outside")) is None
 
 
 def night_sky(disc=True, post=False) -> Working:

@@ -126,7 +126,7 @@ def test_without_data_the_error_says_how_to_get_them(tmp_path):
         with pytest.raises(MeasurementsError, match=r"measurements\.download\(\) fetches"):
             load(path)
     (tmp_path / "bad.npz").write_bytes(b"no array")
-    with pytest.raises(MeasurementsError, match="holds no measured skies"):
+    with pytest.raises(MeasurementsError, match="has no measured skies"):
         load(tmp_path / "bad.npz")
 
 

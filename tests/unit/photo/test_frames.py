@@ -66,7 +66,7 @@ def test_frames_of_the_same_proportions_get_one_size_and_others_are_refused():
         assert frame.size == like
         assert np.abs(frame.encoded.astype(int) - 90).max() <= 1
     turned = open_photo(np.zeros((60, 40, 3), np.uint8))
-    with pytest.raises(PhotoError, match="40×60.*proportions of 30×20"):
+    with pytest.raises(PhotoError, match="40×60.*aspect ratio of 30×20"):
         read_frame(turned, None, like)
 
 
@@ -82,7 +82,7 @@ def test_times_come_from_a_pattern_a_pair_a_list_or_the_file(tmp_path):
     noon = dt.datetime(2024, 6, 21, 12, tzinfo=UTC)
     named = Clock("%Y%m%d_%H%M%S", 2)
     assert named(0, Path("20240621_120000.jpg"), photo) == noon
-    with pytest.raises(ValueError, match="does not have the form"):
+    with pytest.raises(ValueError, match="does not match the pattern"):
         named(0, Path("img1.jpg"), photo)
     paced = Clock((NAIVE, 30.0), 3)
     assert paced(2, None, photo) == noon + dt.timedelta(minutes=1)

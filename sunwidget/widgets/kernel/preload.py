@@ -1,4 +1,4 @@
-"""What an analysis and the browser's maps will ask for, begun while its first stages work."""
+"""Loading what an analysis and the browser's maps will need, in parallel to the first stages."""
 
 from __future__ import annotations
 
@@ -15,20 +15,16 @@ from sunwidget.widgets.kernel import background
 _NETWORKS = ((sky_network.BUNDLED, "sky"), (sun.BUNDLED, "sun"), (land.BUNDLED, "land"))
 
 
-def look_ahead(source: Photo | Scene) -> None:
-    """Load the networks, and look for windows, on a thread; of a Scene all is known."""
+def preload(source: Photo | Scene) -> None:
+    """Load the networks and find windows on a thread; do nothing for a Scene."""
     if isinstance(source, Photo):
-        background.start(_look, source, name="sunwidget-ahead")
+        background.start(_load, source, name="sunwidget-preload")
 
 
-def _look(photo: Photo) -> None:
-    # Whoever needs what failed here tries again, and says why.
+def _load(photo: Photo) -> None:
+    # The analysis repeats a failed step and reports its error.
     with contextlib.suppress(Exception):
-        for path, finds in (
-            (sky_network.BUNDLED, "sky"),
-            (sun.BUNDLED, "sun"),
-            (land.BUNDLED, "land"),
-        ):
+        for path, finds in _NETWORKS:
             if background.leaving():
                 return
             bundled_session(path, finds)
