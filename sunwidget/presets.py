@@ -67,7 +67,7 @@ PRESETS: tuple[Preset, ...] = (
         -3.0),
     _preset("golden_hour", "Golden hour", "A low, warm sun over a sky that is still blue.", 4.0,
         exposure=-0.4),
-    _preset("noon", "Noon", "A high sun: neutral colours, short shadows.", 55.0, in_view=False),
+    _preset("noon", "Noon", "A high sun: neutral colors, short shadows.", 55.0, in_view=False),
     _preset("sunset", "Sunset", "The sun at the horizon.", 0.8, exposure=-0.6),
     _preset("blue_hour", "Blue hour", "The sun well below the horizon: an even, deep blue.", -5.5,
         exposure=-0.5),

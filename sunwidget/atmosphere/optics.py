@@ -85,7 +85,7 @@ def distance_to_boundary(h: ArrayLike, mu: ArrayLike) -> tuple[Array, NDArray[np
 
 
 def visible_fraction(above: ArrayLike) -> Array:
-    """Return the share of the sun's disc above the horizon; its centre is ``above`` it, radians."""
+    """Return the share of the sun's disc above the horizon; its center is ``above`` it, radians."""
     x = np.clip(np.asarray(above, float) / SUN_ANGULAR_RADIUS, -1, 1)
     return np.asarray(0.5 + (x * np.sqrt(1 - x * x) + np.arcsin(x)) / np.pi)
 

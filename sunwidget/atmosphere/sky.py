@@ -116,8 +116,8 @@ class SkyTable:
         mu_s_ground = multiple.sun_cosine(h, mu_s, nu, d, 0.0)
         irradiance = np.maximum(mu_s_ground, 0)[:, None] * self._sunlight(0.0, mu_s_ground)
         if field is not None:
-            centre = (np.arange(groups) + 0.5) / groups
-            h_g, mu_s_g, mu_g = _along(h, mu, mu_s, nu, d[:, None] * centre**2)
+            center = (np.arange(groups) + 0.5) / groups
+            h_g, mu_s_g, mu_g = _along(h, mu, mu_s, nu, d[:, None] * center**2)
             view = multiple.direction_in_field(mu_g, mu_s_g, nu[:, None])
             more = multiple.scatter_field(
                 field.look_up(h_g, mu_s_g), *view, nu[:, None], a.aerosol_asymmetry

@@ -147,7 +147,7 @@ def _to_rec709(columns: NDArray[np.float64]) -> NDArray[np.float64]:
     white = columns.sum(axis=1)
     # Real color spaces have condition numbers of 5 to 20; near-parallel primaries amplify noise.
     if np.linalg.cond(columns) > 500 or (white <= 0.1).any() or (white > 2).any():
-        raise ProfileError("its primaries do not span a colour space")
+        raise ProfileError("its primaries do not span a color space")
     # Some old profiles store primaries that were not adapted to D50.
     have, want = _BRADFORD @ white, _BRADFORD @ REC709_TO_D50.sum(axis=1)
     adapt = np.linalg.inv(_BRADFORD) @ np.diag(want / have) @ _BRADFORD

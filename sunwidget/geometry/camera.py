@@ -94,17 +94,17 @@ class Camera:
         ValueError
             When the two points have the same column, and as ``Camera``.
         """
-        centre = width / 2
+        center = width / 2
         if isinstance(horizon, (tuple, list)):
             (x0, y0), (x1, y1) = horizon
             if x0 == x1:
                 raise ValueError(f"The horizon needs two points with different x, not {horizon!r}.")
             slope = (y1 - y0) / (x1 - x0)
-            row = y0 + slope * (centre - x0)
+            row = y0 + slope * (center - x0)
         else:
             row, slope = float(horizon), math.tan(math.radians(roll))
         focal = height / 2 / math.tan(math.radians(fov_vertical_deg) / 2)
-        # Kᵀ times the line slope·x − y + (row − slope·centre) = 0; y is negative, which is up.
+        # Kᵀ times the line slope·x − y + (row − slope·center) = 0; y is negative, which is up.
         up = (slope * focal, -focal, row - height / 2)
         length = math.hypot(*up)
         return cls(

@@ -142,7 +142,9 @@ def test_a_folder_that_may_not_be_written_to_is_named_before_any_work(tmp_path, 
         lambda: sw.sweep(None, None, tmp_path / "x.gif"),
         lambda: folder_target(tmp_path / "new"),
     ):
-        with pytest.raises((NotWrittenError, sw.AnalysisError), match=r"not writable|no access|Scene"):
+        with pytest.raises(
+            (NotWrittenError, sw.AnalysisError), match=r"not writable|no access|Scene"
+        ):
             ask()
 
 
