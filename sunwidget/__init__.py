@@ -4,8 +4,8 @@
 >>> scene = sw.analyze(sw.sample("coast"))
 >>> picture = sw.render(scene, sw.Edit(sun_elevation=3))
 
-Every name below is loaded when it is first used (PEP 562), so that ``import sunwidget``
-costs milliseconds although OpenCV, onnxruntime and the GL stack stand behind it.
+Each name below is loaded on first use (PEP 562), so that ``import sunwidget`` takes
+milliseconds although the package depends on OpenCV, onnxruntime and the GL stack.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from sunwidget.version import __version__
 
-# What type checkers and editors see; a test holds it equal to the table below.
+# For type checkers and editors; a test keeps it equal to the table below.
 if TYPE_CHECKING:
     from sunwidget.analysis.analyze import analyze
     from sunwidget.analysis.correct import corrected

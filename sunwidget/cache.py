@@ -1,4 +1,4 @@
-"""Where sunwidget keeps what it would not like to compute or fetch twice."""
+"""The folder for files that are expensive to compute or fetch again."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from pathlib import Path
 
 
 def cache_folder() -> Path:
-    """Return the user's cache folder of sunwidget; it need not exist yet.
+    """Return sunwidget's folder in the user's cache; it need not exist yet.
 
-    ``$XDG_CACHE_HOME`` wins; otherwise the custom of the system, ``~/.cache`` on Linux.
+    ``$XDG_CACHE_HOME`` comes first, then the system's default, ``~/.cache`` on Linux.
     """
     if os.environ.get("XDG_CACHE_HOME"):
         base = Path(os.environ["XDG_CACHE_HOME"])

@@ -1,4 +1,4 @@
-"""The errors and warnings that a caller may catch; each message says what to do."""
+"""Errors and warnings that a caller may catch; each message says what to do."""
 
 
 class PhotoError(ValueError):
@@ -6,7 +6,7 @@ class PhotoError(ValueError):
 
 
 class PhotoWarning(UserWarning):
-    """A picture was opened, but not everything in it could be kept."""
+    """A picture was opened, but part of its content could not be kept."""
 
 
 class EditError(ValueError):
@@ -14,7 +14,7 @@ class EditError(ValueError):
 
 
 class UnknownParameterError(EditError, TypeError):
-    """A name that is no parameter; also a TypeError, as for any unknown keyword."""
+    """An unknown parameter name; also a TypeError, as for any unknown keyword."""
 
 
 class AnalysisError(ValueError):
@@ -22,7 +22,7 @@ class AnalysisError(ValueError):
 
 
 class RendererError(RuntimeError):
-    """The kernel's renderer cannot work; the message says what is missing."""
+    """The kernel cannot render; the message says what is missing."""
 
 
 class StudyError(ValueError):

@@ -1,4 +1,4 @@
-"""Writing files so that there is either the whole file or none."""
+"""Write files atomically: a file is either complete or absent."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from typing import Any
 
 from sunwidget.messages import shown
 
-# What stood in the way, and what to do about it.
+# Reason and remedy by error number, for messages.
 _OBSTACLES = {
     errno.ENOSPC: "the disk is full. Free some space or choose another folder",
-    errno.EDQUOT: "the space that you may use is used up. Free some or choose another folder",
-    errno.EFBIG: "a file may not be that large there. Choose another folder or a smaller size",
+    errno.EDQUOT: "your disk quota is used up. Free some space or choose another folder",
+    errno.EFBIG: "the file is too large for that disk. Choose another folder or a smaller size",
     errno.EIO: "the disk failed. Choose another one",
     errno.EROFS: "the folder is read-only. Choose another one",
-    errno.EACCES: "the folder may not be written to. Choose another one",
-    errno.EPERM: "the folder may not be written to. Choose another one",
-    errno.ENOENT: "the folder is there no more. Make it again or choose another one",
+    errno.EACCES: "the folder is not writable. Choose another one",
+    errno.EPERM: "the folder is not writable. Choose another one",
+    errno.ENOENT: "the folder no longer exists. Create it again or choose another one",
 }
 
 
 class NotWrittenError(OSError):
-    """A file that could not be written; the message says why. No part of it is left."""
+    """A file could not be written; the message says why. No part of it is left."""
 
 
 def target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
-    """Check where a file is to be written, before any work is spent on it.
+    """Check the path of a file to be written, before any work is spent on it.
 
     Raises
     ------
@@ -41,10 +41,10 @@ def target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
     IsADirectoryError
         When ``path`` is a folder.
     NotWrittenError
-        For what no file can be called, and for a folder that may not be written to.
+        For a name that no file can have, and for a folder that is not writable.
     """
     with _named(path):
-        # Through a link: replacing it would leave the file it names unchanged.
+        # Follows links: replacing the link would leave the file that it names unchanged.
         place = Path(os.path.realpath(Path(path).expanduser()))
         is_there = _is_there(place)
     if place.is_dir():
@@ -58,22 +58,22 @@ def target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
 
 
 def folder_target(folder: str | os.PathLike[str], *, parents: bool = False) -> Path:
-    """Check a folder that files are to be written into, before any work is spent on them.
+    """Check a folder that files are to be written to, before any work is spent on them.
 
     Parameters
     ----------
     folder : path
     parents : bool
-        Whether the folders that it lies in need not be there either.
+        Whether its parent folders may be missing too.
 
     Raises
     ------
     NotADirectoryError
-        When it is a file.
+        When ``folder`` is a file.
     FileNotFoundError
-        When the folder that it is to be made in does not exist.
+        When its parent folder does not exist.
     NotWrittenError
-        For what no folder can be called, and for one that may not be written to.
+        For a name that no folder can have, and for a folder that is not writable.
     """
     with _named(folder):
         place = Path(folder).expanduser()
@@ -81,7 +81,7 @@ def folder_target(folder: str | os.PathLike[str], *, parents: bool = False) -> P
     if is_there and not place.is_dir():
         raise NotADirectoryError(f"{folder} is a file. Name a folder.")
     if not (is_there or parents or place.absolute().parent.is_dir()):
-        raise FileNotFoundError(f"There is no folder {place.parent} to make {place.name} in.")
+        raise FileNotFoundError(f"There is no folder {place.parent} to create {place.name} in.")
     outer = next((p for p in (place, *place.absolute().parents) if p.exists()), place)
     _refuse_closed(outer, place.name)
     return place
@@ -89,12 +89,12 @@ def folder_target(folder: str | os.PathLike[str], *, parents: bool = False) -> P
 
 @contextlib.contextmanager
 def complete_or_absent(path: Path, *, overwrite: bool) -> Iterator[Path]:
-    """Yield a temporary name beside ``path`` that becomes ``path`` only when all went well.
+    """Yield a temporary path beside ``path``, which is renamed to ``path`` on success only.
 
     Raises
     ------
     FileExistsError
-        When ``path`` has come to exist meanwhile and ``overwrite`` is false.
+        When ``path`` was created meanwhile and ``overwrite`` is false.
     NotWrittenError
         As ``explained``.
     """
@@ -104,12 +104,15 @@ def complete_or_absent(path: Path, *, overwrite: bool) -> Iterator[Path]:
         unfinished = Path(name)
         try:
             yield unfinished
-            # mkstemp makes files private; an export gets what the umask gives any new file.
+            # mkstemp makes files private; an export gets the permissions of any new file.
             mask = os.umask(0)
             os.umask(mask)
             unfinished.chmod(0o666 & ~mask)
             if path.exists() and not overwrite:
-                raise FileExistsError(f"{path} appeared while it was being made; it was kept.")
+                raise FileExistsError(
+                    f"{path} was created by another program meanwhile. It was kept; choose "
+                    "another name, or pass overwrite=True."
+                )
             unfinished.replace(path)
         finally:
             unfinished.unlink(missing_ok=True)
@@ -117,12 +120,12 @@ def complete_or_absent(path: Path, *, overwrite: bool) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def explained(path: Path) -> Iterator[None]:
-    """Say of ``path`` why it was not written, where the system says so.
+    """Replace the system's errors about writing ``path`` by errors with a remedy.
 
     Raises
     ------
     NotWrittenError
-        Instead of the system's error about the disk or about the folder of ``path``.
+        Instead of a system error about the disk or about the folder of ``path``.
     """
     try:
         yield
@@ -131,13 +134,13 @@ def explained(path: Path) -> Iterator[None]:
     except OSError as error:
         obstacle = _OBSTACLES.get(error.errno or 0)
         place = path if error.filename is None else Path(error.filename)
-        # What else was read or written meanwhile tells of itself.
+        # Errors about other files, read or written meanwhile, pass through.
         elsewhere = path.parent not in place.parents
         if obstacle is None or elsewhere or (error.errno == errno.ENOENT and place.parent.exists()):
             raise
-        told = NotWrittenError(f"{path} was not written: {obstacle}. No part of it was left.")
-        told.errno = error.errno
-        raise told from error
+        clear = NotWrittenError(f"{path} was not written: {obstacle}. No part of it is left.")
+        clear.errno = error.errno
+        raise clear from error
 
 
 @contextlib.contextmanager
@@ -146,17 +149,17 @@ def _named(path: Any) -> Iterator[None]:
         yield
     except PermissionError as error:
         raise NotWrittenError(
-            f"{os.fspath(path)} cannot be written: the folder {_first_closed(path)} may not be "
-            "entered. Choose another one."
+            f"{os.fspath(path)} cannot be written: you have no access to the folder "
+            f"{_first_closed(path)}. Choose another one."
         ) from error
     except (TypeError, ValueError, RuntimeError, OSError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         name = os.fspath(path) if isinstance(path, os.PathLike) else path
-        raise NotWrittenError(f"No file can be called {shown(name)}: {reason}.") from error
+        raise NotWrittenError(f"No file can have the name {shown(name)}: {reason}.") from error
 
 
 def _first_closed(path: Any) -> Path:
-    """Return the outermost folder of a path that may not be entered."""
+    """Return the outermost folder of a path that the user may not enter."""
     folders = Path(os.path.abspath(Path(path).expanduser())).parents  # noqa: PTH100 - as it is named
     return next((p for p in reversed(folders) if not os.access(p, os.X_OK)), folders[0])
 
@@ -164,8 +167,7 @@ def _first_closed(path: Any) -> Path:
 def _refuse_closed(folder: Path, name: str) -> None:
     if not os.access(folder, os.W_OK):
         raise NotWrittenError(
-            f"{name} cannot be written: the folder {folder} may not be written to. Choose another "
-            "one."
+            f"{name} cannot be written: the folder {folder} is not writable. Choose another one."
         )
 
 

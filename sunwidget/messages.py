@@ -1,4 +1,4 @@
-"""Values in messages, short and on one line whatever they are, and as Python."""
+"""Format values for messages: short, on one line, or as Python code."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ import difflib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-_READABLE = 1e6  # whole numbers below are written without a point
+_READABLE = 1e6  # whole numbers below this are written without a decimal point
 
 
 def shown(value: Any, most: int = 80) -> str:
-    """Return the start of a value's ``repr``, for a message; never fails."""
+    """Return the first characters of a value's ``repr`` for a message; never raises."""
     try:
         return repr(value)[:most]
-    except Exception:  # noqa: BLE001 - numbers of 5000 digits, lists a thousand deep, a person's own
+    except Exception:  # noqa: BLE001 - 5000-digit numbers, lists nested 1000 deep, custom reprs
         return f"this {type(value).__name__}"
 
 
 def printable(text: str) -> str:
-    """Return a text without signs that a terminal obeys, such as escapes in a file's name."""
-    return "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in text)
+    """Escape control characters, which a terminal would obey, such as those in a file's name."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def did_you_mean(
@@ -31,9 +31,9 @@ def did_you_mean(
     cutoff: float = 0.6,
     quote: str = "'",
 ) -> str:
-    """Return a sentence that suggests the nearest of ``known``, or ``otherwise``; space first.
+    """Return a sentence that suggests the nearest of ``known``, with a leading space.
 
-    ``cutoff`` in [0, 1] is how alike they must be; ``otherwise`` says what to do where none is.
+    ``cutoff`` in [0, 1] is the least similarity; ``otherwise`` is returned when no name reaches it.
     """
     spelled = name[:80] if isinstance(name, str) else ""
     near = difflib.get_close_matches(spelled, list(known), n=1, cutoff=cutoff)
@@ -41,8 +41,8 @@ def did_you_mean(
     return f" {sentence}" if sentence else ""
 
 
-def called(name: str, arguments: Mapping[str, Any], module: str = "") -> str:
-    """Return the Python that calls ``name``, in ``module`` ("sw."), with these arguments."""
+def format_call(name: str, arguments: Mapping[str, Any], module: str = "") -> str:
+    """Return Python code that calls ``name`` of ``module`` ("sw.") with ``arguments``."""
     parts = (f"{key}={_code(value, module)}" for key, value in arguments.items())
     return f"{module}{name}({', '.join(parts)})"
 
@@ -50,7 +50,7 @@ def called(name: str, arguments: Mapping[str, Any], module: str = "") -> str:
 def _code(value: Any, module: str) -> str:
     if dataclasses.is_dataclass(value):
         arguments = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
-        return called(type(value).__name__, arguments, module)
+        return format_call(type(value).__name__, arguments, module)
     if isinstance(value, float) and value.is_integer() and abs(value) < _READABLE:
         return str(int(value))
     if isinstance(value, tuple):

@@ -1,7 +1,7 @@
-"""Presets: times of day as plain data, and the edits that they make of a photo.
+"""Presets: times of day as plain data, and the edits that they give for a photo.
 
-A preset sets the sun's place, which light there is, the exposure, and whether lamps behind windows
-are on; everything else of an edit (strokes, hints, strengths, the air) stays as it is.
+A preset sets the sun's position, the light source, the exposure and the lamps behind windows. The
+rest of an edit (strokes, hints, strengths, the air) stays as it is.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ class Preset(NamedTuple):
     ----------
     name, label, help : str
     parameters : mapping
-        Values by name of a parameter of ``Edit``; every preset sets the same ones. The azimuth is
-        found for each photo (``azimuth``).
+        Values by name of a parameter of ``Edit``; every preset sets the same ones. The azimuth
+        depends on the photo (``azimuth``).
     in_view : bool
-        Whether a sun that stands behind the camera is brought into the picture.
+        Whether a sun behind the camera is moved into the picture.
     """
 
     name: str
@@ -67,7 +67,7 @@ PRESETS: tuple[Preset, ...] = (
         -3.0),
     _preset("golden_hour", "Golden hour", "A low, warm sun over a sky that is still blue.", 4.0,
         exposure=-0.4),
-    _preset("noon", "Noon", "A high sun: neutral colours, short shadows.", 55.0, in_view=False),
+    _preset("noon", "Noon", "A high sun: neutral colors, short shadows.", 55.0, in_view=False),
     _preset("sunset", "Sunset", "The sun at the horizon.", 0.8, exposure=-0.6),
     _preset("blue_hour", "Blue hour", "The sun well below the horizon: an even, deep blue.", -5.5,
         exposure=-0.5),
@@ -80,7 +80,7 @@ PRESETS: tuple[Preset, ...] = (
 
 NAMES: tuple[str, ...] = tuple(preset.name for preset in PRESETS)
 _BY_NAME = {preset.name: preset for preset in PRESETS}
-# Where a sun is brought in: a third of the picture's width from its left or right edge.
+# A sun moved into the picture stands a third of the width from the left or right edge.
 _THIRD = 1 / 3
 
 
@@ -103,9 +103,9 @@ def find(name: str) -> Preset:
 def azimuth(preset: Preset, scene: Scene) -> float:
     """Return the sun's azimuth in degrees, relative to the camera's heading.
 
-    It is the photo's own where that lies before the camera, or where the preset does not ask for
-    the sun in view. Otherwise it is a third of the picture from that edge on whose side more sky
-    is open at the sun's height, at equal openness the one nearer to the photo's own sun.
+    The photo's own azimuth stays if that sun stands in front of the camera, or if the preset does
+    not need the sun in view. Otherwise the sun goes a third of the width from the edge with more
+    open sky at its height; at equal openness, from the edge nearer to the photo's own sun.
     """
     own = scene.automatic["sun_azimuth"]
     if not preset.in_view or abs(own) <= 90:
@@ -123,13 +123,13 @@ def azimuth(preset: Preset, scene: Scene) -> float:
 
 
 def _openness(scene: Scene, x: float, elevation: float) -> float:
-    """Share of sky in the column ``x`` of the picture from this elevation to its top edge."""
+    """Return the share of sky in column ``x``, from this elevation to the top edge."""
     row = int(min(max(scene.camera.pixel(0.0, elevation)[1], 1), scene.height))
     return float(scene.sky[:row, min(int(x), scene.width - 1)].mean())
 
 
 def values(name: str, scene: Scene) -> dict[str, Any]:
-    """Return what a preset sets in this photo, by name of a parameter; see ``edit``."""
+    """Return the values that a preset sets in this photo, by parameter name; see ``edit``."""
     preset = find(name)
     return {"sun_azimuth": azimuth(preset, scene), **preset.parameters}
 
@@ -141,9 +141,9 @@ def edit(name: str, scene: Scene, base: Edit | dict[str, Any] | None = None) -> 
     ----------
     name : {"dawn", "golden_hour", "noon", "sunset", "blue_hour", "dusk_lights", "moonlight"}
     scene : Scene
-        What ``analyze`` returned.
+        The result of ``analyze``.
     base : Edit or dict, optional
-        What to start from: its other parameters stay, strokes and hints too.
+        The edit to start from: its other parameters stay, including strokes and hints.
 
     Returns
     -------

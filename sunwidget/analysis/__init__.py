@@ -1,1 +1,1 @@
-"""From a photo to a Scene: one map per module, ``scene.analyze`` runs them in order."""
+"""Analyze a photo into a Scene: a room per stage, which ``pipeline.py`` runs in order."""

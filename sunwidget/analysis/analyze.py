@@ -1,4 +1,4 @@
-"""From a photo to its Scene: ``sunwidget.analyze``."""
+"""Analyze a photo into its Scene: ``sunwidget.analyze``."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from sunwidget.analysis.pipeline import METHODS, Steps, check_method, complete
 from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import coarse_sky, patches
 from sunwidget.analysis.segmentation.plausible import plausible
-from sunwidget.analysis.strokes.apply import stroked
+from sunwidget.analysis.strokes.apply import apply_strokes
 from sunwidget.edit.table import Stroke, SunHint
 from sunwidget.errors import AnalysisError
 from sunwidget.geometry.camera import Point
@@ -52,24 +52,24 @@ def analyze(
     ----------
     photo : Photo or anything that ``sunwidget.open`` takes
     sun : (x, y) or "outside", optional
-        Where the photo's own sun is, in pixels; may lie outside the picture. "outside": nothing
-        in the picture is the sun, and where it stands is not known. Default: what the photo
-        itself knows (``Photo.sun``), else looked for.
+        Position of the photo's own sun in pixels; it may lie outside the picture. "outside": the
+        sun is not in the picture and its position is unknown. Default: ``Photo.sun`` if known,
+        else detected.
     horizon : float or ((x0, y0), (x1, y1)), optional
-        Row of the horizon at the picture's centre, or two of its points, in pixels.
+        Row of the horizon at the picture's center, or two points of the horizon, in pixels.
     fov : float, optional
         Vertical field of view in degrees.
     sky : array, path, SkyNetwork or str, optional
         A mask, an ONNX network or its path, or a name of ``sky.METHODS``. Default: the bundled
-        network, doubted where it hardly believes itself (plausible.py); a named one is not.
+        network, whose sky is rejected where its own confidence is low (plausible.py).
     sky_label : int or str, optional
-        The class "sky" of an ONNX network, index from 0 or name (``SkyNetwork.label``).
+        The class "sky" of an ONNX network: index from 0, or name (``SkyNetwork.label``).
     refine, clouds, horizon_method, sun_method : str
         Name in the stage's ``METHODS``.
     depth : str, path, DepthNetwork, DepthMap or array, optional
         Name in ``depth.METHODS``; an ONNX network for depth from one picture, or its path; or
-        metres along the optical axis (H, W), inf for the sky. Default: what a phone has kept in
-        the photo's file (``Photo.depth``), else "network".
+        metres along the optical axis (H, W), inf for the sky. Default: the phone's depth in the
+        photo's file (``Photo.depth``), else "network".
     water : str or array
         Name in ``water.METHODS``, or a map (H, W), 1 = water.
     strokes : tuple of Stroke
@@ -84,9 +84,9 @@ def analyze(
     Raises
     ------
     AnalysisError
-        For a hint or method that cannot be used, or a missing network.
+        If a hint or method cannot be used, or a network is missing.
     PhotoError
-        When the photo cannot be opened.
+        If the photo cannot be opened.
     """
     photo = open_photo(photo)
     sun = photo.sun if sun is None else sun
@@ -111,22 +111,22 @@ def analyze(
         check_fov(fov),
         methods=tuple(methods.items()),
         water=None if isinstance(water, str) else coarse_sky.mask_from(water, photo.size, "water"),
-        depth=depth_stage.given(depth, photo.size),
+        depth=depth_stage.check_depth(depth, photo.size),
     )
     step = Steps(progress)
     step("prepare", 0.0, "Preparing the photo")
     working = Working.of(photo)
     step("sky", 0.1, "Finding the sky")
     with ThreadPoolExecutor(1) as beside:
-        beside.submit(look_at_land, working)  # later stages ask for it, and for its errors
+        beside.submit(look_at_land, working)  # cached; later stages use it and raise its errors
         coarse = coarse_sky.coarse(working, sky, photo.size, sky_label)
         step("refine", 0.4, "Following the skyline")
         decision = METHODS["refine"][refine](working, coarse)
     doubted = 0.0
-    if sky is None:  # what a person names is taken at its word
+    if sky is None:  # a sky that the caller chose is never rejected
         believed = np.float32(plausible(decision.sky, coarse, working))
         kept = believed * patches.settle(decision.sky, coarse, working)
         doubted = float(np.mean((decision.sky > 0.5) & (kept <= 0.5)))
         decision = decision._replace(sky=kept)
     segmentation = Segmentation(photo, working, coarse, decision, doubted)
-    return stroked(complete(segmentation, hints, step), strokes)
+    return apply_strokes(complete(segmentation, hints, step), strokes)

@@ -1,4 +1,4 @@
-"""A scene as a person corrects it: strokes, hints and the choice of clouds of an edit."""
+"""Apply the user's corrections to a scene: strokes, hints and cloud method of an edit."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from typing import Any
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.pipeline import Steps, complete, find_clouds_again
 from sunwidget.analysis.scene import Scene, checked_scene
-from sunwidget.analysis.strokes.apply import stroked
+from sunwidget.analysis.strokes.apply import apply_strokes
 from sunwidget.edit.table import Edit
 from sunwidget.geometry.camera import Point
 from sunwidget.progress import Progress
 
 
 def corrected(scene: Scene, edit: Edit, progress: Progress | None = None) -> Scene:
-    """Return the scene with the edit's strokes, hints and choice of clouds applied.
+    """Return the scene with the edit's strokes, hints and cloud method applied.
 
-    The same edit always gives the same maps, to the bit; an edit that corrects nothing gives this
-    very object. Thresholds correct nothing when clouds are un-mixed.
+    The same edit always gives the same maps, to the bit; an edit without corrections returns the
+    same object. Thresholds have no effect on un-mixed clouds.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def corrected(scene: Scene, edit: Edit, progress: Progress | None = None) -> Sce
     edit : Edit
         Strokes and hints in fractions of the picture.
     progress : callable, optional
-        As for ``analyze``: what it raises cancels, and nothing has changed then.
+        As for ``analyze``; an exception that it raises cancels without any change.
 
     Returns
     -------
@@ -35,13 +35,13 @@ def corrected(scene: Scene, edit: Edit, progress: Progress | None = None) -> Sce
     Raises
     ------
     AnalysisError
-        When a hint cannot be used, or ``scene`` is none.
+        If a hint cannot be used, or ``scene`` is not a Scene.
     """
     clouds = _cloud_choice(checked_scene(scene), edit)
     hints = (edit.sun_hint, edit.horizon_hint, edit.fov_hint)
     if hints == (None, None, None) and clouds is None and not edit.strokes:
         return scene
-    # Strokes come last, on the scene with the hints: they leave its camera and fit alone.
+    # Strokes come last, on the scene with the hints, whose camera and fit they keep.
     base = scene.unstroked or scene
     if hints != (None, None, None):
         bare = base
@@ -52,11 +52,11 @@ def corrected(scene: Scene, edit: Edit, progress: Progress | None = None) -> Sce
     if clouds is not None:
         plain = base
         base = plain.memory.scene(clouds, lambda: find_clouds_again(plain, *clouds))
-    return stroked(base, scene.hints.strokes + edit.strokes, progress)
+    return apply_strokes(base, scene.hints.strokes + edit.strokes, progress)
 
 
 def _cloud_choice(scene: Scene, edit: Edit) -> tuple[str, tuple[float, float]] | None:
-    """Return method and thresholds of the clouds where they differ from the analysis'."""
+    """Return method and thresholds of the clouds if they differ from the analysis."""
     analysed = scene.hints.method("clouds")
     method = analysed if edit.cloud_method == "analysed" else edit.cloud_method
     ratios = (edit.cloud_ratio_min, edit.cloud_ratio_max)

@@ -1,6 +1,6 @@
-"""What the frame graph draws of a Scene, for both hosts: its uniforms and its textures.
+"""Uniforms and textures of a Scene, which the frame graph reads on both hosts.
 
-Names and contents are those of docs/developer/frame-graph.md.
+docs/developer/frame-graph.md describes their names and contents.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from sunwidget.analysis.images.noise import noise_level
 from sunwidget.analysis.images.working_copy import resize
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
-from sunwidget.analysis.water.glitter import column_of, glitter, roughness
+from sunwidget.analysis.water.glitter import azimuth_column, glitter, roughness
 from sunwidget.analysis.windows import panes
 
 T = TypeVar("T")
 Size = tuple[int, int]
 Map = NDArray[np.float32]
 
-_SHADOW = 2.0**-7  # display-linear luminance below which a picture's key is no lower
+_SHADOW = 2.0**-7  # display-linear luminance at which a picture's key stops falling
 
 
-def _once_a_scene(find: Callable[[Scene], T]) -> Callable[[Scene], T]:
-    """Keep what is found: strips of a large picture, and every stroke's answer, ask again."""
+def _cache_per_scene(find: Callable[[Scene], T]) -> Callable[[Scene], T]:
+    """Cache a result per scene, since all strips of a picture and all strokes' answers use it."""
     kept: WeakKeyDictionary[Scene, T] = WeakKeyDictionary()
 
     @functools.wraps(find)
@@ -44,7 +44,7 @@ def _once_a_scene(find: Callable[[Scene], T]) -> Callable[[Scene], T]:
     return found
 
 
-@_once_a_scene
+@_cache_per_scene
 def uniforms(scene: Scene) -> dict[str, Any]:
     """Return the frame graph's scene uniforms by name: floats and tuples of floats."""
     small, sky = scene.working, scene.small_sky
@@ -99,8 +99,7 @@ def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float
 def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -> np.ndarray:
     """Return sky matte, cloud opacity, cloud softness: (H, W, 3) float32 in [0, 1].
 
-    ``size`` (width, height) asks for another size than the photo's, ``rows`` for some of
-    its rows alone.
+    ``size`` (width, height) selects another size than the photo's, ``rows`` only some rows.
     """
     width, height = size or (scene.width, scene.height)
     maps = (scene.sky, scene.cloud_map, scene.softness_map)
@@ -110,10 +109,9 @@ def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) ->
 def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -> np.ndarray:
     """Return glare, water, glitter, log-depth of the land: (H, W, 4) float32 in [0, 1].
 
-    Glare is where the photo says nothing about the sky behind: the old sun's clipped core
-    and its halo, fading outwards; on land its share of the light. The log-depth
-    (depth/levels.py) is dithered; in the sky it is that of the nearest land. ``size`` and
-    ``rows`` as for ``layers``.
+    Glare is where the old sun hides the sky behind it: its clipped core and its halo, fading
+    outwards; on land its share of the light. The log-depth (depth/levels.py) is dithered; in the
+    sky it is that of the nearest land. ``size`` and ``rows`` as for ``layers``.
     """
     width, height = size or (scene.width, scene.height)
     level = levels.to_level(_log_depth(scene, width, height, rows))
@@ -129,7 +127,7 @@ def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -
 
 
 def _log_depth(scene: Scene, width: int, height: int, rows: slice) -> np.ndarray:
-    """Return ln(metres), no more than the air lets see: (height, width) float32, or ``rows``."""
+    """Return ln(metres), limited by the haze: (height, width) float32, or ``rows`` of it."""
     log_depth = scene.log_depth(width, height, rows)
     limit = _haze_limit(scene)
     if limit is None:
@@ -137,25 +135,25 @@ def _log_depth(scene: Scene, width: int, height: int, rows: slice) -> np.ndarray
     return np.minimum(log_depth, resize_rows(limit, width, height, rows))
 
 
-@_once_a_scene
+@_cache_per_scene
 def _haze_limit(scene: Scene) -> np.ndarray | None:
-    # What somebody told about depth is not doubted.
+    # A given depth is never limited.
     if scene.hints.depth is not None or scene.fitted is None:
         return None
     land = scene.small_sky < 0.5
     return haze_limit.log_limit(scene.without_sun.working, land, scene.camera, scene.fitted)
 
 
-@_once_a_scene
+@_cache_per_scene
 def _glitter(scene: Scene) -> np.ndarray:
-    # Of a sun that the photo does not show, only a low one ahead would glint.
+    # If the photo does not show its sun, only a low sun ahead would cause glints.
     azimuth, elevation = scene.assumed_sun
-    column = None if elevation > 15 else column_of(scene.camera, azimuth)
+    column = None if elevation > 15 else azimuth_column(scene.camera, azimuth)
     if scene.sun is not None:
-        column = column_of(scene.camera, scene.sun.azimuth)
+        column = azimuth_column(scene.camera, scene.sun.azimuth)
     zone = glitter(scene.working, scene.small_sky, scene.small_water, column)
-    # Glare before water goes with its glints; what is glare before land glints no more. White
-    # land in the light of another sun is snow.
+    # Glare over water counts as glints; glare over land does not. White land without a sun in
+    # front is snow.
     glare = resize(scene.glare, scene.working.width, scene.working.height) * (1 - scene.small_sky)
     wet = np.maximum(zone, glare)
     dry = zone * (1 - glare) * (column is not None)
@@ -173,11 +171,11 @@ _READ: dict[str, Callable[[Scene, Size], np.ndarray]] = {
 }
 
 TEXTURES = tuple(_READ)
-"""The scene textures that the analysis makes; the photo itself is one as well."""
+"""The scene textures that the analysis makes; the photo is another one."""
 
 
 def texture(scene: Scene, name: str, size: Size) -> NDArray[np.uint8]:
-    """Return a scene texture in the levels that both hosts read, (h, w, n) uint8.
+    """Return a scene texture in 8-bit levels for both hosts, (h, w, n) uint8.
 
     Parameters
     ----------
@@ -185,13 +183,13 @@ def texture(scene: Scene, name: str, size: Size) -> NDArray[np.uint8]:
     name : str
         One of ``TEXTURES``.
     size : (width, height)
-        Of ``layers`` and ``surface``; the others have sizes of their own.
+        Size of ``layers`` and ``surface``; the others have fixed sizes.
     """
     return quantise_map(_READ[name](scene, size))
 
 
 def quantise_map(image: Map) -> NDArray[np.uint8]:
-    """Return a map in [0, 1] as the 8-bit levels that both hosts read."""
+    """Return a map in [0, 1] as 8-bit levels for both hosts."""
     quantised = image * 255
     quantised += 0.5
     return np.clip(quantised, 0, 255, out=quantised).astype(np.uint8)

@@ -1,4 +1,4 @@
-"""Hints: what a person says about a photo, and whether it can be used."""
+"""Hints: what the user states about a photo, and checks of it."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from sunwidget.errors import AnalysisError
 from sunwidget.geometry.camera import Point
 
 FARTHEST = 1e7
-"""Pixels from the corner of the photo to the farthest hint: beyond, a camera has no direction."""
-_APART = 1e-3  # pixels: two points of the horizon that lie nearer together have no slope
+"""Most pixels from the photo's corner to a hint: farther out, a camera has no direction."""
+_APART = 1e-3  # pixels: two points of the horizon that are closer together have no slope
 
 
 @dataclass(frozen=True)
 class Hints:
-    """What a person says about the photo; a hint wins over detection.
+    """What the user states about the photo; a hint overrides detection.
 
-    Points are pixels of the photo; ``sun`` is "outside" when nothing in the picture is it.
-    ``methods`` names the method of each stage; ``cloud_ratios`` are m_min and m_max of the clouds;
-    ``water`` is a given map (h, w) in [0, 1] of any size; ``depth`` a given map (h, w) in metres,
-    or a network.
+    Points are pixels of the photo; ``sun`` is "outside" if the sun is not in the picture.
+    ``methods`` has the method of each stage; ``cloud_ratios`` are m_min and m_max of the clouds;
+    ``water`` is a given map (h, w) in [0, 1] of any size; ``depth`` is a given map (h, w) in
+    metres, or a network.
     """
 
     sun: SunHint | None = None
@@ -42,22 +42,22 @@ class Hints:
     )
 
     def method(self, stage: str) -> str:
-        """Name of the stage's method."""
+        """Return the name of the stage's method."""
         return dict(self.methods)[stage]
 
     @property
     def sun_outside(self) -> bool:
-        """Whether nothing in the picture is the sun."""
+        """Whether the hint places the sun outside the picture."""
         return self.sun == OUTSIDE
 
     @property
     def sun_point(self) -> Point | None:
-        """Where the sun is said to be; None when nobody says a place."""
+        """The hinted position of the sun, or None."""
         return self.sun if isinstance(self.sun, tuple) else None
 
 
 def check_point(name: str, value: Any) -> Point | None:
-    """Return a point (x, y) in pixels; AnalysisError when it is none."""
+    """Return a point (x, y) in pixels; AnalysisError for anything else."""
     if value is None:
         return None
     try:
@@ -66,7 +66,7 @@ def check_point(name: str, value: Any) -> Point | None:
         raise AnalysisError(
             f"{name} must be a pair (x, y) of pixels, not {value!r:.80}."
         ) from error
-    if not max(abs(x), abs(y)) <= FARTHEST:  # of NaN, too
+    if not max(abs(x), abs(y)) <= FARTHEST:  # true for NaN, too
         raise AnalysisError(
             f"{name} must be finite pixels, at most {FARTHEST:g} away, not {value!r:.80}."
         )
@@ -74,19 +74,19 @@ def check_point(name: str, value: Any) -> Point | None:
 
 
 def check_sun(value: Any) -> SunHint | None:
-    """Return a point (x, y) in pixels or "outside"; AnalysisError when it is neither."""
+    """Return a point (x, y) in pixels or "outside"; AnalysisError for anything else."""
     if not isinstance(value, str):
         return check_point("sun", value)
     if value != OUTSIDE:
         raise AnalysisError(
-            f"sun must be a pair (x, y) of pixels, or {OUTSIDE!r} when the photo does not show it, "
+            f"sun must be a pair (x, y) of pixels, or {OUTSIDE!r} if it is not in the picture, "
             f"not {value!r:.80}."
         )
     return OUTSIDE
 
 
 def check_horizon(value: Any) -> float | tuple[Point, Point] | None:
-    """Return a row or two points in pixels; AnalysisError when it is neither."""
+    """Return a row or two points in pixels; AnalysisError for anything else."""
     if value is None:
         return None
     neither = AnalysisError(
@@ -108,7 +108,7 @@ def check_horizon(value: Any) -> float | tuple[Point, Point] | None:
 
 
 def check_fov(value: Any) -> float | None:
-    """Return a vertical field of view in degrees; AnalysisError when it is none."""
+    """Return a vertical field of view in degrees; AnalysisError for anything else."""
     if value is None:
         return None
     try:
@@ -121,7 +121,7 @@ def check_fov(value: Any) -> float | None:
 
 
 def check_strokes(value: Any) -> tuple[Stroke, ...]:
-    """Return strokes; AnalysisError when anything else is among them."""
+    """Return strokes as a tuple; AnalysisError if anything else is among them."""
     strokes = tuple(value) if isinstance(value, (tuple, list)) else (value,)
     for stroke in strokes:
         if not isinstance(stroke, Stroke):

@@ -1,7 +1,7 @@
-"""The maps of a scene that a person can look at: one table for files and for the editor.
+"""The maps of a scene that a user can inspect: one table for files and for the editor.
 
-A new map is one entry of ``MAPS``. ``sunwidget analyze -o`` writes it, the overview shows it
-and the editor's inspector offers it, with the colours and the legend given here.
+A new map is one entry of ``MAPS``. ``sunwidget analyze -o`` writes it, the overview shows it, and
+the editor's inspector offers it with the colors and the legend given here.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 Ramp = tuple[tuple[float, str], ...]
 
-# Stops (position 0–1, #rrggbbaa) with straight lines between. Where a map says "nothing here"
-# its ramp is transparent, so that the photo shows through.
+# Stops (position 0–1, #rrggbbaa) with linear interpolation. Values that mean "nothing here" are
+# transparent, so that the photo shows through.
 MATTE: Ramp = (
     (0.0, "#ffb02000"),
     (0.08, "#ffb020c8"),
@@ -64,22 +64,22 @@ class SceneMap(NamedTuple):
     Parameters
     ----------
     name : str
-        Stem of its file, and what the browser asks for.
+        Stem of its file, and its name in requests of the browser.
     title : str
     read : callable
-        ``read(scene)`` gives an (H, W) array, or None when this scene has none; smaller
-        arrays stand for the whole picture.
+        ``read(scene)`` returns an (H, W) array, or None if this scene has no such map; smaller
+        arrays cover the whole picture too.
     help : str
-        What high and low values mean.
+        Meaning of high and low values.
     ramp : tuple of (position, "#rrggbbaa")
-        Its colours.
+        Colors.
     low, high : float
-        Values of the first and the last level; what lies outside takes the nearest.
+        Values of the first and the last level; values outside are clamped.
     unit : str
     scale : {"linear", "log"}
-        How levels between them are spread, see ``value``.
+        Spacing of the levels between them, see ``value``.
     bits : {8, 16}
-        Depth of its file.
+        Bit depth of its file.
     """
 
     name: str
@@ -94,7 +94,7 @@ class SceneMap(NamedTuple):
     bits: int = 8
 
     def share(self, values: np.ndarray) -> np.ndarray:
-        """Return where values lie between low (0) and high (1), (H, W) float32."""
+        """Return the positions of values between low (0) and high (1), (H, W) float32."""
         values = np.asarray(values, np.float32)
         if self.scale == "log":
             values = np.log(np.maximum(values, self.low) / self.low)
@@ -112,7 +112,7 @@ class SceneMap(NamedTuple):
         return self.low + (self.high - self.low) * share
 
     def formula(self) -> str:
-        """Say how a file's level becomes a value."""
+        """Return the formula that converts a file's level to a value."""
         top = 2**self.bits - 1
         if self.scale == "log":
             return f"{self.low:g} * {self.high / self.low:g} ** (level / {top}) {self.unit}".strip()
@@ -123,7 +123,7 @@ class SceneMap(NamedTuple):
 
 
 def levels(shares: np.ndarray, bits: int = 8) -> np.ndarray:
-    """Return shares as whole levels: uint8, or uint16 for 16 bits."""
+    """Return shares as integer levels: uint8, or uint16 for 16 bits."""
     top = 2**bits - 1
     return np.round(shares * top).astype(np.uint8 if bits == 8 else np.uint16)
 
@@ -138,7 +138,7 @@ def shares_of(scene: Scene, entry: SceneMap, size: tuple[int, int]) -> np.ndarra
     Returns
     -------
     ndarray or None
-        None when this scene has no such map.
+        None if this scene has no such map.
     """
     import cv2
 
@@ -149,21 +149,21 @@ def shares_of(scene: Scene, entry: SceneMap, size: tuple[int, int]) -> np.ndarra
     if shares.shape[::-1] == size:
         return shares
     smaller = size[0] < shares.shape[1]
-    way = cv2.INTER_AREA if smaller else cv2.INTER_LINEAR
-    return np.asarray(cv2.resize(shares, size, interpolation=way))
+    method = cv2.INTER_AREA if smaller else cv2.INTER_LINEAR
+    return np.asarray(cv2.resize(shares, size, interpolation=method))
 
 
 def ramp_colours(ramp: Ramp, count: int = 256) -> np.ndarray:
-    """Return a ramp as a table of colours, (count, 4) float32 in [0, 1], alpha last."""
+    """Return a ramp as a table of colors, (count, 4) float32 in [0, 1], alpha last."""
     at = np.linspace(0, 1, count)
     positions = [position for position, _ in ramp]
-    stops = np.array([list(bytes.fromhex(colour[1:])) for _, colour in ramp], np.float64) / 255
+    stops = np.array([list(bytes.fromhex(color[1:])) for _, color in ramp], np.float64) / 255
     channels = [np.interp(at, positions, stops[:, i]) for i in range(4)]
     return np.stack(channels, axis=-1).astype(np.float32)
 
 
 def _elevation(scene: Scene) -> np.ndarray:
-    # As fine as the browser shows it; a smooth map loses nothing by it.
+    # At the browser's resolution, which is enough for a smooth map.
     camera = scene.camera
     width, height = size_within((camera.width, camera.height), 1024)
     x = (np.arange(width) + 0.5) * camera.width / width
@@ -185,9 +185,9 @@ def _glitter(scene: Scene) -> np.ndarray | None:
 
 
 def _shade(scene: Scene) -> np.ndarray | None:
-    if scene.shade is None:  # only un-mixing tells it
+    if scene.shade is None:  # only un-mixing finds it
         return None
-    # Where there is hardly any cloud its light is noise.
+    # Where there is almost no cloud, its light is noise.
     return np.where(scene.clouds > 0.05, scene.cloud_shade, np.float32(1))
 
 
@@ -196,7 +196,7 @@ MAPS: tuple[SceneMap, ...] = (
         "sky_coarse",
         "Sky, network",
         lambda scene: scene.sky_coarse,
-        "How likely the network calls a pixel sky, before refinement.",
+        "Probability of sky according to the network, before refinement.",
         MATTE,
     ),
     SceneMap(
@@ -208,16 +208,16 @@ MAPS: tuple[SceneMap, ...] = (
     ),
     SceneMap(
         "sureness",
-        "Sureness",
+        "Sky confidence",
         lambda scene: scene.sureness,
-        "How sure sky or land is. Where it is low, a brush stroke helps most.",
+        "Confidence of the decision sky or land. Where it is low, a brush stroke helps most.",
         DOUBT,
     ),
     SceneMap(
         "clouds",
         "Cloud opacity",
         lambda scene: scene.clouds,
-        "How much of the clear sky a cloud hides: 1 lets nothing through.",
+        "Share of the clear sky that a cloud hides: 1 is opaque.",
         HEAT,
     ),
     SceneMap(
@@ -231,7 +231,7 @@ MAPS: tuple[SceneMap, ...] = (
         "cloud_shade",
         "Cloud self-shade",
         _shade,
-        "Light of the cloud against a white one's: low in its own shade, 1 where there is none.",
+        "Light of the cloud relative to a white cloud: low in its own shade, 1 without shade.",
         SHADE,
         high=1.5,
     ),
@@ -246,14 +246,14 @@ MAPS: tuple[SceneMap, ...] = (
         "glare",
         "Old sun's glare",
         lambda scene: scene.glare,
-        "Where the photo says nothing about the sky behind, and what of the land's light is glare.",
+        "Sky that the old sun's glare hides, and the share of glare in the land's light.",
         PATCH,
     ),
     SceneMap(
         "panes",
         "Windows",
         lambda scene: scene.panes,
-        "How likely a pixel belongs to a window, behind which lamps can be lit.",
+        "Probability that a pixel belongs to a window, behind which lamps can be lit.",
         PATCH,
     ),
     SceneMap(
@@ -277,7 +277,7 @@ MAPS: tuple[SceneMap, ...] = (
         "glitter",
         "Old sun's glitter",
         _glitter,
-        "Where on the water the photo's own sun glints: taken out once the sun has moved.",
+        "Glints of the photo's own sun on water: removed when the sun has moved.",
         PATCH,
     ),
     SceneMap(
@@ -294,9 +294,9 @@ MAPS: tuple[SceneMap, ...] = (
     ),
     SceneMap(
         "depth_confidence",
-        "Depth, sureness",
+        "Depth confidence",
         lambda scene: scene.depth_confidence,
-        "How sure the distance of the land is; low where it was only guessed.",
+        "Confidence of the land's distance; low where it is only a guess.",
         DOUBT,
     ),
 )
@@ -308,7 +308,7 @@ def scene_map(name: str) -> SceneMap:
     Raises
     ------
     ValueError
-        When there is none; the names are listed.
+        If there is none; the message lists the names.
     """
     for entry in MAPS:
         if entry.name == name:

@@ -1,4 +1,4 @@
-"""What a scene remembers of the corrections worked out on it."""
+"""A scene's cache of corrections applied to it."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from typing import Any, TypeVar
 
 T = TypeVar("T")
 
-_SCENES = 4  # each holds full-size maps
-_PAINTINGS = 64  # small copies: undo takes no time
+_SCENES = 4  # each has full-size maps
+_PAINTINGS = 64  # small copies, so that undo is instant
 
 
 @dataclass(eq=False)
 class Memory:
-    """Scenes by correction, and paintings by their strokes; the oldest are forgotten."""
+    """Scenes by correction, and paintings by their strokes; the oldest are dropped."""
 
     scenes: dict[Any, Any] = field(default_factory=dict)
     paintings: dict[Any, Any] = field(default_factory=dict)
 
     def scene(self, key: Any, make: Callable[[], T]) -> T:
-        """Return the scene of a correction, made when it is not remembered."""
+        """Return the scene of a correction, from the cache or from ``make``."""
         scene: T = self.scenes.pop(key, None) or make()
         _store(self.scenes, key, scene, _SCENES)
         return scene
 
     def painting(self, strokes: Any, painting: Any) -> None:
-        """Remember what some strokes made of the small copy."""
+        """Store the painting of some strokes on the small copy."""
         _store(self.paintings, strokes, painting, _PAINTINGS)
 
 

@@ -1,4 +1,4 @@
-"""What a person should know about an analysis; each notice says what to do."""
+"""Notices for the user about an analysis; each says what to do."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
 from sunwidget.geometry.camera import Camera, Point
 from sunwidget.photo.photo import Photo
 
-UNSURE = 0.3  # confidence of the fit below which a person should know
+UNSURE = 0.3  # confidence of the fit below which the user gets a notice
 NO_SKY = 0.005  # share of the picture below which the photo counts as without sky
 
 
 class Notice(str):
-    """What a person should know, in Python's words: a text that also names what it is about.
+    """A notice for Python users: a text that also names its subject.
 
     Parameters
     ----------
     text : str
     about : str
-        What to do about it is known by this name, e.g. "horizon".
+        Subject, by which front ends choose the remedy that they offer, e.g. "horizon".
     plain : str
-        The same for an editor, which has tools where Python has arguments.
+        The text for an editor, which has tools instead of arguments.
     flags : str
-        The same for the command line.
+        The text for the command line.
     """
 
     __slots__ = ("about", "flags", "plain")
@@ -39,14 +39,14 @@ class Notice(str):
     flags: str
 
     def __new__(cls, text: str, about: str = "", plain: str = "", flags: str = "") -> Self:
-        """Make a text with its subject; without ``plain`` and ``flags`` all say the same."""
+        """Make a notice; ``plain`` and ``flags`` default to ``text``."""
         notice = super().__new__(cls, text)
         notice.about, notice.plain, notice.flags = about, plain or text, flags or text
         return notice
 
 
 def _notice(fact: str, advice: str, about: str, plain: str, flags: str) -> Notice:
-    """Return a notice of one fact with the ``advice`` for Python and for the command line."""
+    """Return a notice of one fact with advice for Python and for the command line."""
     return Notice(f"{fact} {advice}", about, plain, f"{fact} {flags}")
 
 
@@ -61,11 +61,11 @@ def notices(
     moon: Point | None = None,
     fit: SkyFit | None = None,
 ) -> tuple[Notice, ...]:
-    """Return one notice for each doubt.
+    """Return a notice for each uncertain result.
 
-    ``sky`` is the matte at working size, ``doubted`` the share of the picture that was dropped
-    from the sky as unlikely (plausible.py), ``moon`` where one was found, in fractions of the
-    picture, ``fit`` what was fitted to the sky.
+    ``sky`` is the matte at working size, ``doubted`` the share of the picture that was rejected
+    as sky (plausible.py), ``moon`` the position of a detected moon in fractions of the picture,
+    ``fit`` the fit to the sky.
     """
     share = float(np.mean(sky > 0.5))
     notes = [
@@ -80,10 +80,10 @@ def notices(
         how = "is assumed" if assumed else "follows from the size of the sun's disc"
         notes.append(
             _notice(
-                f"{photo.name} names no focal length: {degrees} vertical field of view {how}.",
+                f"{photo.name} has no focal length: a vertical field of view of {degrees} {how}.",
                 "Pass fov= in degrees.",
                 "field_of_view",
-                f"The photo does not say how wide its lens sees: {degrees} from top to bottom "
+                f"The photo has no focal length: a field of view of {degrees} from top to bottom "
                 f"{how}.",
                 "Pass --fov DEG.",
             )
@@ -94,32 +94,32 @@ def notices(
 def _about_sky(photo: Photo, share: float, doubted: float) -> Notice | None:
     if share < NO_SKY and doubted > NO_SKY:
         return _notice(
-            f"No sky found in {photo.name}: what looked a little like it ({100 * doubted:.0f} % of "
-            "pixels) is rather a wall or ceiling.",
-            "If it is sky, draw a sky stroke or pass sky='network', which is not doubted.",
+            f"No sky found in {photo.name}: an area that looks slightly like sky "
+            f"({100 * doubted:.0f} % of pixels) is more likely a wall or ceiling.",
+            "If it is sky, draw a sky stroke or pass sky='network', which skips this check.",
             "sky",
-            "No sky was found: what looked a little like it is rather a wall or ceiling. If it is "
-            "sky, paint over it.",
-            "If it is sky, pass --sky network, which is not doubted, or a mask: --sky MASK.png.",
+            "No sky was found: an area that looks slightly like sky is more likely a wall or "
+            "ceiling. If it is sky, paint over it.",
+            "If it is sky, pass --sky network, which skips this check, or a mask: --sky MASK.png.",
         )
     if doubted > NO_SKY:
         return _notice(
-            f"A patch of {photo.name} that looks like sky ({100 * doubted:.1f} % of pixels) was "
-            "left out as unlikely.",
-            "Draw a sky stroke over it if it is sky.",
+            f"A patch of {photo.name} ({100 * doubted:.1f} % of pixels) looks like sky but was "
+            "rejected as unlikely.",
+            "If it is sky, draw a sky stroke over it.",
             "sky",
-            f"A patch that looks like sky ({100 * doubted:.1f} % of the picture) was left out as "
+            f"A patch ({100 * doubted:.1f} % of the picture) looks like sky but was rejected as "
             "unlikely. If it is sky, paint over it.",
-            "If it is sky, pass --sky network, which is not doubted, or a mask: --sky MASK.png.",
+            "If it is sky, pass --sky network, which skips this check, or a mask: --sky MASK.png.",
         )
     if share < NO_SKY:
         return _notice(
             f"No sky found in {photo.name} ({100 * share:.1f} % of pixels): its light is "
-            "unknown, so all of it changes alike, and only a little.",
+            "unknown, so the whole picture changes evenly, and only a little.",
             "Draw a sky stroke or pass sky=mask.",
             "sky",
-            "No sky was found, so the light of the picture is unknown: all of it changes "
-            "alike, and only a little. If there is some sky, paint over it.",
+            "No sky was found, so the light of the picture is unknown: the whole picture changes "
+            "evenly, and only a little. If there is some sky, paint over it.",
             "If there is some sky, pass a mask: --sky MASK.png.",
         )
     return None
@@ -143,7 +143,7 @@ def _about_sun(
             "night_sun",
             "The point marked as the sun lies in a night sky and may be the moon. It is "
             "treated as the sun.",
-            "if it is none, leave --sun out.",
+            "if it is the moon, omit --sun.",
         )
     if sun.visible:
         true = camera.focal * np.tan(np.radians(SUN_ANGULAR_RADIUS_DEG))
@@ -152,11 +152,11 @@ def _about_sun(
             return _notice(
                 f"The sun's mask covers {100 * covered:.0f} % of {photo.name}, "
                 "far more than a sun.",
-                "Click on its centre, or pass sun_method='disc_fit'.",
+                "Click the sun's center, or pass sun_method='disc_fit'.",
                 "sun_mask",
-                f"What was taken for the sun covers {100 * covered:.0f} % of the picture, far "
-                "more than a sun. Point at its centre.",
-                "Pass its centre, --sun X,Y, or --sun-method disc_fit.",
+                f"The area detected as the sun covers {100 * covered:.0f} % of the picture, far "
+                "more than a sun. Click the sun's center.",
+                "Pass its center, --sun X,Y, or --sun-method disc_fit.",
             )
     return None
 
@@ -165,40 +165,40 @@ def _about_unseen_sun(photo: Photo, hints: Hints, moon: Point | None, fit: SkyFi
     if moon is not None:
         return _notice(
             f"The disc at ({moon[0] * photo.width:.0f}, {moon[1] * photo.height:.0f}) of "
-            f"{photo.name} is taken for the moon, as the sky round it is dark; it lights "
+            f"{photo.name} is treated as the moon, since the sky around it is dark; it lights "
             "the picture.",
             "If it is the sun, click it or pass sun=(x, y).",
             "moon",
-            "The bright disc is taken for the moon, as the sky round it is dark; it lights the "
-            "picture.",
+            "The bright disc is treated as the moon, since the sky around it is dark; it lights "
+            "the picture.",
             "If it is the sun, pass --sun X,Y.",
         )
     if hints.sun_outside:
-        fact = f"The sun is said not to be in {photo.name}{_untold(fit)}. Its place is "
-        fact += f"assumed{_within(fit)};"
+        fact = f"According to the hint, the sun is not in {photo.name}{_unknown(fit)}. Its "
+        fact += f"position is assumed{_within(fit)};"
         known = "in pixels if you know it (outside the picture is fine)."
-        told = f"{fact} pass sun=(x, y) {known}"
-        return Notice(told, "told_outside", told, f"{fact} pass --sun X,Y {known}")
-    fact = f"No sun found in {photo.name}{_untold(fit)}. Its place is assumed{_within(fit)};"
+        text = f"{fact} pass sun=(x, y) {known}"
+        return Notice(text, "told_outside", text, f"{fact} pass --sun X,Y {known}")
+    fact = f"No sun found in {photo.name}{_unknown(fit)}. Its position is assumed{_within(fit)};"
     pixels = "in pixels (outside the picture is fine)."
-    told = f"{fact} click where it is, or pass sun=(x, y) {pixels}"
-    return Notice(told, "unseen_sun", told, f"{fact} pass --sun X,Y {pixels}")
+    text = f"{fact} click the sun, or pass sun=(x, y) {pixels}"
+    return Notice(text, "unseen_sun", text, f"{fact} pass --sun X,Y {pixels}")
 
 
 def _about_air(
     photo: Photo, share: float, sun: SunObservation | None, fit: SkyFit | None
 ) -> Notice | None:
-    sureness = None if fit is None else fit.atmosphere.confidence
-    if share < NO_SKY or sureness is None or sureness >= UNSURE:
+    confidence = None if fit is None else fit.atmosphere.confidence
+    if share < NO_SKY or confidence is None or confidence >= UNSURE:
         return None
     first = "Click the sun" if sun is None else "Check the sun"
-    why = "it shows too little clear sky, or one that no atmosphere explains"
+    why = "too little clear sky is visible, or no modeled atmosphere matches it"
     return _notice(
         f"How the sky of {photo.name} changes with the sun is a guess: {why}.",
         f"{first} and the horizon, then set the haze by hand.",
         "air",
-        f"How this sky changes with the sun is a guess: {why}. See that sun and horizon are "
-        "right, then set the haze by hand.",
+        f"How this sky changes with the sun is a guess: {why}. Check the sun and the horizon, "
+        "then set the haze by hand.",
         "Pass --sun X,Y and --horizon ROW, then set the haze: --aerosol-optical-depth N.",
     )
 
@@ -211,24 +211,24 @@ def _about_horizon(
             f"The horizon of {photo.name} is a guess (row {horizon.row:.0f}).",
             "Drag it, or pass horizon=row.",
             "horizon",
-            "The horizon is a guess. Drag it to where it is.",
+            "The horizon is a guess. Drag it to its true position.",
             "Pass --horizon ROW.",
         )
     if horizon.confidence < 0.5 or _sky_below(sky, horizon, camera):
         # Thesis 5.1 and its figure: the sky is then drawn too far down, as in a sunset.
         return _notice(
             f"The horizon of {photo.name} (row {horizon.row:.0f}) may be the edge of a roof or "
-            "hill, which lies too high and makes the light that of a lower sun.",
-            "Drag it down if so, or pass horizon=row.",
+            "hill. That is too high, and gives the light of a lower sun.",
+            "If so, drag it down, or pass horizon=row.",
             "horizon",
-            "The horizon may be the edge of a roof or hill, which lies too high and makes the "
-            "light that of a lower sun. Drag it down if so.",
+            "The horizon may be the edge of a roof or hill. That is too high, and gives the light "
+            "of a lower sun. If so, drag it down.",
             "If so, pass --horizon ROW, a row further down.",
         )
     return None
 
 
-def _untold(fit: SkyFit | None) -> str:
+def _unknown(fit: SkyFit | None) -> str:
     unknown = fit is not None and fit.sun_spread >= UNKNOWN
     return ", and the photo does not show where it is" if unknown else ""
 
@@ -236,11 +236,11 @@ def _untold(fit: SkyFit | None) -> str:
 def _within(fit: SkyFit | None) -> str:
     if fit is None or fit.sun_spread >= UNKNOWN:
         return ""
-    return f" (within {fit.sun_spread:.0f}°, four times of five)"
+    return f" (within {fit.sun_spread:.0f}°, with 80 % probability)"
 
 
 def _sky_below(sky: np.ndarray, horizon: Horizon, camera: Camera) -> bool:
-    """Whether the sky reaches below the horizon by 3 % of the height in a tenth of the columns."""
+    """Return whether in a tenth of the columns the sky is 3 % of the height below the horizon."""
     if horizon.source == "hint" or not 0 < horizon.row < camera.height:
         return False
     height, width = sky.shape

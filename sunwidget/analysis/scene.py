@@ -1,6 +1,6 @@
-"""Scene: everything the analysis knows about a photo, as data.
+"""Scene: the results of the analysis of a photo, as data.
 
-``analyze.py`` makes it by the stages of ``pipeline.py``; ``correct.py`` applies strokes and hints.
+``analyze.py`` runs the stages of ``pipeline.py``; ``correct.py`` applies strokes and hints.
 """
 
 from __future__ import annotations
@@ -38,21 +38,21 @@ _DEPTH_EDGE = 2048
 
 
 class Segmentation(NamedTuple):
-    """Which pixels are sky, decided; what the stages of ``pipeline.py`` start from.
+    """The decision which pixels are sky, from which the stages of ``pipeline.py`` start.
 
     Attributes
     ----------
     photo : Photo
     working : Working
-        The small copy that the stages look at.
+        The small copy that the stages use.
     coarse_map : (h, w) float32
         The sky before refinement.
     decision : Decision
         Sky or land at working size.
     doubted : float
-        Share of the picture that was dropped from the sky as unlikely.
+        Share of the picture that was rejected as sky.
     known_depth, known_land : DepthField, LandMaps or None
-        How the land of the view lies, where other pictures of it have told.
+        Depth and relief of the view, if known from other pictures of it.
     """
 
     photo: Photo
@@ -66,7 +66,7 @@ class Segmentation(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Scene:
-    """A photo and what was found in it. Made by ``analyze``; never changes.
+    """A photo and its analysis, as ``analyze`` returns it; immutable.
 
     Attributes
     ----------
@@ -74,43 +74,43 @@ class Scene:
     sky : (H, W) float32
         Alpha matte, 1 = sky, clouds and sun included.
     coarse_map, cloud_map, softness_map, water_map : (h, w) float32
-        As they were found, of any size; ``sky_coarse``, ``clouds``, ``cloud_softness`` and
-        ``water`` are these at the photo's size.
+        Maps at any size; ``sky_coarse``, ``clouds``, ``cloud_softness`` and ``water`` are the
+        same maps at the photo's size.
     sun : SunObservation or None
-        The photo's own sun; None when it shows none and no hint gave one.
+        The photo's own sun; None if it shows none and no hint gave one.
     horizon : Horizon
     camera : Camera
     atmosphere : Atmosphere
     backdrop : (h, w, 3) float32
-        The photo without its sun, the sky gone on over the land (``backdrop.to_code``).
+        The photo without its sun, with the sky continued over the land (``backdrop.to_code``).
     glare : (h, w) float32
-        Where the backdrop replaces the photo once the sun has moved; on land the share of light
-        that goes then.
+        Weight with which the backdrop replaces the photo when the sun has moved; on land the
+        share of light that is removed then.
     assumed_sun : (azimuth, elevation)
-        Degrees; where the sun, or the moon that lights a night, is while ``sun`` is None.
+        Degrees; position of the sun, or of the moon that lights a night, if ``sun`` is None.
     response : dict
         Further uniforms from the fit: camera response, gain and glare.
     warnings : tuple of str
-        What a person should know; each says what to do.
+        Notices for the user; each says what to do.
     hints : Hints
-        What it was analysed with.
+        Hints of the analysis.
     timings : dict
         Seconds of each stage.
     doubted : float
-        Share of the picture that was dropped from the sky as unlikely.
+        Share of the picture that was rejected as sky.
     moon : (x, y) or None
-        Where a disc in a night sky was taken for the moon, in fractions of the picture; it
-        lights the picture in the sun's stead (``Edit.light_source``).
+        Position of a disc in a night sky that was detected as the moon, in fractions of the
+        picture; it lights the picture instead of the sun (``Edit.light_source``).
     everywhere : Clouds
-        The clouds at working size as if all of the picture were sky: for strokes that say so.
+        The clouds at working size as if the whole picture were sky, for sky strokes.
     unstroked : Scene or None
-        The scene that the strokes of ``hints`` were drawn on; None without strokes.
+        The scene before the strokes of ``hints``; None without strokes.
     erased : Erased or None
-        The small photo without its sun; None before it was looked for.
+        The small photo without its sun; None before the sun was removed.
     known_depth : DepthField or None
-        The depth of the same view, found on other pictures of it (timelapses/fixed_camera.py).
+        Depth of the same view from other pictures of it (timelapses/fixed_camera.py).
     known_land : LandMaps or None
-        How the land of the same view lies, alike.
+        Relief of the same view, likewise.
     """
 
     photo: Photo
@@ -148,47 +148,47 @@ class Scene:
 
     @property
     def segmentation(self) -> Segmentation:
-        """What the stages after the decision sky or land start from."""
+        """The fields from which the stages after segmentation start."""
         return Segmentation(**{name: getattr(self, name) for name in Segmentation._fields})
 
     @property
     def width(self) -> int:
-        """Columns of the photo."""
+        """Width of the photo in pixels."""
         return self.camera.width
 
     @property
     def height(self) -> int:
-        """Rows of the photo."""
+        """Height of the photo in pixels."""
         return self.camera.height
 
     @property
     def sky_coarse(self) -> np.ndarray:
-        """The network's map before refinement: (H, W) float32, made when asked for."""
+        """The network's map before refinement: (H, W) float32, computed on access."""
         return resize_rows(self.coarse_map, self.width, self.height)
 
     @property
     def clouds(self) -> np.ndarray:
-        """Opacity of the clouds: (H, W) float32 in [0, 1], made when asked for."""
+        """Opacity of the clouds: (H, W) float32 in [0, 1], computed on access."""
         return resize_rows(self.cloud_map, self.width, self.height)
 
     @property
     def cloud_softness(self) -> np.ndarray:
-        """The thesis' C^s: (H, W) float32 in [0, 1], made when asked for."""
+        """The thesis' C^s: (H, W) float32 in [0, 1], computed on access."""
         return resize_rows(self.softness_map, self.width, self.height)
 
     @property
     def water(self) -> np.ndarray:
-        """Share of water in a pixel, none of it in the sky: (H, W) float32, made when asked for."""
+        """Share of water in a pixel, 0 in the sky: (H, W) float32, computed on access."""
         return self.water_at((self.width, self.height))
 
     def water_at(self, size: tuple[int, int], rows: slice = slice(None)) -> np.ndarray:
-        """Return ``water`` at another ``size`` (width, height), or some of its ``rows`` alone."""
+        """Return ``water`` at another ``size`` (width, height), or only some of its ``rows``."""
         sky = resize_rows(self.sky, *size, rows)
         return np.minimum(resize_rows(self.water_map, *size, rows), 1 - sky)
 
     @cached_property
     def small_sky(self) -> np.ndarray:
-        """``sky`` at working size, (h, w) float32: many stages and the page ask for it."""
+        """``sky`` at working size, (h, w) float32; cached, since many stages use it."""
         return resize(self.sky, self.working.width, self.working.height)
 
     @property
@@ -199,44 +199,44 @@ class Scene:
 
     @property
     def without_sun(self) -> Erased:
-        """The small photo without its sun, the photo itself where it shows none."""
+        """The small photo without its sun, or the photo itself if it shows none."""
         return self.erased or unerased(self.working)
 
     @property
     def lit_by_moon(self) -> bool:
-        """Whether the photo's own light is the moon's: of a moon found, or pointed at as a sun."""
+        """Whether the moon lights the photo: a detected one, or one hinted as the sun."""
         return self.moon is not None or (self.sun is not None and self.sun.kind == "moon")
 
     @cached_property
     def sureness(self) -> np.ndarray:
-        """How sure it is that each pixel is sky or is land: (H, W) float32 in (0, 1]."""
+        """Confidence of the decision sky or land in each pixel: (H, W) float32 in (0, 1]."""
         return resize(self.decision.sureness, self.width, self.height)
 
     @cached_property
     def land(self) -> LandMaps:
-        """What the network sees of the land; asked when it is first needed.
+        """The network's maps of the land, computed on first access.
 
-        Of a depth that somebody told, slopes are that depth's.
+        With a given depth, the slopes follow that depth.
         """
         maps = look_at_land(self.working)
         if self.known_land is not None:
-            # The network sees whether the sun shines; how the land lies is known better.
+            # Sunlight comes from this photo; the relief is known better from the others.
             maps = self.known_land._replace(sunlit=maps.sunlit, facing=maps.facing)
         if self.hints.depth is not None:
             size = self.working.width, self.working.height
-            told = self.depth_field.log_metres(*size, self.working)
+            given = self.depth_field.log_metres(*size, self.working)
             sun = self.automatic["sun_azimuth"], self.automatic["sun_elevation"]
-            maps = relief.told_by_depth(maps, told, self.camera, sun)
+            maps = relief.with_given_depth(maps, given, self.camera, sun)
         return relief.on_land(maps, self.small_sky)
 
     @property
     def relief(self) -> np.ndarray:
-        """How the land lies and what light reaches it, (h, w, 4) float32 (depth/relief.py)."""
+        """Normals of the land and the sunlight on it, (h, w, 4) float32 (depth/relief.py)."""
         return relief.encoded(self.land, self.working)
 
     @property
     def transfer(self) -> np.ndarray:
-        """What of any sun's light falls on the land, (3 h, w, 4) float32 (depth/relief.py)."""
+        """Transfer of any sun's light to the land, (3 h, w, 4) float32 (depth/relief.py)."""
         return relief.encoded_transfer(self.land)
 
     @cached_property
@@ -254,30 +254,30 @@ class Scene:
 
     @cached_property
     def lamps(self) -> np.ndarray:
-        """Light behind the panes of windows, (h, w, 4) float32 (analysis/windows/panes.py)."""
+        """Light behind window panes, (h, w, 4) float32 (analysis/windows/panes.py)."""
         return panes.lamps(self._windows)
 
     @cached_property
     def depth(self) -> np.ndarray:
-        """Metres along the optical axis, inf for the sky: (H, W) float32; found when asked for.
+        """Metres along the optical axis, inf for the sky: (H, W) float32; computed on access.
 
-        Right up to one scale at best: the eye is taken to be 1.7 m above the ground.
+        Correct up to one scale at best: the camera is assumed 1.7 m above the ground.
         """
         metres = np.exp(self.log_depth(self.width, self.height))
         return np.where(self.sky > 0.5, np.float32(np.inf), metres)
 
     @cached_property
     def depth_confidence(self) -> np.ndarray:
-        """How well the depth is known but for its scale: (H, W) float32 in [0, 1], 1 in the sky.
+        """Confidence of the depth, apart from its scale: (H, W) float32 in [0, 1], 1 in the sky.
 
-        1 / (1 + (2 σ)²) with the standard error σ of ln depth.
+        It is 1 / (1 + (2 σ)²) with the standard error σ of ln depth.
         """
         found = resize(self.depth_field.confidence, self.width, self.height)
         return np.where(self.sky > 0.5, np.float32(1), found)
 
     @cached_property
     def depth_field(self) -> DepthField:
-        """The depth at any size (analysis/depth/field.py); found when asked for."""
+        """The depth at any size (analysis/depth/field.py); computed on first access."""
         if self.known_depth is not None:
             return self.known_depth
         seen = self.working, self.small_sky, self.small_water
@@ -285,8 +285,8 @@ class Scene:
         return find_depth(view, self.hints.depth, self.hints.method("depth"))
 
     def log_depth(self, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
-        """Return ln(metres), (``height``, ``width``) or ``rows`` of it; sky as its nearest land."""
-        # Beyond a preview's size depth has nothing finer to show.
+        """Return ln(metres), (height, width) or some ``rows``; in the sky that of nearest land."""
+        # Depth has no detail beyond the size of a preview.
         size = size_within((width, height), _DEPTH_EDGE)
         if size not in self._log_depths:
             metres = self.depth_field.log_metres(*size, self.working)
@@ -297,23 +297,23 @@ class Scene:
 
     @cached_property
     def _log_depths(self) -> dict[tuple[int, int], np.ndarray]:
-        return {}  # the last one by its size: strips of a large picture ask again and again
+        return {}  # the last map by its size: all strips of a large picture use it
 
     @cached_property
     def shown(self) -> refine.Decision:
-        """Sky or land at working size as the matte shows it: what strokes begin with."""
+        """Sky or land at working size according to the matte, from which strokes start."""
         width, height = self.working.width, self.working.height
         sky = self.small_sky > 0.5
         decided = resize(self.decision.sky, width, height) > 0.5
-        # Where a later stage overruled the decision nothing tells how sure it is.
+        # Where a later stage overruled the decision, its confidence is unknown.
         sureness = np.where(sky == decided, resize(self.decision.sureness, width, height), 0.5)
         return refine.Decision(sky.astype(np.float32), sureness.astype(np.float32))
 
     @property
     def cloud_shade(self) -> np.ndarray:
-        """Light of the clouds in units of a white cloud's: (H, W) float32, 0 to 1.5.
+        """Light of the clouds relative to a white cloud: (H, W) float32, 0 to 1.5.
 
-        Only method "unmix" tells it; by another it is 1.
+        Only the method "unmix" finds it; other methods give 1.
         """
         if self.shade is None:
             return np.ones((self.height, self.width), np.float32)
@@ -321,22 +321,22 @@ class Scene:
 
     @property
     def sun_confidence(self) -> float:
-        """How likely the sun is where it is taken to be, [0, 1]: 1 where it is told."""
+        """Probability that the assumed position of the sun is right, [0, 1]; 1 for a hint."""
         if self.sun is not None:
             return self.sun.confidence
         return 1.0 if self.fitted is None else self.fitted.sun_confidence
 
     @property
     def sun_spread(self) -> float:
-        """Degrees within which an unseen sun lies of where it is put, four times of five.
+        """Angle in degrees between the true and the assumed unseen sun, with 80 % probability.
 
-        0 where it is seen or told.
+        0 for a sun that is visible or hinted.
         """
         return 0.0 if self.sun is not None or self.fitted is None else self.fitted.sun_spread
 
     @property
     def automatic(self) -> dict[str, float]:
-        """The value that each automatic parameter of ``Edit`` takes in this photo."""
+        """The values of the automatic parameters of ``Edit`` in this photo."""
         azimuth, elevation = (
             self.assumed_sun if self.sun is None else (self.sun.azimuth, self.sun.elevation)
         )
@@ -350,17 +350,17 @@ class Scene:
 
 
 def checked_scene(scene: Any) -> Scene:
-    """Return what ``analyze`` returned; raises AnalysisError for a photo, a path or any other."""
+    """Return ``scene`` if it is a Scene; raises AnalysisError for a photo, a path or others."""
     if not hasattr(scene, "automatic"):
         raise AnalysisError(
-            f"A Scene is needed here, not {type(scene).__name__}: scene = sw.analyze(photo)."
+            f"Expected a Scene, not {type(scene).__name__}. Make one: scene = sw.analyze(photo)."
         )
     found: Scene = scene
     return found
 
 
 def _described(scene: Scene) -> str:
-    """Return the photo, where sun, horizon and camera are, and what shares of it are what."""
+    """Return a summary: photo, sun, horizon, camera, and the shares of sky, clouds and water."""
     return (
         f"<Scene of {scene.photo.name!r}, {scene.width}×{scene.height}\n"
         f" {_sun(scene)}; horizon in row {scene.horizon.row:.0f}; "
@@ -374,7 +374,7 @@ def _sun(scene: Scene) -> str:
     body = "moon" if scene.lit_by_moon else "sun"
     how = "assumed" if scene.sun is None and scene.moon is None else "seen"
     if scene.sun is not None and scene.sun.source == "hint":
-        how = "told"
+        how = "hint"
     return f"{body} at azimuth {azimuth:.1f}°, elevation {elevation:.1f}° ({how})"
 
 

@@ -1,1 +1,1 @@
-"""The physics of the clear sky in NumPy: constants, optics, reference sky, sun."""
+"""Physics of the clear sky in NumPy: constants, optics, reference sky, sun."""

@@ -18,8 +18,8 @@ Array = NDArray[np.float64]
 def spectral_to_rec709(radiance: ArrayLike) -> Array:
     """Return linear Rec. 709 in kcd m⁻² from radiance at the shaders' four wavelengths.
 
-    ``radiance`` is (..., 4) in W m⁻² sr⁻¹ nm⁻¹; irradiance gives klx. Channels of colours
-    outside the gamut are negative.
+    ``radiance`` is (..., 4) in W m⁻² sr⁻¹ nm⁻¹; irradiance gives klx. Colors outside the gamut
+    have negative channels.
     """
     return np.asarray(radiance, float) @ SPECTRAL_TO_REC709.T
 
@@ -32,7 +32,7 @@ def spectral_to_xyz(radiance: ArrayLike) -> Array:
 def spectrum_to_xyz(wavelengths: ArrayLike, radiance: ArrayLike) -> Array:
     """Return CIE 1931 XYZ in kcd m⁻² from a spectrum (..., n) at ``wavelengths`` (n,) in nm.
 
-    Trapezoids over the wavelengths given, which should cover 380-780 nm in steps of 10 or less.
+    Uses the trapezoidal rule; the wavelengths should cover 380-780 nm in steps of 10 or less.
     """
     nm = np.asarray(wavelengths, float)
     weights = colour_matching(nm) * np.gradient(nm)[:, None]

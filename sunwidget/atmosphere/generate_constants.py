@@ -1,8 +1,8 @@
-"""Write the constants of both hosts: ``constants.json``, ``constants.glsl``, ``spectrum.glsl``.
+"""Write the constants for both hosts: ``constants.json``, ``constants.glsl``, ``spectrum.glsl``.
 
-Run ``python -m sunwidget.atmosphere.generate_constants`` after changing anything here; it needs
+Run ``python -m sunwidget.atmosphere.generate_constants`` after any change here. It needs
 colour-science (CIE 1931 2° observer) and pvlib (ASTM G-173 spectrum; ozone of Bird & Riordan
-1984), which the package itself does not. Only the small results are committed.
+1984), which the package itself does not need. Only the small results are committed.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ TOP_RADIUS = 6_460_000.0
 RAYLEIGH_SCALE_HEIGHT = 8_430.0
 # Slope of Bodhaine's coefficients between 440 and 680 nm, 4.086, to a slider's step.
 RAYLEIGH_EXPONENT = 4.09
-# One exponential of 8.43 km has the right column and is five times too dense at 80 km, where
-# deep twilight comes from. Above 40 km (0.9 % of the column) it falls as the mesosphere does.
+# A single exponential of 8.43 km has the right column but is five times too dense at 80 km, the
+# origin of deep twilight. Above 40 km (0.9 % of the column) density falls as in the mesosphere.
 MESOSPHERE_ALTITUDE = 40_000.0
 MESOSPHERE_SCALE_HEIGHT = 6_500.0
 MIE_SCALE_HEIGHT = 1_200.0
@@ -54,7 +54,7 @@ XYZ_TO_REC709 = np.array(
 
 
 def solar_irradiance(at: Array) -> Array:
-    """Extraterrestrial irradiance (ASTM G-173-03) averaged over ±5 nm, W m⁻² nm⁻¹."""
+    """Return the extraterrestrial irradiance (ASTM G-173-03), averaged over ±5 nm, W m⁻² nm⁻¹."""
     from pvlib.spectrum import get_reference_spectra
 
     spectrum = get_reference_spectra(standard="ASTM G173-03")["extraterrestrial"]
@@ -65,7 +65,7 @@ def solar_irradiance(at: Array) -> Array:
 
 
 def solar_irradiance_1nm(at: Array) -> Array:
-    """Extraterrestrial irradiance (ASTM G-173-03) without smoothing, W m⁻² nm⁻¹."""
+    """Return the extraterrestrial irradiance (ASTM G-173-03) without smoothing, W m⁻² nm⁻¹."""
     from pvlib.spectrum import get_reference_spectra
 
     spectrum = get_reference_spectra(standard="ASTM G173-03")["extraterrestrial"]
@@ -73,7 +73,7 @@ def solar_irradiance_1nm(at: Array) -> Array:
 
 
 def ozone_cross_section(at: Array) -> Array:
-    """Ozone absorption per molecule in m², from Bird & Riordan (NREL TR-215-2436, 1984).
+    """Return the ozone absorption per molecule in m² (Bird & Riordan, NREL TR-215-2436, 1984).
 
     Their table (public domain, in pvlib as the coefficients of ``spectrl2``) gives base-e
     coefficients per atm-cm; 1 atm-cm = 1000 DU. It is zero at and below 440 nm, where the true
@@ -86,7 +86,7 @@ def ozone_cross_section(at: Array) -> Array:
 
 
 def colour_matching(at: Array) -> Array:
-    """CIE 1931 2° colour-matching functions, (n, 3)."""
+    """Return the CIE 1931 2° color-matching functions, (n, 3)."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         import colour
@@ -98,10 +98,10 @@ def colour_matching(at: Array) -> Array:
 
 
 def training_spectra(at: Array) -> Array:
-    """Smooth shares of sunlight as skies and suns show them, (n, wavelengths).
+    """Return smooth spectra of skies and suns, relative to sunlight, (n, wavelengths).
 
-    Scattering spectra (white, aerosol, Rayleigh, twice scattered) seen through every
-    combination of air, aerosol and ozone that a sun from zenith to twilight meets.
+    They are scattering spectra (white, aerosol, Rayleigh, twice scattered) through every
+    combination of air, aerosol and ozone between the sun at the zenith and in twilight.
     """
     rayleigh = rayleigh_coefficient(at) * RAYLEIGH_SCALE_HEIGHT
     ozone = ozone_cross_section(at) * MOLECULES_PER_DOBSON
@@ -123,10 +123,10 @@ def training_spectra(at: Array) -> Array:
 
 
 def spectral_to_xyz(solar: Array) -> Array:
-    """3×4 matrix from radiance at the four wavelengths to XYZ in kcd m⁻² (Y = luminance).
+    """Return the 3×4 matrix from radiance at the four wavelengths to XYZ in kcd m⁻².
 
-    Least squares over ``training_spectra``, each weighted by 1/Y, so that chromaticity counts
-    alike in bright and dark skies.
+    Y is luminance. Least squares over ``training_spectra``, each weighted by 1/Y, so that bright
+    and dark skies have the same weight.
     """
     nm = np.arange(360.0, 831.0, 1.0)
     weights = solar_irradiance_1nm(nm)[:, None] * colour_matching(nm)
@@ -139,7 +139,7 @@ def spectral_to_xyz(solar: Array) -> Array:
 
 
 def constants() -> dict[str, Any]:
-    """Everything that both hosts need, as plain JSON types."""
+    """Return all constants of both hosts as plain JSON types."""
     solar = solar_irradiance(WAVELENGTHS)
     to_xyz = spectral_to_xyz(solar)
     rounded = {
@@ -229,7 +229,7 @@ def glsl(c: dict[str, Any]) -> str:
 
 
 def spectrum_glsl(c: dict[str, Any]) -> str:
-    """Return the text of ``atmosphere/spectrum.glsl``: what the curves need at any wavelength."""
+    """Return the text of ``atmosphere/spectrum.glsl``: coefficients at any wavelength."""
     nm = np.array(c["table"]["wavelength_nm"])
     seen = (nm >= 380) & (nm <= 780)
     # Per Dobson unit, as in constants.glsl: cross-sections per molecule leave a float's range.
@@ -274,7 +274,7 @@ const mat4x3 kSpectralToXyz = mat4x3(
 
 
 def limb_darkening_exponents(wavelength_nm: Array) -> Array:
-    """Exponent a of the disc's profile μ^a: 0.397, 0.503, 0.652 at 680, 550, 440 nm."""
+    """Return the exponent a of the disc's profile μ^a: 0.397, 0.503, 0.652 at 680, 550, 440 nm."""
     return np.interp(wavelength_nm, [440.0, 550.0, 680.0], [0.652, 0.503, 0.397])
 
 

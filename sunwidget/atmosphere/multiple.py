@@ -1,9 +1,9 @@
 """The field of scattered light around a point, as moments: twin of ``atmosphere/multiple.glsl``.
 
-Hillaire 2020 keeps its mean only and scatters it evenly. Moments up to second order are all that
-Rayleigh's phase function can see and most of what a haze does: the first two orders of scattering
-are drawn with them, the rest is a geometric series of even scattering. Axes in ``einsum``:
-h altitude, s sun, m zenith angle, a azimuth, t step, k moment, w wavelength.
+Hillaire 2020 keeps only the field's mean and scatters it evenly. Rayleigh's phase function depends
+only on moments up to second order, a haze's mostly. The first two orders of scattering use them;
+the rest is a geometric series of even scattering. Axes in ``einsum``: h altitude, s sun, m zenith
+angle, a azimuth, t step, k moment, w wavelength.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ _AIRS_KEPT = 4
 class Quality:
     """Sample counts: the table's suns and altitudes, its directions and steps, the view's steps.
 
-    ``zeniths`` is even: half of them look up. ``groups`` of ``group_steps`` steps share one
-    look-up of the field.
+    ``zeniths`` is even: half of the rays go up. Each of ``groups`` groups of ``group_steps`` steps
+    shares one look-up of the field.
     """
 
     suns: int = 40
@@ -55,16 +55,16 @@ FAST = Quality(altitudes=12, steps=12, second_azimuths=3, second_steps=6, groups
 
 
 class Window(NamedTuple):
-    """First and last sun, by index, that a table holds of the whole range."""
+    """Indices of the first and last sun of the whole range that a table holds."""
 
     first: int
     last: int
 
 
 def window_for(sun_elevation: Array, quality: Quality) -> Window:
-    """Return the suns that sky views under ``sun_elevation`` (radians) can ask for.
+    """Return the suns that views of the sky under ``sun_elevation`` (radians) can need.
 
-    The zenith turns by up to 10° along the longest ray through the air.
+    Along the longest ray through the air, the zenith turns by up to 10°.
     """
     margin = np.radians(12)
     low = np.sin(np.maximum(sun_elevation.min() - margin, -np.pi / 2))
@@ -75,7 +75,7 @@ def window_for(sun_elevation: Array, quality: Quality) -> Window:
 
 
 def sun_coordinate(mu_s: Array) -> Array:
-    """Map the cosine of the sun's zenith angle to [0, 1], dense at the terminator and below."""
+    """Map the cosine of the sun's zenith angle to [0, 1], densest at the terminator and below."""
     night = NIGHT_SHARE * (1 - np.clip(mu_s / NIGHT_COSINE, 0, 1) ** (2 / 3))
     day = NIGHT_SHARE + (1 - NIGHT_SHARE) * np.sqrt(np.maximum(mu_s, 0))
     return np.where(mu_s < 0, night, day)
@@ -90,22 +90,25 @@ def suns_of(quality: Quality, window: Window) -> Array:
 
 
 def twilight(mu_s: Array, heights: ScaleHeights = STANDARD_HEIGHTS) -> Array:
-    """Return a rough guess of how the light falls once the sun is down (a factor e each degree).
+    """Return a rough guess of how the light falls after sunset (a factor e per degree).
 
-    What is interpolated is the light over this guess.
+    Interpolation applies to the light divided by this guess.
     """
     scale = TWILIGHT_SCALE_HEIGHT * (heights.air / RAYLEIGH_SCALE_HEIGHT)
     return np.asarray(np.exp(-0.5 * GROUND_RADIUS / scale * np.minimum(mu_s, 0) ** 2))
 
 
 def sun_cosine(h: Array | float, mu_s: Array, nu: Array, t: Array, h_t: Array | float) -> Array:
-    """Cosine of the sun's zenith angle at distance ``t`` along a ray that starts at ``h``."""
+    """Return the cosine of the sun's zenith angle at distance ``t`` along a ray from ``h``."""
     ahead = (GROUND_RADIUS + np.asarray(h)) * mu_s + t * nu
     return np.clip(ahead / (GROUND_RADIUS + np.asarray(h_t)), -1, 1)
 
 
 def sun_share(h: Array | float, mu_s: Array) -> Array:
-    """Share of the sun's disc above the horizon, the shaders' smooth step (within 0.02)."""
+    """Return the share of the sun's disc above the horizon, by smoothstep as in the shaders.
+
+    The error is within 0.02.
+    """
     x = np.clip((mu_s - optics.cosine_of_horizon(h)) / optics.SUN_ANGULAR_RADIUS, -1, 1)
     x = 0.5 * (x + 1)
     return np.asarray(x * x * (3 - 2 * x))
@@ -136,7 +139,7 @@ def light_field(
 ) -> Field:
     """Return the field of scattered light for ``extinction`` (3, wavelengths).
 
-    Of all orders, or of 1 to ``orders`` - 1, which a sky of ``orders`` is made from.
+    It has all orders, or orders 1 to ``orders`` - 1, which the view ray scatters once more.
     """
     chunks = range(0, extinction.shape[1], _WAVELENGTHS_AT_ONCE)
     parts = [
@@ -147,7 +150,7 @@ def light_field(
 
 
 def scattering(a: Atmosphere, extinction: Array, density: Array) -> tuple[Array, Array, Array]:
-    """Scattering of air and of aerosol, and total extinction, in 1/m, shape (..., w)."""
+    """Return the scattering of air and of aerosol, and total extinction, in 1/m, (..., w)."""
     rayleigh = density[..., :1] * extinction[0]
     mie = density[..., 1:2] * extinction[1]
     total = rayleigh + mie + density[..., 2:] * extinction[2]
@@ -155,7 +158,7 @@ def scattering(a: Atmosphere, extinction: Array, density: Array) -> tuple[Array,
 
 
 def attenuate(total: Array, dt: Array) -> tuple[Array, Array]:
-    """Integrate transmittance over each step of rays (..., t, w); and what passes all of them."""
+    """Integrate transmittance over each step of rays (..., t, w); return also the total."""
     depth = total * dt[..., None]
     before = np.cumsum(depth, axis=-2) - depth
     return np.exp(-before) * -np.expm1(-depth) / np.maximum(total, 1e-30), np.exp(
@@ -174,11 +177,11 @@ def mie_moments(asymmetry: float) -> tuple[float, float, float]:
 
 
 def lobe(nu: Array, asymmetry: float) -> Array:
-    """Return what a second pass through haze leaves of the sun's lobe beyond its second moment.
+    """Return the sun's lobe after a second scattering in haze, beyond its second moment.
 
-    A lobe of moments χ_l, scattered again, has χ_l²; it is drawn as the Henyey–Greenstein
-    function of the same third moment, less its own first three terms, per unit of the field's
-    third moment.
+    A lobe of moments χ_l has moments χ_l² after a second scattering. It is approximated by the
+    Henyey–Greenstein function of the same third moment, minus that function's first three terms,
+    per unit of the field's third moment.
     """
     third = mie_moments(asymmetry)[2]
     g = np.cbrt(third * third)
@@ -190,10 +193,10 @@ def lobe(nu: Array, asymmetry: float) -> Array:
 def scatter_field(
     moments: Array, x: Array, z: Array, nu: Array, asymmetry: float
 ) -> tuple[Array, Array]:
-    """Return what air and aerosol send on of the field to a viewer who looks along (x, z).
+    """Return the light of the field that air and aerosol scatter towards the viewer.
 
-    ``moments`` is (..., 7, w), ``x`` and ``z`` the view's components towards the sun and the
-    zenith, ``nu`` its cosine with the sun; two arrays (..., w), for scattering coefficients of one.
+    ``moments`` is (..., 7, w), ``x`` and ``z`` are the view's components towards the sun and the
+    zenith, ``nu`` its cosine with the sun. Returns two arrays (..., w), per unit scattering.
     """
     x, z = x[..., None], z[..., None]
     y2 = np.maximum(1 - x * x - z * z, 0)
@@ -207,19 +210,19 @@ def scatter_field(
 
 
 def field_irradiance(moments: Array) -> Array:
-    """Irradiance of the field (..., 7, w) on level ground."""
+    """Return the irradiance of the field (..., 7, w) on level ground."""
     series = moments[..., 0, :] + 2 * moments[..., 2, :] + 1.875 * moments[..., 4, :]
     return np.asarray(np.pi * np.maximum(series, 0))
 
 
 def direction_in_field(mu: Array, mu_s: Array, nu: Array) -> tuple[Array, Array]:
-    """Components towards the sun's azimuth and the zenith of a view with cosines mu and nu."""
+    """Return the components towards the sun's azimuth and the zenith of a view (mu, nu)."""
     x = (nu - mu * mu_s) / np.sqrt(np.maximum(1 - mu_s**2, 1e-8))
     return np.clip(x, -1, 1), mu
 
 
 class _Rays:
-    """Directions from every altitude under every sun: all that only scale heights change."""
+    """Directions from every altitude under every sun; depends on the air's scale heights only."""
 
     def __init__(
         self, quality: Quality, window: Window, heights: ScaleHeights, azimuths: int, steps: int
@@ -266,16 +269,16 @@ class _Rays:
 
     @cached_property
     def sun_on_ground(self) -> tuple[Array, Array]:
-        """The same where rays meet the ground; the share times the cosine of incidence."""
+        """The same where rays meet the ground; the share is times the cosine of incidence."""
         low = np.zeros_like(self.mu_s_ground)
         share = sun_share(low, self.mu_s_ground) * np.maximum(self.mu_s_ground, 0)
         return optics.columns_to_top(low, self.mu_s_ground, self.heights), share
 
     def once_scattered(self, a: Atmosphere, extinction: Array) -> tuple[Array, Array, Array]:
-        """Return sunlight that air, haze and ground send on, (h, s, m, a, w) each.
+        """Return sunlight scattered once by air, haze and ground, (h, s, m, a, w) each.
 
-        Air's and haze's before their phase functions: a fit tries several with the same air, so
-        that the last few are kept.
+        Air and haze are without their phase functions. The last few results are kept, since a
+        fit tries several phase functions with the same air.
         """
         key = (a.aerosol_albedo, a.ground_albedo, extinction.tobytes())
         found = self._kept.get(key)
@@ -299,14 +302,14 @@ class _Rays:
         return by_air, by_haze, np.einsum("hmw,hsmaw->hsmaw", albedo, reflected)
 
     def moments_of(self, radiance: Array) -> Array:
-        """Moments (h, s, k, w) of a radiance (h, s, m, a, w)."""
+        """Return the moments (h, s, k, w) of a radiance (h, s, m, a, w)."""
         low = np.einsum("kma,m,hsmaw->hskw", self.basis, self.weight, radiance, optimize=True)
         third = 0.5 * self.nu * (5 * self.nu**2 - 3)
         lobe = np.einsum("sma,m,hsmaw->hsw", third, self.weight, radiance, optimize=True)
         return np.concatenate([low, lobe[:, :, None]], axis=2)
 
 
-# Two entries more than a window's and its neighbours': those of the eigenvalue's high suns.
+# Entries for a window and its neighbors, plus two for the high suns of the eigenvalue.
 _rays = lru_cache(maxsize=10)(_Rays)
 
 
@@ -316,11 +319,11 @@ def _moments(
     first, second, transfer = _drawn_orders(a, extinction, quality, window, orders)
     if orders == 2:
         return first
-    # From one order to the next light spreads, until all of it falls by the same factor: the
-    # largest eigenvalue of scattering, see shaders/atmosphere/multiple_scattering.glsl.
+    # Light spreads from order to order, until each order falls by the same factor: the largest
+    # eigenvalue of scattering, see shaders/atmosphere/multiple_scattering.glsl.
     eigenvalue = np.minimum(_eigenvalue(a, extinction, quality), 0.95)
     third = second[:, :, :1] * np.sqrt(_gain(first, second) * eigenvalue)
-    # What the series leaves out after its first n - 3 terms: nothing when it goes on for ever.
+    # The share of the series after its first n - 3 terms; zero for the infinite series.
     omitted = 0.0 if orders == 0 else eigenvalue ** (orders - 3)
     shape = transfer / np.maximum(transfer[:, :1], 1e-30)
     total = first + second
@@ -331,8 +334,8 @@ def _moments(
 def _eigenvalue(a: Atmosphere, extinction: Array, quality: Quality) -> Array:
     """Return the factor (w,) by which late orders fall.
 
-    It is the geometric mean of the share of an even light that comes back after one more
-    scattering and of what the second order has of the first, 3 km up under a high sun.
+    It is the geometric mean of two shares, 3 km up under a high sun: that of even light that
+    returns after one more scattering, and that of the second order in the first.
     """
     high_suns = Window(quality.suns - 2, quality.suns - 1)
     first, second, transfer = _drawn_orders(a, extinction, quality, high_suns)
@@ -341,16 +344,16 @@ def _eigenvalue(a: Atmosphere, extinction: Array, quality: Quality) -> Array:
 
 
 def _gain(first: Array, second: Array) -> Array:
-    """Return what the second order has of the first, in the mean."""
+    """Return the mean of the second order relative to that of the first."""
     return np.minimum(second[:, :, :1] / np.maximum(first[:, :, :1], 1e-30), 1.0)
 
 
 def _drawn_orders(
     a: Atmosphere, extinction: Array, quality: Quality, window: Window, orders: int = 0
 ) -> tuple[Array, Array, Array]:
-    """Moments of the first two orders (h, s, k, w), and (h, k, w) of an even light scattered once.
+    """Return moments of two orders (h, s, k, w), and (h, k, w) of even light scattered once.
 
-    The second order and the transfer stay empty where ``orders`` is 2.
+    The second order and the transfer stay empty if ``orders`` is 2.
     """
     rays = _rays(quality, window, a.heights, quality.azimuths, quality.steps)
     first = rays.moments_of(_first_order(a, extinction, rays))
@@ -375,7 +378,7 @@ def _drawn_orders(
 
 
 def _first_order(a: Atmosphere, extinction: Array, rays: _Rays) -> Array:
-    """Once-scattered radiance in every direction, shape (h, s, m, a, w)."""
+    """Return the once-scattered radiance in every direction, shape (h, s, m, a, w)."""
     by_air, by_haze, by_ground = rays.once_scattered(a, extinction)
     radiance = optics.rayleigh_phase(rays.nu)[..., None] * by_air
     radiance += _mean_mie_phase(rays, a.aerosol_asymmetry)[..., None] * by_haze
@@ -383,7 +386,7 @@ def _first_order(a: Atmosphere, extinction: Array, rays: _Rays) -> Array:
 
 
 def _mean_mie_phase(rays: _Rays, asymmetry: float) -> Array:
-    """Aerosol's phase function, averaged over the cell of directions that each node stands for."""
+    """Return the aerosol's phase function, averaged over the cell of directions of each node."""
     azimuths = rays.nu.shape[2]
     part = (np.arange(_LOBE_SAMPLES) + 0.5) / _LOBE_SAMPLES
     mu = rays.edges[:-1, None] + np.diff(rays.edges)[:, None] * part

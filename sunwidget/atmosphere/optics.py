@@ -1,7 +1,7 @@
-"""Geometry, densities, phase functions, columns, transmittance; as ``atmosphere/atmosphere.glsl``.
+"""Geometry, densities, phase functions, columns, transmittance; twin of ``atmosphere.glsl``.
 
-Lengths are metres, ``h`` an altitude above the ground, ``mu`` the cosine of a ray's zenith angle,
-``nu`` that of the angle between ray and sun. Everything broadcasts and is float64.
+Lengths are metres, ``h`` is an altitude above the ground, ``mu`` the cosine of a ray's zenith
+angle, ``nu`` that of the angle between ray and sun. All functions broadcast and use float64.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def cosine_of_horizon(h: ArrayLike) -> Array:
 
 
 def distance_to_boundary(h: ArrayLike, mu: ArrayLike) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the distance to what a ray meets, ground or top, and whether it is the ground."""
+    """Return the distance to the ground or the top, and whether the ray meets the ground."""
     h, mu = np.broadcast_arrays(np.asarray(h, float), np.asarray(mu, float))
     r_mu = (GROUND_RADIUS + h) * mu
     q = h * (2 * GROUND_RADIUS + h)
@@ -85,7 +85,7 @@ def distance_to_boundary(h: ArrayLike, mu: ArrayLike) -> tuple[Array, NDArray[np
 
 
 def visible_fraction(above: ArrayLike) -> Array:
-    """Return the share of the sun's disc above the horizon; its centre is ``above`` it, radians."""
+    """Return the share of the sun's disc above the horizon; its center is ``above`` it, radians."""
     x = np.clip(np.asarray(above, float) / SUN_ANGULAR_RADIUS, -1, 1)
     return np.asarray(0.5 + (x * np.sqrt(1 - x * x) + np.arcsin(x)) / np.pi)
 
@@ -95,7 +95,7 @@ def density(h: ArrayLike, heights: ScaleHeights = STANDARD_HEIGHTS) -> Array:
     h = np.asarray(h, float)
     low, peak, high = OZONE_LAYER
     ozone = np.maximum(0, np.minimum((h - low) / (peak - low), (high - h) / (high - peak)))
-    # Where the air thins faster its scale height keeps its share of the one below.
+    # The mesosphere's scale height changes in proportion to the one below.
     thin = RAYLEIGH_SCALE_HEIGHT / MESOSPHERE_SCALE_HEIGHT - 1
     air = np.exp(-(h + np.maximum(h - MESOSPHERE_ALTITUDE, 0) * thin) / heights.air)
     return np.stack([air, np.exp(-h / heights.aerosol), ozone], axis=-1)
@@ -124,8 +124,8 @@ def integrate_columns(
 ) -> Array:
     """Return path lengths of air, aerosol and ozone to the top in metres, shape (..., 3).
 
-    Steps of t = d u², which crowd where the air is dense, at the mean of u² over each: that
-    takes away the midpoint rule's error of the dense end (first term of Euler and Maclaurin).
+    Steps are t = d u², densest where the air is dense, sampled at the mean of u² over each step.
+    That removes the midpoint rule's error at the dense end (first Euler–Maclaurin term).
     """
     h, mu = np.broadcast_arrays(np.asarray(h, float), np.asarray(mu, float))
     d = distance_to_top(h, mu)[..., None]
@@ -141,7 +141,7 @@ def relative_air_mass(elevation_deg: ArrayLike, h: float = 0.0) -> Array:
 
 
 def columns_to_top(h: ArrayLike, mu: ArrayLike, heights: ScaleHeights = STANDARD_HEIGHTS) -> Array:
-    """Return ``integrate_columns`` from a table (0.1 %); rays below the horizon graze it."""
+    """Look up ``integrate_columns`` in a table (0.1 %); rays below the horizon are raised to it."""
     h = np.asarray(h, float)
     mu = np.maximum(mu, cosine_of_horizon(h))
     rho = np.sqrt(h * (2 * GROUND_RADIUS + h))
@@ -152,7 +152,7 @@ def columns_to_top(h: ArrayLike, mu: ArrayLike, heights: ScaleHeights = STANDARD
 
 @lru_cache(maxsize=8)
 def _columns_table(heights: ScaleHeights) -> Array:
-    """Columns over distance to the horizon (rows) and to the top (columns), as the shaders map."""
+    """Return columns by distance to the horizon (rows) and top (columns), as the shaders do."""
     rho = np.linspace(0, 1, 192)[:, None] ** 2 * LONGEST_HORIZON
     h = rho**2 / (np.sqrt(GROUND_RADIUS**2 + rho**2) + GROUND_RADIUS)
     d_min = ATMOSPHERE_HEIGHT - h
@@ -164,7 +164,7 @@ def _columns_table(heights: ScaleHeights) -> Array:
 
 
 def bilinear(table: Array, row: ArrayLike, column: ArrayLike) -> Array:
-    """Sample ``table`` (rows, columns, ...) at places in [0, 1], samples on both ends."""
+    """Sample ``table`` (rows, columns, ...) at coordinates in [0, 1], with samples at both ends."""
     height, width = table.shape[:2]
     y, x = np.broadcast_arrays(
         np.clip(row, 0, 1) * (height - 1), np.clip(column, 0, 1) * (width - 1)
@@ -212,7 +212,7 @@ def direct_irradiance(
 ) -> Array:
     """Return the sun's irradiance at normal incidence at the camera, W m⁻² nm⁻¹.
 
-    Times the visible share of its disc; shape (..., wavelengths).
+    It includes the visible share of the disc; shape (..., wavelengths).
     """
     from sunwidget.atmosphere.constants import solar_irradiance
 
@@ -224,5 +224,5 @@ def direct_irradiance(
 
 
 def camera_height(atmosphere: Atmosphere) -> float:
-    """Return the altitude that the sky is computed from: one metre above the ground at least."""
+    """Return the altitude from which the sky is computed: at least one metre above the ground."""
     return float(np.clip(atmosphere.altitude, 1.0, 0.99 * ATMOSPHERE_HEIGHT))

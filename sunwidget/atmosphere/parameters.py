@@ -1,7 +1,7 @@
-"""The state of one clear atmosphere: a handful of numbers, each a field of ``Edit`` too.
+"""The state of a clear atmosphere: a few numbers, each a field of ``Edit`` too.
 
-Names and ranges are those of the parameter table (``sunwidget/edit/table.py``); the sun's place is
-not part of the atmosphere. Defaults: aerosol of the clear day 2013-05-27 that Kider et al.
+Names are those of the parameter table (``sunwidget/edit/table.py``); the sun's position is not
+part of the atmosphere. Defaults: aerosol of the clear day 2013-05-27 that Kider et al.
 measured ("A Framework for the Experimental Comparison of Solar and Skydome Illumination",
 2014), optical depth 0.04 · λ_µm^-0.8, as fitted by Bruneton ("A Qualitative and Quantitative
 Evaluation of 8 Clear Sky Models", 2017).
@@ -72,19 +72,19 @@ class Atmosphere:
     altitude : float
         Camera's height above sea level in metres.
     air_density : float
-        Density of the molecules at sea level over that of standard air; 0 is no air at all.
+        Density of the molecules at sea level, relative to standard air; 0 removes the air.
     rayleigh_exponent : float
-        Molecules scatter as λ to minus this. At the default, 4.09, they have Bodhaine's
-        coefficients; others tilt these about 550 nm.
+        Molecules scatter as λ to the power of minus this. The default, 4.09, gives Bodhaine's
+        coefficients; other values tilt these about 550 nm.
     rayleigh_scale_height, aerosol_scale_height : float
-        Metres over which molecules and aerosol thin by a factor e. The density of the molecules
-        at sea level and the optical depth of the aerosol stay.
+        Metres over which molecules and aerosol thin by a factor e. They change neither the
+        density of the molecules at sea level nor the optical depth of the aerosol.
     residual : float or None
-        Relative misfit (rms) of the photo's clear sky that this atmosphere leaves; ``None``
-        when it was not fitted.
+        Relative misfit (rms) between this atmosphere and the photo's clear sky; ``None`` if
+        the atmosphere was not fitted.
     confidence : float or None
-        How likely the fitted sky changes with the sun as the photo's would, 0-1
-        (analysis/fit/confidence.py); ``None`` when it was not fitted.
+        Probability that the fitted sky changes with the sun as the photo's would, 0-1
+        (analysis/fit/confidence.py); ``None`` if the atmosphere was not fitted.
 
     Raises
     ------
@@ -118,12 +118,12 @@ class Atmosphere:
         return dataclasses.replace(self, **changes)  # type: ignore[arg-type]
 
     def parameters(self) -> dict[str, float]:
-        """Return the physical fields by name, as the shaders' uniforms are called."""
+        """Return the physical fields by name; the shaders' uniforms have the same names."""
         return {name: getattr(self, name) for name in RANGES}
 
     @property
     def heights(self) -> ScaleHeights:
-        """Scale heights of air and aerosol: all of the air that path lengths depend on."""
+        """Scale heights of air and aerosol: the only fields that path lengths depend on."""
         return ScaleHeights(self.rayleigh_scale_height, self.aerosol_scale_height)
 
     @property
@@ -137,15 +137,15 @@ class Atmosphere:
         return KOSCHMIEDER / self.extinction_550 if self.extinction_550 > 0 else math.inf
 
     def with_visibility(self, metres: float) -> Atmosphere:
-        """Return a copy with as much aerosol as lets one see ``metres`` far at sea level.
+        """Return a copy whose aerosol gives a visibility of ``metres`` at sea level.
 
         Raises
         ------
         ValueError
-            When the molecules alone let one see less far.
+            When air without aerosol has a lower visibility.
         """
         clean = self.replace(aerosol_optical_depth=0.0)
-        # A rounding error beyond the clean air's visibility is the clean air's.
+        # Tolerates a rounding error above the visibility of clean air.
         if not 0 < metres <= clean.visibility * (1 + 1e-9):
             raise ValueError(
                 f"visibility must be above 0 and at most {clean.visibility:.0f} m, that of this "
@@ -156,12 +156,12 @@ class Atmosphere:
 
     @property
     def turbidity(self) -> float:
-        """Turbidity at 550 nm: vertical optical depth of air with aerosol over that of air."""
+        """Turbidity at 550 nm: vertical optical depth of air with aerosol over that without."""
         air = self._rayleigh_depth_550
         return 1 + self.aerosol_optical_depth / air if air > 0 else math.inf
 
     def with_turbidity(self, turbidity: float) -> Atmosphere:
-        """Return a copy with the aerosol of this turbidity (1 is none).
+        """Return a copy whose aerosol gives this turbidity; 1 means no aerosol.
 
         Raises
         ------

@@ -1,10 +1,9 @@
-"""The clear sky in NumPy: what the shaders are compared with and the analysis fits.
+"""The clear sky in NumPy: the model that the analysis fits and the reference for the shaders.
 
 Structure after Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering
-Technique" (2020): single scattering is marched along each view ray, all further orders come
+Technique" (2020): single scattering is marched along each view ray, and all further orders come
 from a table over altitude and sun height (``multiple.py``). Radiance is in W m⁻² sr⁻¹ nm⁻¹,
-float64, at any wavelengths; the sun's disc is not part of it. Sun and view elevations are
-apparent ones.
+float64, at any wavelengths, without the sun's disc. Sun and view elevations are apparent.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 class SkyTable:
-    """All that a sky needs apart from the sun's place: build once, look anywhere.
+    """Tables of a sky for any sun: build once, evaluate in any direction.
 
     Parameters
     ----------
@@ -34,9 +33,9 @@ class SkyTable:
     quality : Quality, default FAST
         ``FAST`` is for fitting (1 % by day); ``SHADER`` samples as the shaders do.
     multiple_scattering : bool, default True
-        False leaves single scattering alone (Nishita 1993's model); as ``orders`` 1.
+        False keeps single scattering only (the model of Nishita 1993), as ``orders`` 1 does.
     orders : int, default 0
-        Orders of scattering: 0 all of them, n the first n (Nishita et al. 1996).
+        Orders of scattering: 0 for all of them, n for the first n (Nishita et al. 1996).
 
     See Also
     --------
@@ -69,12 +68,12 @@ class SkyTable:
         Parameters
         ----------
         view_elevation : array_like
-            Elevation of the view in degrees; below the horizon the ground is seen.
+            Elevation of the view in degrees; below the horizon the view shows the ground.
         view_azimuth : array_like
             Azimuth of the view minus that of the sun, in degrees.
         sun_elevation : array_like
-            Elevation of the sun's centre in degrees, -12 to 90. One sun, or suns close
-            together, take the least time: the table covers those asked for only.
+            Elevation of the sun's center in degrees, -12 to 90. One sun, or suns close
+            together, take the least time: the table covers the requested suns only.
 
         Returns
         -------
@@ -117,8 +116,8 @@ class SkyTable:
         mu_s_ground = multiple.sun_cosine(h, mu_s, nu, d, 0.0)
         irradiance = np.maximum(mu_s_ground, 0)[:, None] * self._sunlight(0.0, mu_s_ground)
         if field is not None:
-            centre = (np.arange(groups) + 0.5) / groups
-            h_g, mu_s_g, mu_g = _along(h, mu, mu_s, nu, d[:, None] * centre**2)
+            center = (np.arange(groups) + 0.5) / groups
+            h_g, mu_s_g, mu_g = _along(h, mu, mu_s, nu, d[:, None] * center**2)
             view = multiple.direction_in_field(mu_g, mu_s_g, nu[:, None])
             more = multiple.scatter_field(
                 field.look_up(h_g, mu_s_g), *view, nu[:, None], a.aerosol_asymmetry
@@ -182,7 +181,7 @@ def sky_radiance(
 
 
 def _along(h: float, mu: Array, mu_s: Array, nu: Array, t: Array) -> tuple[Array, Array, Array]:
-    """Altitude, sun cosine and view cosine at distances ``t`` (N, steps) along rays from ``h``."""
+    """Return altitude, sun cosine and view cosine at distances ``t`` (N, steps) along rays."""
     h_t = optics.altitude_along_ray(h, mu[:, None], t)
     mu_s_t = multiple.sun_cosine(h, mu_s[:, None], nu[:, None], t, h_t)
     mu_t = ((GROUND_RADIUS + h) * mu[:, None] + t) / (GROUND_RADIUS + h_t)

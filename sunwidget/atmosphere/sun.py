@@ -19,14 +19,14 @@ Array = NDArray[np.float64]
 def limb_darkening_exponent(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:
     """Return the exponent a of the disc's profile μ^a: 0.397, 0.503, 0.652 at 680, 550, 440 nm.
 
-    Linear between (Neckel & Labs, "Solar limb darkening 1986-1990", 1994, as power law).
+    Linear in between (Neckel & Labs, "Solar limb darkening 1986-1990", 1994, as a power law).
     """
     nm = np.asarray(wavelength_nm, float)
     return np.interp(nm, [440.0, 550.0, 680.0], [0.652, 0.503, 0.397])
 
 
 def limb_darkening(radius: ArrayLike, wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:
-    """Return the disc's brightness over its mean, at ``radius`` in units of the disc's (0-1).
+    """Return the disc's brightness over its mean at ``radius``, in units of the disc's radius.
 
     μ^a averages 2 / (a + 2) over the disc; shape (..., wavelengths), zero outside.
     """
@@ -51,7 +51,7 @@ def disc_radiance(
     view_elevation : array_like
         Elevation of the view in degrees; each direction is reddened by its own path.
     distance : array_like
-        Angle between the view and the disc's centre in degrees.
+        Angle between the view and the disc's center in degrees.
     wavelengths : array_like, shape (n,)
         Nanometres, 360-830.
 
@@ -74,7 +74,7 @@ def refraction(apparent_elevation: ArrayLike) -> Array:
 
     Bennett, "The Calculation of Astronomical Refraction in Marine Navigation", J. Navigation 35
     (1982): R' = cot(h + 7.31 / (h + 4.4)), 34′ at the horizon, for 10 °C and 1010 hPa. Below -1°
-    no sun is seen and none is refracted: the value at -1° is kept.
+    the sun is invisible; the value at -1° is kept.
     """
     h = np.maximum(np.asarray(apparent_elevation, float), -1.0)
     minutes = 1 / np.tan(np.radians(h + 7.31 / (h + 4.4)))
@@ -82,5 +82,5 @@ def refraction(apparent_elevation: ArrayLike) -> Array:
 
 
 def true_elevation(apparent_elevation: ArrayLike) -> Array:
-    """Return the geometric elevation that belongs to an apparent one, both in degrees."""
+    """Return the geometric elevation for an apparent elevation, both in degrees."""
     return np.asarray(apparent_elevation, float) - refraction(apparent_elevation)

@@ -1,1 +1,1 @@
-"""The one table of parameters, the Edit made of it, and recipes."""
+"""The one table of parameters, the Edit built from it, and recipes."""

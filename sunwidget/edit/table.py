@@ -1,9 +1,9 @@
-"""Edit: the one frozen table of every number a person can set.
+"""Edit: the one table of every parameter that a user can set.
 
-Traits, sliders, shader uniforms, command-line flags, recipes and the parameter page
-of the documentation all derive from the fields below; nothing else lists them.
-A field whose default is ``None`` is *automatic*: it takes the value that the analysis
-found in the photo (``Scene.automatic``), so an edit that names nothing moves nothing.
+Traits, sliders, shader uniforms, command-line flags, recipes and the parameter page of the
+documentation derive from the fields below; they are listed nowhere else. A field whose default
+is ``None`` is *automatic*: it takes the value that the analysis found in the photo
+(``Scene.automatic``), so an edit without values moves nothing.
 """
 
 from __future__ import annotations
@@ -17,29 +17,29 @@ from typing import Any, Literal, NamedTuple, Self
 
 from sunwidget.errors import EditError, UnknownParameterError
 from sunwidget.geometry.place import Place, sun_at
-from sunwidget.messages import called, did_you_mean, shown
+from sunwidget.messages import did_you_mean, format_call, shown
 
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
 LIGHTS = ("sun", "moon", "automatic")
 COLOUR_LOSSES = ("luminance", "power")
-# "analysed": as ``analyze`` chose. The others are the names in ``analysis.clouds.METHODS``.
+# "analysed": the method given to ``analyze``. The others are names of ``analysis.clouds.METHODS``.
 CLOUD_METHODS = ("analysed", "rb_ratio", "rb_difference", "saturation", "learned", "unmix")
 StrokeLabel = Literal["sky", "not_sky", "water", "not_water"]
 STROKE_LABELS: tuple[StrokeLabel, ...] = ("sky", "not_sky", "water", "not_water")
 OUTSIDE: Literal["outside"] = "outside"
-"""Said of the photo's sun when nothing in the picture is it."""
+"""The sun hint of a photo whose sun is not in the picture."""
 
 Point = tuple[float, float]
 SunHint = Point | Literal["outside"]
 
 
 class Parameter(NamedTuple):
-    """One row of the table, as seen by sliders, uniforms, flags and the docs.
+    """One row of the table, as sliders, uniforms, flags and the docs read it.
 
     ``kind`` is ``"number"``, ``"choice"`` or ``"data"`` (strokes, hints and the place: kept in
-    the recipe, never a slider or a uniform). ``analysis`` says that the photo's maps follow the
-    parameter, so that a host has to ask ``correct.corrected`` for them when it changes.
+    the recipe, never a slider or a uniform). ``analysis`` is true if the photo's maps depend on
+    the parameter: when it changes, a host has to call ``correct.corrected`` for new maps.
     """
 
     name: str
@@ -131,7 +131,7 @@ class Stroke:
     Parameters
     ----------
     label : {"sky", "not_sky", "water", "not_water"}
-        What the person says lies under the brush.
+        What lies under the brush.
     points : tuple of (x, y)
         Polyline in fractions of the picture's width and height, 0–1.
     radius : float
@@ -151,7 +151,7 @@ class Edit:
     ----------
     **values
         Any row of ``PARAMETERS`` by name; docs/guide/parameters.md lists them with units and
-        ranges. ``None`` is what the photo has.
+        ranges. ``None`` keeps the photo's own value.
 
     Raises
     ------
@@ -169,36 +169,36 @@ class Edit:
     sun_elevation: float | None = _number(None, (-12, 90), 0.1, "°", "Elevation", "sun",
         "Sun's apparent elevation above the horizon; negative is twilight.")
     sun_size: float = _number(1.0, (0, 5), 0.05, "×", "Disc size", "sun",
-        "Diameter of the drawn disc in units of the photo's own, of 0.533° without one; 0: none.",
-        advanced=True)
-    sun_visibility: float = _number(1.0, (0, 1), 0.01, "", "Disc's light", "sun",
-        "Share of the disc's light that comes through; 0 is no sun, as behind a thick cloud.",
+        "Diameter of the drawn disc, relative to the disc in the photo, or to 0.533° if the photo "
+        "shows none; 0 draws no disc.", advanced=True)
+    sun_visibility: float = _number(1.0, (0, 1), 0.01, "", "Disc light", "sun",
+        "Share of the disc's light that comes through; 0 hides the sun, as a thick cloud does.",
         advanced=True)
     light_source: str = _choice("automatic", LIGHTS, "Light", "sun",
-        "sun, or moon: a full moon that stands where the sun would; automatic as in the photo.")
+        "sun; moon, a full moon in the sun's position; or automatic, as in the photo.")
     sky_strength: float = _number(1.0, (0, 1), 0.01, "", "Sky strength", "sky",
-        "How far the sky follows the moved sun; 0 is exactly off.")
+        "How much the sky follows the moved sun; 0 turns it off exactly.")
     aerosol_optical_depth: float | None = _number(None, (0, 0.6), 0.005, "", "Haze", "sky",
         "Aerosol optical depth at 550 nm (AOD).")
     angstrom_exponent: float | None = _number(None, (0, 2), 0.05, "", "Ångström exponent", "sky",
         "How much more aerosol scatters blue than red: large for fine smoke, 0 for fog.",
         advanced=True)
     aerosol_asymmetry: float | None = _number(None, (0, 0.95), 0.01, "", "Forward lobe g", "sky",
-        "Cornette–Shanks asymmetry of the aerosol: how tight the white ring round the sun is.",
-        advanced=True)
+        "Cornette–Shanks asymmetry of the aerosol: the higher, the tighter the white ring around "
+        "the sun.", advanced=True)
     aerosol_albedo: float | None = _number(None, (0.7, 1), 0.01, "", "Aerosol albedo", "sky",
         "Single-scattering albedo of the aerosol; below 1 it absorbs.", advanced=True)
     ozone: float | None = _number(None, (0, 500), 5, "DU", "Ozone", "sky",
-        "Ozone column in Dobson units; it makes the blue hour blue.", advanced=True)
+        "Ozone column in Dobson units; ozone makes the blue hour blue.", advanced=True)
     ground_albedo: float | None = _number(None, (0, 1), 0.01, "", "Ground albedo", "sky",
         "Share of light that the land reflects back into the sky.", advanced=True)
     altitude: float | None = _number(None, (0, 30000), 10, "m", "Altitude", "sky",
         "Camera's height above sea level.", advanced=True)
     air_density: float | None = _number(None, (0, 2), 0.01, "×", "Air density", "sky",
-        "Molecules of the air over those of the standard atmosphere; 0 takes the blue away.",
+        "Density of air molecules, relative to the standard atmosphere; 0 removes the blue.",
         advanced=True)
     rayleigh_exponent: float | None = _number(None, (0, 6), 0.01, "", "Rayleigh exponent", "sky",
-        "How much more molecules scatter blue than red: λ to minus this, 4.09 in air.",
+        "How much more molecules scatter blue than red: λ to the power of minus this; 4.09 in air.",
         advanced=True)
     rayleigh_scale_height: float | None = _number(None, (3000, 15000), 10, "m",
         "Air scale height", "sky", "Height over which the air thins by a factor e.", advanced=True)
@@ -206,87 +206,88 @@ class Edit:
         "Haze scale height", "sky", "Height over which the haze thins by a factor e.",
         advanced=True)
     scattering_orders: float = _number(0.0, (0, 16), 1, "", "Scattering orders", "sky",
-        "How often light may be scattered: 0 any number of times, 1 once, n up to n times.",
+        "How often light may be scattered: 0 any number of times, n up to n times.",
         advanced=True)
     cloud_strength: float = _number(1.0, (0, 1), 0.01, "", "Cloud strength", "clouds",
-        "How far the clouds follow the moved sun; 0 is exactly off.")
+        "How much the clouds follow the moved sun; 0 turns it off exactly.")
     silver_lining: float = _number(1.0, (0, 3), 0.05, "", "Silver lining", "clouds",
         "Forward scattering in thin cloud edges near the sun.")
-    cloud_method: str = _choice("analysed", CLOUD_METHODS, "Found by", "clouds",
-        "How clouds are separated from clear sky; analysed keeps the method given to analyze().",
+    cloud_method: str = _choice("analysed", CLOUD_METHODS, "Cloud detection", "clouds",
+        "Method that separates clouds from clear sky; analysed keeps the one given to analyze().",
         analysis=True)
     cloud_opacity: float = _number(1.0, (0, 2), 0.01, "×", "Opacity", "clouds",
-        "Opacity of the photo's own clouds in units of what it is; 0 removes them.")
+        "Opacity of the photo's own clouds, relative to the photo; 0 removes them.")
     cloud_softness: float = _number(0.0, (0, 1), 0.01, "", "Softness", "clouds",
-        "How far the edges of the photo's own clouds dissolve.")
+        "How much the edges of the photo's own clouds dissolve.")
     added_clouds: float = _number(0.0, (0, 1), 0.01, "", "Added clouds", "clouds",
-        "Share of the sky that a layer of added clouds covers; 0 adds none.")
+        "Share of the sky that a layer of added clouds covers.")
     added_cloud_size: float = _number(1.0, (0.2, 5), 0.05, "km", "Added size", "clouds",
         "Size of the added clouds.")
     added_cloud_height: float = _number(1.5, (0.5, 10), 0.1, "km", "Added height", "clouds",
-        "Height of the added clouds' layer above the camera.", advanced=True)
+        "Height of the layer of added clouds above the camera.", advanced=True)
     cloud_pattern: float = _number(0.0, (0, 100), 0.1, "", "Added pattern", "clouds",
-        "Which of many patterns the added clouds take; neighbours flow into each other.",
+        "Pattern of the added clouds; neighboring values blend into each other.",
         advanced=True)
     wind_speed: float = _number(5.0, (0, 15), 0.1, "m/s", "Wind", "clouds",
-        "Wind: it drives the added clouds and roughens water.")
+        "Wind speed: wind moves the added clouds and roughens water.")
     wind_direction: float = _number(0.0, (-180, 180), 1, "°", "Wind towards", "clouds",
-        "Where the wind blows to, relative to the camera's heading, positive to the right.",
-        advanced=True)
+        "Direction towards which the wind blows, relative to the camera's heading, positive to "
+        "the right.", advanced=True)
     wind_time: float = _number(0.0, (-60, 60), 0.1, "min", "Drift", "clouds",
-        "How long the wind has driven the added clouds.", advanced=True)
+        "Minutes that the wind has moved the added clouds.", advanced=True)
     land_strength: float = _number(1.0, (0, 1), 0.01, "", "Land strength", "land",
-        "How far the land follows the moved sun; 0 is exactly off.")
+        "How much the land follows the moved sun; 0 turns it off exactly.")
     land_facing: float = _number(0.15, (0, 1), 0.01, "", "Upright surfaces", "land",
-        "Share of the land's surfaces that face the camera; the rest faces the zenith.",
+        "Share of the land's surfaces that face the camera; the rest face the zenith.",
         advanced=True)
-    colourfulness: float = _number(0.5, (0, 1), 0.01, "", "Colour loss in shade", "land",
-        "How much colour the land loses when the sun's disc is hidden (thesis eq. 3.8).")
-    colour_loss: str = _choice("luminance", COLOUR_LOSSES, "Colour loss by", "land",
-        "luminance, which it keeps, or power, as in eq. 3.8 of the thesis.", advanced=True)
+    colourfulness: float = _number(0.5, (0, 1), 0.01, "", "Color loss in shade", "land",
+        "How much color the land loses when the sun's disc is hidden (thesis eq. 3.8).")
+    colour_loss: str = _choice("luminance", COLOUR_LOSSES, "Color loss by", "land",
+        "luminance, which keeps the luminance, or power, as in eq. 3.8 of the thesis.",
+        advanced=True)
     shading: float = _number(1.0, (0, 1), 0.01, "", "Shading", "land",
-        "How far the light follows the slope of the land; 0 is exactly off.")
-    gloss: float = _number(1.0, (0, 1), 0.01, "", "Gleam", "land",
-        "How far rough ground gleams towards the sun; 0 is exactly off.")
+        "How much the light follows the slope of the land; 0 turns it off exactly.")
+    gloss: float = _number(1.0, (0, 1), 0.01, "", "Gloss", "land",
+        "How much rough ground shines towards the sun; 0 turns it off exactly.")
     cast_shadows: float = _number(1.0, (0, 1), 0.01, "", "Cast shadows", "land",
-        "How far shadows in the land leave the old sun and follow the new one; 0 is exactly off.")
+        "How much the shadows on the land move with the sun; 0 turns it off exactly.")
     cloud_shadows: float = _number(0.5, (0, 1), 0.01, "", "Cloud shadows", "land",
-        "How far the clouds' shadows on the land follow the sun; 0 is exactly off.")
+        "How much the clouds' shadows on the land move with the sun; 0 turns it off exactly.")
     aerial_perspective: float = _number(1.0, (0, 1), 0.01, "", "Aerial perspective", "land",
-        "How far the air before distant land follows the sun; 0 is exactly off.")
+        "How much the air in front of distant land follows the sun; 0 turns it off exactly.")
     window_lights: float = _number(0.0, (0, 4), 0.05, "×", "Lit windows", "land",
-        "Light of lamps behind the windows that the photo shows, in units of a usual room's; it "
-        "drowns by day and shows at dusk. 0 is exactly off.")
-    window_temperature: float = _number(2900.0, (1700, 6500), 50, "K", "Lamps' colour", "land",
-        "Colour temperature of those lamps: candles 1900, bulbs 2900, cold tubes 5000.",
+        "Light of lamps behind the windows in the photo, relative to a typical room; faint by "
+        "day, visible at dusk. 0 turns it off exactly.")
+    window_temperature: float = _number(2900.0, (1700, 6500), 50, "K", "Lamp color", "land",
+        "Color temperature of those lamps: candles 1900, bulbs 2900, cold tubes 5000.",
         advanced=True)
     water_strength: float = _number(1.0, (0, 1), 0.01, "", "Water strength", "water",
-        "How far water mirrors the changed sky; 0 lights it as land.")
+        "How much water reflects the changed sky; 0 lights it as land.")
     glitter: float = _number(1.0, (0, 3), 0.05, "", "Glitter", "water",
-        "The sun's glints on water: 1 as the waves of this wind make them.")
+        "Strength of the sun's glints on water; 1 matches the waves of this wind.")
     glow: float = _number(1.0, (0, 3), 0.05, "", "Glow", "effects",
-        "Glare of the camera round the moved sun, before sky and land: 1 as cameras have it.")
+        "Camera glare around the moved sun, over sky and land; 1 matches real cameras.")
     light_shafts: float = _number(0.25, (0, 1), 0.01, "", "Light shafts", "effects",
         "Beams in the haze where land and clouds let the sun through.")
     lens_flare: float = _number(0.0, (0, 1), 0.01, "", "Lens flare", "effects",
-        "Reflections in the lens on the line from the sun through the picture's centre.")
+        "Reflections in the lens, on the line from the sun through the picture's center.")
     grain: float = _number(1.0, (0, 2), 0.05, "", "Grain", "effects",
-        "The photo's own noise on what was filled, so that it does not look smooth.")
+        "The photo's own noise, added to filled areas so that they do not look smooth.")
     exposure: float = _number(0.0, (-4, 4), 0.05, "EV", "Exposure", "camera",
-        "Exposure compensation of the moved picture.")
+        "Exposure compensation of the picture with the moved sun.")
     auto_exposure: float = _number(0.9, (0, 1), 0.01, "", "Automatic exposure", "camera",
-        "How far the camera re-exposes as the light falls: 0 locked, 1 fully automatic.")
+        "How much the camera adapts its exposure as the light falls: 0 locked, 1 fully automatic.")
     method: str = _choice("ratio", METHODS, "Method", "match",
         "ratio (default), thesis (corrected equations) or thesis_literal (as printed).")
     sun_sky_ratio: float = _number(1000.0, (0, 5000), 10, "×", "Sun to sky ratio", "advanced",
-        "F^s: weight of sun pixels in the sky's mean colour (methods thesis*).", advanced=True)
+        "F^s: weight of sun pixels in the sky's mean color (methods thesis*).", advanced=True)
     thesis_saturation: float = _number(1.0, (0, 1), 0.01, "", "Contrast s", "advanced",
         "s of eq. 3.8 when the sun is fully hidden (methods thesis*).", advanced=True)
     cloud_ratio_min: float = _number(0.62, (0, 2), 0.01, "", "Cloud r/b minimum", "advanced",
-        "m_min of eq. 3.5: red/blue, or its like for the method, above which sky is cloud.",
+        "m_min of eq. 3.5: red/blue, or the method's own index, above which sky is cloud.",
         advanced=True, analysis=True)
     cloud_ratio_max: float = _number(1.0, (0, 3), 0.01, "", "Cloud r/b maximum", "advanced",
-        "m_max of eq. 3.6: red/blue, or its like, at which softness reaches 1.",
+        "m_max of eq. 3.6: red/blue, or the method's own index, at which softness reaches 1.",
         advanced=True, analysis=True)
     blend_distance: float = _number(0.35, (0.01, 2), 0.01, "", "Blend distance d_m", "advanced",
         "d_m of eq. 3.12, in picture widths.", advanced=True)
@@ -295,19 +296,19 @@ class Edit:
     strokes: tuple[Stroke, ...] = _data((), "Strokes",
         "Sky, not-sky, water and not-water strokes, replayed in order.")
     sun_hint: SunHint | None = _data(None, "Sun in the photo",
-        "Where the person says the photo's own sun is, in fractions of width and height; outside "
-        "when nothing in the picture is the sun.")
+        "Position of the photo's own sun, set by the user, in fractions of width and height; "
+        "outside if the sun is not in the picture.")
     horizon_hint: tuple[Point, Point] | None = _data(None, "Horizon in the photo",
-        "Two points of the horizon that the person set, in fractions of width and height.")
+        "Two points of the horizon, set by the user, in fractions of width and height.")
     fov_hint: float | None = _data(None, "Vertical field of view",
-        "Vertical field of view in degrees that the person set.")
+        "Vertical field of view in degrees, set by the user.")
     place: Place | None = _data(None, "Time and place",
-        "Latitude, longitude, date, hours UTC and the camera's heading; the editor's clock moves "
-        "the sun by them, they alone move nothing.", "place", analysis=False)
+        "Latitude, longitude, date, hours UTC and the camera's heading. The editor's clock moves "
+        "the sun by them; by themselves they move nothing.", "place", analysis=False)
     # fmt: on
 
     def __new__(cls, **values: Any) -> Self:
-        """Refuse unknown keywords with a suggestion, which the generated __init__ cannot."""
+        """Reject unknown keywords with a suggestion, which the generated __init__ cannot give."""
         _refuse_unknown(values)
         return super().__new__(cls)
 
@@ -317,10 +318,10 @@ class Edit:
             object.__setattr__(self, parameter.name, value)
 
     def __repr__(self) -> str:
-        return called("Edit", self.changed())
+        return format_call("Edit", self.changed())
 
     def replace(self, **changes: Any) -> Edit:
-        """Return a copy with ``changes`` to the parameters that they name.
+        """Return a copy with the named parameters changed.
 
         Raises
         ------
@@ -331,12 +332,12 @@ class Edit:
         return dataclasses.replace(self, **changes)
 
     def at(self, place: Place) -> Edit:
-        """Return a copy with the sun where it stands at a place and its time.
+        """Return a copy with the sun's position at a place and its time.
 
         Parameters
         ----------
         place : Place
-            Without a heading the azimuth stays as it is. Below −12° the sun is held there.
+            Without a heading the azimuth stays as it is. Elevations below −12° become −12°.
 
         Returns
         -------
@@ -345,7 +346,7 @@ class Edit:
         Raises
         ------
         ImportError
-            Without pvlib; the message names the extra that brings it.
+            Without pvlib; the message names the extra that installs it.
 
         Examples
         --------
@@ -388,20 +389,20 @@ class Edit:
         Raises
         ------
         EditError
-            When the recipe is not a mapping, comes from a newer version, or holds an
-            unknown name or an impossible value.
+            When the recipe is not a mapping, comes from a newer version, or has an unknown
+            name or an impossible value.
         """
         if not isinstance(recipe, Mapping):
             raise EditError(
-                f"A recipe is a JSON object, not {type(recipe).__name__}. "
-                "Pass what Edit.to_dict() returned."
+                f"A recipe must be a JSON object, not {type(recipe).__name__}. "
+                "Pass the result of Edit.to_dict()."
             )
         version = recipe.get("version", RECIPE_VERSION)
         if isinstance(version, bool) or not isinstance(version, int) or version < 1:
             raise EditError(f"Recipe version {shown(version)} is not a positive whole number.")
         if version > RECIPE_VERSION:
             raise EditError(
-                f"This recipe has version {shown(version)}, this sunwidget reads up to "
+                f"This recipe has version {shown(version)}; this sunwidget reads versions up to "
                 f"{RECIPE_VERSION}. Update sunwidget to open it."
             )
         values = {k: v for k, v in recipe.items() if k != "version"}
@@ -414,21 +415,21 @@ class Edit:
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Edit:
-        """Return the Edit of a recipe as JSON ``text``; raises EditError like ``from_dict``.
+        """Return the Edit of a recipe in JSON; raises EditError like ``from_dict``.
 
-        Of a name that stands there twice the last value counts, as in the browser.
+        If a name occurs twice, the last value counts, as in the browser.
         """
         try:
-            # Editors on Windows begin a file with a mark of its byte order; bytes may have one.
+            # Editors on Windows start a file with a byte order mark; json accepts it in bytes.
             recipe = json.loads(text.removeprefix("\ufeff") if isinstance(text, str) else text)
-        # TypeError: no text at all; ValueError: bad syntax, bad UTF-8, numbers of 5000 digits.
+        # TypeError: not text; ValueError: bad syntax, bad UTF-8, numbers of 5000 digits.
         except (TypeError, ValueError, RecursionError) as error:
             raise EditError(f"The recipe is not valid JSON: {error}") from error
         return cls.from_dict(recipe)
 
     def to_code(self) -> str:
         """Return runnable Python that builds this Edit (``import sunwidget as sw`` first)."""
-        return called("Edit", self.changed(), "sw.")
+        return format_call("Edit", self.changed(), "sw.")
 
 
 def _table() -> tuple[Parameter, ...]:
@@ -458,7 +459,7 @@ def _table() -> tuple[Parameter, ...]:
 
 PARAMETERS: tuple[Parameter, ...] = _table()
 NUMBERS: tuple[Parameter, ...] = tuple(p for p in PARAMETERS if p.kind == "number")
-# Names of what the photo's maps follow.
+# Names of the parameters that change the photo's maps.
 CORRECTIONS: tuple[str, ...] = tuple(p.name for p in PARAMETERS if p.analysis)
 _BY_NAME = {p.name: p for p in PARAMETERS}
 
@@ -470,7 +471,7 @@ def parameter(name: str) -> Parameter:
 
 
 def unknown_name_message(name: str, others: tuple[str, ...] = ()) -> str:
-    """Say that ``name`` is no parameter and suggest the nearest spelling, also of ``others``."""
+    """Return the message for an unknown name, with the nearest spelling, also of ``others``."""
     hint = did_you_mean(name, [*_BY_NAME, *others], "See sunwidget.PARAMETERS for the list.")
     return f"Unknown parameter {shown(name)}.{hint}"
 
@@ -482,11 +483,11 @@ def _refuse_unknown(names: Any) -> None:
 
 
 def checked(p: Parameter, value: Any) -> Any:
-    """Return ``value`` as an Edit holds it; raises EditError where the row does not take it."""
+    """Return ``value`` in the form that an Edit stores; raises EditError if the row rejects it."""
     if p.kind == "choice":
         if not isinstance(value, str) or value not in p.choices:
             raise EditError(f"{p.name} must be one of {', '.join(p.choices)}, not {shown(value)}.")
-        return p.choices[p.choices.index(value)]  # a plain str, whose repr is its own
+        return p.choices[p.choices.index(value)]  # a plain str, even for a subclass of str
     if p.kind == "number":
         if value is None and p.default is None:
             return None
@@ -554,11 +555,13 @@ def _check_strokes(value: Any) -> tuple[Stroke, ...]:
         label = stroke["label"]
         if not isinstance(label, str) or label not in STROKE_LABELS:
             raise EditError(
-                f"A stroke's label is one of {', '.join(STROKE_LABELS)}, not {shown(label)}."
+                f"A stroke's label must be one of {', '.join(STROKE_LABELS)}, not {shown(label)}."
             )
         extra = stroke.keys() - {"label", "points", "radius"}
         if extra:
-            raise EditError(f"A stroke has no {shown(min(map(str, extra)))}.")
+            raise EditError(
+                f"A stroke has label, points and radius, but no {shown(min(map(str, extra)))}."
+            )
         checked.append(
             Stroke(
                 STROKE_LABELS[STROKE_LABELS.index(label)],

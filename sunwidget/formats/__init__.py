@@ -1,1 +1,1 @@
-"""What lies in picture files: color spaces, metadata, gain maps, light."""
+"""Contents of picture files: color spaces, metadata, gain maps, light."""

@@ -1,4 +1,4 @@
-"""Gain maps of iPhones before iOS 18, turned into those of ISO 21496-1.
+"""Gain maps of iPhones before iOS 18, converted to ISO 21496-1.
 
 Apple, "Applying Apple HDR effect to your photos" (developer documentation, 2023): with the headroom
 h, a factor, and the map's levels g without their sRGB curve, light is multiplied by 1 + (h - 1) g.
@@ -23,30 +23,30 @@ from sunwidget.formats.gain_map import GainMap, packed, pictures_behind
 _EXIF, _MAKER_NOTE = 0x8769, 0x927C
 _HEAD = b"Apple iOS\0"
 _HEADROOM, _GAIN = 0x21, 0x30  # tags of the maker note
-_IN_XMP = re.compile(rb"HDRGainMapHeadroom(?:>|=[\"'])([\d.]+)")  # of the map, in newer files
+_IN_XMP = re.compile(rb"HDRGainMapHeadroom(?:>|=[\"'])([\d.]+)")  # in the map's XMP, newer files
 _MARK = b"HDRGainMapVersion"
 
 
 def gain_map(levels: NDArray[np.uint8], headroom: float) -> GainMap | None:
-    """Return the map of ``levels`` (h, w) and ``headroom``, a factor; None when that is none."""
+    """Return the map of ``levels`` (h, w) and ``headroom``, a factor; None if that is invalid."""
     if not 1 < headroom <= 256:
         return None
     most = float(np.log2(headroom))
     stops = np.log2(1 + (headroom - 1) * srgb_to_linear(levels / np.float32(255)))
     shares = np.rint(255 * stops / most).astype(np.uint8)[..., None]
     nothing = (0.0, 0.0, 0.0)
-    told = GainMap(
+    meaning = GainMap(
         b"", nothing, (most,) * 3, base_offset=nothing, other_offset=nothing, headroom=most
     )
-    return replace(told, jpeg=packed(shares, told))
+    return replace(meaning, jpeg=packed(shares, meaning))
 
 
 def find(data: bytes, exif: Any) -> GainMap | None:
-    """Return the map behind an iPhone's JPEG ``data``; None without one."""
+    """Return the map after an iPhone's JPEG ``data``; None without one."""
     from PIL import Image
 
     for part in pictures_behind(data):
-        # Anybody's bytes, which may fail anywhere.
+        # Untrusted bytes may fail anywhere in a parser.
         with contextlib.suppress(Exception):
             if _MARK not in part:
                 continue
@@ -58,9 +58,9 @@ def find(data: bytes, exif: Any) -> GainMap | None:
 
 
 def headroom(exif: Any, data: bytes = b"") -> float | None:
-    """Return the headroom, a factor, that a file's ``data`` or maker note tell; None without."""
-    if told := _IN_XMP.search(data):
-        return float(told[1])
+    """Return the headroom, a factor, from ``data`` or the maker note; None without one."""
+    if match := _IN_XMP.search(data):
+        return float(match[1])
     note = exif.get_ifd(_EXIF).get(_MAKER_NOTE) if exif is not None else None
     found = _rationals(note) if isinstance(note, bytes) else {}
     if _HEADROOM not in found or _GAIN not in found:
@@ -74,7 +74,7 @@ def headroom(exif: Any, data: bytes = b"") -> float | None:
 
 
 def _rationals(note: bytes) -> dict[int, float]:
-    """Return the signed fractions of an Apple maker note by tag: a directory from byte 14 on."""
+    """Return the signed fractions of an Apple maker note by tag; its directory is at byte 14."""
     if not note.startswith(_HEAD) or len(note) < 16:
         return {}
     order = "<" if note[12:14] == b"II" else ">"

@@ -1,9 +1,9 @@
-"""Transfer functions and primaries: between code values and linear Rec. 709 light.
+"""Transfer functions and primaries: convert between code values and linear Rec. 709 light.
 
-A :class:`ColorProfile` is three tone curves and one matrix. Its two directions are
-exact inverses in float, so a code value that nothing touched comes back as itself.
-Matrices go through the D50 profile connection space with the Bradford-adapted Rec. 709
-primaries that every sRGB profile stores (Lindbloom 2017).
+A :class:`ColorProfile` is three tone curves and one matrix. Its two directions are exact inverses
+in float, so an unchanged code value survives the round trip. Matrices use the D50 profile
+connection space with the Bradford-adapted Rec. 709 primaries of every sRGB profile (Lindbloom
+2017).
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ REC709_TO_D50 = np.array(
 REC709_CHROMATICITIES = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)
 """CIE x, y of Rec. 709's red, green, blue and white (D65)."""
 
-# Pixels handled at a time: temporaries of 3 MB stay in the cache.
+# Pixels processed at a time: temporaries of 3 MB stay in the cache.
 _STRIP_PIXELS = 1 << 18
 
 
 def primaries_to_xyz(chromaticities: tuple[float, ...]) -> NDArray[np.float64]:
-    """Return the matrix from linear RGB to XYZ of its own white, by CIE x, y of R, G, B and white.
+    """Return the matrix from linear RGB to XYZ at its own white; CIE x, y of R, G, B and white.
 
     SMPTE RP 177 (1993). Raises ``numpy.linalg.LinAlgError`` for primaries on one line.
     """
@@ -53,10 +53,10 @@ _BRADFORD = np.array(
 
 
 def primaries_to_rec709(chromaticities: tuple[float, ...]) -> NDArray[Any] | None:
-    """Return the matrix from linear RGB of other primaries to Rec. 709's; None where equal.
+    """Return the matrix from linear RGB of other primaries to Rec. 709; None if they are equal.
 
-    Another white is adapted by Bradford (Lindbloom 2017). Impossible primaries are taken for
-    Rec. 709's.
+    Another white is adapted by Bradford (Lindbloom 2017). Impossible primaries are treated as
+    Rec. 709.
     """
     if len(chromaticities) != 8 or np.allclose(chromaticities, REC709_CHROMATICITIES, atol=2e-3):
         return None
@@ -83,19 +83,19 @@ class ParametricCurve:
     f: float = 0.0
 
     def decode(self, code: NDArray[Any]) -> NDArray[Any]:
-        """Code values (0–1) to linear light (0–1), in the precision of the input."""
+        """Convert code values (0–1) to linear light (0–1), in the input's precision."""
         power = np.maximum(self.a * code + self.b, 0) ** self.g + self.e
         if self.d <= 0:
             return power
         return np.where(code >= self.d, power, self.c * code + self.f)
 
     def encode(self, light: NDArray[Any]) -> NDArray[Any]:
-        """Linear light (0–1) to code values (0–1), in the precision of the input."""
+        """Convert linear light (0–1) to code values (0–1), in the input's precision."""
         power = (np.maximum(light - self.e, 0) ** (1 / self.g) - self.b) / self.a
         if self.d <= 0:
             return power
         toe = (light - self.f) / self.c if self.c > 0 else np.zeros_like(light)
-        # Judged by the toe's own end: curves may have a tiny step at d.
+        # Compares with the end of the toe: curves may have a tiny step at d.
         return np.where(light > self.c * self.d + self.f, np.maximum(power, self.d), toe)
 
 
@@ -110,18 +110,18 @@ class TableCurve:
         return np.linspace(0.0, 1.0, len(self.samples))
 
     def decode(self, code: NDArray[Any]) -> NDArray[Any]:
-        """Code values (0–1) to linear light (0–1)."""
+        """Convert code values (0–1) to linear light (0–1)."""
         return np.interp(code, self._grid, self.samples).astype(code.dtype)
 
     def encode(self, light: NDArray[Any]) -> NDArray[Any]:
-        """Linear light (0–1) to code values (0–1)."""
+        """Convert linear light (0–1) to code values (0–1)."""
         return np.interp(light, self.samples, self._grid).astype(light.dtype)
 
 
 Curve = ParametricCurve | TableCurve
 
 SRGB_CURVE = ParametricCurve(2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045)
-"""IEC 61966-2-1. A shoulder of 1.055·y^(1/2.4) − 0.055 over a toe of 12.92·y."""
+"""IEC 61966-2-1: a shoulder of 1.055·y^(1/2.4) − 0.055 above a toe of 12.92·y."""
 
 
 def srgb_to_linear(code: NDArray[Any]) -> Floats:
@@ -137,16 +137,16 @@ def linear_to_srgb(light: NDArray[Any]) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class ColorProfile:
-    """A matrix/TRC colour space: three tone curves and a matrix to linear Rec. 709.
+    """A matrix/TRC color space: three tone curves and a matrix to linear Rec. 709.
 
     Parameters
     ----------
     curves : tuple of three curves
         Tone curves of R, G, B, from code values (0–1) to linear light.
     matrix : (3, 3) float64 array or None
-        Linear RGB of the space to linear Rec. 709; None where they are the same.
+        From linear RGB of the space to linear Rec. 709; None if they are the same.
     name : str
-        What the profile calls itself.
+        The profile's own name.
     """
 
     curves: tuple[Curve, Curve, Curve]
@@ -155,13 +155,13 @@ class ColorProfile:
 
     @property
     def is_srgb(self) -> bool:
-        """True when code values are sRGB as they stand."""
+        """True if code values are sRGB without conversion."""
         return self.matrix is None and all(curve == SRGB_CURVE for curve in self.curves)
 
     def decode(self, codes: NDArray[Any]) -> Floats:
-        """Integer code values (H, W, 3), uint8 or uint16, to linear Rec. 709 float32.
+        """Convert code values (H, W, 3), uint8 or uint16, to linear Rec. 709 float32.
 
-        Colours outside Rec. 709 come out below 0 or above 1; they are kept.
+        Colors outside Rec. 709 have values below 0 or above 1, which are kept.
         """
         light = np.empty(codes.shape, np.float32)
         tables = self._tables(codes.dtype)
@@ -170,14 +170,14 @@ class ColorProfile:
         return light
 
     def to_light(self, values: NDArray[Any]) -> Floats:
-        """Float code values (H, W, 3), 0–1 and beyond, to linear Rec. 709 float32."""
+        """Convert float code values (H, W, 3), 0–1 and beyond, to linear Rec. 709 float32."""
         light = np.empty(values.shape, np.float32)
         for channel, curve in enumerate(self.curves):
             light[..., channel] = curve.decode(values[..., channel])
         return self._mixed(light)
 
     def linear(self, light: NDArray[Any]) -> Floats:
-        """Linear Rec. 709 (H, W, 3) to linear RGB of this space, unclamped."""
+        """Convert linear Rec. 709 (H, W, 3) to linear RGB of this space, unclamped."""
         if self.matrix is None:
             return np.asarray(light, np.float32)
         return np.asarray(light, np.float32) @ np.linalg.inv(self.matrix).astype(np.float32).T
@@ -185,11 +185,11 @@ class ColorProfile:
     def encode(
         self, light: NDArray[Any], dtype: Any = np.uint8, *, dither: bool = False, seed: int = 0
     ) -> NDArray[Any]:
-        """Linear Rec. 709 (H, W, 3) to rounded code values, uint8 or uint16.
+        """Convert linear Rec. 709 (H, W, 3) to rounded code values, uint8 or uint16.
 
-        Colours outside the profile's gamut are clamped channel by channel. ``dither`` adds
-        triangular noise of half a level, the same on every call with this ``seed``; a value
-        that lies on a level stays on it.
+        Colors outside the profile's gamut are clamped per channel. ``dither`` adds triangular
+        noise of half a level, the same on every call with the same ``seed``; a value on a level
+        stays on it.
         """
         codes = np.empty(light.shape, dtype)
         top = np.float32(np.iinfo(codes.dtype).max)
@@ -220,7 +220,7 @@ def _look_up(codes: NDArray[Any], tables: list[Floats]) -> Floats:
     if codes.dtype == np.uint8:
         import cv2
 
-        # Four times as fast as NumPy's indexing.
+        # Four times as fast as NumPy indexing.
         return np.asarray(cv2.LUT(codes, np.stack(tables, axis=-1)[:, None]), np.float32)
     return np.stack([table[codes[..., i]] for i, table in enumerate(tables)], axis=-1)
 
@@ -242,7 +242,7 @@ ADOBE_RGB = ColorProfile(
 
 
 def strips(shape: tuple[int, ...], pixels: int = _STRIP_PIXELS) -> list[slice]:
-    """Row ranges of a picture of ``shape``, about ``pixels`` pixels each."""
+    """Return row ranges of a picture of ``shape``, about ``pixels`` pixels each."""
     height, width = shape[:2]
     step = max(1, pixels // max(width, 1))
     return [slice(top, min(top + step, height)) for top in range(0, height, step)]

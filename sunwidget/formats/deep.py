@@ -1,4 +1,4 @@
-"""What Pillow would cut or refuse: 16-bit colour and floats by OpenCV, and a TIFF's bare tags."""
+"""Formats that Pillow truncates or refuses: 16-bit color and floats by OpenCV, and TIFF tags."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from sunwidget.formats import exif as exif_tags
 
 
 def is_deep(image: Any) -> bool:
-    """Tell 16-bit colour, which Pillow would decode to 8 bits."""
+    """Return whether a picture has 16-bit color, which Pillow would decode to 8 bits."""
     if image.mode not in ("RGB", "RGBA", "LA"):
         return False
     if image.format == "TIFF":
         return image.tag_v2.get(258, (8,))[0] == 16
-    # An image that was made, not read, has no tiles.
+    # An image that was not read from a file has no tiles.
     return any(";16" in str(tile[3]) for tile in getattr(image, "tile", ()))
 
 
-def by_opencv(data: bytes) -> NDArray[Any] | None:
-    """Decode with OpenCV to (H, W) or (H, W, 3 or 4) RGB order; None when it cannot."""
+def decode_with_opencv(data: bytes) -> NDArray[Any] | None:
+    """Decode deep pictures to (H, W) or (H, W, 3 or 4) in RGB order; None if OpenCV fails."""
     import cv2
 
     try:
@@ -44,10 +44,10 @@ def by_opencv(data: bytes) -> NDArray[Any] | None:
 
 @contextlib.contextmanager
 def quiet_opencv() -> Iterator[None]:
-    """Keep OpenCV from writing to stderr about bad files; a PhotoError says it better."""
+    """Keep OpenCV from writing to stderr about bad files; a PhotoError reports them instead."""
     import cv2
 
-    # Until OpenCV 4.10 the two functions lay elsewhere.
+    # Until OpenCV 4.10 the two functions were in the main module.
     home = cv2.utils.logging if hasattr(cv2.utils, "logging") else cv2
     level = home.getLogLevel()
     home.setLogLevel(0)
@@ -58,7 +58,7 @@ def quiet_opencv() -> Iterator[None]:
 
 
 def tiff_tags(data: bytes) -> dict[int, Any]:
-    """Return the tags of a TIFF's first directory; none of a damaged one."""
+    """Return the tags of a TIFF's first directory; empty if it is damaged."""
     from PIL import TiffImagePlugin
 
     try:
@@ -68,5 +68,5 @@ def tiff_tags(data: bytes) -> dict[int, Any]:
             stream.seek(directory.next)
             directory.load(stream)
             return dict(directory)
-    except Exception:  # noqa: BLE001 - a damaged directory; the caller says so
+    except Exception:  # noqa: BLE001 - a damaged directory; the caller reports it
         return {}

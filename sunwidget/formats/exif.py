@@ -1,7 +1,6 @@
-"""What a photo's EXIF says about its camera, place and time; and EXIF fit to be written again.
+"""Read camera, place and time from a photo's EXIF, and prepare EXIF for writing.
 
-EXIF is untrusted and often wrong: every reader here returns None rather than nonsense,
-and none of them raises.
+EXIF is untrusted and often wrong: every reader here returns None for nonsense and never raises.
 """
 
 from __future__ import annotations
@@ -27,8 +26,8 @@ _INTEROPERABILITY_IFD = 0xA005
 _USER_COMMENT = 0x9286
 _PIXEL_WIDTH, _PIXEL_HEIGHT = 0xA002, 0xA003
 _MAKER_NOTE = 0x927C
-# Tags that describe how one particular file stores its pixels, and metadata that travels
-# by another way (XMP 700, ICC 34675). A copied picture must not inherit them.
+# Tags that describe the pixel storage of one particular file, and metadata that is copied
+# separately (XMP 700, ICC 34675). A copied picture must not inherit them.
 _STORAGE_TAGS = frozenset(
     {254, 255, 256, 257, 258, 259, 262, 266, 273, 277, 278, 279, 280, 281, 284, 290, 291, 297}
     | {301, 317, 318, 319, 320, 321, 322, 323, 324, 325, 330, 332, 333, 334, 336, 338, 339, 340}
@@ -39,20 +38,20 @@ _MM_PER_UNIT = {2: 25.4, 3: 10.0, 4: 1.0, 5: 0.001}
 _DIAGONAL_35MM = 43.267  # hypot(36, 24)
 
 ASSUMED_FOV = 50.0
-"""Vertical field of view in degrees of a photo that does not tell its own."""
+"""Vertical field of view in degrees of a photo whose EXIF does not give it."""
 
 
 @dataclass(frozen=True)
 class CameraFacts:
-    """Facts of the shot, each None when the file does not tell.
+    """Facts of the shot, each None if the file does not have it.
 
-    Lengths in millimetres; ``stored_size`` is the width and height that the camera wrote,
-    before turning; latitude and longitude in degrees, north and east positive; heading in
-    degrees from north, clockwise, from magnetic north where ``heading_magnetic``; altitude in
-    metres. ``clock`` is what the camera's clock showed, without a zone; ``utc_offset`` the hours
-    that it was ahead of UTC, by its own tag (``offset_tagged``) or by the GPS; ``gps_time`` the
-    time in UTC of the last GPS fix, which may be some minutes before the shot; ``time`` the best
-    of them, see ``exif_place.best_time``.
+    Lengths are in millimetres. ``stored_size`` is the width and height that the camera wrote,
+    before turning. Latitude and longitude are in degrees, north and east positive; heading is
+    clockwise in degrees from north, from magnetic north if ``heading_magnetic``; altitude is in
+    metres. ``clock`` is the camera's clock, without a zone. ``utc_offset`` is the hours that it
+    was ahead of UTC, from its own tag (``offset_tagged``) or from the GPS. ``gps_time`` is the
+    UTC time of the last GPS fix, which may be some minutes before the shot. ``time`` is the best
+    of them, see ``exif_gps.best_time``.
     """
 
     focal_length: float | None = None
@@ -73,7 +72,7 @@ class CameraFacts:
 
 
 def load(block: bytes) -> Any:
-    """Parse an EXIF block into a Pillow Exif; None when it is damaged."""
+    """Parse an EXIF block into a Pillow Exif; None if it is damaged."""
     from PIL import Image
 
     exif = Image.Exif()
@@ -82,7 +81,7 @@ def load(block: bytes) -> Any:
             exif.load(block)
             exif.get_ifd(_EXIF_IFD)
             exif.get_ifd(_GPS_IFD)
-            # Pillow decodes values when they are asked for, and may fail then: ask now.
+            # Pillow decodes values on first access and may fail then: access them now.
             for tag in list(exif):
                 if not _decodes(exif, tag):
                     del exif[tag]
@@ -93,20 +92,20 @@ def load(block: bytes) -> Any:
 
 
 class _Text(str):
-    """Text as Pillow reads it, Latin-1, which Pillow would write with "?" for each é and ©.
+    """Text as Pillow reads it, in Latin-1; Pillow would write each é and © as "?".
 
-    EXIF's texts are ASCII by the book and UTF-8 in many files; as Latin-1 their bytes stay.
+    EXIF texts are ASCII by the standard and UTF-8 in many files; Latin-1 preserves their bytes.
     """
 
     __slots__ = ()
 
     def encode(self, *_asked: Any, **_more: Any) -> bytes:
-        """Return the bytes that were read, whichever encoding is asked for."""
+        """Return the bytes that were read, whatever the requested encoding."""
         return super().encode("latin-1", "replace")
 
 
 def keep_texts(exif: Any) -> None:
-    """Make the texts of a Pillow Exif such that it writes them as they were read."""
+    """Make a Pillow Exif write its texts with the bytes that were read."""
     for values in (exif, exif.get_ifd(_EXIF_IFD), exif.get_ifd(_GPS_IFD)):
         for tag, value in list(values.items()):
             if isinstance(value, str) and not value.isascii():
@@ -124,8 +123,8 @@ def _decodes(exif: Any, tag: int) -> bool:
 def quiet() -> Iterator[None]:
     """Silence the warnings of libraries, one thread at a time.
 
-    The list of warning filters belongs to the whole process; two threads that save and
-    restore it crosswise would silence every warning for good.
+    Warning filters belong to the whole process: two threads that save and restore them
+    interleaved would silence all warnings permanently.
     """
     with _filters_lock, warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -133,13 +132,13 @@ def quiet() -> Iterator[None]:
 
 
 def orientation(exif: Any) -> int:
-    """Return the orientation tag, 1–8; 1 when it is missing or senseless."""
+    """Return the orientation tag, 1–8; 1 if it is missing or invalid."""
     value = exif.get(_ORIENTATION, 1) if exif is not None else 1
     return value if isinstance(value, int) and 1 <= value <= 8 else 1
 
 
-def says_adobe_rgb(exif: Any) -> bool:
-    """Tell the mark of cameras set to Adobe RGB that embed no profile (DCF 2.0, "R03")."""
+def is_adobe_rgb(exif: Any) -> bool:
+    """Return whether a camera set to Adobe RGB marked a photo without a profile (DCF 2.0, R03)."""
     if exif is None or exif.get_ifd(_EXIF_IFD).get(0xA001) == 1:
         return False
     try:
@@ -155,15 +154,15 @@ def dump(
     recipe: dict[str, Any] | None = None,
     software: str | None = None,
 ) -> bytes | None:
-    """Serialise for an upright picture of ``size`` (width, height), without a stale thumbnail.
+    """Serialize for an upright picture of ``size`` (width, height), without a stale thumbnail.
 
-    ``recipe`` is kept as JSON in the user comment, ``software`` as what made the picture. Returns
-    None when nothing is left to say.
+    ``recipe`` is stored as JSON in the user comment, ``software`` as the program that made the
+    picture. Returns None if no tag is left.
     """
     from PIL import Image
 
     kept = Image.Exif()
-    # Only plain values: a private maker's tag that does not serialise is left behind.
+    # Only plain values: private tags of camera makers that do not serialize are dropped.
     for tag, value in dict(exif).items() if exif is not None else ():
         if tag not in _STORAGE_TAGS and tag not in (_EXIF_IFD, _GPS_IFD) and tag < 0xC000:
             kept[tag] = value
@@ -183,22 +182,22 @@ def dump(
             kept[ifd] = values
     if not dict(kept):
         return None
-    block = _serialised(kept)
+    block = _serialize(kept)
     if block is not None:
         return block
-    # One value that Pillow reads but cannot write must not cost the others.
+    # One value that Pillow reads but cannot write must not drop the others.
     for tag in list(kept):
         if tag in (_EXIF_IFD, _GPS_IFD):
             kept[tag] = {k: v for k, v in kept[tag].items() if _writable(tag, k, v)}
         elif not _writable(None, tag, kept[tag]):
             del kept[tag]
-    return _serialised(kept)
+    return _serialize(kept)
 
 
 def shortened(block: bytes, limit: int) -> tuple[bytes | None, str]:
-    """Make a block fit into ``limit`` bytes by leaving out as little as possible.
+    """Shorten a block to ``limit`` bytes by dropping as little as possible.
 
-    Returns the block, or None when nothing helps, and what was left out.
+    Returns the block, or None if it cannot be shortened enough, and a name of the dropped part.
     """
     for tags, what in (
         ((_MAKER_NOTE,), "maker's note"),
@@ -216,7 +215,7 @@ def shortened(block: bytes, limit: int) -> tuple[bytes | None, str]:
     return None, "metadata"
 
 
-def _serialised(exif: Any) -> bytes | None:
+def _serialize(exif: Any) -> bytes | None:
     try:
         with quiet():
             return exif.tobytes()
@@ -232,7 +231,7 @@ def _writable(ifd: int | None, tag: int, value: Any) -> bool:
         alone[tag] = value
     else:
         alone[ifd] = {tag: value}
-    return _serialised(alone) is not None
+    return _serialize(alone) is not None
 
 
 def recipe(exif: Any) -> dict[str, Any] | None:
@@ -267,19 +266,18 @@ def camera_facts(exif: Any) -> CameraFacts:
 
 
 def field_of_view(facts: CameraFacts, size: tuple[int, int], turned: bool) -> float | None:
-    """Vertical field of view in degrees of a picture of ``size`` (width, height), or None.
+    """Return the vertical field of view in degrees of a picture of ``size`` (w, h), or None.
 
     Tries the focal plane's resolution, then the 35 mm equivalent by the diagonal
-    convention f_px = f₃₅·hypot(W, H)/43.267. ``turned`` says that the picture was turned by
-    a quarter after the camera stored it. A digital zoom is a crop of the sensor that the
-    35 mm equivalent already contains (as ExifTool reads it) and the focal plane's
-    resolution does not.
+    convention f_px = f₃₅·hypot(W, H)/43.267. ``turned`` is true if the picture was turned by
+    a quarter after the camera stored it. A digital zoom crops the sensor: the 35 mm equivalent
+    already includes it (as ExifTool reads it), the focal plane's resolution does not.
     """
     stored = (size[1], size[0]) if turned else size
     from_plane = _focal_from_plane(facts, stored)
     from_35mm = _focal_from_35mm(facts, stored)
-    # Software that resizes a photo often leaves the focal plane's resolution stale; a
-    # contradiction of more than a fifth to the 35 mm equivalent gives that away.
+    # Software that resizes a photo often leaves the focal plane's resolution stale; a difference
+    # of more than a fifth from the 35 mm equivalent reveals that.
     stale = from_plane and from_35mm and not 0.8 < from_plane / from_35mm < 1.25
     for focal in (None if stale else from_plane, from_35mm):
         if focal:
@@ -304,12 +302,12 @@ def _focal_from_35mm(facts: CameraFacts, stored: tuple[int, int]) -> float | Non
 
 
 def _resized(facts: CameraFacts, stored: tuple[int, int]) -> float:
-    """How much smaller the picture is than the camera's; 1 for a crop (another aspect)."""
+    """Return the picture's scale relative to the stored one; 1 for a crop (another aspect)."""
     if facts.stored_size is None:
         return 1.0
     across, down = stored[0] / facts.stored_size[0], stored[1] / facts.stored_size[1]
     if abs(across / down - 1) < 0.02:
         return across
-    # Cropped: the scale is unknown. Full resolution is the likeliest, but a picture that
-    # reaches beyond the camera's own frame must have been enlarged.
+    # A crop: the scale is unknown. Full resolution is likeliest, but a picture that exceeds the
+    # camera's own frame must have been enlarged.
     return max(1.0, across, down)

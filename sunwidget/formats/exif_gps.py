@@ -1,7 +1,7 @@
-"""Where, when and which way EXIF says that a photo was taken.
+"""Read a photo's place, time and heading from EXIF.
 
 Tags of Exif 3.0 (CIPA DC-008-2023), sections 4.6.5 (time) and 4.6.6 (GPS). As in ``exif``, every
-reader returns None rather than nonsense, and none raises.
+reader returns None for nonsense and never raises.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from sunwidget.formats.exif_values import number, text
 _DATE_TIME, _OFFSET_TIME = 0x0132, 0x9010
 _DATE_TIME_ORIGINAL, _OFFSET_TIME_ORIGINAL = 0x9003, 0x9011
 _DATE_TIME_DIGITIZED, _OFFSET_TIME_DIGITIZED = 0x9004, 0x9012
-_FIRST_PHOTO, _LAST_YEAR = 1826, 2199  # a clock that says otherwise is not set
-_OFFSETS = (-12.0, 14.0)  # hours; the time zones that there are
+_FIRST_PHOTO, _LAST_YEAR = 1826, 2199  # a clock outside these years is not set
+_OFFSETS = (-12.0, 14.0)  # hours; range of the world's time zones
 
 
 def facts(exif: Any, shot: dict[int, Any], gps: dict[int, Any]) -> dict[str, Any]:
-    """Return the fields of ``exif.CameraFacts`` that tell place, time and heading."""
+    """Return the fields of ``exif.CameraFacts`` for place, time and heading."""
     latitude = _degrees(gps.get(2), gps.get(1), "S", 90)
     longitude = _degrees(gps.get(4), gps.get(3), "W", 180)
     if latitude == 0 and longitude == 0:  # what a receiver without a fix writes
@@ -44,10 +44,10 @@ def facts(exif: Any, shot: dict[int, Any], gps: dict[int, Any]) -> dict[str, Any
 def best_time(
     clock: dt.datetime | None, offset: float | None, stamp: dt.datetime | None
 ) -> dt.datetime | None:
-    """Return the time of the shot: with a zone where one is known, else local and naive.
+    """Return the time of the shot: with a zone if one is known, else local and naive.
 
-    The camera's clock with its offset comes first: the time stamp of the GPS is that of its last
-    fix, which a camera just taken out of the bag may have had a while ago.
+    The camera's clock with its offset comes first: the GPS time stamp is that of the last fix,
+    which may be old if the camera was just taken out of the bag.
     """
     if clock is not None and offset is not None:
         return clock.replace(tzinfo=dt.timezone(dt.timedelta(hours=offset)))
@@ -55,7 +55,7 @@ def best_time(
 
 
 def _clock(exif: Any, shot: dict[int, Any]) -> tuple[dt.datetime | None, float | None]:
-    """Return what the clock showed, and by the tag that belongs to it the hours ahead of UTC."""
+    """Return the camera's clock, and the hours ahead of UTC from the tag that belongs to it."""
     for value, offset in (
         (shot.get(_DATE_TIME_ORIGINAL), shot.get(_OFFSET_TIME_ORIGINAL)),
         (shot.get(_DATE_TIME_DIGITIZED), shot.get(_OFFSET_TIME_DIGITIZED)),
@@ -94,16 +94,16 @@ def _gps_time(gps: dict[int, Any]) -> dt.datetime | None:
 
 
 def _offset_to(clock: dt.datetime | None, stamp: dt.datetime | None) -> float | None:
-    """Hours that the clock is ahead of the GPS, to the quarter that zones come in.
+    """Return the hours that the clock is ahead of the GPS, in quarters, as time zones are.
 
-    None where the two are farther from a quarter than a late fix explains: the clock is not set
-    to any zone's time, or the stamp is not of this shot.
+    None if the difference is too far from a quarter for a late fix: the clock is not set to the
+    time of any zone, or the stamp is not from this shot.
     """
     if clock is None or stamp is None:
         return None
     ahead = (clock - stamp.replace(tzinfo=None)).total_seconds() / 3600
     offset = round(ahead * 4) / 4
-    # Half a quarter would fit anything; five minutes is a clock that is set and a recent fix.
+    # Half a quarter would accept anything; five minutes accepts a set clock and a recent fix.
     fits = abs(ahead - offset) <= 5 / 60 and _OFFSETS[0] <= offset <= _OFFSETS[1]
     return offset if fits else None
 

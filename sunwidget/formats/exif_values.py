@@ -1,4 +1,4 @@
-"""Numbers and texts out of EXIF values, which may be anything; None rather than nonsense."""
+"""Read numbers and texts from EXIF values, which may be anything; None for nonsense."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def number(value: Any) -> float | None:
-    """Return a finite number, also out of a row of one."""
+    """Return a finite number, also from a sequence of one; None for anything else."""
     if isinstance(value, (tuple, list)) and len(value) == 1:
         value = value[0]
     try:
@@ -18,13 +18,13 @@ def number(value: Any) -> float | None:
 
 
 def positive(value: Any) -> float | None:
-    """Return a number above 0."""
+    """Return a number above 0; None for anything else."""
     found = number(value)
     return found if found is not None and found > 0 else None
 
 
 def text(value: Any) -> str:
-    """Return text without its padding; empty for anything else."""
+    """Return a text without its padding; empty for anything else."""
     if isinstance(value, bytes):
         value = value.decode("latin-1")
     return value.strip("\0 ") if isinstance(value, str) else ""

@@ -1,8 +1,8 @@
-"""Gain maps: how much brighter than its picture a screen may show each place (ISO 21496-1).
+"""Gain maps: how much brighter than its picture a screen may show each pixel (ISO 21496-1).
 
-A map is a small JPEG of its own behind the picture's, found by the multi-picture index of CIPA
-DC-007. What its levels mean stands in a segment of it by ISO 21496-1, in its XMP by "Ultra HDR
-Image Format v1.1" (Android, 2024), or both.
+A map is a small separate JPEG after the picture's, located by the multi-picture index of CIPA
+DC-007. The meaning of its levels is stored in a segment by ISO 21496-1, in its XMP by "Ultra HDR
+Image Format v1.1" (Android, 2024), or in both.
 """
 
 from __future__ import annotations
@@ -37,20 +37,21 @@ Triple = tuple[float, float, float]
 class GainMap:
     """A gain map as a file holds it.
 
-    With the map's levels ``g`` in 0–1, ``l = low + (high - low) * g ** (1 / gamma)`` are stops, and
-    the light on a screen that can is ``(light + base_offset) * 2 ** l - other_offset``, in the
-    linear colours of the picture, 1 = white.
+    With the map's levels ``g`` in 0–1, ``l = low + (high - low) * g ** (1 / gamma)`` are stops. A
+    screen with enough headroom shows ``(light + base_offset) * 2 ** l - other_offset``, in the
+    linear colors of the picture, 1 = white.
 
     Attributes
     ----------
     jpeg : bytes
-        The map's own JPEG, grey or in colours, upright like the picture, of any size.
+        The map's own JPEG, gray or in color, upright like the picture, of any size.
     low, high : (float, float, float)
         Stops of the darkest and of the brightest level, by channel.
     gamma, base_offset, other_offset : (float, float, float)
         As above, by channel.
     least_headroom, headroom : float
-        Stops above white of a screen that shows nothing of the map, and of one that shows all.
+        Headroom, in stops above white, up to which a screen ignores the map, and from which it
+        applies the whole map.
     """
 
     jpeg: bytes
@@ -83,19 +84,19 @@ class GainMap:
         return levels
 
     def applied(self, light: NDArray[Any], headroom: float | None = None) -> NDArray[np.float32]:
-        """Return what a screen shows.
+        """Return the light that a screen shows.
 
         Parameters
         ----------
         light : (H, W, 3) float array
             The picture, linear in its own primaries, 1 = white.
         headroom : float, optional
-            Stops above white of the screen. Default: enough for all of the map.
+            Headroom of the screen in stops above white. Default: enough for the whole map.
 
         Returns
         -------
         (H, W, 3) float32 array
-            Up to 2 ** headroom.
+            Linear light up to 2 ** headroom.
         """
         import cv2
 
@@ -114,18 +115,19 @@ class GainMap:
             stops = np.asarray(cv2.resize(stops, (width, height), interpolation=cv2.INTER_LINEAR))
         return np.asarray((light + base) * np.exp2(weight * stops) - other, np.float32)
 
-    def turned(self, way: int) -> GainMap:
-        """Return the map of a picture whose EXIF orientation ``way`` is applied.
+    def turned(self, orientation: int) -> GainMap:
+        """Return the map turned upright from an EXIF orientation, like its picture.
 
-        Only a map that has to be turned is packed anew.
+        The JPEG is encoded again only if the map has to be turned.
         """
-        if way == 1:
+        if orientation == 1:
             return self
-        return replace(self, jpeg=packed(np.ascontiguousarray(upright(self.levels, way)), self))
+        levels = np.ascontiguousarray(upright(self.levels, orientation))
+        return replace(self, jpeg=packed(levels, self))
 
 
-def packed(levels: NDArray[np.uint8], told: GainMap, quality: int = 95) -> bytes:
-    """Return levels (h, w, 1 or 3) as the JPEG of a map, with what ``told`` says they mean."""
+def packed(levels: NDArray[np.uint8], meaning: GainMap, quality: int = 95) -> bytes:
+    """Return levels (h, w, 1 or 3) as the JPEG of a map, with the metadata of ``meaning``."""
     from PIL import Image
 
     out = io.BytesIO()
@@ -136,20 +138,20 @@ def packed(levels: NDArray[np.uint8], told: GainMap, quality: int = 95) -> bytes
     return b"".join(
         [
             data[:2],
-            segment(0xE1, XMP_NAME + xmp.gain_map_packet(_told_to_xmp(told, many))),
-            segment(0xE2, ISO_NAME + _to_iso(told, many)),
+            segment(0xE1, XMP_NAME + xmp.gain_map_packet(_to_xmp(meaning, many))),
+            segment(0xE2, ISO_NAME + _to_iso(meaning, many)),
             data[2:],
         ]
     )
 
 
 def segment(marker: int, body: bytes) -> bytes:
-    """Return a JPEG's segment."""
+    """Return a JPEG segment with its marker and length."""
     return struct.pack(">BBH", 0xFF, marker, len(body) + 2) + body
 
 
 def segments(data: bytes) -> Iterator[tuple[int, int, bytes]]:
-    """Yield the segments of a JPEG before its scan: marker, place, body."""
+    """Yield the segments of a JPEG before its scan: marker, offset, body."""
     at = 2
     while at + 4 <= len(data) and data[at] == 0xFF and data[at + 1] != 0xDA:
         length = int.from_bytes(data[at + 2 : at + 4], "big")
@@ -158,12 +160,12 @@ def segments(data: bytes) -> Iterator[tuple[int, int, bytes]]:
 
 
 def find(data: bytes) -> GainMap | None:
-    """Return the gain map behind the JPEG ``data``; None without one, and of other files.
+    """Return the gain map after the JPEG ``data``; None without one, and for other files.
 
-    A map that makes no sense is none: the picture does not need it.
+    An invalid map is ignored, since the picture can be shown without it.
     """
     for part in pictures_behind(data):
-        # Anybody's bytes, which may fail anywhere.
+        # Untrusted bytes may fail anywhere in a parser.
         with contextlib.suppress(Exception):
             if (found := _read(part)) is not None:
                 return found
@@ -171,7 +173,7 @@ def find(data: bytes) -> GainMap | None:
 
 
 def pictures_behind(data: bytes) -> list[bytes]:
-    """Return the further JPEGs of a JPEG, by its multi-picture index; none of other files."""
+    """Return the further JPEGs in a JPEG's multi-picture index; empty for other files."""
     found = []
     for marker, at, body in segments(data) if data[:2] == b"\xff\xd8" else ():
         if marker != 0xE2 or not body.startswith(_MP_NAME):
@@ -188,38 +190,38 @@ def pictures_behind(data: bytes) -> list[bytes]:
 
 
 def _read(jpeg: bytes) -> GainMap | None:
-    """Return a JPEG as the map that its own segments tell it is; None when they tell of none."""
+    """Return the gain map that a JPEG's segments describe; None if they describe no map."""
     packet: bytes | None = None
     for marker, _, body in segments(jpeg):
         if marker == 0xE2 and body.startswith(ISO_NAME):
-            return _sensible(_of_iso(jpeg, body[len(ISO_NAME) :]))
+            return _valid_or_none(_from_iso(jpeg, body[len(ISO_NAME) :]))
         if marker == 0xE1 and body.startswith(XMP_NAME):
             packet = body[len(XMP_NAME) :]
-    told = xmp.gain_map_values(packet)
-    return None if told is None else _sensible(_of_xmp(jpeg, told))
+    values = xmp.gain_map_values(packet)
+    return None if values is None else _valid_or_none(_from_xmp(jpeg, values))
 
 
-def _sensible(found: GainMap) -> GainMap | None:
+def _valid_or_none(found: GainMap) -> GainMap | None:
     numbers = [*found.low, *found.high, *found.gamma, *found.base_offset, *found.other_offset]
     bounded = all(np.isfinite(numbers)) and max(map(abs, numbers)) < 64 and min(found.gamma) > 0
-    # Of a picture that is the brighter one itself the map tells how to darken it: not ours.
+    # A map that darkens a brighter picture is not supported.
     if not bounded or not found.least_headroom <= found.headroom < 64:
         return None
-    with quiet():  # Pillow warns of large pictures, and refuses huge ones
+    with quiet():  # Pillow warns about large pictures, and refuses huge ones
         return found if found.levels.size else None
 
 
-def _to_iso(told: GainMap, many: bool) -> bytes:
-    """ISO 21496-1:2025, annex C: versions, flags, and fractions of 32 bits each."""
+def _to_iso(meaning: GainMap, many: bool) -> bytes:
+    """Encode metadata by ISO 21496-1:2025, annex C: versions, flags, fractions of 32 bits each."""
     out = struct.pack(">HHB", 0, 0, _BASE_COLOURS | (_MANY if many else 0))
-    out += _fraction(told.least_headroom, ">II") + _fraction(told.headroom, ">II")
+    out += _fraction(meaning.least_headroom, ">II") + _fraction(meaning.headroom, ">II")
     for channel in range(3 if many else 1):
         for values, kind in (
-            (told.low, ">iI"),
-            (told.high, ">iI"),
-            (told.gamma, ">II"),
-            (told.base_offset, ">iI"),
-            (told.other_offset, ">iI"),
+            (meaning.low, ">iI"),
+            (meaning.high, ">iI"),
+            (meaning.gamma, ">II"),
+            (meaning.base_offset, ">iI"),
+            (meaning.other_offset, ">iI"),
         ):
             out += _fraction(values[channel], kind)
     return out
@@ -230,18 +232,18 @@ def _fraction(value: float, kind: str) -> bytes:
     return struct.pack(kind, near.numerator, near.denominator)
 
 
-def _of_iso(jpeg: bytes, told: bytes) -> GainMap:
-    oldest, _, flags = struct.unpack_from(">HHB", told)
+def _from_iso(jpeg: bytes, body: bytes) -> GainMap:
+    oldest, _, flags = struct.unpack_from(">HHB", body)
     if oldest > 0 or flags & _BACKWARD:
-        raise ValueError("another kind of map")
+        raise ValueError("unsupported kind of map")
     channels = 3 if flags & _MANY else 1
     signed = "iiIii" * channels
     if flags & _COMMON:
-        below, *numbers = struct.unpack_from(f">III{signed}", told, 5)
+        below, *numbers = struct.unpack_from(f">III{signed}", body, 5)
         values = [number / below for number in numbers]
     else:
         pairs = "IIII" + "".join(f"{kind}I" for kind in signed)
-        numbers = list(struct.unpack_from(f">{pairs}", told, 5))
+        numbers = list(struct.unpack_from(f">{pairs}", body, 5))
         values = [above / below for above, below in zip(numbers[::2], numbers[1::2], strict=True)]
     rows = [values[2 + 5 * c : 7 + 5 * c] for c in range(channels)] * (3 // channels)
     low, high, gamma, base, other = (_triple(numbers) for numbers in zip(*rows, strict=True))
@@ -262,25 +264,25 @@ _XMP_FIELDS = {
 }
 
 
-def _told_to_xmp(told: GainMap, many: bool) -> dict[str, list[float]]:
-    values = {name: list(getattr(told, field)) for name, field in _XMP_FIELDS.items()}
+def _to_xmp(meaning: GainMap, many: bool) -> dict[str, list[float]]:
+    values = {name: list(getattr(meaning, field)) for name, field in _XMP_FIELDS.items()}
     values = {name: numbers if many else numbers[:1] for name, numbers in values.items()}
     return {
         **values,
-        "HDRCapacityMin": [told.least_headroom],
-        "HDRCapacityMax": [told.headroom],
+        "HDRCapacityMin": [meaning.least_headroom],
+        "HDRCapacityMax": [meaning.headroom],
     }
 
 
-def _of_xmp(jpeg: bytes, told: dict[str, list[float]]) -> GainMap:
+def _from_xmp(jpeg: bytes, values: dict[str, list[float]]) -> GainMap:
     found = GainMap(jpeg)
     for name, field in _XMP_FIELDS.items():
-        if name in told:
-            numbers = told[name]
-            given: dict[str, Any] = {field: _triple(numbers * (3 // len(numbers)))}
-            found = replace(found, **given)
+        if name in values:
+            numbers = values[name]
+            change: dict[str, Any] = {field: _triple(numbers * (3 // len(numbers)))}
+            found = replace(found, **change)
     return replace(
         found,
-        least_headroom=told.get("HDRCapacityMin", [0.0])[0],
-        headroom=told.get("HDRCapacityMax", [max(found.high)])[0],
+        least_headroom=values.get("HDRCapacityMin", [0.0])[0],
+        headroom=values.get("HDRCapacityMax", [max(found.high)])[0],
     )

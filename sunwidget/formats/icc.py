@@ -1,7 +1,7 @@
-"""Reads matrix/TRC colour profiles (ICC.1:2022) into float curves and one matrix.
+"""Read matrix/TRC color profiles (ICC.1:2022) into float curves and one matrix.
 
-Only what a display or camera RGB profile needs is read, with every offset checked: a
-profile is untrusted input. Profiles built on look-up tables are left to LittleCMS.
+Only the tags of display and camera RGB profiles are read, with every offset checked: a profile
+is untrusted input. LittleCMS handles profiles that are built on look-up tables.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from sunwidget.formats.color import (
     TableCurve,
 )
 
-# A profile nearer to sRGB than this *is* sRGB written by somebody else: half an 8-bit
-# level and a bit. Snapping makes its code values usable by a browser as they are.
+# A profile nearer to sRGB than this counts as sRGB: a little over half an 8-bit level. A browser
+# can then use its code values as they are.
 _SAME_CURVE = 0.003
 _SAME_MATRIX = 0.004
 
@@ -31,18 +31,18 @@ _BRADFORD = np.array(
 
 
 class ProfileError(ValueError):
-    """A colour profile that is damaged or not of the matrix/TRC kind."""
+    """A color profile that is damaged or not of the matrix/TRC kind."""
 
 
 def color_space(icc: bytes) -> str:
-    """Return the profile's data colour space, such as "RGB", "GRAY" or "CMYK"."""
+    """Return the profile's data color space, such as "RGB", "GRAY" or "CMYK"."""
     if len(icc) < 132 or icc[36:40] != b"acsp":
         raise ProfileError("it has no ICC header")
     return icc[16:20].decode("latin-1").strip()
 
 
 def read_profile(icc: bytes) -> ColorProfile:
-    """Read a matrix/TRC RGB profile, or a grey one (whose curve serves all channels).
+    """Read a matrix/TRC RGB profile, or a gray one, whose curve applies to all channels.
 
     Raises
     ------
@@ -98,7 +98,7 @@ def _curve(tag: bytes) -> Curve:
     values = np.frombuffer(tag, ">u2", count, 12).astype(np.float64)
     if count == 1:
         return _checked(ParametricCurve(values[0] / 256.0))
-    # A table that dips has no inverse; the running maximum is the nearest one that has.
+    # A table that dips has no inverse; its running maximum has.
     samples = np.maximum.accumulate(values / 65535.0)
     if samples[-1] - samples[0] < 0.5:
         raise ProfileError("a tone curve is flat")
@@ -143,11 +143,11 @@ def _snapped(curve: Curve) -> Curve:
 
 
 def _to_rec709(columns: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Matrix from the profile's linear RGB to linear Rec. 709; white maps to white exactly."""
+    """Return the matrix from linear RGB to linear Rec. 709; white maps to white exactly."""
     white = columns.sum(axis=1)
-    # Real spaces have a condition number of 5 to 20; near-parallel primaries amplify noise.
+    # Real color spaces have condition numbers of 5 to 20; near-parallel primaries amplify noise.
     if np.linalg.cond(columns) > 500 or (white <= 0.1).any() or (white > 2).any():
-        raise ProfileError("its primaries do not span a colour space")
+        raise ProfileError("its primaries do not span a color space")
     # Some old profiles store primaries that were not adapted to D50.
     have, want = _BRADFORD @ white, _BRADFORD @ REC709_TO_D50.sum(axis=1)
     adapt = np.linalg.inv(_BRADFORD) @ np.diag(want / have) @ _BRADFORD

@@ -1,7 +1,7 @@
-"""OpenEXR files: linear light as half or single floats, by the ``exr`` extra.
+"""OpenEXR files: linear light as half or single floats; needs the ``exr`` extra.
 
-Colours are linear Rec. 709 with 1 = white of the display. The file says so in its standard
-attributes (``chromaticities``, ``whiteLuminance`` where light is absolute).
+Colors are linear Rec. 709 with 1 = white of the display. The standard attributes record this
+(``chromaticities``, and ``whiteLuminance`` if light is absolute).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _MISSING = "OpenEXR files need the OpenEXR package: pip install 'sunwidget[exr]'
 
 @dataclass
 class Exr:
-    """What a file holds: (H, W, 3) float32 linear Rec. 709, straight alpha or None, notes, dpi."""
+    """Contents: (H, W, 3) float32 linear Rec. 709, straight alpha or None, notes, dpi."""
 
     light: NDArray[np.float32]
     alpha: NDArray[np.float32] | None
@@ -42,7 +42,7 @@ def library() -> Any:
     Raises
     ------
     PhotoError
-        When it is not installed.
+        When the package is not installed.
     """
     try:
         import OpenEXR
@@ -59,20 +59,20 @@ def write(
     *,
     bits: int = 16,
 ) -> None:
-    """Write channels as a scan-line file, ZIP-compressed without loss.
+    """Write channels as a scan-line file with lossless ZIP compression.
 
     Parameters
     ----------
     path : Path
-        Where to.
+        File to write.
     channels : dict of (H, W) arrays
         By full name: ``"R"``, ``"sky.R"``, ``"matte.Y"`` …
     attributes : dict
-        Besides the chromaticities: text, float or tuple, by OpenEXR's standard names.
+        Further standard attributes of OpenEXR by name, each a text, float or tuple.
     notes : dict of str
-        Texts of our own, which :func:`read` returns.
+        sunwidget's own texts, which :func:`read` returns.
     bits : {16, 32}
-        Half floats hold 11 bits of any light up to 65504; beyond, light is cut.
+        Half floats have 11 bits of precision up to 65504; brighter light is clipped.
 
     Raises
     ------
@@ -95,22 +95,22 @@ def write(
     own = {_NOTE + name: text for name, text in notes.items()}
     try:
         exr.File(header | attributes | own, packed).write(str(path))
-    except RuntimeError as error:  # the library's only kind, for a full disk as well
-        told = OSError(f"The OpenEXR file was not written: {error}")
+    except RuntimeError as error:  # the library's only error, even for a full disk
+        failure = OSError(f"The OpenEXR file was not written: {error}")
         if os.strerror(errno.ENOSPC) in str(error):
-            told.errno = errno.ENOSPC
-        raise told from error
+            failure.errno = errno.ENOSPC
+        raise failure from error
 
 
 def read(data: bytes, name: str) -> Exr:
-    """Read the colour of a file's first part; further layers are left aside.
+    """Read the color of a file's first part; further layers are ignored.
 
     Parameters
     ----------
     data : bytes
-        The file.
+        Content of the file.
     name : str
-        What error messages call it.
+        Name of the file in error messages.
 
     Raises
     ------
@@ -131,7 +131,7 @@ def read(data: bytes, name: str) -> Exr:
             planes = {key: channel.pixels for key, channel in found.items()}
         except PhotoError:
             raise
-        except Exception as error:  # the C++ library's own kinds of errors
+        except Exception as error:  # errors of the C++ library
             raise _damaged(name) from error
     names = ("R", "G", "B") if {"R", "G", "B"} <= set(planes) else ("Y", "Y", "Y")
     if names[0] not in planes:
@@ -146,7 +146,7 @@ def read(data: bytes, name: str) -> Exr:
     alpha = planes.get("A")
     if alpha is not None:
         alpha = np.clip(alpha.astype(np.float32), 0, 1)
-        # OpenEXR's colours are multiplied by alpha ("Technical Introduction to OpenEXR").
+        # OpenEXR colors are premultiplied by alpha ("Technical Introduction to OpenEXR").
         light /= np.maximum(alpha, 1e-6)[..., None]
     matrix = primaries_to_rec709(_numbers(header.get("chromaticities"), REC709_CHROMATICITIES))
     if matrix is not None:
@@ -161,7 +161,7 @@ def read(data: bytes, name: str) -> Exr:
 
 
 def _numbers(value: Any, otherwise: tuple[float, ...]) -> tuple[float, ...]:
-    """Return an attribute that should be as many numbers as ``otherwise``; that where it is not."""
+    """Return an attribute as finite numbers, or ``otherwise`` if it has not as many numbers."""
     try:
         found = tuple(float(number) for number in value)
     except (TypeError, ValueError):

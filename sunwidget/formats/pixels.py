@@ -1,4 +1,4 @@
-"""Pixel arrays of any layout to colour and alpha, and what makes an array no picture."""
+"""Split pixel arrays of any layout into color and alpha, and reject arrays that are no picture."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from sunwidget.errors import PhotoError
 from sunwidget.formats.color import LUMINANCE
 
 MAX_PIXELS = 200_000_000
-"""Largest picture that is opened. Above it, a few kilobytes could ask for all of memory."""
+"""Most pixels that a picture may have; without a limit a file of a few kB could use all memory."""
 
 MAX_LIGHT = 1e18
-"""Brightest light that is opened, 1 = white: its square is still a float of single precision."""
+"""Brightest light that a picture may have, 1 = white: its square still fits a float32."""
 
 
 def size_within(size: tuple[int, int], long_edge: float) -> tuple[int, int]:
-    """Return a (width, height) shrunk in proportion to at most ``long_edge`` pixels, at least 1."""
+    """Return a (width, height) scaled down to at most ``long_edge`` pixels, at least 1 each."""
     scale = min(1.0, long_edge / max(size))
     return max(1, round(size[0] * scale)), max(1, round(size[1] * scale))
 
 
 def check_size(width: int, height: int, name: str) -> None:
-    """Refuse pictures without pixels and those of more than MAX_PIXELS."""
+    """Refuse pictures without pixels or with more than MAX_PIXELS."""
     if width < 1 or height < 1:
         raise PhotoError(f"{name} has no pixels ({width}×{height}).")
     if width * height > MAX_PIXELS:
@@ -35,7 +35,7 @@ def check_size(width: int, height: int, name: str) -> None:
 
 
 def split_alpha(array: NDArray[Any], name: str) -> tuple[NDArray[Any], NDArray[np.float32] | None]:
-    """Split (H, W), (H, W, 1–4) into colour (H, W, 3) and alpha (H, W) in 0–1 or None."""
+    """Split (H, W) or (H, W, 1–4) into color (H, W, 3) and alpha (H, W) in 0–1 or None."""
     if array.ndim == 2:
         array = array[..., None]
     channels = array.shape[2] if array.ndim == 3 else 0
@@ -55,7 +55,7 @@ def split_alpha(array: NDArray[Any], name: str) -> tuple[NDArray[Any], NDArray[n
 
 
 def check_light(light: NDArray[Any], name: str) -> None:
-    """Refuse float pictures that hold no light: NaN, infinity, too much, negative luminance."""
+    """Refuse float pictures with NaN, infinity, too much light or negative luminance."""
     bad = light.size - int(np.isfinite(light).sum())
     if bad:
         raise PhotoError(
@@ -65,26 +65,26 @@ def check_light(light: NDArray[Any], name: str) -> None:
     brightest = max(float(light.max()), -float(light.min()))
     if brightest > MAX_LIGHT:
         raise PhotoError(
-            f"{name} holds light up to {brightest:.3g}, where 1 is white and {MAX_LIGHT:g} the "
-            "most that is opened. Cut it first, for example with numpy.clip."
+            f"{name} holds light up to {brightest:.3g} (1 = white); the maximum is {MAX_LIGHT:g}. "
+            "Limit it first, for example with numpy.clip."
         )
     luminance = light @ LUMINANCE
-    # Single channels below 0 are colours outside Rec. 709; negative luminance is no colour.
-    # The margin is for resampling, which undershoots beside bright edges.
+    # Single channels below 0 are colors outside Rec. 709, but no color has negative luminance.
+    # The margin allows for resampling, which undershoots beside bright edges.
     lowest = float(luminance.min())
     if lowest < -0.05 * max(1.0, float(luminance.max())):
         raise PhotoError(
-            f"{name} holds negative light (luminance down to {lowest:.3g}). Floats are taken as "
-            "linear Rec. 709 light, 0 = black, 1 = white."
+            f"{name} holds negative light (luminance down to {lowest:.3g}). Floats must be linear "
+            "Rec. 709 light, 0 = black, 1 = white."
         )
 
 
-def upright(array: NDArray[Any], way: int) -> NDArray[Any]:
-    """Turn an array stored in EXIF orientation ``way`` (1–8) upright; a view."""
-    if way >= 5:
+def upright(array: NDArray[Any], orientation: int) -> NDArray[Any]:
+    """Return an upright view of an array that is stored in an EXIF orientation, 1–8."""
+    if orientation >= 5:
         array = np.swapaxes(array, 0, 1)
-    if way in (2, 3, 6, 7):
+    if orientation in (2, 3, 6, 7):
         array = array[:, ::-1]
-    if way in (3, 4, 7, 8):
+    if orientation in (3, 4, 7, 8):
         array = array[::-1]
     return array

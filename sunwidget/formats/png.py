@@ -1,4 +1,4 @@
-"""Pictures as PNG, and as the output of a notebook's cell."""
+"""Encode pictures as PNG, and as the output of a notebook cell."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ _PALETTE_SIZE = (120, 80)
 
 
 def encode_png(image: NDArray[np.uint8]) -> bytes:
-    """Return an (H, W, 3), (H, W, 4) or (H, W) uint8 picture as PNG, fast rather than small."""
+    """Encode an (H, W, 3), (H, W, 4) or (H, W) uint8 picture as PNG, fast rather than small."""
     import cv2
 
     bgr = image[..., [2, 1, 0, 3][: image.shape[2]]] if image.ndim == 3 else image
-    # Left to itself OpenCV tunes for speed: half the time of level 2, and about as small.
+    # OpenCV's default is tuned for speed: half the time of level 2, at about the same size.
     ok, data = cv2.imencode(".png", bgr)
     if not ok:
         raise RuntimeError(f"OpenCV could not encode a picture of shape {image.shape} as PNG.")
@@ -26,9 +26,9 @@ def encode_png(image: NDArray[np.uint8]) -> bytes:
 
 
 def encode_small_png(image: NDArray[np.uint8]) -> bytes:
-    """Return an (H, W, 3) uint8 picture as PNG of few bytes, for what every notebook keeps.
+    """Encode an (H, W, 3) uint8 picture as a small PNG, for pictures that every notebook saves.
 
-    Above ``_FEW_BYTES`` it has 256 colours and is dithered: a third of the bytes, for 20 ms.
+    Above ``_FEW_BYTES`` it has 256 colors and is dithered: a third of the bytes, for 20 ms.
     """
     from PIL import Image
 
@@ -36,7 +36,7 @@ def encode_small_png(image: NDArray[np.uint8]) -> bytes:
     if len(data) <= _FEW_BYTES:
         return data
     whole = Image.fromarray(image)
-    # Colours are chosen on fewer pixels: on all of them that takes longer than all else.
+    # Colors are chosen from a smaller picture: on all pixels that would take most of the time.
     palette = whole.resize(_PALETTE_SIZE).quantize(256)
     small = io.BytesIO()
     whole.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG).save(small, "PNG")
@@ -46,11 +46,11 @@ def encode_small_png(image: NDArray[np.uint8]) -> bytes:
 def cell_output(
     image: NDArray[np.uint8], text: str, alternative: str
 ) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return what ``_repr_mimebundle_`` is to: the (H, W, 3) picture, and ``text`` where none goes.
+    """Return data and metadata for ``_repr_mimebundle_``: the (H, W, 3) picture, and ``text``.
 
-    ``alternative`` says what it shows to who cannot see it.
+    ``alternative`` is the alternative text of the picture.
     """
     height, width = image.shape[:2]
-    # PNG alone, not HTML as well: a notebook keeps every form that is offered.
+    # PNG without HTML: a notebook saves every form that it receives.
     data = {"text/plain": text, "image/png": base64.b64encode(encode_png(image)).decode("ascii")}
     return data, {"image/png": {"width": width, "height": height, "alt": alternative}}

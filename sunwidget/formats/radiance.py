@@ -1,7 +1,7 @@
-"""Radiance HDR files (.hdr, RGBE): linear light with 8 bits a channel and a common exponent.
+"""Radiance HDR files (.hdr, RGBE): linear light with 8 bits per channel and a common exponent.
 
-Ward, "Real Pixels", Graphics Gems II (1991). OpenCV packs the pixels; the header is ours. A
-mantissa m with exponent e stands for m · 2^(e − 136), as most programs read it.
+Ward, "Real Pixels", Graphics Gems II (1991). OpenCV packs the pixels; this module writes the
+header. A mantissa m with exponent e means m · 2^(e − 136), as in most programs.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from sunwidget.formats.color import (
     primaries_to_rec709,
     strips,
 )
-from sunwidget.formats.deep import by_opencv
+from sunwidget.formats.deep import decode_with_opencv
 from sunwidget.formats.pixels import check_size
 
 MAGIC = (b"#?RADIANCE", b"#?RGBE")
-# Readers with a fixed buffer (128 bytes in OpenCV) take a longer line for two.
+# Readers with a fixed buffer (128 bytes in OpenCV) split longer lines.
 _LINE = 100
 _RESOLUTION = re.compile(rb"-Y (\d{1,9}) \+X (\d{1,9})\n")
 
 
 @dataclass
 class Hdr:
-    """What a file holds: (H, W, 3) float32 linear Rec. 709, and the notes of its header."""
+    """Contents: (H, W, 3) float32 linear Rec. 709, and the notes of the header."""
 
     light: NDArray[np.float32]
     notes: dict[str, str]
@@ -41,9 +41,9 @@ class Hdr:
 def pack(
     light: NDArray[np.float32], notes: dict[str, str], *, software: str = "sunwidget"
 ) -> bytes:
-    """Return a file of ``light``, (H, W, 3) linear Rec. 709; negative light becomes 0.
+    """Return ``light``, (H, W, 3) linear Rec. 709, as a file; negative light becomes 0.
 
-    ``notes`` are texts in ASCII without line breaks, kept as comments under their names.
+    ``notes`` are ASCII texts without line breaks, written as comments under their names.
     """
     import cv2
 
@@ -53,7 +53,7 @@ def pack(
     done, packed = cv2.imencode(".hdr", levels)
     if not done:
         raise PhotoError(
-            "OpenCV could not pack the picture as Radiance HDR. It needs room for that in "
+            "OpenCV could not encode the picture as Radiance HDR. It needs free space in "
             f"{tempfile.gettempdir()}."
         )
     data = packed.tobytes()
@@ -67,7 +67,7 @@ def pack(
 
 
 def _on_levels(light: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Round to the levels of RGBE, plus a quarter: OpenCV cuts where rounding is due."""
+    """Round to the levels of RGBE and add a quarter level, since OpenCV truncates."""
     light = np.clip(light, 0, 1e30, dtype=np.float32)
     largest = light.max(axis=-1)
     _, exponent = np.frexp(largest)
@@ -77,12 +77,12 @@ def _on_levels(light: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def read(data: bytes, name: str) -> Hdr:
-    """Read a file; its EXPOSURE is undone and its PRIMARIES become Rec. 709's.
+    """Read a file: undo its EXPOSURE and convert its PRIMARIES to Rec. 709.
 
     Raises
     ------
     PhotoError
-        For a damaged file, and for one that is turned or mirrored in an unusual way.
+        For a damaged file, and for one whose pixels are not stored from the top left.
     """
     end = data.find(b"\n\n")
     size = _RESOLUTION.match(data, end + 2) if end >= 0 else None
@@ -95,7 +95,7 @@ def read(data: bytes, name: str) -> Hdr:
     check_size(width, height, name)
     lines = data[:end].decode("latin-1").splitlines()
     plain = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + data[end + 2 :]
-    found = by_opencv(plain)
+    found = decode_with_opencv(plain)
     if found is None or found.shape != (height, width, 3):
         raise PhotoError(f"{name} is a damaged Radiance HDR file. Copy or download it again.")
     light = found / np.float32(_exposure(lines))

@@ -1,7 +1,7 @@
-"""XMP packets: the recipe of an edit recorded in them, and read back; all else in them stays.
+"""XMP packets: write and read an edit's recipe; everything else in the packet stays.
 
-Adobe, "XMP Specification Part 1" (2012) and Part 2, 2.2 (xmpMM:History). No time is written: the
-same edit of the same photo makes the same file.
+Adobe, "XMP Specification Part 1" (2012) and Part 2, 2.2 (xmpMM:History). No time is written, so
+that the same edit of the same photo gives the same file.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _GAIN_MAP = "http://ns.adobe.com/hdr-gain-map/1.0/"
 _CONTAINER = "http://ns.google.com/photos/1.0/container/"
 _ITEM = "http://ns.google.com/photos/1.0/container/item/"
 _EMPTY = f'<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="{_RDF}"/></x:xmpmeta>'
-# A long recipe (thousands of points of strokes) stays in the EXIF alone: a JPEG holds 64 kB.
+# A longer recipe (thousands of stroke points) goes into the EXIF only: a JPEG segment holds 64 kB.
 _LONGEST_RECIPE = 32_000
 
 
@@ -32,22 +32,22 @@ def record(
     Parameters
     ----------
     packet : bytes or None
-        The photo's own XMP; everything in it is kept. One that is no XML stays as it is.
+        The photo's own XMP; all of it is kept. A packet that is not XML is returned unchanged.
     recipe : dict
-        ``Edit.to_dict()``, kept as JSON in a namespace of our own.
+        ``Edit.to_dict()``, stored as JSON in sunwidget's namespace.
     software : str
         Program and version, for the history.
     before : str
-        Program that made the photo, for ``xmp:CreatorTool`` where the packet names none.
+        Program that made the photo, for ``xmp:CreatorTool`` if the packet does not name it.
     """
     try:
         document = _parsed(packet or _EMPTY.encode())
         rdf = document.getElementsByTagNameNS(_RDF, "RDF")[0]
-        _forget(rdf)
-        tool = "".join(sign for sign in before if sign.isprintable())  # XML has no other signs
-        _tell(document, rdf, recipe, tool or software)
+        _remove_recipe(rdf)
+        tool = "".join(c for c in before if c.isprintable())  # XML allows no control characters
+        _add_recipe(document, rdf, recipe, tool or software)
         _continue_history(document, rdf, software)
-        return _written(document)
+        return _serialize(document)
     except (_NotXmpError, IndexError, RecursionError):
         return packet
 
@@ -74,15 +74,15 @@ def upright(packet: bytes | None) -> bytes | None:
     return re.sub(rb"""(tiff:Orientation(?:>|=["']))\d""", rb"\g<1>1", packet)
 
 
-def gain_map_packet(told: dict[str, list[float]]) -> bytes:
-    """Return the packet of a gain map's own JPEG: the numbers of each name, one or by channel."""
-    single = {name: values[0] for name, values in told.items() if len(values) == 1}
+def gain_map_packet(metadata: dict[str, list[float]]) -> bytes:
+    """Return the packet of a gain map's own JPEG; each name has one number or one by channel."""
+    single = {name: values[0] for name, values in metadata.items() if len(values) == 1}
     attributes = "".join(f' hdrgm:{name}="{value:.9g}"' for name, value in single.items())
     lists = "".join(
         f"<hdrgm:{name}><rdf:Seq>"
         + "".join(f"<rdf:li>{value:.9g}</rdf:li>" for value in values)
         + f"</rdf:Seq></hdrgm:{name}>"
-        for name, values in told.items()
+        for name, values in metadata.items()
         if len(values) > 1
     )
     return (
@@ -94,12 +94,12 @@ def gain_map_packet(told: dict[str, list[float]]) -> bytes:
 
 
 def gain_map_values(packet: bytes | None) -> dict[str, list[float]] | None:
-    """Return what :func:`gain_map_packet` wrote, or another program; None when it is no map's.
+    """Return the numbers of a gain map's packet by name; None if it is not a map's packet.
 
     Raises
     ------
     ValueError
-        For numbers that are none.
+        For values that are not numbers.
     """
     if not packet or _GAIN_MAP.encode() not in packet:
         return None
@@ -115,12 +115,12 @@ def gain_map_values(packet: bytes | None) -> dict[str, list[float]] | None:
                     found[child.localName] = [x for row in rows for x in _numbers(_text(row))]
     except (_NotXmpError, RecursionError):
         return None
-    # Every packet of a picture with a map has the version, the map's own its numbers.
+    # The picture's own packet has the version only; the map's packet has the numbers.
     return found if "GainMapMax" in found and found.get("BaseRenditionIsHDR") != [1.0] else None
 
 
 def with_gain_map(packet: bytes | None, length: int) -> bytes:
-    """Return the packet of a picture whose gain map, ``length`` bytes, follows in its file."""
+    """Return the packet of a picture that its gain map of ``length`` bytes follows in the file."""
     try:
         document = _parsed(without_gain_map(packet) or _EMPTY.encode())
         rdf = document.getElementsByTagNameNS(_RDF, "RDF")[0]
@@ -133,20 +133,20 @@ def with_gain_map(packet: bytes | None, length: int) -> bytes:
         f'<Container:Item Item:Mime="image/jpeg" {more}/></{prefix}:li>'
         for more in ('Item:Semantic="Primary"', f'Item:Semantic="GainMap" Item:Length="{length}"')
     )
-    told = _parsed(
+    addition = _parsed(
         f'<{prefix}:Description xmlns:{prefix}="{_RDF}" xmlns:hdrgm="{_GAIN_MAP}"'
         f' xmlns:Container="{_CONTAINER}" xmlns:Item="{_ITEM}" {prefix}:about=""'
         f' hdrgm:Version="1.0"><Container:Directory><{prefix}:Seq>{rows}</{prefix}:Seq>'
         f"</Container:Directory></{prefix}:Description>".encode()
     ).documentElement
-    assert told is not None
-    told.setAttributeNS(_RDF, f"{prefix}:about", _about(rdf))
-    rdf.appendChild(document.importNode(told, deep=True))
-    return _written(document)
+    assert addition is not None
+    addition.setAttributeNS(_RDF, f"{prefix}:about", _about(rdf))
+    rdf.appendChild(document.importNode(addition, deep=True))
+    return _serialize(document)
 
 
 def without_gain_map(packet: bytes | None) -> bytes | None:
-    """Return a packet that tells of no gain map and no other pictures in its file."""
+    """Return a packet without references to a gain map or to other pictures in its file."""
     if not packet or not any(name.encode() in packet for name in (_GAIN_MAP, _CONTAINER)):
         return packet
     try:
@@ -158,13 +158,13 @@ def without_gain_map(packet: bytes | None) -> bytes | None:
             for child in list(description.childNodes):
                 if child.namespaceURI in (_GAIN_MAP, _CONTAINER):
                     description.removeChild(child)
-        return _written(document)
+        return _serialize(document)
     except (_NotXmpError, RecursionError):
         return packet
 
 
 def _numbers(text: str) -> list[float]:
-    """Return the numbers of a text; 1 and 0 for yes and no."""
+    """Return the numbers in a text; True and False become 1 and 0."""
     words = {"True": "1", "False": "0"}
     return [float(words.get(part, part)) for part in text.replace(",", " ").split()]
 
@@ -173,18 +173,18 @@ def _text(node: Any) -> str:
     return "".join(child.data for child in node.childNodes if child.nodeType == child.TEXT_NODE)
 
 
-def _written(document: minidom.Document) -> bytes:
+def _serialize(document: minidom.Document) -> bytes:
     body = document.documentElement.toxml() if document.documentElement else ""
     begin = '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>'
     return f'{begin}\n{body}\n<?xpacket end="w"?>'.encode()
 
 
 class _NotXmpError(Exception):
-    """The packet is no XML that we read."""
+    """The packet is not XML, or contains declarations that are refused."""
 
 
 def _parsed(packet: bytes) -> minidom.Document:
-    # Declarations of entities, which could blow up a small packet, have no place in XMP.
+    # Entity declarations, which could expand a small packet to a huge one, do not belong in XMP.
     if re.search(rb"<!(DOCTYPE|ENTITY)", packet, re.IGNORECASE) or b"\0" in packet.rstrip(b"\0"):
         raise _NotXmpError
     try:
@@ -197,18 +197,18 @@ def _descriptions(node: minidom.Document | minidom.Element) -> list[minidom.Elem
     return list(node.getElementsByTagNameNS(_RDF, "Description"))
 
 
-def _forget(rdf: minidom.Element) -> None:
-    """Take away what is told anew: the recipe of an edit before."""
+def _remove_recipe(rdf: minidom.Element) -> None:
+    """Remove the recipe of an earlier edit."""
     for description in _descriptions(rdf):
         for attribute in list(description.attributes.values()):
             if _OWN in (attribute.namespaceURI, attribute.value):
                 description.removeAttributeNode(attribute)
-        told = [a for a in description.attributes.values() if a.localName != "about"]
-        if not told and not description.childNodes and description.parentNode:
+        others = [a for a in description.attributes.values() if a.localName != "about"]
+        if not others and not description.childNodes and description.parentNode:
             description.parentNode.removeChild(description)
 
 
-def _tell(
+def _add_recipe(
     document: minidom.Document, rdf: minidom.Element, recipe: dict[str, Any], tool: str
 ) -> None:
     own = document.createElementNS(_RDF, f"{_prefix(rdf)}:Description")
@@ -254,7 +254,7 @@ def _prefix(rdf: minidom.Element) -> str:
 
 
 def _about(rdf: minidom.Element) -> str:
-    """Return what the packet is about: all of its descriptions must say the same."""
+    """Return the packet's ``rdf:about``, which must be the same in all descriptions."""
     return next((d.getAttributeNS(_RDF, "about") for d in _descriptions(rdf)), "")
 
 

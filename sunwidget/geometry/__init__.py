@@ -1,1 +1,1 @@
-"""Pixels and directions; place, time and where the sun stands."""
+"""Pixels and directions; place, time and the sun's position."""

@@ -1,6 +1,6 @@
-"""Camera: from a pixel to a direction in the sky and back, from the horizon and the field of view.
+"""Camera: map a pixel to a direction and back, from the horizon and the field of view.
 
-Pixels are continuous: the picture spans 0 … width and 0 … height, its centre is
+Pixels are continuous: the picture spans 0 … width and 0 … height, its center is
 (width / 2, height / 2), and the sample in column i covers i … i + 1. Camera coordinates are x to
 the right, y *down*, z along the optical axis. The horizon is a line l = p₀ × p₁ in homogeneous
 pixels, and the direction to the zenith is up = Kᵀ l / |Kᵀ l| with up_y < 0 (Hartley & Zisserman,
@@ -32,7 +32,7 @@ class Camera:
     fov_vertical_deg : float
         Vertical field of view in degrees, 0 < fov < 180.
     pitch : float
-        Degrees that the optical axis points above the horizon, −90 < pitch < 90.
+        Elevation of the optical axis above the horizon in degrees, −90 < pitch < 90.
     roll : float
         Degrees by which the horizon falls to the right in the picture (y grows with x).
 
@@ -80,10 +80,10 @@ class Camera:
         fov_vertical_deg : float
             Vertical field of view in degrees.
         horizon : float or ((x0, y0), (x1, y1))
-            Row of the horizon at the picture's centre column, or two of its points, in pixels;
-            may lie outside the picture.
+            Row of the horizon at the picture's center column, or two points of the horizon, in
+            pixels. They may lie outside the picture.
         roll : float
-            Degrees of roll, used with a row only.
+            Roll in degrees; used only if ``horizon`` is a row.
 
         Returns
         -------
@@ -92,19 +92,19 @@ class Camera:
         Raises
         ------
         ValueError
-            When the two points have the same column, or see ``Camera``.
+            When the two points have the same column, and as ``Camera``.
         """
-        centre = width / 2
+        center = width / 2
         if isinstance(horizon, (tuple, list)):
             (x0, y0), (x1, y1) = horizon
             if x0 == x1:
                 raise ValueError(f"The horizon needs two points with different x, not {horizon!r}.")
             slope = (y1 - y0) / (x1 - x0)
-            row = y0 + slope * (centre - x0)
+            row = y0 + slope * (center - x0)
         else:
             row, slope = float(horizon), math.tan(math.radians(roll))
         focal = height / 2 / math.tan(math.radians(fov_vertical_deg) / 2)
-        # Line slope·x − y + (row − slope·centre) = 0, taken through Kᵀ; its y is negative: up.
+        # Kᵀ times the line slope·x − y + (row − slope·center) = 0; y is negative, which is up.
         up = (slope * focal, -focal, row - height / 2)
         length = math.hypot(*up)
         return cls(
@@ -132,7 +132,7 @@ class Camera:
 
     @cached_property
     def forward(self) -> Vector:
-        """Level direction that the camera heads for (azimuth 0), in camera coordinates."""
+        """Level direction of the camera's heading (azimuth 0), in camera coordinates."""
         x, y, z = self.up
         level = math.sqrt(1 - z * z)
         return (-z * x / level, -z * y / level, level)
@@ -144,12 +144,12 @@ class Camera:
         return (fy * uz - fz * uy, fz * ux - fx * uz, fx * uy - fy * ux)
 
     def angles(self, x: ArrayLike, y: ArrayLike) -> tuple[Any, Any]:
-        """Turn pixels into azimuth and elevation; works outside the picture too.
+        """Convert pixels, also outside the picture, into azimuth and elevation.
 
         Parameters
         ----------
         x, y : float or array_like
-            Continuous pixel coordinates (see the module).
+            Continuous pixel coordinates, from the picture's top left corner.
 
         Returns
         -------
@@ -169,7 +169,7 @@ class Camera:
         return _scalars(azimuth, elevation)
 
     def pixel(self, azimuth: ArrayLike, elevation: ArrayLike) -> tuple[Any, Any]:
-        """Turn azimuth and elevation into pixels, also outside the picture.
+        """Convert azimuth and elevation into pixels, also outside the picture.
 
         Parameters
         ----------
@@ -179,8 +179,8 @@ class Camera:
         Returns
         -------
         x, y : float or ndarray
-            Continuous pixel coordinates; NaN for a direction behind the camera, which no pixel
-            of the picture's plane shows. Floats when both arguments are scalars.
+            Continuous pixel coordinates; NaN for a direction behind the camera. Floats when both
+            arguments are scalars.
         """
         a = np.radians(np.asarray(azimuth, np.float64))
         e = np.radians(np.asarray(elevation, np.float64))
@@ -196,7 +196,7 @@ class Camera:
         )
 
     def horizon_row(self, x: ArrayLike | None = None) -> Any:
-        """Return the row of the horizon in column ``x`` (default: the centre), in pixels."""
+        """Return the row of the horizon in column ``x`` (default: the center), in pixels."""
         column = self.width / 2 if x is None else np.asarray(x, np.float64)
         ux, uy, uz = self.up
         row = self.height / 2 - (ux * (column - self.width / 2) + uz * self.focal) / uy

@@ -1,7 +1,7 @@
-"""Where the sun stands at a time and place: NREL's algorithm, as pvlib computes it.
+"""The sun's position at a time and place: NREL's algorithm, computed by pvlib.
 
 Reda & Andreas, "Solar position algorithm for solar radiation applications", Solar Energy 76
-(2004), good to 0.0003° from the year -2000 to 6000. Azimuths are clockwise from north.
+(2004), accurate to 0.0003° from the year -2000 to 6000. Azimuths are clockwise from north.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from sunwidget.atmosphere.sun import refraction
 
 Array = NDArray[np.float64]
 
-# Bennett's formula ends at -1° (sun.refraction); from there the lift falls to none at this
-# true elevation, where civil twilight ends.
+# Bennett's formula ends at -1° (sun.refraction). Below, refraction falls to zero at this true
+# elevation, where civil twilight ends.
 _UNREFRACTED_DEG = -6.0
 
 
 class SolarPosition(NamedTuple):
-    """The sun's place in degrees: numbers, or arrays for several times."""
+    """The sun's position in degrees: numbers, or arrays for several times."""
 
     azimuth: Any
     true_elevation: Any
@@ -30,27 +30,27 @@ class SolarPosition(NamedTuple):
 
 
 def solar_position(when: Any, latitude: float, longitude: float) -> SolarPosition:
-    """Return where the sun's centre stands.
+    """Return the position of the sun's center.
 
     Parameters
     ----------
     when : datetime.datetime, str or sequence of them
-        Time with its zone (``2013-05-27T12:30-04:00``); without one it is UTC.
+        Time with its zone (``2013-05-27T12:30-04:00``); UTC without a zone.
     latitude, longitude : float
         Degrees, positive to the north and to the east.
 
     Returns
     -------
     SolarPosition
-        Azimuth 0-360° clockwise from north, true elevation as geometry has it, and apparent
-        elevation as the air's refraction lifts it; floats for one time, arrays for several.
+        Azimuth 0-360° clockwise from north, true (geometric) elevation, and apparent elevation,
+        with refraction; floats for one time, arrays for several.
 
     Raises
     ------
     ImportError
-        Without pvlib; the message names the extra that brings it.
+        Without pvlib; the message names the extra that installs it.
     ValueError
-        For a place that is not on the globe, or a time that cannot be read.
+        For a latitude or longitude out of range, or a time that cannot be parsed.
     """
     _check_place(latitude, longitude)
     pandas, solarposition = _pvlib()
@@ -109,8 +109,8 @@ def day_path(
 def sun_on_path(path: ArrayLike, hours: float) -> tuple[float, float]:
     """Return azimuth (-180 to 180) and apparent elevation at a time of ``day_path``.
 
-    The two neighbouring rows are mixed as unit vectors, so that neither the step from 360° to 0°
-    nor a sun that passes the zenith needs care. The browser does the same (``day.js``).
+    The two neighboring rows are mixed as unit vectors, so that the step from 360° to 0° and a
+    sun at the zenith need no special case. The browser does the same (``day.js``).
     """
     table = np.asarray(path, float)
     last = len(table) - 2
@@ -125,15 +125,15 @@ def sun_on_path(path: ArrayLike, hours: float) -> tuple[float, float]:
 
 
 def apparent_elevation(true_elevation: ArrayLike) -> Array:
-    """Return the elevation at which a sun of given true elevation is seen, in degrees.
+    """Return the apparent elevation of a sun of given true elevation, in degrees.
 
-    Inverse of ``sun.true_elevation`` down to -1°, where Bennett's formula ends. A sun below is
-    not seen, and twilight is computed without refraction: the lift fades linearly to none at a
-    true -6°, so that the sun of a setting day neither jumps nor turns back.
+    Inverse of ``sun.true_elevation`` down to -1°, where Bennett's formula ends. Twilight is
+    computed without refraction: below -1° refraction fades linearly to zero at a true -6°, so
+    that the setting sun neither jumps nor turns back.
     """
     true = np.asarray(true_elevation, float)
     apparent = true.copy()
-    # The lift changes by at most a fifth of the elevation, so each round gains a digit or so.
+    # Refraction changes by at most a fifth of the elevation, so each round gains about a digit.
     for _ in range(30):
         apparent = true + refraction(apparent)
     lowest = -1.0 - float(refraction(-1.0))
@@ -153,7 +153,7 @@ def _pvlib() -> tuple[Any, Any]:
         from pvlib import solarposition
     except ImportError as error:
         raise ImportError(
-            "The sun's place at a date and time is computed by pvlib, which is not installed. "
+            "The sun's position at a date and time needs pvlib, which is not installed. "
             "Run: pip install 'sunwidget[solar]'"
         ) from error
     return pd, solarposition

@@ -1,1 +1,1 @@
-"""From a file to a Photo: decoding, color management, place and time."""
+"""Open a file as a Photo: decoding, color management, place and time."""

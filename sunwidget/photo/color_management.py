@@ -1,7 +1,7 @@
-"""Which colours a file's code values mean: by its profile, its EXIF, or its gamma.
+"""Interpret a file's code values as colors, by its profile, its EXIF, or its gamma.
 
-Matrix/TRC profiles are kept, so the code values stay as they are. Everything else is
-converted to sRGB once, with a note that says so.
+Matrix/TRC profiles are kept, and with them the code values. Everything else is converted to sRGB
+once, with a note for the user.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from sunwidget.formats.icc import ProfileError, color_space, read_profile
 
 @dataclass
 class Coded:
-    """Code values (H, W, 3) with what they mean; ``icc`` is to be written again with them."""
+    """Code values (H, W, 3) with their profile; ``icc`` is saved again with them."""
 
     codes: NDArray[Any]
     profile: ColorProfile = SRGB
@@ -39,8 +39,8 @@ class Coded:
 def by_profile(codes: NDArray[Any], icc: bytes, name: str) -> Coded:
     """Interpret code values by the embedded profile ``icc``.
 
-    Float values become linear Rec. 709 light; a grey or table profile, which cannot
-    describe an edited picture, becomes sRGB.
+    Float values become linear Rec. 709 light. Values in a gray or table profile, which cannot
+    describe an edited picture, become sRGB.
     """
     try:
         profile = read_profile(icc)
@@ -52,7 +52,7 @@ def by_profile(codes: NDArray[Any], icc: bytes, name: str) -> Coded:
         return Coded(codes, profile, icc)
     if profile.is_srgb:
         return Coded(codes)
-    note = f"The grey tone curve of {name} was converted to sRGB."
+    note = f"{name} has a gray tone curve; it was converted to sRGB."
     return Coded(_to_srgb(codes, profile), notes=[note])
 
 
@@ -61,8 +61,8 @@ def by_hints(codes: NDArray[Any], exif: Any, info: dict[str, Any], name: str) ->
     if codes.dtype.kind == "f":
         return Coded(codes)
     gamma = info.get("gamma")  # PNG's gAMA, which its sRGB chunk overrides
-    if exif_tags.says_adobe_rgb(exif):
-        note = f"{name} is Adobe RGB by its EXIF alone; it was converted to sRGB."
+    if exif_tags.is_adobe_rgb(exif):
+        note = f"{name} is Adobe RGB according to its EXIF only; it was converted to sRGB."
         return Coded(_to_srgb(codes, ADOBE_RGB), notes=[note])
     if gamma and "srgb" not in info and 0.1 <= gamma <= 10 and abs(gamma - 0.45455) > 0.02:
         note = f"{name} has a gamma of {gamma:.3g}; it was converted to sRGB."
@@ -72,7 +72,7 @@ def by_hints(codes: NDArray[Any], exif: Any, info: dict[str, Any], name: str) ->
 
 
 def by_primaries(codes: NDArray[Any], chromaticities: tuple[float, ...], name: str) -> Coded:
-    """Interpret code values of a HEIC without a profile: sRGB's curve and its own primaries."""
+    """Interpret code values of a HEIC without a profile: sRGB's curve, the file's primaries."""
     matrix = primaries_to_rec709(chromaticities)
     if matrix is None:
         return Coded(codes)
@@ -81,13 +81,13 @@ def by_primaries(codes: NDArray[Any], chromaticities: tuple[float, ...], name: s
 
 
 def cmyk_to_srgb(image: Any, icc: bytes | None, name: str) -> tuple[Any, list[str]]:
-    """Convert a Pillow image in CMYK to sRGB, by its profile where that can be read."""
+    """Convert a Pillow image in CMYK to sRGB, by its profile if that is readable."""
     notes = [f"{name} is CMYK; it was converted to sRGB and will be saved as RGB."]
     try:
         if icc and color_space(icc) == "CMYK":
             return _through_littlecms(image, icc), notes
     except ProfileError:
-        notes.append(f"The CMYK profile of {name} is damaged; its colours are approximate.")
+        notes.append(f"The CMYK profile of {name} is damaged; its colors are approximate.")
     return image.convert("RGB"), notes
 
 
@@ -104,11 +104,11 @@ def _through_table(codes: NDArray[Any], icc: bytes, name: str) -> Coded:
         eight = codes if codes.dtype == np.uint8 else np.rint(codes / 257.0).astype(np.uint8)
         converted = np.asarray(_through_littlecms(Image.fromarray(eight), icc))
     except ProfileError:
-        note = f"The colour profile of {name} cannot be read; sRGB is assumed."
+        note = f"The color profile of {name} cannot be read; sRGB is assumed."
         return Coded(codes, notes=[note])
     note = (
-        f"The colour profile of {name} is a look-up table; the picture was converted to "
-        "sRGB with 8 bits a channel."
+        f"The color profile of {name} is a look-up table; the picture was converted to "
+        "sRGB with 8 bits per channel."
     )
     return Coded(converted, notes=[note])
 

@@ -1,8 +1,8 @@
-"""Picture files to code values: bytes in, :class:`Decoded` out, or a PhotoError that says why.
+"""Decode picture files to code values: bytes in, :class:`Decoded` or a PhotoError out.
 
-Pillow reads everything it can read without loss; OpenCV reads colour at 16 bits a
-channel and float TIFF, which Pillow would cut to 8 bits or refuse. OpenEXR, Radiance HDR, HEIC
-and camera raw have readers of their own.
+Pillow reads everything that it can read without loss. OpenCV reads 16-bit color and float TIFF,
+which Pillow would reduce to 8 bits or refuse. OpenEXR, Radiance HDR, HEIC and camera raw have
+separate readers.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from sunwidget.formats import apple_gain_map, openexr, radiance, xmp
 from sunwidget.formats import exif as exif_tags
 from sunwidget.formats import gain_map as gain_maps
 from sunwidget.formats.color import SRGB, ColorProfile
-from sunwidget.formats.deep import by_opencv, is_deep, tiff_tags
+from sunwidget.formats.deep import decode_with_opencv, is_deep, tiff_tags
 from sunwidget.formats.pixels import check_light, check_size, split_alpha, upright
 from sunwidget.photo import decode_heif, decode_raw
 from sunwidget.photo.color_management import Coded, by_hints, by_primaries, by_profile, cmyk_to_srgb
 
-# Never EPS, WMF and the like: those formats can start other programs.
+# Not EPS, WMF and similar formats, which can start other programs.
 _PLUGINS = ("Jpeg", "Mpo", "Png", "Tiff", "WebP", "Bmp", "Gif", "Avif")
 _READABLE = "JPEG, PNG, TIFF, WebP, AVIF, HEIC, BMP, GIF, OpenEXR, Radiance HDR or camera raw"
 _FOREIGN = {
@@ -51,8 +51,8 @@ class Decoded:
     """A picture as its file stores it, turned upright.
 
     ``codes`` is (H, W, 3) uint8 or uint16 in ``profile``, or float32 linear Rec. 709.
-    ``exif`` is a Pillow Exif or None; ``notes`` are sentences for the person; ``recipe`` is what
-    a format without EXIF tells of the edit that made the picture.
+    ``exif`` is a Pillow Exif or None; ``notes`` are sentences for the user; ``recipe`` is the
+    recorded recipe in a format without EXIF.
     """
 
     codes: NDArray[Any]
@@ -71,12 +71,12 @@ class Decoded:
 
 
 def decode_bytes(data: bytes, name: str) -> Decoded:
-    """Decode the picture file ``data``; ``name`` is what error messages call it.
+    """Decode the picture file ``data``; error messages call it ``name``.
 
     Raises
     ------
     PhotoError
-        When the bytes are no picture, a damaged one, or one of more than MAX_PIXELS.
+        If the bytes are no picture, a damaged one, or one of more than MAX_PIXELS.
     """
     if not data:
         raise PhotoError(f"{name} is empty (0 bytes). Copy or download it again.")
@@ -97,7 +97,7 @@ def decode_bytes(data: bytes, name: str) -> Decoded:
 
 
 def decode_image(image: Any, name: str, data: bytes | None = None) -> Decoded:
-    """Decode a Pillow image; with ``data``, its file, deep pictures keep their 16 bits.
+    """Decode a Pillow image; with its file in ``data``, deep pictures keep their 16 bits.
 
     Raises
     ------
@@ -110,14 +110,14 @@ def decode_image(image: Any, name: str, data: bytes | None = None) -> Decoded:
         raise
     except MemoryError as error:
         raise PhotoError(f"There is not enough memory to open {name}. Scale it down.") from error
-    except Exception as error:  # decoders fail in many ways; all mean a damaged file
+    except Exception as error:  # decoders raise many errors; all mean a damaged file
         if data is None:
             raise PhotoError(
                 f"{name}, a Pillow image, cannot be read ({reason(error)}). Pass its file instead."
             ) from error
         raise PhotoError(
-            f"{name} is damaged: its {image.format or 'picture'} data ends early or makes no "
-            f"sense ({reason(error)}). Copy or download it again."
+            f"{name} is damaged: its {image.format or 'picture'} data ends early or is invalid "
+            f"({reason(error)}). Copy or download it again."
         ) from error
 
 
@@ -127,19 +127,19 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
     if getattr(image, "n_frames", 1) > 1 and image.format != "MPO":
         notes.append(f"{name} holds {image.n_frames} frames; only the first is used.")
     deep = is_deep(image)
-    # Loading turns a TIFF and makes it forget its orientation; a PNG tells it only then.
-    way = image.getexif().get(274, 1) if image.format == "TIFF" else None
+    # Loading turns a TIFF and drops its orientation; a PNG has its EXIF only after loading.
+    orientation = image.getexif().get(274, 1) if image.format == "TIFF" else None
     image.load()
     metadata = exif_tags.load(_exif_block(image))
     if deep and image.format == "TIFF" and image.tag_v2.get(284, 1) != 1:
-        # Neither Pillow nor OpenCV reads this kind rightly, and neither says so.
+        # Both Pillow and OpenCV read this kind wrongly, without an error.
         raise PhotoError(
             f"{name} is a TIFF with 16 bits in separate planes. Save it with interleaved channels."
         )
-    found = by_opencv(data) if deep and data is not None else None
+    found = decode_with_opencv(data) if deep and data is not None else None
     if deep and found is None:
-        more = "" if data is not None else " Pass its file instead of a Pillow image."
-        notes.append(f"The 16-bit channels of {name} could only be read with 8 bits.{more}")
+        hint = "" if data is not None else " Pass its file instead of a Pillow image."
+        notes.append(f"The 16-bit channels of {name} could only be read with 8 bits.{hint}")
     icc = image.info.get("icc_profile") or None
     result = Decoded(np.empty(0), icc=icc, exif=metadata, format=_format(image), notes=notes)
     if found is not None:
@@ -150,14 +150,14 @@ def _decode_image(image: Any, name: str, data: bytes | None) -> Decoded:
         _take(result, by_profile(result.codes, result.icc, name))
     elif icc is None:
         _take(result, by_hints(result.codes, metadata, image.info, name))
-    way = way if way is not None else exif_tags.orientation(metadata)
-    _turn_upright(result, way)
+    orientation = orientation if orientation is not None else exif_tags.orientation(metadata)
+    _turn_upright(result, orientation)
     packet = image.info.get("xmp")
     packet = xmp.upright(packet.encode() if isinstance(packet, str) else packet)
-    result.xmp = xmp.without_gain_map(packet)  # told anew where it is written
+    result.xmp = xmp.without_gain_map(packet)  # added again when the map is written
     if data is not None:
-        told = gain_maps.find(data) or apple_gain_map.find(data, metadata)
-        result.gain_map = told and told.turned(way)
+        gain_map = gain_maps.find(data) or apple_gain_map.find(data, metadata)
+        result.gain_map = gain_map and gain_map.turned(orientation)
     result.dpi = _dpi(image)
     return result
 
@@ -166,8 +166,8 @@ def _open(data: bytes, name: str) -> Any:
     from PIL import Image, UnidentifiedImageError
 
     formats = _formats()
-    # Pillow's own limit against decompression bombs is lower than ours, a warning up to a
-    # point, and global. It is lifted only while the header is read; check_size() follows.
+    # Pillow's own limit against decompression bombs is lower than ours, only warns at first, and
+    # is global. It is lifted while the header is read; check_size() follows.
     with _bomb_lock:
         limit, Image.MAX_IMAGE_PIXELS = Image.MAX_IMAGE_PIXELS, None
         try:
@@ -177,10 +177,10 @@ def _open(data: bytes, name: str) -> Any:
             if data[:4] in _TIFF:
                 return None
             raise PhotoError(_unknown(data, name)) from error
-        except Exception as error:  # header parsers fail in many ways
+        except Exception as error:  # header parsers raise many errors
             raise PhotoError(
-                f"{name} is damaged: its header makes no sense ({reason(error)}). Copy or "
-                "download it again."
+                f"{name} is damaged: its header is invalid ({reason(error)}). Copy or download it "
+                "again."
             ) from error
         finally:
             Image.MAX_IMAGE_PIXELS = limit
@@ -188,7 +188,7 @@ def _open(data: bytes, name: str) -> Any:
 
 @cache
 def _formats() -> tuple[str, ...]:
-    """Load Pillow's readers for our formats and return their names; AVIF came with 11.3."""
+    """Load Pillow's readers and return the names of their formats; AVIF needs Pillow 11.3."""
     from PIL import Image
 
     for plugin in _PLUGINS:
@@ -203,15 +203,15 @@ def _unknown(data: bytes, name: str) -> str:
         return f"{name} is {what}. Export it as {_READABLE} and open that."
     known = (b"\xff\xd8", b"\x89PNG", b"RIFF", b"GIF8", b"BM")
     if data.startswith(known):
-        return f"{name} is damaged: it starts like a picture but makes no sense. Copy it again."
+        return f"{name} is damaged: it starts like a picture but is invalid. Copy it again."
     return f"{name} is not a picture that sunwidget reads. Expected {_READABLE}."
 
 
 def reason(error: BaseException) -> str:
-    """Return what an error says, in one line without a full stop; its kind when it is silent."""
+    """Return an error's message in one line without a full stop; its type if it has none."""
     text = str((isinstance(error, OSError) and error.strerror) or error)
     first = (text.splitlines() or [""])[0][:120].rstrip(". ")
-    return "".join(sign for sign in first if sign.isprintable()) or type(error).__name__
+    return "".join(c for c in first if c.isprintable()) or type(error).__name__
 
 
 def _format(image: Any) -> str | None:
@@ -225,13 +225,13 @@ def _exif_block(image: Any) -> bytes:
             exif = image.getexif()
             exif_tags.keep_texts(exif)
             block = exif.tobytes()
-    except Exception:  # noqa: BLE001 - damaged metadata must not cost the picture
+    except Exception:  # noqa: BLE001 - damaged metadata is dropped, the picture kept
         return b""
     return block if isinstance(block, bytes) else b""
 
 
 def _decode_light(data: bytes, name: str) -> Decoded:
-    """Decode OpenEXR or Radiance HDR; what :mod:`sunwidget.export.linear` noted comes back."""
+    """Decode OpenEXR or Radiance HDR, with the notes of :mod:`sunwidget.export.linear`."""
     if data.startswith(openexr.MAGIC):
         exr = openexr.read(data, name)
         result, notes = Decoded(exr.light, exr.alpha, dpi=exr.dpi, format="EXR"), exr.notes
@@ -240,7 +240,7 @@ def _decode_light(data: bytes, name: str) -> Decoded:
         result, notes = Decoded(hdr.light, format="HDR"), hdr.notes
     check_light(result.codes, name)
     result.codes = np.ascontiguousarray(result.codes)
-    with contextlib.suppress(ValueError, RecursionError):  # notes are anybody's text
+    with contextlib.suppress(ValueError, RecursionError):  # notes are untrusted text
         recipe = json.loads(notes.get("recipe", "null"))
         result.recipe = recipe if isinstance(recipe, dict) else None
         result.xmp = base64.b64decode(notes.get("xmp", ""), validate=True) or None
@@ -267,12 +267,14 @@ def _bytes(value: Any) -> bytes | None:
 
 
 def _decode_odd_tiff(data: bytes, name: str) -> Decoded:
-    """Decode a TIFF that Pillow does not know: RGB in float."""
+    """Decode a TIFF that Pillow does not support: RGB in float."""
     tags = tiff_tags(data)
     width, height = tags.get(256, 0), tags.get(257, 0)
     if isinstance(width, int) and isinstance(height, int) and width and height:
         check_size(width, height, name)
-        found = by_opencv(data) if tags.get(262) in (1, 2) and tags.get(284, 1) == 1 else None
+        found = (
+            decode_with_opencv(data) if tags.get(262) in (1, 2) and tags.get(284, 1) == 1 else None
+        )
         result = Decoded(np.empty(0), format="TIFF", exif=exif_tags.load(data))
         result.xmp = xmp.upright(_bytes(tags.get(700)))
         result.turned = exif_tags.orientation(result.exif) >= 5
@@ -283,8 +285,8 @@ def _decode_odd_tiff(data: bytes, name: str) -> Decoded:
                 _take(result, by_profile(result.codes, icc, name))
             return result
     raise PhotoError(
-        f"{name} is a TIFF of an unusual or damaged kind. Save it with 8 or 16 bits a channel, "
-        "RGB or grey, and open that."
+        f"{name} is a TIFF of an unusual or damaged kind. Save it with 8 or 16 bits per channel, "
+        "RGB or gray, and open that."
     )
 
 
@@ -300,7 +302,7 @@ def _take(result: Decoded, coded: Coded) -> None:
 
 
 def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
-    if image.mode == "La":  # converts to nothing but LA
+    if image.mode == "La":  # converts only to LA
         image = image.convert("LA")
     mode = image.mode
     if mode == "F":
@@ -308,9 +310,9 @@ def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
     elif mode.startswith("I"):
         deep = np.asarray(image).astype(np.int64)
         if deep.min() < 0 or deep.max() > 65535:
-            raise PhotoError(f"{name} has 32-bit whole numbers. Save it with 16 bits a channel.")
+            raise PhotoError(f"{name} has 32-bit integers. Save it with 16 bits per channel.")
         if image.format == "TIFF" and image.tag_v2.get(262) == 0:
-            deep = 65535 - deep  # white is zero, which Pillow minds only with 8 bits
+            deep = 65535 - deep  # white is zero, which Pillow handles only with 8 bits
         _fill_from_array(result, deep.astype(np.uint16), name)
     elif mode == "1":
         _fill_from_array(result, np.asarray(image.convert("L")), name)
@@ -328,16 +330,16 @@ def _fill_from_image(result: Decoded, image: Any, name: str) -> None:
         try:
             converted = image.convert("RGBA" if has_alpha else "RGB")
         except ValueError as error:
-            raise PhotoError(f"{name} has pixels of the kind {mode}. Save it as RGB.") from error
+            raise PhotoError(f"{name} has pixels of the mode {mode}. Save it as RGB.") from error
         _fill_from_array(result, np.asarray(converted), name)
 
 
-def _turn_upright(result: Decoded, way: int) -> None:
-    result.turned = way in (5, 6, 7, 8)
-    if way != 1 and result.format != "TIFF":  # Pillow and OpenCV turn TIFF themselves
-        result.codes = np.ascontiguousarray(upright(result.codes, way))
+def _turn_upright(result: Decoded, orientation: int) -> None:
+    result.turned = orientation in (5, 6, 7, 8)
+    if orientation != 1 and result.format != "TIFF":  # Pillow and OpenCV turn TIFF themselves
+        result.codes = np.ascontiguousarray(upright(result.codes, orientation))
         if result.alpha is not None:
-            result.alpha = np.ascontiguousarray(upright(result.alpha, way))
+            result.alpha = np.ascontiguousarray(upright(result.alpha, orientation))
 
 
 def _dpi(image: Any) -> tuple[float, float] | None:

@@ -1,8 +1,8 @@
-"""Foreign picture files opened in a process of their own, within memory and time.
+"""Open untrusted picture files in a separate process with limited memory and time.
 
-A decoder is C code that reads what anybody may have written. Where files come in that nobody has
-looked at (batches, time-lapses, uploads) one that crashes, hangs or takes all memory costs that
-one file and not the work. The process stays for the next file; one that died is replaced.
+Decoders are C code that reads untrusted data. In batches, time-lapses and uploads, a file whose
+decoder crashes, hangs or takes all memory fails alone, and the work goes on. The process stays
+alive for the next file; a dead one is replaced.
 """
 
 from __future__ import annotations
@@ -21,33 +21,32 @@ from typing import Any
 
 from sunwidget.errors import PhotoError, PhotoWarning
 from sunwidget.photo.photo import Photo, open_photo
-from sunwidget.photo.sources import file_of
+from sunwidget.photo.sources import read_file
 
 MEMORY = 8 << 30
-"""Bytes that decoding one picture may take, where the system can limit them."""
+"""Most bytes for decoding one picture, if the system can limit them."""
 
 SECONDS = 180.0
-"""How long one picture may take. A raw file of 100 million pixels takes some 30 s."""
+"""Most seconds for decoding one picture. A raw file of 100 million pixels takes about 30 s."""
 
-_PROCESSOR = 600  # seconds of all cores together; a backstop should this process be gone
+_PROCESSOR = 600  # seconds over all cores; a fallback if the parent process is gone
 _COMMAND = (
     sys.executable,
     "-P",
     "-m",
     "sunwidget.photo.decode_child",
-)  # -P: nothing from the folder
+)  # -P: import nothing from the working folder
 _lock = threading.Lock()
 _kept: list[_Child] = []
 
 
 def open_apart(source: Any) -> Photo:
-    """Open a photo as ``sunwidget.open`` does, a file in a process of its own.
+    """Open a photo as ``sunwidget.open`` does, but decode files in a separate process.
 
     Parameters
     ----------
     source
-        As for ``sunwidget.open``. Arrays, Pillow images and Photos are no foreign files and are
-        taken as there.
+        As for ``sunwidget.open``. Arrays, Pillow images and Photos are opened in this process.
 
     Returns
     -------
@@ -56,15 +55,15 @@ def open_apart(source: Any) -> Photo:
     Raises
     ------
     PhotoError
-        As ``sunwidget.open``; and for a file whose decoder crashes, takes longer than ``SECONDS``
-        or more than ``MEMORY``.
+        As ``sunwidget.open``, and for a file whose decoder crashes, takes longer than ``SECONDS``
+        or needs more than ``MEMORY``.
 
     Warns
     -----
     PhotoWarning
         As ``sunwidget.open``.
     """
-    found = None if isinstance(source, Photo) else file_of(source)
+    found = None if isinstance(source, Photo) else read_file(source)
     if found is None:
         return open_photo(source)
     name, data = found
@@ -76,7 +75,7 @@ def open_apart(source: Any) -> Photo:
 
 
 def release() -> None:
-    """End the process that is kept for the next file; one is started again when it is needed."""
+    """End the process that waits for the next file; the next call starts a new one."""
     with _lock:
         while _kept:
             _kept.pop().end()
@@ -84,7 +83,7 @@ def release() -> None:
 
 @contextlib.contextmanager
 def kept() -> Iterator[None]:
-    """Keep the process while many files are opened, and end it with the last."""
+    """Keep the process while many files are opened, and end it after the last."""
     try:
         yield
     finally:
@@ -105,10 +104,10 @@ class _Child:
     def __init__(self) -> None:
         import sunwidget
 
-        # The very sunwidget that asks, also from a checkout that is not installed.
+        # The child imports the same sunwidget, even from a checkout that is not installed.
         home = str(Path(sunwidget.__file__).parents[1])
         path = os.pathsep.join([home, *filter(None, [os.environ.get("PYTHONPATH")])])
-        # An arena a thread would take address space, which is limited, for nothing.
+        # One malloc arena per thread would waste the limited address space.
         extra = {"PYTHONPATH": path, "MALLOC_ARENA_MAX": "2", "OPENBLAS_NUM_THREADS": "1"}
         self._owner = os.getpid()
         try:
@@ -121,21 +120,21 @@ class _Child:
             )
         except OSError as error:
             raise PhotoError(
-                f"No process could be started to read photos in ({error.strerror}). Close other "
-                "programs and try again."
+                f"The process that reads photos could not be started ({error.strerror}). Close "
+                "other programs and try again."
             ) from error
 
     def alive(self) -> bool:
-        """Whether it can be asked: it runs, and this process is the one that started it."""
+        """Return whether the process runs and was started by this process."""
         return self._owner == os.getpid() and self._process.poll() is None
 
     def open(self, name: str, data: bytes) -> Photo:
-        """Have a picture decoded.
+        """Decode a picture in the child process.
 
         Raises
         ------
         PhotoError
-            When it cannot be, whatever happened to the process.
+            If the picture cannot be decoded, or the process fails in any way.
         """
         from sunwidget.photo.decode_child import receive, receive_photo, send
 
@@ -154,8 +153,8 @@ class _Child:
         except PhotoError:
             raise
         except (OSError, EOFError, ValueError, TypeError, KeyError, RecursionError) as error:
-            raise PhotoError(self._ending(name, late=late.is_set())) from error
-        except BaseException:  # Ctrl-C between question and answer: the next one would get it
+            raise PhotoError(self._explain_failure(name, late=late.is_set())) from error
+        except BaseException:  # Ctrl-C before the answer: the next request would receive it
             self.end()
             raise
         finally:
@@ -165,31 +164,31 @@ class _Child:
         late.set()
         self._process.kill()
 
-    def _ending(self, name: str, *, late: bool) -> str:
-        """Return why there is no photo, once the process is gone."""
+    def _explain_failure(self, name: str, *, late: bool) -> str:
+        """End the process and return why it gave no photo."""
         with contextlib.suppress(subprocess.TimeoutExpired):
             self._process.wait(1)
         code = self._process.poll()
         self.end()
         if late or code == -getattr(signal, "SIGXCPU", 0):
             return (
-                f"{name} was given up: reading it took longer than {SECONDS:g} s. Save it anew in "
+                f"Reading {name} was stopped: it took longer than {SECONDS:g} s. Save it again in "
                 "another program."
             )
-        how = "without a word" if code is None or code >= 0 else _signal(-code)
+        how = "without a message" if code is None or code >= 0 else _signal(-code)
         return (
-            f"{name} ended the process that read it ({how}): it is damaged, or needs more than "
-            f"{MEMORY / 2**30:g} GB of memory. Copy it again, or save it anew in another program."
+            f"{name} crashed the process that read it ({how}): it is damaged, or needs more than "
+            f"{MEMORY / 2**30:g} GB of memory. Copy it again, or save it again in another program."
         )
 
     def end(self) -> None:
-        """Kill the process; all that is worth keeping is here."""
+        """Kill the process; it has no state worth saving."""
         if self._owner != os.getpid():
             return
         self._process.kill()
         self._process.wait()
         for stream in (self._process.stdin, self._process.stdout):
-            with contextlib.suppress(OSError):  # what was not read by it is thrown away
+            with contextlib.suppress(OSError):  # unread data is discarded
                 if stream is not None:
                     stream.close()
 

@@ -1,8 +1,8 @@
-"""The process that decodes a foreign picture for ``decode_apart.py``, within limits.
+"""The process that decodes untrusted pictures for ``decode_apart.py``, within limits.
 
-It reads questions from its standard input and answers on its standard output until the first one
-ends. A question is a file's name and bytes; an answer is a sentence, or a photo as JSON and raw
-bytes: nothing in it can run anything in the process that asked.
+It reads requests from standard input and writes responses to standard output until the input ends.
+A request is a file's name and bytes. A response is an error message, or a photo as JSON and raw
+bytes, so that nothing in it can run code in the parent process.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ from sunwidget.photo.decode_heif import DepthMap
 from sunwidget.photo.photo import Photo, photo_of
 
 _HEAD = struct.Struct(">Q")
-_LONGEST_HEAD = 64_000_000  # recipes with many strokes, and curves of a profile, are in it
+_LONGEST_HEAD = 64_000_000  # contains recipes with many strokes, and a profile's curves
 _BYTES = ("icc", "exif", "xmp")
 _TIMES = ("time", "clock", "gps_time")
 _PLAIN = ("name", "format", "turned", "recorded", "notes", "dpi")
 
 
 def send(stream: IO[bytes], head: dict[str, Any], *blobs: Any) -> None:
-    """Write a message: JSON, then the blobs whose lengths the head must tell."""
+    """Write a message: JSON, then the blobs, whose lengths must be in the head."""
     text = json.dumps(head, default=float).encode()
     stream.write(_HEAD.pack(len(text)) + text)
     stream.writelines(blobs)
@@ -52,21 +52,21 @@ def receive(stream: IO[bytes]) -> dict[str, Any]:
     Raises
     ------
     EOFError
-        When the other side has ended.
+        When the other process has ended.
     ValueError
-        For what is no message.
+        When the data is not a message.
     """
     (length,) = _HEAD.unpack(fill(stream, bytearray(_HEAD.size)))
     if length > _LONGEST_HEAD:
-        raise ValueError("a message too long")
+        raise ValueError("the message is too long")
     head = json.loads(fill(stream, bytearray(length)))
     if not isinstance(head, dict):
-        raise ValueError("a message of another kind")  # noqa: TRY004 - one error for all
+        raise ValueError("the message is not an object")  # noqa: TRY004 - one error for all
     return head
 
 
 def fill(stream: Any, buffer: Any) -> Any:
-    """Read until ``buffer`` is full and return it; EOFError when the other side ends before."""
+    """Read until ``buffer`` is full and return it; EOFError if the other process ends before."""
     view = memoryview(buffer).cast("B")
     while view:
         count = stream.readinto(view)
@@ -77,7 +77,7 @@ def fill(stream: Any, buffer: Any) -> Any:
 
 
 def send_photo(stream: IO[bytes], photo: Photo) -> None:
-    """Write a photo: what is not pixels as JSON, what is bytes as it is."""
+    """Write a photo: its fields as JSON, its bytes and pixels unchanged."""
     facts = dataclasses.asdict(photo.facts)
     facts |= {name: facts[name] and facts[name].isoformat() for name in _TIMES}
     head = {name: getattr(photo, name) for name in _PLAIN} | {
@@ -90,7 +90,7 @@ def send_photo(stream: IO[bytes], photo: Photo) -> None:
     }
     try:
         json.dumps(head["recorded"])
-    except (ValueError, TypeError, RecursionError):  # a recipe that nobody could read either
+    except (ValueError, TypeError, RecursionError):  # an unreadable recipe
         head["recorded"] = None
     blobs = [blob for name in _BYTES if (blob := getattr(photo, name)) is not None]
     pixels = [photo.encoded] if photo.alpha is None else [photo.encoded, photo.alpha]
@@ -98,19 +98,19 @@ def send_photo(stream: IO[bytes], photo: Photo) -> None:
         head["depth"] = {"kind": photo.depth.kind, "shape": photo.depth.values.shape}
         pixels.append(photo.depth.values)
     if photo.gain_map is not None:
-        told = {field.name: getattr(photo.gain_map, field.name) for field in fields(GainMap)}
-        blobs.append(told.pop("jpeg"))
-        head["gain_map"] = told | {"length": len(blobs[-1])}
+        values = {field.name: getattr(photo.gain_map, field.name) for field in fields(GainMap)}
+        blobs.append(values.pop("jpeg"))
+        head["gain_map"] = values | {"length": len(blobs[-1])}
     send(stream, head, *blobs, *(np.ascontiguousarray(array).data for array in pixels))
 
 
 def receive_photo(stream: IO[bytes], head: dict[str, Any]) -> Photo:
-    """Read the rest of a photo whose head was read.
+    """Read the rest of a photo after its head.
 
     Raises
     ------
     EOFError, ValueError, TypeError, KeyError
-        When the other side ended, or sent what is no photo.
+        When the other process ended, or sent something that is not a photo.
     """
     height, width, channels = (int(n) for n in head["shape"])
     if channels != 3 or min(height, width) < 1 or height * width > MAX_PIXELS:
@@ -145,27 +145,27 @@ def receive_photo(stream: IO[bytes], head: dict[str, Any]) -> Photo:
 
 
 def _receive_gain_map(stream: IO[bytes], head: dict[str, Any]) -> GainMap | None:
-    told = head.get("gain_map")
-    if told is None:
+    values = head.get("gain_map")
+    if values is None:
         return None
-    length = int(told.pop("length"))
+    length = int(values.pop("length"))
     if not 0 <= length <= 1 << 31:
         raise ValueError("a gain map of an impossible length")
     triples: dict[str, Any] = {
         name: tuple(float(v) for v in value) if isinstance(value, list) else value
-        for name, value in told.items()
+        for name, value in values.items()
     }
     return GainMap(jpeg=bytes(fill(stream, bytearray(length))), **triples)
 
 
 def _receive_depth(stream: IO[bytes], head: dict[str, Any]) -> DepthMap | None:
-    told = head.get("depth")
-    if told is None:
+    depth = head.get("depth")
+    if depth is None:
         return None
-    height, width = (int(n) for n in told["shape"])
+    height, width = (int(n) for n in depth["shape"])
     if min(height, width) < 1 or height * width > MAX_PIXELS:
         raise ValueError("a depth map of an impossible size")
-    return DepthMap(fill(stream, np.empty((height, width), np.float32)), str(told["kind"]))
+    return DepthMap(fill(stream, np.empty((height, width), np.float32)), str(depth["kind"]))
 
 
 def _profile_as_json(profile: ColorProfile) -> dict[str, Any]:
@@ -188,7 +188,7 @@ def _profile_of_json(found: dict[str, Any]) -> ColorProfile:
 
 
 def limit_memory(most: int) -> None:
-    """Allow ``most`` bytes beyond what this process has taken already; no dump when it crashes."""
+    """Limit memory to ``most`` bytes beyond this process's present use; disable core dumps."""
     with contextlib.suppress(ImportError, OSError, ValueError):
         import resource
 
@@ -203,7 +203,7 @@ def limit_memory(most: int) -> None:
 
 
 def limit_time(seconds: int) -> None:
-    """Allow ``seconds`` of processor time from now on."""
+    """Limit processor time to ``seconds`` from now on."""
     with contextlib.suppress(ImportError, OSError, ValueError):
         import resource
 
@@ -214,19 +214,19 @@ def limit_time(seconds: int) -> None:
 
 
 def serve(memory: int, seconds: int) -> None:
-    """Answer until standard input ends.
+    """Answer requests until standard input ends.
 
     Parameters
     ----------
     memory : int
-        Bytes that decoding may take.
+        Most bytes for decoding.
     seconds : int
-        Of processor time for a picture.
+        Most seconds of processor time for a picture.
     """
     with contextlib.suppress(ValueError, OSError):
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the process that asks decides
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process handles Ctrl-C
     ask = sys.stdin.buffer
-    # What a library prints must not come between the answers.
+    # Output that libraries print must not mix with the responses.
     answer = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     warnings.simplefilter("ignore")
@@ -246,7 +246,7 @@ def serve(memory: int, seconds: int) -> None:
         except MemoryError:
             text = f"There is not enough memory to open {name}. Scale it down."
             send(answer, {"error": text})
-        except Exception as error:  # noqa: BLE001 - a reader's own fault costs this file alone
+        except Exception as error:  # noqa: BLE001 - a bug of a reader fails this file only
             send(answer, {"error": f"{name} cannot be read ({reason(error)}). Copy it again."})
         else:
             send_photo(answer, photo)

@@ -1,6 +1,6 @@
-"""HEIC photos to code values, by libheif (the ``heif`` extra), with a phone's depth and gain map.
+"""Decode HEIC photos with libheif (the ``heif`` extra), with a phone's depth and gain map.
 
-libheif turns the picture and what belongs to it upright, as the file says.
+libheif turns the picture and its maps upright.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from sunwidget.formats import exif as exif_tags
 from sunwidget.formats.gain_map import GainMap
 from sunwidget.formats.pixels import check_size
 
-# Pillow reads AVIF, which has the same container.
+# AVIF has the same container; Pillow reads it.
 _BRANDS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"hevm", b"hevs")
 _GENERAL = (b"mif1", b"mif2", b"msf1")
 _HDR = {16: "PQ", 18: "HLG"}  # transfer characteristics of ITU-T H.273
@@ -26,10 +26,10 @@ _UNIFORM_DEPTH = 2  # ITU-T H.265, depth_representation_type; the others grow to
 
 
 class DepthMap(NamedTuple):
-    """A phone's own depth of a photo, up to scale and, where inverse, shift.
+    """Depth of a photo from the phone, up to scale and, if inverse, shift.
 
-    ``values`` is (h, w) float32, of any size; ``kind`` is "inverse" where they grow towards the
-    camera, as disparities do, or "depth".
+    ``values`` is (h, w) float32, of any size. ``kind`` is "inverse" if values grow towards the
+    camera, as disparities do, else "depth".
     """
 
     values: NDArray[np.float32]
@@ -37,7 +37,7 @@ class DepthMap(NamedTuple):
 
 
 class Heif(NamedTuple):
-    """What a HEIC holds. ``codes`` is (H, W) or (H, W, 1–4), uint8 or uint16, upright."""
+    """Contents of a HEIC. ``codes`` is (H, W) or (H, W, 1–4), uint8 or uint16, upright."""
 
     codes: NDArray[Any]
     icc: bytes | None
@@ -51,7 +51,7 @@ class Heif(NamedTuple):
 
 
 def is_heif(data: bytes) -> bool:
-    """Tell a HEIC by its first bytes."""
+    """Return whether a file is a HEIC, by its first bytes."""
     if data[4:8] != b"ftyp":
         return False
     end = min(int.from_bytes(data[:4], "big"), 256)
@@ -65,8 +65,7 @@ def read(data: bytes, name: str) -> Heif:
     Raises
     ------
     PhotoError
-        Without the ``heif`` extra, and for a file that libheif cannot read or of a kind that is not
-        read here.
+        Without the ``heif`` extra, and for a file that is damaged or of an unsupported kind.
     """
     try:
         import pillow_heif
@@ -83,11 +82,11 @@ def read(data: bytes, name: str) -> Heif:
         transfer = _HDR.get(info.get("nclx_profile", {}).get("transfer_characteristics"))
         if transfer and not info.get("icc_profile"):
             raise PhotoError(
-                f"{name} is a HEIC in {transfer}, whose code values are no picture for ordinary "
-                "screens. Export it as JPEG, TIFF or OpenEXR and open that."
+                f"{name} is a HEIC in {transfer}, an HDR encoding that sunwidget does not read. "
+                "Export it as JPEG, TIFF or OpenEXR and open that."
             )
         codes = _codes(file)
-        way = pillow_heif.set_orientation(info)
+        orientation = pillow_heif.set_orientation(info)
     except PhotoError:
         raise
     except MemoryError as error:
@@ -111,7 +110,7 @@ def read(data: bytes, name: str) -> Heif:
         tuple(primaries) if any(primaries) else (),
         exif,
         info.get("xmp"),
-        (way or 1) >= 5,
+        (orientation or 1) >= 5,
         _depth(file),
         _gain_map(file, exif, data),
         notes,
@@ -119,7 +118,7 @@ def read(data: bytes, name: str) -> Heif:
 
 
 def _codes(image: Any) -> NDArray[Any]:
-    """Return code values that use all of 8 or 16 bits."""
+    """Return code values scaled to the full range of 8 or 16 bits."""
     if image.premultiplied_alpha:
         return np.asarray(image.to_pillow().convert("RGBA"))
     codes = np.asarray(image)
@@ -130,19 +129,19 @@ def _codes(image: Any) -> NDArray[Any]:
     return np.rint(codes * (65535 / top)).astype(np.uint16)
 
 
-def _belongs(values: NDArray[Any], size: tuple[int, int]) -> bool:
-    """Tell whether a map has the proportions of the picture, to a twentieth."""
+def _has_proportions(values: NDArray[Any], size: tuple[int, int]) -> bool:
+    """Return whether a map has the picture's proportions, within a twentieth."""
     height, width = values.shape
     return abs(width * size[1] - height * size[0]) < 0.05 * width * size[1]
 
 
 def _depth(file: Any) -> DepthMap | None:
     for image in file.info.get("depth_images", ()):
-        with contextlib.suppress(Exception):  # a damaged map must not cost the picture
+        with contextlib.suppress(Exception):  # a damaged map is dropped, the picture kept
             values = np.array(image, np.float32)
-            told = image.info.get("metadata", {}).get("representation_type")
-            kind = "depth" if told == _UNIFORM_DEPTH else "inverse"
-            if values.ndim == 2 and _belongs(values, file.size) and np.ptp(values) > 0:
+            representation = image.info.get("metadata", {}).get("representation_type")
+            kind = "depth" if representation == _UNIFORM_DEPTH else "inverse"
+            if values.ndim == 2 and _has_proportions(values, file.size) and np.ptp(values) > 0:
                 return DepthMap(values, kind)
     return None
 
@@ -152,6 +151,6 @@ def _gain_map(file: Any, exif: Any, data: bytes) -> GainMap | None:
         with contextlib.suppress(Exception):  # likewise
             levels = np.array(file.get_aux_image(number))
             headroom = apple_gain_map.headroom(exif, data)
-            if headroom and levels.ndim == 2 and _belongs(levels, file.size):
+            if headroom and levels.ndim == 2 and _has_proportions(levels, file.size):
                 return apple_gain_map.gain_map(levels, headroom)
     return None

@@ -1,7 +1,7 @@
-"""Camera raw files to code values, by LibRaw (the ``raw`` extra).
+"""Decode camera raw files to code values with LibRaw (the ``raw`` extra).
 
-Developed plainly: the camera's white balance, Rec. 709 primaries, no tone curve and no automatic
-brightening, so that light stays in proportion; 16 bits in the sRGB encoding.
+Development keeps light in proportion: the camera's white balance, Rec. 709 primaries, no tone
+curve and no automatic brightening; 16 bits in the sRGB encoding.
 """
 
 from __future__ import annotations
@@ -25,24 +25,24 @@ _ENDING = re.compile(
 _MAGIC = (b"IIRO", b"IIRS", b"MMOR", b"IIU\0", b"FUJIFILM")
 _TIFF = (b"II*\0", b"MM\0*")
 _SRGB_GAMMA = (2.4, 12.92)
-# Sensors often clip somewhat below the white level that LibRaw knows, which would tint a burnt sun.
-# From this share of it upwards the brightest value is taken for the sensor's own limit; LibRaw's
-# 0.75 would brighten many pictures that clip nowhere, each by another factor.
+# Sensors often clip slightly below LibRaw's white level, which would tint a clipped sun. From this
+# share of that level upwards, the brightest value counts as the sensor's limit. LibRaw's 0.75 would
+# brighten many pictures without clipping, each by a different factor.
 _SATURATED = 0.9
-# What of the first directory tells of the shot; the rest tells how the file is laid out, and in
-# some makers' files it is whole pictures.
-_TOLD = (270, 271, 272, 274, 282, 283, 296, 305, 306, 315, 33432)
+# Tags of the first directory that describe the shot. The others describe the file's layout, and
+# some makers' contain whole pictures.
+_SHOT_TAGS = (270, 271, 272, 274, 282, 283, 296, 305, 306, 315, 33432)
 _FIRST_PICTURE = 254
 _DNG_VERSION = 50706
 _SUB_IMAGES = 330
 
 
 def is_raw(data: bytes, name: str, tags: dict[int, Any]) -> bool:
-    """Tell a camera raw file by its name and first bytes; ``tags`` are those of a TIFF."""
+    """Return whether a file is camera raw, by its name, first bytes and TIFF ``tags``."""
     if data.startswith(_MAGIC) or data[4:11] == b"ftypcrx":
         return True
     if not data.startswith(_TIFF):
-        return data[6:14] == b"HEAPCCDR"  # Canon's first kind, .crw
+        return data[6:14] == b"HEAPCCDR"  # Canon's first raw format, .crw
     if data[8:10] == b"CR" or _DNG_VERSION in tags:
         return True
     if name.lower().endswith((".tif", ".tiff")):
@@ -52,7 +52,7 @@ def is_raw(data: bytes, name: str, tags: dict[int, Any]) -> bool:
 
 
 def develop(data: bytes, name: str) -> tuple[NDArray[np.uint16], Any, bool]:
-    """Return (H, W, 3) uint16 sRGB code values, upright; its Exif or None; whether it was turned.
+    """Return upright (H, W, 3) uint16 sRGB code values; Exif or None; whether it was turned.
 
     Raises
     ------
@@ -91,9 +91,9 @@ def develop(data: bytes, name: str) -> tuple[NDArray[np.uint16], Any, bool]:
 
 
 def _exif(data: bytes, raw: Any) -> Any:
-    """Return the shot's Exif: of the file's own directories, else of the JPEG that it holds."""
+    """Return the shot's Exif from the file's own directories, else from its JPEG preview."""
     block = data
-    if data.startswith(_MAGIC):  # like a TIFF but for its two magic bytes
+    if data.startswith(_MAGIC):  # a TIFF except for its two magic bytes
         block = data[:2] + (b"*\0" if data[:2] == b"II" else b"\0*") + data[4:]
     exif = exif_tags.load(block) if block.startswith(_TIFF) else None
     if exif is None or not (exif.get(271) or exif.get_ifd(0x8769)):
@@ -101,7 +101,7 @@ def _exif(data: bytes, raw: Any) -> Any:
     if exif is None:
         return None
     for tag in list(exif):
-        if tag not in (*_TOLD, 0x8769, 0x8825):
+        if tag not in (*_SHOT_TAGS, 0x8769, 0x8825):
             del exif[tag]
     return exif
 

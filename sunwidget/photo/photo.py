@@ -1,6 +1,6 @@
-"""Photo: linear-light pixels, and everything of the file that must survive an edit.
+"""Photo: linear-light pixels, and everything in the file that must survive an edit.
 
-Pixel (0, 0) is the top-left one; EXIF orientation is already applied.
+Pixel (0, 0) is at the top left; EXIF orientation is already applied.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from sunwidget.formats.pixels import size_within
 from sunwidget.formats.png import cell_output
 from sunwidget.photo.decode import Decoded
 from sunwidget.photo.decode_heif import DepthMap
-from sunwidget.photo.sources import decoded_from
+from sunwidget.photo.sources import decode_source
 
 __all__ = ["FieldOfView", "Photo", "PhotoError", "PhotoWarning", "open_photo"]
 
@@ -33,7 +33,7 @@ _DECODED_AT_ONCE = 1 << 23  # pixels: 100 MB of light
 
 
 class FieldOfView(NamedTuple):
-    """Vertical field of view in degrees, and where it comes from: "exif" or "assumed"."""
+    """Vertical field of view in degrees, and its source: "exif" or "assumed"."""
 
     vertical: float
     source: str
@@ -41,42 +41,42 @@ class FieldOfView(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Photo:
-    """A picture as it was opened. Made by :func:`open_photo`.
+    """An opened picture, as :func:`open_photo` returns it.
 
     Attributes
     ----------
     encoded : (H, W, 3) uint8, uint16 or float32 array, read-only
-        The code values of the file in its own ``profile``, upright; float32 is linear
-        Rec. 709 light already. Grey is repeated in all channels.
+        Code values of the file in its own ``profile``, upright; float32 is already linear
+        Rec. 709 light. Gray is repeated in all channels.
     profile : ColorProfile
-        How ``encoded`` becomes light.
+        Converts ``encoded`` to light.
     alpha : (H, W) float32 array in 0–1, or None
-        Opacity that the file stores; it takes no part in the edit and is saved again.
+        Opacity from the file; the edit ignores it, and it is saved again.
     name, format : str
         File name, or "array"; "JPEG", "PNG", "TIFF", "WEBP", "EXR", "HDR", "RAW" … or None.
     icc, exif, xmp : bytes or None
-        Metadata to be written again; the orientation in ``exif`` is 1.
+        Metadata that is saved again; the orientation in ``exif`` is 1.
     dpi : (float, float) or None
         Print resolution.
     facts : CameraFacts
-        What the EXIF says about the shot.
+        Facts about the shot from the EXIF.
     turned : bool
-        True when EXIF orientation turned the picture by a quarter.
+        True if EXIF orientation turned the picture by a quarter.
     recorded : dict or None
-        Recipe of the edit that made this picture as the file has it, to be written again;
-        ``recipe`` is the edit.
+        Recipe in the file of the edit that made this picture, saved again; ``recipe`` is the
+        edit.
     notes : tuple of str
-        Sentences about what could not be kept; also given as PhotoWarning.
+        Sentences about what could not be kept; also issued as PhotoWarning.
     gain_map : GainMap or None
-        How much brighter a screen may show the picture, as its file tells it. It takes no part in
-        the edit, and is saved again where nothing was moved.
+        How much brighter a screen may show the picture, from the file. The edit ignores it; it
+        is saved again if nothing was moved.
     depth : DepthMap or None
-        Depth that a phone has kept in its HEIC: ``values`` (h, w) float32 up to scale and shift;
-        ``kind`` is "inverse" where they grow towards the camera, or "depth". ``analyze`` takes it
-        unless it is told another.
+        Depth that a phone stored in its HEIC: ``values`` (h, w) float32 up to scale and shift;
+        ``kind`` is "inverse" if they grow towards the camera, else "depth". ``analyze`` uses it
+        unless another depth is given.
     sun : (x, y) or None
-        Where the sun stands in pixels, when sunwidget composed the picture and knows it
-        (``replace_sky``); ``analyze`` takes it for a hint. May lie outside the picture.
+        Position of the sun in pixels, if sunwidget composed the picture (``replace_sky``);
+        ``analyze`` uses it as a hint. It may lie outside the picture.
     """
 
     encoded: NDArray[Any]
@@ -125,22 +125,22 @@ class Photo:
 
     @property
     def bit_depth(self) -> int:
-        """Bits a channel: 8, 16, or 32 for float light."""
+        """Bits per channel: 8, 16, or 32 for float light."""
         return self.encoded.dtype.itemsize * 8
 
     @cached_property
     def pixels(self) -> NDArray[np.float32]:
         """Linear Rec. 709 light, (H, W, 3) float32, read-only, 1 = white.
 
-        Not clamped: colours of a wider gamut have channels below 0 or above 1. It is kept once
-        it was asked for, and takes four to two times the memory of the code values.
+        Not clamped: colors outside Rec. 709 have channels below 0 or above 1. It is cached on
+        first access, and takes two to four times the memory of the code values.
         """
         light = self.light()
         light.flags.writeable = False
         return light
 
     def light(self, rows: slice = slice(None)) -> NDArray[np.float32]:
-        """Return the ``rows`` of ``pixels``, (h, W, 3) float32, without keeping what is decoded."""
+        """Return the ``rows`` of ``pixels``, (h, W, 3) float32, without caching them."""
         if self.encoded.dtype.kind == "f":
             return np.asarray(self.encoded[rows])
         if "pixels" in self.__dict__:
@@ -167,19 +167,19 @@ class Photo:
 
     @property
     def heading(self) -> float | None:
-        """Where the camera looked, degrees from north, clockwise."""
+        """Heading of the camera in degrees from north, clockwise."""
         return self.facts.heading
 
     @property
     def time(self) -> dt.datetime | None:
-        """Time of the shot; naive local time when the file names no zone."""
+        """Time of the shot; naive local time if the file has no time zone."""
         return self.facts.time
 
     @cached_property
     def recipe(self) -> Edit | None:
-        """The edit that made this picture, when sunwidget wrote it.
+        """The edit that made this picture, if sunwidget wrote it.
 
-        None, too, for a recipe that this version cannot read.
+        None without a recipe, and for a recipe that this version cannot read.
         """
         try:
             return None if self.recorded is None else Edit.from_dict(self.recorded)
@@ -187,10 +187,10 @@ class Photo:
             return None
 
     def preview(self, long_edge: int = 2048) -> NDArray[np.uint8]:
-        """Return the picture as sRGB uint8 (h, w, 3), no longer than ``long_edge`` pixels.
+        """Return the picture as sRGB uint8 (h, w, 3), at most ``long_edge`` pixels long.
 
-        Averaged over areas in linear light; never enlarged; colours outside sRGB are
-        clamped. An 8-bit sRGB photo that is small enough comes back as it is.
+        It is averaged over areas in linear light and never enlarged; colors outside sRGB are
+        clamped. An 8-bit sRGB photo that is small enough is returned unchanged.
         """
         small = self.size_within(long_edge)
         if small == self.size:
@@ -200,11 +200,11 @@ class Photo:
         return SRGB.encode(self._shrunk(small))
 
     def size_within(self, long_edge: int) -> tuple[int, int]:
-        """Return width and height, shrunk in proportion to at most ``long_edge`` pixels."""
+        """Return width and height, scaled down to at most ``long_edge`` pixels."""
         return size_within(self.size, long_edge)
 
     def resized(self, size: tuple[int, int]) -> NDArray[np.float32]:
-        """Return ``pixels`` averaged over areas at ``size`` (width, height), kept nowhere."""
+        """Return ``pixels`` averaged over areas at ``size`` (width, height), without caching."""
         import cv2
 
         if size == self.size:
@@ -215,7 +215,7 @@ class Photo:
         return np.asarray(cv2.resize(self.light(), size, interpolation=cv2.INTER_AREA), np.float32)
 
     def _shrunk(self, size: tuple[int, int]) -> NDArray[np.float32]:
-        """Area average in linear light; strip by strip, so that 150 MP need no float copy."""
+        """Average over areas in linear light, in strips, so that 150 MP need no float copy."""
         import cv2
 
         narrow = np.empty((self.height, size[0], 3), np.float32)
@@ -235,8 +235,8 @@ def open_photo(source: Any) -> Photo:
         Files are JPEG, PNG, TIFF, WebP, AVIF, BMP, GIF, Radiance HDR, HEIC (extra ``heif``),
         OpenEXR (extra ``exr``) or camera raw (extra ``raw``).
         Arrays are (H, W), (H, W, 3) or (H, W, 4), also with 1 or 2 channels: uint8 and
-        uint16 are taken as sRGB code values, floats as *linear* Rec. 709 light with
-        1 = white. A Photo is returned as it is.
+        uint16 are read as sRGB code values, floats as *linear* Rec. 709 light with
+        1 = white. A Photo is returned unchanged.
 
     Returns
     -------
@@ -245,23 +245,23 @@ def open_photo(source: Any) -> Photo:
     Raises
     ------
     PhotoError
-        For everything that cannot be opened; the message says what to do.
+        If the source cannot be opened; the message says what to do.
 
     Warns
     -----
     PhotoWarning
-        When something in the file could not be kept, such as further frames.
+        If part of the file could not be kept, such as further frames.
     """
     if isinstance(source, Photo):
         return source
-    name, decoded = decoded_from(source)
+    name, decoded = decode_source(source)
     for note in decoded.notes:
         warnings.warn(note, PhotoWarning, stacklevel=2)
     return photo_of(decoded, name)
 
 
 def photo_of(decoded: Decoded, name: str) -> Photo:
-    """Return what was decoded as a photo."""
+    """Return a decoded picture as a photo."""
     return Photo(
         encoded=decoded.codes,
         name=name,

@@ -1,4 +1,4 @@
-"""Whatever a person passes as a photo: paths, bytes, files, Pillow images and arrays, decoded."""
+"""Decode every kind of photo source: paths, bytes, files, Pillow images and arrays."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ _TYPES = (
 )
 
 
-def decoded_from(source: Any) -> tuple[str, Decoded]:
-    """Return a name for messages and the picture; ``source`` as for ``sunwidget.open``.
+def decode_source(source: Any) -> tuple[str, Decoded]:
+    """Return a name for messages and the decoded picture; ``source`` as for ``sunwidget.open``.
 
     Raises
     ------
     PhotoError
-        For everything that cannot be opened; the message says what to do.
+        If the source cannot be opened; the message says what to do.
     """
-    if (file := file_of(source)) is not None:
+    if (file := read_file(source)) is not None:
         name, data = file
         return name, decode_bytes(data, name)
     if _is_pil(source):
@@ -44,8 +44,8 @@ def decoded_from(source: Any) -> tuple[str, Decoded]:
     )
 
 
-def file_of(source: Any) -> tuple[str, bytes] | None:
-    """Return a picture file's name for messages and its bytes; None for what is no file.
+def read_file(source: Any) -> tuple[str, bytes] | None:
+    """Return a picture file's name for messages and its bytes; None if the source is no file.
 
     Raises
     ------
@@ -66,16 +66,17 @@ def file_of(source: Any) -> tuple[str, bytes] | None:
 def _read_path(source: Any) -> tuple[str, bytes]:
     try:
         text = os.fsdecode(os.fspath(source))
-    except Exception as error:  # whatever a person's own path object may do
+    except Exception as error:  # a caller's own path object may raise anything
         kind = type(source).__name__
-        told = f"This {kind} does not name a file: {reason(error)}. Pass a path."
-        raise PhotoError(told) from error
+        text = f"This {kind} does not name a file: {reason(error)}. Pass a path."
+        raise PhotoError(text) from error
     if not text:
         raise PhotoError("The path is empty. Pass the path of a picture file.")
     if "://" in text[:10] or text.startswith("data:"):
-        told = _plain(text[:80])
-        raise PhotoError(f"{told} is an address; sunwidget never downloads. Save it first.")
-    told = _plain(text if len(text) <= 200 else f"{text[:200]}…")
+        raise PhotoError(
+            f"{_plain(text[:80])} is a URL; sunwidget never downloads. Save the picture first."
+        )
+    name = _plain(text if len(text) <= 200 else f"{text[:200]}…")
     try:
         path = Path(text).expanduser()
         mode = path.stat().st_mode
@@ -84,41 +85,41 @@ def _read_path(source: Any) -> tuple[str, bytes]:
     except FileNotFoundError as error:
         raise PhotoError(_plain(_missing(path))) from error
     except PermissionError as error:
-        raise PhotoError(f"No permission to read {told}. Check its access rights.") from error
+        raise PhotoError(f"No permission to read {name}. Check its access rights.") from error
     except (OSError, ValueError, RuntimeError) as error:
-        # A picture's own bytes, taken for a path, hold what no path may hold.
+        # A picture's contents passed as a path contain null characters, which no path may have.
         hint = " Pass a picture's contents as bytes." if "\0" in text else ""
-        raise PhotoError(f"Cannot read {told!r:.200}: {reason(error)}.{hint}") from error
+        raise PhotoError(f"Cannot read {name!r:.200}: {reason(error)}.{hint}") from error
     except MemoryError as error:
-        raise PhotoError(f"There is not enough memory to read {told}.") from error
+        raise PhotoError(f"There is not enough memory to read {name}.") from error
     if stat.S_ISDIR(mode):
-        raise PhotoError(f"{told} is a folder. Pass the path of one picture in it.")
-    raise PhotoError(f"{told} is a device or pipe, not a file. Pass a picture file.")
+        raise PhotoError(f"{name} is a folder. Pass the path of one picture in it.")
+    raise PhotoError(f"{name} is a device or pipe, not a file. Pass a picture file.")
 
 
 def _plain(text: str) -> str:
-    """Return text that every terminal, page and message can hold.
+    """Return text that terminals, pages and messages can encode.
 
-    Bytes of a file's name that are no UTF-8 come as lone surrogates, which nothing can write.
+    File names that are not UTF-8 contain lone surrogates, which cannot be encoded.
     """
     return text.encode("utf-8", "replace").decode("utf-8")
 
 
 def _missing(path: Path) -> str:
     if path.is_symlink():
-        return f"{path} is a link to {path.readlink()}, which is not there."
+        return f"{path} is a link to {path.readlink()}, which does not exist."
     try:
         near = _nearest(path.name, [p.name for p in path.parent.iterdir()])
     except OSError:
-        return f"There is no file {path}, nor a folder {path.parent}."
+        return f"There is no file {path} and no folder {path.parent}."
     hint = f" Did you mean {near!r}?" if near else f" Looked in {path.parent.absolute()}."
     return f"There is no file {path}.{hint}"
 
 
 def _nearest(name: str, names: list[str]) -> str | None:
-    """Return the name that one may have meant, without regard to its ending and to capitals."""
+    """Return the most similar name, ignoring its suffix and case."""
     ending = Path(name).suffix.casefold()
-    # Of those that differ in their ending alone the last counts: one with this ending.
+    # Of names that differ only in the suffix, the last is used: one with this suffix.
     names = sorted(names, key=lambda other: Path(other).suffix.casefold() == ending)
     stems = {Path(other).stem.casefold(): other for other in names}
     near = difflib.get_close_matches(Path(name).stem.casefold(), stems, n=1, cutoff=0.75)
@@ -126,10 +127,10 @@ def _nearest(name: str, names: list[str]) -> str | None:
 
 
 def _check_no_path(data: bytes) -> None:
-    """Refuse the name of a file in bytes: bytes are a file's contents."""
+    """Refuse the name of a file in bytes, since bytes must be a file's contents."""
     if 0 < len(data) < 1024 and b"\0" not in data and os.path.exists(data):  # noqa: PTH110 - bytes
         raise PhotoError(
-            f"{_plain(os.fsdecode(data))} is a path in bytes, and bytes are taken for a picture's "
+            f"{_plain(os.fsdecode(data))} is a path in bytes, but bytes must be a picture's "
             "contents. Pass the path as text: os.fsdecode(path)."
         )
 
@@ -142,7 +143,7 @@ def _read_stream(source: Any) -> tuple[str, bytes]:
         raise as_text
     try:
         data = source.read()
-    except Exception as error:  # whatever a person's own file object may do
+    except Exception as error:  # a caller's own file object may raise anything
         raise PhotoError(f"Reading {name} failed: {reason(error)}.") from error
     if isinstance(data, str):
         raise as_text
@@ -150,13 +151,13 @@ def _read_stream(source: Any) -> tuple[str, bytes]:
         raise PhotoError(f"Reading {name} gave {type(data).__name__}, not bytes. Pass its bytes.")
     if not data:
         raise PhotoError(
-            f"{name} has nothing left to read: it is empty, or was read before. Open it again."
+            f"{name} has no bytes left to read: it is empty, or was read before. Open it again."
         )
     return name, bytes(data)
 
 
 def _is_pil(source: Any) -> bool:
-    """Tell PIL images without importing Pillow: an image exists only when it is imported."""
+    """Return whether ``source`` is a PIL image, without importing Pillow."""
     module = sys.modules.get("PIL.Image")
     return module is not None and isinstance(source, module.Image)
 
@@ -171,7 +172,7 @@ def _from_array(source: Any) -> Decoded:
         array = np.asarray(source)
     except MemoryError as error:
         raise PhotoError("There is not enough memory for this array. Scale it down.") from error
-    except Exception as error:  # whatever a foreign array's own conversion may do
+    except Exception as error:  # a foreign array's own conversion may raise anything
         raise PhotoError(f"This array cannot be read: {reason(error)}.") from error
     if array.ndim >= 2:
         check_size(array.shape[1], array.shape[0], "The array")
@@ -191,12 +192,12 @@ def _from_array(source: Any) -> Decoded:
 
 
 def _code_values(light: np.ndarray) -> list[str]:
-    """Return a note when floats look like code values: whole numbers far above white."""
+    """Return a note if floats look like code values: whole numbers far above white."""
     brightest = float(light.max())
     if brightest < 2 or not _whole(light[0]) or not _whole(light):
         return []
     note = (
-        f"The array's floats are whole numbers up to {brightest:g}, and taken for linear light, "
+        f"The array's floats are whole numbers up to {brightest:g}. They are read as linear light, "
         "where 1 is white. If they are sRGB code values, pass array.astype('uint8')."
     )
     return [note]

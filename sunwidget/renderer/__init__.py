@@ -1,4 +1,4 @@
-"""Runs the frame graph on EGL, on one GL thread."""
+"""Run the frame graph on EGL, on one GL thread."""
 
 from sunwidget.errors import RendererError
 from sunwidget.renderer.offscreen import render, render_pass, scene_textures

@@ -1,7 +1,7 @@
-"""One worker thread that makes and owns the GL context.
+"""One worker thread that creates and owns the GL context.
 
-A moderngl context belongs to the thread that made it, while JupyterLab calls a widget's
-handlers on several threads; so every GL call of the kernel is sent to this one.
+A moderngl context belongs to the thread that created it, but JupyterLab calls a widget's handlers
+on several threads. Therefore all GL calls of the kernel run on this thread.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 _MOST_DEVICES = 8
-# After these, what was drawn is none; moderngl has no name for a lost context's code.
+# Errors after which the drawing is invalid; moderngl has no name for a lost context.
 _FAILURES = ("GL_OUT_OF_MEMORY", "GL_INVALID_FRAMEBUFFER_OPERATION", "GL_UNKNOWN_ERROR")
 
 
@@ -37,10 +37,10 @@ class _Worker:
         self.context: moderngl.Context | None = None
 
     def run(self, task: Callable[[moderngl.Context], T]) -> T:
-        """Run a task; after a failure of OpenGL once more, on a context that knows nothing of it.
+        """Run a task; if OpenGL fails, run it once more on a new context.
 
-        A context is lost when the driver starts anew or the graphics card sleeps, and what fills
-        the card's memory goes with it.
+        A context is lost when the driver restarts or the graphics card sleeps. A new context
+        also starts with free memory on the card.
         """
         try:
             return self._run_once(task)
@@ -52,9 +52,9 @@ class _Worker:
         except _FailedError as failure:
             self._discard_context()
             raise RendererError(
-                f"OpenGL failed while drawing, twice: {first}; {failure}. A smaller size needs "
-                "less of a graphics card's memory; LIBGL_ALWAYS_SOFTWARE=1, set before Python "
-                "starts, draws without the card."
+                f"OpenGL failed twice while drawing: {first}; {failure}. A smaller size needs less "
+                "memory on the graphics card; LIBGL_ALWAYS_SOFTWARE=1, set before Python starts, "
+                "draws without the card."
             ) from failure
 
     def _run_once(self, task: Callable[[moderngl.Context], T]) -> T:
@@ -72,7 +72,7 @@ class _Worker:
     def _discard_context(self) -> None:
         context, self.context = self.context, None
         if context is not None:
-            with contextlib.suppress(Exception):  # of a lost one nothing need be left
+            with contextlib.suppress(Exception):  # a lost context cannot be released
                 context.release()
 
     def make_context(self) -> moderngl.Context:
@@ -82,15 +82,15 @@ class _Worker:
                 self.context = _new_context()
             except Exception as error:  # moderngl raises bare Exception here
                 raise RendererError(explain(error)) from error
-            # Dropping a Python wrapper frees its GL object at the next ctx.gc() on this
-            # thread; "auto" would call GL from whichever thread drops it.
+            # The GL object of a deleted wrapper is freed by the next ctx.gc() on this thread;
+            # "auto" would call GL on the thread that deletes the wrapper.
             self.context.gc_mode = "context_gc"
         self.context.gc()
         return self.context
 
 
 class _FailedError(Exception):
-    """What OpenGL said when it could not draw."""
+    """OpenGL failed; the message is its error."""
 
 
 def _error_of(context: moderngl.Context) -> str:
@@ -98,24 +98,23 @@ def _error_of(context: moderngl.Context) -> str:
 
 
 def _new_context() -> moderngl.Context:
-    """Make a context on the first device that gives one.
+    """Create a context on the first device that works.
 
-    Devices come with the graphics cards first and software drawing last. A card that may not
-    be used (a container without its driver, a person outside the group "render") must not
-    keep the others from working.
+    Graphics cards come first and software drawing last. A card that cannot be used (a container
+    without its driver, a user outside the group "render") must not block the others.
     """
     import moderngl
 
-    if not sys.platform.startswith("linux"):  # EGL is Linux's; elsewhere the system's own way
+    if not sys.platform.startswith("linux"):  # EGL is for Linux; other systems have their own API
         return moderngl.create_context(standalone=True, require=330)
     first: Exception | None = None
-    # A device that a person chose stays chosen: glcontext takes it from the variable.
+    # glcontext reads this variable: a device that the user chose is the only one tried.
     for device in range(1 if "GLCONTEXT_DEVICE_INDEX" in os.environ else _MOST_DEVICES):
         try:
             context = moderngl.create_context(
                 standalone=True, backend="egl", require=330, device_index=device
             )
-        except Exception as error:  # noqa: BLE001 - glcontext raises nothing finer
+        except Exception as error:  # noqa: BLE001 - glcontext raises bare Exceptions
             first = first or error
             if not str(error).startswith("egl"):  # no such device, or no EGL at all
                 break
@@ -129,13 +128,13 @@ def _new_context() -> moderngl.Context:
 
 
 def _draws_floats(context: moderngl.Context) -> bool:
-    """Whether passes can be drawn into textures of floats, as all of the frame's are."""
+    """Return whether passes can draw into float textures, as the frame's passes do."""
     try:
         texture = context.texture((1, 1), 4, dtype="f4")
         framebuffer = context.framebuffer([texture])
         framebuffer.clear(0.25, 2.0, -3.0, 1.0)
         drawn = struct.unpack("4f", texture.read())
-    except Exception:  # noqa: BLE001 - moderngl.Error, or whatever such a driver says
+    except Exception:  # noqa: BLE001 - moderngl.Error, or any error of such a driver
         return False
     return drawn == (0.25, 2.0, -3.0, 1.0)
 
@@ -150,12 +149,12 @@ def on_gl_thread(task: Callable[[moderngl.Context], T]) -> T:
     Raises
     ------
     RendererError
-        When no EGL context can be made on this machine, or when OpenGL fails, also on a new
-        context. A task is run twice then, so it must find what it needs by the context it gets.
+        If no EGL context can be created on this machine, or if OpenGL fails twice. The second
+        run has a new context, so a task must look up its objects by the context that it gets.
     """
     global _worker
     with _lock:
-        # A forked child inherits the object but not the thread: start afresh.
+        # A forked child inherits the object but not the thread: start a new one.
         if _worker is None or _worker.pid != os.getpid():
             _worker = _Worker()
             atexit.register(_worker.pool.shutdown, wait=False)
@@ -166,5 +165,5 @@ def on_gl_thread(task: Callable[[moderngl.Context], T]) -> T:
 
 
 def require_renderer() -> None:
-    """Raise RendererError when nothing can be drawn here, before work that would be lost."""
+    """Raise RendererError if this machine cannot draw, before long work that needs it."""
     on_gl_thread(lambda _context: None)

@@ -1,7 +1,7 @@
 """Run the frame graph on EGL. ``docs/developer/frame-graph.md`` is the contract.
 
-The browser's twin is ``js/src/gl/graph.js``. A runner knows nothing about skies: it
-compiles the passes, hands them uniforms and textures, and runs again only what changed.
+The browser's twin is ``js/src/gl/graph.js``. A runner knows nothing about skies: it compiles the
+passes, sets their uniforms and textures, and runs only the passes whose inputs changed.
 """
 
 from __future__ import annotations
@@ -29,28 +29,28 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[Any]
 
-# Pixels on the longer side from which passes that are a part of the frame grow no more.
+# Passes at a fraction of the frame's size stop growing at this longer side, in pixels.
 LARGEST_FRAME = 4096
 
 
 @dataclass
 class Target:
-    """What one pass drew last: its texture, and the key of what it was drawn from."""
+    """Last output of a pass: its texture, and the key of its inputs."""
 
     texture: moderngl.Texture
     framebuffer: moderngl.Framebuffer
     key: Any = None
-    # Of a pass with parts: what its depth was drawn from.
+    # For a pass with parts: the key of the inputs of its depth.
     parts_key: Any = None
     version: int = 0
-    # A pass with history: what it drew before, and how many samples it holds by now.
+    # For a pass with history: the output before, and the number of samples so far.
     previous: moderngl.Texture | None = None
     samples: int = 0
 
 
 @dataclass
 class Programs:
-    """The compiled passes and their samplers, shared by every picture of one context."""
+    """The compiled passes of one context, shared by its pictures."""
 
     context: moderngl.Context
     programs: dict[str, moderngl.Program] = field(default_factory=dict)
@@ -60,10 +60,10 @@ class Programs:
     def get(
         self, shader: str, constants: str | None = None, depth: float = 0.0
     ) -> moderngl.Program:
-        """Compile ``shader`` on first use; a failure names the shader.
+        """Compile ``shader`` on first use; an error names the shader.
 
-        ``constants`` is the shader of what is the same for all its pixels, ``depth`` where it is
-        drawn when it draws a part of a pass (``part_shaders``).
+        ``constants`` is the shader of values that all pixels share, ``depth`` the depth of a
+        shader that draws a part of a pass (``part_shaders``).
         """
         if shader not in self.programs:
             import moderngl
@@ -73,7 +73,7 @@ class Programs:
                 program = self.context.program(
                     vertex_shader=vertex_shader(constants, depth), fragment_shader=text
                 )
-            except Exception as error:  # moderngl.Error derives from Exception alone
+            except Exception as error:  # moderngl.Error derives directly from Exception
                 raise RuntimeError(f"Shader {shader!r} does not compile:\n{error}") from error
             self.programs[shader] = program
             self.arrays[shader] = self.context.vertex_array(program, [])
@@ -95,7 +95,7 @@ class FrameGraph:
     textures : mapping of str to array
         The scene textures by name, (h, w, 3 or 4) float32, uint8 or uint16, row 0 at the top.
     description : mapping, optional
-        The passes, as ``frame_graph`` returns them; default the editor's.
+        The passes, as ``frame_graph`` returns them; default: the editor's.
     """
 
     def __init__(
@@ -109,7 +109,7 @@ class FrameGraph:
         self.context = programs.context
         self.targets: dict[str, Target] = {}
         self.scene: dict[str, moderngl.Texture] = {}
-        # Of the rows that are being drawn, for passes of the picture's size (tiles.py).
+        # Textures of the rows being drawn, for passes of the picture's size (tiles.py).
         self.strip: dict[str, moderngl.Texture] = {}
         self.picture_strip: tuple[float, ...] = (0.0,) * 4
         self.versions: dict[str, int] = {}
@@ -119,35 +119,35 @@ class FrameGraph:
             self.set_texture(name, image)
 
     def set_texture(self, name: str, image: Array) -> None:
-        """Upload one scene texture; whatever reads it is drawn again."""
-        self.scene[name] = self._uploaded(image, None)
+        """Upload one scene texture; the passes that read it are drawn again."""
+        self.scene[name] = self._upload(image, None)
         self.versions[name] = self.versions.get(name, 0) + 1
 
     def set_strip(self, textures: Mapping[str, Array], picture_strip: tuple[float, ...]) -> None:
-        """Upload what passes of the picture's size read from now on instead of the whole picture.
+        """Upload a strip, which passes of the picture's size read instead of the whole picture.
 
         Parameters
         ----------
         textures : mapping of str to array
-            As of the graph itself, of some rows of the picture.
+            As for the graph, but only some rows of the picture, folded if a row is longer than
+            a texture can be (``tiles.fold``).
         picture_strip : (first row, width, height, rows)
-            Which rows of a picture of which size; no row is longer than a texture can be
-            (``tiles.folded``).
+            First row of the strip, size of the picture, and number of rows.
         """
         self.strip = {
-            name: self._uploaded(image, self.strip.get(name)) for name, image in textures.items()
+            name: self._upload(image, self.strip.get(name)) for name, image in textures.items()
         }
         self.picture_strip = picture_strip
         self.versions["strip"] = self.versions.get("strip", 0) + 1
 
-    def _uploaded(self, image: Array, into: moderngl.Texture | None) -> moderngl.Texture:
+    def _upload(self, image: Array, into: moderngl.Texture | None) -> moderngl.Texture:
         image = np.ascontiguousarray(image)
         height, width, components = image.shape
         limit = largest_texture(self.context)
         if max(height, width) > limit:
             raise ValueError(
                 f"A picture of {width}×{height} exceeds this renderer's limit of {limit} pixels "
-                "a side. Scale it down before opening it."
+                "per side. Scale it down before opening it."
             )
         if into is not None and into.size == (width, height):
             into.write(image, alignment=1)
@@ -165,11 +165,11 @@ class FrameGraph:
         until: str | None = None,
         sizes: Mapping[str, tuple[int, int]] | None = None,
     ) -> Target:
-        """Run what changed of the pass ``until`` and all that it reads; return its target.
+        """Run the pass ``until`` and its ancestors if they changed; return its target.
 
-        ``until`` is the pass that makes the picture unless it is named. ``tile`` is (x, y, width,
-        height) of the piece of the picture that frame-sized passes draw, in pixels. Passes whose
-        size is a name take it from ``sizes``.
+        ``until`` defaults to the pass that makes the picture. ``tile`` is (x, y, width, height)
+        in pixels of the piece of the picture that frame-sized passes draw. Passes with a named
+        size look it up in ``sizes``.
         """
         x, y, width, height = tile
         host = {**host_values, "tile_origin": (float(x), float(y))}
@@ -185,7 +185,7 @@ class FrameGraph:
         return self.targets[until]
 
     def _ancestors(self, rows: list[dict[str, Any]], until: str) -> list[dict[str, Any]]:
-        """Return the rows that ``until`` reads, each pass by way of others, and its own."""
+        """Return the rows that ``until`` depends on, directly or indirectly, and its own."""
         self.drawn = {row["name"] for row in rows}
         wanted = {until}
         for row in reversed(rows):
@@ -194,7 +194,7 @@ class FrameGraph:
         return [row for row in rows if row["name"] in wanted]
 
     def _source(self, names: str | list[str]) -> str:
-        """Return the first of an input's ``names`` that is drawn in this run or loaded."""
+        """Return the first of an input's ``names`` that this run draws or that is loaded."""
         if isinstance(names, str):
             return names
         return next((n for n in names if n in self.drawn or n in self.scene), names[-1])
@@ -211,7 +211,7 @@ class FrameGraph:
         if isinstance(size, str):
             return sizes[size]
         if size[0] == "frame":
-            # A part of a very large picture would be one as well.
+            # A fraction of a very large picture would still be large.
             shrink = size[1] * max(1.0, max(frame) / LARGEST_FRAME)
             return math.ceil(frame[0] / shrink), math.ceil(frame[1] / shrink)
         return size[0], size[1]
@@ -230,7 +230,7 @@ class FrameGraph:
         host = {**host, "pass_size": (float(size[0]), float(size[1]))}
         framed = row["size"] == "frame"
         if not framed:
-            # Only frame-sized passes are drawn piece by piece; a table is drawn whole.
+            # Only frame-sized passes are drawn in pieces; other passes are drawn whole.
             host["tile_origin"] = (0.0, 0.0)
         values: dict[str, Any] = {}
         keys: list[list[Any]] = []
@@ -246,7 +246,7 @@ class FrameGraph:
         target = self._target(name, size, levels, "parts" in row)
         key = [size, keys]
         if row.get("history"):
-            self._turn(target, key)
+            self._swap_history(target, key)
             values["sample_index"] = float(target.samples)
         elif target.key == key:
             return
@@ -265,7 +265,7 @@ class FrameGraph:
         self.runs[name] = self.runs.get(name, 0) + 1
 
     def _shaders(self, row: Mapping[str, Any]) -> list[str]:
-        """Compile the shaders of a pass; first of several is the one that tells its parts apart."""
+        """Compile the shaders of a pass; with parts, the first one assigns pixels to parts."""
         drawn = part_shaders(row)
         for shader, depth in drawn.items():
             self.programs.get(shader, row.get("constants"), depth)
@@ -295,7 +295,7 @@ class FrameGraph:
         values: Mapping[str, Any],
         textures: Mapping[str, moderngl.Texture],
     ) -> None:
-        """Write to which part each pixel belongs as its depth, unless it stands there already."""
+        """Write each pixel's part as its depth, unless it is written already."""
         import moderngl
 
         if target.parts_key == key:
@@ -317,9 +317,10 @@ class FrameGraph:
         values: Mapping[str, Any],
         textures: Mapping[str, moderngl.Texture],
     ) -> None:
-        """Draw each part's pixels by its shader.
+        """Draw each part's pixels with its shader.
 
-        Where the depth differs no driver runs a shader, while some compute both sides of a branch.
+        The depth test skips all other pixels on every driver; with a branch instead, some drivers
+        would compute both sides.
         """
         import moderngl
 
@@ -330,7 +331,7 @@ class FrameGraph:
         self.context.disable(moderngl.DEPTH_TEST)
 
     def _target(self, name: str, size: tuple[int, int], dtype: str, parts: bool) -> Target:
-        """Return where a pass draws: a new target when the one it has will not do."""
+        """Return the target of a pass, a new one if the present one does not fit."""
         target = self.targets.get(name)
         if target is not None:
             fits = (target.texture.size, target.texture.dtype) == (size, dtype)
@@ -343,8 +344,8 @@ class FrameGraph:
         self.targets[name] = Target(texture, framebuffer, version=target.version if target else 0)
         return self.targets[name]
 
-    def _turn(self, target: Target, key: list[Any]) -> None:
-        """Swap the two textures of a pass with history; it begins anew when ``key`` is new."""
+    def _swap_history(self, target: Target, key: list[Any]) -> None:
+        """Swap the two textures of a pass with history; a new ``key`` restarts its samples."""
         if target.key != key:
             target.samples = 0
         if target.previous is None:
@@ -358,12 +359,12 @@ class FrameGraph:
         return name, self.versions["strip" if framed and name in self.strip else name]
 
     def _texture(self, name: str, framed: bool) -> moderngl.Texture:
-        """Return what a pass reads, one of the picture's size (``framed``) or another."""
+        """Return a texture that a pass reads; ``framed`` passes read the strip if there is one."""
         if name in self.targets:
             return self.targets[name].texture
         return self.strip[name] if framed and name in self.strip else self.scene[name]
 
 
 def largest_texture(context: moderngl.Context) -> int:
-    """Return how many pixels a side of a texture can have."""
+    """Return the most pixels that a side of a texture can have."""
     return int(context.info["GL_MAX_TEXTURE_SIZE"])

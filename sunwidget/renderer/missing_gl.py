@@ -1,4 +1,4 @@
-"""What to say, and what to install, when this machine gives no OpenGL context."""
+"""Explain why there is no OpenGL context, and what to install."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _FAMILIES = {
 NO_FLOATS = "no float targets"
 _SOFTWARE = "Mesa draws without the card: LIBGL_ALWAYS_SOFTWARE=1."
 
-# What glcontext says, what that means, and what may help besides installing packages.
+# Part of glcontext's message, its meaning, and remedies other than installing packages.
 _CAUSES = (
     ("not loaded", "the system's OpenGL libraries are missing", ""),
     (
@@ -35,7 +35,7 @@ _CAUSES = (
     (
         "eglInitialize failed",
         "no driver behind EGL starts",
-        "A graphics card that may not be used is passed over with LIBGL_ALWAYS_SOFTWARE=1.",
+        "LIBGL_ALWAYS_SOFTWARE=1 skips a graphics card that you may not use.",
     ),
     (
         "eglCreateContext failed",
@@ -45,32 +45,32 @@ _CAUSES = (
             " MESA_GL_VERSION_OVERRIDE is set."
         ),
     ),
-    (NO_FLOATS, "the driver cannot draw into textures of floats", _SOFTWARE),
+    (NO_FLOATS, "the driver cannot draw into float textures", _SOFTWARE),
 )
 
 
 def explain(error: BaseException) -> str:
-    """Return what is wrong and what to do about it, in sentences that may stand on one line.
+    """Return the cause and the remedy, in sentences that can be joined to one line.
 
     Parameters
     ----------
     error : exception
-        What making the context raised: glcontext's bare ``Exception``, or an ImportError.
+        Raised when the context was created: glcontext's bare ``Exception``, or an ImportError.
     """
     return (
-        "sunwidget draws with OpenGL 3.3; that needs no display, but a driver. "
-        f"Here {cause(error)}.\n{remedy(error)}\n"
-        "`sunwidget doctor` looks again; docs/guide/troubleshooting.md says more."
+        "sunwidget draws with OpenGL 3.3, which needs a driver but no display. "
+        f"On this machine {cause(error)}.\n{remedy(error)}\n"
+        "Then check with `sunwidget doctor`; see also docs/guide/troubleshooting.md."
     )
 
 
 def cause(error: BaseException) -> str:
-    """Return why there is no context, as half a sentence with the driver's own words."""
+    """Return why there is no context, as a clause with the driver's own message."""
     said = " ".join(str(error).split()) or type(error).__name__
     if isinstance(error, ImportError):
         return f"the package moderngl cannot be imported ({said})"
     meanings = (meaning for sign, meaning, _ in _CAUSES if sign in said)
-    return f"{next(meanings, 'no context could be made')} ({said})"
+    return f"{next(meanings, 'no context could be created')} ({said})"
 
 
 def remedy(error: BaseException) -> str:
@@ -85,7 +85,7 @@ def _packages() -> str:
     if not sys.platform.startswith("linux"):
         return "Install the graphics card's own driver"
     debian = _INSTALL["Debian or Ubuntu"]
-    # Colab and Kaggle: a cell runs as root, and there is nobody to answer questions.
+    # Colab and Kaggle: cells run as root and cannot answer prompts.
     if "COLAB_RELEASE_TAG" in os.environ or "KAGGLE_KERNEL_RUN_TYPE" in os.environ:
         return f"Run in a cell: !apt-get update && {debian.replace('install', 'install -y')}"
     family = _family()
@@ -94,7 +94,7 @@ def _packages() -> str:
         return f"Install as root, {ways}"
     text = f"Install as root: {_INSTALL[family]}"
     if "CONDA_PREFIX" in os.environ:
-        text += " (conda's libegl and libgl only load a driver, which the system brings)"
+        text += " (conda's libegl and libgl only load a driver, which the system must provide)"
     return text
 
 

@@ -1,4 +1,4 @@
-"""Scene and Edit to pixels: the kernel's half of "described once, run twice"."""
+"""Render Scene and Edit to pixels: the kernel's half of "described once, run twice"."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from sunwidget.renderer.tiles import (
     STRIP_PIXELS,
     Strips,
     copy_size,
-    folded,
+    fold,
     is_resident,
     pieces,
     scene_textures,
@@ -41,17 +41,17 @@ if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
 
 MAX_HEADROOM = 8
-"""Stops above white that a frame may hold."""
+"""Most stops above white in a frame."""
 
-# Frame-sized passes are drawn in bands of about this many pixels, so that memory stays
-# bounded at any size: three RGBA32F targets of 2.1 MP are 100 MB. A 1080p frame is one band,
-# so that a film computes the sky of the unmoved sun once and not for each frame.
+# Frame-sized passes are drawn in bands of about this many pixels, which bounds memory at any
+# size: three RGBA32F targets of 2.1 MP are 100 MB. A 1080p frame is one band, so that a film
+# computes the sky of the unmoved sun once instead of for each frame.
 _BAND_PIXELS = 2_100_000
 
 
 @dataclass
 class _Drawing:
-    """A picture on the GL thread: its scene, its graph, and the strips of one that is large."""
+    """A picture on the GL thread: its scene, its graph, and the strips of a large picture."""
 
     scene: Scene
     graph: FrameGraph
@@ -60,24 +60,24 @@ class _Drawing:
     lit: bool = False
 
     def light(self) -> None:
-        """Upload the light behind windows, unless it is there: few edits switch it on."""
+        """Upload the light behind windows, unless loaded; few edits switch it on."""
         if not self.lit:
             self.graph.set_texture("lamps", texture(self.scene, "lamps", self.scene.photo.size))
             self.lit = True
 
     def load(self, rows: slice, limit: int) -> None:
-        """Upload the strip of ``rows``, unless it is there."""
+        """Upload the strip of ``rows``, unless loaded."""
         assert self.strips is not None
         if self.loaded == rows:
             return
         textures, strip = self.strips.textures(rows)
-        folds = {name: folded(image, limit) for name, image in textures.items()}
+        folds = {name: fold(image, limit) for name, image in textures.items()}
         self.graph.set_strip(folds, strip)
         self.loaded = rows
 
 
 class _Renderer:
-    """Lives on the GL thread: the programs, and the last scenes drawn."""
+    """State of the GL thread: the programs, and the scenes drawn last."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self.context = context
@@ -85,14 +85,14 @@ class _Renderer:
         self.drawings: OrderedDict[tuple[int, Any], _Drawing] = OrderedDict()
 
     def drawing(self, scene: Scene, size: tuple[int, int], *, lit: bool = False) -> _Drawing:
-        """Return the graph that holds the textures of ``scene`` at ``size``, and its strips.
+        """Return the drawing with the textures of ``scene`` at ``size``.
 
-        ``lit`` says that windows are.
+        ``lit`` also loads the light behind windows.
         """
         key = (id(scene), size)
         if key not in self.drawings:
             limit = largest_texture(self.context)
-            # The entry keeps the scene alive, so that its id stays its own.
+            # The entry keeps the scene alive, so that its id stays unique.
             self.drawings[key] = _Drawing(
                 scene,
                 FrameGraph(self.programs, scene_textures(scene, copy_size(size, limit), lit=False)),
@@ -106,7 +106,7 @@ class _Renderer:
         return self.drawings[key]
 
     def graph(self, scene: Scene, size: tuple[int, int]) -> FrameGraph:
-        """Return the graph of ``drawing``."""
+        """Return the graph of the drawing."""
         return self.drawing(scene, size).graph
 
 
@@ -115,7 +115,7 @@ _renderers: dict[int, _Renderer] = {}
 
 def _renderer(context: moderngl.Context) -> _Renderer:
     if id(context) not in _renderers:
-        _renderers.clear()  # of a context that was lost
+        _renderers.clear()  # the old context was lost
         _renderers[id(context)] = _Renderer(context)
     return _renderers[id(context)]
 
@@ -135,9 +135,9 @@ def render(
     Parameters
     ----------
     scene : Scene
-        What ``analyze`` returned.
+        The result of ``analyze``.
     edit : Edit or dict, optional
-        What to change, as an edit or a recipe; ``Edit()``, the default, changes nothing.
+        Edit or recipe; ``Edit()``, the default, changes nothing.
     dtype : {"uint8", "uint16", "float32"}
         uint8 and uint16 are sRGB-encoded; float32 is linear Rec. 709, unclamped.
     size : (width, height), optional
@@ -145,9 +145,9 @@ def render(
     method : {"ratio", "thesis", "thesis_literal"}, optional
         Overrides ``edit.method``.
     headroom : float, 0–8
-        Stops above white that float32 holds: what the edit has made brighter than the photo (the
-        sun's disc, its glow, glitter) rises up to 2 ** headroom instead of up to 1. All else is as
-        without; with 0, the default, nothing lies above white. By ``method`` "ratio" alone.
+        Stops above white in a float32 picture: light that the edit adds (the sun's disc, its
+        glow, glitter) reaches up to 2 ** headroom instead of 1; all other light stays the same.
+        With 0, the default, nothing exceeds white. Only for the ``method`` "ratio".
     progress : callable, optional
         Called with (fraction, message) after each band; raise in it to cancel.
 
@@ -158,12 +158,12 @@ def render(
     Raises
     ------
     EditError
-        For an unknown dtype or method, an impossible size, or headroom that is out of range or of
-        whole numbers.
+        For an unknown dtype or method, an impossible size, or headroom that is out of range or
+        for an integer dtype.
     AnalysisError
-        When ``scene`` is none.
+        If ``scene`` is not a Scene.
     RendererError
-        When this machine has no EGL.
+        If this machine has no EGL.
     """
     edit = edit_of(edit)
     if method is not None:
@@ -191,26 +191,26 @@ def strips_of(
 ) -> Iterator[tuple[slice, npt.NDArray[Any]]]:
     """Draw ``scene`` with ``edit`` applied, some rows at a time.
 
-    The strips together are the picture that ``render`` returns; only one is in memory at a
-    time. Other pictures may be drawn between two strips.
+    The strips together are the picture that ``render`` returns, but only one is in memory at a
+    time. Other pictures may be drawn between strips.
 
     Parameters
     ----------
     scene, edit, dtype, size, progress, headroom
         As for ``render``.
     within : slice, optional
-        Rows of which only the strips are drawn that hold some.
+        Draw only the strips that contain some of these rows.
 
     Yields
     ------
     rows : slice
-        The rows of this strip, from the top downwards, without gap or overlap.
+        Rows of this strip, from top to bottom, without gaps or overlaps.
     pixels : array, (rows, width, 3)
 
     Raises
     ------
     EditError, RendererError
-        As ``render``, when the first strip is asked for.
+        As ``render``, when the first strip is requested.
     """
     if not isinstance(dtype, str) or dtype not in ("uint8", "uint16", "float32"):
         raise EditError(f"dtype must be 'uint8', 'uint16' or 'float32', not {shown(dtype, 40)}.")
@@ -228,10 +228,10 @@ def strips_of(
 
     def draw(rows: slice, columns: list[slice], context: moderngl.Context) -> npt.NDArray[Any]:
         nonlocal drawing
-        if drawing.graph.context is not context:  # that was lost, and is a new one
+        if drawing.graph.context is not context:  # the context was lost and created again
             drawing = _renderer(context).drawing(scene, size, lit=lit)
         if drawing.strips is not None:
-            # On this thread, so that no other picture's strip is drawn instead.
+            # On the GL thread, so that no other picture's strip can be loaded in between.
             drawing.load(rows, limit)
         graph = drawing.graph
         parts = [draw_part(graph, scene, edit, size, dtype, rows, part, white) for part in columns]
@@ -257,7 +257,7 @@ def draw_part(
     columns: slice = slice(None),
     white: float = 1.0,
 ) -> npt.NDArray[Any]:
-    """Draw a part of the picture, all of it by default, on the GL thread."""
+    """Draw a part of the picture, by default all of it, on the GL thread."""
     top, bottom, _ = rows.indices(size[1])
     left, right, _ = columns.indices(size[0])
     values = states(edit, scene.automatic)
@@ -265,7 +265,7 @@ def draw_part(
     host = _host_values(size, dtype, white)
     target = graph.run(values, _scene_values(scene), host, tile, (edit.method,))
     shape = (bottom - top, right - left, 3)
-    if dtype == "uint8":  # the shader has rounded
+    if dtype == "uint8":  # the shader has rounded already
         levels = np.empty(shape, np.uint8)
         target.framebuffer.read_into(levels, components=3, alignment=1)
         return levels
@@ -279,7 +279,7 @@ def draw_part(
 def render_pass(
     scene: Scene, edit: Edit, name: str, size: tuple[int, int] | None = None
 ) -> npt.NDArray[np.float32]:
-    """Return what one pass of the frame graph draws, (h, w, 4) float32: for tests and lessons."""
+    """Return the output of one pass of the graph, (h, w, 4) float32, for tests and lessons."""
     scene = corrected(scene, edit)
     size = scene.photo.size if size is None else checked_size(size)
 
@@ -303,12 +303,12 @@ def render_pass(
 
 
 def checked_size(size: Any) -> tuple[int, int]:
-    """Return ``size`` as (width, height) in pixels: whole, at least 1, no more than a photo has.
+    """Return ``size`` as whole (width, height) in pixels, at least 1 and at most MAX_PIXELS.
 
     Raises
     ------
     EditError
-        For anything else.
+        For any other size.
     """
     try:
         width, height = (operator.index(n) for n in size)
@@ -318,7 +318,8 @@ def checked_size(size: Any) -> tuple[int, int]:
         raise EditError(f"size must be (width, height) in whole pixels, not {shown(size, 40)}.")
     if width * height > MAX_PIXELS:
         raise EditError(
-            f"size = {shown((width, height), 40)} is more than {MAX_PIXELS / 1e6:.0f} megapixels."
+            f"size = {shown((width, height), 40)} is more than {MAX_PIXELS / 1e6:.0f} megapixels. "
+            "Choose a smaller size."
         )
     return width, height
 
@@ -329,7 +330,7 @@ def checked_headroom(headroom: Any, dtype: str = "float32") -> float:
     Raises
     ------
     EditError
-        For anything else, and for light above white in whole numbers.
+        For any other value, and for headroom with an integer dtype.
     """
     number = isinstance(headroom, (int, float, np.number)) and not isinstance(headroom, bool)
     if not number or not 0 <= headroom <= MAX_HEADROOM:
@@ -338,7 +339,7 @@ def checked_headroom(headroom: Any, dtype: str = "float32") -> float:
             f"{shown(headroom, 40)}."
         )
     if headroom and dtype != "float32":
-        raise EditError(f"headroom is of dtype='float32': {dtype} holds no light above white.")
+        raise EditError(f"headroom needs dtype='float32', since {dtype} has no light above white.")
     return float(headroom)
 
 

@@ -1,7 +1,7 @@
-"""Read shaders and the frame graph from the package and resolve their includes.
+"""Read shaders and the frame graph from the package and resolve includes.
 
-The browser's twin is ``js/src/gl/include.js``; a test asserts that both expand every
-pass to the same text.
+The browser's twin is ``js/src/gl/include.js``; a test asserts that both expand every pass to the
+same text.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _INCLUDE = re.compile(r'^[ \t]*#include "([^"]+)"[ \t]*$', re.MULTILINE)
 
 EGL_HEADER = "#version 330\n"
-# One triangle that covers the target, without buffers, at a depth of the view volume.
+# One triangle that covers the target, without buffers, at a given depth.
 _TRIANGLE = """
 void main() {
   SetConstants();
@@ -29,15 +29,15 @@ void main() {
 
 
 def read_shader(path: str) -> str:
-    """Return the text of ``sunwidget/shaders/<path>`` as it lies in the package."""
+    """Return the text of ``sunwidget/shaders/<path>``."""
     return files("sunwidget").joinpath("shaders", *path.split("/")).read_text("utf-8")
 
 
 def resolve_includes(path: str, _seen: set[str] | None = None) -> str:
     """Return the text of a shader with every ``#include`` expanded.
 
-    A file is expanded where it is first mentioned and dropped at later mentions, so a
-    library may include what it needs without care for order.
+    A file is expanded at its first mention and dropped at later ones, so that libraries can
+    include each other in any order.
     """
     seen = {path} if _seen is None else _seen
 
@@ -53,16 +53,16 @@ def resolve_includes(path: str, _seen: set[str] | None = None) -> str:
 
 @functools.cache
 def frame_graph(name: str = "graph") -> dict[str, Any]:
-    """Return ``shaders/<name>.json`` as plain data: ``graph`` is the editor's."""
+    """Return ``shaders/<name>.json`` as plain data; ``graph`` is the editor's graph."""
     graph: dict[str, Any] = json.loads(read_shader(f"{name}.json"))
     return graph
 
 
 def part_shaders(row: Mapping[str, Any]) -> dict[str, float]:
-    """Return the shaders that draw the pass of ``row`` and the depth of each.
+    """Return the shaders that draw the pass of ``row``, and the depth of each.
 
-    Only a pass with ``parts`` has more than its own: ``parts["by"]`` writes which of them draws
-    a pixel as a depth (``frame/part.glsl``), and those are drawn where it equals theirs.
+    Only a pass with ``parts`` has several: ``parts["by"]`` writes the depth of the shader that
+    draws a pixel (``frame/part.glsl``), and each shader draws the pixels of its depth.
     """
     shaders = [*row.get("parts", {}).get("shaders", []), row["shader"]]
     return {shader: 0.5 * (part + 1) - 1 for part, shader in enumerate(shaders)}
@@ -74,10 +74,10 @@ def vertex_shader(constants: str | None = None, depth: float = 0.0) -> str:
     Parameters
     ----------
     constants : str, optional
-        Name of the shader whose ``SetConstants`` computes what is the same for all pixels of
-        the pass: once a corner instead of once a pixel.
+        Name of the shader whose ``SetConstants`` computes the values that all pixels of the
+        pass share, once per corner instead of once per pixel.
     depth : float, default 0
-        Of the triangle, from -1 to 1.
+        Depth of the triangle, from -1 to 1.
     """
     text = resolve_includes(f"{constants}.glsl") if constants else "void SetConstants() {}\n"
     return EGL_HEADER + text + _TRIANGLE % float(depth)

@@ -1,9 +1,9 @@
-"""Large pictures: reductions from a small copy, once; all else strip by strip.
+"""Draw large pictures: reductions once from a small copy, everything else strip by strip.
 
-Passes that are not of the picture's size (shadows, mirrored sky, the sun's visibility …) read a
-copy of all of it; those that are read scene textures of the strip's rows alone. So the memory that
-a picture takes on the GPU does not grow with it, and no side of it needs to fit into a texture:
-rows that do not are folded, their pieces one below the other (frame/strip.glsl).
+Passes of another size than the picture's (shadows, mirrored sky, the sun's visibility …) read a
+small copy of the whole picture. Passes of the picture's size read scene textures of the strip's
+rows only. GPU memory therefore does not grow with the picture, and no side has to fit into a
+texture: longer rows are folded into pieces, one below the other (frame/strip.glsl).
 """
 
 from __future__ import annotations
@@ -24,30 +24,30 @@ if TYPE_CHECKING:
     Array = npt.NDArray[Any]
     Size = tuple[int, int]
 
-# Up to here the scene textures of the whole picture lie on the GPU: 20 bytes a pixel.
+# Up to this size the scene textures of the whole picture stay on the GPU: 20 bytes per pixel.
 RESIDENT_PIXELS = 1 << 23
-# Longer side of the copy of a larger one, as a browser's preview has it.
+# Longer side of the copy of a larger picture, as for the browser's preview.
 COPY_EDGE = 2048
-# What a strip has of it at most: six RGBA32F targets of 1 MP are 100 MB.
+# Most pixels of a strip: six RGBA32F targets of 1 MP are 100 MB.
 STRIP_PIXELS = 1 << 20
 _OF_ITS_SIZE = ("layers", "surface")
-_MARGIN = 1  # rows: what a pixel reads around it (clouds/retouch.glsl)
+_MARGIN = 1  # rows that a pixel reads around it (clouds/retouch.glsl)
 
 
 def is_resident(size: Size, limit: int) -> bool:
-    """Return whether all of a picture's scene textures lie on the GPU at once."""
+    """Return whether all of a picture's scene textures stay on the GPU at once."""
     return size[0] * size[1] <= RESIDENT_PIXELS and max(size) <= limit
 
 
 def copy_size(size: Size, limit: int) -> Size:
-    """Return the size of the scene textures that stand for all of a picture of ``size``.
+    """Return the size of the scene textures that represent a whole picture of ``size``.
 
     Parameters
     ----------
     size : (width, height)
-        Of the picture, in pixels.
+        Size of the picture in pixels.
     limit : int
-        The longest side of a texture.
+        Longest side of a texture in pixels.
     """
     if is_resident(size, limit):
         return size
@@ -60,27 +60,26 @@ def pieces(size: Size, pixels: int, limit: int) -> list[tuple[slice, list[slice]
     Parameters
     ----------
     size : (width, height)
-        Of the picture, in pixels.
+        Size of the picture in pixels.
     pixels : int
-        About as many are in a strip.
+        Approximate number of pixels in a strip.
     limit : int
-        The longest side of a texture.
+        Longest side of a texture in pixels.
     """
     width, height = size
     folds = math.ceil(width / limit)
     rows = math.ceil(height / max(1, math.ceil(width * height / pixels)))
-    # Folded, with its margin, a strip must be no higher than a texture.
+    # A folded strip with its margin must not be higher than a texture.
     rows = max(1, min(rows, limit // folds - 2 * _MARGIN))
     across = math.ceil(width / folds)
     columns = [slice(left, min(left + across, width)) for left in range(0, width, across)]
     return [(slice(top, min(top + rows, height)), columns) for top in range(0, height, rows)]
 
 
-def folded(image: Array, limit: int) -> Array:
-    """Return a strip (h, w, n) as a texture holds it.
+def fold(image: Array, limit: int) -> Array:
+    """Return a strip (h, w, n) in the layout of a texture.
 
-    Rows longer than ``limit`` lie there in pieces, one below the other, the last one filled up
-    with zeros.
+    Rows longer than ``limit`` are split into pieces, one below the other; zeros pad the last.
     """
     height, width, channels = image.shape
     count = math.ceil(width / limit)
@@ -97,7 +96,7 @@ def folded(image: Array, limit: int) -> Array:
 def scene_textures(scene: Scene, size: Size, *, lit: bool = True) -> dict[str, Array]:
     """Return the scene textures of the frame graph at ``size`` (width, height).
 
-    ``lit`` False leaves dark what only lit windows need, and no network looks for them.
+    ``lit`` False leaves the texture of lit windows dark, so that no network has to find windows.
     """
     textures: dict[str, Array] = {"photo": scene.photo.resized(size)}
     for name in TEXTURES:
@@ -107,7 +106,7 @@ def scene_textures(scene: Scene, size: Size, *, lit: bool = True) -> dict[str, A
 
 
 def _picture(scene: Scene, size: Size) -> dict[str, Array]:
-    """Return those of the picture's size."""
+    """Return the scene textures of the picture's size."""
     return {
         "photo": scene.photo.resized(size),
         **{name: texture(scene, name, size) for name in _OF_ITS_SIZE},
@@ -121,18 +120,18 @@ class Strips:
     ----------
     scene : Scene
     size : (width, height)
-        Of the picture that is drawn, in pixels.
+        Size of the drawn picture in pixels.
     """
 
     def __init__(self, scene: Scene, size: Size) -> None:
         self.scene, self.size = scene, size
-        # What another size makes of maps that are averaged over areas is not known by rows.
+        # At another size, maps are averaged over areas, which cannot be done row by row.
         self._resized = None if scene.photo.size == size else _picture(scene, size)
 
     def textures(self, rows: slice) -> tuple[dict[str, Array], tuple[float, ...]]:
-        """Return the textures by name for drawing ``rows``, and ``picture_strip`` of the shaders.
+        """Return the textures by name for drawing ``rows``, and the uniform ``picture_strip``.
 
-        They have a row more on either side, where there is one.
+        The textures have an additional row on either side, if the picture has one.
         """
         width, height = self.size
         held = slice(max(rows.start - _MARGIN, 0), min(rows.stop + _MARGIN, height))

@@ -1,8 +1,8 @@
-"""Where a uniform's value comes from: the Edit, the Scene or the host.
+"""Find the value of a uniform: in the Edit, the Scene or the host.
 
 The browser's twin is ``js/src/gl/values.js``. Two states exist: ``source``, the unmoved
-picture, and ``edit``, the current one. In the source state every parameter has its
-default, and every automatic one what the analysis found.
+picture, and ``edit``, the current one. In the source state every parameter has its default,
+and every automatic parameter the value that the analysis found.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Value = float | int | tuple[float, ...]
 
 
 def parameter_values(edit: Edit, automatic: Mapping[str, float]) -> dict[str, Value]:
-    """Return every number of ``edit`` with automatic ones filled in, and the index of a choice."""
+    """Return all numbers of ``edit``, automatic ones filled in, and the indices of choices."""
     values: dict[str, Value] = {}
     for p in PARAMETERS:
         value = getattr(edit, p.name)
@@ -34,13 +34,13 @@ def states(edit: Edit, automatic: Mapping[str, float]) -> dict[str, dict[str, Va
     source = parameter_values(Edit(), automatic)
     current = parameter_values(edit, automatic)
     fixed = {f"source_{name}": value for name, value in source.items()}
-    # The method is no property of the picture: both states are drawn by the chosen one.
+    # The method is not a property of the picture: both states use the chosen one.
     source["method"] = current["method"]
     return {"source": {**source, **fixed}, "edit": {**current, **fixed}}
 
 
 def uniform_value(shader: str, name: str, *tables: Mapping[str, Any]) -> Any:
-    """Look ``name`` up in ``tables`` in turn; a miss names shader and uniform."""
+    """Look up ``name`` in ``tables`` in order; the error names shader and uniform."""
     for table in tables:
         if name in table:
             return table[name]

@@ -1,8 +1,8 @@
-"""The sample pictures that come with the package, so that a first cell always runs.
+"""The bundled sample pictures, so that a first cell always runs.
 
-They are computer-generated renders, not photographs: four procedural landscapes,
-path-traced at 1536×1024 by the developers, with a fictional but consistent camera, date,
-place and heading in their EXIF (it agrees with the sun in the picture). MIT, like the code.
+They are computer-generated renders, not photographs: four procedural landscapes, path-traced
+at 1536×1024 by the developers. Their EXIF has a fictional camera, date, place and heading that
+agree with the sun in the picture. MIT license, like the code.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def sample(name: str = "coast") -> Photo:
     Parameters
     ----------
     name : {"coast", "mountains", "meadow", "harbour"}
-        Which one.
+        Name of the sample.
 
     Returns
     -------

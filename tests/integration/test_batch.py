@@ -325,7 +325,7 @@ def test_a_picture_that_cannot_be_recorded_is_failed_and_made_by_the_next_run(fo
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
     assert list(report)[-1].state == "failed"
-    assert "was not written: a file may not be that large" in report.failed[0].error
+    assert "was not written: the file is too large" in report.failed[0].error
     assert len([name for name in left(folder) if name.endswith(".png")]) == len(report.done)
     again = run(folder)
     assert not again.failed

@@ -113,7 +113,7 @@ def test_the_process_is_kept_and_a_dead_one_replaced(tmp_path, stand_in):
     (first,) = decode_apart._kept
     open_apart(good)
     assert decode_apart._kept == [first]
-    with pytest.raises(PhotoError, match=r"crash\.png ended the process that read it \(SIGABRT\)"):
+    with pytest.raises(PhotoError, match=r"crash\.png crashed the process that read it \(SIGABRT"):
         open_apart(bad)
     assert open_apart(good).size == (32, 24)
     assert decode_apart._kept != [first]
@@ -122,7 +122,7 @@ def test_the_process_is_kept_and_a_dead_one_replaced(tmp_path, stand_in):
 def test_one_that_hangs_is_given_up(tmp_path, stand_in, monkeypatch):
     monkeypatch.setattr(decode_apart, "SECONDS", 1.5)
     begin = time.monotonic()
-    with pytest.raises(PhotoError, match=r"hang\.png was given up: .* longer than 1\.5 s"):
+    with pytest.raises(PhotoError, match=r"hang\.png was stopped: .* longer than 1\.5 s"):
         open_apart(write(tmp_path, "hang.png"))
     assert time.monotonic() - begin < 30  # and not the 600 s that it sleeps
     monkeypatch.setattr(decode_apart, "SECONDS", 60.0)
@@ -132,7 +132,7 @@ def test_one_that_hangs_is_given_up(tmp_path, stand_in, monkeypatch):
 @pytest.mark.skipif(sys.platform == "win32", reason="no limit of processor time")
 def test_one_that_spins_meets_its_limit_of_processor_time(tmp_path, stand_in, monkeypatch):
     monkeypatch.setattr(decode_apart, "_PROCESSOR", 1)
-    with pytest.raises(PhotoError, match=r"spin\.png was given up"):
+    with pytest.raises(PhotoError, match=r"spin\.png was stopped"):
         open_apart(write(tmp_path, "spin.png"))
 
 
@@ -178,7 +178,7 @@ def test_an_answer_that_is_no_photo_is_not_taken(tmp_path, monkeypatch):
     )
     release()
     monkeypatch.setattr(decode_apart, "_COMMAND", (sys.executable, "-P", str(liar)))
-    with pytest.raises(PhotoError, match="ended the process that read it"):
+    with pytest.raises(PhotoError, match="crashed the process that read it"):
         open_apart(write(tmp_path, "good.png"))
     release()
 
@@ -193,7 +193,7 @@ def test_a_batch_goes_on_after_a_photo_that_crashes_its_decoder(tmp_path, stand_
     monkeypatch.setattr(develop, "_save", lambda *given: made(real, *given))
     report = sw.batch(folder, sw.Edit(sun_elevation=3), tmp_path / "out", workers=0)
     assert [row.state for row in report] == ["done", "failed", "done"]
-    assert "ended the process that read it" in report.failed[0].error
+    assert "crashed the process that read it" in report.failed[0].error
 
 
 def made(real, job, photo, path, progress):
@@ -207,7 +207,7 @@ def made(real, job, photo, path, progress):
 
 
 def test_a_frame_that_crashes_its_decoder_is_one_that_cannot_be_read(tmp_path, stand_in):
-    with pytest.raises(PhotoError, match="ended the process"):
+    with pytest.raises(PhotoError, match="crashed the process"):
         read_frame(write(tmp_path, "crash.png"), None)
     assert read_frame(write(tmp_path, "next.png"), None).size == (32, 24)
 
@@ -220,7 +220,7 @@ def test_an_upload_that_crashes_its_decoder_is_refused_in_words(tmp_path, stand_
         content = {"upload": name, "name": name, "size": len(data), "offset": 0}
         Uploads(opened.append)(content | {"buffers": [data]}, lambda *_: None)
 
-    with pytest.raises(PhotoError, match=r"crash\.png ended the process"):
+    with pytest.raises(PhotoError, match=r"crash\.png crashed the process"):
         upload("crash.png")
     assert opened == []
     upload("good.png")

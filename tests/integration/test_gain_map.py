@@ -260,7 +260,7 @@ def test_iso_and_xmp_tell_the_same_of_a_map(saved):
 def test_one_denominator_for_all_numbers_is_read():
     numbers = [0, 300, -50, 300, 100, 1, 2]
     told = struct.pack(">HHBIIIiiIii", 0, 0, 0x48, 100, *numbers)
-    found = gain_maps._of_iso(b"", told)
+    found = gain_maps._from_iso(b"", told)
     assert (found.low[0], found.high[2], found.gamma[1]) == (-0.5, 3.0, 1.0)
     assert (found.headroom, found.base_offset[0], found.other_offset[0]) == (3.0, 0.01, 0.02)
 

@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.analysis.depth.depth import given
+from sunwidget.analysis.depth.depth import check_depth
 from sunwidget.analysis.depth.network import SeenDepth
 from sunwidget.errors import PhotoError, PhotoWarning
 from sunwidget.export.gain_map_file import append_gain_map
@@ -220,7 +220,7 @@ def test_maps_that_do_not_fit_or_make_no_sense_cost_no_picture():
 
 def test_a_depth_map_that_grows_away_from_the_camera_is_no_disparity():
     values = np.tile(np.linspace(1, 50, 32, dtype=np.float32)[:, None], (1, 48))
-    assert given(DepthMap(values, "depth"), (48, 32)).kind == "depth"
+    assert check_depth(DepthMap(values, "depth"), (48, 32)).kind == "depth"
 
 
 @needs_libheif

@@ -1,7 +1,7 @@
-"""The sky behind the photo's sun, as the frame reads it: what fills in when the sun is moved away.
+"""The sky behind the photo's sun, which the frame shows when the sun has moved.
 
-It is the photo without its sun (erase.py). Over the land, and where the camera clipped, it goes on
-as the matched model does: the logarithm of photo over model is a slow field.
+It is the photo without its sun (erase.py). Over the land, and where the camera clipped, the matched
+model continues it: the logarithm of photo over model is a slow field.
 """
 
 from __future__ import annotations
@@ -25,15 +25,15 @@ RANGE = 2.0
 
 @dataclass(frozen=True, eq=False)
 class Backdrop:
-    """The sky behind and where it replaces the photo.
+    """The sky behind the sun, and where it replaces the photo.
 
     Parameters
     ----------
     field : (h, w, 3) float32
         Code of scene-linear light (``to_code``), [0, 1].
     glare : (h, w) float32
-        Weight with which the sky behind replaces the photo once the sun has moved, [0, 1]; on
-        land the share of its light that goes then.
+        Weight with which the field replaces the photo when the sun has moved, [0, 1]; on land
+        the share of light that is removed then.
     """
 
     field: np.ndarray
@@ -44,15 +44,15 @@ _OCTAVES, _FINE = 10.0, 64.0  # as shaders/camera/response.glsl
 
 
 def to_code(light: np.ndarray) -> np.ndarray:
-    """Return codes in [0, 1] of scene-linear light up to 16; 8 bits tell 3 % of it.
+    """Return codes in [0, 1] of scene-linear light up to 16; 8 bits resolve 3 %.
 
-    Round a sun air is brighter than white, and darkens from there when the sun goes.
+    Air around a sun is brighter than white, and darkens from that level when the sun moves away.
     """
     return np.asarray(np.clip(np.log2(1 + _FINE * np.maximum(light, 0)) / _OCTAVES, 0, 1))
 
 
 def to_light(code: np.ndarray) -> np.ndarray:
-    """Return the scene-linear light of codes: the inverse of ``to_code``."""
+    """Return the scene-linear light of codes, the inverse of ``to_code``."""
     return np.asarray((np.exp2(_OCTAVES * np.asarray(code, np.float32)) - 1) / _FINE)
 
 
@@ -61,7 +61,7 @@ _MODEL_SIDE = 80
 
 
 def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> Backdrop:
-    """Return the photo without its sun, the sky continued over what is none.
+    """Return the photo without its sun, with the sky continued over everything else.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     Returns
     -------
     Backdrop
-        At no more than ``LONG_SIDE`` pixels a side, twice that where the photo shows a sun.
+        At most ``LONG_SIDE`` pixels long, twice that if the photo shows a sun.
     """
     working = erased.working
     size = size_within(
@@ -85,8 +85,8 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     display = np.asarray(resize(working.linear, *size), np.float32)
     matte = np.asarray(resize(sky, *size), np.float32)
     mark = np.asarray(resize(erased.mark, *size), np.float32)
-    # What the camera clipped says little. Beside an erased sun it counts as it is shown, or what
-    # fills the gap would end at an edge.
+    # Clipped pixels carry little information. Beside an erased sun they count nevertheless, or
+    # the filled gap would end at an edge.
     clipped = smoothstep(0.90, 0.97, display.max(-1)) * (not mark.any())
     model = matched_sky(fit, camera, size)
     seen = fit.response.scene_light(display)
@@ -108,7 +108,7 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
 def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
     """Return the fitted clear sky at ``size`` (w, h): (h, w, 3) scene-linear.
 
-    Marched on a coarser grid: without its disc the sky's logarithm is smooth.
+    It is marched on a coarser grid, since without the disc the sky's logarithm is smooth.
     """
     import cv2
 
@@ -119,7 +119,7 @@ def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarra
 
 @lru_cache(maxsize=8)
 def _coarse_logs(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
-    """March once for all that look at the same fit."""
+    """March the model once per fit."""
     azimuth, elevation = view_angles(camera, *size)
     logs = np.log(fit.model(azimuth, np.maximum(elevation, 0.2))).astype(np.float32)
     logs.flags.writeable = False
@@ -132,6 +132,6 @@ def _log_residual(scene_light: np.ndarray, model: np.ndarray) -> np.ndarray:
 
 
 def _dithered(encoded: np.ndarray) -> np.ndarray:
-    """Add ±half an 8-bit level of fixed noise: a slow sky would band when stored."""
+    """Add ±half an 8-bit level of fixed noise, since a slow sky would show bands."""
     noise = np.random.default_rng(20170601).random(encoded.shape, np.float32) - 0.5
     return np.clip(encoded + noise / 255, 0, 1).astype(np.float32)

@@ -1,8 +1,8 @@
 """The photo without its sun: the light behind disc, halo, veil and rays, by the network.
 
-The network says by how much light is to fall, at low resolution (networks/sun.py). Where that is
-little, the photo's own detail stays and is darkened; where the glare hides the sky, the sky goes on
-from around it.
+The network gives the reduction of light at low resolution (networks/sun.py). Where it is small, the
+photo's own detail stays and is darkened; where the glare hides the sky, the surrounding sky is
+continued.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from sunwidget.analysis.sun.sun import SunObservation
 from sunwidget.formats.color import LUMINANCE
 
 # Natural logarithms of light by which the network's glare exceeds the sky.
-_FELT = (0.03, 0.12)  # less is none, more is taken away in full
-_COLOURS = (0.06, 0.3)  # less leaves the sky its colour, more hides it
-_WHITENS = (0.15, 0.6)  # less leaves clouds to be told from the sky, more does not
-_HIDES = (0.3, 0.9)  # less leaves the sky its clouds, more hides them
+_FELT = (0.03, 0.12)  # less does not count, more is removed completely
+_COLOURS = (0.06, 0.3)  # less keeps the sky's color, more hides it
+_WHITENS = (0.15, 0.6)  # less keeps clouds distinguishable from the sky, more does not
+_HIDES = (0.3, 0.9)  # less keeps the sky's clouds, more hides them
 _GAP = 0.03  # in longer sides: half of the widest gap in the glare
 _WHITE, _LARGEST_RIM = 0.97, 0.03  # encoded; longer sides
-_REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow is the sky's
+_REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow belongs to the sky
 
 
 class Erased(NamedTuple):
@@ -35,17 +35,17 @@ class Erased(NamedTuple):
     Parameters
     ----------
     working : Working
-        The copy; the photo's own where it shows no sun.
+        The copy; the photo's own if it shows no sun.
     mark : (h, w) float32
-        Weight with which it replaces the photo once the sun has moved, [0, 1].
+        Weight with which it replaces the photo when the sun has moved, [0, 1].
     on_land : (h, w) float32
-        Share of the land's light that is the sun's glare before it, [0, 1].
+        Share of the sun's glare in the land's light, [0, 1].
     hidden : (h, w) float32
-        Where the copy's light is a guess and no more than its detail is known, [0, 1].
+        Where the copy's light is a guess and at most its detail is known, [0, 1].
     glow : (h, w) float32
-        Where glare or the sun's own air is so bright that whiteness tells no clouds, [0, 1].
+        Where glare or air near the sun is too bright to detect clouds by whiteness, [0, 1].
     detail : (h', w', 3) float32
-        Log of the sky's light over its mean round about: its clouds (sky_detail.py).
+        Log of the sky's light over its local mean: its clouds (sky_detail.py).
     """
 
     working: Working
@@ -63,7 +63,7 @@ def unerased(working: Working) -> Erased:
 
 
 def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation) -> Erased:
-    """Take the sun, its halo and its rays out of a photo's small copy.
+    """Remove the sun, its halo and its rays from a photo's small copy.
 
     Parameters
     ----------
@@ -84,9 +84,9 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     felt = _without_gaps(glare.max(-1))
     blot = resize(light.blot, columns, rows)
     if float((blot * felt).sum()) < _HIDES[0] * float(blot.sum()):
-        # A moon, and a sun that only a person sees, the network leaves where it is.
+        # The network does not erase a moon, or a sun that only the user sees.
         felt = np.maximum(felt, _round_about(blot))
-    # Of what is burnt to white nothing is known.
+    # Nothing is known behind clipped pixels.
     white = resize((working.encoded.min(-1) > _WHITE).astype(np.float32), columns, rows)
     felt = np.maximum(felt, _round_about(blot * white, _LARGEST_RIM))
     known = (1 - smoothstep(*_COLOURS, felt)) * smoothstep(0.8, 1.0, small_sky)
@@ -97,7 +97,7 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     def enlarged(values: np.ndarray) -> np.ndarray:
         return cv2.resize(values.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
 
-    # A rim is steeper than the network's map: it is left to what lies behind, too.
+    # A rim is steeper than the network's map, so it is replaced by the sky behind, too.
     wide = cv2.dilate(felt.astype(np.float32), np.ones((3, 3), np.uint8))
     keep = enlarged(1 - smoothstep(*_HIDES, wide))[..., None]
     there = np.log(working.linear + LIGHT_FLOOR)
@@ -116,10 +116,10 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
 
 
 def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservation) -> np.ndarray:
-    """Return by how much the glare exceeds the glow farther out, (h, w, 3), log of light.
+    """Return the excess of the glare over the glow farther out, (h, w, 3), log of light.
 
-    How much of a wide glow is the sky's own no picture tells, and the fitted sky has one. And there
-    is no more glare than by what the picture (``seen``, log of light) is brighter than farther out.
+    A picture does not show how much of a wide glow belongs to the sky, and the fitted sky has one.
+    The glare is limited to the picture's own excess (``seen``, log of light) over farther out.
     """
     near, beyond = _parts(light, sky)
     glare = np.maximum(fill_by_pyramid(maps.clean, beyond) - maps.clean, 0) * near[..., None]
@@ -129,7 +129,7 @@ def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservati
 
 
 def _without_gaps(felt: np.ndarray) -> np.ndarray:
-    """Close what is less than all round it: where a camera clipped, less seems to have risen."""
+    """Close gaps in the glare: where the camera clipped, the glare seems weaker."""
     import cv2
 
     side = 2 * round(_GAP * max(felt.shape)) + 1
@@ -140,9 +140,9 @@ def _without_gaps(felt: np.ndarray) -> np.ndarray:
 def before_land(
     working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation
 ) -> np.ndarray:
-    """Return the share of a small copy's light that is the sun's glare before land, (h, w).
+    """Return the share of the sun's glare in the light of a small copy's land, (h, w).
 
-    Land has no glow of its own: what is as bright as farther out has no glare before it.
+    Land has no glow of its own: pixels as bright as land farther out have no glare.
     """
     import cv2
 
@@ -152,7 +152,7 @@ def before_land(
     near, beyond = _parts(light, land)
     plain = np.maximum(_continued(small, beyond), 0)
     brighter = np.log(small + LIGHT_FLOOR) - np.log(plain + LIGHT_FLOOR)
-    # An evening's glare is red: it is in the channel that has most of it that it shows.
+    # An evening's glare is red: it shows in the channel with most of it.
     glare = np.maximum(np.minimum(-maps.clean * near[..., None], brighter), 0).max(-1)
     level = np.log(plain @ LUMINANCE + LIGHT_FLOOR)
 
@@ -161,21 +161,21 @@ def before_land(
         cv2.resize(values.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
         for values in (glare, level)
     )
-    # Of the burnt disc behind which land lies nothing is left.
+    # A clipped disc in front of land is removed completely.
     there = np.log(working.luminance + LIGHT_FLOOR)
     burnt = _round_about(light.blot) * np.maximum(there - level, 0)
     return np.asarray(1 - np.exp(-np.maximum(glare, burnt)), np.float32)
 
 
 def _parts(light: SunObservation, part: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return weights (h, w) of what the glare reaches, and of what of ``part`` lies beyond."""
+    """Return weights (h, w) of pixels that the glare reaches, and of ``part`` beyond it."""
     away, reach = _distance(light, part.shape)
     beyond = smoothstep(0.7 * reach, reach, away) * np.maximum(part, 1e-3)
     return 1 - smoothstep(0.8 * reach, reach, away), beyond.astype(np.float32)
 
 
 def _distance(light: SunObservation, shape: tuple[int, ...]) -> tuple[np.ndarray, float]:
-    """Return each place's distance from the sun on a map (h, w), and its glare's; in widths."""
+    """Return each pixel's distance from the sun on a map (h, w), and its glare's; in widths."""
     rows, columns = shape
     width, height = light.size
     away = np.hypot(
@@ -186,7 +186,7 @@ def _distance(light: SunObservation, shape: tuple[int, ...]) -> tuple[np.ndarray
 
 
 def _continued(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Continue a sky (h, w, 3) over what is not known: row by row first, as skies are layered."""
+    """Continue a sky (h, w, 3) over unknown pixels, row by row first, since skies are layered."""
     import cv2
 
     known = weight.sum(1)
@@ -203,7 +203,7 @@ def _continued(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
 def _round_about(blot: np.ndarray, largest: float = 1.0) -> np.ndarray:
     """Return a disc's pixels with its rim and glow, (h, w) float32 in [0, 1].
 
-    They reach three radii, of a disc larger than ``largest`` (longer sides) three of those.
+    They reach three radii; ``largest`` limits the radius, in longer sides.
     """
     import cv2
 
@@ -211,7 +211,7 @@ def _round_about(blot: np.ndarray, largest: float = 1.0) -> np.ndarray:
     radius = min(radius, largest * max(blot.shape))
     if not blot.any():
         return np.zeros(blot.shape, np.float32)
-    # On a small map a small disc fills no pixel.
+    # On a small map a small disc may fill no pixel.
     outside = blot < 0.5 * min(float(blot.max()), 1.0)
     away = cv2.distanceTransform(outside.astype(np.uint8), cv2.DIST_L2, 5)
     return np.asarray(1 - smoothstep(0.5 * radius + 1, 2 * radius + 3, away), np.float32)

@@ -1,14 +1,14 @@
-"""A sky's clouds, told from its slow light: what the sun's glare hides is borrowed from beside it.
+"""Separate a sky's clouds from its slow light, and fill in the clouds that the glare hides.
 
-Of what the glare only brightens the photo keeps what is finer than a halo; the rest of the clouds
-there, and all of them where the camera clipped, are those left and right of it, mirrored.
+Where the glare only brightens the sky, the photo keeps detail finer than a halo. Its other clouds,
+and all clouds where the camera clipped, are mirrored from the left and right.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from sunwidget.analysis.images.fill import fill_by_pyramid, mirrored
+from sunwidget.analysis.images.fill import fill_by_pyramid, mirror_texture
 from sunwidget.analysis.images.working_copy import resize
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.formats.pixels import size_within
@@ -17,18 +17,18 @@ DETAILED = 512
 """Longer side of the map, in pixels."""
 
 # In longer sides.
-_FINE = 0.02  # what is finer is cloud and not glare, also in the glare
-_COARSE = 0.04  # what is coarser is the sky's slow light
-_SKYLINE = 0.006  # so near to the skyline, which holds twigs, clouds are not believed
-_FADE, _FADE_AT_SIDE = 0.01, 0.06  # how softly ends what may be borrowed
+_FINE = 0.02  # finer detail is cloud instead of glare, even within the glare
+_COARSE = 0.04  # coarser detail is the sky's slow light
+_SKYLINE = 0.006  # so near to the skyline, which has twigs, detail is not cloud
+_FADE, _FADE_AT_SIDE = 0.01, 0.06  # width over which the mirrored texture fades out
 
-_GRAIN = 1.0  # pixels of the map: what is borrowed leaves its grain behind
+_GRAIN = 1.0  # pixels of the map: blur that removes the grain of the mirrored texture
 
 
 def sky_detail(
     logs: np.ndarray, sky: np.ndarray, hidden: np.ndarray, keep: np.ndarray
 ) -> np.ndarray:
-    """Return the log of a sky's light over its mean round about.
+    """Return the log of a sky's light over its local mean.
 
     Parameters
     ----------
@@ -39,12 +39,12 @@ def sky_detail(
     hidden : (h, w) float32
         Where glare changes the light, [0, 1].
     keep : (h, w) float32
-        How far the photo's fine detail counts all the same, [0, 1].
+        Weight of the photo's fine detail there, [0, 1].
 
     Returns
     -------
     (h', w', 3) float32
-        At no more than ``DETAILED`` pixels a side; slowly continued over what is no sky.
+        At most ``DETAILED`` pixels long; continued slowly outside the sky.
     """
     import cv2
 
@@ -56,7 +56,7 @@ def sky_detail(
     clear = np.asarray(sky > 0.98, np.uint8)
     clear = cv2.erode(clear, skyline, borderType=cv2.BORDER_CONSTANT, borderValue=0)
     beside = np.asarray(hidden < 0.1, np.float32)
-    # They go on to the skyline, and as far over it, so that the gap has them down to the land.
+    # Extended to and beyond the skyline, so that the gap has clouds down to the land.
     borrowed = _fading(cv2.dilate(clear, skyline, iterations=2), side)
 
     def clouds(reach: float, known: np.ndarray) -> np.ndarray:
@@ -67,8 +67,8 @@ def sky_detail(
     def without_glare(reach: float) -> np.ndarray:
         known = clear * beside
         continued = fill_by_pyramid(clouds(reach, known), known)
-        found = mirrored(continued, beside, beside * borrowed)
-        # The frame gives what is filled the photo's grain; it shall not have two.
+        found = mirror_texture(continued, beside, beside * borrowed)
+        # The frame adds the photo's grain to filled areas, so the texture must have none.
         plain = cv2.GaussianBlur(found, (0, 0), _GRAIN)
         return np.where(beside[..., None] > 0, found, plain)
 
@@ -79,7 +79,7 @@ def sky_detail(
 
 
 def _fading(part: np.ndarray, side: int) -> np.ndarray:
-    """Let a part (h, w) of a picture fade towards its edge, more so towards the picture's sides."""
+    """Fade a part (h, w) of a picture towards its edge, more strongly at the picture's sides."""
     import cv2
 
     columns = part.shape[1]

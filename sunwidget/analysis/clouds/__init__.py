@@ -1,1 +1,1 @@
-"""Clouds: how opaque and how soft they are."""
+"""Clouds: their opacity and softness."""

@@ -1,9 +1,9 @@
-"""Clouds: how opaque they are and how soft, by colour (thesis 3.1.4).
+"""Clouds: their opacity and softness, by color (thesis 3.1.4).
 
 ``METHODS`` maps a name to a function ``(Working, sky, minimum, maximum) -> Clouds``. The four
-methods by colour alone (``INDICES``) put whiteness on one scale, that of red over blue: 0 is the
-deepest blue and 1 is white. So m_min and m_max mean the same whichever method is chosen. A new
-method is also named in ``CLOUD_METHODS`` of edit/table.py.
+methods that use only color (``INDICES``) put whiteness on one scale, that of red over blue: 0 is
+the deepest blue and 1 is white. So m_min and m_max mean the same for each method. A new method must
+also be in ``CLOUD_METHODS`` of edit/table.py.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from sunwidget.analysis.backdrop.backdrop import matched_sky
 from sunwidget.analysis.clouds.unmix import cloud_white, unmix
 from sunwidget.analysis.depth.field import guided
 from sunwidget.analysis.fit.fit import SkyFit
-from sunwidget.analysis.fit.overcast import believable, overcast
+from sunwidget.analysis.fit.overcast import limit_balance, overcast
 from sunwidget.analysis.images.working_copy import LONG_SIDE, Working, saturation
 from sunwidget.edit.table import parameter
 from sunwidget.errors import AnalysisError
@@ -27,24 +27,24 @@ from sunwidget.geometry.camera import Camera
 MINIMUM: float = parameter("cloud_ratio_min").default
 MAXIMUM: float = parameter("cloud_ratio_max").default
 
-# Heinle's 30 of 255 levels between blue and red lie where the ratio has its default m_min.
+# Heinle's 30 of 255 levels between blue and red correspond to the ratio's default m_min.
 _DIFFERENCE_SCALE = 30 / 255 / (1 - MINIMUM)
 
-_REACH, _REACH_OF_SHADE = 0.015, 0.004  # longer sides: colours are stored coarser than light
+_REACH, _REACH_OF_SHADE = 0.015, 0.004  # longer sides: files store color more coarsely than light
 LARGEST_RADIUS = round(_REACH * LONG_SIDE)
-"""Most that ``smoothing_radius`` returns."""
+"""Largest result of ``smoothing_radius``."""
 _NO_EDGE = 1e-3  # squared contrast of the encoded picture
 
 # Logistic regression on (red / blue, (B - R) / (B + R), saturation, blue), encoded values: bias
-# and weights as written by training/clouds.py, which draws veiled skies of our own atmosphere.
+# and weights from training/clouds.py, which renders veiled skies with the atmosphere's model.
 LEARNED = (-4.81, 6.3, -4.15, -4.98, 0.69)
 
 
 class Clouds(NamedTuple):
-    """What is known of the clouds, each (h, w) float32.
+    """Maps of the clouds, each (h, w) float32.
 
-    ``opacity`` and the thesis' ``softness`` C^s in [0, 1]; ``shade``, the clouds' own light in
-    units of a white cloud's (self-shade k of unmix.py), 0 to 1.5, and 1 where nothing tells.
+    ``opacity`` and the thesis' ``softness`` C^s are in [0, 1]. ``shade`` is the clouds' own light
+    relative to a white cloud (self-shade k of unmix.py), 0 to 1.5; 1 where it is unknown.
     """
 
     opacity: np.ndarray
@@ -53,7 +53,7 @@ class Clouds(NamedTuple):
 
 
 def ratio_index(encoded: np.ndarray) -> np.ndarray:
-    """Red over blue (Long et al. 2006, "Retrieving cloud characteristics …", threshold 0.6).
+    """Return red over blue (Long et al. 2006, "Retrieving cloud …", threshold 0.6).
 
     Parameters
     ----------
@@ -68,28 +68,28 @@ def ratio_index(encoded: np.ndarray) -> np.ndarray:
 
 
 def difference_index(encoded: np.ndarray) -> np.ndarray:
-    """Red minus blue (Heinle et al. 2010, "Automatic cloud classification …", 30 levels).
+    """Return red minus blue (Heinle et al. 2010, "Automatic cloud classification …", 30 levels).
 
-    It errs less than the ratio in dark skies, whose ratio is noise.
+    It is more accurate than the ratio in dark skies, whose ratio is noise.
     """
     return np.asarray(1 + (encoded[..., 0] - encoded[..., 2]) / _DIFFERENCE_SCALE)
 
 
 def saturation_index(encoded: np.ndarray) -> np.ndarray:
-    """Saturation of HSI (Souza-Echer et al. 2006, "A simple method for … cloud coverage").
+    """Return r/b from the saturation S of HSI (Souza-Echer et al. 2006, "A simple method …").
 
-    A sky whose green lies midway between red and blue has S = (1 - r/b) / (1 + r/b); solved for
-    r/b. Unlike the ratio it does not call the red of a sunset the whitest of all.
+    A sky whose green is midway between red and blue has S = (1 - r/b) / (1 + r/b). Unlike the
+    ratio, it does not make the red of a sunset the whitest color.
     """
     pure = saturation(encoded)
     return np.asarray((1 - pure) / (1 + pure))
 
 
 def learned_index(encoded: np.ndarray) -> np.ndarray:
-    """Regression on colour channels (Dev et al. 2017, "Color-based segmentation of sky/cloud …").
+    """Return a regression on color channels (Dev et al. 2017, "Color-based segmentation of …").
 
-    Their partial least squares found red over blue, the normalised difference and saturation
-    to tell most. Here a logistic regression: its probability 0.5 lies at the default m_min.
+    By their partial least squares, red over blue, the normalized difference and saturation carry
+    most information. This is a logistic regression; its probability 0.5 is at the default m_min.
     """
     score = features(encoded) @ np.array(LEARNED[1:], np.float32) + np.float32(LEARNED[0])
     probability = 1 / (1 + np.exp(-np.clip(score, -30, 30)))
@@ -97,7 +97,7 @@ def learned_index(encoded: np.ndarray) -> np.ndarray:
 
 
 def features(encoded: np.ndarray) -> np.ndarray:
-    """Return what the regression sees, (…, 4): r/b, (b - r)/(b + r), saturation and blue."""
+    """Return the features of the regression, (…, 4): r/b, (b - r)/(b + r), saturation, blue."""
     red, blue = encoded[..., 0], encoded[..., 2]
     ratio = np.minimum(ratio_index(encoded), 2)
     difference = (blue - red) / np.maximum(blue + red, 1 / 255)
@@ -112,25 +112,25 @@ INDICES: dict[str, Callable[[np.ndarray], np.ndarray]] = {
 }
 
 
-def by_threshold(
+def detect_by_threshold(
     name: str,
     working: Working,
     sky: np.ndarray,
     minimum: float = MINIMUM,
     maximum: float = MAXIMUM,
 ) -> Clouds:
-    """Call cloud what is whiter than m_min (thesis equations 3.5 and 3.6).
+    """Classify pixels whiter than m_min as cloud (thesis equations 3.5 and 3.6).
 
     Parameters
     ----------
     name : str
-        Which of ``INDICES``.
+        Name in ``INDICES``.
     working : Working
     sky : (h, w) float32
         Sky matte.
     minimum, maximum : float
-        m_min, around which the mask of equation 3.5 is softened by ± 0.05, and m_max, where
-        the softness of equation 3.6 reaches 1; it is clamped to [0, 1].
+        m_min, around which the mask of equation 3.5 is softened by ± 0.05, and m_max, at which
+        the softness of equation 3.6 reaches 1.
     """
     index = INDICES[name](working.encoded)
     softness = np.clip((index - minimum) / max(maximum - minimum, 1e-3), 0, 1)
@@ -142,41 +142,41 @@ def by_threshold(
     )
 
 
-# "unmix" needs the fitted sky, which needs a first idea of the clouds: that is r/b, whose
-# softness C^s stays; ``veil`` then gives the opacity.
+# "unmix" needs the fitted sky, which needs a first estimate of the clouds: r/b, whose softness
+# C^s stays. ``veil`` then gives the opacity.
 METHODS: dict[str, Callable[..., Clouds]] = {
-    **{name: partial(by_threshold, name) for name in INDICES},
-    "unmix": partial(by_threshold, "rb_ratio"),
+    **{name: partial(detect_by_threshold, name) for name in INDICES},
+    "unmix": partial(detect_by_threshold, "rb_ratio"),
 }
 
 
 def veil(
     working: Working, sky: np.ndarray, camera: Camera, fit: SkyFit, *, sun_seen: bool
 ) -> tuple[Clouds, Clouds]:
-    """Clouds of the sky, and of the whole picture, by un-mixing the fitted sky (unmix.py).
+    """Return the clouds of the sky, and of the whole picture, by un-mixing (unmix.py).
 
-    The second is what the land would be if it were sky, for strokes that say so; it is not
-    smoothed. Neither knows the softness C^s: it is 0.
+    The second treats the land as if it were sky, for sky strokes; it is not smoothed. Neither has
+    the softness C^s: it is 0.
 
-    A guided filter (He et al. 2010) ties it to the picture: compression blocks and noise in
-    the colour differences would else show as soon as cloud and sky are lit apart. Unless the sun
-    is seen, a sky that is white all over is cloud (overcast.py).
+    A guided filter (He et al. 2010) aligns the opacity with the picture: otherwise compression
+    blocks and color noise would show when cloud and sky are lit differently. Unless the sun is
+    visible, a sky that is white everywhere is cloud (overcast.py).
 
     Raises
     ------
     AnalysisError
-        When OpenCV was installed without its contrib modules.
+        If OpenCV lacks its contrib modules.
     """
     import cv2
 
     if not hasattr(cv2, "ximgproc"):
         raise AnalysisError(
-            "This OpenCV has no cv2.ximgproc, which follows the clouds' edges. Another package "
-            "replaced it: pip uninstall opencv-python opencv-python-headless, then pip install "
-            "--force-reinstall opencv-contrib-python-headless; or pass clouds='rb_ratio'."
+            "This OpenCV has no cv2.ximgproc, which finds the clouds' edges: another package "
+            "replaced OpenCV. Run pip uninstall opencv-python opencv-python-headless, then pip "
+            "install --force-reinstall opencv-contrib-python-headless; or pass clouds='rb_ratio'."
         )
 
-    blue = fit if sun_seen else believable(fit, working, sky)
+    blue = fit if sun_seen else limit_balance(fit, working, sky)
     clear = matched_sky(blue, camera, (working.width, working.height))
     light = fit.response.scene_light(working.linear)
     everywhere, shade = unmix(light, clear, cloud_white(blue), np.ones_like(sky))
@@ -184,7 +184,7 @@ def veil(
         everywhere = np.maximum(everywhere, overcast(working, sky))
     opacity = everywhere * sky
     smooth = np.clip(smoothed(working.encoded, opacity, smoothing_radius(working)), 0, 1)
-    # Shade weighs by opacity: where there is hardly any cloud it is noise.
+    # Shade is weighted by opacity: where there is almost no cloud it is noise.
     side = 2 * max(2, round(_REACH_OF_SHADE * max(working.width, working.height))) + 1
     weight = cv2.blur(opacity, (side, side)) + 1e-3
     level = cv2.blur(opacity * shade, (side, side)) + 1e-3
@@ -196,17 +196,17 @@ def veil(
 
 
 def smoothing_radius(working: Working) -> int:
-    """Half side in working pixels of the filter that ties opacity to the picture."""
+    """Return the radius, in working pixels, of the filter that aligns opacity with the picture."""
     return max(3, round(_REACH * max(working.width, working.height)))
 
 
 def smoothed(encoded: np.ndarray, opacity: np.ndarray, radius: int) -> np.ndarray:
-    """Tie an opacity (h, w) to the picture's edges (guided filter)."""
+    """Align an opacity (h, w) with the picture's edges (guided filter)."""
     return guided(encoded, opacity, radius, _NO_EDGE)
 
 
 def within(clouds: Clouds, sky: np.ndarray) -> Clouds:
-    """Keep the clouds of the sky (h, w)."""
+    """Return the clouds within the sky (h, w)."""
     return Clouds(
         (clouds.opacity * sky).astype(np.float32),
         (clouds.softness * sky).astype(np.float32),
@@ -215,6 +215,6 @@ def within(clouds: Clouds, sky: np.ndarray) -> Clouds:
 
 
 def without(clouds: Clouds, mask: np.ndarray) -> Clouds:
-    """Take the sun's pixels out: r/b calls them cloud (thesis 3.1.3)."""
+    """Remove the sun's pixels, which r/b classifies as cloud (thesis 3.1.3)."""
     keep = 1 - mask
     return Clouds(clouds.opacity * keep, clouds.softness * keep, clouds.shade)

@@ -1,12 +1,12 @@
-"""Clouds by un-mixing: every sky pixel is clear sky, veiled by some share of white cloud.
+"""Clouds by un-mixing: every sky pixel is clear sky, partly covered by white cloud.
 
 With the clear sky S from the fit and w the light of a white cloud in it, per pixel
 
     I = (1 - a) S + a k w,    0 <= a <= 1 (opacity),  0 <= k <= 1.5 (self-shade)
 
-by least squares. Unlike one ratio red/blue it tells a dark thick base, a bright top and a thin
-veil apart, and it is soft. Where the sky itself is white (sunset, overcast, round the sun) S and
-w are parallel and colour says nothing; there the local contrast decides.
+by least squares. Unlike a red/blue ratio it distinguishes a dark thick base, a bright top and a
+thin veil, and it is soft. Where the sky itself is white (sunset, overcast, around the sun), S and
+w are parallel and color is no evidence; there the local contrast decides.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ def cloud_white(fit: SkyFit) -> np.ndarray:
     sky = model_sky(fit.atmosphere, azimuth, elevation, fit.sun) * np.array(fit.gain)
     weight = np.cos(np.radians(elevation))[..., None]
     mean = (sky * weight).sum((0, 1)) / weight.sum()
-    # The sun adds about twice the sky's light by day and nothing at the horizon; its colour is
-    # white within what an opacity needs.
+    # The sun adds about twice the sky's light by day and nothing at the horizon; its color is
+    # white, to the accuracy that an opacity needs.
     height = np.clip(np.sin(np.radians(max(fit.sun[1], 0.0))) / 0.25, 0, 1)
     return np.asarray(mean + 2.0 * height * float(mean @ LUMINANCE), np.float32)
 
@@ -36,8 +36,8 @@ def cloud_white(fit: SkyFit) -> np.ndarray:
 def cloud_gain(fit: SkyFit) -> tuple[float, float, float]:
     """Return the scene-linear light (r, g, b) of a cloud per kcd m⁻² of the model's cloud.
 
-    As bright as the sky's gain, but grey: what makes skies bluer than the model is the camera's
-    picture style, which leaves white things white. Daylight as a whole is white in Rec. 709.
+    It has the brightness of the sky's gain, but is gray: the camera's picture style makes skies
+    bluer than the model but keeps white things white. Daylight as a whole is white in Rec. 709.
     """
     azimuth, elevation = np.meshgrid(np.arange(-165, 181, 30.0), np.array([10.0, 30, 50, 70]))
     sky = model_sky(fit.atmosphere, azimuth, elevation, fit.sun).mean((0, 1)) @ np.diag(LUMINANCE)
@@ -66,7 +66,7 @@ def unmix(
     opacity, shade : (h, w) float32
         a and k; a is 0 outside the sky.
     """
-    # In units of the clear sky's luminance, so that dusk and noon count alike.
+    # Relative to the clear sky's luminance, so that dusk and noon have the same weight.
     level = np.maximum(clear @ LUMINANCE, 1e-6)[..., None]
     difference = np.minimum(scene_light / level, 8) - clear / level
     down, up = -clear / level, np.broadcast_to(white, clear.shape) / level
@@ -80,7 +80,7 @@ def unmix(
     a, b = np.maximum(a, 0), np.maximum(b, 0)
     # A cloud no brighter than k allows needs at least this opacity.
     a = np.clip(np.maximum(a, b / _LARGEST_SHADE), 0, 1)
-    # What the fit leaves unexplained in a clear sky is no cloud.
+    # Residuals of the fit in a clear sky are not clouds.
     opacity = a * np.clip((a - 0.08) / 0.2, 0, 1)
     shade = np.clip(b / np.maximum(a, 1e-3), 0, _LARGEST_SHADE)
     return (opacity * sky).astype(np.float32), shade.astype(np.float32)

@@ -1,1 +1,1 @@
-"""Depth in metres, how the land lies, and the methods that find them."""
+"""Depth in metres, the land's relief, and the methods that find them."""

@@ -1,8 +1,7 @@
-"""Depth: metres along the optical axis, up to one scale (the eye's height is a guess).
+"""Depth: metres along the optical axis, up to one scale (the camera's height is a guess).
 
-``METHODS`` maps a name to a function ``(View) -> DepthField``. Besides a name,
-``analyze(depth=…)`` takes an array of metres (``given``) or any network for depth from one picture
-(``depth_network``).
+``METHODS`` maps a name to a function ``(View) -> DepthField``. ``analyze(depth=…)`` also takes an
+array of metres (``check_depth``) or any network for depth from one picture (``network.py``).
 """
 
 from __future__ import annotations
@@ -24,27 +23,27 @@ from sunwidget.analysis.segmentation.coarse_sky import check_proportions, plain_
 from sunwidget.errors import AnalysisError
 from sunwidget.photo.decode_heif import DepthMap
 
-_LYING = 0.9, 0.99  # cosines of slopes between which a place is ground
-_LEAST_GROUND = 0.01  # of the picture: less tells no scale
-_STANDS, _LIES = 0.25, 2.25  # of ln depth: so far from the plane a pixel is half ground
+_LYING = 0.9, 0.99  # cosines of slopes, from no ground to ground
+_LEAST_GROUND = 0.01  # of the picture: less ground gives no scale
+_STANDS, _LIES = 0.25, 2.25  # of ln depth: distance from the plane at which a pixel is half ground
 _SEEN_ERROR = 0.6  # of ln depth: median over worlds that the network never saw
 _SMOOTH, _EPSILON = 0.02, 1e-2  # of the width; squared contrast that is an edge
 
 
-Given = np.ndarray | DepthNetwork | SeenDepth | None
-"""What a caller may pass as depth, checked; None is the name of a method."""
+DepthInput = np.ndarray | DepthNetwork | SeenDepth | None
+"""A caller's depth after checks; None if a method was named."""
 
 
 def ground_plane(view: View) -> DepthField:
-    """Flat ground below the horizon, and nothing that stands on it: what is above is far."""
+    """Return flat ground below the horizon without objects; everything above is far."""
     nothing = np.zeros(view.shape)
     return _field(view, nothing, _ground(view), _ground_error(view))
 
 
 def network(view: View) -> DepthField:
-    """Return what the land network sees, and the ground plane as far as the two agree.
+    """Return the land network's depth, and the ground plane where the two agree.
 
-    The plane tells the scale, by the ground that is surely seen, and is exact at every pixel.
+    The plane, which is exact at every pixel, gives the scale from ground that is surely visible.
     """
     maps, ground = look_at_land(view.photo), _ground(view)
     rows, columns = view.shape
@@ -69,8 +68,8 @@ METHODS: dict[str, Callable[[View], DepthField]] = {
 }
 
 
-def given(value: Any, size: tuple[int, int]) -> Given:
-    """Check what a caller passes as depth; None for the name of a method.
+def check_depth(value: Any, size: tuple[int, int]) -> DepthInput:
+    """Check a caller's depth and return it; None for the name of a method.
 
     Parameters
     ----------
@@ -78,13 +77,13 @@ def given(value: Any, size: tuple[int, int]) -> Given:
         Name in ``METHODS``, a network or its path, a phone's map, or (H, W) metres above 0, inf for
         the sky. An array need not have the photo's size.
     size : (width, height)
-        The photo's.
+        Size of the photo in pixels.
 
     Raises
     ------
     AnalysisError
-        When it is neither of them, or an array that holds NaN or values of 0 and less, is inf
-        everywhere, or has another shape than the photo by more than rounding.
+        If it is none of them, or an array with NaN or values of 0 and less, inf everywhere, or
+        with other proportions than the photo by more than rounding.
     """
     choices = (
         f"depth has no method {value!r:.80}; choose one of {', '.join(METHODS)}, or pass the "
@@ -107,19 +106,19 @@ def given(value: Any, size: tuple[int, int]) -> Given:
     if array.ndim == 0:
         raise AnalysisError(choices)
     if array.ndim != 2 or array.size == 0:
-        raise AnalysisError(f"A depth map has shape (height, width), not {array.shape}.")
+        raise AnalysisError(f"A depth map must have shape (height, width), not {array.shape}.")
     if np.isnan(array).any() or (array <= 0).any():
         raise AnalysisError(
-            "The depth map holds NaN, zero or negative values; it must be metres above 0, inf "
-            "where the sky is."
+            "The depth map has NaN, zero or negative values. It must have metres above 0, and inf "
+            "in the sky."
         )
     if not np.isfinite(array).any():
-        raise AnalysisError("The depth map is infinite everywhere; give metres where land is.")
+        raise AnalysisError("The depth map is infinite everywhere. The land must have metres.")
     check_proportions("depth map", array.shape, size)
     return array
 
 
-def field_of(view: View, depth: np.ndarray) -> DepthField:
+def field_from_metres(view: View, depth: np.ndarray) -> DepthField:
     """Return the field of a given map (h, w) in metres, inf for the sky."""
     land = np.isfinite(depth)
     log_depth = fill_sky(np.log(np.where(land, depth, 1)).astype(np.float32), land)
@@ -138,7 +137,7 @@ def _ground_error(view: View) -> np.ndarray:
 
 
 def _smoothed(view: View, log_depth: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Spread what is known over the rest, and smooth it between the picture's edges."""
+    """Extend known values to all pixels, and smooth them between the picture's edges."""
     filled = fill_sky(log_depth.astype(np.float32), known)
     radius = max(2, round(_SMOOTH * view.shape[1]))
     return guided(view.working.encoded, filled, radius, _EPSILON)
@@ -147,14 +146,14 @@ def _smoothed(view: View, log_depth: np.ndarray, known: np.ndarray) -> np.ndarra
 def _mixed_error(
     view: View, ground: np.ndarray, share: np.ndarray, log_depth: np.ndarray
 ) -> np.ndarray:
-    """Return the standard error of a mixture of the ground and what departs from it."""
+    """Return the standard error of a mixture of the ground and deviations from it."""
     apart = share * (1 - share) * (log_depth - ground) ** 2
     squared = share * _SEEN_ERROR**2 + (1 - share) * _ground_error(view) ** 2 + apart
     return np.asarray(np.sqrt(squared))
 
 
 def _field(view: View, share: np.ndarray, log_depth: np.ndarray, error: np.ndarray) -> DepthField:
-    """Return the field, its sky filled from the nearest land."""
+    """Return the field, with the sky filled from the nearest land."""
     both = fill_sky(np.dstack([share, log_depth]).astype(np.float32), view.land)
     share, log_depth = both[..., 0].copy(), both[..., 1].copy()
     confidence = (1 / (1 + (2 * np.asarray(error)) ** 2)).astype(np.float32)
@@ -162,11 +161,11 @@ def _field(view: View, share: np.ndarray, log_depth: np.ndarray, error: np.ndarr
     return DepthField(share, log_depth, confidence, view.camera, horizon_error)
 
 
-def find_depth(view: View, told: Given, method: str) -> DepthField:
-    """Return the depth that was told, as metres or as a network, or found by a method's name."""
-    if isinstance(told, np.ndarray):
-        return field_of(view, told)
-    if told is not None:
-        return told(view, view.working)
+def find_depth(view: View, given: DepthInput, method: str) -> DepthField:
+    """Return the depth given as metres or by a network, else that of a method's name."""
+    if isinstance(given, np.ndarray):
+        return field_from_metres(view, given)
+    if given is not None:
+        return given(view, view.working)
     found: DepthField = METHODS[method](view)
     return found

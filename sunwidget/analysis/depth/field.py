@@ -1,8 +1,8 @@
-"""Depth at any size: flat ground, exact at every pixel, and what departs from it.
+"""Depth at any size: flat ground, exact at every pixel, and deviations from it.
 
-ln depth = (1 − share) · ln depth of the ground + share · (its own). Kept so, the ground has no
-terraces at any size, and what stands upright keeps its edges when it is enlarged: its maps follow
-the picture (He & Sun, "Fast guided filter", arXiv:1505.00996, 2015).
+ln depth = (1 − share) · ln depth of the ground + share · (its own). In this form the ground has no
+terraces at any size, and enlarged objects keep their edges: their maps follow the picture (He &
+Sun, "Fast guided filter", arXiv:1505.00996, 2015).
 """
 
 from __future__ import annotations
@@ -12,32 +12,32 @@ from dataclasses import dataclass
 import numpy as np
 
 from sunwidget.analysis.depth import flat_ground
-from sunwidget.analysis.depth.view import fall_of
+from sunwidget.analysis.depth.view import ray_fall
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
-_RADIUS, _EPSILON = 2, 2e-3  # pixels of the small map; squared contrast that is no edge
+_RADIUS, _EPSILON = 2, 2e-3  # pixels of the small map; squared contrast below an edge
 
 
 @dataclass(frozen=True, eq=False)
 class DepthField:
-    """The depth of a photo, also behind the sky, as its nearest land has it.
+    """The depth of a photo; sky has the depth of the nearest land.
 
     Parameters
     ----------
     share : (h, w) float32 in [0, 1]
-        How far a pixel departs from flat ground.
+        Weight of a pixel's own depth against flat ground.
     log_depth : (h, w) float32
-        ln(metres) where it does.
+        A pixel's own depth as ln(metres).
     confidence : (h, w) float32 in [0, 1]
-        1 / (1 + (2 σ)²) with the standard error σ of ln depth, but for one scale of all.
+        1 / (1 + (2 σ)²) with the standard error σ of ln depth, apart from the common scale.
     camera : Camera
-        Of any size.
+        Camera for any size.
     horizon_error : float
-        In heights of the picture.
+        Standard error of the horizon, in heights of the picture.
     sharpen : bool
-        Whether the maps follow the picture when they are enlarged, or are taken as they are.
+        Whether enlarged maps follow the picture's edges.
     """
 
     share: np.ndarray
@@ -51,7 +51,7 @@ class DepthField:
         """Return ln(metres) along the optical axis at a size, (height, width) float32."""
         camera = self.camera.resized(width, height)
         ground = flat_ground.log_depth(
-            fall_of(camera), self.horizon_error * height, camera.focal, height
+            ray_fall(camera), self.horizon_error * height, camera.focal, height
         )
         share, own = self._enlarged(width, height, working)
         return np.asarray(ground + share * (own - ground), np.float32)
@@ -74,7 +74,7 @@ class DepthField:
 
 
 def _local_lines(guide: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Fit values = slope · guide + offset around each pixel: two maps (h, w) float32."""
+    """Fit values = slope · guide + offset around each pixel; return two maps (h, w) float32."""
     import cv2
 
     def mean(image: np.ndarray) -> np.ndarray:
@@ -87,16 +87,16 @@ def _local_lines(guide: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.
 
 
 def guided(guide: np.ndarray, values: np.ndarray, radius: int, epsilon: float) -> np.ndarray:
-    """Smooth a map between the edges of a coloured picture (He, Sun & Tang, ECCV 2010).
+    """Smooth a map between the edges of a color picture (He, Sun & Tang, ECCV 2010).
 
     Parameters
     ----------
     guide : (h, w, 3) float32 in [0, 1]
     values : (h, w) float32
     radius : int
-        Pixels.
+        Radius in pixels.
     epsilon : float
-        Squared contrast of the guide that is no edge.
+        Squared contrast of the guide below an edge.
 
     Returns
     -------
@@ -104,8 +104,8 @@ def guided(guide: np.ndarray, values: np.ndarray, radius: int, epsilon: float) -
     """
     import cv2
 
-    # In code values: OpenCV takes a covariance whose determinant is below 1e-6 for singular, and
-    # of colours up to 1 nearly all are; it would only blur.
+    # In code values up to 255: OpenCV treats a covariance with a determinant below 1e-6 as
+    # singular, as nearly all are for colors up to 1, and would only blur.
     code = np.multiply(guide, 255, dtype=np.float32)
     filtered = cv2.ximgproc.guidedFilter(
         code, np.ascontiguousarray(values), radius, epsilon * 255**2

@@ -1,9 +1,9 @@
-"""How far land may lie at most, by how dark it is: air before it would be seen.
+"""The greatest possible distance of land, from its darkness: air in front of it would be visible.
 
-The darkest places round about hold little but the light of the air before them (dark channel: He,
-Sun & Tang, "Single Image Haze Removal Using Dark Channel Prior", CVPR 2009). Where a depth that is
-a guess would put more air there than they show, the land is nearer, or its air is clearer; both
-come to the same in the frame.
+The darkest places nearby have little light except that of the air in front of them (dark channel:
+He, Sun & Tang, "Single Image Haze Removal Using Dark Channel Prior", CVPR 2009). Where a guessed
+depth gives more air than they show, the land is nearer, or its air is clearer; both are equivalent
+in the frame.
 """
 
 from __future__ import annotations
@@ -15,41 +15,41 @@ from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
-_SIDE = 320  # pixels of the copy that is looked at
-_PATCH = 0.03  # of the longer side: within which something dark is found
+_SIDE = 320  # longer side of the copy in pixels
+_PATCH = 0.03  # of the longer side: a neighborhood that contains something dark
 _AIR_SCATTERING = np.array([7.5e-6, 1.17e-5, 2.32e-5])  # as shaders/atmosphere/extinction.glsl
 _STEPS = np.array([0.154, -0.0026, -0.242])
 _FARTHEST_AIR = 15000.0  # as shaders/land/read_air.glsl
-_NO_LAND = 1e6  # scene-linear light of what is not asked
+_NO_LAND = 1e6  # scene-linear light of ignored pixels
 _ANYWHERE = 12.0  # ln(metres)
 _JUST_ABOVE = 0.6  # degrees over the horizon
 
 
 def log_limit(working: Working, land: np.ndarray, camera: Camera, fit: SkyFit) -> np.ndarray:
-    """Return the natural logarithm of the greatest distance of each place, (h, w) float32.
+    """Return the natural logarithm of each pixel's greatest distance, (h, w) float32.
 
     Parameters
     ----------
     working : Working
         The photo's small copy.
     land : (h, w) bool
-        Where its land is.
+        Its land.
     camera : Camera
-        Of any size.
+        Camera for any size.
     fit : SkyFit
-        The sky's model, and with it the light of an endless path of air.
+        The sky's model, which gives the light of an endless path of air.
 
     Returns
     -------
     (h, w) float32
-        ln(metres); 12, farther than all air that counts, where the land is no darker than air.
+        ln(metres); 12, beyond all relevant air, where the land is no darker than air.
     """
     import cv2
 
     scale = min(1.0, _SIDE / max(working.width, working.height))
     columns, rows = (max(1, round(scale * n)) for n in (working.width, working.height))
     light = fit.response.scene_light(resize(working.linear, columns, rows)) @ LUMINANCE
-    # What is no land is not dark for its own sake.
+    # Only land counts as dark.
     light = np.where(resize(land.astype(np.float32), columns, rows) > 0.99, light, _NO_LAND)
     side = 2 * max(1, round(0.5 * _PATCH * max(columns, rows))) + 1
     dark = cv2.erode(light.astype(np.float32), np.ones((side, side), np.uint8))

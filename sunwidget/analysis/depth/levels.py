@@ -1,7 +1,7 @@
-"""Depth as the frame reads it: eight bits of log-depth a pixel, the sky filled from the land.
+"""Depth for the frame: eight bits of log-depth per pixel, with the sky filled from the land.
 
 level = log2(depth in metres, clamped to 1 … 65 536) / 16, so that one of 255 levels is 4.4 % of
-the depth. A dither of ± half a level lets neighbours tell what lies between two levels.
+the depth. A dither of ± half a level lets neighboring pixels represent values between levels.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ def to_level(log_depth: np.ndarray) -> np.ndarray:
 
 
 def to_depth(level: np.ndarray) -> np.ndarray:
-    """Return metres of a level: the inverse of ``to_level``."""
+    """Return the metres of a level, the inverse of ``to_level``."""
     return np.asarray(np.exp2(np.asarray(level, np.float32) * np.float32(OCTAVES)))
 
 
@@ -33,7 +33,7 @@ def fill_sky(values: np.ndarray, land: np.ndarray) -> np.ndarray:
     Returns
     -------
     array of the shape of ``values``
-        ``values`` itself where all or nothing is land.
+        ``values`` itself if all or no pixels are land.
     """
     import cv2
 
@@ -42,7 +42,7 @@ def fill_sky(values: np.ndarray, land: np.ndarray) -> np.ndarray:
     _, labels = cv2.distanceTransformWithLabels(
         (~land).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
     )
-    # Every pixel of the land has a label of its own, its neighbours outside share it.
+    # Each pixel of the land has its own label, which the pixels nearest to it share.
     of_label = np.zeros((int(labels.max()) + 1, *values.shape[2:]), np.float32)
     of_label[labels[land]] = values[land]
     filled = values.copy()
@@ -51,12 +51,11 @@ def fill_sky(values: np.ndarray, land: np.ndarray) -> np.ndarray:
 
 
 def dithered(level: np.ndarray, first_row: int = 0) -> np.ndarray:
-    """Add ± half an 8-bit level of noise, always the same: interleaved gradient noise.
+    """Add ± half an 8-bit level of fixed interleaved gradient noise.
 
-    ``level`` (h, w) float32 may be some rows of a picture, from ``first_row`` on.
-
-    Its mean over any 3 × 3 pixels is nearly 0 (Jimenez, "Next generation post processing in
-    Call of Duty: Advanced Warfare", SIGGRAPH 2014 course), so that small averages are exact.
+    ``level`` (h, w) float32 may be some rows of a picture, from ``first_row`` on. The noise has a
+    mean of nearly 0 over any 3 × 3 pixels (Jimenez, "Next generation post processing in Call of
+    Duty: Advanced Warfare", SIGGRAPH 2014 course), so that small averages are exact.
     """
     height, width = level.shape
     slope = np.float32(0.06711056) * np.arange(width, dtype=np.float32)

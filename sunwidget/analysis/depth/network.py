@@ -1,7 +1,7 @@
 """Any network for depth from one picture, in an ONNX file (MiDaS, Depth Anything, ZoeDepth …).
 
 Most return inverse depth up to a scale and a shift (Ranftl et al., "Towards robust monocular depth
-estimation", TPAMI 2022, equation 1): both come from the ground plane of the photo.
+estimation", TPAMI 2022, equation 1). The photo's ground plane gives both.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _LEAST_GROUND = 50  # pixels
 
 @dataclass(frozen=True)
 class DepthNetwork:
-    """A network that finds depth, for ``analyze(depth=…)``; whatever is None is detected.
+    """A network that finds depth, for ``analyze(depth=…)``; options that are None are detected.
 
     Parameters
     ----------
@@ -37,15 +37,14 @@ class DepthNetwork:
         The .onnx file. It takes one picture and returns one map.
     kind : {"inverse", "depth"}, optional
         Whether the map grows towards the camera (inverse depth, up to scale and shift) or away
-        from it (depth, up to scale). Default: as it agrees with the ground plane.
+        from it (depth, up to scale). Default: the kind that agrees with the ground plane.
     mean, std : float or (r, g, b), optional
-        The network sees (value - mean) / std of encoded values in [0, 1]. Default: what the file's
-        metadata say, or ImageNet's, as MiDaS and Depth Anything expect.
+        The input is (value - mean) / std of encoded values in [0, 1]. Default: from the file's
+        metadata, or ImageNet's, as MiDaS and Depth Anything expect.
     layout : {"nchw", "nhwc"}, optional
-        Of the input; needed only when the file leaves every dimension open.
+        Layout of the input; needed only if the file leaves every dimension open.
     size : int or (width, height), optional
-        Of the picture that the network sees, where the file leaves it open; by default 384, 518
-        and 256 are tried.
+        Size of the input, if the file leaves it open; by default 384, 518 and 256 are tried.
     """
 
     path: str | Path
@@ -67,8 +66,8 @@ class DepthNetwork:
         Raises
         ------
         AnalysisError
-            When the file is missing or no network of one picture, or fails on it, or returns no
-            map, NaN, or the same everywhere.
+            If the file is missing or not a network of one picture, or if it fails, or returns no
+            map, NaN, or the same value everywhere.
         """
         found = self._run(working)
         height, width = view.shape
@@ -87,7 +86,7 @@ class DepthNetwork:
         for side in (None,) if not opened.free or self.size is not None else _SIDES:
             try:
                 output = opened.sized(side).run(working.encoded, scale, None)
-            except AnalysisError as error:  # many take multiples of 14 or of 32 only
+            except AnalysisError as error:  # many networks take only multiples of 14 or of 32
                 failure = failure or error
                 continue
             values = np.asarray(output.values, np.float32)
@@ -99,7 +98,7 @@ class DepthNetwork:
             if not np.isfinite(values).all() or np.ptp(values) <= 0:
                 raise AnalysisError(
                     f"The depth network {self.path} returned NaN, infinite values or the same "
-                    "everywhere: its normalisation is wrong or the file is damaged. Give "
+                    "value everywhere: its normalization is wrong or the file is damaged. Pass "
                     "depth=DepthNetwork(path, mean=…, std=…), another network, or an array."
                 )
             return values
@@ -109,13 +108,13 @@ class DepthNetwork:
 
 @dataclass(frozen=True, eq=False)
 class SeenDepth:
-    """A map that somebody else's eyes have seen, a phone's: (h, w) ``values`` of a ``kind``."""
+    """A depth map from a phone: (h, w) ``values`` of a ``kind``."""
 
     values: np.ndarray
     kind: str
 
     def __call__(self, view: View, _working: Working) -> DepthField:
-        """Align with the ground plane of a photo's view."""
+        """Align the map with the ground plane of a photo's view."""
         height, width = view.shape
         return aligned(view, resize(self.values, width, height), self.values, self.kind)
 
@@ -123,18 +122,18 @@ class SeenDepth:
 def aligned(
     view: View, small: np.ndarray, found: np.ndarray, kind: str | None = None
 ) -> DepthField:
-    """Turn what a network returned into metres, by the ground that is surely seen.
+    """Convert a network's output to metres, by the ground that is surely visible.
 
-    nearness = a · value + b for inverse depth, by least squares with weights that make errors
-    relative to the square root of the nearness and outliers count less (Tukey); the sky is at
-    nearness 0. ln depth = ln(value) + c for depth, c the median.
+    For inverse depth, nearness = a · value + b by least squares; the weights make errors relative
+    to the square root of the nearness and reduce outliers (Tukey), and the sky has nearness 0. For
+    depth, ln depth = ln(value) + c, with the median as c.
 
     Parameters
     ----------
     small : (h, w) float32
         The network's values at the view's size.
     found : (h', w') float32
-        The same at the network's.
+        The same at the network's size.
     kind : {"inverse", "depth"}, optional
         Default: by the sign of the correlation with the nearness of the ground.
     """
@@ -142,7 +141,7 @@ def aligned(
     ground = flat_ground.log_depth(view.fall, error, camera.focal, camera.height)
     sure = view.land & (view.fall > 3 * error / camera.focal)
     if sure.sum() < _LEAST_GROUND:
-        # No ground in sight: rows stand for it, as lower ones are nearer nearly everywhere.
+        # No visible ground: rows replace it, since lower rows are usually nearer.
         sure = view.land.copy()
         rows = (np.arange(view.shape[0]) + 1) / view.shape[0]
         ground = np.broadcast_to(np.log(5.0 / rows)[:, None], view.shape).astype(np.float32)
@@ -177,10 +176,10 @@ def _correlation(a: np.ndarray, b: np.ndarray) -> float:
 def _line(values: np.ndarray, near: np.ndarray, sky: np.ndarray) -> tuple[float, float]:
     """Return slope ≥ 0 and shift of near = slope · values + shift; the sky is at 0.
 
-    Some networks return anything in the sky: where it contradicts the ground it does not count.
+    Some networks return arbitrary values in the sky: a sky that contradicts the ground is ignored.
     """
     if sky.size:
-        # A quarter as many pixels of the sky as of the ground, at most: they only fix the shift.
+        # At most a quarter as many sky pixels as ground pixels, since they only fix the shift.
         sky = np.quantile(sky, np.linspace(0.05, 0.95, min(sky.size, near.size // 4 + 1)))
         slope, shift = _robust_line(np.append(values, sky), np.append(near, np.zeros(sky.size)))
         if slope > 0 and np.median(sky) < np.median(values):

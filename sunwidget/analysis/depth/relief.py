@@ -1,4 +1,4 @@
-"""The land's relief as the frame reads it: how it lies, and what of sun and sky reaches it."""
+"""The land's relief for the frame: its normals, and the light of sun and sky that reaches it."""
 
 from __future__ import annotations
 
@@ -10,15 +10,16 @@ from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.land import LandMaps, of_suns
 from sunwidget.geometry.camera import Camera
 
-_EDGES, _NO_EDGE = 4, 4e-4  # pixels of the working copy; squared contrast that is no edge
+_EDGES, _NO_EDGE = 4, 4e-4  # pixels of the working copy; squared contrast below an edge
 _LARGEST_SHARE = 2.0  # as in shaders/land/read_transfer.glsl
 
 
 def encoded(maps: LandMaps, working: Working) -> np.ndarray:
     """Return the texture ``relief`` at working size, (h, w, 4) float32 in [0, 1].
 
-    The normal's right and up as (1 + n) / 2, what of the sun reaches the surface, and the cosine
-    between normal and sun (shaders/land/relief.glsl). The edges of shadows are the picture's.
+    It has the normal's right and up as (1 + n) / 2, the share of the sun that reaches the surface,
+    and the cosine between normal and sun (shaders/land/relief.glsl). Shadow edges follow the
+    picture.
     """
     width, height = working.width, working.height
     slope = resize(np.ascontiguousarray(0.5 + 0.5 * maps.normal[..., :2]), width, height)
@@ -30,17 +31,17 @@ def encoded(maps: LandMaps, working: Working) -> np.ndarray:
 def encoded_transfer(maps: LandMaps) -> np.ndarray:
     """Return the texture ``transfer``, (3 h, w, 4) float32 in [0, 1].
 
-    The shares' signed roots, four above four above four (shaders/land/read_transfer.glsl).
+    It has the shares' signed roots in three blocks of four (shaders/land/read_transfer.glsl).
     """
     root = np.sqrt(np.minimum(np.abs(maps.transfer) / _LARGEST_SHARE, 1))
     code = (0.5 + 0.5 * np.copysign(root, maps.transfer)).astype(np.float32)
     return np.concatenate(np.split(code, 3, axis=-1))
 
 
-def told_by_depth(
+def with_given_depth(
     maps: LandMaps, log_depth: np.ndarray, camera: Camera, sun: tuple[float, float]
 ) -> LandMaps:
-    """Return the maps for land whose depth somebody told: slopes are its own, shadows left out.
+    """Return the maps for land with a given depth: its slopes, without shadows.
 
     Parameters
     ----------
@@ -48,16 +49,16 @@ def told_by_depth(
     log_depth : (h, w) float32
         ln(metres) along the optical axis.
     camera : Camera
-        Of any size.
+        Camera for any size.
     sun : (azimuth, elevation)
-        Of the photo, degrees.
+        The photo's sun in degrees.
     """
     rows, columns = maps.facing.shape
     normal = resize(normals(log_depth, camera), columns, rows)
     normal /= np.maximum(np.linalg.norm(normal, axis=-1, keepdims=True), 1e-6)
     axes = np.array([camera.right, camera.up, camera.forward])
     world = normal @ (axes * (1, -1, -1)).T.astype(np.float32)
-    # A grid over the sky; least squares of the cosine by the functions of suns.
+    # Least squares of the cosine over a grid of the sky, in the basis functions of suns.
     azimuth, height = np.meshgrid(np.linspace(0, 2 * np.pi, 24, endpoint=False), _HEIGHTS)
     suns = _directions(azimuth, height).reshape(-1, 3)
     solve = np.linalg.pinv(of_suns(suns)).T.astype(np.float32)
@@ -67,7 +68,7 @@ def told_by_depth(
 
 
 def _directions(azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
-    """Return unit vectors (..., 3) to the right, up and ahead; radians."""
+    """Return unit vectors (..., 3): right, up, forward. Angles are in radians."""
     flat = np.cos(elevation)
     return np.stack([flat * np.sin(azimuth), np.sin(elevation), flat * np.cos(azimuth)], -1)
 
@@ -76,9 +77,9 @@ _HEIGHTS = np.arcsin((np.arange(8) + 0.5) / 8)
 
 
 def on_land(maps: LandMaps, sky: np.ndarray) -> LandMaps:
-    """Return the maps with their values in the sky taken from the nearest land.
+    """Return the maps with the sky filled from the nearest land.
 
-    The network says nothing of the sky; at the skyline it would show.
+    The network has no values for the sky, which would show at the skyline.
     """
 
     def filled(values: np.ndarray) -> np.ndarray:
@@ -96,14 +97,14 @@ def on_land(maps: LandMaps, sky: np.ndarray) -> LandMaps:
 def normals(log_depth: np.ndarray, camera: Camera) -> np.ndarray:
     """Return unit normals of a depth: to the camera's right, up, and towards it.
 
-    Each side of a pixel that is more like it in depth tells the slope, so that edges stay.
+    The slope is measured on the side of a pixel with the more similar depth, which keeps edges.
 
     Parameters
     ----------
     log_depth : (h, w) float32
         ln(metres) along the optical axis.
     camera : Camera
-        Of any size.
+        Camera for any size.
 
     Returns
     -------
@@ -127,7 +128,7 @@ def normals(log_depth: np.ndarray, camera: Camera) -> np.ndarray:
 
 
 def _step(points: np.ndarray, log_depth: np.ndarray, axis: int) -> np.ndarray:
-    """Return the way to the next pixel along an axis, (h, w, 3), or from the one before it."""
+    """Return the vector to the next pixel along an axis, (h, w, 3), or from the previous one."""
     step, jump = np.diff(points, axis=axis), np.abs(np.diff(log_depth, axis=axis))
     ends = [(0, 0)] * 2
     ends[axis] = (0, 1)

@@ -1,4 +1,4 @@
-"""What the methods of depth look at: a small copy of the photo, its camera and its air."""
+"""The input of the depth methods: a small copy of the photo, its camera and its air."""
 
 from __future__ import annotations
 
@@ -13,29 +13,29 @@ from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.geometry.camera import Camera
 
 SIDE = 320  # pixels of the longer side at which depth is found
-# Standard error of the horizon's row in heights of the picture, when it is sure and when it is
-# assumed; between them by its confidence, geometrically.
+# Standard error of the horizon's row in heights of the picture, at full and at no confidence, with
+# geometric interpolation in between.
 _LEAST_ERROR, _LARGEST_ERROR = 0.002, 0.04
 
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A photo as the methods of depth see it.
+    """A photo as input of the depth methods.
 
     Parameters
     ----------
     photo : Working
-        Of any size: what networks look at.
+        Copy of any size for networks.
     working : Working
-        At most ``SIDE`` pixels long.
+        Copy of at most ``SIDE`` pixels.
     sky, water : (h, w) float32
-        Matte and mask of the same size, 1 = sky, 1 = water.
+        Matte and mask at this size, 1 = sky, 1 = water.
     camera : Camera
-        Of the same size.
+        Camera at this size.
     horizon_error : float
         Standard error of the horizon's row, in pixels of this size.
     atmosphere : Atmosphere
-        As fitted to the sky.
+        The atmosphere fitted to the sky.
     """
 
     photo: Working
@@ -56,7 +56,7 @@ class View:
         horizon: Horizon,
         atmosphere: Atmosphere,
     ) -> View:
-        """Shrink what the analysis knows; maps and camera may have any size."""
+        """Make a view from results of the analysis; maps and camera may have any size."""
         small = working.shrunk(SIDE)
         size = small.width, small.height
         doubt = 1 - float(np.clip(horizon.confidence, 0, 1))
@@ -78,17 +78,17 @@ class View:
 
     @cached_property
     def land(self) -> np.ndarray:
-        """Where land is: (h, w) bool."""
+        """Land pixels, (h, w) bool."""
         return np.asarray(self.sky < 0.5)
 
     @cached_property
     def fall(self) -> np.ndarray:
-        """How far each ray falls, see ``fall_of``."""
-        return fall_of(self.camera)
+        """Fall of each pixel's ray, see ``ray_fall``."""
+        return ray_fall(self.camera)
 
 
-def fall_of(camera: Camera) -> np.ndarray:
-    """Return how far each pixel's ray falls below the level of the eye in a metre of depth.
+def ray_fall(camera: Camera) -> np.ndarray:
+    """Return the fall of each pixel's ray below eye level, per metre of depth.
 
     Returns
     -------

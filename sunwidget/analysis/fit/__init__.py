@@ -1,1 +1,1 @@
-"""The sky model fitted to a photo, and how far the fit can be believed."""
+"""Fit the sky model to a photo, and estimate the fit's confidence."""

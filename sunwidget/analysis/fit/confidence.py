@@ -1,12 +1,12 @@
-"""How far a fit to the sky can be believed: probabilities, calibrated on skies that are known.
+"""Confidence of a fit to the sky: probabilities, calibrated on known skies.
 
-Two questions. Will the fitted sky change with the sun as the photo's would? Is the sun, where the
-photo does not show it, where the fit puts it? Each answer is a logistic regression (as Platt
-1999, "Probabilistic outputs for support vector machines") on what the fit saw;
-``bench/confidence.py`` draws the skies, fits the weights and prints how often it is right.
+There are two questions. Will the fitted sky change with the sun as the photo's would? Is an unseen
+sun at the position of the fit? Each answer is a logistic regression (as Platt 1999, "Probabilistic
+outputs for support vector machines") on features of the fit; ``bench/confidence.py`` draws the
+skies, fits the weights and prints the hit rates.
 
-And within how many degrees of there does it lie? What every direction that was tried misses the
-sky by gives a posterior; ``bench/unseen_sun.py`` fits its two weights to real photos.
+The misfits of all directions that were tried also give a posterior of an unseen sun, and with it
+an angle of uncertainty; ``bench/unseen_sun.py`` fits its two weights to real photos.
 """
 
 from __future__ import annotations
@@ -17,31 +17,31 @@ from dataclasses import dataclass
 import numpy as np
 
 GOOD_FIT = 0.3
-"""Mean stops by which the sky's change under other suns may be wrong and the fit still good."""
+"""Largest mean error, in stops, of the sky's change under other suns for a good fit."""
 
 GOOD_SUN = 35.0
-"""Degrees by which the found azimuth of an unseen sun may be wrong and it still serves."""
+"""Largest error, in degrees, of a useful azimuth of an unseen sun."""
 
 # Bias, then the weights of ``features_of_fit`` and of ``features_of_sun``.
 FIT_WEIGHTS = (-0.78, -1.73, 0.49, -0.19, -0.33, 3.26)
 SUN_WEIGHTS = (1.07, 2.26, 0.34, 0.05)
-# By how many e-folds a direction's odds fall with a misfit of 0.01.
+# E-folds by which a direction's odds fall per misfit of 0.01.
 SUN_ODDS = 2.0
-# Share of suns that stand where nothing in the picture lets expect them.
+# Share of suns in directions that nothing in the picture suggests.
 _ANYWHERE = 0.1
-# By how much less likely a sun is where it would be seen: behind thick cloud it may not be.
+# Factor for a sun in plain view, which thick cloud may still hide.
 _OVERLOOKED = 0.01
 UNKNOWN = 90.0
-"""Degrees of spread (``likeliest_sun``) from which the photo does not tell where the sun is."""
+"""Degrees of spread (``likeliest_sun``) from which the sun's position counts as unknown."""
 
 TURNS = np.arange(-150.0, 181, 30)
 HEIGHTS = np.array([-2.0, 2.0, 8.0, 18.0, 35.0, 60.0])
-"""Azimuths and elevations that the search tries: each with each."""
+"""Azimuths and elevations of the search, in all combinations."""
 
 _FINE_TURNS = np.arange(-170.0, 181, 10)
 _FINE_HEIGHTS = np.array([-2.0, 0.0, 2.0, 5.0, 8.0, 13.0, 18.0, 26.0, 35.0, 47.0, 60.0])
-_NEAR = 12.0  # degrees of height within which a sun's azimuth is asked
-_CLOSE = 0.15  # how much worse than the best an air may be and still be one of the likely ones
+_NEAR = 12.0  # degrees of height over which the azimuth's probabilities are averaged
+_CLOSE = 0.15  # relative excess over the best error up to which an air is likely
 
 
 Seen = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -49,7 +49,7 @@ Seen = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 @dataclass(frozen=True)
 class Evidence:
-    """What a fit of the sky rests on.
+    """Evidence for a fit of the sky.
 
     Parameters
     ----------
@@ -58,11 +58,11 @@ class Evidence:
     share : float
         Share of the picture that is clear sky.
     spread : float
-        Degrees from the nearest to the farthest of it from the sun (deciles).
+        Range of the clear sky's angles from the sun in degrees, between the deciles.
     doubt : float
-        log2 by which the optical depths of the likely airs differ (standard deviation).
+        Standard deviation of log2 of the likely airs' optical depths.
     told : float
-        How sure the sun's place is, [0, 1].
+        Confidence of the sun's position, [0, 1].
     """
 
     residual: float
@@ -73,22 +73,22 @@ class Evidence:
 
 
 def spread_of_angles(azimuth: np.ndarray, elevation: np.ndarray, sun: tuple[float, float]) -> float:
-    """Return between which angles from the sun the sky is seen: degrees between the deciles."""
+    """Return the range of the sky's angles from the sun, in degrees between the deciles."""
     low, high = np.quantile(_angles(azimuth, elevation, sun), (0.1, 0.9))
     return float(high - low)
 
 
 def doubt(errors: np.ndarray, levels: np.ndarray) -> float:
-    """Return how far the likely answers lie apart: deviation of their ``levels``, (n,) each.
+    """Return the standard deviation of the ``levels`` (n,) of the likely candidates.
 
-    Likely is what is hardly worse than the best: a sharp minimum leaves one, a flat one many.
+    Candidates with almost the best error are likely: a sharp minimum has one, a flat one many.
     """
     likely = errors <= (1 + _CLOSE) * float(errors.min()) + 0.0005
     return float(np.std(levels[likely]))
 
 
 def features_of_fit(evidence: Evidence) -> np.ndarray:
-    """Return what the regression sees of a fit, (5,)."""
+    """Return the features of a fit for the regression, (5,)."""
     return np.array(
         [
             np.log2(max(evidence.residual, 0.002) / 0.02),
@@ -103,10 +103,10 @@ def features_of_fit(evidence: Evidence) -> np.ndarray:
 def features_of_sun(
     best: tuple[float, float], errors: dict[tuple[float, float], float]
 ) -> np.ndarray:
-    """Return what the regression sees of a search, (3,).
+    """Return the features of a search for the regression, (3,).
 
-    How much worse the best sun of elsewhere is, how bad the best one is itself, and how near to
-    the picture's middle it lies: its colours tell a sun in front better than one behind.
+    They are the margin to the best sun elsewhere, the misfit of the best one, and its angle from
+    the picture's middle: colors locate a sun in front better than one behind.
     """
     turns = np.array([_turn(sun[0], best[0]) for sun in errors])
     values = np.array(list(errors.values()))
@@ -129,29 +129,30 @@ def confidence_of_sun(best: tuple[float, float], errors: dict[tuple[float, float
     best : (azimuth, elevation)
         Degrees.
     errors : dict
-        The misfit of each direction that was tried.
+        Misfit of each direction that was tried.
     """
     return probability(SUN_WEIGHTS, features_of_sun(best, errors))
 
 
 def nowhere(azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
-    """Return that a sun would be seen in none of these directions, (n,)."""
+    """Return False for each direction (n,): a sun would be visible in none of them."""
     return np.zeros(azimuth.shape, bool)
 
 
 def posterior_of_sun(
     errors: dict[tuple[float, float], float], expected: np.ndarray, seen: Seen = nowhere
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return azimuths, elevations and probabilities (n,) of where an unseen sun may be.
+    """Return azimuths, elevations and probabilities (n,) of an unseen sun.
 
     Parameters
     ----------
     errors : dict
-        The misfit of each of ``TURNS`` and ``HEIGHTS``.
+        Misfit of each of ``TURNS`` and ``HEIGHTS``.
     expected : (6, 12) float
-        Probability of each of ``HEIGHTS`` and ``TURNS`` before the sky's colours are asked.
+        Prior probability of each of ``HEIGHTS`` and ``TURNS``, without the sky's colors.
     seen : callable, optional
-        Tells of azimuths and elevations (n,) where a sun would be seen: there it is not.
+        Takes azimuths and elevations (n,) and returns where a sun would be visible, which
+        excludes it there.
     """
     misfits = np.array([[errors[a, h] for a in TURNS] for h in HEIGHTS])
     before = (1 - _ANYWHERE) * expected / expected.sum() + _ANYWHERE / expected.size
@@ -162,7 +163,7 @@ def posterior_of_sun(
 
 
 def _finer(grid: np.ndarray) -> np.ndarray:
-    """Return values of each of ``HEIGHTS`` and ``TURNS`` on a finer grid."""
+    """Interpolate values of each of ``HEIGHTS`` and ``TURNS`` on a finer grid."""
     rows = [np.interp(_FINE_TURNS, TURNS, row, period=360) for row in grid]
     return np.array([np.interp(_FINE_HEIGHTS, HEIGHTS, column) for column in np.transpose(rows)]).T
 
@@ -170,11 +171,11 @@ def _finer(grid: np.ndarray) -> np.ndarray:
 def likeliest_sun(
     errors: dict[tuple[float, float], float], expected: np.ndarray, seen: Seen = nowhere
 ) -> tuple[tuple[float, float], float]:
-    """Return where an unseen sun is taken to be, and within how many degrees, 4 times of 5.
+    """Return the likeliest direction of an unseen sun, and its error at 80 % probability.
 
-    Its height is the posterior's median, which errs least in every measure that grows with height,
-    as its light does; its azimuth is the likeliest near that height. Takes what
-    ``posterior_of_sun`` takes.
+    Its height is the posterior's median, which has the least error in any measure that grows with
+    height, as light does; its azimuth is the likeliest near that height. Parameters as for
+    ``posterior_of_sun``.
     """
     azimuth, elevation, likely = posterior_of_sun(errors, expected, seen)
     of_heights = likely.reshape(_FINE_HEIGHTS.size, -1).sum(1)

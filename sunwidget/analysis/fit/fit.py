@@ -1,8 +1,8 @@
 """Fit the sky model to the photo: aerosol, exposure, white balance, camera response, glare.
 
 The fit is made once, at the photo's own sun, on clear-sky pixels, and then frozen. It compares
-in the encoded domain, where a photo's noise is even, and is robust: what a model cannot explain
-(thin cloud, haze banks) weighs no more than a tenth of the scale.
+encoded values, in which a photo's noise is even, and is robust: pixels that the model cannot
+explain (thin cloud, haze banks) count as errors of at most a tenth of the scale.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from sunwidget.geometry.camera import Camera
 T = TypeVar("T")
 Done = Callable[[float], object]
 
-# What is searched. Finer steps change no picture visibly: gain and contrast absorb the rest.
+# Search grid. Finer steps make no visible difference: gain and contrast absorb the rest.
 _OPTICAL_DEPTHS = (0.01, 0.03, 0.06, 0.12, 0.25, 0.5)
 _ASYMMETRIES = (0.6, 0.76, 0.88)
 _SHOULDERS = (0.5, 0.8, 0.95, 0.99)
@@ -47,11 +47,11 @@ _SAMPLES = 250
 _ANGSTROM, _ALBEDO = 1.3, 0.9
 _LARGEST_ERROR = 0.1
 ANYWHERE = np.ones((HEIGHTS.size, TURNS.size))
-"""An unseen sun's ``expected`` where nothing is."""
+"""Uniform prior ``expected`` of an unseen sun."""
 _GREY = 0.05  # median HSI saturation below which a sky is overcast (overcast.py)
-_NIGHT = 0.02  # median display light below which a sky's colours are noise and lamps
-_BRIGHTEST = 0.9  # quantile of the sky's light from which it may hold an overlooked sun
-_HIDES = 10.0  # degrees: clouds hide a sun that is lower
+_NIGHT = 0.02  # median display light below which a sky's colors are noise and lamps
+_BRIGHTEST = 0.9  # quantile of the sky's light above which it may contain an overlooked sun
+_HIDES = 10.0  # degrees: clouds may hide a lower sun
 DEFAULT_SHOULDER = 0.9
 
 
@@ -71,13 +71,13 @@ class Response:
     contrast: float = 1.0
 
     def scene_light(self, display: np.ndarray) -> np.ndarray:
-        """Display-linear [0, 1] to scene-linear light."""
+        """Convert display-linear [0, 1] to scene-linear light."""
         w = max(self.shoulder, 1e-4)
         r = -np.log(np.maximum(1 - w * np.maximum(display, 0), 0.003)) / w
         return np.asarray(np.power(np.maximum(r, 1e-6), 1 / self.contrast), np.float32)
 
     def display_light(self, scene: np.ndarray) -> np.ndarray:
-        """Scene-linear light to display-linear."""
+        """Convert scene-linear light to display-linear."""
         w = max(self.shoulder, 1e-4)
         r = np.power(np.maximum(scene, 1e-9), self.contrast)
         return np.asarray((1 - np.exp(-w * r)) / w, np.float32)
@@ -85,25 +85,25 @@ class Response:
 
 @dataclass(frozen=True)
 class SkyFit:
-    """What the fit found.
+    """Result of the fit.
 
     Parameters
     ----------
     atmosphere : Atmosphere
-        With its residual: mean absolute error of the encoded sky, [0, 1].
+        Its residual is the mean absolute error of the encoded sky, [0, 1].
     response : Response
     gain : tuple of 3 floats
         Scene-linear light per kcd m⁻² of the model, for R, G, B.
     glare : tuple of 3 floats
         Moffat profile (a in scene-linear luminance, b in degrees, c) of the camera's glare
-        round the sun (camera_glare.py).
+        around the sun (camera_glare.py).
     sun : (azimuth, elevation)
         Degrees; the given sun, or the one that explains the sky best.
     sun_confidence : float
-        How likely that sun is near the true one, [0, 1]: 1 when it was given.
+        Probability that this sun is near the true one, [0, 1]; 1 if it was given.
     sun_spread : float
-        Degrees round that sun within which the true one lies, four times of five: 0 when it was
-        given, 180 where the sky does not tell.
+        Angle in degrees from this sun that contains the true one with 80 % probability; 0 if it
+        was given, 180 if the sky gives no evidence.
     """
 
     atmosphere: Atmosphere
@@ -126,7 +126,7 @@ def model_sky(
     sun: tuple[float, float],
 ) -> np.ndarray:
     """Return the model's sky (..., 3) in linear Rec. 709, kcd m⁻²; angles in degrees."""
-    # One fit asks for the same airs again and again, and the next one does, too.
+    # Cached, since each fit uses the same airs repeatedly.
     table = _table(atmosphere.replace(residual=None, confidence=None))
     spectral = table.radiance(elevation, azimuth - sun[0], sun[1])
     color = spectral @ np.asarray(SPECTRAL_TO_REC709).reshape(3, 4).T
@@ -158,23 +158,23 @@ def fit_sky(
     sky, clouds : (h, w) float32
         Sky matte and cloud opacity at the size of ``working``.
     camera : Camera
-        Of the photo (any size; only its angles are used).
+        The photo's camera, at any size; only its angles are used.
     sun : (azimuth, elevation) or None
-        The photo's own sun in degrees, or ``None`` to find it from the sky's colours.
+        The photo's own sun in degrees, or ``None`` to find it from the sky's colors.
     expected : (6, 12) float, optional
-        Of a sun that is to be found: how likely each of ``confidence.HEIGHTS`` and ``TURNS`` is
-        before the sky's colours are asked; alike by default.
+        Prior probability of each of ``confidence.HEIGHTS`` and ``TURNS`` for a sun to be found;
+        uniform by default.
     done : callable, optional
-        Called with the share of the work done, 0 to 1. What it raises cancels the fit.
+        Called with the share of the work done, 0 to 1. Exceptions that it raises cancel the fit.
     sure_of_sun : float
-        How likely ``sun`` is near the true one, [0, 1], when it was not given but found.
+        Probability that a detected ``sun`` is near the true one, [0, 1].
     spread : float
-        The ``sun_spread`` that it was found with.
+        The ``sun_spread`` of a detected ``sun``.
 
     Returns
     -------
     SkyFit
-        With defaults and no residual where the photo has too little sky.
+        Defaults without a residual if the photo has too little sky.
     """
     azimuth, elevation = view_angles(camera, working.width, working.height)
     light = working.linear
@@ -185,7 +185,7 @@ def fit_sky(
     if chosen.sum() < 60:
         return fit_without_sky(light, sky, sun, expected)
     index = np.flatnonzero(chosen)
-    # A regular stride, not a random draw: the same photo always gives the same fit.
+    # A regular stride instead of random samples: the same photo always gives the same fit.
     index = index[:: max(1, index.size // _SAMPLES)]
     where = (azimuth.ravel()[index], elevation.ravel()[index])
     display = light.reshape(-1, 3)[index].astype(np.float64)
@@ -203,9 +203,9 @@ def fit_sky(
         )
         dark = np.median(display @ LUMINANCE) < _NIGHT
         if dark or np.median(saturation(encode(display))) < _GREY:
-            spread = 180.0  # what the colours of a night or of an overcast sky fit is chance
+            spread = 180.0  # the colors of night and overcast skies fit by chance only
 
-    # First the air under a middling response, then the response under the likeliest airs.
+    # First fit the air with a medium response, then the response with the likeliest airs.
     candidates = airs_to_try()
     models = _side_by_side(
         lambda air: model_sky(air, *where, sun),
@@ -232,7 +232,7 @@ def fit_sky(
         for shoulder, contrast in itertools.product(_SHOULDERS, _CONTRASTS):
             response = Response(shoulder, contrast)
             error, gain = compare(display, model, response)
-            # Prefer the plain: a bent response must earn its place.
+            # Prefer a plain response: a bent one needs a clearly smaller error.
             error += 0.015 * abs(contrast - 1) + 0.004 * abs(shoulder - DEFAULT_SHOULDER)
             trials.append((error, atmosphere, response, gain))
     error, atmosphere, response, gain = min(trials, key=lambda trial: trial[0])
@@ -249,7 +249,7 @@ def fit_sky(
 
 
 def airs_to_try() -> list[Atmosphere]:
-    """Return the airs that a fit compares a sky with."""
+    """Return the candidate airs of a fit."""
     return [
         Atmosphere(
             aerosol_optical_depth=depth,
@@ -262,7 +262,7 @@ def airs_to_try() -> list[Atmosphere]:
 
 
 def _side_by_side(task: Callable[[T], np.ndarray], items: list[T], done: Done) -> list[np.ndarray]:
-    """Map over two threads, since a person waits; NumPy lets go of the interpreter."""
+    """Map over two threads, since the user waits; NumPy releases the interpreter lock."""
     results = []
     pool = ThreadPoolExecutor(2)
     try:
@@ -286,10 +286,10 @@ def view_angles(camera: Camera, width: int, height: int) -> tuple[np.ndarray, np
 def would_be_seen(
     camera: Camera, sky: np.ndarray, azimuth: np.ndarray, elevation: np.ndarray
 ) -> np.ndarray:
-    """Return whether a sun in each of these directions, (n,) degrees, would stand in plain view.
+    """Return whether a sun in each of these directions, (n,) degrees, would be in plain view.
 
-    A low one may hide behind a bank of cloud. ``sky`` is the matte (h, w), without its brightest
-    part: a disc that was overlooked is there.
+    A bank of cloud may hide a low one. ``sky`` is the matte (h, w) without its brightest part,
+    which may contain an overlooked disc.
     """
     height, width = sky.shape
     x, y = camera.pixel(azimuth, elevation)
@@ -300,12 +300,12 @@ def would_be_seen(
 
 
 def compare(display: np.ndarray, model: np.ndarray, response: Response) -> tuple[float, np.ndarray]:
-    """Best gain per channel, and the mean truncated error in the encoded domain."""
+    """Return the mean truncated error of encoded values, and the best gain per channel."""
     logs = np.log(response.scene_light(display)) - np.log(model)
     gain = np.exp(np.median(logs, 0))
     predicted = np.clip(response.display_light(model * gain), 0, 1)
     error = np.abs(predicted ** (1 / 2.2) - display ** (1 / 2.2))
-    # White balance explains a tint, not a sunset: a red sky wants a low sun, not red gain.
+    # White balance explains a tint, but not a sunset: a red sky needs a low sun, not a red gain.
     tint = max(0.0, abs(float(np.log(gain[0] / gain[2]))) - 0.4)
     return float(np.minimum(error, _LARGEST_ERROR).mean()) + 0.02 * tint, gain
 
@@ -317,7 +317,7 @@ def search_sun(
     seen: Seen,
     done: Done,
 ) -> tuple[tuple[float, float], float, float]:
-    """Direction of an unseen sun, how sure it is, and its spread."""
+    """Return the direction of an unseen sun, its confidence, and its spread."""
     step = max(1, display.shape[0] // 120)
     display, where = display[::step], (where[0][::step], where[1][::step])
     response = Response()
@@ -332,7 +332,7 @@ def search_sun(
     ]
 
     def march(task: tuple[Atmosphere, float]) -> np.ndarray:
-        # Suns of one height are marched together: they share the air's table.
+        # Suns of the same height are marched together, since they share the air's table.
         air, height = task
         return model_sky(air, where[0] - TURNS[:, None], where[1], (0.0, height))
 
@@ -353,7 +353,7 @@ def fit_without_sky(
     sun: tuple[float, float] | None,
     expected: np.ndarray | None = None,
 ) -> SkyFit:
-    """Defaults, exposed so that grey land under this sun has the land's mean light."""
+    """Return defaults, exposed so that gray land under this sun has the land's mean light."""
     if sun is None:
         expected = ANYWHERE if expected is None else expected
         alike = dict.fromkeys(itertools.product(TURNS.tolist(), HEIGHTS.tolist()), 0.0)
@@ -365,6 +365,6 @@ def fit_without_sky(
     seen = response.scene_light(light[land] if land.any() else light.reshape(-1, 3))
     level = float(np.median(seen @ LUMINANCE))
     gain = max(level, 1e-3) / max(float(overhead @ LUMINANCE) * 0.5, 1e-9)
-    # Nothing was compared: the defaults are sure of nothing.
+    # Nothing was compared, so the defaults have no confidence.
     atmosphere = atmosphere.replace(confidence=0.0)
     return SkyFit(atmosphere, response, (gain, gain, gain), (0.0, 3.0, 2.0), sun, 0.0, 180.0)

@@ -1,9 +1,9 @@
-"""White skies: what a fit cannot tell from a clear one, because it takes the white for balance.
+"""White skies, which a fit confuses with clear ones because it treats white as white balance.
 
 The fit scales the clear sky per channel, as a camera's white balance does. An overcast or veiled
-sky can be fitted so as well, and un-mixed from itself it holds no cloud. Two facts help: no white
-balance bleaches a blue sky entirely, and no clear sky is grey from end to end. Where the sun's
-disc is seen neither is asked: such a sky is clear or hazy.
+sky fits that way, too, and un-mixed from itself it has no cloud. Two facts help: no white balance
+bleaches a blue sky entirely, and no clear sky is gray everywhere. If the sun's disc is visible,
+neither is checked: such a sky is clear or hazy.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from sunwidget.analysis.images.working_copy import Working, saturation
 from sunwidget.formats.color import LUMINANCE
 
 _BLUE_BALANCE = -0.6  # log(red gain / blue gain) of the fits to clear blue skies of 40 photos
-_LOW_SUN = (3.0, 10.0)  # degrees; below, sky and sun are of any colour
-_NIGHT = 0.15  # encoded luminance below which a sky's colour is noise and lamps
+_LOW_SUN = (3.0, 10.0)  # degrees; below, sky and sun can have any color
+_NIGHT = 0.15  # encoded luminance below which a sky's color is noise and lamps
 _GREY = (0.03, 0.07)  # HSI saturation of an overcast sky, and of one with some blue or red
 
 
-def believable(fit: SkyFit, working: Working, sky: np.ndarray) -> SkyFit:
-    """Return the fit with no whiter a balance than clear blue skies have.
+def limit_balance(fit: SkyFit, working: Working, sky: np.ndarray) -> SkyFit:
+    """Return the fit with its white balance limited to that of clear blue skies.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def believable(fit: SkyFit, working: Working, sky: np.ndarray) -> SkyFit:
     Returns
     -------
     SkyFit
-        Its clear sky keeps the luminance. The same fit at sunset and at night.
+        Its clear sky keeps the luminance. At sunset and at night it is the same fit.
     """
     inside = sky > 0.9
     if not inside.any() or float(np.median((working.encoded @ LUMINANCE)[inside])) < _NIGHT:
@@ -50,13 +50,13 @@ def believable(fit: SkyFit, working: Working, sky: np.ndarray) -> SkyFit:
 
 
 def overcast(working: Working, sky: np.ndarray) -> np.ndarray:
-    """Opacity (h, w) float32 where a sky that is grey from end to end is grey; else 0.
+    """Return the opacity (h, w) float32 of the gray parts of an entirely gray sky; else 0.
 
-    Of the land it says how opaque it would be if it were sky. A photo without any colour says
-    nothing, nor does a burnt or a night sky.
+    The land gets the opacity that it would have as sky. A photo without any color, a clipped sky
+    and a night sky give 0.
     """
     encoded = working.encoded
-    # Three planes, as NumPy's maximum over a last axis of three takes twenty times as long.
+    # Separate planes are twenty times as fast as NumPy's maximum over a last axis of three.
     red, green, blue = np.moveaxis(encoded, -1, 0)
     brightest = np.maximum(np.maximum(red, green), blue)
     spread = brightest - np.minimum(np.minimum(red, green), blue)
@@ -69,5 +69,5 @@ def overcast(working: Working, sky: np.ndarray) -> np.ndarray:
     pure = saturation(encoded)
     share = float(np.mean(pure[seen] < sum(_GREY) / 2))
     everywhere = np.clip((share - 0.75) / 0.15, 0, 1)
-    grey = np.clip((_GREY[1] - pure) / (_GREY[1] - _GREY[0]), 0, 1)
-    return np.asarray(everywhere * grey, np.float32)
+    gray = np.clip((_GREY[1] - pure) / (_GREY[1] - _GREY[0]), 0, 1)
+    return np.asarray(everywhere * gray, np.float32)

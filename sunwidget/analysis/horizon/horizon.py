@@ -1,7 +1,7 @@
-"""Horizon: the line that the earth would draw behind everything that stands on it (thesis 3.1.2).
+"""Horizon: the earth's edge behind everything that stands on it (thesis 3.1.2).
 
 ``METHODS`` maps a name to a function ``(sky, encoded, water) -> Horizon`` in the pixels of the sky
-map; ``encoded`` is the photo at its size, ``water`` the probability that the network gives it.
+map; ``encoded`` is the photo at its size, ``water`` the network's probability of water.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from sunwidget.analysis.horizon.straight_edge import StraightEdge, straight_edge
 from sunwidget.formats.color import LUMINANCE, strips
 from sunwidget.geometry.camera import Camera, Point
 
-TOLERANCE = 0.004  # of the height: how far a sea horizon strays from a line
+TOLERANCE = 0.004  # of the height: deviation of a sea horizon from a line
 MAXIMUM_ROLL = 20.0
-_WET = 0.6  # probability from which the sky lies on water
-LEVEL_ROW = 0.52  # of the height: where the horizon lies when a level camera sees none
+_WET = 0.6  # probability of water below the sky from which the sky ends at water
+LEVEL_ROW = 0.52  # of the height: assumed horizon of a level camera
 
 
 @dataclass(frozen=True)
@@ -29,11 +29,11 @@ class Horizon:
     Parameters
     ----------
     row : float
-        Row at the picture's centre column in pixels; may lie outside the picture.
+        Row at the picture's center column in pixels; may lie outside the picture.
     roll : float
         Degrees by which the line falls to the right.
     confidence : float
-        0 (a guess: no horizon is seen) … 1 (a line across the whole picture, or given).
+        0 (a guess without a visible horizon) … 1 (a line across the whole picture, or a hint).
     source : str
         Name of the method, "hint", or "assumed".
     """
@@ -51,7 +51,7 @@ class Horizon:
 
 
 def from_hint(hint: float | tuple[Point, Point], width: int) -> Horizon:
-    """Take the horizon a person set: the row at the centre, or two points, in pixels."""
+    """Return the horizon of a hint: the row at the center, or two points, in pixels."""
     if isinstance(hint, tuple):
         (x0, y0), (x1, y1) = hint
         slope = (y1 - y0) / (x1 - x0)
@@ -61,9 +61,9 @@ def from_hint(hint: float | tuple[Point, Point], width: int) -> Horizon:
 
 
 def below_sun(found: Horizon, x: float, y: float, radius: float, width: int) -> Horizon:
-    """Lower a horizon that a sun at (x, y), which is seen, would lie under; all in pixels.
+    """Lower a horizon that is above a visible sun at (x, y); all in pixels.
 
-    A setting one may lie under it by its ``radius``.
+    A setting sun may be below it by its ``radius``.
     """
     beneath = y - radius - found.row - math.tan(math.radians(found.roll)) * (x - width / 2)
     if beneath <= 0:
@@ -72,10 +72,10 @@ def below_sun(found: Horizon, x: float, y: float, radius: float, width: int) -> 
 
 
 def expected(found: Horizon, sky: np.ndarray, row: float) -> Horizon:
-    """Guess it where the network of land does, but not above the lowest sky; all in pixels."""
+    """Use the land network's guess, but not above the lowest sky; all in pixels."""
     _, border = skyline(sky)
     if not border.size and sky.mean() > 0.5:
-        return found  # nothing but sky: it lies below the picture
+        return found  # only sky: the horizon is below the picture
     lowest = float(np.quantile(border, 0.98)) if border.size else row
     return replace(found, row=max(row, lowest))
 
@@ -83,9 +83,9 @@ def expected(found: Horizon, sky: np.ndarray, row: float) -> Horizon:
 def row_argmax(
     sky: np.ndarray, encoded: np.ndarray | None = None, water: np.ndarray | None = None
 ) -> Horizon:
-    """Take the row with most vertical edges of the sky mask (thesis equations 3.3 and 3.4).
+    """Return the row with most vertical edges of the sky mask (thesis equations 3.3 and 3.4).
 
-    One degree of roll spreads a horizon over many rows and hides it from this method.
+    It misses a horizon with roll: a single degree spreads it over many rows.
     """
     edges = np.abs(np.diff((sky > 0.5).astype(np.int8), axis=0)).sum(axis=1)
     if not edges.size or edges.max() == 0:
@@ -99,9 +99,9 @@ def robust_line(
 ) -> Horizon:
     """Fit a line with roll to the lower edge of the sky.
 
-    Whatever stands on the earth can only push the skyline up, so a skyline below the line
-    counts against it and one above it does not. A line that enough of the skyline agrees with
-    is taken; otherwise the horizon is assumed level, at the skyline's lowest part or lower.
+    Objects on the earth can only push the skyline up, so a skyline below the line counts against
+    it and one above does not. If enough of the skyline agrees with a line, it is the horizon;
+    otherwise the horizon is assumed level, at the skyline's lowest part or lower.
     """
     height, width = sky.shape
     columns, border = skyline(sky)
@@ -116,18 +116,18 @@ def robust_line(
 
 
 def water_line(sky: np.ndarray, encoded: np.ndarray, water: np.ndarray | None = None) -> Horizon:
-    """Return the far end of water: where sky lies on it, or by the picture's own edges."""
+    """Return the far end of water: where sky meets it, or by the picture's own edges."""
     line = _far_end(sky, encoded)
     return line if water is None else behind_water(line, sky, water)
 
 
 def _far_end(sky: np.ndarray, encoded: np.ndarray) -> Horizon:
-    """Fit the line as ``robust_line`` does, then look for the far end of water.
+    """Fit the line as ``robust_line`` does, then search for the far end of water.
 
-    A far shore lifts the skyline off the water: a straight edge a little under the skyline wins,
-    and so does a strong one when there is no line at all. Calm water that mirrors the sky is
-    taken for sky: where land has "sky" under it, the straight edge at the land's foot wins, and
-    so does one below which the sky goes on darker and upside down.
+    A far shore lifts the skyline off the water: a straight edge just below the skyline wins, and
+    so does a strong one if there is no line. Calm water that mirrors the sky is misclassified as
+    sky: where land has "sky" below it, the straight edge at the land's foot wins, and so does an
+    edge below which the sky continues darker and upside down.
     """
     line = robust_line(sky)
     height = sky.shape[0]
@@ -156,12 +156,12 @@ def _far_end(sky: np.ndarray, encoded: np.ndarray) -> Horizon:
 
 
 def behind_water(found: Horizon, sky: np.ndarray, water: np.ndarray) -> Horizon:
-    """Return the line along which sky lies on water, or else the horizon that was found.
+    """Return the line along which sky meets water, or ``found`` if there is none.
 
     Parameters
     ----------
     found : Horizon
-        In the pixels of the maps.
+        Horizon so far, in the pixels of the maps.
     sky, water : (h, w) float32
         Sky matte, and the probability of water.
     """
@@ -190,13 +190,13 @@ METHODS: dict[str, Callable[[np.ndarray, np.ndarray, np.ndarray], Horizon]] = {
 
 
 def _confidence(share: float, roll: float) -> float:
-    """How sure a line is that ``share`` of the columns agree with.
+    """Return the confidence of a line with which ``share`` of the columns agree.
 
-    Shaped by hand on 45 lines in photos and renders of known horizon (right: within 2 % of the
-    height): level ones are right in six of seven from a third of the columns on; those that
-    roll and do not fill the width are roofs, hills and clouds.
+    Tuned by hand on 45 lines in photos and renders of known horizon (right: within 2 % of the
+    height). From a third of the columns on, six of seven level lines are right; lines with roll
+    that do not fill the width are roofs, hills and clouds.
     """
-    share = min(1.0, share + 0.01 * abs(roll))  # which the score took off
+    share = min(1.0, share + 0.01 * abs(roll))  # undoes the score's penalty
     tilt = math.exp(-((roll / 3.5) ** 2) * 3 * (1 - share))
     return min(1.0, (0.35 + 0.65 * share) * tilt)
 
@@ -206,7 +206,7 @@ def _from_edge(edge: StraightEdge, sky: np.ndarray, confidence: float) -> Horizo
 
 
 def _mirrors(sky: np.ndarray, luminance: np.ndarray, edge: StraightEdge, line: Horizon) -> bool:
-    """Whether "sky" below a level edge is the darker mirror image of the sky above it."""
+    """Return whether "sky" below a level edge is the darker mirror image of the sky above it."""
     height = sky.shape[0]
     row, reach = round(edge.row * height), round(0.05 * height)
     depth = min(reach, int(line.row) - row - 2)
@@ -224,10 +224,10 @@ def _mirrors(sky: np.ndarray, luminance: np.ndarray, edge: StraightEdge, line: H
 
 
 def _mirrored_foot(sky: np.ndarray) -> float | None:
-    """Return where land with "sky" under it ends, in fractions of the height; None without.
+    """Return the lower end of land with "sky" below it, in fractions of the height, or None.
 
-    The sky under it must be as wide as the land, or it is seen through an arch or branches, and
-    the land's feet must lie level, as shores do.
+    The sky below must be as wide as the land, or it is seen through an arch or branches; and the
+    land's lower end must be level, as shores are.
     """
     height, width = sky.shape
     open_sky = sky > 0.5
@@ -247,10 +247,10 @@ def _mirrored_foot(sky: np.ndarray) -> float | None:
 
 
 def skyline(sky: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return columns (pixel centres) and the row below the lowest sky pixel of each.
+    """Return columns (pixel centers) and the row below the lowest sky pixel of each.
 
-    Patches of sky smaller than 0.5 % of the picture are left out, and so are columns without
-    sky and columns where it reaches the lower frame.
+    Patches of sky smaller than 0.5 % of the picture do not count. Columns without sky, and columns
+    whose sky reaches the lower frame, are omitted.
     """
     import cv2
 
@@ -267,7 +267,7 @@ def skyline(sky: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _unseen(sky: np.ndarray) -> Horizon:
-    """Guess without a skyline: below a picture full of sky, level otherwise."""
+    """Guess without a skyline: below the picture if it is full of sky, level otherwise."""
     height = sky.shape[0]
     full = sky.size > 0 and float(np.mean(sky > 0.5)) > 0.95
     return Horizon(height * (1.1 if full else LEVEL_ROW), 0.0, 0.0, "assumed")
@@ -285,7 +285,7 @@ def _best_line(x: np.ndarray, y: np.ndarray, height: int, width: int) -> tuple[f
     first, second, run = anchors[first[wide]], anchors[second[wide]], run[wide]
     slopes = (y[second] - y[first]) / run
     rows = y[first] - slopes * x[first]
-    # A level line through every anchor, too: two noisy anchors rarely agree on it.
+    # Also try a level line through each anchor, since two noisy anchors rarely give one.
     slopes = np.concatenate([slopes, np.zeros(anchors.size)])
     rows = np.concatenate([rows, y[anchors]])
     level = np.abs(slopes) <= math.tan(math.radians(MAXIMUM_ROLL))
@@ -320,8 +320,8 @@ def _score(
 def above(camera: Camera, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
     """Return 1 above the horizon and 0 below, (height, width) float32, with a soft edge.
 
-    The edge lies 0.8 % of the height under the line, so that a line a little too high cuts
-    nothing off the sky. ``rows`` asks for some of the rows alone.
+    The edge is 0.8 % of the height below the line, so that a slightly high line does not cut the
+    sky. ``rows`` selects only some rows.
     """
     line, at = _line_and_rows(camera, width, height)
     return np.clip((line + 0.012 - at[rows]) / 0.008, 0, 1).astype(np.float32)
@@ -331,7 +331,7 @@ def cut_below(matte: np.ndarray, camera: Camera) -> None:
     """Multiply a map (H, W) in place by ``above`` of its size."""
     height, width = matte.shape
     line, _ = _line_and_rows(camera, width, height)
-    # Only between these rows is it neither 1 nor 0 all along.
+    # Outside these rows the factor is 1 or 0 in all columns.
     first = int(np.clip((line.min() + 0.004) * height - 1, 0, height))
     last = int(np.clip((line.max() + 0.012) * height + 1, 0, height))
     for strip in strips((last - first, width)):
@@ -341,13 +341,13 @@ def cut_below(matte: np.ndarray, camera: Camera) -> None:
 
 
 def below(camera: Camera, width: int, height: int) -> np.ndarray:
-    """Whether each pixel of a picture of this size lies below the horizon: (height, width) bool."""
+    """Return which pixels of a picture of this size are below the horizon, (h, w) bool."""
     line, rows = _line_and_rows(camera, width, height)
     return np.asarray(rows > line)
 
 
 def _line_and_rows(camera: Camera, width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the horizon's height in each column (width,), and of each row (height, 1)."""
+    """Return the horizon in each column (width,) and the rows (height, 1), as shares of height."""
     (x0, y0), (x1, y1) = camera.pixel(-10.0, 0.0), camera.pixel(10.0, 0.0)
     slope = (y1 - y0) / (x1 - x0)
     columns = (np.arange(width) + 0.5) * camera.width / width

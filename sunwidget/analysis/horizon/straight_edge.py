@@ -1,4 +1,4 @@
-"""Straight edges across a picture: where far water ends, whatever the sky mask thinks of it."""
+"""Straight edges across a picture: the far end of water, independent of the sky mask."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ import numpy as np
 
 from sunwidget.analysis.images.working_copy import resize
 
-LARGEST_ROLL = 6.0  # degrees searched either way
+LARGEST_ROLL = 6.0  # degrees searched in either direction
 _STEP = 0.25  # degrees; at the picture's ends 0.2 % of its width
 _SIDE = 512  # px
-_CONTRAST = 0.04  # encoded; a change of colour this large counts half
+_CONTRAST = 0.04  # encoded; a change of color this large counts half
 
 
 class StraightEdge(NamedTuple):
     """A line in fractions of the picture's height.
 
-    ``row`` at the centre column, ``roll`` in degrees (falls to the right), and ``strength``,
-    0 to 1: how much of the width changes colour across it, and in the same way.
+    ``row`` is at the center column, ``roll`` in degrees (falls to the right), and ``strength``,
+    0 to 1, the share of the width whose color changes across it in the same way.
     """
 
     row: float
@@ -29,9 +29,9 @@ class StraightEdge(NamedTuple):
 def straight_edges(encoded: np.ndarray) -> list[StraightEdge]:
     """Find the straight edges of a picture, topmost first.
 
-    For every row and roll the change of colour from just above to just below is averaged over
-    the columns as a vector of bounded length: a long faint edge counts, a short bold one does not,
-    and texture cancels itself (a Hough transform of signed colour).
+    For each row and roll, the change of color from just above to just below is averaged over the
+    columns as a vector of bounded length: a long faint edge counts, a short strong one does not,
+    and texture cancels out (a Hough transform of signed color).
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def straight_edges(encoded: np.ndarray) -> list[StraightEdge]:
     roll = np.zeros(height)
     for degrees in np.arange(-LARGEST_ROLL, LARGEST_ROLL + _STEP / 2, _STEP):
         slope = float(np.tan(np.radians(degrees)))
-        # Sheared so that lines of this roll lie along rows; nothing lies beyond the frame.
+        # Sheared so that lines of this roll become rows; outside the frame the change is 0.
         sheared = cv2.warpAffine(
             change,
             np.array([[1, 0, 0], [slope, 1, slope * (0.5 - width / 2)]]),
@@ -64,7 +64,7 @@ def straight_edges(encoded: np.ndarray) -> list[StraightEdge]:
             flags=cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP,
         )
         length = np.linalg.norm(cv2.reduce(sheared, 1, cv2.REDUCE_AVG)[:, 0], axis=-1)
-        # Photos are held level more often than not.
+        # Prefers small rolls, since most photos are level.
         better = length - 0.01 * abs(degrees) > strength - 0.01 * np.abs(roll)
         strength = np.where(better, length, strength)
         roll = np.where(better, degrees, roll)
@@ -76,7 +76,7 @@ def straight_edges(encoded: np.ndarray) -> list[StraightEdge]:
 
 
 def _change(image: np.ndarray, reach: int) -> np.ndarray:
-    """Change of colour across the upper rim of each pixel, as vectors shorter than 1."""
+    """Return the change of color across the upper edge of each pixel, as vectors shorter than 1."""
     import cv2
 
     width = image.shape[1]

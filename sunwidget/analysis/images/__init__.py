@@ -1,1 +1,1 @@
-"""Small copies of a photo and what is done to any picture: enlarging, filling, noise, color."""
+"""The working copy of a photo, and general image operations: enlarging, filling, noise, color."""

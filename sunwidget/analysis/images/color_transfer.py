@@ -1,7 +1,7 @@
-"""Matching the camera's colours: Reinhard's transfer over sky pixels (thesis 3.2.3).
+"""Match the camera's colors: Reinhard's transfer over sky pixels (thesis 3.2.3).
 
-Source: Reinhard et al., "Color transfer between images", 2001, equations 4–10. Linear RGB goes to
-cone responses LMS, to their logarithm, to the decorrelated space lαβ.
+Source: Reinhard et al., "Color transfer between images", 2001, equations 4–10. Linear RGB is
+converted to cone responses LMS, to their logarithm, and to the decorrelated space lαβ.
 """
 
 from __future__ import annotations
@@ -29,24 +29,24 @@ class Statistics(NamedTuple):
 
 
 def to_lab(linear: np.ndarray) -> np.ndarray:
-    """Turn linear RGB (…, 3) into lαβ (…, 3)."""
+    """Convert linear RGB (…, 3) to lαβ (…, 3)."""
     lms = np.maximum(np.maximum(np.asarray(linear, np.float64), 0) @ RGB_TO_LMS.T, FLOOR)
     return np.log10(lms) @ LMS_TO_LAB.T
 
 
 def from_lab(lab: np.ndarray) -> np.ndarray:
-    """Turn lαβ (…, 3) into linear RGB (…, 3); the inverse of ``to_lab`` above its floor."""
+    """Convert lαβ (…, 3) to linear RGB (…, 3); the inverse of ``to_lab`` above its floor."""
     lms = np.power(10.0, np.asarray(lab) @ np.linalg.inv(LMS_TO_LAB).T)
     return lms @ np.linalg.inv(RGB_TO_LMS).T
 
 
 def statistics(linear: np.ndarray, weight: np.ndarray | None = None) -> Statistics:
-    """Mean and deviation of (…, 3) linear pixels in lαβ, weighted; zeros when nothing weighs."""
+    """Return weighted mean and deviation of linear pixels (…, 3) in lαβ; zeros without weight."""
     return statistics_of_lab(to_lab(linear), weight)
 
 
 def statistics_of_lab(lab: np.ndarray, weight: np.ndarray | None = None) -> Statistics:
-    """Return the same for pixels that are in lαβ already."""
+    """Return weighted mean and deviation of pixels that are in lαβ already."""
     lab = lab.reshape(-1, 3)
     share = np.ones(len(lab)) if weight is None else np.asarray(weight, np.float64).ravel()
     total = share.sum()
@@ -58,9 +58,9 @@ def statistics_of_lab(lab: np.ndarray, weight: np.ndarray | None = None) -> Stat
 
 
 def transfer(linear: np.ndarray, source: Statistics, target: Statistics) -> np.ndarray:
-    """Give linear pixels (…, 3) with the statistics ``source`` those of ``target``.
+    """Change linear pixels (…, 3) from the statistics ``source`` to those of ``target``.
 
-    A channel without spread in the source keeps its own (gain 1), instead of dividing by zero.
+    A channel without spread in the source has a gain of 1, instead of a division by zero.
     """
     spread = np.asarray(source.deviation)
     gain = np.where(spread > 1e-4, np.asarray(target.deviation) / np.maximum(spread, 1e-4), 1.0)

@@ -1,4 +1,4 @@
-"""Enlarging maps of the working copy by parts, so that a large photo needs no map of its size."""
+"""Enlarge maps of the working copy in parts, so that a large photo needs no map of its size."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ def resize_rows(
     rows: slice = slice(None),
     columns: slice = slice(None),
 ) -> np.ndarray:
-    """Return a part of ``image`` resized to (height, width) without making the whole of it.
+    """Return a part of ``image`` resized to (height, width) without computing the rest.
 
-    A pixel has the same bits whichever others are asked for with it, and those of ``resize`` but
-    for the last bit of float32. A smaller picture is made whole.
+    A pixel has the same bits in any part, and the bits of ``resize`` except the last one of
+    float32. A smaller picture is computed as a whole.
     """
     import cv2
 
@@ -44,7 +44,7 @@ def resize_rows(
     step = np.zeros_like(wide)
     np.subtract(wide[1:], wide[:-1], out=step[:-1])
     out = np.empty((last - first, *wide.shape[1:]), np.float32)
-    # Row by row all of it stays in the cache.
+    # Row by row, the data stays in the cache.
     for row, source, part in zip(out, low - begin, share, strict=True):
         np.multiply(step[source], part, out=row)
         row += wide[source]
@@ -59,18 +59,18 @@ def enlarged_part(
     Parameters
     ----------
     small : (h, w) or (h, w, n) float32
-        In working pixels.
+        Map in working pixels.
     zoom : (x, y)
         Pixels of the photo per working pixel.
     part : (rows, columns)
-        In pixels of the photo.
+        Part in pixels of the photo.
     corner : (row, column)
-        Where ``small`` begins, in working pixels.
+        Top left corner of ``small`` in working pixels.
 
     Returns
     -------
     (H, W) or (H, W, n) float32
-        Of the size of ``part``; beyond ``small`` its edge goes on.
+        Values in ``part``; outside ``small`` its edge is repeated.
     """
     import cv2
 
@@ -94,18 +94,18 @@ def enlarged_part(
 
 
 def pixels_of(first: int, last: int, zoom: float) -> slice:
-    """Pixels of the photo whose centres lie in working pixels ``first`` to ``last``."""
+    """Return the photo's pixels whose centers lie in working pixels ``first`` to ``last``."""
     return slice(math.ceil(first * zoom - 0.5), math.ceil(last * zoom - 0.5))
 
 
 def raise_to(matte: np.ndarray, least: np.ndarray, zoom: tuple[float, float]) -> None:
-    """Raise a map (H, W) in place to a smaller one (h, w) where that is not 0."""
+    """Raise a map (H, W) in place to at least a smaller one (h, w) where that is not 0."""
     for part in _touched(least, zoom):
         np.maximum(matte[part], enlarged_part(least, zoom, part), out=matte[part])
 
 
 def take_from(matte: np.ndarray, share: np.ndarray, zoom: tuple[float, float]) -> None:
-    """Take a share, a smaller map (h, w), from a map (H, W) in place."""
+    """Remove a share, a smaller map (h, w), from a map (H, W) in place."""
     for part in _touched(share, zoom):
         matte[part] *= 1 - enlarged_part(share, zoom, part)
 
@@ -115,7 +115,7 @@ def _touched(small: np.ndarray, zoom: tuple[float, float]) -> Iterator[Box]:
     rows, columns = np.flatnonzero(small.any(axis=1)), np.flatnonzero(small.any(axis=0))
     if not rows.size:
         return
-    # Interpolation spreads it by a pixel.
+    # Interpolation spreads the values by a pixel.
     top, bottom = max(rows[0] - 1, 0), min(rows[-1] + 2, small.shape[0])
     left, right = max(columns[0] - 1, 0), min(columns[-1] + 2, small.shape[1])
     yield pixels_of(top, bottom, zoom[1]), pixels_of(left, right, zoom[0])

@@ -1,4 +1,4 @@
-"""Continuing a picture over what is not known: smoothly (push-pull pyramid), and with texture.
+"""Continue a picture over unknown pixels: smoothly (push-pull pyramid), and with texture.
 
 Gortler et al. 1996, "The Lumigraph", section 3.4.2.
 """
@@ -9,11 +9,11 @@ import numpy as np
 
 from sunwidget.analysis.images.working_copy import resize, smoothstep
 
-_LAYERED = 0.25  # correlation of left and right from which all of a texture goes on; at 0 none
-_SEARCHED = 160  # pixels of the copy on which a place like a gap's is looked for
-_SURROUNDINGS = 0.04  # of its longer side: so wide is what is compared round a gap
-_ALL_KNOWN = 0.9  # share of such a place that is known
-_RAGGED = 3.0  # rows over which the edge that a texture is mirrored at is smoothed
+_LAYERED = 0.25  # correlation of left and right at which the whole texture continues; at 0 none
+_SEARCHED = 160  # pixels of the copy on which a match for a gap's surroundings is searched
+_SURROUNDINGS = 0.04  # of its longer side: width of the compared ring around a gap
+_ALL_KNOWN = 0.9  # least known share of such a place
+_RAGGED = 3.0  # rows over which the mirror edge of a texture is smoothed
 
 
 def fill_by_pyramid(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -48,11 +48,11 @@ def fill_by_pyramid(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
     return (share * values + (1 - share) * below).astype(np.float32)
 
 
-def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Continue a texture along its rows: each gap shows what lies left and right of it, mirrored.
+def mirror_texture(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Continue a texture along its rows: fill each gap with its mirrored left and right sides.
 
-    Most skies are layered, and a mirrored layer goes on without a step. Where left and right are
-    not alike there are no layers: the gap stays smooth, since scraps of clouds would look torn.
+    Most skies are layered, and a mirrored layer continues without a step. If left and right differ,
+    there are no layers: the gap stays smooth, since fragments of clouds would look torn.
 
     Parameters
     ----------
@@ -61,12 +61,12 @@ def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.nd
     beside : (h, w) float32
         0 in the gaps, 1 beside them.
     known : (h, w) float32
-        How far the texture is known, [0, 1].
+        Confidence of the texture, [0, 1].
 
     Returns
     -------
     (h, w, c) float32
-        ``values`` beside the gaps; near 0 where no layers are seen on both sides of the gap.
+        ``values`` beside the gaps; near 0 in a gap without layers on both sides.
     """
     import cv2
 
@@ -81,21 +81,21 @@ def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.nd
     row = np.broadcast_to(np.arange(rows, dtype=np.float32)[:, None], (rows, columns))
     sides = []
     for edge, share in ((left_edge, share_of_left), (right_edge, 1 - share_of_left)):
-        # A ragged edge would shear what is mirrored at it.
+        # A ragged edge would shear the mirrored texture.
         edge = cv2.GaussianBlur(edge.astype(np.float32), (0, 0), sigmaX=1e-3, sigmaY=_RAGGED)
         seen = cv2.remap(texture, 2 * edge - at, row, cv2.INTER_LINEAR, borderValue=0)
         sides.append(seen * (share * ~outside)[..., None])
     (left, of_left), (right, of_right) = ((seen[..., :-1], seen[..., -1:]) for seen in sides)
     alike = _likeness(left * of_right, right * of_left)
-    # Two textures that know nothing of each other add as their squares do, like ones as they are.
+    # Independent textures add in squares, equal ones linearly.
     squares = of_left**2 + of_right**2 + 2 * alike * of_left * of_right
     whole = np.minimum(of_left + of_right, 1) / np.maximum(np.sqrt(squares), 1e-3)
     layered = smoothstep(0.0, _LAYERED, alike)
     texture = np.asarray(layered * whole * (left + right), np.float32)
     if layered < 1:
-        texture += (1 - layered) * transplanted(values, outside, known)
-    # Above and below, rows that are mirrored meet rows that are not: the step between them fades
-    # into the gap (Perez et al. 2003, "Poisson image editing").
+        texture += (1 - layered) * transplant_texture(values, outside, known)
+    # Above and below the gap, mirrored rows meet the original: the step between them fades into
+    # the gap (Perez et al. 2003, "Poisson image editing").
     gap = (~outside).astype(np.float32)
     rim = cv2.dilate(gap, np.ones((3, 3), np.uint8)) * known * outside
     step = values - fill_by_pyramid(texture, gap)
@@ -103,12 +103,12 @@ def mirrored(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.nd
     return np.where(outside[..., None], values, texture)
 
 
-def transplanted(values: np.ndarray, outside: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Fill a gap with the texture of the place whose surroundings are most like the gap's.
+def transplant_texture(values: np.ndarray, outside: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Fill a gap with the texture of the place whose surroundings match the gap's best.
 
-    One place for the whole gap, moved and perhaps mirrored, so that it stays one sky (as
-    Criminisi et al. 2004, "Region filling", choose each patch). It counts as far as the two
-    surroundings correlate, and as its texture is as strong as that of the gap's surroundings.
+    A single place, moved and perhaps mirrored, fills the whole gap, so that it remains one sky (as
+    Criminisi et al. 2004, "Region filling", choose each patch). Its weight is the correlation of
+    the two surroundings, and the similarity in strength of the texture to the gap's surroundings.
 
     Parameters
     ----------
@@ -117,12 +117,12 @@ def transplanted(values: np.ndarray, outside: np.ndarray, known: np.ndarray) -> 
     outside : (h, w) bool
         False in the gap.
     known : (h, w) float32
-        How far the texture is known, [0, 1].
+        Confidence of the texture, [0, 1].
 
     Returns
     -------
     (h, w, c) float32
-        0 outside, and everywhere where no place is known that is large enough.
+        0 outside the gap, and everywhere if no known place is large enough.
     """
     import cv2
 
@@ -141,11 +141,11 @@ def transplanted(values: np.ndarray, outside: np.ndarray, known: np.ndarray) -> 
     return np.asarray(likeness * seen.reshape(values.shape) * ~outside[..., None], np.float32)
 
 
-def _likest(grey: np.ndarray, known: np.ndarray, gap: np.ndarray) -> tuple[float, int, int, bool]:
-    """Return how like a gap's the surroundings of the likest place are, [0, 1], and where it is.
+def _likest(gray: np.ndarray, known: np.ndarray, gap: np.ndarray) -> tuple[float, int, int, bool]:
+    """Return the similarity, [0, 1], of the place that best matches a gap, and its position.
 
-    So many rows down and columns to the right of the gap, in the picture or its mirror image. A
-    texture (h, w) of mean 0, where it is known, and the gap in it (h, w) bool.
+    The position is in rows down and columns right of the gap, and whether in the mirror image.
+    Takes a texture (h, w) of mean 0, where it is known, and the gap (h, w) bool.
     """
     import cv2
 
@@ -157,15 +157,15 @@ def _likest(grey: np.ndarray, known: np.ndarray, gap: np.ndarray) -> tuple[float
     best = (0.0, 0, 0, False)
     if not ring.any():
         return best
-    strength = np.sqrt(np.square(grey[ring]).mean()) + 1e-6
+    strength = np.sqrt(np.square(gray[ring]).mean()) + 1e-6
     around, inside = (mask[box].astype(np.float32) for mask in (ring, gap))
     whole = np.maximum(around, inside)
     for flipped in (False, True):
         image, clear = (
-            np.ascontiguousarray(a[:, ::-1] if flipped else a, np.float32) for a in (grey, known)
+            np.ascontiguousarray(a[:, ::-1] if flipped else a, np.float32) for a in (gray, known)
         )
-        like = cv2.matchTemplate(image, grey[box], cv2.TM_CCORR_NORMED, mask=around)
-        # A cloud that the surroundings do not have would be a scrap in a clear sky.
+        like = cv2.matchTemplate(image, gray[box], cv2.TM_CCORR_NORMED, mask=around)
+        # A cloud without counterpart in the surroundings would be a fragment in a clear sky.
         squares = cv2.matchTemplate(np.square(image), inside, cv2.TM_CCORR) / inside.sum()
         stronger = (np.sqrt(np.maximum(squares, 0)) + 1e-6) / strength
         like = like * np.minimum(stronger, 1 / stronger)
@@ -178,6 +178,6 @@ def _likest(grey: np.ndarray, known: np.ndarray, gap: np.ndarray) -> tuple[float
 
 
 def _likeness(one: np.ndarray, other: np.ndarray) -> float:
-    """Return the correlation of two textures of mean 0, not below 0."""
+    """Return the correlation of two textures of mean 0, at least 0."""
     strength = float(np.sqrt((one**2).sum() * (other**2).sum()))
     return max(float((one * other).sum()), 0.0) / max(strength, 1e-9)

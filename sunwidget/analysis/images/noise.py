@@ -1,8 +1,9 @@
-"""The photo's own noise, so that what is filled does not look smoother than what is not.
+"""Measure the photo's noise, so that filled areas do not look smoother than the rest.
 
 Source: Immerkær, "Fast Noise Variance Estimation", Computer Vision and Image Understanding 64
-(1996): the difference of two Laplacians leaves no even, tilted or bent surface, only noise. Here
-its median, as clouds' edges and twigs are few, over the sky, as leaves are no noise.
+(1996): the difference of two Laplacians removes even, tilted and bent surfaces and leaves noise.
+Its median ignores the few edges of clouds and twigs; only the sky counts, since leaves look like
+noise.
 """
 
 from __future__ import annotations
@@ -15,13 +16,13 @@ from sunwidget.photo.photo import Photo
 
 _KERNEL = np.array([[1, -2, 1], [-2, 4, -2], [1, -2, 1]], np.float32)
 _LARGEST = 0.05
-_TILE = 1024  # pixels on a side of the largest part that is looked at
+_TILE = 1024  # side of the largest measured part in pixels
 
 
 def noise_level(photo: Photo, sky: np.ndarray) -> float:
     """Return the deviation of the luminance's noise in the sky, encoded, [0, 0.05].
 
-    At the photo's own size; 0 without sky. In the middle of the sky of a large photo.
+    It is measured at the photo's own size, in the middle of a large sky; 0 without sky.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The small copy of the photo on which every stage but the final matte works."""
+"""The small copy of the photo on which every stage except the final matte works."""
 
 from __future__ import annotations
 
@@ -29,18 +29,18 @@ def smoothstep(low: float, high: float, x: np.ndarray | float) -> np.ndarray:
 
 
 def log_odds(probability: np.ndarray) -> np.ndarray:
-    """Return ln(p / (1 - p)), no farther from 0 than of one in a thousand."""
+    """Return ln(p / (1 - p)), limited to that of one in a thousand."""
     return np.asarray(np.log((probability + 1e-3) / (1.001 - probability)))
 
 
 def channel_sum(image: np.ndarray) -> np.ndarray:
-    """Sum the channels of (…, 3); NumPy's sum over a last axis of three takes ten times as long."""
+    """Sum the channels of (…, 3), ten times as fast as NumPy's sum over a last axis of three."""
     return np.asarray(image[..., 0] + image[..., 1] + image[..., 2])
 
 
 def saturation(encoded: np.ndarray) -> np.ndarray:
-    """Saturation of HSI of encoded colours (…, 3): 0 grey, 1 pure, and 1 in black."""
-    # Three planes, as NumPy's minimum over a last axis of three takes twenty times as long.
+    """Return the HSI saturation of encoded colors (…, 3): 0 gray, 1 pure, and 1 for black."""
+    # Separate planes are twenty times as fast as NumPy's minimum over a last axis of three.
     least = np.minimum(np.minimum(encoded[..., 0], encoded[..., 1]), encoded[..., 2])
     return np.asarray(1 - 3 * least / np.maximum(channel_sum(encoded), 1 / 255))
 
@@ -48,9 +48,9 @@ def saturation(encoded: np.ndarray) -> np.ndarray:
 def code_values(
     photo: Photo, rows: slice = slice(None), columns: slice = slice(None)
 ) -> np.ndarray:
-    """Return a part of the photo as encoded float32 in [0, 1], whatever its depth and profile.
+    """Return a part of the photo as encoded float32 in [0, 1], for any bit depth and profile.
 
-    Close enough to sRGB for finding edges, without decoding a large photo first.
+    It is close enough to sRGB for edge detection, and does not decode a large photo first.
     """
     part = photo.encoded[rows, columns]
     if part.dtype.kind == "f":
@@ -59,14 +59,14 @@ def code_values(
 
 
 def shrink(image: np.ndarray, long_side: int) -> np.ndarray:
-    """Resize by area averaging so that the longer side is at most ``long_side``; never enlarge."""
+    """Shrink by area averaging until the longer side is at most ``long_side``; never enlarge."""
     height, width = image.shape[:2]
     scale = long_side / max(height, width)
     return image if scale >= 1 else resize(image, width * scale, height * scale)
 
 
 def resize(image: np.ndarray, width: float, height: float) -> np.ndarray:
-    """Resize to a size (rounded, at least 1 × 1): by area when smaller, bilinear when larger."""
+    """Resize to a size (rounded, at least 1 × 1): by area if smaller, bilinear if larger."""
     import cv2
 
     size = (max(1, round(width)), max(1, round(height)))
@@ -91,7 +91,7 @@ class Working:
     encoded : (h, w, 3) float32
         The same, sRGB-encoded, [0, 1].
     guide : (h, w, 3) float32
-        The file's own code values, [0, 1]: what ``code_values`` gives at full size.
+        The file's own code values, [0, 1], as ``code_values`` returns them at full size.
     zoom : (x, y)
         Pixels of the photo per working pixel.
     """
@@ -143,7 +143,7 @@ class Working:
 
     @cached_property
     def lab(self) -> np.ndarray:
-        """lαβ (h, w, 3) float64 of color_transfer.py: every correction asks for its statistics."""
+        """lαβ (h, w, 3) float64 of color_transfer.py; cached, since every correction uses it."""
         return to_lab(self.linear)
 
     @property

@@ -1,1 +1,1 @@
-"""Which pixels are sky: coarse, refined to a decision, then a matte."""
+"""Segment the sky: a coarse map, refined to a decision, then a matte."""

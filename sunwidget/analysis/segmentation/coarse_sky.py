@@ -1,7 +1,7 @@
-"""Coarse sky: which pixels are sky, roughly (thesis 3.1.1.1).
+"""Coarse sky: a rough map of sky pixels (thesis 3.1.1.1).
 
-``METHODS`` maps a name to a function ``(Working) -> (h, w) float32`` of the sky's probability.
-Besides a name, ``analyze(sky=…)`` takes a mask, or any segmentation network (``sky_network``).
+``METHODS`` maps a name to a function ``(Working) -> (h, w) float32`` that gives the probability of
+sky. ``analyze(sky=…)`` also takes a mask, or any segmentation network (``sky_network``).
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from sunwidget.errors import AnalysisError, PhotoError
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.photo.photo import open_photo
 
-_LANDS_SHARE = 0.25  # of the mean of log odds that is the land network's, by day
-_DAY = 0.45, 0.65  # brightness of a sky, encoded, between which it becomes one of a day
+_LANDS_SHARE = 0.25  # weight of the land network in the mean of log odds, by day
+_DAY = 0.45, 0.65  # encoded brightness of a sky, from night to day
 
 
 def network(working: Working) -> np.ndarray:
-    """Ask two bundled networks, at 384 × 384 (models/MODEL_CARD.md), by the mean of their log odds.
+    """Average the log odds of two bundled networks, at 384 × 384 (models/MODEL_CARD.md).
 
-    By day the land network has a say, too: it knows roofs, snow and walls. By night it does not.
+    The land network, which knows roofs, snow and walls, counts by day only.
     """
     seen = bundled()(working)
     height, width = seen.shape
@@ -43,9 +43,9 @@ def network(working: Working) -> np.ndarray:
 def skyline(working: Working) -> np.ndarray:
     """Find the sky without a network: everything above the first strong edge of each column.
 
-    The edge threshold is the one that makes sky and land most uniform in colour (Shen & Wang,
-    "Sky region detection in a single image for autonomous ground robot navigation", 2013,
-    equations 1–9). Good for an open horizon; branches, clouds and buildings mislead it.
+    The edge threshold maximizes the uniformity of color in sky and land (Shen & Wang, "Sky region
+    detection in a single image for autonomous ground robot navigation", 2013, equations 1–9). It
+    works for an open horizon; branches, clouds and buildings mislead it.
     """
     import cv2
 
@@ -53,8 +53,8 @@ def skyline(working: Working) -> np.ndarray:
     height = max(1, round(working.height * width / working.width))
     image = resize(working.encoded, width, height).astype(np.float32) * 255
     height, width = image.shape[:2]
-    grey = cv2.GaussianBlur(image.mean(axis=2), (0, 0), 1.0)
-    gradient = np.hypot(cv2.Sobel(grey, cv2.CV_32F, 1, 0), cv2.Sobel(grey, cv2.CV_32F, 0, 1))
+    gray = cv2.GaussianBlur(image.mean(axis=2), (0, 0), 1.0)
+    gradient = np.hypot(cv2.Sobel(gray, cv2.CV_32F, 1, 0), cv2.Sobel(gray, cv2.CV_32F, 0, 1))
     rows = np.arange(height)[:, None]
     best, sky = -np.inf, np.zeros((height, width), bool)
     for threshold in np.linspace(5, 600, 60):
@@ -67,7 +67,7 @@ def skyline(working: Working) -> np.ndarray:
         cost = 2 * (np.prod(spread[0]) + spread[0][-1]) + np.prod(spread[1]) + spread[1][-1]
         if 1 / max(cost, 1e-9) > best:
             best, sky = 1 / max(cost, 1e-9), mask
-    # The kernel's weights sum to 1 but for rounding.
+    # The kernel's weights sum to 1 only up to rounding.
     return np.minimum(cv2.GaussianBlur(sky.astype(np.float32), (0, 0), 1.0), 1)
 
 
@@ -80,7 +80,7 @@ def coarse(
     size: tuple[int, int] | None = None,
     label: int | str | None = None,
 ) -> np.ndarray:
-    """Return the sky's probability (h, w) float32 at whatever size the method works at.
+    """Return the sky's probability (h, w) float32 at the size at which the method works.
 
     Parameters
     ----------
@@ -88,18 +88,18 @@ def coarse(
         The small photo.
     sky : None, str, Path, SkyNetwork or array_like
         Name in ``METHODS`` (default "network"), an ONNX network or its path, the path of a
-        picture (white = sky), or a mask (any numeric or boolean type; anything above 1 is taken
-        for 8 bits). A mask need not have the photo's size.
+        picture (white = sky), or a mask (any numeric or boolean type; values above 1 mean 8
+        bits). A mask need not have the photo's size.
     size : (width, height), optional
-        The photo's size, for the error when a mask has another shape.
+        The photo's size, to reject masks of other proportions.
     label : int or str, optional
         The class "sky" of an ONNX network (``SkyNetwork.label``).
 
     Raises
     ------
     AnalysisError
-        For an unknown name, a file that is no network, a label without a network, or an array
-        that is no mask.
+        For an unknown name, a file that is not a network, a label without a network, or an array
+        that is not a mask.
     """
     if isinstance(sky, (str, Path)) and str(sky).lower().endswith(".onnx"):
         sky = SkyNetwork(sky)
@@ -124,7 +124,7 @@ def coarse(
 
 
 def _read_mask(path: Path) -> np.ndarray:
-    """Read a picture's code values (h, w, 3); never by a reader that can start a program."""
+    """Read a picture's code values (h, w, 3), only with readers that cannot start programs."""
     try:
         return open_photo(path).encoded
     except PhotoError as error:
@@ -132,13 +132,13 @@ def _read_mask(path: Path) -> np.ndarray:
 
 
 def mask_from(mask: Any, size: tuple[int, int] | None = None, of: str = "sky") -> np.ndarray:
-    """Turn what a caller passes as a mask ``of`` something into (h, w) float32 in [0, 1].
+    """Convert a caller's mask ``of`` something to (h, w) float32 in [0, 1].
 
     Raises
     ------
     AnalysisError
-        When it is not a two-dimensional numeric array, holds NaN, or has another shape than
-        the photo by more than rounding.
+        If it is not a two-dimensional numeric array, contains NaN, or has other proportions
+        than the photo by more than rounding.
     """
     try:
         array = np.asarray(mask)
@@ -151,9 +151,11 @@ def mask_from(mask: Any, size: tuple[int, int] | None = None, of: str = "sky") -
             f"{of}= takes a mask array, a path or a method, not {mask!r:.80}."
         ) from error
     if array.ndim != 2 or array.size == 0:
-        raise AnalysisError(f"A {of} mask has shape (height, width), not {array.shape}.")
+        raise AnalysisError(f"A {of} mask must have shape (height, width), not {array.shape}.")
     if not np.isfinite(array).all():
-        raise AnalysisError(f"The {of} mask holds NaN or infinite values; it must lie in 0 to 1.")
+        raise AnalysisError(
+            f"The {of} mask has NaN or infinite values. All values must be from 0 to 1."
+        )
     if not boolean and array.max() > 1:
         array = array / (255 if array.max() <= 255 else 65535)
     if size is not None:
@@ -162,10 +164,10 @@ def mask_from(mask: Any, size: tuple[int, int] | None = None, of: str = "sky") -
 
 
 def plain_numbers(array: np.ndarray) -> np.ndarray:
-    """Return whole or real numbers as float32; TypeError for anything else."""
+    """Return integers or floats as float32; TypeError for anything else."""
     if array.dtype.kind not in "bfiu":
-        raise TypeError(f"{array.dtype} does not hold plain numbers")
-    with np.errstate(over="ignore"):  # what is too large becomes infinite, and is refused as such
+        raise TypeError(f"{array.dtype} has no plain numbers")
+    with np.errstate(over="ignore"):  # too large values become infinite, which is refused later
         return array.astype(np.float32)
 
 
@@ -175,6 +177,6 @@ def check_proportions(name: str, shape: tuple[int, ...], size: tuple[int, int]) 
     slack = 1 + 1.5 / min(shape) + 1.5 / min(size)
     if not 1 / slack <= ratio <= slack:
         raise AnalysisError(
-            f"The {name} is {shape[1]} × {shape[0]}, the photo {size[0]} × {size[1]}: "
+            f"The {name} is {shape[1]} × {shape[0]}, the photo {size[0]} × {size[1]}; their "
             "shapes must agree. Was one of them rotated?"
         )

@@ -1,10 +1,10 @@
 """Fully connected conditional random field with two classes, sky and land.
 
-Every pixel speaks to every other one, the more the nearer and the more alike in colour they are
+It connects all pairs of pixels, more strongly the nearer and the more alike in color they are
 (Krähenbühl & Koltun, "Efficient inference in fully connected CRFs with Gaussian edge
-potentials", 2011). What they compute on a permutohedral lattice is here a plain grid in
-(x, y, r, g, b), as in Chen, Paris & Durand, "Real-time edge-aware image processing with the
-bilateral grid", 2007: at 384 px and these widths it has fewer than a million cells.
+potentials", 2011). Instead of their permutohedral lattice it uses a plain grid in (x, y, r, g, b),
+as in Chen, Paris & Durand, "Real-time edge-aware image processing with the bilateral grid", 2007:
+at 384 px and these widths it has fewer than a million cells.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-ITERATIONS = 5  # more of them turn one pixel in 100 000
+ITERATIONS = 5  # more iterations change one pixel in 100 000
 # Linear splatting and slicing spread by 1/3 cell², the blur by 1/2: together σ² = 5/6 cell².
 CELL = np.sqrt(6 / 5)
 
@@ -23,7 +23,7 @@ def mean_field(
     image: np.ndarray,
     probability: np.ndarray,
     reach: float = 0.15,
-    colour: float = 13.0,
+    color: float = 13.0,
     appearance: float = 10.0,
     smoothness: float = 3.0,
     sigma: float = 1.0,
@@ -35,27 +35,27 @@ def mean_field(
     image : (h, w, 3) uint8
         Encoded picture.
     probability : (h, w) float32
-        Of the network: the unary potential is its logarithm.
+        The network's probability; the unary potential is its logarithm.
     reach : float
-        Standard deviation of the appearance kernel in the picture's longer side.
-    colour : float
-        Its standard deviation in code values.
+        Standard deviation of the appearance kernel in units of the picture's longer side.
+    color : float
+        Standard deviation of the appearance kernel in code values.
     appearance, smoothness : float
-        Weights of the appearance kernel (position and colour) and of the smoothness kernel
-        (position alone), each normalised to 1; 10 and 3 in the source's program.
+        Weights of the appearance kernel (position and color) and of the smoothness kernel
+        (position only), each normalized to 1; 10 and 3 in the authors' program.
     sigma : float
         Standard deviation of the smoothness kernel in pixels.
 
     Returns
     -------
     (h, w) float32
-        In [0, 1].
+        Probability in [0, 1].
     """
     import cv2
 
     certain = np.clip(probability.astype(np.float32), 0.01, 0.99)
     unary = np.log(certain / (1 - certain))
-    bilateral = _bilateral(image, reach * max(image.shape[:2]), colour)
+    bilateral = _bilateral(image, reach * max(image.shape[:2]), color)
     logit = unary
     for _ in range(ITERATIONS):
         vote = np.tanh(logit / 2)  # P(sky) - P(land)
@@ -64,18 +64,18 @@ def mean_field(
     return np.asarray(1 / (1 + np.exp(-logit)), np.float32)
 
 
-def _bilateral(image: np.ndarray, reach: float, colour: float) -> Callable[[Any], np.ndarray]:
-    """Return the filter of (h, w) maps with the kernel in position and colour.
+def _bilateral(image: np.ndarray, reach: float, color: float) -> Callable[[Any], np.ndarray]:
+    """Return the filter of (h, w) maps with the kernel in position and color.
 
-    Normalised symmetrically, by 1/√n before and after with n the filtered ones, as in the
-    source's program: else pixels in large even areas hear nothing but their own kind.
+    It is normalized symmetrically, by 1/√n before and after with n the filtered ones, as in the
+    authors' program: otherwise pixels in large even areas would connect only to each other.
     """
     from scipy import sparse
 
     height, width = image.shape[:2]
     rows, columns = np.mgrid[:height, :width].astype(np.float32) / (reach * CELL)
-    colours = image.reshape(-1, 3).astype(np.float32) / (colour * CELL)
-    place = np.column_stack([rows.ravel(), columns.ravel(), colours]) + 1  # a cell of margin
+    colors = image.reshape(-1, 3).astype(np.float32) / (color * CELL)
+    place = np.column_stack([rows.ravel(), columns.ravel(), colors]) + 1  # a cell of margin
     shape = [int(n) + 3 for n in place.max(axis=0)]
     low = place.astype(np.int32)
     share = place - low
@@ -104,7 +104,7 @@ def _bilateral(image: np.ndarray, reach: float, colour: float) -> Callable[[Any]
 
 
 def _blur(lattice: np.ndarray, axis: int) -> np.ndarray:
-    """Filter with (1, 2, 1) / 4 along an axis whose ends are empty."""
+    """Filter with (1, 2, 1) / 4 along an axis; both ends are empty."""
     moved = np.moveaxis(lattice, axis, 0)
     out = moved * 0.5
     out[1:] += moved[:-1] * 0.25

@@ -1,4 +1,4 @@
-"""The coarse sky's border drawn to the strongest edges near it."""
+"""Move the coarse sky's border to the strongest edges near it."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ import numpy as np
 def snap(image: np.ndarray, probability: np.ndarray, band: int = 2) -> np.ndarray:
     """Let sky and land grow towards each other until they meet on the strongest edge.
 
-    The watershed of the colour gradient with the sure sky and the sure land as its two sources
+    This is the watershed of the color gradient with two sources, the sure sky and the sure land
     (Beucher & Meyer, "The morphological approach to segmentation: the watershed
     transformation", 1993; flooding after Meyer 1992). Unlike a path with one row per column
     (Lie et al., "A robust dynamic programming algorithm to extract skyline in images for
-    navigation", 2005) it draws holes and overhangs, too.
+    navigation", 2005), it allows holes and overhangs.
 
     Parameters
     ----------
     image : (h, w, 3) uint8
         Encoded picture.
     probability : (h, w) float32
-        Of the network; its border is where it crosses 0.5.
+        The network's probability; the border is where it crosses 0.5.
     band : int
-        Pixels on either side of that border within which edges are sought.
+        Pixels on either side of the border in which edges are searched.
 
     Returns
     -------
@@ -36,7 +36,7 @@ def snap(image: np.ndarray, probability: np.ndarray, band: int = 2) -> np.ndarra
     sources = np.zeros(sky.shape, np.int32)
     sources[_sure(sky, band)] = 1
     sources[_sure(~sky, band)] = 2
-    # OpenCV never floods the outermost pixels: flood a picture with one more on every side.
+    # OpenCV never floods the outermost pixels: pad the picture by one pixel on each side.
     image = cv2.copyMakeBorder(image, 1, 1, 1, 1, cv2.BORDER_REPLICATE)
     flooded = np.pad(sources, 1, mode="edge")
     cv2.watershed(np.ascontiguousarray(image), flooded)
@@ -44,7 +44,7 @@ def snap(image: np.ndarray, probability: np.ndarray, band: int = 2) -> np.ndarra
 
 
 def _without_dam(image: np.ndarray, flooded: np.ndarray, sky: np.ndarray) -> np.ndarray:
-    """Give each pixel of the dam between the two floods to its neighbour most alike in colour."""
+    """Give each pixel of the dam between the floods to its neighbor of the most similar color."""
     height, width = sky.shape
     inner = slice(1, -1), slice(1, -1)
     result = np.where(flooded[inner] > 0, flooded[inner] == 1, sky)
@@ -59,13 +59,13 @@ def _without_dam(image: np.ndarray, flooded: np.ndarray, sky: np.ndarray) -> np.
 
 
 def _sure(mask: np.ndarray, band: int) -> np.ndarray:
-    """Pixels more than ``band`` inside, and parts too thin to have any: a mast would drown."""
+    """Return pixels more than ``band`` inside, and thin parts such as masts, which have none."""
     import cv2
 
     def disc(radius: int) -> np.ndarray:
         return cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
 
     inside = cv2.erode(mask.astype(np.uint8), disc(band))
-    # Two pixels wider than what was eroded: the rounded corners of thick parts are not thin.
+    # Two pixels wider than the erosion, so that rounded corners of thick parts do not count.
     thick = cv2.dilate(inside, disc(band + 2))
     return np.asarray((inside > 0) | (mask & (thick == 0)))

@@ -1,6 +1,6 @@
-"""The matte: a decision at low resolution carried to every pixel along the photo's own edges.
+"""The matte: a low-resolution decision, extended to every pixel along the photo's edges.
 
-A guided filter (He et al., "Guided image filtering", 2013), weighted by how sure the decision is
+A guided filter (He et al., "Guided image filtering", 2013), weighted by the decision's confidence
 (after Liba et al., "Sky optimization", 2020, section 3.2).
 """
 
@@ -13,10 +13,10 @@ from sunwidget.analysis.images.working_copy import Working, encode, resize
 from sunwidget.analysis.segmentation.refine import MINIMUM_SIDE, Decision
 from sunwidget.photo.photo import Photo
 
-RADIUS, EPSILON = 6, 1e-4  # window in working pixels; code values² below which all is flat
-CLEAR, OPAQUE = 0.06, 0.94  # what a guided filter makes of land and of sky
+RADIUS, EPSILON = 6, 1e-4  # window in working pixels; code values² below which nothing is an edge
+CLEAR, OPAQUE = 0.06, 0.94  # the guided filter's output for land and for sky
 _TILE = 64  # working pixels
-_ROUNDING = 1e-4  # far above float32's
+_ROUNDING = 1e-4  # far above the rounding of float32
 
 
 def matte(
@@ -24,15 +24,15 @@ def matte(
     working: Working,
     decision: Decision,
 ) -> np.ndarray:
-    """Carry a decision to the photo's own resolution along its edges.
+    """Extend a decision to the photo's own resolution along its edges.
 
     Parameters
     ----------
     photo : Photo
     working : Working
-        Its small copy, on which the filter's coefficients are found.
+        Its small copy, on which the filter's coefficients are computed.
     decision : Decision
-        Low-resolution sky and sureness.
+        Low-resolution sky and its confidence.
 
     Returns
     -------
@@ -103,7 +103,7 @@ def guided_coefficients(
         / np.maximum(determinant, 1e-18)[..., None]
     )
     offset = mean_target - np.einsum("hwc,hwc->hw", slope, mean_guide)
-    # Windows that know more count more in the average, too.
+    # Windows with a higher confidence count more in the average, too.
     average = mean(total)
     slope = mean(slope * total[..., None]) / average[..., None]
     return slope.astype(np.float32), (mean(offset * total) / average).astype(np.float32)
@@ -112,8 +112,8 @@ def guided_coefficients(
 def _at_full_size(photo: Photo, zoom: tuple[float, float], lines: np.ndarray) -> np.ndarray:
     """Evaluate slope and offset (h, w, 4) at every pixel of the photo: (H, W) float32.
 
-    Most tiles of a picture hold sky or land alone: whatever their pixels are, the matte is 1
-    or 0 there, and they need not be looked at.
+    Most tiles contain only sky or only land: their matte is 1 or 0 for any pixel values, so that
+    their pixels need not be read.
     """
     slope, offset = lines[..., :3], lines[..., 3]
     lowest = offset + np.minimum(slope, 0).sum(axis=-1)
@@ -124,7 +124,7 @@ def _at_full_size(photo: Photo, zoom: tuple[float, float], lines: np.ndarray) ->
         for left in range(0, lines.shape[1], _TILE):
             bottom, right = min(top + _TILE, lines.shape[0]), min(left + _TILE, lines.shape[1])
             part = pixels_of(top, bottom, zoom[1]), pixels_of(left, right, zoom[0])
-            # Interpolation sees a pixel more on each side.
+            # Interpolation reads one more pixel on each side.
             corner = max(top - 1, 0), max(left - 1, 0)
             near = slice(corner[0], bottom + 1), slice(corner[1], right + 1)
             if lowest[near].min() > OPAQUE + _ROUNDING:
@@ -138,7 +138,7 @@ def _at_full_size(photo: Photo, zoom: tuple[float, float], lines: np.ndarray) ->
 
 
 def on_lines(lines: np.ndarray, photo: Photo, part: Box) -> np.ndarray:
-    """Return slope · code values + offset for ``lines`` (h, w, 4) at a part of the photo's size."""
+    """Return slope · code values + offset for ``lines`` (h, w, 4) in a part of the photo."""
     import cv2
 
     code = photo.encoded[part]
@@ -147,12 +147,12 @@ def on_lines(lines: np.ndarray, photo: Photo, part: Box) -> np.ndarray:
         code = encode(code)
     else:
         scale = 1 / np.iinfo(code.dtype).max
-    # With an opacity of 1 beside R, G and B one product takes in the offset.
+    # With an alpha of 1 beside R, G and B, a single product includes the offset.
     opaque = cv2.cvtColor(np.ascontiguousarray(code), cv2.COLOR_RGB2RGBA)
     product = cv2.multiply(lines, opaque, scale=scale, dtype=cv2.CV_32F)
     return cv2.transform(product, np.ones((1, 4), np.float32))
 
 
 def stretched(alpha: np.ndarray) -> np.ndarray:
-    """Stretch the ends: a guided filter leaves sure pixels a few percent short of 0 and 1."""
+    """Stretch the ends: a guided filter leaves even sure pixels a few percent off 0 and 1."""
     return np.asarray(np.clip((alpha - CLEAR) / (OPAQUE - CLEAR), 0, 1), np.float32)

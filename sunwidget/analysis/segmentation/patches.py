@@ -1,9 +1,9 @@
-"""Patches of sky apart from the sky and of land apart from the land, judged one by one.
+"""Classify isolated patches of sky and of land one by one.
 
-Refinement follows colours: it makes islands of clouds and suns, and skies of windows, snow and
-haze. Each piece but the largest of its kind is sky or land by a logistic regression on what two
-networks think of it and on whose colours it has; ``training/calibrate_patches.py`` fits it to masks
-of photos that trained neither network.
+Refinement follows colors: it turns clouds and suns into islands of land, and windows, snow and haze
+into sky. For each piece except the largest of its kind, a logistic regression decides from two
+networks' outputs and the piece's colors. ``training/calibrate_patches.py`` fits it to masks of
+photos that trained neither network.
 """
 
 from __future__ import annotations
@@ -15,21 +15,21 @@ from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.segmentation.refine import SIDE, local_moments, opponent
 
 LEAST = 0.002
-"""Of the picture: smaller ones are left alone, as the sky shows between leaves and girders."""
-_SAME = 0.3  # deviations that are none
+"""Share of the picture; smaller patches stay, such as sky between leaves and girders."""
+_SAME = 0.3  # deviations that do not count
 # Bias, then the weights of ``features``.
 WEIGHTS = (2.33, 1.02, 0.29, -3.77, -0.65, 1.05)
 
 
 def settle(sky: np.ndarray, coarse: np.ndarray, working: Working) -> np.ndarray:
-    """Return the refined sky with every patch decided as a whole.
+    """Return the refined sky with each patch classified as a whole.
 
     Parameters
     ----------
     sky : (h, w) float32
         The refined sky, at any size.
     coarse : (h, w) float32
-        Its probability before, at any size.
+        Probability before refinement, at any size.
     working : Working
         The small photo.
 
@@ -47,19 +47,19 @@ def settle(sky: np.ndarray, coarse: np.ndarray, working: Working) -> np.ndarray:
 
 
 def find(sky: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return which patch every pixel belongs to, and which of the n are sky.
+    """Return the patch of each pixel, and which of the n patches are sky.
 
     Returns
     -------
     labels : (h, w) int32
-        From 1; 0 in the largest pieces of sky and land and in what is too small.
+        From 1; 0 in the largest pieces of sky and land and in pieces that are too small.
     is_sky : (n,) bool
     """
     import cv2
 
     labels = np.zeros(sky.shape, np.int32)
     is_sky: list[bool] = []
-    # What touches at a corner is connected on one side only: land, whose twigs are thin.
+    # Pixels that touch at a corner connect only as land, since twigs are thin.
     for kind, connectivity in ((True, 4), (False, 8)):
         pieces = ((sky > 0.5) == kind).astype(np.uint8)
         _, found, stats, _ = cv2.connectedComponentsWithStats(pieces, connectivity=connectivity)
@@ -75,10 +75,10 @@ def find(sky: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def features(
     labels: np.ndarray, sky: np.ndarray, is_sky: np.ndarray, coarse: np.ndarray, working: Working
 ) -> np.ndarray:
-    """Return what tells of each patch of ``find`` whether it is sky, (n, 5).
+    """Return the regression's features of each patch of ``find``, (n, 5).
 
-    Log odds of ``coarse`` and of the land network; whether refinement made it sky; and how many
-    deviations its colour is from those of sky and of land near it, as logarithms.
+    They are the log odds of ``coarse`` and of the land network; whether refinement made it sky;
+    and the logs of the deviations of its color from nearby sky and from nearby land.
     """
     import cv2
 
@@ -94,17 +94,17 @@ def features(
     rim = np.ones((5, 5), np.uint8)
     pieces = small + 0.5 * mask
     core = cv2.erode(pieces, rim) == cv2.dilate(pieces, rim)
-    colour = opponent(picture)
-    channels = [*np.moveaxis(colour, -1, 0)]
+    color = opponent(picture)
+    channels = [*np.moveaxis(color, -1, 0)]
     for kind in (1, 0):
         own = (core & (mask == kind) & (small == 0)).astype(np.float32)
-        for moment in local_moments(colour, own, colour.shape):
+        for moment in local_moments(color, own, color.shape):
             channels += [*np.moveaxis(moment, -1, 0)]
     beliefs = coarse, look_at_land(working).sky
     channels += [log_odds(resize(belief, width, height)) for belief in beliefs]
 
     index = small.astype(int).ravel()
-    # Rims are soft; a patch that is nothing but rim counts all the same.
+    # Rims are soft and count little, but a patch may have nothing else.
     weight = core.ravel() + 1e-3
     total = np.bincount(index, weight, is_sky.size + 1)
     sums = [np.bincount(index, weight * channel.ravel(), total.size) for channel in channels]

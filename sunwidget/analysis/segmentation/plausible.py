@@ -1,8 +1,8 @@
-"""Doubt: what the network takes for sky without much conviction, as walls and ceilings.
+"""Reject a sky of low confidence, such as walls and ceilings.
 
-Refinement follows edges and colours, and makes a clean mask of a faint idea. The network's own
-mean probability inside that mask tells rooms from skies: over 111 held-out photos 0.77 and more in
-every daylight sky that fills part of the picture, in most rooms 0.46 to 0.67.
+Refinement follows edges and colors, and makes a clean mask even from low probabilities. The
+network's mean probability inside that mask separates rooms from skies: over 111 held-out photos it
+is 0.77 and more in each daylight sky that fills part of the picture, 0.46 to 0.67 in most rooms.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ import numpy as np
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.formats.color import LUMINANCE
 
-_BELIEF = 0.75  # least mean probability of a sky in daylight that fills part of a picture
-_NIGHT, _BURNT = 0.2, 0.95  # median encoded luminance of skies that the network knows less
-_MOST = 0.5  # of the picture: walls that fill as much come with furniture
+_BELIEF = 0.75  # least mean probability of a daylight sky that fills part of a picture
+_NIGHT, _BURNT = 0.2, 0.95  # median encoded luminance; the network is less sure outside
+_MOST = 0.5  # of the picture; a wall this large would have furniture before it
 
 
 def plausible(sky: np.ndarray, probability: np.ndarray, working: Working) -> bool:
-    """Return whether a refined sky is likely one at all.
+    """Return whether a refined sky is likely to be a sky.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def plausible(sky: np.ndarray, probability: np.ndarray, working: Working) -> boo
 
     height, width = sky.shape
     mask = (sky > 0.5).astype(np.uint8)
-    # The network's own rim is soft, and says little about what it thinks of the inside.
+    # The network's map has a soft rim, which does not represent the inside.
     core = cv2.erode(mask, np.ones((9, 9), np.uint8)) > 0
     if not core.any():
         return True

@@ -1,7 +1,7 @@
-"""Refinement: from the network's coarse sky to a decision that follows the skyline.
+"""Refinement: turn the network's coarse sky into a decision that follows the skyline.
 
-A method of ``METHODS`` decides sky or land on a copy of at most 384 px and says where it is sure
-(thesis 3.1.1.2); ``matting`` carries the decision to every pixel of the photo.
+A method of ``METHODS`` decides sky or land on a copy of at most 384 px and gives its confidence
+(thesis 3.1.1.2); ``matting`` extends the decision to every pixel of the photo.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from sunwidget.analysis.segmentation.dense_crf import mean_field
 from sunwidget.analysis.segmentation.edges import snap
 
 SIDE = 384
-MINIMUM_SIDE = 4  # below this there is no neighbourhood to refine in
+MINIMUM_SIDE = 4  # smaller pictures have no neighborhood for refinement
 
 
 class Decision(NamedTuple):
     """Sky or land at low resolution.
 
-    ``sky`` (h, w) float32 in [0, 1], and ``sureness`` (h, w) float32 in (0, 1]. What is ``final``
-    is a matte already: it is resized to the photo and follows no edges.
+    ``sky`` is (h, w) float32 in [0, 1], its confidence ``sureness`` (h, w) float32 in (0, 1]. A
+    ``final`` decision is a matte already: it is only resized to the photo.
     """
 
     sky: np.ndarray
@@ -32,15 +32,15 @@ class Decision(NamedTuple):
 
 
 def none(working: Working, probability: np.ndarray) -> Decision:
-    """Keep the coarse map as it is: a mask that the caller gave, say."""
+    """Keep the coarse map unchanged, for example a mask from the caller."""
     return Decision(probability, np.ones_like(probability), final=True)
 
 
 def grabcut_rect(working: Working, probability: np.ndarray) -> Decision:
     """GrabCut from the bounding box of the coarse mask, as the thesis does.
 
-    Source: Rother et al., "GrabCut", 2004. Nothing outside the box can become sky, and land
-    inside it is told from sky by colour alone.
+    Source: Rother et al., "GrabCut", 2004. Nothing outside the box can become sky, and inside it
+    only color separates land from sky.
     """
     import cv2
 
@@ -54,11 +54,11 @@ def grabcut_rect(working: Working, probability: np.ndarray) -> Decision:
 
 
 def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
-    """GrabCut from a trimap, then network and local colours together at working size.
+    """GrabCut from a trimap, then network and local colors together at working size.
 
-    The trimap is sure where the network is sure and away from its own skyline. GrabCut's
-    smooth contour loses what is thinner than its grid (twigs, pylons, the sky between leaves);
-    the colours of sky and land near each pixel find it again.
+    The trimap is sure where the network is sure and away from its skyline. GrabCut's smooth
+    contour loses details thinner than its grid (twigs, pylons, the sky between leaves); the colors
+    of sky and land near each pixel recover them.
     """
     image, coarse = _small(working, probability)
     sky = cut(image, trimap(coarse), iterations=2)
@@ -66,32 +66,32 @@ def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
         return _decision(sky, coarse)
     cutout = sky.astype(np.float32)
     evidence = coarse
-    # A network that is not sure of its own sky (a white wall indoors: 0.6 to 0.7 on average,
-    # skies 0.8 and more) must not be spread by colour.
+    # An unsure sky (a white wall indoors: 0.6 to 0.7 on average, skies 0.8 and more) must not
+    # spread by color.
     trust = float(coarse[coarse > 0.5].mean()) if (coarse > 0.5).any() else 0.0
     weight = 0.8 * min(max((trust - 0.65) / 0.1, 0.0), 1.0)
-    # The second round learns from what the first one found, and is the one at working size.
+    # The second round, at working size, learns from the result of the first.
     rounds = (shrink(working.guide, SIDE), 0.4), (working.guide, 0.1)
     for guide, doubt in rounds:
         height, width = guide.shape[:2]
         certain = np.clip(resize(probability, width, height), 0.01, 0.99)
         cutout = resize(cutout, width, height)
-        colours = local_evidence(guide, cutout > 0.5, certain, doubt)
+        colors = local_evidence(guide, cutout > 0.5, certain, doubt)
         evidence = np.log(certain / (1 - certain)) + 0.4 * (2 * cutout - 1)
-        evidence += weight * np.clip(colours, -6, 6)
+        evidence += weight * np.clip(colors, -6, 6)
         cutout = (evidence > 0).astype(np.float32)
     sureness = np.clip(np.abs(evidence) / 4, 0.02, 1)
     return Decision(cutout, sureness.astype(np.float32))
 
 
 def edge(working: Working, probability: np.ndarray) -> Decision:
-    """Draw the coarse border to the strongest edges within 2 px of 384 (``edges.snap``)."""
+    """Move the coarse border to the strongest edges within 2 px of 384 (``edges.snap``)."""
     image, coarse = _small(working, probability)
     return _decision(snap(image, coarse), coarse)
 
 
 def dense_crf(working: Working, probability: np.ndarray) -> Decision:
-    """Mean field of a fully connected conditional random field (``dense_crf.mean_field``)."""
+    """Apply the mean field of a fully connected CRF (``dense_crf.mean_field``)."""
     image, coarse = _small(working, probability)
     marginal = mean_field(image, coarse)
     return _decision(marginal > 0.5, marginal)
@@ -117,7 +117,7 @@ def trimap(coarse: np.ndarray, sure: float = 0.95, band: int = 5) -> np.ndarray:
 
     sky = (coarse > 0.5).astype(np.uint8)
     ellipse = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * band + 1, 2 * band + 1))
-    # Beyond the frame everything goes on as inside it: no band along the frame itself.
+    # Erosion treats the outside as a continuation of the picture: no band along the frame.
     inside = cv2.erode(sky, ellipse)
     outside = cv2.erode(1 - sky, ellipse)
     labels = np.where(sky == 1, cv2.GC_PR_FGD, cv2.GC_PR_BGD).astype(np.uint8)
@@ -127,15 +127,15 @@ def trimap(coarse: np.ndarray, sure: float = 0.95, band: int = 5) -> np.ndarray:
 
 
 def cut(image: np.ndarray, labels: np.ndarray, iterations: int) -> np.ndarray:
-    """Run GrabCut and return (h, w) bool sky; the labels stand when there is nothing to learn.
+    """Run GrabCut and return (h, w) bool sky; the labels stay if there is nothing to learn.
 
-    Deterministic: OpenCV's generator is seeded, so that recipes replay to the bit.
+    It is deterministic: OpenCV's generator is seeded, so that recipes replay to the bit.
     """
     import cv2
 
     sky = (labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)
     unsure = (labels == cv2.GC_PR_FGD) | (labels == cv2.GC_PR_BGD)
-    components = 5  # of GrabCut's colour models: fewer pixels than that cannot be clustered
+    components = 5  # of GrabCut's color models: fewer pixels cannot be clustered
     enough = min(np.count_nonzero(sky), np.count_nonzero(~sky)) > components
     if not enough or not unsure.any() or min(labels.shape) < MINIMUM_SIDE:
         return np.asarray(sky)
@@ -151,11 +151,11 @@ def cut(image: np.ndarray, labels: np.ndarray, iterations: int) -> np.ndarray:
 def local_evidence(
     guide: np.ndarray, sky: np.ndarray, probability: np.ndarray, doubt: float
 ) -> np.ndarray:
-    """Log likelihood ratio sky : land of every pixel's colour, by the colours near it.
+    """Return the log likelihood ratio sky : land of each pixel's color, by the colors near it.
 
     Both are normal distributions with a mean and a variance of each opponent channel that
     change slowly over the picture, after Liba et al. 2020 (section 3.1, density estimation),
-    but local: the sky beside a tree tells the sky between its leaves.
+    but local: the sky beside a tree identifies the sky between its leaves.
 
     Parameters
     ----------
@@ -164,8 +164,8 @@ def local_evidence(
     sky : (h, w) bool
         Present decision.
     probability : (h, w) float32
-        Of the network; sky below ``doubt`` and land above 0.4 are not learned from, nor is
-        doubted land of the sky's own colour.
+        The network's probability. Sky below ``doubt``, land above 0.4 and uncertain land of the
+        sky's own color are not used for learning.
 
     Returns
     -------
@@ -173,21 +173,21 @@ def local_evidence(
     """
     import cv2
 
-    colour = opponent(guide)
-    few = shrink(colour, SIDE)
+    color = opponent(guide)
+    few = shrink(color, SIDE)
 
     def learn(mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         inner = cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8))
-        return local_moments(few, shrink(inner.astype(np.float32), SIDE), colour.shape)
+        return local_moments(few, shrink(inner.astype(np.float32), SIDE), color.shape)
 
     mean, variance = learn(sky & (probability > doubt))
-    difference = np.square(colour - mean)
-    # Sky seen through a crown or a wheel: the network doubts it is land, and it has very nearly
-    # the colour of the sky beside. Land learned from it would look like sky.
+    difference = np.square(color - mean)
+    # Sky behind a tree crown or a wheel: the network is not sure that it is land, and it has almost
+    # the color of the sky beside it. Land learned from it would look like sky.
     like_sky = channel_sum(difference / np.minimum(variance, 0.02**2)) < 9
     ratio = difference / -variance
     mean, other = learn(~sky & (probability < 0.4) & ~(like_sky & (probability > 0.03)))
-    ratio += np.square(colour - mean) / other
+    ratio += np.square(color - mean) / other
     other /= variance
     spread = other[..., 0] * other[..., 1] * other[..., 2]
     return np.asarray((channel_sum(ratio) + np.log(spread)) / 2, np.float32)
@@ -201,18 +201,18 @@ def opponent(picture: np.ndarray) -> np.ndarray:
 
 
 def local_moments(
-    colour: np.ndarray, weight: np.ndarray, shape: tuple[int, ...]
+    color: np.ndarray, weight: np.ndarray, shape: tuple[int, ...]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Mean and variance of weighted colours near each pixel, from afar where none is near."""
+    """Return mean and variance of weighted colors near each pixel, or of far ones if none is."""
     import cv2
 
     scale = min(1.0, 160 / max(weight.shape))
     size = max(4, round(weight.shape[1] * scale)), max(4, round(weight.shape[0] * scale))
     share = resize(weight, *size)
-    sums = [resize(colour**power * weight[..., None], *size) for power in (1, 2)]
+    sums = [resize(color**power * weight[..., None], *size) for power in (1, 2)]
     total = max(float(share.sum()), 1e-6)
     moments = [np.broadcast_to(x.sum(axis=(0, 1)) / total, x.shape) for x in sums]
-    for sigma in (40, 16, 6):  # of the 160 px: the nearest scale that knows wins
+    for sigma in (40, 16, 6):  # of 160 px: the finest scale with data dominates
         near = cv2.GaussianBlur(share, (0, 0), sigma)[..., None] + 0.02
         moments = [
             (cv2.GaussianBlur(x, (0, 0), sigma) + 0.02 * m) / near
@@ -228,7 +228,7 @@ def local_moments(
 
 
 def _decision(sky: np.ndarray, coarse: np.ndarray) -> Decision:
-    """Add the sureness: low along the skyline and where network and GrabCut disagree."""
+    """Add the confidence: low along the skyline and where network and GrabCut disagree."""
     import cv2
 
     mask = sky.astype(np.uint8)

@@ -1,1 +1,1 @@
-"""What a person corrects with strokes, worked out only where they touch."""
+"""Corrections with brush strokes, computed only where the strokes touch."""

@@ -1,9 +1,9 @@
-"""Strokes on an analysed scene: only what they touch is worked out again.
+"""Strokes on an analyzed scene: only the areas that they touch are computed again.
 
-The scene without strokes (the *base*) is kept. Matte and clouds are redone in square tiles of the
-working copy that the strokes' decision changed. A tile depends on nothing but the base and the
-decision in and just around it, so tiles of an earlier stroke may be copied: the maps are the same
-to the bit whichever way a set of strokes was reached.
+The scene without strokes (the *base*) is kept. Matte and clouds are computed again in square tiles
+of the working copy where the strokes changed the decision. A tile depends only on the base and on
+the decision in and just around it, so tiles of an earlier stroke can be copied: the maps are the
+same to the bit for any order of computation.
 """
 
 from __future__ import annotations
@@ -40,20 +40,22 @@ if TYPE_CHECKING:
     from sunwidget.edit.table import Stroke
 
 SIDE = 128  # working pixels of a tile
-# Around it: the guided filters see two radii, interpolation a pixel.
+# Around a tile: the guided filters read two radii, interpolation one pixel.
 MARGIN = 2 * max(RADIUS, cloud_stage.LARGEST_RADIUS) + 4
 
 
 class _Tile(NamedTuple):
-    """A tile in working pixels, the same with its margin, and in pixels of the photo."""
+    """A tile in working pixels, without and with its margin, and in pixels of the photo."""
 
     inner: Box
     outer: Box
     full: Box
 
 
-def stroked(base: Scene, strokes: tuple[Stroke, ...], progress: Progress | None = None) -> Scene:
-    """Return a scene that has no strokes after ``strokes``; without any the very same."""
+def apply_strokes(
+    base: Scene, strokes: tuple[Stroke, ...], progress: Progress | None = None
+) -> Scene:
+    """Return the base scene with ``strokes`` applied; the same object without strokes."""
     of_sky = tuple(stroke for stroke in strokes if stroke.label not in WATER)
     scene = base if not of_sky else base.memory.scene(of_sky, lambda: _draw(base, of_sky, progress))
     if of_sky == strokes:
@@ -66,7 +68,7 @@ def _draw(base: Scene, strokes: tuple[Stroke, ...], progress: Progress | None) -
     step("strokes", 0.1, "Following the strokes")
     painting = _painting(base, strokes, step)
     if painting.fits < len(strokes):
-        source = stroked(base, strokes[: painting.fits], progress)
+        source = apply_strokes(base, strokes[: painting.fits], progress)
         return _retouch(base, source, painting, strokes, base.memory.scenes.get(strokes[:-1]), step)
     decision = painting.on(base.shown)
     hints = dataclasses.replace(base.hints, strokes=strokes)
@@ -75,7 +77,7 @@ def _draw(base: Scene, strokes: tuple[Stroke, ...], progress: Progress | None) -
 
 
 def _painting(base: Scene, strokes: tuple[Stroke, ...], step: Steps) -> Painting:
-    """Replay strokes on the small copy, from as many as have been replayed before."""
+    """Replay strokes on the small copy, starting from the longest cached painting."""
     memory = base.memory
     count = len(strokes)
     while count and strokes[:count] not in memory.paintings:
@@ -104,18 +106,18 @@ def _retouch(
     Parameters
     ----------
     base : Scene
-        Without strokes.
+        The scene without strokes.
     source : Scene
-        Whose camera, sun and fit are kept: ``base``, or the scene after the stroke that made
-        them be looked at again.
+        The scene whose camera, sun and fit are kept: ``base``, or the scene after the stroke that
+        caused a new fit.
     painting : Painting
         The base's sky after ``strokes``.
     strokes : tuple of Stroke
-        All of them, from the base on.
+        All strokes on the base.
     previous : Scene, optional
-        The scene after all strokes but the last, when it is at hand: saves time only.
+        The scene after all strokes except the last, if cached; it only saves time.
     step : Steps
-        Whom to tell how far it is.
+        Reports progress.
     """
     photo, working = base.photo, base.working
     step("matte", 0.5, "Cutting out the sky")
@@ -157,7 +159,7 @@ def _retouch(
 def _matte_after(
     base: Scene, decision: Decision, strokes: tuple[Stroke, ...], previous: Scene | None = None
 ) -> np.ndarray:
-    """Return the matte (H, W) float32: the base's, but for what is near a changed decision."""
+    """Return the matte (H, W) float32: the base's, except near a changed decision."""
     import cv2
 
     working, before = base.working, base.shown
@@ -180,7 +182,7 @@ def _differ(a: Decision, b: Decision) -> np.ndarray:
 
 
 def _tiles(scene: Scene, fresh: np.ndarray) -> Iterator[_Tile]:
-    """Yield the tiles in or near which ``fresh``, a map (h, w) at working size, is true."""
+    """Yield the tiles in or near which the map ``fresh`` (h, w) at working size is true."""
     height, width = fresh.shape
     zoom_x, zoom_y = scene.working.zoom
     for top in range(0, height, SIDE):
@@ -199,7 +201,7 @@ def _tiles(scene: Scene, fresh: np.ndarray) -> Iterator[_Tile]:
 
 
 def _matte_of(base: Scene, decision: Decision, near: np.ndarray, tile: _Tile) -> np.ndarray:
-    """Matte of a tile, in pixels of the photo."""
+    """Return the matte of a tile, in pixels of the photo."""
     guide = np.ascontiguousarray(base.working.guide[tile.outer])
     lines = guided_coefficients(
         guide,
@@ -214,7 +216,7 @@ def _matte_of(base: Scene, decision: Decision, near: np.ndarray, tile: _Tile) ->
 
 
 def _enlarged(scene: Scene, small: np.ndarray, tile: _Tile) -> np.ndarray:
-    """Interpolate a tile with its margin, in working pixels, at the photo's pixels inside it."""
+    """Interpolate a tile with margin, in working pixels, at the photo's pixels in the tile."""
     corner = tile.outer[0].start, tile.outer[1].start
     return enlarged_part(small, scene.working.zoom, tile.full, corner)
 
@@ -222,16 +224,16 @@ def _enlarged(scene: Scene, small: np.ndarray, tile: _Tile) -> np.ndarray:
 def _clouds_after(
     source: Scene, matte: np.ndarray, previous: Scene | None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
-    """Opacity and softness at the photo's size, and shade at working size.
+    """Return opacity and softness at the photo's size, and shade at working size.
 
-    Where the sky shrinks, its clouds do; where it grows, the source knows what clouds would be
-    there if it were sky.
+    Where the sky shrinks, its clouds shrink too; where it grows, the source has the clouds that
+    would be there if the land were sky.
     """
     start = source if previous is None else previous
     fresh = resize(np.abs(matte - start.sky), source.working.width, source.working.height) > 0
     everywhere = source.everywhere
-    clouds = _own(start.clouds, start.cloud_map)
-    softness = _own(start.cloud_softness, start.softness_map)
+    clouds = _writable(start.clouds, start.cloud_map)
+    softness = _writable(start.cloud_softness, start.softness_map)
     size = source.photo.size
     shade = None if start.shade is None else start.shade.copy()
     for tile in _tiles(source, fresh):
@@ -260,17 +262,17 @@ def _clouds_after(
     return clouds, softness, shade
 
 
-def _own(image: np.ndarray, held: np.ndarray) -> np.ndarray:
-    """Return a map that may be written to: a copy of what the scene holds itself."""
+def _writable(image: np.ndarray, held: np.ndarray) -> np.ndarray:
+    """Return a map that may be written to: a copy if the scene holds it."""
     return image.copy() if image is held else image
 
 
 def _water_after(source: Scene, matte: np.ndarray) -> np.ndarray:
-    """Water where no stroke says sky; none is looked for in new land."""
+    """Return the water outside new sky; new land gets none."""
     if not source.water_map.any():
         return source.water_map
     if source.water_map.size <= source.small_sky.size:
-        # None of it where the sky was; what is sky now the scene takes away.
+        # No water where the sky was; the scene removes it from the new sky.
         return source.small_water
     water = source.water
     return np.where(matte > source.sky, np.minimum(water, 1 - matte), water)

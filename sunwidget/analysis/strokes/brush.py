@@ -1,4 +1,4 @@
-"""A brush: which pixels a stroke covers, and maps that are set under it."""
+"""The brush: the pixels that a stroke covers, and setting maps under it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def paint(
 ) -> np.ndarray:
     """Return the pixels under the brush, (height, width) bool; at least one pixel wide.
 
-    ``box`` (rows, columns) limits the answer to a part of the picture.
+    ``box`` (rows, columns) limits the result to a part of the picture.
     """
     import cv2
 
@@ -48,7 +48,7 @@ def paint(
 
 
 def set_strokes(matte: np.ndarray, strokes: Sequence[Stroke]) -> None:
-    """Set a map (H, W) under each brush, in place: what a person says wins over everything."""
+    """Set a map (H, W) under each brush, in place: strokes override everything else."""
     height, width = matte.shape
     for stroke in strokes:
         reach = stroke.radius * max(width, height) + 2

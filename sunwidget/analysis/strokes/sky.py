@@ -1,7 +1,7 @@
-"""Strokes: a person says *sky* or *not sky*, and the map follows (thesis 3.1.1.2).
+"""Strokes that label pixels *sky* or *not sky* (thesis 3.1.1.2).
 
-Strokes are replayed in order on a small copy. What they make of it depends on the map they begin
-with and on the strokes alone, so a ``Painting`` may be kept and painted on.
+Strokes are replayed in order on a small copy. The result depends only on the initial map and on the
+strokes, so a ``Painting`` can be cached and continued.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from sunwidget.analysis.segmentation.refine import SIDE, Decision, cut
 from sunwidget.analysis.strokes.brush import paint
 from sunwidget.edit.table import Stroke
 
-TOLERANCE = 14.0  # of 8-bit Lab, beside the brush where the network is in doubt
-REACH = 0.4  # of the longer side: no stroke acts farther than that
+TOLERANCE = 14.0  # of 8-bit Lab, beside the brush where the network is unsure
+REACH = 0.4  # of the longer side: greatest distance at which a stroke acts
 ISLAND = 0.03  # of the picture: larger patches are not flipped as a whole
-MUCH = 0.05  # of the picture: a sky that changed so much has to be looked at again
+MUCH = 0.05  # of the picture: a sky that changed this much needs a new fit
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,13 +31,13 @@ class Painting:
     start, sky : (h, w) bool
         The sky before the first stroke, and now.
     said : (h, w) int8
-        What a person said: 1 sky, 0 not sky, -1 nothing.
+        Labels of the strokes: 1 sky, 0 not sky, -1 none.
     network : (h, w) float32
         The network's probability of sky.
     looked_at : (h, w) bool
-        The sky when camera, sun and air were last fitted to it, after ``fits`` strokes.
+        The sky to which camera, sun and air were last fitted.
     fits : int
-        Number of strokes then.
+        Number of strokes at that fit.
     count : int
         Number of strokes so far.
     """
@@ -54,7 +54,7 @@ class Painting:
     def begin(
         cls, sky: np.ndarray, working: Working, network: np.ndarray | None = None
     ) -> Painting:
-        """Start from a map, with what the network says, both (h, w) of any size."""
+        """Start from a map and the network's probability, both (h, w) of any size."""
         height, width = shrink(working.bytes, SIDE).shape[:2]
         start = resize(sky, width, height) > 0.5
         probability = resize(sky if network is None else network, width, height)
@@ -64,8 +64,8 @@ class Painting:
     def stroke(self, stroke: Stroke, working: Working) -> Painting:
         """Return the painting after one more stroke; deterministic.
 
-        A stroke acts on what is like the pixels under it, connected to them, and wrongly
-        labelled: everything else keeps its label.
+        A stroke acts on pixels that are similar to those under it, connected to them, and wrongly
+        labeled. All other pixels keep their label.
         """
         image = shrink(working.bytes, SIDE)
         sky, said = _stroked(image, self.sky, self.said, self.network, stroke)
@@ -76,7 +76,7 @@ class Painting:
         return replace(self, sky=sky, said=said, count=count)
 
     def on(self, decision: Decision) -> Decision:
-        """Put into a decision, which may be finer, what the strokes changed."""
+        """Return a decision, which may be finer, with the changes of the strokes."""
         import cv2
 
         changed = (self.sky != self.start).astype(np.uint8)
@@ -96,7 +96,7 @@ class Painting:
 def _stroked(
     image: np.ndarray, sky: np.ndarray, said: np.ndarray, network: np.ndarray, stroke: Stroke
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the sky, and what was said, after a stroke on a picture (h, w, 3) uint8."""
+    """Return the sky and the labels after a stroke on a picture (h, w, 3) uint8."""
     import cv2
 
     height, width = sky.shape
@@ -106,7 +106,7 @@ def _stroked(
     wanted = stroke.label == "sky"
     said = np.where(under, np.int8(wanted), said)
     lab = cv2.cvtColor(image, cv2.COLOR_RGB2LAB).astype(np.float32)
-    # How sure the network is of what the stroke contradicts.
+    # The network's confidence in the label that the stroke contradicts.
     belief = 1 - network if wanted else network
     against = said == 1 - wanted
     candidates = ((sky != wanted) & ~against) | under
@@ -114,8 +114,8 @@ def _stroked(
     labels = np.where(sky, cv2.GC_FGD, cv2.GC_BGD).astype(np.uint8)
     labels[region] = cv2.GC_PR_FGD if wanted else cv2.GC_PR_BGD
     labels[said == 1], labels[said == 0] = cv2.GC_FGD, cv2.GC_BGD
-    # The colour models would give a wrongly labelled wall back to the sky it was learned as;
-    # what is like the brush and touches it follows the brush.
+    # The color models would return a wrongly labeled wall to the sky from which they learned it.
+    # Therefore similar pixels that touch the brush follow it.
     sky = np.where(region, wanted, sky)
     after = _cut_near(image, labels, region | under)
     rim = cv2.dilate(region.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
@@ -125,9 +125,9 @@ def _stroked(
 
 
 def _cut_near(image: np.ndarray, labels: np.ndarray, region: np.ndarray) -> np.ndarray:
-    """GrabCut in the region's box and a margin; elsewhere the labels stand."""
+    """Run GrabCut in the region's box with a margin; elsewhere the labels stay."""
     rows, columns = np.nonzero(region)
-    margin = 24  # px of the small copy: enough of both sides for the colour models
+    margin = 24  # px of the small copy: enough of both sides for the color models
     box = (
         slice(max(int(rows.min()) - margin, 0), int(rows.max()) + margin + 1),
         slice(max(int(columns.min()) - margin, 0), int(columns.max()) + margin + 1),
@@ -144,34 +144,34 @@ def _alike(
     belief: np.ndarray,
     against: np.ndarray,
 ) -> np.ndarray:
-    """Return what is connected to the brush through candidates of like colour.
+    """Return the pixels that are connected to the brush through candidates of similar color.
 
-    Like is what is nearer in colour to the brush than to what stays: the candidates round about
-    of which the network is surer than of what the brush covers, and what strokes said
-    ``against`` this one. The surer it is, the nearer to the brush a pixel has to be. Where brush
-    and surroundings have one colour, a tolerance decides that falls to nothing with the distance
-    from the brush: a dab fixes a patch, a long stroke a house, and none on a grey wall leaks into
-    all of a grey sky.
+    A pixel is similar if its color is nearer to the brush than to pixels that stay: surrounding
+    candidates of which the network is surer than of those under the brush, and pixels that earlier
+    strokes labeled ``against`` this one. The surer the network, the nearer a pixel must be. If
+    brush and surroundings have the same color, a tolerance decides that falls to zero with the
+    distance from the brush: a dab fixes a patch, a long stroke a house, and a stroke on a gray wall
+    does not leak into a gray sky.
     """
     import cv2
 
     lab = cv2.GaussianBlur(lab, (0, 0), 0.6)
-    # In a dark or hazy photo the same difference means more.
+    # In a dark or hazy photo the same difference is more significant.
     tolerance = float(np.clip(0.25 * lab[..., 0].std(), 4, TOLERANCE))
     away = cv2.distanceTransform((~under).astype(np.uint8), cv2.DIST_L2, 3)
     rows, columns = np.nonzero(under)
     extent = math.hypot(np.ptp(rows) + 1, np.ptp(columns) + 1)
     breadth = rows.size / extent
-    # A fine brush is for fine work, however long its stroke.
+    # A fine brush is for fine work, even with a long stroke.
     reach = min(4 * extent, 8 * breadth, breadth**2 + 4, REACH * max(under.shape))
     near = candidates & (away < reach)
     to_brush = _nearest(lab, near, lab[under], 24)
-    # Distance to the nearest of a few colours, so that a stroke over a brick wall takes bricks
+    # Distance to the nearest of a few colors, so that a stroke over a brick wall covers bricks
     # and mortar.
     to_rest = _nearest(lab, near, lab[against & (away < reach)], 24)
     covered = max(float(np.median(belief[under])), 0.6)
     sure = np.zeros_like(belief)
-    if covered < 0.97:  # else it is sure of what is wrong, and tells nothing
+    if covered < 0.97:  # otherwise the network is sure of wrong labels, and no evidence
         stays = near & (belief > max(0.5 + 0.5 * covered, 0.9)) & (away > 3)
         to_rest = np.minimum(to_rest, _nearest(lab, near, lab[stays], 48))
         sure = np.clip(1.2 * (belief - covered) / (1 - covered), 0, 1)
@@ -187,10 +187,10 @@ def _alike(
 
 
 def _island(candidates: np.ndarray, under: np.ndarray) -> np.ndarray:
-    """Return the patch of candidates under the brush when it is an island, whatever its colours.
+    """Return the patch of candidates under the brush if it is an island of any colors.
 
-    Small against the picture and not much larger than the brush; a neck of 2 px ties no island
-    to the mainland.
+    An island is small relative to the picture and not much larger than the brush; a neck of 2 px
+    does not connect it to the mainland.
     """
     import cv2
 
@@ -204,11 +204,11 @@ def _island(candidates: np.ndarray, under: np.ndarray) -> np.ndarray:
     return (cv2.dilate(small[labels].astype(np.uint8), kernel) > 0) & candidates
 
 
-def _nearest(lab: np.ndarray, where: np.ndarray, colours: np.ndarray, most: int) -> np.ndarray:
-    """Distance (h, w) of each pixel of ``where`` to the nearest of at most ``most`` colours."""
+def _nearest(lab: np.ndarray, where: np.ndarray, colors: np.ndarray, most: int) -> np.ndarray:
+    """Return each ``where`` pixel's distance (h, w) to the nearest of at most ``most`` colors."""
     distance = np.full(where.shape, np.inf, np.float32)
-    if len(colours):
-        samples = colours[:: -(-len(colours) // most)]
+    if len(colors):
+        samples = colors[:: -(-len(colors) // most)]
         flat = lab[where]
         squares = (flat**2).sum(axis=1)[:, None] - 2 * flat @ samples.T + (samples**2).sum(axis=1)
         distance[where] = np.sqrt(np.maximum(squares.min(axis=1), 0))

@@ -1,7 +1,7 @@
-"""Strokes that say *water* or *not water*, replayed on a small copy after those of the sky.
+"""Strokes that label pixels *water* or *not water*, replayed on a small copy after sky strokes.
 
-They change nothing but the water: which pixels are sky, and all that follows from it, stays. What
-they make of a scene depends on its maps and the strokes alone.
+They change only the water: the sky, and everything that depends on it, stays. The result depends
+only on the scene's maps and the strokes.
 """
 
 from __future__ import annotations
@@ -24,21 +24,21 @@ if TYPE_CHECKING:
     from sunwidget.edit.table import Stroke
 
 LABELS = ("water", "not_water")
-TOLERANCE = 12.0  # of 8-bit Lab round the colours under the brush
-REACH = 0.25  # of the longer side: no stroke acts farther than that
+TOLERANCE = 12.0  # of 8-bit Lab around the colors under the brush
+REACH = 0.25  # of the longer side: greatest distance at which a stroke acts
 
 
 def with_water(base: Scene, scene: Scene, strokes: tuple[Stroke, ...]) -> Scene:
-    """Return ``scene`` after the strokes about water among ``strokes``.
+    """Return ``scene`` with the water strokes among ``strokes`` applied.
 
     Parameters
     ----------
     base : Scene
-        Without strokes.
+        The scene without strokes.
     scene : Scene
-        The base after those of ``strokes`` that are about the sky.
+        The base with the sky strokes among ``strokes`` applied.
     strokes : tuple of Stroke
-        All of them, in their order.
+        All strokes in order.
     """
     ours = tuple(stroke for stroke in strokes if stroke.label in LABELS)
     width, height = scene.working.width, scene.working.height
@@ -67,7 +67,7 @@ def with_water(base: Scene, scene: Scene, strokes: tuple[Stroke, ...]) -> Scene:
 
 
 def _around(changed: np.ndarray, size: tuple[int, int]) -> np.ndarray:
-    """Spread a map at working size to what its soft edge may reach, at the photo's size."""
+    """Extend a map at working size by the width of its soft edge, at the photo's size."""
     import cv2
 
     spread = cv2.dilate(changed, np.ones((15, 15), np.uint8))
@@ -77,10 +77,10 @@ def _around(changed: np.ndarray, size: tuple[int, int]) -> np.ndarray:
 def _stroked(
     image: np.ndarray, ground: np.ndarray, water: np.ndarray, said: np.ndarray, stroke: Stroke
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return water and what was said after one more stroke on a picture (h, w, 3) uint8.
+    """Return water and labels after one more stroke on a picture (h, w, 3) uint8.
 
-    A stroke takes what is under it, and what is connected to it, of like colour and still
-    labelled otherwise. Water grows along its streaks and below the horizon only.
+    A stroke affects pixels under it, and connected pixels of similar color with another label.
+    Water grows along its streaks and only below the horizon.
     """
     import cv2
 
@@ -92,12 +92,12 @@ def _stroked(
     said = np.where(under, np.int8(wanted), said)
     candidates = (water != wanted) & (said != 1 - wanted)
     candidates &= ground if wanted else True
-    # Waves average out along the rows, rocks and shores do not.
+    # Waves average out along rows; rocks and shores do not.
     lab = cv2.cvtColor(image, cv2.COLOR_RGB2LAB).astype(np.float32)
     lab = cv2.GaussianBlur(lab, (0, 0), 3.0, sigmaY=1.0)
-    colours = lab[under]
-    colours = colours[:: -(-len(colours) // 32)]
-    squares = (lab**2).sum(axis=-1)[..., None] - 2 * lab @ colours.T + (colours**2).sum(axis=1)
+    colors = lab[under]
+    colors = colors[:: -(-len(colors) // 32)]
+    squares = (lab**2).sum(axis=-1)[..., None] - 2 * lab @ colors.T + (colors**2).sum(axis=1)
     distance = np.sqrt(np.maximum(squares.min(axis=-1), 0))
     rows, columns = np.nonzero(under)
     extent = math.hypot(np.ptp(rows) + 1, np.ptp(columns) + 1)

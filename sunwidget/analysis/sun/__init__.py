@@ -1,1 +1,1 @@
-"""The photo's own sun: where it is, its glare, and the photo without it."""
+"""The photo's own sun: its position, its glare, and the photo without it."""

@@ -1,8 +1,8 @@
-"""The camera's own glare round a sun in the frame: what is drawn with the sun wherever it is moved.
+"""The camera's glare around a sun in the frame, which is drawn with the moved sun.
 
-Bloom and haze in the lens add light of the sun's colour, falling off as a Moffat profile
+Bloom and haze in the lens add light of the sun's color, which falls off as a Moffat profile
 a / (1 + (angle / b)²)^c (Moffat 1969). It is added, not multiplied: the glow in a deep blue sky is
-white, and a ratio that took it for sky would leave it cyan. A profile is that of a sun of 20 klx on
+white, and a ratio that treats it as sky would leave it cyan. A profile holds for a sun of 20 klx on
 the lens, in a picture exposed for it. Twin: camera_glare.glsl.
 """
 
@@ -30,28 +30,28 @@ from sunwidget.geometry.camera import Camera
 
 Profile = tuple[float, float, float]
 
-# Of cameras that are not known, in units of a picture's width and of the light of its middle grey:
-# with frame/frame_output.glsl's highlights it falls off as in 94 photos that show their sun.
+# Glare of unknown cameras, in units of a picture's width and of the light of its middle gray: with
+# the highlights of frame/frame_output.glsl it falls off as in 94 photos that show their sun.
 _CORE, _LEVEL, _POWER = 0.02, 23.0, 1.3
-_LEAST, _MOST = 0.1, 3.0  # of that, whatever was measured
-_BURNT = (0.6, 0.9)  # display-linear light of the least channel: a coloured disc, a white one
-_LARGEST_DISC, _DISC_STEP = 0.08, 0.08  # widths; encoded luminance over what lies beside it
+_LEAST, _MOST = 0.1, 3.0  # limits of a measured glare relative to that
+_BURNT = (0.6, 0.9)  # display-linear light of the least channel: a colored disc, a white one
+_LARGEST_DISC, _DISC_STEP = 0.08, 0.08  # widths; encoded luminance above the surroundings
 _RIM = (1.1, 1.9)  # radii: of a sharp disc, and of the softest glow
 _WIDTHS = (0.4, 0.7, 1.1, 1.6, 2.4, 3.6, 5.5)  # degrees
-# The sky shows between clouds and rays: in a ring the darker third is sky and glare alone.
+# Between clouds and rays the sky shows: the darker third of a ring is sky and glare only.
 _CLEAREST = 0.3
 _REFERENCE, _GROWTH = 20.0, 0.35  # as in camera_glare.glsl
 
 
 def glare_profile(fit: SkyFit, camera: Camera) -> Profile:
-    """Return the glare of a new sun: as the photo's own has it, else as other photos' suns have it.
+    """Return the glare of a new sun: that of the photo's own sun, or the usual one.
 
     Parameters
     ----------
     fit : SkyFit
-        With what was measured, if anything was; its response says how bright white is.
+        With the measured glare, if any; its response gives the brightness of white.
     camera : Camera
-        Glare is as wide as the picture, and no narrower than the sun's disc.
+        The usual glare scales with the picture, but is never narrower than the sun's disc.
     """
     width = math.degrees(camera.width / camera.focal)
     core = math.hypot(_CORE * width, SUN_ANGULAR_RADIUS_DEG)
@@ -63,7 +63,7 @@ def glare_profile(fit: SkyFit, camera: Camera) -> Profile:
     height, own, _ = fit.glare
     if height <= 0:
         return usual, core, _POWER
-    # Far out only a b^2c counts. A core that is sharper than the usual would jump along a drag.
+    # Far out only a b^2c counts. A core sharper than the usual would jump while dragging.
     wide = max(own, core)
     share = height * (own / core) ** (2 * _POWER) / usual
     share = min(max(share, _LEAST), _MOST)
@@ -71,24 +71,24 @@ def glare_profile(fit: SkyFit, camera: Camera) -> Profile:
 
 
 def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> dict[str, Any]:
-    """Return what a photo shows of its sun: its disc, or the core that its camera burnt to white.
+    """Return the disc of a photo's sun, or the core that its camera clipped to white.
 
-    Where the sun is moved it stays as large, since that is the camera's doing.
+    A moved sun keeps this size, which comes from the camera.
 
     Parameters
     ----------
     sun : SunObservation or None
     camera : Camera
     working : Working
-        The photo's small copy, sun and all.
+        The photo's small copy, with its sun.
 
     Returns
     -------
     dict
         Scene uniforms: ``own_disc``, the median of its display-linear light (Rec. 709);
-        ``own_disc_radius``, the tangent of the angle from its centre to its rim, 0 where the photo
-        shows no sun; ``own_disc_burnt``, how far it is white, [0, 1]; ``own_disc_rim``, where its
-        light has fallen half way to that beside it, in radii.
+        ``own_disc_radius``, the tangent of the angle from its center to its rim, 0 if the photo
+        shows no sun; ``own_disc_burnt``, its degree of clipping, [0, 1]; ``own_disc_rim``, the
+        distance in radii at which its light has fallen half way to the surroundings.
     """
     color, radius, rim = np.zeros(3), 0.0, _RIM[0]
     if sun is not None and sun.visible and 0 < sun.radius_px < _LARGEST_DISC * sun.size[0]:
@@ -99,7 +99,7 @@ def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> di
         inside = (resize(sun.blot, working.width, working.height) > 0.5) & (away < 1.5)
         beside = (away > 2.5) & (away < 3.5) & above
         light = working.encoded @ LUMINANCE
-        # What is no brighter than the sky beside it is a blot that grew into it.
+        # A disc that is no brighter than the sky beside it has grown into the sky.
         seen = inside.any() and beside.any()
         if seen and np.median(light[inside]) > np.median(light[beside]) + _DISC_STEP:
             color = np.median(working.linear[inside], axis=0)
@@ -114,9 +114,9 @@ def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> di
 
 
 def _rim(light: np.ndarray, away: np.ndarray, above: np.ndarray) -> float:
-    """Return where, in radii, light is half way from the disc's to that of what lies beside it.
+    """Return the distance, in radii, at which light is half way from disc to surroundings.
 
-    ``above`` holds where no land is: above the sun.
+    ``above`` selects pixels above the sun, where there is no land.
     """
     rings = np.arange(0.8, 3.5, 0.1)
     parts = [above & (away >= r - 0.15) & (away < r + 0.15) for r in rings]
@@ -142,12 +142,12 @@ def measured_glare(
     trusted : (h, w) bool
         Unclipped sky.
     fit : SkyFit
-        Its response, air and sun.
+        Response, air and sun.
 
     Returns
     -------
     tuple of 3 floats
-        For ``SkyFit.glare``; its height is 0 where too little is seen.
+        For ``SkyFit.glare``; its height is 0 if too little sky is visible.
     """
     light = np.asarray(excess @ LUMINANCE)
     edges = np.concatenate([np.arange(0, 10, 0.5), np.arange(10, 41, 2.0)])
@@ -160,7 +160,7 @@ def measured_glare(
         return 0.0, 3.0, _POWER
     theta, level = np.array(found).T
     level = before_roll_off(np.maximum(level, 0), fit.response)
-    # Errors count relative to what is there: near the core a stop is a stop.
+    # Errors are relative to the level: a stop near the core counts as much as one farther out.
     weight = 1 / (0.1 * float(fit.response.scene_light(np.array(0.5))) + level)
     best = (math.inf, 0.0, 3.0)
     for width in _WIDTHS:
@@ -171,7 +171,7 @@ def measured_glare(
 
 
 def before_roll_off(light: np.ndarray, response: Response) -> np.ndarray:
-    """Return the light that frame/frame_output.glsl draws as bright as the photo has ``light``."""
+    """Return the light that frame/frame_output.glsl draws as bright as ``light`` in the photo."""
     knee, burns = 0.5, 1.06
     w = max(response.shoulder, 1e-4)
     over = np.clip((response.display_light(light) - knee) / (1 - knee) / burns, 0, 0.9)
@@ -180,7 +180,7 @@ def before_roll_off(light: np.ndarray, response: Response) -> np.ndarray:
 
 
 def beam(fit: SkyFit) -> np.ndarray:
-    """Light of the photo's own sun (3,) on the lens, klx."""
+    """Return the light of the photo's own sun (3,) on the lens, klx."""
     air = fit.atmosphere
     through = transmittance_to_top(air, camera_height(air), np.sin(np.radians(fit.sun[1])))
     matrix = np.asarray(SPECTRAL_TO_REC709).reshape(3, 4)
@@ -189,13 +189,13 @@ def beam(fit: SkyFit) -> np.ndarray:
 
 
 def strength(fit: SkyFit) -> float:
-    """Return what a measured profile is multiplied with for the photo's own sun."""
+    """Return the factor of a measured profile for the photo's own sun."""
     return float((max(float(beam(fit) @ LUMINANCE), 0.1) / _REFERENCE) ** _GROWTH)
 
 
 @lru_cache(maxsize=4)
 def angle_to_sun(camera: Camera, size: tuple[int, int], sun: tuple[float, float]) -> np.ndarray:
-    """Return degrees from the sun of each pixel at ``size`` (w, h): (h, w) float32, read-only."""
+    """Return each pixel's angle from the sun in degrees, ``size`` (w, h): (h, w) float32."""
     azimuth, elevation = np.radians(sun)
     level = np.cos(elevation)
     x, y, z = (

@@ -1,4 +1,4 @@
-"""Looking for the sun in a photo, and telling the moon from it."""
+"""Search for the sun in a photo, and distinguish it from the moon."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import SunMaps
 from sunwidget.formats.color import LUMINANCE
 
-LEAST_CONFIDENCE = 0.45  # from which a sun is one
-SURE = 0.7  # the same where the sky is as dark as a night's
+LEAST_CONFIDENCE = 0.45  # from which a peak counts as the sun
+SURE = 0.7  # the same in a sky as dark as at night
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate
 WEIGHTS = (4.325, 3.654, -0.778, 0.098, 1.988, -1.354)
-RADIUS_SCALE = 0.775  # of the network's radius, to that which people draw
-_NIGHT = 0.5  # a sun lights a tenth of its sky to more than this encoded luminance, a moon does not
+RADIUS_SCALE = 0.775  # from the network's radius to the radius that people draw
+_NIGHT = 0.5  # encoded luminance of the sky's brightest tenth: with a sun above, with a moon below
 
 
 class Peak(NamedTuple):
-    """Where the network sees a sun, in working pixels.
+    """A sun found by the network, in working pixels.
 
     Parameters
     ----------
     x, y : float
-        Centre.
+        Center.
     radius : float
-        Of its disc or burnt core.
+        Radius of its disc or clipped core.
     confidence : float
-        Probability that there is one, [0, 1]: a logistic regression (Platt 1999) on what the
-        network says, fitted on hand-labelled photos.
+        Probability that it is a sun, [0, 1]: a logistic regression (Platt 1999) on the network's
+        output, fitted to hand-labeled photos.
     sharpness : float
         Probability that it has a limb, [0, 1].
     """
@@ -44,17 +44,17 @@ class Peak(NamedTuple):
 
 
 def features_of(maps: SunMaps, working: Working) -> np.ndarray:
-    """Return what tells whether the likeliest place holds a sun, (5,).
+    """Return the features that decide whether the likeliest place has a sun, (5,).
 
-    Log odds there and at the best place elsewhere, by how much more light is to be erased there
-    than around, log of the radius in widths, and how bright the brightest channel is.
+    They are the log odds there and at the best place elsewhere, the excess of light to be erased
+    over the surroundings, the log of the radius in widths, and the brightest channel's level.
     """
     height, width = maps.probability.shape
     row, column = np.unravel_index(int(maps.probability.argmax()), (height, width))
     radius = float(maps.radius[row, column])
     columns, rows = np.arange(width) - column, np.arange(height)[:, None] - row
     away = np.hypot(columns, rows) / width
-    # Its glints on water stand below it and speak for it.
+    # Glints on water below it are evidence for the sun, not for another place.
     glints = (rows > 0) & (np.abs(columns) < 0.12 * width)
     elsewhere = maps.probability[(away > max(0.08, 2 * radius)) & ~glints]
     p = np.clip([maps.probability[row, column], elsewhere.max(initial=0.0)], 1e-6, 1 - 1e-6)
@@ -70,7 +70,7 @@ def features_of(maps: SunMaps, working: Working) -> np.ndarray:
 
 
 def peak_of(maps: SunMaps, working: Working) -> Peak:
-    """Return the likeliest sun, however unlikely."""
+    """Return the likeliest sun, even if it is unlikely."""
     height, width = maps.probability.shape
     row, column = np.unravel_index(int(maps.probability.argmax()), (height, width))
     rows, columns = slice(max(row - 1, 0), row + 2), slice(max(column - 1, 0), column + 2)
@@ -87,20 +87,20 @@ def peak_of(maps: SunMaps, working: Working) -> Peak:
 
 
 def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:
-    """Return the sun that the photo shows, or None; a dark sky's disc is rather the moon."""
+    """Return the sun that the photo shows, or None; a disc in a dark sky is likely the moon."""
     peak = peak_of(maps, working)
     if not night(working.encoded @ LUMINANCE, sky):
         return peak if peak.confidence >= LEAST_CONFIDENCE else None
-    # So dark a sky round the sun itself is red; one that is blue is lit by the moon.
+    # A sky this dark is red around the sun; a blue one is lit by the moon.
     red, _, blue = np.median(working.encoded[sky > 0.5], axis=0)
     moonlit = red <= blue and find_moon(working, sky) is not None
     return peak if peak.confidence >= SURE and not moonlit else None
 
 
 def night(luminance: np.ndarray, sky: np.ndarray) -> bool:
-    """Whether the sky (h, w) is too dark for one with a sun in it; luminance encoded.
+    """Return whether the sky (h, w) is too dark for a sun in it; luminance is encoded.
 
-    Measured: 0.74 and more at the 90th percentile of skies with a sun, sunsets included; 0.45
+    Measured at the 90th percentile: 0.74 and more for skies with a sun, including sunsets; 0.45
     and less with a moon.
     """
     inside = sky > 0.5
@@ -108,9 +108,9 @@ def night(luminance: np.ndarray, sky: np.ndarray) -> bool:
 
 
 def find_moon(working: Working, sky: np.ndarray) -> tuple[float, float] | None:
-    """Return the centre of a bright disc in a night sky, in fractions of the picture, or None.
+    """Return the center of a bright disc in a night sky, in fractions of the picture, or None.
 
-    It must be round and stand free in the sky, which a lamp on its post does not.
+    It must be round and free in the sky, unlike a lamp on a post.
     """
     import cv2
 
@@ -131,11 +131,11 @@ def find_moon(working: Working, sky: np.ndarray) -> tuple[float, float] | None:
     if radius < 2.5 or math.pi * radius**2 < 0.6 * area:
         return None
     rows, columns = np.nonzero(disc)
-    centre = float(columns.mean()) + 0.5, float(rows.mean()) + 0.5
+    center = float(columns.mean()) + 0.5, float(rows.mean()) + 0.5
     y, x = np.mgrid[: sky.shape[0], : sky.shape[1]] + 0.5
-    distance = np.hypot(x - centre[0], y - centre[1])
+    distance = np.hypot(x - center[0], y - center[1])
     ring = (distance > 1.3 * radius + 2) & (distance < 2.2 * radius + 4)
-    # Before a tele lens it is larger than any lamp, and trees or roofs may stand beside it.
+    # In a telephoto it is larger than any lamp, and trees or roofs may be beside it.
     least = 0.85 if radius < 0.03 * max(sky.shape) else 0.4
     free = ring.any() and float((sky[ring] > 0.5).mean()) > least
-    return (centre[0] / sky.shape[1], centre[1] / sky.shape[0]) if free else None
+    return (center[0] / sky.shape[1], center[1] / sky.shape[0]) if free else None

@@ -1,7 +1,7 @@
-"""The photo's own sun: where it is, how large it came out, and its pixels (thesis 3.1.3).
+"""The photo's own sun: its position, its size in the picture, and its pixels (thesis 3.1.3).
 
-``METHODS`` maps a name to a function that grows a mask from a seed pixel; ``find``
-(search.py) gives the seed when no person does.
+``METHODS`` maps a name to a function that grows a mask from a seed pixel; ``find`` (search.py)
+gives the seed if the user does not.
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ __all__ = [
     "settled",
 ]
 
-_SHARP = 0.6  # of the network, from which a core is a disc with a limb
-_EVEN = 0.3  # rise over run up to which the skyline beside a low sun goes on behind it
-_LIMB_STEP = 0.15  # encoded luminance between the two sides of a limb
-_LEAST_LIMB = 6.0  # working pixels of radius
-TOLERANCE = 0.03  # M of Algorithm 1: encoded luminance around the seed's
+_SHARP = 0.6  # sharpness by the network, from which a core is a disc with a limb
+_EVEN = 0.3  # rise over run up to which the skyline beside a low sun continues behind it
+_LIMB_STEP = 0.15  # least difference of encoded luminance across a limb
+_LEAST_LIMB = 6.0  # radius in working pixels
+TOLERANCE = 0.03  # M of Algorithm 1: deviation of encoded luminance from the seed's
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,25 +50,25 @@ class SunObservation:
     Parameters
     ----------
     x, y : float
-        Centre in pixels of the photo; may lie outside.
+        Center in pixels of the photo; may lie outside.
     radius_px : float
-        Radius of its bright blot in pixels (0 when it is outside or hidden). Over-exposed suns
-        come out far larger than the true disc.
+        Radius of its bright area in pixels (0 if it is outside or hidden). An over-exposed sun
+        is far larger than the true disc.
     azimuth, elevation : float
         Degrees, by the camera.
     blot : (h, w) float32
-        Its pixels, [0, 1], at the size at which they were found.
+        Mask of its pixels, [0, 1], at the size at which they were found.
     size : (width, height)
-        Of the photo.
+        Size of the photo in pixels.
     visible : bool
         Whether the photo shows it.
     source : str
         Name of the method, "hint", or "assumed".
     kind : str
-        "sun"; or "moon", when a person pointed at a disc in a night sky. A moon that is found
-        is ``Scene.moon`` instead.
+        "sun"; or "moon" if the user marked a disc in a night sky. A detected moon is
+        ``Scene.moon`` instead.
     confidence : float
-        How likely it is the sun, [0, 1]: 1 when a person said so, and where nothing measures it.
+        Probability that it is the sun, [0, 1]: 1 for a hint, and if nothing measures it.
     """
 
     x: float
@@ -85,12 +85,12 @@ class SunObservation:
 
     @property
     def mask(self) -> np.ndarray:
-        """Pixels of the blot at the photo's size, (H, W) float32 in [0, 1]; made when asked for."""
+        """Mask of its pixels at the photo's size, (H, W) float32 in [0, 1]; computed on access."""
         return resize(self.blot, *self.size)
 
 
 class Blot(NamedTuple):
-    """The sun in working pixels: centre, radius and its pixels (h, w) float32."""
+    """The sun in working pixels: center, radius and mask (h, w) float32."""
 
     x: float
     y: float
@@ -101,8 +101,8 @@ class Blot(NamedTuple):
 def flood_fill(working: Working, sky: np.ndarray, x: float, y: float, focal: float) -> Blot:
     """Grow from the seed over pixels whose luminance differs from the seed's by at most M.
 
-    Thesis Algorithm 1, marked on push (``cv2.floodFill`` with a fixed range). ``sky`` and
-    ``focal`` are not used.
+    Thesis Algorithm 1, with pixels marked on push (``cv2.floodFill`` with a fixed range). ``sky``
+    and ``focal`` are not used.
     """
     import cv2
 
@@ -119,11 +119,11 @@ def flood_fill(working: Working, sky: np.ndarray, x: float, y: float, focal: flo
 
 
 def disc_fit(working: Working, sky: np.ndarray, x: float, y: float, focal: float) -> Blot:
-    """Grow the clipped blot around the seed and fit a circle to it.
+    """Grow the clipped area around the seed and fit a circle to it.
 
-    The blot is what is nearly as bright as the brightest pixel within a few disc radii of the
-    seed; its centre is the centroid weighted by how far inside it lies, so that rays and a
-    horizon that cuts it pull little. Never smaller than the true disc in this camera.
+    The area is nearly as bright as the brightest pixel within a few disc radii of the seed. Its
+    center is the centroid weighted by the distance from its edge, so that rays and a horizon
+    through it have little effect. It is never smaller than the true disc in this camera.
     """
     import cv2
 
@@ -149,9 +149,9 @@ def disc_fit(working: Working, sky: np.ndarray, x: float, y: float, focal: float
     weight = np.where(depth > 0.5 * depth.max(), depth, 0) ** 2
     rows, columns = np.mgrid[:height, :width]
     total = float(weight.sum())
-    centre_x = float((columns * weight).sum()) / total + 0.5
-    centre_y = float((rows * weight).sum()) / total + 0.5
-    return Blot(centre_x, centre_y, max(float(depth.max()), true_radius), mask.astype(np.float32))
+    center_x = float((columns * weight).sum()) / total + 0.5
+    center_y = float((rows * weight).sum()) / total + 0.5
+    return Blot(center_x, center_y, max(float(depth.max()), true_radius), mask.astype(np.float32))
 
 
 METHODS: dict[str, Callable[[Working, np.ndarray, float, float, float], Blot]] = {
@@ -161,7 +161,7 @@ METHODS: dict[str, Callable[[Working, np.ndarray, float, float, float], Blot]] =
 
 
 def settled(blot: Blot, peak: Peak) -> Blot:
-    """Return a blot that grew from a found sun; where it grew into cloud or glow, a plain disc."""
+    """Return a mask grown from a detected sun, or a plain disc if it grew into cloud or glow."""
     near = math.hypot(blot.x - peak.x, blot.y - peak.y) < max(0.7 * peak.radius, 3)
     if near and 0.5 * peak.radius < blot.radius < 1.6 * peak.radius:
         return blot
@@ -171,10 +171,10 @@ def settled(blot: Blot, peak: Peak) -> Blot:
 
 
 def field_of_view_of(blot: Blot, peak: Peak, working: Working, assumed: float) -> float | None:
-    """Return the vertical field of view that the disc's size tells, degrees, or None.
+    """Return the vertical field of view in degrees from the disc's size, or None.
 
-    A limb that is sharp and round is the true 0.533°; a bloomed core says nothing, and a disc of a
-    few pixels little. A disc no larger than in the ``assumed`` field of view is bloomed, too.
+    A sharp and round limb has the true 0.533°. A bloomed core gives no information, and a disc of a
+    few pixels little. A disc no larger than in the ``assumed`` field of view counts as bloomed.
     """
     area = float(blot.mask.sum())
     if peak.sharpness < _SHARP or blot.radius < _LEAST_LIMB or peak.confidence < 0.5:
@@ -195,15 +195,15 @@ def field_of_view_of(blot: Blot, peak: Peak, working: Working, assumed: float) -
 
 
 def away_from(shape: tuple[int, ...], x: float, y: float) -> np.ndarray:
-    """Return the distance in pixels of each pixel of a map (h, w) from a place."""
+    """Return the distance of each pixel of a map (h, w) from a point, in pixels."""
     return np.hypot(np.arange(shape[1]) + 0.5 - x, np.arange(shape[0])[:, None] + 0.5 - y)
 
 
 def in_sky(blot: Blot, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6) -> np.ndarray:
-    """Return the blot with a soft rim, (h, w) float32; zeros unless sky surrounds it.
+    """Return the mask with a soft rim, (h, w) float32; zeros unless sky surrounds it.
 
-    What is much darker than the disc, as twigs before it, is left out. ``least`` is the share of
-    its surroundings that must be sky.
+    Pixels much darker than the disc, such as twigs in front of it, are excluded. ``least`` is the
+    share of the surroundings that must be sky.
     """
     import cv2
 
@@ -213,7 +213,7 @@ def in_sky(blot: Blot, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6)
     ring = cv2.dilate(blot.mask, np.ones((3 * reach, 3 * reach), np.uint8)) - blot.mask
     if ring.sum() < 1 or float((ring * sky).sum() / ring.sum()) < least:
         return np.zeros_like(sky)
-    # A setting sun is cut by what lies below the sky.
+    # The land below the sky cuts a setting sun.
     rows = np.flatnonzero(((ring > 0) & (sky > 0.5)).any(1))
     if not rows.size:
         return np.zeros_like(sky)
@@ -231,11 +231,11 @@ _BURNS = 0.75  # radii beyond the disc
 
 
 def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
-    """Return where a low sun's glare over an even skyline is no sky, (h, w) float32 in [0, 1].
+    """Return where a low sun's glare over an even skyline is not sky, (h, w) float32 in [0, 1].
 
-    A setting sun burns a notch into the sea or the hills before it. Between the skylines left and
-    right of it, where they are below its centre, nothing below their line is sky: where they are
-    uneven, as trees are, nothing of what is burnt.
+    A setting sun clips a notch into the sea or the hills in front of it. If the skylines left and
+    right of it are below its center, nothing below the line between them is sky; if they are
+    uneven, as trees are, only the clipped part is excluded.
     """
     import cv2
 
@@ -244,7 +244,7 @@ def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
     first, last = math.floor(blot.x) - wide, math.ceil(blot.x) + wide
     if first - wide < 0 or last + wide > sky.shape[1]:
         return no_sky
-    # Of each column the row below its last pixel of sky.
+    # In each column, the row below its last pixel of sky.
     ends = (sky[:, first - wide : last + wide] > 0.5) * np.arange(1, sky.shape[0] + 1)[:, None]
     skyline = ends.max(axis=0)
     left, right = skyline[:wide], skyline[-wide:]
@@ -273,10 +273,10 @@ def observe(
     working: Working,
     peak: Peak | None = None,
 ) -> SunObservation | None:
-    """Turn a blot, or a hint outside the picture, into what the Scene tells about the sun.
+    """Make the Scene's observation of the sun from a mask, or from a hint outside the picture.
 
-    A hinted sun stays where the person put it; the blot then only gives size and pixels. ``peak``
-    is what a found one was found as.
+    A hinted sun keeps its position; the mask then gives only its size and pixels. ``peak`` is the
+    network's peak of a detected sun.
     """
     zoom_x, zoom_y = working.zoom
     if seed is not None:

@@ -1,1 +1,1 @@
-"""Water: where it is, and where the old sun glints on it."""
+"""Water, and the glints of the old sun on it."""

@@ -1,4 +1,4 @@
-"""Glitter: where the old sun glints on water, or on whatever else shines."""
+"""Glitter: the old sun's glints on water and other shiny surfaces."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sunwidget.geometry.camera import Camera
 SIDE = 256  # px: waves average out
 STANDARD_VARIANCE = 0.5 * (1e-3 + 3.16e-3 * 5 + 3e-3 + 1.92e-3 * 5)  # water/glint.glsl at 5 m/s
 _FALL = 300.0
-_WIDTH = 0.3  # of the picture's width: how far from under the sun glints are looked for
+_WIDTH = 0.3  # of the picture's width: greatest distance of glints from the sun's column
 
 
 def glitter(
@@ -20,20 +20,20 @@ def glitter(
     water: np.ndarray | None = None,
     sun_column: float | None = None,
 ) -> np.ndarray:
-    """Zone of the old sun's glints.
+    """Return the zone of the old sun's glints.
 
-    Around pixels burnt white, on land or water; and on water what is brighter than the rest of its
-    row under the sun. A zone, not the pixels themselves: what is burnt and what nearly is must be
-    relit alike, or the brightest would come out darker than their rim.
+    It surrounds clipped pixels on land or water, and pixels of water below the sun that are
+    brighter than the rest of their row. It is a zone, since clipped and almost clipped pixels must
+    be relit alike, or the brightest would become darker than their rim.
 
     Parameters
     ----------
     working : Working
         The small photo.
     sky, water : (h, w) float32
-        At its size; no water when None.
+        Maps at its size; None means no water.
     sun_column : float, optional
-        Where the sun's azimuth meets the horizon, in fractions of the width.
+        Column where the sun's azimuth meets the horizon, in fractions of the width.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def glitter(
     burnt = np.clip((white - 0.5) / 0.4, 0, 1).astype(np.float32) * (1 - sky)
     reach = 2 * max(2, round(0.012 * max(sky.shape))) + 1
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
-    # In bytes: a fifth of the time, and as fine as what it becomes for the frame.
+    # In bytes: a fifth of the time, and as precise as the frame's texture.
     spread = cv2.dilate(np.round(burnt * 255).astype(np.uint8), kernel)
     zone = cv2.GaussianBlur(spread.astype(np.float32) / 255, (0, 0), reach / 3)
     if water is not None and sun_column is not None and water.any():
@@ -54,15 +54,15 @@ def glitter(
     return np.clip(zone * (1 - sky), 0, 1).astype(np.float32)
 
 
-def column_of(camera: Camera, azimuth: float) -> float | None:
-    """Where an azimuth (degrees) meets the horizon, in fractions of the width; None behind it."""
+def azimuth_column(camera: Camera, azimuth: float) -> float | None:
+    """Return the column of an azimuth in degrees at the horizon, in widths; None far aside."""
     if abs(azimuth) > 80:
         return None
     return float(camera.pixel(azimuth, 0.0)[0] / camera.width)
 
 
 def _under_sun(working: Working, water: np.ndarray, column: float) -> np.ndarray:
-    """Water brighter than the rest of its row, near the sun's column: (h, w) float32."""
+    """Return water near the sun's column that is brighter than its row, (h, w) float32."""
     import cv2
 
     mask, excess = _excess(working, water, column)
@@ -79,37 +79,37 @@ def _under_sun(working: Working, water: np.ndarray, column: float) -> np.ndarray
 def roughness(
     working: Working, water: np.ndarray, camera: Camera, sun: tuple[float, float]
 ) -> float:
-    """How much rougher the photo's water is than the standard wind makes it, as variance.
+    """Return the slope variance of the photo's water relative to the standard wind's.
 
-    From how wide the old sun glints: a facet that mirrors a sun of elevation s into the eye from
-    e below the horizon and an azimuth a beside it has the slope a / (sin s + sin e) across
-    (Cox & Munk 1954, eq. 2, for small a). Where a photo shows their edge, glints have fallen
-    to about the 300th of their middle, which it clips.
+    It follows from the width of the old sun's glints: a facet that mirrors a sun of elevation s
+    into the eye from e below the horizon and an azimuth a beside it has the slope
+    a / (sin s + sin e) across (Cox & Munk 1954, eq. 2, for small a). At their visible edge, glints
+    have fallen to about a 300th of their middle, which the photo clips.
 
     Parameters
     ----------
     working : Working
     water : (h, w) float32
-        At its size.
+        Water at its size.
     camera : Camera
-        Of any size.
+        Camera for any size.
     sun : (azimuth, elevation)
-        Degrees, of a sun that the photo shows.
+        Visible sun in degrees.
 
     Returns
     -------
     float
-        0.05 to 2 times the slope variance of the standard wind of 5 m/s; 1 where nothing glints.
+        0.05 to 2 times the slope variance of the standard wind of 5 m/s; 1 without glints.
     """
     import cv2
 
-    column = column_of(camera, sun[0])
+    column = azimuth_column(camera, sun[0])
     if column is None or not water.any() or not 1 < sun[1] < 60:
         return 1.0
     mask, excess = _excess(working, water, column)
     height, width = mask.shape
     small = camera.resized(width, height)
-    # Single waves average out; the glow round the glints is the mirrored sky's.
+    # Averages out single waves; the glow around the glints belongs to the mirrored sky.
     excess = cv2.GaussianBlur(excess * mask, (0, 0), 1.0, sigmaY=3.0)
     middle = int(np.clip(column * width, 0, width - 1))
     sides = [min(max(middle + step, 0), width - 1) for step in (-width // 5, width // 5)]
@@ -139,7 +139,7 @@ def _away(width: int, column: float) -> np.ndarray:
 
 
 def _excess(working: Working, water: np.ndarray, column: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return water and log luminance over the rest of the row, on a small copy."""
+    """Return water, and log luminance relative to the rest of the row, on a small copy."""
     scale = min(1.0, SIDE / max(working.width, working.height))
     linear = np.asarray(resize(working.linear, working.width * scale, working.height * scale))
     height, width = linear.shape[:2]
@@ -149,7 +149,7 @@ def _excess(working: Working, water: np.ndarray, column: float) -> tuple[np.ndar
     excess = np.zeros_like(light)
     seen = mask > 0.6
     for row in np.flatnonzero(seen.sum(axis=1) >= 8):
-        # Glints may fill half a row; what is beside them is the water's own light.
+        # Glints may fill half a row; pixels beside them have the water's own light.
         beside = seen[row] & (away > 0.5) if (seen[row] & (away > 0.5)).sum() >= 8 else seen[row]
         excess[row] = light[row] - np.quantile(light[row][beside], 0.4)
     return mask, excess

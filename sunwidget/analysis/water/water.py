@@ -1,4 +1,4 @@
-"""Water: level surfaces below the horizon that mirror the sky.
+"""Water: level surfaces below the horizon that reflect the sky.
 
 ``METHODS`` maps a name to a function ``(Working, sky, Horizon, SunMaps) -> (h, w) float32``; the
 horizon is in working pixels.
@@ -17,30 +17,30 @@ from sunwidget.analysis.networks.sun import SunMaps
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
-_EDGE = (0.45, 0.55)  # probabilities between which a pixel is water in part
+_EDGE = (0.45, 0.55)  # probabilities between which a pixel is partly water
 _BELIEF = 0.6  # mean probability from which a patch is water
-WEIGHTS = (0.06, 0.68, 0.44)  # bias, and of the log odds of the network of suns and of that of land
-_REDDER = 0.4  # log of red over blue by which water is at most redder than its sky
+WEIGHTS = (0.06, 0.68, 0.44)  # bias; weights of the log odds of the sun's and the land's network
+_REDDER = 0.4  # log of red over blue by which water may be redder than its sky
 _DARK = 0.004  # linear light that counts as noise
-_BURNT = 0.9  # linear light from which a pixel has lost its colour
+_BURNT = 0.9  # linear light from which a pixel has lost its color
 _COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
-_SUN = 0.3  # probability from which there is a sun whose column may be twice as wide
-_GAP = 0.02  # and half of the gap between water and sky
-_STRIP = 0.005  # the same of a gap above the horizon
+_SUN = 0.3  # probability of a sun from which its column may be twice as wide
+_GAP = 0.02  # of the width: half of the gap between water and sky
+_STRIP = 0.005  # of the width: half of the gap above the horizon
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
-_SHORE = 0.04  # of the width: how far beyond the network's edge the shore may be
-_SHORE_SIDE = 384  # px of the copy on which it is looked for
-_RADIUS = 5  # px of the working copy: how far the edge of the mask follows the picture
+_SHORE = 0.04  # of the width: greatest distance of the shore from the network's edge
+_SHORE_SIDE = 384  # px of the copy on which the shore is searched
+_RADIUS = 5  # px of the working copy: distance over which the mask's edge follows the picture
 _EPSILON = 1e-4
 
 
 def none(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) -> np.ndarray:
-    """Call nothing water."""
+    """Return no water."""
     return np.zeros_like(sky)
 
 
 def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) -> np.ndarray:
-    """Find water as the networks of suns and of land see it.
+    """Find water with the networks of suns and of land.
 
     Parameters
     ----------
@@ -49,14 +49,14 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     sky : (h, w) float32
         Sky matte at its size.
     horizon : Horizon
-        In its pixels.
+        Horizon in its pixels.
     maps : SunMaps
-        What the network says of the photo.
+        The sun network's output.
 
     Returns
     -------
     (h, w) float32
-        Share of water in a pixel, [0, 1]; zero everywhere where there is next to none.
+        Share of water in a pixel, [0, 1]; zero everywhere if there is almost none.
     """
     height, width = sky.shape
     camera = Camera.from_horizon(width, height, 50.0, horizon.row, roll=horizon.roll)
@@ -79,9 +79,9 @@ METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]
 
 
 def _believed(likely: np.ndarray, light: np.ndarray, sky: np.ndarray) -> np.ndarray:
-    """Return the probability (h, w) of the patches that are water on the whole.
+    """Return the probability (h, w) in patches that are water as a whole.
 
-    They are no redder than all of the sky that they might mirror: a bare plain, say.
+    Patches redder than all of the sky that they might reflect are rejected, such as a bare plain.
     """
     import cv2
 
@@ -99,7 +99,7 @@ def _believed(likely: np.ndarray, light: np.ndarray, sky: np.ndarray) -> np.ndar
 
 
 def water_odds(seen: np.ndarray, land: np.ndarray) -> np.ndarray:
-    """Return the probability (h, w) of water by what two networks say, each (h, w) in [0, 1].
+    """Return the probability (h, w) of water from two networks' outputs, each (h, w) in [0, 1].
 
     A logistic regression on their logits, fitted by ``training/land/calibrate_water.py``.
     """
@@ -108,10 +108,10 @@ def water_odds(seen: np.ndarray, land: np.ndarray) -> np.ndarray:
 
 
 def _to_the_shore(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:
-    """Return the water with its edges where the colours change, within a band round the network's.
+    """Move the water's edges to changes of color, within a band around the network's edges.
 
-    GrabCut (Rother et al. 2004) on a small copy; its map is coarse, and what it leaves of dark
-    water along a bank would be lit as land in shade is.
+    GrabCut (Rother et al. 2004) on a small copy. The network's map is coarse, and dark water that
+    it misses along a bank would be lit as land in shade.
     """
     import cv2
 
@@ -138,9 +138,9 @@ def _to_the_shore(working: Working, sky: np.ndarray, water: np.ndarray) -> np.nd
 def _with_glints(
     working: Working, sky: np.ndarray, ground: np.ndarray, water: np.ndarray, maps: SunMaps
 ) -> np.ndarray:
-    """Add what lies between water, or water and sky, and is as bright.
+    """Add bright pixels between water and water, or between water and sky.
 
-    So the sun's burnt column, where nothing tells what it shines on: the widest one below the sun.
+    They include the sun's clipped column, whose surface is invisible; it is widest below the sun.
     """
     import cv2
 
@@ -155,19 +155,19 @@ def _with_glints(
     level = (light * water).sum(axis=1)[rows] / share[rows]
     level = np.interp(np.arange(len(share)), rows, level)
     brighter = smoothstep(0.0, 0.1, light - level[:, None])
-    # The last of the water below the sky is thinner than the network's map; land there is darker.
+    # The farthest water below the sky is thinner than the network's map; land there is darker.
     as_bright = smoothstep(0.6, 0.8, light / np.maximum(level, _EPSILON)[:, None])
     found = np.maximum(water, closed(water, _COLUMN, 0) * brighter * ground)
     below = _below_sun(maps, water.shape[1])
     found = np.maximum(found, closed(found, 2 * _COLUMN, 0) * below * as_bright * ground)
     found = np.maximum(found, closed(np.maximum(found, sky), 0, _GAP) * as_bright * ground)
-    # The horizon is known to a few rows; what lies between sky and sky is no water.
+    # The horizon is known to a few rows; gaps between sky and sky are not water.
     strip = closed(np.maximum(found, sky), 0, _STRIP) - closed(sky, 0, _STRIP)
     return np.asarray(np.maximum(found, np.maximum(strip, 0) * as_bright), np.float32)
 
 
 def _below_sun(maps: SunMaps, width: int) -> np.ndarray:
-    """Return the columns, (width,) bool, that a found sun's column of glints may take."""
+    """Return the columns, (width,) bool, that a detected sun's column of glints may cover."""
     row, column = np.unravel_index(int(maps.probability.argmax()), maps.probability.shape)
     seen = float(maps.probability[row, column]) > _SUN
     away = np.abs((np.arange(width) + 0.5) / width - (column + 0.5) / maps.probability.shape[1])
@@ -180,12 +180,12 @@ def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarr
     Returns
     -------
     (h, w) float32
-        At working size, [0, 1], nothing of it in the sky.
+        At working size, [0, 1], 0 in the sky.
     """
     import cv2
 
     found = resize(water, working.width, working.height).astype(np.float32)
-    # Where it ends at the sky the sky's matte is its edge.
+    # Where water meets the sky, the sky's matte is its edge.
     near = cv2.dilate(found, np.ones((2 * _RADIUS + 1, 2 * _RADIUS + 1), np.uint8))
     rough = np.maximum(found, near * sky)
     guide = np.sqrt(np.clip(working.luminance, 0, 1)).astype(np.float32)
@@ -197,7 +197,7 @@ def soft_edged(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarr
     slope = (mean(guide * rough) - middle * share) / (mean(guide * guide) - middle**2 + _EPSILON)
     fine = mean(slope) * guide + mean(share - slope * middle)
     fine = np.clip(1.5 * (fine - 0.5) + 0.5, 0, 1)
-    # Burnt by a low sun water and sky look alike, and the filter would leave a strip of land.
+    # Water and sky clipped by a low sun look alike, and the filter would leave a strip of land.
     strip = cv2.morphologyEx(np.maximum(fine, sky), cv2.MORPH_CLOSE, np.ones((2 * _RADIUS + 1, 1)))
     burnt = smoothstep(_BURNT / 2, _BURNT, working.linear.max(-1))
     return np.asarray(np.maximum(fine, np.minimum(strip, found) * burnt) * (1 - sky), np.float32)

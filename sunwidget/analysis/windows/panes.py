@@ -1,8 +1,8 @@
-"""Windows: found by a network, lit one by one (models/MODEL_CARD.md).
+"""Windows: detected by a network, lit one by one (models/MODEL_CARD.md).
 
-A pane's light is its own and no ratio: lamps stand behind it that the photo does not show. Some
-rooms stay dark and no two lamps are alike; which and how follows from where a window is, so that
-the same photo always has the same evening.
+A pane's light is absolute, not a ratio: it comes from lamps that the photo does not show. Some
+rooms stay dark and no two lamps are alike. All of it depends only on the windows' positions, so
+that the same photo always gets the same lights.
 """
 
 from __future__ import annotations
@@ -24,24 +24,24 @@ if TYPE_CHECKING:
     from sunwidget.photo.photo import Photo
 
 BUNDLED = Path(__file__).parents[1] / "models" / "panes.onnx"
-SIDE = 1024  # pixels of the longer side of the copy that the network sees
+SIDE = 1024  # longer side of the network's input in pixels
 BRIGHTEST = 3.0  # times the median lamp; a level of 1 in the texture
 _STRIDE = 32
 _DARK_ROOMS = 0.4
-_SPREAD = 0.6  # ln: of lamps' brightness
+_SPREAD = 0.6  # standard deviation of ln brightness of lamps
 _AT_TOP, _AT_FOOT = 1.2, 0.65  # of a window's light: lamps hang from ceilings
 _AT_SIDES = 0.75
 _CURTAINS, _BLINDS = 0.25, 0.2  # shares of windows
 _BEHIND = 0.45  # of the light: through curtains and blinds
-_FURNISHED, _THINGS = 12, 0.3  # pixels, from which on a room is seen; ln: what is in it
+_FURNISHED, _THINGS = 12, 0.3  # width in pixels from which furniture is visible; its ln contrast
 _FRAME = 0.04  # of a window's size
-# Mean probability of glass: shutters and boards have none, and of small windows little is seen.
-_GLASS_FROM, _GLASS_WIDE = (0.05, 0.4), (8, 28)  # of windows; widths between them (pixels)
+# Mean probability of glass: shutters and boards have none, and small windows show little.
+_GLASS_FROM, _GLASS_WIDE = (0.05, 0.4), (8, 28)  # of windows; least width and range (pixels)
 _GLASS_WALL = 0.45
-_SEEN = 0.1, 0.35  # probabilities: of what hides a window, and of what is its own
-_BARRED = 10  # pixels from side to side, from which on bars are seen
-_BAR = 0.35, 0.75  # of a window's glass, from side to side: where a bar is and where none
-_SAME_ROOM = 1.3  # widths between the middles of windows of one room
+_SEEN = 0.1, 0.35  # probabilities of a window: of something that hides it, and of the window
+_BARRED = 10  # width in pixels from which bars are visible
+_BAR = 0.35, 0.75  # share of the glass along a line: of a bar, and of glass without one
+_SAME_ROOM = 1.3  # widths between the centers of windows of one room
 _STOREY, _UNIT = 0.014, 0.012  # of the picture's longer side: rooms behind walls of glass
 
 
@@ -53,17 +53,17 @@ class View(NamedTuple):
 
 
 def look(photo: Photo) -> tuple[View, ...]:
-    """Return what the network sees of a photo at two sizes, once a photo: strokes do not ask again.
+    """Return the network's output for a photo at two sizes; cached per photo.
 
-    The longer side of the first is ``SIDE``; a small photo's is twice its own at most. The second
-    is half as large.
+    The longer side of the first is ``SIDE``, but at most twice that of the photo. The second is
+    half as large.
 
     Raises
     ------
     AnalysisError
-        When onnxruntime is missing.
+        If onnxruntime is missing.
     """
-    with _looking:  # whoever comes while it is looked at waits for what the other sees
+    with _looking:  # concurrent callers wait for the first one's result
         if photo not in _seen:
             picture = photo.preview(SIDE).astype(np.float32) / 255
             scale = min(2.0, SIDE / max(picture.shape))
@@ -82,7 +82,7 @@ def _look(picture: np.ndarray, scale: float) -> View:
 
 
 def probability(views: Sequence[View]) -> np.ndarray:
-    """Return the probability that pixels belong to windows, (h, w) float32 of the first's size."""
+    """Return the probability that pixels belong to windows, (h, w) float32 at the first size."""
     return shapes.likeliest([view.window for view in views])
 
 
@@ -92,13 +92,13 @@ def lamps(views: Sequence[View]) -> np.ndarray:
     Parameters
     ----------
     views : sequence of View
-        What is seen at falling sizes, none in the sky.
+        Network output at decreasing sizes, 0 in the sky.
 
     Returns
     -------
     (h, w, 4)
-        Light of the panes, ``BRIGHTEST`` times that of a median lamp at 1; light that falls from
-        them on what is near, alike; how warm it is, cold at 0; and 1.
+        Light of the panes, where 1 is ``BRIGHTEST`` times a median lamp; their light on
+        surroundings, in the same unit; its warmth, 0 for cold; and 1.
     """
     import cv2
 
@@ -111,7 +111,7 @@ def lamps(views: Sequence[View]) -> np.ndarray:
     light, warmth = (np.zeros(window.shape, np.float32) for _ in range(2))
     for room in rooms(windows):
         _light_room(windows[room], pane, light, warmth)
-    # What hides a window in part stays dark.
+    # Objects that hide part of a window stay dark.
     light *= np.clip((window - _SEEN[0]) / (_SEEN[1] - _SEEN[0]), 0, 1)
     for whole in towers + shapes.walls(wall):
         if pane[whole.inside].mean() > _GLASS_WALL:
@@ -119,7 +119,7 @@ def lamps(views: Sequence[View]) -> np.ndarray:
     light = np.minimum(light, 1)
     if not light.any():
         return np.zeros((1, 1, 4), np.float32)
-    # Light falls on reveals and sills, and wider and weaker on the ground and walls before them.
+    # Light falls on reveals and sills, and more widely and weakly on ground and walls in front.
     reach = 0.02 * max(height, width)
     near = cv2.GaussianBlur(light, (0, 0), 0.15 * reach)
     coarse = max(1, round(0.25 * reach))
@@ -133,13 +133,13 @@ def lamps(views: Sequence[View]) -> np.ndarray:
 
 
 def _least_glass(wide: np.ndarray) -> np.ndarray:
-    """Return how likely glass must be in windows of a width in pixels."""
+    """Return the least probability of glass in windows of a width in pixels."""
     low, high = _GLASS_FROM
     return np.asarray(low + (high - low) * np.clip((wide - _GLASS_WIDE[0]) / _GLASS_WIDE[1], 0, 1))
 
 
 def rooms(windows: np.ndarray) -> list[np.ndarray]:
-    """Return which windows (n, 6) light each room: indices, of those close together in a row."""
+    """Return the windows (n, 6) of each room, as indices of windows close together in a row."""
     x, y = (windows[None, :, at] - windows[:, None, at] for at in (X, Y))
     wide = 0.5 * (windows[None, :, WIDE] + windows[:, None, WIDE])
     off = np.abs(y - x * windows[:, None, [TOP, FOOT]].mean(2))
@@ -153,9 +153,9 @@ def rooms(windows: np.ndarray) -> list[np.ndarray]:
 
 
 def _lamp(x: float, y: float, shape: tuple[int, ...]) -> tuple[float, float, np.random.Generator]:
-    """Return a room's brightness, 1 for a median lamp and 0 when dark, how warm it is, and chance.
+    """Return a room's brightness (1 for a median lamp, 0 if dark), warmth, and random generator.
 
-    It follows from where the room is to a thousandth of the picture, so that a stroke elsewhere
+    The seed is the room's position to a thousandth of the picture, so that a stroke elsewhere
     changes nothing.
     """
     place = [max(0, round(1000 * at / n)) for at, n in zip((x, y), shape[::-1], strict=True)]
@@ -203,9 +203,9 @@ def _light_room(
 
 
 def _between_bars(pane: np.ndarray, cover: np.ndarray, down: np.ndarray) -> np.ndarray:
-    """Return what bars and frames leave of a window, (h, w) in [0, 1]: straight, from side to side.
+    """Return the part of a window without straight bars and frames, (h, w) in [0, 1].
 
-    ``pane`` is the probability of glass, ``cover`` the window, ``down`` how far below its lintel.
+    ``pane`` is the probability of glass, ``cover`` the window, ``down`` the depth below its lintel.
     """
     columns = np.broadcast_to(np.arange(cover.shape[1]), cover.shape)
     left = np.ones(cover.shape)
@@ -221,7 +221,7 @@ def _between_bars(pane: np.ndarray, cover: np.ndarray, down: np.ndarray) -> np.n
 
 
 def _light_wall(wall: shapes.Wall, light: np.ndarray, warmth: np.ndarray) -> None:
-    """Light the rooms behind a wall of glass: storeys that are busy or not, and rooms of some."""
+    """Light the rooms behind a wall of glass: storeys differ in the share of lit rooms."""
     longer = max(light.shape)
     tall = (wall.foot - wall.top).max()
     storeys, units = (
@@ -244,7 +244,7 @@ def _light_wall(wall: shapes.Wall, light: np.ndarray, warmth: np.ndarray) -> Non
             unit += run
     warm = chance.random(storeys)
     at = np.clip(down.astype(int), 0, storeys - 1), np.clip(across.astype(int), 0, units - 1)
-    # Slabs between the storeys, and posts where there is room for any.
+    # Slabs between the storeys, and posts where there is space.
     pitch = (wall.foot - wall.top) / storeys
     slab = np.clip((down % 1) * pitch - 0.25 * pitch, 0, 1)
     post = np.clip((across % 1) * len(wall.top) / units - 0.5, 0, 1)

@@ -1,7 +1,7 @@
-"""Windows as upright trapezia: fitted to what a network sees, then aligned with their neighbours.
+"""Windows as upright trapezia: fitted to a network's output, then aligned with their neighbors.
 
-A façade has few kinds of window in rows and columns. What a network sees of each is ragged; what it
-sees of all of them together says how large, how steep and where in the row each is.
+A façade has few kinds of window in rows and columns. The network's shape of each is ragged; all of
+them together give the size, slope and position of each.
 """
 
 from __future__ import annotations
@@ -14,47 +14,47 @@ import numpy as np
 from sunwidget.analysis.images.working_copy import resize
 
 X, Y, WIDE, TALL, TOP, FOOT = range(6)
-"""Columns of windows, (n, 6): middle, size (pixels), slopes of lintel and sill."""
-# Probabilities; what is no trapezium at one may be some at the next.
+"""Columns of windows, (n, 6): center, size (pixels), slopes of lintel and sill."""
+# Probabilities: a piece that is no trapezium at one may split into some at the next.
 _LEVELS = (0.5, 0.65, 0.8, 0.9)
-_WEAK = 0.2  # probability of what is a window if it stands in line with others
-_LIKE_A_WINDOW = 0.75  # overlap with a trapezium over what both cover
-_BARELY = 0.6  # the same, of what does not fall apart
-_MUCH = 0.4  # of a piece, that windows in it must cover
-_LEAST = 3e-5  # of the picture: what is smaller is no window
+_WEAK = 0.2  # probability of a window that is in line with others
+_LIKE_A_WINDOW = 0.75  # intersection over union with a trapezium
+_BARELY = 0.6  # the same for a piece that does not split
+_MUCH = 0.4  # least share of a piece that windows in it must cover
+_LEAST = 3e-5  # of the picture: smallest window
 _FEWEST = 12  # pixels of a window
 _THINNEST = 3  # pixels
-_SLOPED = 4  # columns from which on a slope is seen
+_SLOPED = 4  # columns from which a slope is measurable
 _STEEPEST = 0.8  # slope of sills and lintels
 _NARROWING = 0.35  # of a window's height, from one side to the other
 _WIDEST = 3.0  # times its height: boards and shadows of eaves are wider
 _TALLEST = 6.0  # times its width: posts are taller
-_WALL = 0.02  # of the picture: larger is a wall of glass
+_WALL = 0.02  # of the picture: a larger window is a wall of glass
 _GAP, _FILLED = 0.015, 0.8  # of the picture's longer side; of a wall's outline
 _LEVEL, _UPRIGHT = 0.35, 1.2  # of a wall's width: how steep its edges are; how tall it is
 _STACK = 0.1, 2.0  # of the picture's longer side, of its width: taller is more than one room
-_PLAIN = 6  # pixels from side to side, from which on what is seen of a coarse picture counts
-_MADE_OF = 0.45  # of a large window or wall, from which on it is the small ones in it
-_SO_MANY = 4  # of them, too
-_NEAR = 6.0  # sizes of a window, within which others of its façade are
-_ALIKE = 0.35  # ln: of sizes of windows of one kind
-_IN_LINE = 0.3  # sizes off a row or column
-_BORDER = 1.4  # sizes of a window, within which nothing else is one
-_ALONE, _TOGETHER = 0.65, 0.25  # mean probability of windows: alone, or in line with others
-_AS_LARGE, _LARGE = 0.78, (16, 24)  # of large ones; from which width on, and over how many pixels
-_FEW = 3  # neighbours from which on a façade is known
-_MATES = 2  # neighbours in line that make a weak window one
+_PLAIN = 6  # width in pixels from which a window in a coarse picture counts
+_MADE_OF = 0.45  # share of a large window or wall from which small windows in it replace it
+_SO_MANY = 4  # least number of such small windows
+_NEAR = 6.0  # sizes of a window: greatest distance of others of its façade
+_ALIKE = 0.35  # ln: greatest difference in size of windows of one kind
+_IN_LINE = 0.3  # sizes: greatest distance from a row or column
+_BORDER = 1.4  # sizes of a window, within which there is no other
+_ALONE, _TOGETHER = 0.65, 0.25  # least mean probability of windows: alone, or in line with others
+_AS_LARGE, _LARGE = 0.78, (16, 24)  # the same for large ones; width at its start, and range
+_FEW = 3  # neighbors from which a façade is known
+_MATES = 2  # neighbors in line that confirm a weak window
 
 
 class Found(NamedTuple):
-    """Windows (n, 6), and what is a wall of glass, (h, w) bool."""
+    """Windows (n, 6), and walls of glass, (h, w) bool."""
 
     windows: np.ndarray
     wall: np.ndarray
 
 
 class Wall(NamedTuple):
-    """A wall of glass: where it is (h, w) bool, and from ``left`` on its edges (w,) in pixels."""
+    """A wall of glass: its pixels (h, w) bool, and its edges (w,) in pixels from ``left`` on."""
 
     inside: np.ndarray
     left: int
@@ -68,9 +68,9 @@ def find(*seen: np.ndarray) -> Found:
     Parameters
     ----------
     *seen : (h, w) float32
-        Probability that a pixel belongs to a window, at falling sizes of the picture: a network
-        sees small windows in a fine one and large ones in a coarse one. What is found has the size
-        of the first.
+        Probability that a pixel belongs to a window, at decreasing sizes of the picture: a network
+        finds small windows in a fine one and large ones in a coarse one. The result has the
+        first size.
     """
     shape = seen[0].shape
     wall = np.zeros(shape, bool)
@@ -89,7 +89,7 @@ def find(*seen: np.ndarray) -> Found:
 
 
 def likeliest(seen: Sequence[np.ndarray]) -> np.ndarray:
-    """Return the highest of probabilities (h, w) of several sizes, as large as the first."""
+    """Return the maximum of probabilities (h, w) of several sizes, at the first size."""
     height, width = seen[0].shape
     return np.maximum.reduce([resize(image, width, height) for image in seen])
 
@@ -119,7 +119,7 @@ def corners(window: np.ndarray) -> np.ndarray:
 
 
 def filled(quad: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
-    """Return what of each pixel lies in a convex shape, (n, 2) between middles of pixels."""
+    """Return the share of each pixel in a convex shape, (n, 2) with pixel centers at integers."""
     import cv2
 
     fine = 4
@@ -131,10 +131,10 @@ def filled(quad: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
 
 
 def walls(mask: np.ndarray) -> list[Wall]:
-    """Return walls of glass with straight edges, of where some is seen, (h, w) bool.
+    """Return walls of glass with straight edges from a mask of glass, (h, w) bool.
 
-    Gaps that are smaller than rooms are closed. Only what looks like a tower is one: a large
-    surface that is not upright, level and whole is more often a clad wall.
+    Gaps smaller than rooms are closed. Only shapes like a tower count: a large surface that is not
+    upright, level and whole is more often a clad wall.
     """
     import cv2
 
@@ -161,7 +161,7 @@ def walls(mask: np.ndarray) -> list[Wall]:
 
 
 def stacks(windows: np.ndarray, shape: tuple[int, int]) -> tuple[np.ndarray, list[Wall]]:
-    """Return windows (n, 6) of one room each, and those that are as tall as several, as walls."""
+    """Return windows (n, 6) of one room each, and taller ones as walls."""
     tall, wide = windows[:, TALL], windows[:, WIDE]
     several = (tall > _STACK[0] * max(shape)) & (tall > _STACK[1] * wide)
     out = []
@@ -176,7 +176,7 @@ def stacks(windows: np.ndarray, shape: tuple[int, int]) -> tuple[np.ndarray, lis
 
 
 def aligned(windows: np.ndarray) -> np.ndarray:
-    """Return windows (n, 6) with the size, the slopes and the places of their rows and columns."""
+    """Return windows (n, 6) with the sizes, slopes and positions of their rows and columns."""
     if len(windows) <= _FEW:
         return windows
     near = _near(windows, windows)
@@ -189,21 +189,21 @@ def aligned(windows: np.ndarray) -> np.ndarray:
     out[enough, TOP], out[enough, FOOT] = slopes[enough].T
     row, column = _lines(out, out)
     row, column = row & near, column & near
-    told = enough & (row.sum(1) >= _FEW)
-    # Rows tell how steep they are better than sills of single windows do.
+    aligned_rows = enough & (row.sum(1) >= _FEW)
+    # Rows give slopes more precisely than sills of single windows.
     level, slope = _along(out, row)
-    known = near * np.where(told, row.sum(1), 0)
+    known = near * np.where(aligned_rows, row.sum(1), 0)
     rows = known.sum(1) > 0
     slopes = _slopes(out[rows], known[rows][:, rows], slope[rows])
     out[rows, TOP], out[rows, FOOT] = slopes.T
-    out[told, Y] = level[told]
-    told = enough & (column.sum(1) >= _FEW)
-    out[told, X] = ((column * out[:, X]).sum(1) / np.maximum(column.sum(1), 1))[told]
+    out[aligned_rows, Y] = level[aligned_rows]
+    columns = enough & (column.sum(1) >= _FEW)
+    out[columns, X] = ((column * out[:, X]).sum(1) / np.maximum(column.sum(1), 1))[columns]
     return out
 
 
 def _along(windows: np.ndarray, row: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return where a line through each row (n, n) has its window, and how steep it is: (n,)."""
+    """Return each window's height on the line through its row (n, n), and the slope: (n,)."""
     count = np.maximum(row.sum(1), 1)
     x, y = (row @ windows[:, at] / count for at in (X, Y))
     across, over = (windows[None, :, at] - mean[:, None] for at, mean in ((X, x), (Y, y)))
@@ -212,7 +212,7 @@ def _along(windows: np.ndarray, row: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
 
 def _apart(windows: np.ndarray) -> np.ndarray:
-    """Return windows (n, 6) without those that lie in a larger one."""
+    """Return windows (n, 6) without those inside a larger one."""
     order = np.argsort(-windows[:, WIDE] * windows[:, TALL])
     windows = windows[order]
     x, y = (np.abs(windows[None, :, at] - windows[:, None, at]) for at in (X, Y))
@@ -221,7 +221,7 @@ def _apart(windows: np.ndarray) -> np.ndarray:
 
 
 def _near(some: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Return whether others are near some and of about their size, (n, m) bool."""
+    """Return whether others are near some and of similar size, (n, m) bool."""
     size = some[:, None, [WIDE, TALL]]
     apart = np.abs(others[None, :, [X, Y]] - some[:, None, [X, Y]])
     ratio = np.abs(np.log(others[None, :, [WIDE, TALL]] / size))
@@ -229,24 +229,24 @@ def _near(some: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 
 def _lines(some: np.ndarray, others: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return whether others stand in a row with some, and in a column, two (n, m) bool."""
+    """Return whether others are in a row with some, and in a column, two (n, m) bool."""
     x, y = (others[None, :, at] - some[:, None, at] for at in (X, Y))
     off = np.abs(y - x * some[:, None, [TOP, FOOT]].mean(2))
     return off < _IN_LINE * some[:, None, TALL], np.abs(x) < _IN_LINE * some[:, None, WIDE]
 
 
 def _scaled(windows: np.ndarray, shape: tuple[int, ...], larger: tuple[int, ...]) -> np.ndarray:
-    """Return windows (n, 6) of a picture of one shape as they are in a larger copy."""
+    """Return windows (n, 6) of a picture of one shape, scaled to a larger copy."""
     y, x = (to / was for to, was in zip(larger, shape, strict=True))
     out = windows * [x, y, x, y, y / x, y / x]
-    out[:, [X, Y]] += [(x - 1) / 2, (y - 1) / 2]  # middles of pixels
+    out[:, [X, Y]] += [(x - 1) / 2, (y - 1) / 2]  # centers of pixels
     return np.asarray(out)
 
 
 def _merged(
     fine: np.ndarray, wall: np.ndarray, rough: np.ndarray, rough_wall: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return windows and walls of two sizes of a picture: a large one, or those it is made of."""
+    """Merge windows and walls of two picture sizes: a large window, or the small ones in it."""
     import cv2
 
     area = fine[:, WIDE] * fine[:, TALL]
@@ -270,30 +270,30 @@ def _merged(
 
 
 def _believed(windows: np.ndarray, probability: np.ndarray) -> np.ndarray:
-    """Return which windows are likely enough, (n,) bool: more so alone in a line, or large."""
-    alone = _mates(windows, windows) < _MATES  # itself is one
+    """Return which windows are likely enough, (n,) bool; single and large ones need more."""
+    alone = _mates(windows, windows) < _MATES  # counts the window itself
     large = np.clip((windows[:, WIDE] - _LARGE[0]) / _LARGE[1], 0, 1)
     least = np.maximum(np.where(alone, _ALONE, _TOGETHER), _AS_LARGE * large)
     return np.asarray(mean_within(windows, probability) > least)
 
 
 def _mates(weak: np.ndarray, strong: np.ndarray) -> np.ndarray:
-    """Return how many strong windows each weak one stands in line with, (n,)."""
+    """Return the number of strong windows in line with each weak one, (n,)."""
     row, column = _lines(strong, weak)
     return ((row | column).T & _near(weak, strong)).sum(1)
 
 
 def _slopes(windows: np.ndarray, weight: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    """Return slopes of lintels and sills, (n, 2): near a window they change evenly with height.
+    """Return slopes of lintels and sills, (n, 2), which change linearly with height nearby.
 
-    ``slope`` (n,) is known at the windows' middles, with a ``weight`` (n, n) for each other one.
+    ``slope`` (n,) is known at the windows' centers, with a ``weight`` (n, n) for each other one.
     """
     height = windows[:, Y]
     total = weight.sum(1)
     middle, steep = weight @ height / total, weight @ slope / total
     spread = weight @ height**2 - total * middle**2
     both = weight @ (height * slope) - total * middle * steep
-    # Pulled towards the mean where windows are of about one height.
+    # Regularized towards the mean if all windows have about the same height.
     change = both / (spread + total * windows[:, TALL] ** 2)
     half = 0.5 * windows[:, TALL]
     at = np.stack([height - half, height + half], 1) - middle[:, None]
@@ -301,7 +301,7 @@ def _slopes(windows: np.ndarray, weight: np.ndarray, slope: np.ndarray) -> np.nd
 
 
 def _trapezia(probability: np.ndarray, wall: np.ndarray) -> np.ndarray:
-    """Return trapezia (n, 6) of what is likely; large ones go into ``wall``."""
+    """Return trapezia (n, 6) of likely pixels; large ones go into ``wall``."""
     found = _split(probability, (0, 0), 0, wall)
     return np.array([window for window, _ in found]).reshape(-1, 6)
 
@@ -309,9 +309,9 @@ def _trapezia(probability: np.ndarray, wall: np.ndarray) -> np.ndarray:
 def _split(
     part: np.ndarray, place: tuple[int, int], level: int, wall: np.ndarray
 ) -> list[tuple[np.ndarray, int]]:
-    """Return the windows of a part of the picture, (6,), and how many pixels each covers.
+    """Return the windows of a part of the picture, (6,), and the pixels that each covers.
 
-    What is no trapezium is several windows if it falls apart into some where the network is surer.
+    A piece that is no trapezium becomes several windows if it splits into some at a higher level.
     """
     import cv2
 
@@ -345,7 +345,7 @@ def _split(
 
 
 def _weak(probability: np.ndarray, strong: np.ndarray, wall: np.ndarray) -> np.ndarray:
-    """Return trapezia (n, 6) of what is likely only if others say so."""
+    """Return trapezia (n, 6) of weak pixels, which other windows must confirm."""
     import cv2
 
     taken = cv2.dilate(wall.astype(np.uint8), np.ones((5, 5), np.uint8))
@@ -366,13 +366,13 @@ def _weak(probability: np.ndarray, strong: np.ndarray, wall: np.ndarray) -> np.n
 
 
 def _fit(piece: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return the trapezium (6,) that is most like a piece, (h, w) bool, and how like it is."""
+    """Return the trapezium (6,) most similar to a piece, (h, w) bool, and their similarity."""
     import cv2
 
     columns = np.flatnonzero(piece.any(0))
     top = piece.argmax(0)[columns]
     foot = piece.shape[0] - piece[::-1].argmax(0)[columns] - 1
-    # Sides where half of a full column is there.
+    # The sides are where half of a full column is covered.
     high = piece.sum(0)[columns]
     full = np.flatnonzero(high >= 0.5 * np.median(high))
     x = columns[full]
@@ -390,7 +390,7 @@ def _fit(piece: np.ndarray) -> tuple[np.ndarray, float]:
         slopes = [sum(slopes) / 2] * 2
     window = np.array([middle, sum(at) / 2, last - first + 1, at[1] - at[0] + 1, *slopes])
     shape = np.zeros(piece.shape, np.uint8)
-    quad = corners(window - [0, 0, 1, 1, 0, 0])  # to the middles of pixels
+    quad = corners(window - [0, 0, 1, 1, 0, 0])  # to the centers of pixels
     cv2.fillConvexPoly(shape, np.round(quad * 16).astype(np.int32), 1, shift=4)
     both, either = (shape & piece).sum(), (shape | piece).sum()
     return window, float(both / either)

@@ -1,1 +1,1 @@
-"""Bruneton's precomputed sky, a model of the explorer."""
+"""Bruneton's precomputed sky, one of the explorer's models."""

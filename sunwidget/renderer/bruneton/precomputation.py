@@ -1,4 +1,4 @@
-"""Runs the shaders that precompute the sky (``precomputed_sky.py``), a band of rows at a time."""
+"""Run the shaders that precompute the sky (``precomputed_sky.py``), a band of rows at a time."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ PASSES = (
     "bruneton/source",
     "bruneton/table",
 )
-"""Shaders that are run here only; ``bruneton_view`` is a pass of the explorer's frame graph."""
+"""Shaders that only this module runs; ``bruneton_view`` is a pass of the explorer's graph."""
 
 ALL_ORDERS = 8
-"""Orders that clear air takes when all are asked for; white haze over snow takes 24."""
+"""Orders that "all orders" needs in clear air; white haze over snow needs 24."""
 
 _MOST_ORDERS = 24
-_LAST_SHARE = 0.003  # of the light, that a geometric series may stand for
+_LAST_SHARE = 0.003  # of the light: the most that a geometric series may replace
 _DIRECTIONS = (16, 16)  # zeniths and azimuths of the quadrature, as in bruneton/field.glsl
 _BAND_SECONDS = 0.15
 _FIRST_BAND_TEXELS = 2048
@@ -57,7 +57,7 @@ class Size:
         return mu * nu, r * mu_s
 
     def texels(self) -> dict[str, int]:
-        """Texels drawn of each pass, for one order where it is repeated."""
+        """Return the texels of each pass, per order for passes that are repeated."""
         r, mu_s, theta, phi = self.field
         incident = r * mu_s * math.prod(_DIRECTIONS)
         return {
@@ -77,7 +77,7 @@ SIZES: dict[str, Size] = {
 
 
 class Precomputation:
-    """Draws the passes in bands, so that other users of the GL thread wait for one band only."""
+    """Draw the passes in bands, so that other tasks of the GL thread wait for one band only."""
 
     def __init__(
         self, atmosphere: Atmosphere, orders: int, size: Size, progress: Progress | None
@@ -94,7 +94,7 @@ class Precomputation:
         }
         self.textures: dict[str, moderngl.Texture] = {}
         cost = size.texels()
-        # Relative cost of one texel of each pass, for the progress alone.
+        # Relative cost of one texel of each pass, used only for the progress.
         more = self.orders - 1
         self.todo_before_tables = 3.0 * (cost["bruneton/first"] + more * cost["bruneton/source"])
         self.todo_before_tables += 10.0 * max(more - 1, 0) * cost["bruneton/incident"]
@@ -102,7 +102,7 @@ class Precomputation:
         self.done = 0.0
 
     def run(self) -> Floats:
-        """Return the three tables, (3, r, mu_s, mu, nu, 4); what was drawn on the way is freed."""
+        """Return the three tables, (3, r, mu_s, mu, nu, 4); free all intermediate textures."""
         try:
             return self._run()
         finally:
@@ -137,7 +137,7 @@ class Precomputation:
         return np.stack(tables).reshape(3, r, mu_s, mu, nu, 4)
 
     def _is_last(self, order: int, sources: list[Floats]) -> bool:
-        """Whether what follows ``order`` is not asked for, or little enough for the series."""
+        """Return whether ``order`` is the last requested, or the rest is small enough."""
         if not self.all:
             return order >= self.orders
         if order < 4:
@@ -146,7 +146,7 @@ class Precomputation:
         return bool(rest.mean(axis=(0, 1)).max() < _LAST_SHARE)
 
     def _sum(self, orders: list[Floats], size: tuple[int, int]) -> Floats:
-        """Sum of the orders, and of all, what follows the last of them."""
+        """Return the sum of the orders, plus the rest of the series if all are requested."""
         if not orders:
             return np.zeros((size[1], size[0], 4), np.float32)
         total = np.sum(orders, axis=0)
@@ -161,7 +161,7 @@ class Precomputation:
         message: str = "scattering, first order",
         **values: Any,
     ) -> None:
-        """Draw one pass into the texture ``name``, a band of rows in each task of the GL thread."""
+        """Draw one pass into the texture ``name``, one band of rows per task of the GL thread."""
         width, height = size
         values = {**self.values, **values, "pass_size": (float(width), float(height))}
 
@@ -172,7 +172,7 @@ class Precomputation:
             return context.framebuffer([texture])
 
         framebuffer = on_gl_thread(prepare)
-        # More orders than expected stand still in the progress, fewer leap ahead.
+        # With more orders than expected the progress stands still; with fewer it jumps.
         limit = self.todo if shader == "bruneton/table" else self.todo_before_tables
         top, rows = 0, max(1, _FIRST_BAND_TEXELS // width)
         while top < height:
@@ -194,7 +194,7 @@ class Precomputation:
         return on_gl_thread(task)
 
     def upload(self, name: str, image: Floats) -> None:
-        """Put ``image`` (h, w, 4) into the texture ``name``."""
+        """Upload ``image`` (h, w, 4) into the texture ``name``."""
 
         def task(context: moderngl.Context) -> None:
             height, width, _ = image.shape
@@ -204,7 +204,7 @@ class Precomputation:
 
 
 def _rest_of_series(orders: list[Floats]) -> Floats:
-    """Sum of the orders after the last, as a geometric series of the ratio of the last two."""
+    """Return the sum of all later orders, a geometric series by the ratio of the last two."""
     last, before = orders[-1], orders[-2]
     ratio = np.clip(last / np.maximum(before, 1e-30), 0, 0.95)
     return np.asarray(last * ratio / (1 - ratio), np.float32)
@@ -250,7 +250,7 @@ _measured: dict[str, float] = {}
 
 
 def measured_rates() -> dict[str, float]:
-    """Seconds a texel of marching single scattering, gathering the source, and making it."""
+    """Return seconds per texel to march single scattering, gather the source, and make it."""
     if not _measured:
         size = SIZES["small"]
         work = Precomputation(Atmosphere(), 2, size, None)

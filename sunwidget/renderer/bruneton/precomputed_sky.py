@@ -1,12 +1,12 @@
 """The precomputed sky: all orders of scattering for every altitude, view and sun, in one table.
 
 After Bruneton & Neyret, "Precomputed Atmospheric Scattering" (2008) and Bruneton's second
-implementation (2017), with shaders of our own (``shaders/bruneton/``, run on EGL by
-``precomputation.py``). A table is made for one state of the air, once: then the sun and the camera
-move for nothing. It differs from his in this: four wavelengths; single scattering by haze in a
-table of its own; samples where light varies most, and logarithms between them
-(``bruneton/coordinates.glsl``); and orders that are iterated on a quadrature of directions, so that
-the large table is filled once at the end and not for every order.
+implementation (2017), with sunwidget's own shaders (``shaders/bruneton/``, run on EGL by
+``precomputation.py``). A table is made once for one state of the air; moving the sun and the
+camera then costs nothing. It differs from Bruneton's table: it has four wavelengths; single
+scattering by haze has a separate table; samples are densest where light varies most, with
+logarithmic interpolation (``bruneton/coordinates.glsl``); and orders are iterated on a quadrature
+of directions, so that the large table is filled once at the end instead of for every order.
 """
 
 from __future__ import annotations
@@ -48,18 +48,18 @@ _DARK = np.float32(1e-12)
 
 @dataclass(frozen=True)
 class BrunetonTable:
-    """Radiance per unit of solar irradiance (1/sr) over the guess of its fall in twilight.
+    """Radiance per unit of solar irradiance (1/sr), divided by a guess of its fall in twilight.
 
     Parameters
     ----------
     atmosphere : Atmosphere
-        The air it was made for; its altitude is no part of the table.
+        The air of the table; its altitude does not affect the table.
     orders : int
-        Orders of scattering in it, 0 for all.
+        Orders of scattering, 0 for all.
     tables : ndarray, shape (3, r, mu_s, mu, nu, 4), float32
         Single scattering by air and by haze, both without phase function; all other light.
     seconds : float
-        What the precomputation took; 0 when it came from the cache.
+        Duration of the precomputation; 0 for a table from the cache.
     """
 
     atmosphere: Atmosphere
@@ -68,17 +68,17 @@ class BrunetonTable:
     seconds: float = 0.0
 
     def slice(self, altitude: float | None = None) -> Floats:
-        """Return what a camera at one altitude needs, as the texture of ``bruneton_view``.
+        """Return the table at one altitude of the camera, as the texture of ``bruneton_view``.
 
         Parameters
         ----------
         altitude : float, optional
-            Metres above sea level, default that of the atmosphere.
+            Metres above sea level; default: the altitude of the atmosphere.
 
         Returns
         -------
         ndarray, shape (3 · mu_s + 1, mu · nu, 4), float32
-            The three tables one above the other, 1.5 MB. The last row holds the altitude, the
+            The three tables, one above the other, 1.5 MB. The last row has the altitude, the
             aerosol's asymmetry and the sample counts of nu and mu_s.
         """
         if altitude is not None:
@@ -90,7 +90,7 @@ class BrunetonTable:
         place = min(_altitude_coordinate(h) * (r - 1), r - 1.0)
         low = min(int(place), r - 2)
         part = np.float32(place - low)
-        # By the logarithm, as densities fall.
+        # Logarithmic interpolation, since densities fall exponentially.
         below, above = (np.log(np.maximum(self.tables[:, i], _DARK)) for i in (low, low + 1))
         level = np.exp(below * (1 - part) + above * part)
         out = np.zeros((3 * mu_s + 1, mu * nu, 4), np.float32)
@@ -107,7 +107,7 @@ class BrunetonTable:
     ) -> NDArray[np.float64]:
         """Return the sky's radiance in W m⁻² sr⁻¹ nm⁻¹, shape (..., 4): see ``SkyTable.radiance``.
 
-        The look-up of ``bruneton/view.glsl`` in NumPy.
+        NumPy twin of the look-up in ``bruneton/view.glsl``.
         """
         elevation, azimuth, sun = np.broadcast_arrays(
             *(
@@ -143,31 +143,31 @@ def bruneton_table(
     *,
     cache: bool = True,
 ) -> BrunetonTable:
-    """Return the precomputed sky of ``atmosphere``, from the cache or made now.
+    """Return the precomputed sky of ``atmosphere``, from the cache or newly computed.
 
     Parameters
     ----------
     atmosphere : Atmosphere
-        What is in the air; its altitude is used by ``slice`` and ``radiance`` only.
+        What is in the air; only ``slice`` and ``radiance`` use its altitude.
     orders : int, default 0
-        Orders of scattering and reflection, 1–16; 0 stands for all.
+        Orders of scattering and reflection, 1–16; 0 for all.
     size : {"small", "full"}
         16×64×32×8 or 32×128×32×8 samples of r, mu, mu_s and nu.
     progress : callable, optional
         Called with (fraction, message) about six times a second; raise in it to cancel.
     cache : bool, default True
-        Whether the user's cache folder is read and written.
+        Whether to use the user's cache folder.
 
     Raises
     ------
     ValueError
         For an unknown size or a number of orders out of range.
     RendererError
-        When this machine has no EGL.
+        If this machine has no EGL.
 
     See Also
     --------
-    bruneton_cost : what it will take, before it runs.
+    bruneton_cost : estimate of the time that it takes.
     """
     if not 0 <= orders <= 16 or orders != int(orders):
         raise ValueError(f"orders must be a whole number from 0 (all) to 16, not {orders!r}")
@@ -186,14 +186,14 @@ def bruneton_table(
 
 
 def is_cached(atmosphere: Atmosphere, orders: int = 0, size: str = "small") -> bool:
-    """Return whether ``bruneton_table`` would find its table on the disk."""
+    """Return whether the cache has the table of ``bruneton_table``."""
     return table_cache.path(_key(atmosphere, orders, _size(size))).is_file()
 
 
 def bruneton_cost(size: str = "small", orders: int = 0) -> float:
-    """Return the seconds that a precomputation will take on this machine, to about a factor of 1.5.
+    """Estimate the seconds of a precomputation on this machine, to about a factor of 1.5.
 
-    Measured, not tabulated: a few rows of the two dearest passes are drawn (0.3 s, once).
+    The estimate is measured: a few rows of the two slowest passes are drawn (0.3 s, once).
     """
     samples = _size(size)
     texels = samples.texels()
@@ -215,7 +215,7 @@ def _size(name: str) -> Size:
 
 def _key(atmosphere: Atmosphere, orders: int, size: Size) -> str:
     air = {name: value for name, value in atmosphere.parameters().items() if name != "altitude"}
-    # The expanded shaders are part of the key: whoever changes one makes new tables.
+    # The expanded shaders are part of the key, so that a changed shader makes new tables.
     shaders = [resolve_includes(f"{name}.glsl") for name in ("atmosphere/columns", *PASSES)]
     return table_cache.key(air, orders, dataclasses.astuple(size), shaders)
 
@@ -260,9 +260,9 @@ def _azimuth_coordinate(cosine: NDArray[np.float64], count: int) -> NDArray[np.f
 def _interpolate(
     tables: NDArray[np.float64], places: tuple[NDArray[np.float64], ...]
 ) -> NDArray[np.float64]:
-    """Sample ``tables`` (3, sun, view, azimuth, 4) at ``places``: (3, ..., 4).
+    """Sample ``tables`` (3, sun, view, azimuth, 4) at ``places``; returns (3, ..., 4).
 
-    Linear in view and azimuth, by the logarithm between suns.
+    Interpolation is linear in view and azimuth, logarithmic between suns.
     """
     corners = [
         np.clip(p.astype(int), 0, n - 2) for p, n in zip(places, tables.shape[1:4], strict=True)

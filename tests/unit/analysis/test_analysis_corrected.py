@@ -104,7 +104,7 @@ def test_a_person_may_say_that_nothing_in_the_picture_is_the_sun(scene):
     assert told.sun is None
     assert frame_inputs.uniforms(told)["sun_visible"] == 0
     assert (told.automatic["sun_azimuth"], told.automatic["sun_elevation"]) == told.assumed_sun
-    assert any("said not to be in" in warning for warning in told.warnings)
+    assert any("According to the hint, the sun is not in" in warning for warning in told.warnings)
     assert_same(told, sw.analyze(seascape(), fov=45.0, sun="outside"))
 
 

@@ -155,9 +155,9 @@ def test_a_horizon_on_top_of_what_hides_it_is_told():
     picture = np.where(mask[..., None] > 0, (150, 180, 230), (60, 50, 40)).astype(np.uint8)
     told = sw.analyze(picture, sky=mask, horizon_method="row_argmax")
     assert told.horizon.row == pytest.approx(100, abs=2)
-    assert any("lies too high" in note for note in told.warnings)
+    assert any("That is too high" in note for note in told.warnings)
     hinted = sw.analyze(picture, sky=mask, horizon=250)
-    assert not any("lies too high" in note for note in hinted.warnings)
+    assert not any("That is too high" in note for note in hinted.warnings)
 
 
 def test_a_jagged_skyline_gives_a_guess_at_its_lowest_part_or_lower():

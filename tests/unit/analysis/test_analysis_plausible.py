@@ -8,7 +8,7 @@ import pytest
 import sunwidget as sw
 from sunwidget.analysis import correct
 from sunwidget.analysis.fit.fit import Response, SkyFit
-from sunwidget.analysis.fit.overcast import believable, overcast
+from sunwidget.analysis.fit.overcast import limit_balance, overcast
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.segmentation.plausible import plausible
 from sunwidget.atmosphere.parameters import Atmosphere
@@ -74,10 +74,10 @@ def test_blue_pink_and_night_skies_and_photos_without_colour_are_not_overcast():
 
 def test_no_white_balance_bleaches_a_blue_sky():
     fit = SkyFit(Atmosphere(), Response(), (0.06, 0.05, 0.04), (0.0, 3.0, 2.0), (0.0, 50.0))
-    clear = believable(fit, flat(), UPPER)
+    clear = limit_balance(fit, flat(), UPPER)
     assert np.log(clear.gain[0] / clear.gain[2]) == pytest.approx(-0.6)
     assert np.array(clear.gain) @ LUMINANCE == pytest.approx(np.array(fit.gain) @ LUMINANCE)
     # A low sun reddens sky and light alike, and at night nothing is known.
     low = dataclasses.replace(fit, sun=(0.0, 2.0))
-    assert believable(low, flat(), UPPER).gain == pytest.approx(low.gain)
-    assert believable(fit, flat(0.06), UPPER) is fit
+    assert limit_balance(low, flat(), UPPER).gain == pytest.approx(low.gain)
+    assert limit_balance(fit, flat(0.06), UPPER) is fit

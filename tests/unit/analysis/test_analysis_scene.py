@@ -58,7 +58,7 @@ def test_a_scene_says_what_it_is_in_three_short_lines(scene):
     assert max(map(len, (photo, found, shares))) < 100
     assert "array(" not in repr(scene.sun)
     hinted = sw.analyze(landscape(), sky=mask(), sun=(50, 30), fov=38)
-    assert "° (told); horizon in row" in repr(hinted)
+    assert "° (hint); horizon in row" in repr(hinted)
 
 
 def test_hinted_sun_horizon_and_field_of_view_win():
@@ -128,7 +128,7 @@ def test_a_picture_without_sky_warns_with_what_to_do():
     warned = sw.analyze(dark, sky=np.zeros((60, 80)))
     text = "\n".join(warned.warnings)
     assert "No sky found in array (0.0 % of pixels)" in text
-    assert "all of it changes alike, and only a little" in text
+    assert "the whole picture changes evenly, and only a little" in text
     assert "sky=mask" in text
 
 

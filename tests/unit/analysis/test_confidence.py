@@ -175,7 +175,7 @@ def test_a_photo_without_sky_is_sure_of_nothing_and_says_what_to_do():
     assert scene.atmosphere.confidence == 0
     assert scene.sun_confidence == 0
     assert scene.sun_spread == 180
-    told = "does not show where it is. Its place is assumed; click"
+    told = "does not show where it is. Its position is assumed; click"
     assert any(told in notice for notice in scene.warnings)
 
 

@@ -338,7 +338,7 @@ def test_networks_that_cannot_be_used_are_refused_with_what_to_do(tmp_path):
     broken.write_bytes(b"no network")
     with pytest.raises(AnalysisError, match=r"not an ONNX network.*depth="):
         _ = sw.analyze(shaded(), depth=broken).depth
-    with pytest.raises(AnalysisError, match="the same everywhere"):
+    with pytest.raises(AnalysisError, match="the same value everywhere"):
         _ = sw.analyze(shaded(), depth=network(tmp_path, weights=((0,), (0,), (0,)))).depth
     with pytest.raises(AnalysisError, match="returned 5 maps"):
         _ = sw.analyze(shaded(), depth=network(tmp_path, maps=5)).depth

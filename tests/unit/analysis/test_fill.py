@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from sunwidget.analysis.images.fill import fill_by_pyramid, mirrored, transplanted
+from sunwidget.analysis.images.fill import fill_by_pyramid, mirror_texture, transplant_texture
 
 ROWS, COLUMNS = np.mgrid[:60, :90]
 
@@ -57,7 +57,7 @@ def bands():
 def test_layers_go_on_through_a_gap(radius):
     beside = hole(radius)
     broken = np.where(beside[..., None] > 0, bands(), 9).astype(np.float32)
-    continued = mirrored(broken, beside, beside)
+    continued = mirror_texture(broken, beside, beside)
     assert np.array_equal(continued[beside > 0], bands()[beside > 0])
     gap = beside == 0
     assert np.corrcoef(continued[gap].ravel(), bands()[gap].ravel())[0, 1] > 0.85
@@ -69,19 +69,19 @@ def test_single_clouds_are_not_copied():
     clouds = np.repeat(clouds[..., None], 3, -1).astype(np.float32)
     beside = hole(12)
     inside = np.hypot(COLUMNS - 40, ROWS - 30) < 6  # farther out those at the rim fade
-    assert mirrored(clouds, beside, beside)[inside].std() < 0.5 * clouds[inside].std()
+    assert mirror_texture(clouds, beside, beside)[inside].std() < 0.5 * clouds[inside].std()
 
 
 def test_where_nothing_is_known_no_texture_is_made_up():
     beside = hole(10)
-    continued = mirrored(bands(), beside, 0 * beside)
+    continued = mirror_texture(bands(), beside, 0 * beside)
     assert np.abs(continued[beside == 0]).max() < 1e-3
 
 
 def test_what_lies_above_a_gap_fades_into_it():
     values = np.repeat(np.where(ROWS < 20, 1.0, 0.0)[..., None], 3, -1).astype(np.float32)
     beside = np.where((ROWS >= 20) & (ROWS < 50) & (abs(COLUMNS - 45) < 25), 0, 1)
-    continued = mirrored(values, beside.astype(np.float32), np.ones_like(beside, np.float32))
+    continued = mirror_texture(values, beside.astype(np.float32), np.ones_like(beside, np.float32))
     middle = continued[20:50, 45, 0]
     assert middle[0] > 0.5
     assert middle[15] < 0.6 * middle[0]
@@ -98,7 +98,7 @@ def test_a_gap_is_filled_from_where_the_surroundings_are_like_its_own():
     texture[:, 45:] = texture[:, :45]  # what stands at the left stands at the right, too
     outside = np.hypot(COLUMNS - 67, ROWS - 30) >= 8
     broken = np.where(outside[..., None], texture, 9).astype(np.float32)
-    filled = transplanted(broken, outside, outside.astype(np.float32))
+    filled = transplant_texture(broken, outside, outside.astype(np.float32))
     gap = ~outside
     assert not filled[outside].any()
     assert np.corrcoef(filled[gap].ravel(), texture[gap].ravel())[0, 1] > 0.85  # to a pixel
@@ -108,11 +108,13 @@ def test_a_gap_in_a_clear_sky_is_filled_with_clear_sky():
     texture = 0.02 * spots(np.random.default_rng(4))
     texture[:20] *= 50  # clouds above
     outside = np.hypot(COLUMNS - 40, ROWS - 45) >= 9
-    filled = transplanted(texture, outside, outside.astype(np.float32))
+    filled = transplant_texture(texture, outside, outside.astype(np.float32))
     assert np.abs(filled).max() < 0.1
 
 
 def test_a_gap_larger_than_what_is_known_stays_empty():
     outside = np.hypot(COLUMNS - 40, ROWS - 30) >= 28
-    filled = transplanted(spots(np.random.default_rng(5)), outside, outside.astype(np.float32))
+    filled = transplant_texture(
+        spots(np.random.default_rng(5)), outside, outside.astype(np.float32)
+    )
     assert not filled.any()

@@ -164,7 +164,7 @@ def test_an_impossible_path_says_what_is_wrong(path, message):
 
 def test_a_link_to_nowhere_says_so(tmp_path):
     (tmp_path / "sun.jpg").symlink_to("gone.jpg")
-    with pytest.raises(PhotoError, match="is a link to gone.jpg, which is not there"):
+    with pytest.raises(PhotoError, match="is a link to gone.jpg, which does not exist"):
         open_photo(tmp_path / "sun.jpg")
 
 
@@ -239,7 +239,7 @@ def closed():
         (StreamOf(OSError("unplugged")), "Reading picture failed: unplugged"),
         (StreamOf(ValueError()), "Reading picture failed: ValueError"),
         (closed(), "closed file"),
-        (spent(), "nothing left to read.*Open it again"),
+        (spent(), "no bytes left to read.*Open it again"),
     ],
 )
 def test_a_file_object_that_gives_no_picture_says_why(stream, message):

@@ -161,7 +161,7 @@ def test_grey_stays_grey_in_every_profile():
 def test_a_grey_profile_is_converted_to_srgb():
     grey = np.arange(256, dtype=np.uint8).reshape(16, 16)
     data = corpus.png_file(grey, color_type=0, chunks=[corpus.icc_chunk(corpus.grey_profile(1.8))])
-    with pytest.warns(PhotoWarning, match="grey tone curve"):
+    with pytest.warns(PhotoWarning, match="gray tone curve"):
         photo = open_photo(data)
     assert photo.icc is None
     expected = np.rint(255 * linear_to_srgb((grey / 255.0) ** 1.8))
@@ -206,7 +206,7 @@ def adobe_by_exif(color_space=65535):
 
 
 def test_adobe_rgb_named_by_exif_alone_is_converted_to_srgb():
-    with pytest.warns(PhotoWarning, match="Adobe RGB by its EXIF"):
+    with pytest.warns(PhotoWarning, match="Adobe RGB according to its EXIF"):
         photo = open_photo(adobe_by_exif())
     profiled = with_profile(all_levels(), corpus.ADOBE_RGB)
     assert photo.profile.is_srgb
