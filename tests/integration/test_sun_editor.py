@@ -356,6 +356,19 @@ def test_notes_of_the_editor_hold_no_code_and_name_what_they_are_about():
     assert pickle.loads(pickle.dumps(dull.warnings)) == dull.warnings
 
 
+def test_python_from_the_browser_is_answered_with_its_recipe_or_what_is_wrong(editor):
+    sent = []
+    requests = Requests(lambda content, buffers=(): sent.append(content), editor._actions())
+    for text in ("edit = sw.Edit(exposure=-0.5)", "sw.Edit(exposure=f(1))", None):
+        requests._answer({"id": "1", "action": "recipe", "text": text})
+    assert sent[0]["result"] == {"version": 1, "exposure": -0.5}
+    assert [message["error"] for message in sent] == [
+        None,
+        "Line 1 of the recipe: 'f(1)' is not a plain value.",
+        "There is no sw.Edit(…) in this Python.",
+    ]
+
+
 def test_static_viewers_get_a_picture(editor):
     data, _ = editor._repr_mimebundle_()
     picture = Image.open(io.BytesIO(base64.b64decode(data["image/png"])))
