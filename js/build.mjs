@@ -9,7 +9,6 @@ import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { context } from "esbuild";
-import { packPlugin } from "./pack.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const shaders = join(here, "..", "sunwidget", "shaders");
@@ -60,16 +59,17 @@ export function reachable(graph, files) {
 }
 
 /**
- * A shader's text without comments and indentation; every line stays on its line, so that what a
- * driver says of line 40 is found in line 40.
+ * A shader's text without comments, indentation, empty lines and blanks beside signs. Names and
+ * lines stay: a driver's error quotes a line, and a person finds it in the file.
  *
  * @param {string} text
  */
-export function stripComments(text) {
+export function compact(text) {
   return text
-    .replace(/\/\*[\s\S]*?\*\//g, (comment) => comment.replace(/[^\n]/g, ""))
-    .replace(/\/\/[^\n]*/g, "")
-    .replace(/^[ \t]+|[ \t]+$/gm, "");
+    .replace(/\/\*[\s\S]*?\*\/|\/\/.*/g, " ")
+    .replace(/\s*\n\s*/g, "\n")
+    .trim()
+    .replace(/^[^#].*/gm, (line) => line.replace(/ *([*/=<>(){}[\],;?:&|!]) */g, "$1"));
 }
 
 /** @type {import("esbuild").Plugin} */
@@ -90,7 +90,7 @@ export const shaderPlugin = {
       // Who works on shaders reads them with their comments.
       const texts = WATCHES
         ? reached
-        : Object.fromEntries(Object.entries(reached).map(([p, text]) => [p, stripComments(text)]));
+        : Object.fromEntries(Object.entries(reached).map(([p, text]) => [p, compact(text)]));
       return {
         contents:
           `export const files = ${JSON.stringify(texts)};\n` +
@@ -105,11 +105,20 @@ export const shaderPlugin = {
   },
 };
 
-/** The licence of a package that a bundle contains. @param {string} name */
-function licence(name) {
-  const text = readFileSync(join(here, "node_modules", name, "LICENSE"), "utf-8");
-  return `This bundle contains ${name}:\n${text}`;
-}
+/**
+ * uPlot with its licence as a comment that esbuild keeps.
+ *
+ * @type {import("esbuild").Plugin}
+ */
+const licencePlugin = {
+  name: "sunwidget-licence",
+  setup(build) {
+    build.onLoad({ filter: /uPlot\.esm\.js$/ }, ({ path }) => {
+      const licence = readFileSync(join(dirname(path), "..", "LICENSE"), "utf-8");
+      return { contents: `/*! uPlot\n${licence.trim()}\n*/\n${readFileSync(path, "utf-8")}` };
+    });
+  },
+};
 
 async function main() {
   const build = await context({
@@ -130,14 +139,10 @@ async function main() {
     format: "esm",
     target: "es2022",
     logLevel: "info",
-    legalComments: "none",
-    plugins: [
-      shaderPlugin,
-      packPlugin(join(out, "sun_editor.js"), ["Frame", "Sketch"]),
-      packPlugin(join(out, "sky_explorer.js"), ["Projection", "SkyFrame"], licence("uplot")),
-      packPlugin(join(out, "compare.js"), []),
-      packPlugin(join(out, "study.js"), []),
-    ],
+    legalComments: "inline",
+    // Beside the bundle and not named in it: a notebook has nowhere to fetch it from.
+    sourcemap: "external",
+    plugins: [shaderPlugin, licencePlugin],
   });
   if (WATCHES) {
     await build.watch();

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { reachable, stripComments } from "../build.mjs";
+import { compact, reachable } from "../build.mjs";
 
 test("a bundle holds what its graph reaches, libraries of libraries too, and no more", () => {
   const files = {
@@ -15,7 +15,20 @@ test("a bundle holds what its graph reaches, libraries of libraries too, and no 
   assert.throws(() => reachable({ passes: [{ shader: "gone" }] }, files), /gone\.glsl/);
 });
 
-test("comments go, lines stay, so that compilers' line numbers are true", () => {
-  const text = "a; // one\n/* two\n three */ b;\n  c;\n";
-  assert.equal(stripComments(text), "a;\n\nb;\nc;\n");
+test("a shader loses comments and blanks; what it says, and each line of the preprocessor, stays", () => {
+  const text = `// one
+#define TWICE(x) (2.0 * x) // two
+
+  /* three
+     lines */ vec3 a = vec3(1.0, -2.0,  3.0) / b;
+    return a - -b + c;  // four
+#include "lib/c.glsl"
+`;
+  assert.equal(
+    compact(text),
+    `#define TWICE(x) (2.0 * x)
+vec3 a=vec3(1.0,-2.0,3.0)/b;
+return a - -b + c;
+#include "lib/c.glsl"`,
+  );
 });

@@ -1,18 +1,23 @@
-"""Read a recipe from an Edit, its dictionary, or a JSON file."""
+"""Read a recipe from an Edit, its dictionary, a JSON file, or its Python text."""
 
 from __future__ import annotations
 
+import ast
 import os
-from collections.abc import Mapping
+import textwrap
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from sunwidget.edit.table import Edit
+from sunwidget.edit.table import Edit, Stroke
 from sunwidget.errors import EditError
+from sunwidget.geometry.place import Place
 from sunwidget.messages import shown
 
 # Strokes make a recipe long; a larger file is not a recipe.
 _MOST_BYTES = 50_000_000
+
+_PARTS: dict[str, Callable[..., Any]] = {"Stroke": Stroke, "Place": Place}
 
 
 def edit_of(recipe: Edit | Mapping[str, Any] | None) -> Edit:
@@ -63,3 +68,53 @@ def read_recipe(path: str | os.PathLike[str]) -> Edit:
         return Edit.from_json(data)
     except EditError as error:
         raise EditError(f"{name}: {error}") from error
+
+
+def read_code(text: str) -> Edit:
+    """Read the first ``Edit(…)`` of a Python text, such as ``Edit.to_code`` writes; nothing is run.
+
+    Raises
+    ------
+    EditError
+        For a text that is not Python or has no ``Edit(…)``, and for one of other than literals,
+        ``Stroke(…)`` and ``Place(…)``.
+    """
+    try:
+        tree = ast.parse(textwrap.dedent(text), "recipe")
+        calls = (node for node in ast.walk(tree) if _called(node) == "Edit")
+        call = next(calls, None)
+        if not isinstance(call, ast.Call):
+            raise EditError("There is no sw.Edit(…) in this Python.")
+        if call.args:
+            raise EditError("sw.Edit takes its values by name: sw.Edit(sun_elevation=3).")
+        return Edit.from_dict({str(word.arg): _value(word.value) for word in call.keywords})
+    except EditError:
+        raise
+    # SyntaxError: no Python; ValueError: zero bytes, places that are none; TypeError: arguments
+    # that a part does not take; the others: brackets a thousand deep.
+    except (SyntaxError, ValueError, TypeError, RecursionError, MemoryError) as error:
+        raise EditError(f"This Python cannot be read as a recipe: {error}.") from None
+
+
+def _called(node: ast.AST) -> str:
+    """Return the name of what a node calls, without its module; empty for no call."""
+    match node:
+        case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name)):
+            return name
+    return ""
+
+
+def _value(node: ast.expr) -> Any:
+    match node:
+        case ast.List(elts=items) | ast.Tuple(elts=items):
+            return [_value(item) for item in items]
+        case ast.Call(args=args, keywords=words) if part := _PARTS.get(_called(node)):
+            named = {str(word.arg): _value(word.value) for word in words}
+            return part(*map(_value, args), **named)
+    try:
+        return ast.literal_eval(node)
+    except ValueError:
+        source = shown(ast.unparse(node))
+        raise EditError(
+            f"Line {node.lineno} of the recipe: {source} is not a plain value."
+        ) from None

@@ -158,6 +158,20 @@ def widget_state(widget):
     return json.loads(json.dumps(state))
 
 
+def paste(page, text):
+    """Paste a text as Ctrl+V does, into the view of an editor."""
+    page.evaluate(
+        """(text) => {
+          const clipboardData = new DataTransfer();
+          clipboardData.setData("text/plain", text);
+          const options = { clipboardData, bubbles: true, cancelable: true };
+          const event = new ClipboardEvent("paste", options);
+          document.querySelector(".sw-sun").dispatchEvent(event);
+        }""",
+        text,
+    )
+
+
 def connect(page, widget):
     """Let a real widget answer what the page's editor sends; see ``showConnected``."""
     from sunwidget.widgets.kernel.requests import Requests

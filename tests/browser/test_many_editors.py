@@ -90,13 +90,3 @@ def test_a_context_may_be_lost_at_any_moment_of_a_frame(page, state):
         )
         assert answer == [False, True], f"lost in {call} {count}: {answer}"
         assert page.evaluate("drawn({ sun_elevation: 4 })") == whole
-
-
-def test_a_page_unpacks_a_bundle_once(page):
-    # As anywidget does for every widget: another module from the same text.
-    same = """async (name) => {
-      const [one, other] = await Promise.all([1, 2].map((i) => import(`/${name}.js?${i}`)));
-      return one !== other && one.default === other.default && Boolean(one.default.render);
-    }"""
-    for name in ("sun_editor", "sky_explorer"):
-        assert page.evaluate(same, name), name

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from chromium import ORIGIN, connect, picture_of, widget_state
+from chromium import ORIGIN, connect, paste, picture_of, widget_state
 from PIL import Image
 
 import sunwidget as sw
@@ -32,19 +32,6 @@ def trait(page, name):
 def choose(page, entry):
     page.get_by_role("button", name="Menu").click()
     page.get_by_role("menuitem", name=entry).click()
-
-
-def paste(page, text):
-    page.evaluate(
-        """(text) => {
-          const clipboardData = new DataTransfer();
-          clipboardData.setData("text/plain", text);
-          const options = { clipboardData, bubbles: true, cancelable: true };
-          const event = new ClipboardEvent("paste", options);
-          document.querySelector(".sw-sun").dispatchEvent(event);
-        }""",
-        text,
-    )
 
 
 def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(page, state, screenshots):
@@ -170,7 +157,7 @@ def test_a_browser_without_storage_edits_as_ever(fresh_page, state):
         "Object.defineProperty(window, 'localStorage', { get() { throw new Error('no'); } })"
     )
     show(page, state)
-    paste(page, "sw.Edit(exposure=1)")
+    paste(page, '{"exposure": 1}')
     page.wait_for_timeout(700)
     assert trait(page, "exposure") == 1
     page.evaluate("close_view()")
@@ -213,7 +200,7 @@ def test_versions_are_kept_renamed_gone_to_and_deleted(page, state, screenshots)
 
 def test_recipes_are_pasted_copied_and_saved_by_the_menus_keys(page, state):
     show(page, state)
-    text = "import sunwidget as sw\nedit = sw.Edit(sun_elevation=3, exposure=-0.5)"
+    text = '{"sun_elevation": 3, "exposure": -0.5}'
     paste(page, text)
     assert (trait(page, "sun_elevation"), trait(page, "exposure")) == (3, -0.5)
     page.get_by_role("button", name="Take it back").click()
@@ -221,8 +208,7 @@ def test_recipes_are_pasted_copied_and_saved_by_the_menus_keys(page, state):
     paste(page, text)
     page.get_by_text("Recipe taken over.").wait_for()
     for text, said in [
-        ("sw.Edit(exposure=9)", "exposure is a number from -4 to 4 EV, not 9."),
-        ("sw.Edit(exposure=__import__('os'))", "a plain value is expected"),
+        ('{"exposure": 9}', "exposure is a number from -4 to 4 EV, not 9."),
         ("<img src=x onerror=alert(1)>", "There is no recipe in it"),
     ]:
         paste(page, text)
@@ -250,6 +236,26 @@ def test_recipes_are_pasted_copied_and_saved_by_the_menus_keys(page, state):
     page.wait_for_function("window.copied")
     exec(page.evaluate("copied"), space)
     assert space["edit"] == sw.Edit.from_json(saved)
+    assert page.errors == []
+
+
+def test_pasted_python_is_read_by_the_kernel_and_never_run(page, coast):
+    connect(page, SunEditor(coast).wait(120))
+    paste(page, "import sunwidget as sw\nedit = sw.Edit(sun_elevation=3, exposure=-0.5)")
+    page.get_by_text("Recipe taken over.").wait_for()
+    assert (trait(page, "sun_elevation"), trait(page, "exposure")) == (3, -0.5)
+    lost = "Object.assign(model, { widget_manager: {}, comm_live: false })"
+    for text, said in [
+        ("sw.Edit(exposure=9)", "Nothing was changed. exposure = 9 is outside -4 to 4 EV."),
+        ("sw.Edit(exposure=__import__('os'))", "is not a plain value."),
+        ("sw.Edit(exposure=1)", "Paste the recipe as JSON"),
+    ]:
+        if "JSON" in said:
+            page.evaluate(f"{lost}.fire('comm_live_update')")
+        paste(page, text)
+        page.get_by_role("alert").filter(has_text=said).wait_for()
+        assert trait(page, "exposure") == -0.5
+        assert page.locator(".sw-notice", has_text="The kernel reads").count() == 0
     assert page.errors == []
 
 

@@ -8,7 +8,7 @@ from lab import notebook_page, run_cell
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(400)]
 
-MOST = 0.5  # MB of a notebook's file, a widget
+MOST = 0.6  # MB of a notebook's file, a widget
 SHUT_DOWN = "jupyterapp.serviceManager.sessions.shutdownAll()"
 
 

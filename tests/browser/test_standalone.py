@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from chromium import PATIENCE, picture_of
+from chromium import PATIENCE, paste, picture_of
 from PIL import Image
 
 import sunwidget as sw
@@ -116,6 +116,10 @@ def test_what_needs_a_kernel_is_disabled_and_says_so(page, scene):
     assert page.get_by_label("Show", exact=True).is_disabled()
     page.locator(".sunwidget").press("4")
     assert page.get_by_role("radio", name="Move the sun").get_attribute("aria-checked") == "true"
+    paste(page, "sw.Edit(exposure=1)")
+    page.get_by_role("alert").filter(has_text="Paste the recipe as JSON").wait_for()
+    paste(page, '{"exposure": 1}')
+    page.get_by_text("Recipe taken over.").wait_for()
     # Everything back to the photo, but for the stroke: its maps would stay as they are.
     page.get_by_role("button", name="Reset", exact=True).click()
     photo = sw.render(scene, sw.Edit(strokes=(sw.Stroke("sky", ((0.5, 0.1), (0.6, 0.1)), 0.02),)))

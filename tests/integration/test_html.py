@@ -63,6 +63,11 @@ def test_the_page_holds_the_edit_and_names_no_address(text):
     assert not re.findall(r"url\((?!data:)", text)
 
 
+def test_the_front_end_comes_back_to_the_letter_and_ends_no_element(text):
+    assert content(text)["state"]["_esm"] == SunEditor._esm
+    assert len(re.findall("<script", text)) == len(re.findall("</script", text)) == 2
+
+
 def test_the_policy_lets_only_the_pages_own_code_run(text):
     tree = parsed(text)
     (policy,) = [

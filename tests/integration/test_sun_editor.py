@@ -5,9 +5,7 @@ import dataclasses
 import io
 import json
 import pickle
-import re
 import threading
-import zlib
 
 import numpy as np
 import pytest
@@ -360,6 +358,19 @@ def test_notes_of_the_editor_hold_no_code_and_name_what_they_are_about():
     assert pickle.loads(pickle.dumps(dull.warnings)) == dull.warnings
 
 
+def test_python_from_the_browser_is_answered_with_its_recipe_or_what_is_wrong(editor):
+    sent = []
+    requests = Requests(lambda content, buffers=(): sent.append(content), editor._actions())
+    for text in ("edit = sw.Edit(exposure=-0.5)", "sw.Edit(exposure=f(1))", None):
+        requests._answer({"id": "1", "action": "recipe", "text": text})
+    assert sent[0]["result"] == {"version": 1, "exposure": -0.5}
+    assert [message["error"] for message in sent] == [
+        None,
+        "Line 1 of the recipe: 'f(1)' is not a plain value.",
+        "There is no sw.Edit(…) in this Python.",
+    ]
+
+
 def test_static_viewers_get_a_picture(editor):
     data, _ = editor._repr_mimebundle_()
     picture = Image.open(io.BytesIO(base64.b64decode(data["image/png"])))
@@ -375,27 +386,6 @@ def test_an_editor_prints_as_its_photo_and_edit(editor):
 def test_render_is_the_editors_own_frame(editor, scene):
     editor.sun_elevation = 5
     assert np.array_equal(editor.render(), sw.render(scene, sw.Edit(sun_elevation=5)))
-
-
-def test_the_bundle_is_small_and_names_no_machine(root):
-    bundle = (root / "sunwidget" / "static" / "sun_editor.js").read_text("utf-8")
-    assert len(bundle) <= 150_000
-    packed = re.search('const packed="([^"]+)"', bundle)
-    digits = re.search(r'bytesOf\(packed,"([^"]+)"\)', bundle)
-    assert packed is not None
-    assert digits is not None
-    code = _inflated(packed[1], digits[1])
-    assert "sky_view" in code
-    assert str(root) not in bundle + code
-
-
-def _inflated(text: str, digits: str) -> str:
-    """Return what a packed module holds: each two of its 91 digits are 13 bits (js/pack.mjs)."""
-    values = [digits.index(sign) for sign in text]
-    pairs = zip(values[::2], values[1::2], strict=True)
-    bits = sum((high * 91 + low) << (13 * i) for i, (high, low) in enumerate(pairs))
-    plain = bits.to_bytes(len(text), "little")
-    return zlib.decompressobj(-zlib.MAX_WBITS).decompress(plain).decode("utf-8")
 
 
 def test_whiteness_is_counted_as_the_clouds_method_measures_it(scene):

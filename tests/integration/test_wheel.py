@@ -2,6 +2,7 @@
 
 import email
 import email.message
+import gzip
 import json
 import os
 import re
@@ -26,6 +27,14 @@ KINDS = (
     r"analysis/models/(sky\.onnx|suns\.onnx|land\.onnx|panes\.onnx|MODEL_CARD\.md)",
     r"static/\w+\.(js|css)",
 )
+
+# Bytes of each front end, plain and as gzip: a notebook saves it with every widget.
+BUDGETS = {
+    "sun_editor": (335_000, 105_000),
+    "sky_explorer": (300_000, 100_000),
+    "compare": (300_000, 100_000),
+    "study": (120_000, 40_000),
+}
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +84,10 @@ def test_the_wheel_holds_every_file_of_the_package(names, root):
         path.relative_to(root).as_posix()
         for path in (root / "sunwidget").rglob("*")
         # A hidden file is a stamp of make.
-        if path.is_file() and "__pycache__" not in path.parts and not path.name.startswith(".")
+        if path.is_file()
+        and "__pycache__" not in path.parts
+        and not path.name.startswith(".")
+        and path.suffix != ".map"  # for who debugs in a checkout
     }
     assert {name for name in names if name.startswith("sunwidget/")} == here
 
@@ -89,6 +101,20 @@ def test_the_wheel_holds_each_widget_with_its_style(names):
     for bundle in ("sun_editor", "sky_explorer", "compare", "study"):
         assert {f"sunwidget/static/{bundle}.js", f"sunwidget/static/{bundle}.css"} <= names
     assert "sunwidget/static/standalone.js" in names
+
+
+def test_each_front_end_is_within_its_budget_and_names_no_machine_and_no_map(built, root):
+    with zipfile.ZipFile(built[1]) as archive:
+        codes = {name: archive.read(f"sunwidget/static/{name}.js") for name in BUDGETS}
+    for name, code in codes.items():
+        small = gzip.compress(code, 9)
+        print(f"{name}: {len(code) / 1000:.1f} kB, gzip {len(small) / 1000:.1f} kB")
+        most, most_small = BUDGETS[name]
+        assert len(code) <= most
+        assert len(small) <= most_small
+        assert str(root).encode() not in code
+        assert b"sourceMappingURL" not in code  # a notebook has nowhere to fetch it from
+    assert b"Leon Sorokin" in codes["sky_explorer"]  # uPlot's licence
 
 
 def test_the_wheel_is_small_enough_to_install_anywhere(built):

@@ -41,8 +41,6 @@ import { Tracer } from "./tracer.js";
 
 const MOST_PIXELS = 900_000;
 
-let views = 0;
-
 export class View {
   /**
    * @param {Model} model
@@ -50,8 +48,7 @@ export class View {
    * @param {AbortSignal} signal ends the view
    */
   constructor(model, root, signal) {
-    views += 1;
-    this.id = `sw-view-${views}`;
+    this.id = `sw-view-${Math.random()}`; // hosts load this module anew for every widget
     this.model = model;
     this.root = root;
     /** @type {Parameter[]} */

@@ -12,7 +12,6 @@ const part = (id) => /** @type {HTMLElement} */ (document.getElementById(id));
 
 /** What this browser lacks, as a sentence; "" when nothing. */
 function missing() {
-  if (!("DecompressionStream" in window)) return "This browser is too old to move the sun here.";
   if (document.createElement("canvas").getContext("webgl2")) return "";
   return "This browser offers no WebGL2. Turn on hardware acceleration to move the sun here.";
 }

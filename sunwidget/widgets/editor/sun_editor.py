@@ -17,7 +17,7 @@ import traitlets
 from sunwidget import presets
 from sunwidget.analysis.frame_inputs import uniforms
 from sunwidget.analysis.scene import Scene
-from sunwidget.edit.recipe import edit_of
+from sunwidget.edit.recipe import edit_of, read_code
 from sunwidget.edit.table import CORRECTIONS, Edit
 from sunwidget.photo.photo import Photo
 from sunwidget.progress import Progress
@@ -275,6 +275,7 @@ class SunEditor(PlaceClock, Exports):
             "cancel": _silently(self._cancel_analysis),
             "retry": _silently(self.retry),
             "upload": Uploads(self.open),
+            "recipe": lambda content, _: (read_code(str(content.get("text"))).to_dict(), []),
             "alive": lambda _content, _: ({}, []),
             "map": lambda content, _: (
                 {},

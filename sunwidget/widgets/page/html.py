@@ -102,7 +102,7 @@ def page(
     policy = "; ".join(
         [
             "default-src 'none'",
-            # The packed front end is imported from a blob that the starter makes.
+            # The front end is imported from a blob that the starter makes.
             f"script-src {_hash(starter)} blob:",
             f"style-src-elem {_hash(style)}",
             "style-src-attr 'unsafe-inline'",

@@ -1,10 +1,12 @@
-"""Recipes cross from Python to the browser and back; the browser's Python is executed here."""
+"""Recipes cross from Python to the browser and back, as JSON and as Python."""
 
+import contextlib
 import json
 
 import pytest
 
 import sunwidget as sw
+from sunwidget.edit.recipe import read_code
 from sunwidget.edit.table import PARAMETERS, RECIPE_VERSION, plain
 from sunwidget.widgets.editor.history import HISTORY_BYTES, HISTORY_LENGTH, NAME_LENGTH, VERSIONS
 from sunwidget.widgets.kernel.payload import parameter_json
@@ -30,11 +32,10 @@ EDITS = {
 }
 SCRIPT = """
 import { checkRecipe } from "./src/edit/recipe/check.js";
-import { readRecipe } from "./src/edit/recipe/read.js";
 import { toJson, toPython } from "./src/edit/recipe/write.js";
 const { parameters, recipes } = asked;
 answer(recipes.map((recipe) => {
-  const { values, problems } = checkRecipe(parameters, readRecipe(recipe));
+  const { values, problems } = checkRecipe(parameters, JSON.parse(recipe));
   return { json: toJson(values), python: toPython(values), problems };
 }));
 """
@@ -50,15 +51,75 @@ def browser(in_node):
     return ask
 
 
-@pytest.mark.parametrize("write", [sw.Edit.to_json, sw.Edit.to_code])
-def test_what_python_writes_comes_back_from_the_browser_in_both_forms(browser, write):
-    answers = browser([write(edit) for edit in EDITS.values()])
+def test_what_python_writes_comes_back_from_the_browser_in_both_forms(browser):
+    answers = browser([edit.to_json() for edit in EDITS.values()])
     for (name, edit), answer in zip(EDITS.items(), answers, strict=True):
         assert answer["problems"] == [], name
         assert sw.Edit.from_json(answer["json"]) == edit, name
         space = {}
         exec(answer["python"], space)
         assert space["edit"] == edit, name
+        assert read_code(answer["python"]) == read_code(edit.to_code()) == edit, name
+
+
+def test_python_is_read_as_people_write_it():
+    text = """
+        # an evening
+        edit = sunwidget.Edit(sun_elevation = 3, exposure=-.5,  # darker
+            strokes=(sw.Stroke('sky', ((0.1, 0.2), (1_0e-1, 1.)), radius=2e-2),), method='thesis',
+            sun_hint=None, place=sw.Place(41.0, longitude=29.0, date='2024-06-21', time=5.0))
+        editor.edit = edit"""
+    assert read_code(text) == sw.Edit(
+        sun_elevation=3,
+        exposure=-0.5,
+        strokes=(sw.Stroke("sky", ((0.1, 0.2), (1.0, 1.0)), 0.02),),
+        method="thesis",
+        place=sw.Place(41.0, 29.0, "2024-06-21", 5.0),
+    )
+    assert read_code("Edit()") == sw.Edit()
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("sw.Edit(exposure=9)", "exposure = 9 is outside -4 to 4 EV"),
+        ("sw.Edit(exposur=1)", "Did you mean 'exposure'"),
+        ("sw.Edit(**{'exposure': 1})", "Unknown parameter 'None'"),
+        ("sw.Edit(\n  exposure=1+1)", "Line 2 of the recipe: '1 + 1' is not a plain value"),
+        ("sw.Edit(exposure=f(1))", "'f(1)' is not a plain value"),
+        ("sw.Edit(strokes=[*x])", "is not a plain value"),
+        ("sw.Edit(1)", "by name"),
+        ("sw.Edit(version=99)", "Update sunwidget"),
+        ("sw.Edit(exposure=1", "never closed"),
+        ("sw.Edit(strokes=[sw.Stroke('sky')])", "missing 1 required positional argument"),
+        ("sw.Edit(place=sw.Place(41, 29, 'soon', 1))", "soon"),
+        ("sw.Edit(place=sw.Edit())", "is not a plain value"),
+        ("exposure = 1", "There is no sw.Edit"),
+        ("", "There is no sw.Edit"),
+        ("\0", "cannot be read"),
+    ],
+)
+def test_what_is_no_edit_is_refused_with_what_is_wrong(text, said):
+    with pytest.raises(sw.EditError) as refused:
+        read_code(text)
+    assert said in str(refused.value)
+
+
+@pytest.mark.parametrize("deep", ["[", "-", "not ", "a.", "f(", "{1:", "1+", "a[", "lambda:", "**"])
+def test_python_however_deep_is_refused(deep):
+    with pytest.raises(sw.EditError):
+        read_code(f"sw.Edit(exposure={deep * 100_000}1")
+    with pytest.raises(sw.EditError):
+        read_code(f"sw.Edit(exposure={deep * 150}x)")
+
+
+def test_nothing_in_python_is_run(tmp_path):
+    path = tmp_path / "ran"
+    act = f"open({str(path)!r}, 'w')"
+    for text in (f"sw.Edit(exposure={act})", f"{act}\nsw.Edit()", f"sw.Edit(sun_hint=[{act}, 1])"):
+        with contextlib.suppress(sw.EditError):
+            read_code(text)
+    assert not path.exists()
 
 
 def test_copied_python_names_only_what_differs(browser):

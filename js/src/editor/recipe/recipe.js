@@ -12,6 +12,9 @@ import { pickFile } from "../../ui/pick_file.js";
 
 const FILES = ".json,.py,.txt,application/json,text/plain";
 const SECONDS = 6; // that good news stays
+const NO_KERNEL =
+  "Only a kernel reads Python, and none answers here. Paste the recipe as JSON: “Copy recipe” in " +
+  "an editor's menu, or edit.to_json() in Python, writes it.";
 
 /** @type {import("../parts.js").MakePart} */
 export function recipe(view, signal) {
@@ -56,7 +59,7 @@ export function recipe(view, signal) {
     title: "JSON or Python that was copied from an editor; it is read, never run",
     run: async () => {
       const text = await pasted();
-      if (text !== null) useRecipe(view, text);
+      if (text !== null) await useRecipe(view, text);
       else say(view, "The page may not look at the clipboard by itself: press Ctrl+V.");
     },
   });
@@ -80,7 +83,7 @@ const writes = (target) =>
 
 /** @param {View} view @param {File} file */
 export async function loadRecipe(view, file) {
-  useRecipe(view, await file.text());
+  await useRecipe(view, await file.text());
 }
 
 /**
@@ -89,10 +92,11 @@ export async function loadRecipe(view, file) {
  * @param {View} view
  * @param {string} text
  */
-export function useRecipe(view, text) {
+export async function useRecipe(view, text) {
   const { state } = view;
   try {
-    const { values, problems } = checkRecipe(view.parameters, readRecipe(text));
+    const recipe = await readRecipe(text, (python) => readPython(view, python));
+    const { values, problems } = checkRecipe(view.parameters, recipe);
     if (problems.length) throw new Error(problems.slice(0, 3).join(" "));
     const before = state.history().past.length;
     state.replace(values);
@@ -103,6 +107,13 @@ export function useRecipe(view, text) {
     view.notices.hide("recipe"); // what it says is of another recipe
     view.message.show(`Nothing was changed. ${errorText(error)}`);
   }
+}
+
+/** @param {View} view @param {string} text */
+async function readPython({ channel, kernel, notices }, text) {
+  if (!kernel.answers) throw new Error(NO_KERNEL);
+  notices.show("recipe", { text: "The kernel reads this Python …" }); // once its cell has ended
+  return (await channel.request("recipe", { text })).result;
 }
 
 /** @param {View} view @param {string} text @param {boolean} [undo] offer to take it back */
