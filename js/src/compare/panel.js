@@ -2,7 +2,7 @@
 
 import { equal } from "../edit/equality.js";
 import { element, setAttributes } from "../ui/element.js";
-import { Pointers } from "../ui/pointers.js";
+import { listenToPointers } from "../ui/pointers.js";
 import { PictureStage } from "../ui/stage.js";
 import { SunTool } from "../ui/sun_tool.js";
 
@@ -57,7 +57,7 @@ export class Panel extends PictureStage {
     });
     this.overlay.append(this.sun.node);
     const ready = () => this.scene !== null;
-    new Pointers(this, { tool: () => this.sun, ready, zoom: view.zoom }, signal);
+    listenToPointers(this, { tool: () => this.sun, ready, zoom: view.zoom }, signal);
   }
 
   /** @returns {Variant} */

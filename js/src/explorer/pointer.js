@@ -1,7 +1,7 @@
 /** The pointer on the sky: it drags the sun, turns the view, and reads what lies under it. */
 
 import { turned } from "../geometry/day.js";
-import { Pointers, wheelZoom } from "../ui/pointers.js";
+import { listenToPointers, wheelZoom } from "../ui/pointers.js";
 import { GRAB } from "../ui/sun_shape.js";
 
 /**
@@ -71,7 +71,7 @@ export function listenToPointer(view, signal) {
     return Math.hypot(box.x + place[0] - at.x, box.y + place[1] - at.y) < GRAB;
   };
 
-  new Pointers(
+  listenToPointers(
     stage,
     {
       tool: () => ({

@@ -17,7 +17,7 @@
  * @typedef {{
  *   tool: () => DragTool,
  *   ready?: () => boolean,
- *   zoom?: import("../geometry/zoom.js").Zoom | null,
+ *   zoom?: import("../geometry/zoom.js").Zoom,
  *   onTake?: (pointer: number | null) => void,
  *   onPoint?: (place: Point | null, free: boolean) => void,
  * }} Options `ready` tells whether the tool can be used yet; `onTake` hears which pointer drags or
@@ -32,157 +32,143 @@ const LINE = 33; // CSS pixels to a line, which some browsers count in
 const SLOP = 5; // CSS pixels that a finger may move before it means a drag
 const HESITATION = 120; // ms after which a finger that rests means one too
 
-export class Pointers {
-  /**
-   * @param {import("./stage.js").PictureStage} stage
-   * @param {Options} options
-   * @param {AbortSignal} signal
-   */
-  constructor(stage, { tool, ready, zoom = null, onTake, onPoint }, signal) {
-    this.stage = stage;
-    this.tool = tool;
-    this.ready = ready;
-    this.zoom = zoom;
-    this.onTake = onTake;
-    this.onPoint = onPoint;
-    /** @type {number | null} the pointer that drags or shifts the picture */
-    this.pointer = null;
-    this.panning = false;
-    /** @type {Spot} where a pointer that shifts the picture was last */
-    this.last = { clientX: 0, clientY: 0 };
-    /** @type {PointerEvent | null} a finger that may be the first of two */
-    this.waiting = null;
-    /** @type {ReturnType<typeof setTimeout> | undefined} */
-    this.timer = undefined;
-    /** @type {Map<number, Spot>} */
-    this.fingers = new Map();
-    this.pinching = false; // until the last finger is lifted
-    /** @type {{ place: Point, size: number, scale: number }} what the fingers hold */
-    this.grip = { place: [0, 0], size: 0, scale: 1 };
-    const { overlay } = stage;
-    overlay.addEventListener("pointerdown", (event) => this.down(event), { signal });
-    overlay.addEventListener("pointermove", (event) => this.move(event), { signal });
-    // The end of capture is the one end of a drag, whatever ended it.
-    overlay.addEventListener("lostpointercapture", (event) => this.lost(event), { signal });
-    overlay.addEventListener("pointercancel", () => this.cancel(), { signal });
-    overlay.addEventListener("pointerleave", () => this.tell(null), { signal });
-    signal.addEventListener("abort", () => clearTimeout(this.timer));
-    if (zoom) onWheel(stage, zoom, signal);
-  }
+/**
+ * @param {import("./stage.js").PictureStage} stage
+ * @param {Options} options
+ * @param {AbortSignal} signal
+ * @returns {() => void} drops what a pointer has begun, and lets it go
+ */
+export function listenToPointers(stage, { tool, ready, zoom, onTake, onPoint }, signal) {
+  const { overlay } = stage;
+  /** @type {number | null} the pointer that drags or shifts the picture */
+  let pointer = null;
+  let panning = false;
+  /** @type {Spot} where a pointer that shifts the picture was last */
+  let last = { clientX: 0, clientY: 0 };
+  /** @type {PointerEvent | null} a finger that may be the first of two */
+  let waiting = null;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+  /** @type {Map<number, Spot>} */
+  const fingers = new Map();
+  let pinching = false; // until the last finger is lifted
+  /** @type {{ place: Point, size: number, scale: number }} what the fingers hold */
+  let grip = { place: [0, 0], size: 0, scale: 1 };
 
-  /** @param {PointerEvent} event */
-  down(event) {
-    const { zoom } = this;
-    const touch = zoom !== null && event.pointerType === "touch";
-    if (touch) this.fingers.set(event.pointerId, spotOf(event));
-    if (touch && this.fingers.size === 2) this.pinch();
-    if (this.pinching) {
-      this.stage.overlay.setPointerCapture(event.pointerId);
-      this.hold();
-    }
-    if (this.pinching || this.pointer !== null || event.button > (zoom ? 1 : 0)) return;
-    const hand = event.button === 1 || this.stage.node.closest(".sw-hand") !== null;
-    this.panning = zoom !== null && hand;
-    if (!this.panning && this.ready?.() === false) return;
-    this.stage.overlay.setPointerCapture(event.pointerId);
-    event.preventDefault();
-    this.take(event.pointerId);
-    this.last = spotOf(event);
-    if (this.panning) return;
-    this.waiting = event;
-    if (touch) this.timer = setTimeout(() => this.begin(), HESITATION);
-    else this.begin();
-  }
+  /** @param {number | null} which */
+  const take = (which) => {
+    pointer = which;
+    onTake?.(which);
+  };
 
-  /** @param {number | null} pointer */
-  take(pointer) {
-    this.pointer = pointer;
-    this.onTake?.(pointer);
-  }
-
-  begin() {
-    const event = this.forget();
-    if (event) this.tool().begin(this.stage.placeOf(event), event);
-  }
-
-  /** No finger is waited for any longer. Returns the one that was. */
-  forget() {
-    clearTimeout(this.timer);
-    const event = this.waiting;
-    this.waiting = null;
+  /** No finger is waited for any longer; returns the one that was. */
+  const forget = () => {
+    clearTimeout(timer);
+    const event = waiting;
+    waiting = null;
     return event;
-  }
+  };
+
+  const begin = () => {
+    const event = forget();
+    if (event) tool().begin(stage.placeOf(event), event);
+  };
 
   /** @param {Spot | null} spot */
-  tell(spot) {
-    this.onPoint?.(spot && this.stage.placeOf(spot), this.pointer === null);
-  }
+  const tell = (spot) => onPoint?.(spot && stage.placeOf(spot), pointer === null);
 
-  /** @param {PointerEvent} event */
-  move(event) {
-    if (this.pinching) return this.stretch(event);
-    this.tell(event);
-    if (event.pointerId !== this.pointer) return;
-    if (this.panning) {
-      this.zoom?.pan(event.clientX - this.last.clientX, event.clientY - this.last.clientY);
-      this.last = spotOf(event);
-    } else {
-      if (this.waiting && apart(this.waiting, event) < SLOP) return;
-      this.begin();
-      const tool = this.tool();
-      const passed = tool.fine ? (event.getCoalescedEvents?.() ?? []) : [];
-      for (const each of passed.length ? passed : [event]) {
-        tool.move(this.stage.placeOf(each), each);
-      }
-    }
-  }
+  const hold = () => {
+    const { size, ...middle } = span([...fingers.values()]);
+    grip = { place: stage.placeOf(middle), size, scale: zoom?.scale ?? 1 };
+  };
 
   /** A second finger: what the first began was not meant. */
-  pinch() {
-    if (!this.forget() && this.pointer !== null && !this.panning) this.tool().cancel();
-    this.take(null);
-    this.panning = false;
-    this.pinching = true;
-  }
-
-  hold() {
-    const { size, ...middle } = span([...this.fingers.values()]);
-    this.grip = { place: this.stage.placeOf(middle), size, scale: this.zoom?.scale ?? 1 };
-  }
+  const pinch = () => {
+    if (!forget() && pointer !== null && !panning) tool().cancel();
+    take(null);
+    panning = false;
+    pinching = true;
+  };
 
   /** @param {PointerEvent} event */
-  stretch(event) {
-    if (!this.fingers.has(event.pointerId)) return;
-    this.fingers.set(event.pointerId, spotOf(event));
-    const { size, ...middle } = span([...this.fingers.values()]);
-    const { place, scale, size: before } = this.grip;
-    this.zoom?.hold(place, this.stage.pointOf(middle), scale * (before ? size / before : 1));
-  }
-
-  /** @param {PointerEvent} event */
-  lost(event) {
-    this.fingers.delete(event.pointerId);
-    if (!this.fingers.size) this.pinching = false;
-    else if (this.pinching) this.hold();
-    if (event.pointerId !== this.pointer) return;
-    this.begin();
-    this.take(null);
-    if (!this.panning) this.tool().end();
-    this.panning = false;
-  }
-
-  /** Drop what a pointer has begun, and let it go. */
-  cancel() {
-    const { pointer } = this;
-    const { overlay } = this.stage;
-    this.forget();
-    this.panning = false;
-    this.take(null); // so that the end of its capture ends nothing of the next tool's
-    this.tool().cancel();
-    if (pointer !== null && overlay.hasPointerCapture(pointer)) {
-      overlay.releasePointerCapture(pointer);
+  const down = (event) => {
+    const touch = zoom && event.pointerType === "touch";
+    if (touch) fingers.set(event.pointerId, spotOf(event));
+    if (touch && fingers.size === 2) pinch();
+    if (pinching) {
+      overlay.setPointerCapture(event.pointerId);
+      hold();
     }
-  }
+    if (pinching || pointer !== null || event.button > (zoom ? 1 : 0)) return;
+    panning = Boolean(zoom && (event.button === 1 || overlay.closest(".sw-hand")));
+    if (!panning && ready?.() === false) return;
+    overlay.setPointerCapture(event.pointerId);
+    event.preventDefault();
+    take(event.pointerId);
+    last = spotOf(event);
+    if (panning) return;
+    waiting = event;
+    if (touch) timer = setTimeout(begin, HESITATION);
+    else begin();
+  };
+
+  /** @param {PointerEvent} event */
+  const move = (event) => {
+    if (pinching) return stretch(event);
+    tell(event);
+    if (event.pointerId !== pointer) return;
+    if (panning) {
+      zoom?.pan(event.clientX - last.clientX, event.clientY - last.clientY);
+      last = spotOf(event);
+    } else {
+      if (waiting && apart(waiting, event) < SLOP) return;
+      begin();
+      const passed = tool().fine ? (event.getCoalescedEvents?.() ?? []) : [];
+      for (const each of passed.length ? passed : [event]) {
+        tool().move(stage.placeOf(each), each);
+      }
+    }
+  };
+
+  /** @param {PointerEvent} event */
+  const stretch = (event) => {
+    if (!fingers.has(event.pointerId)) return;
+    fingers.set(event.pointerId, spotOf(event));
+    const { size, ...middle } = span([...fingers.values()]);
+    const scale = grip.scale * (grip.size ? size / grip.size : 1);
+    zoom?.hold(grip.place, stage.pointOf(middle), scale);
+  };
+
+  // The end of capture is the one end of a drag, whatever ended it.
+  /** @param {PointerEvent} event */
+  const lost = (event) => {
+    fingers.delete(event.pointerId);
+    if (!fingers.size) pinching = false;
+    else if (pinching) hold();
+    if (event.pointerId !== pointer) return;
+    begin();
+    take(null);
+    if (!panning) tool().end();
+    panning = false;
+  };
+
+  const cancel = () => {
+    const begun = pointer;
+    forget();
+    panning = false;
+    take(null); // so that the end of its capture ends nothing of the next tool's
+    tool().cancel();
+    if (begun !== null && overlay.hasPointerCapture(begun)) overlay.releasePointerCapture(begun);
+  };
+
+  overlay.addEventListener("pointerdown", down, { signal });
+  overlay.addEventListener("pointermove", move, { signal });
+  overlay.addEventListener("lostpointercapture", lost, { signal });
+  overlay.addEventListener("pointercancel", cancel, { signal });
+  overlay.addEventListener("pointerleave", () => tell(null), { signal });
+  signal.addEventListener("abort", () => clearTimeout(timer));
+  if (zoom) listenToWheel(stage, zoom, signal);
+  return cancel;
 }
 
 /**
@@ -193,14 +179,14 @@ export class Pointers {
  * @param {import("../geometry/zoom.js").Zoom} zoom
  * @param {AbortSignal} signal
  */
-function onWheel(stage, zoom, signal) {
-  const turned = (/** @type {WheelEvent} */ event) => {
+function listenToWheel(stage, zoom, signal) {
+  const wheel = (/** @type {WheelEvent} */ event) => {
     const alone = stage.node.matches(".sw-crossing, .sw-full *");
     if (!alone && !event.ctrlKey && !event.metaKey) return;
     event.preventDefault();
     zoom.zoomTo(zoom.scale * Math.exp(wheelZoom(event)), stage.pointOf(event));
   };
-  stage.node.addEventListener("wheel", turned, { passive: false, signal });
+  stage.node.addEventListener("wheel", wheel, { passive: false, signal });
 }
 
 /** What a wheel, or two fingers on a touchpad, zoom by, as a logarithm. @param {WheelEvent} event */

@@ -1,6 +1,6 @@
 /** Pointers on the editor's stage: one drags with the chosen tool, or hovers. */
 
-import { Pointers } from "../../ui/pointers.js";
+import { listenToPointers } from "../../ui/pointers.js";
 
 /**
  * @param {import("../view/view.js").View} view
@@ -10,7 +10,7 @@ import { Pointers } from "../../ui/pointers.js";
 export function listenToPointer(view, signal) {
   const { stage } = view;
   const tool = () => view.tools[view.tool];
-  const pointers = new Pointers(
+  const cancel = listenToPointers(
     stage,
     {
       tool,
@@ -30,5 +30,5 @@ export function listenToPointer(view, signal) {
   stage.overlay.addEventListener("dblclick", () => tool().reset?.(), { signal });
   // The focus is where a pointer or the tool has put it.
   stage.overlay.addEventListener("mousedown", (event) => event.preventDefault(), { signal });
-  return () => pointers.cancel();
+  return cancel;
 }
