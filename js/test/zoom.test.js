@@ -94,3 +94,22 @@ test("a stage that grows past a zoomed picture shows all of it", () => {
   zoom.setRoom({ width: 1840, height: 1240, fit, pixelRatio: 1 });
   assert.equal(zoom.fits, true);
 });
+
+test("every change by hand is told once, and a new room is not", () => {
+  const zoom = zoomOf();
+  let told = 0;
+  zoom.onChange = () => {
+    told += 1;
+  };
+  zoom.pan(10, 10);
+  assert.equal(told, 0); // it fits: there is nothing to shift
+  zoom.step(1);
+  zoom.pan(-10, 0);
+  zoom.hold([0.5, 0.5], [450, 310], 2);
+  zoom.toggle();
+  assert.equal(told, 4);
+  zoom.zoomTo(0.5);
+  const fit = { x: 20, y: 20, width: 1800, height: 1200 };
+  zoom.setRoom({ width: 1840, height: 1240, fit, pixelRatio: 1 });
+  assert.equal(told, 5);
+});

@@ -211,6 +211,69 @@ def test_all_pictures_follow_one_sun_and_are_the_kernels(comparison, methods, sc
         assert np.array_equal(one, other)
 
 
+def test_wheel_button_and_fingers_zoom_and_shift_all_pictures_and_move_no_sun(browser, methods):
+    context = browser.new_context(viewport={"width": 1180, "height": 860}, has_touch=True)
+    page = open_page(context, "compare.html")
+    page.evaluate("(state) => show('compare', state)", state_of(methods))
+    page.locator(".sunwidget.sw-live").wait_for()
+    cells = [page.locator(".sw-compare-cell").nth(i).bounding_box() for i in range(3)]
+    x, y = cells[1]["x"] + 0.7 * cells[1]["width"], cells[1]["y"] + 0.3 * cells[1]["height"]
+
+    def picture():
+        """Where every picture lies in its cell: all alike."""
+        pictures = page.locator(".sw-compare-picture")
+        boxes = [pictures.nth(i).bounding_box() for i in range(3)]
+        places = [
+            (box["x"] - cell["x"], box["y"] - cell["y"], box["width"])
+            for box, cell in zip(boxes, cells, strict=True)
+        ]
+        assert places[1:] == [pytest.approx(places[0], abs=0.1)] * 2
+        return boxes[1]
+
+    def under(x, y):
+        box = picture()
+        return (x - box["x"]) / box["width"], (y - box["y"]) / box["height"]
+
+    page.mouse.move(x, y)
+    page.mouse.wheel(0, -200)
+    page.wait_for_timeout(100)
+    fitted = picture()["width"]
+    assert fitted == pytest.approx(cells[1]["width"])
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, -200)
+    page.mouse.wheel(0, -200)
+    page.keyboard.up("Control")
+    page.wait_for_timeout(100)
+    wheeled = picture()
+    assert wheeled["width"] == pytest.approx(np.exp(0.8) * fitted, rel=0.01)
+    assert under(x, y) == pytest.approx((0.7, 0.3), abs=0.005)
+
+    page.mouse.down(button="middle")
+    page.mouse.move(x - 30, y + 20, steps=3)
+    page.mouse.up(button="middle")
+    assert under(x - 30, y + 20) == pytest.approx((0.7, 0.3), abs=0.005)
+
+    send = context.new_cdp_session(page).send
+
+    def touch(kind, *points):
+        fingers = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
+        send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+
+    held = under(x, y)
+    touch("touchStart", (x - 20, y))
+    touch("touchStart", (x - 20, y), (x + 20, y))
+    touch("touchMove", (x - 30, y), (x + 30, y))
+    touch("touchMove", (x - 50, y + 10), (x + 30, y + 10))
+    page.wait_for_timeout(100)
+    assert picture()["width"] == pytest.approx(2 * wheeled["width"], rel=0.01)
+    assert under(x - 10, y + 10) == pytest.approx(held, abs=0.005)
+    touch("touchEnd")
+    sun = page.evaluate("[model.get('sun_azimuth'), model.get('sun_elevation')]")
+    assert sun == [-6, 5]
+    assert page.errors == []
+    context.close()
+
+
 def test_two_pictures_and_a_divider(comparison):
     page = comparison
     page.get_by_role("radio", name="Wipe").click()

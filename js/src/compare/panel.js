@@ -2,6 +2,7 @@
 
 import { equal } from "../edit/equality.js";
 import { element, setAttributes } from "../ui/element.js";
+import { listenToPointers } from "../ui/pointers.js";
 import { PictureStage } from "../ui/stage.js";
 import { SunTool } from "../ui/sun_tool.js";
 
@@ -55,6 +56,8 @@ export class Panel extends PictureStage {
       },
     });
     this.overlay.append(this.sun.node);
+    const ready = () => this.scene !== null;
+    listenToPointers(this, { tool: () => this.sun, ready, zoom: view.zoom }, signal);
   }
 
   /** @returns {Variant} */
@@ -122,17 +125,5 @@ export class Panel extends PictureStage {
       setAttributes(this.sun.handle, { "aria-label": `Sun in ${label}` });
     }
     this.sun.draw();
-  }
-
-  /** Place on the picture of a pointer, also outside it. @param {{ clientX: number, clientY: number }} event @returns {Point} */
-  placeOf(event) {
-    const box = this.picture.getBoundingClientRect();
-    return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
-  }
-
-  /** A pointer's point on the stage in CSS pixels. @param {{ clientX: number, clientY: number }} event @returns {Point} */
-  pointOf(event) {
-    const { left, top } = this.node.getBoundingClientRect();
-    return [event.clientX - left, event.clientY - top];
   }
 }

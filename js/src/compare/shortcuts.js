@@ -19,14 +19,19 @@ const SHORTCUTS = [
     label: "Difference from the first",
     run: (view) => view.setDifference(!view.model.get("difference")),
   },
-  { section: "Pictures", keys: ["+", "="], label: "Zoom in", run: (view) => view.stepZoom(1) },
-  { section: "Pictures", keys: ["-"], label: "Zoom out", run: (view) => view.stepZoom(-1) },
-  { section: "Pictures", keys: ["0", "Mod+0"], label: "All of the picture", run: (v) => v.fit() },
+  { section: "Pictures", keys: ["+", "="], label: "Zoom in", run: (view) => view.zoom.step(1) },
+  { section: "Pictures", keys: ["-"], label: "Zoom out", run: (view) => view.zoom.step(-1) },
+  {
+    section: "Pictures",
+    keys: ["0", "Mod+0"],
+    label: "All of the picture",
+    run: (v) => v.zoom.fit(),
+  },
   {
     section: "Pictures",
     keys: ["Z"],
     label: "100 %, or all of the picture",
-    run: (view) => view.toggleZoom(),
+    run: (view) => view.zoom.toggle(),
   },
   { section: "Pictures", keys: ["Space"], label: "Held: drag the pictures themselves" },
   {

@@ -45,7 +45,7 @@ export function toolbar(view) {
     caption: true,
     onClick: () => view.setDifference(!view.model.get("difference")),
   });
-  const zoom = zoomButtons(view.zoom, view, "sw-group");
+  const zoom = zoomButtons(view.zoom, "sw-group");
   const end = element("div", { class: "sw-group sw-end" }, own, difference, zoom.node);
   const node = element(
     "div",

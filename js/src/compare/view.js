@@ -21,7 +21,6 @@ import { ErrorMessage } from "../ui/error_message.js";
 import { Differences } from "./differences.js";
 import { layOut, placeDivider } from "./layout.js";
 import { Panel } from "./panel.js";
-import { listenToPointer } from "./pointer.js";
 import { saved } from "./saved.js";
 import { Scenes } from "./scenes.js";
 import { listenToKeys } from "./shortcuts.js";
@@ -54,6 +53,10 @@ export class View {
     this.state = new EditState(model, this.rows(), signal);
     this.scenes = new Scenes(model, this.variants().length, signal);
     this.zoom = new Zoom();
+    this.zoom.onChange = () => {
+      this.layOut();
+      this.request();
+    };
     this.pair = [0, 1]; // of the wipe
     this.loop = new FrameLoop(
       (scale) => this.draw(scale),
@@ -80,7 +83,6 @@ export class View {
         element("div", { class: "sw-foot" }, this.readout),
       ),
     );
-    for (const panel of this.panels) listenToPointer(this, panel, signal);
     listenToKeys(this, signal);
     this.listen(signal);
     this.showStatus();
@@ -217,27 +219,6 @@ export class View {
     if (this.pair[other] === index) this.pair[other] = this.pair[side];
     this.pair[side] = index;
     this.show();
-  }
-
-  /** @param {1 | -1} way */
-  stepZoom(way) {
-    this.zoom.step(way);
-    this.rezoomed();
-  }
-
-  toggleZoom() {
-    this.zoom.toggle();
-    this.rezoomed();
-  }
-
-  fit() {
-    this.zoom.fit();
-    this.rezoomed();
-  }
-
-  rezoomed() {
-    this.layOut();
-    this.request();
   }
 
   layOut() {

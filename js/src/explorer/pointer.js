@@ -1,12 +1,15 @@
 /** The pointer on the sky: it drags the sun, turns the view, and reads what lies under it. */
 
 import { turned } from "../geometry/day.js";
+import { listenToPointers, wheelZoom } from "../ui/pointers.js";
 import { GRAB } from "../ui/sun_shape.js";
 
 /**
  * @typedef {import("../host/types.js").Point} Point
  * @typedef {import("./view.js").View} View
  */
+
+const WHEEL_SHARE = 0.5; // of a picture's zoom: from the widest view to the narrowest it is not far
 
 /**
  * @param {View} view
@@ -15,10 +18,14 @@ import { GRAB } from "../ui/sun_shape.js";
 export function listenToPointer(view, signal) {
   const { stage, state } = view;
   const { overlay } = stage;
-  /** @type {number | null} */
-  let pointer = null;
-  /** @type {((place: Point) => void) | null} what a move does */
-  let drag = null;
+  /** @type {(place: Point) => void} what a move does */
+  let drag = () => {};
+
+  /** A place of the picture in its CSS pixels. @param {Point} place @returns {Point} */
+  const pixels = ([x, y]) => {
+    const { width, height } = stage.rectangle();
+    return [x * width, y * height];
+  };
 
   /** @param {Point} start */
   const dragSun = (start) => {
@@ -64,48 +71,34 @@ export function listenToPointer(view, signal) {
     return Math.hypot(box.x + place[0] - at.x, box.y + place[1] - at.y) < GRAB;
   };
 
-  overlay.addEventListener(
-    "pointerdown",
-    (event) => {
-      if (pointer !== null || event.button > 0) return;
-      const place = stage.placeOf(event);
-      pointer = event.pointerId;
-      overlay.setPointerCapture(pointer);
-      event.preventDefault();
-      drag = grabsSun(place) ? dragSun(place) : turn(place);
-      drag(place);
+  listenToPointers(
+    stage,
+    {
+      tool: () => ({
+        begin(start) {
+          const place = pixels(start);
+          drag = grabsSun(place) ? dragSun(place) : turn(place);
+          drag(place);
+        },
+        move: (place) => drag(pixels(place)),
+        end: () => state.commit(),
+        cancel: () => state.cancel(),
+      }),
+      onPoint(at, free) {
+        const place = at && pixels(at);
+        view.hover(place && view.directionOf(place));
+        if (free && place) overlay.classList.toggle("sw-over-sun", grabsSun(place));
+      },
     },
-    { signal },
+    signal,
   );
-  overlay.addEventListener(
-    "pointermove",
-    (event) => {
-      const place = stage.placeOf(event);
-      view.hover(view.directionOf(place));
-      if (event.pointerId === pointer) drag?.(place);
-      else overlay.classList.toggle("sw-over-sun", grabsSun(place));
-    },
-    { signal },
-  );
-  overlay.addEventListener(
-    "lostpointercapture",
-    (event) => {
-      if (event.pointerId !== pointer) return;
-      pointer = null;
-      drag = null;
-      state.commit();
-    },
-    { signal },
-  );
-  overlay.addEventListener("pointercancel", () => state.cancel(), { signal });
-  overlay.addEventListener("pointerleave", () => view.hover(null), { signal });
   // Plain wheel scrolls the page.
   overlay.addEventListener(
     "wheel",
     (event) => {
       if (state.values.projection !== "camera" || !(event.ctrlKey || event.metaKey)) return;
       event.preventDefault();
-      const fov = Number(state.values.fov) * Math.exp(event.deltaY * 0.001);
+      const fov = Number(state.values.fov) * Math.exp(-WHEEL_SHARE * wheelZoom(event));
       state.set({ fov: view.clamp("fov", round(fov)) });
     },
     { signal, passive: false },

@@ -1,13 +1,11 @@
 /**
  * Where the sky stands: the canvas in the middle, guides and handles above, room around it to drag
- * the sun below the horizon. Places are CSS pixels from the picture's top left corner.
+ * the sun below the horizon.
  */
 
 import { element } from "../ui/element.js";
 import { PictureStage } from "../ui/stage.js";
 import { ASPECTS } from "./projection.js";
-
-/** @typedef {import("../host/types.js").Point} Point */
 
 export class SkyStage extends PictureStage {
   /** @param {AbortSignal} signal */
@@ -26,11 +24,5 @@ export class SkyStage extends PictureStage {
   setProjection(projection) {
     this.node.dataset.projection = projection;
     this.picture.style.setProperty("--sw-aspect", String(ASPECTS[projection] ?? 1.5));
-  }
-
-  /** @param {{ clientX: number, clientY: number }} event @returns {Point} */
-  placeOf(event) {
-    const box = this.picture.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
   }
 }

@@ -27,6 +27,8 @@ export class Zoom {
     this.size = [1, 1];
     /** @type {Room} */
     this.room = { width: 1, height: 1, fit: { x: 0, y: 0, width: 1, height: 1 }, pixelRatio: 1 };
+    /** @type {() => void} called when somebody zoomed or shifted the picture */
+    this.onChange = () => {};
   }
 
   get fits() {
@@ -50,7 +52,7 @@ export class Zoom {
   /** @param {Room} room */
   setRoom(room) {
     this.room = room;
-    if (this.scale < this.bounds[0]) this.fit();
+    if (this.scale < this.bounds[0]) this.chosen = null;
   }
 
   /** Where the picture lies on the stage. @returns {Rectangle} */
@@ -70,7 +72,7 @@ export class Zoom {
 
   fit() {
     this.chosen = null;
-    this.centre = [0.5, 0.5];
+    this.onChange();
   }
 
   /**
@@ -81,12 +83,27 @@ export class Zoom {
    * @param {Point} [anchor] on the stage, its middle unless given
    */
   zoomTo(scale, anchor = this.middle()) {
+    this.hold(this.placeAt(anchor), anchor, scale);
+  }
+
+  /**
+   * Take a scale; a place of the picture comes to a point of the stage, as far as there is picture.
+   *
+   * @param {Point} place
+   * @param {Point} at
+   * @param {number} scale
+   */
+  hold(place, at, scale) {
     const [least, most] = this.bounds;
     const wanted = Math.min(most, Math.max(least, scale));
     if (wanted === this.fitScale) return this.fit();
-    const place = this.placeAt(anchor);
     this.chosen = wanted;
-    this.bring(place, anchor);
+    const { width, height } = this.box();
+    const [mx, my] = this.middle();
+    this.centre = [place[0] + (mx - at[0]) / width, place[1] + (my - at[1]) / height];
+    // What would be past the picture's edge is not kept: the way back begins at once.
+    this.centre = this.placeAt(this.middle());
+    this.onChange();
   }
 
   /** The next larger (1) or smaller (-1) step, the fit being one. @param {1 | -1} way @param {Point} [anchor] */
@@ -113,12 +130,7 @@ export class Zoom {
 
   /** Shift the picture until a place of it is at a point of the stage, as far as there is picture. @param {Point} place @param {Point} [at] */
   bring(place, at = this.middle()) {
-    if (this.fits) return;
-    const { width, height } = this.box();
-    const [mx, my] = this.middle();
-    this.centre = [place[0] + (mx - at[0]) / width, place[1] + (my - at[1]) / height];
-    // What would be past the picture's edge is not kept: the way back begins at once.
-    this.centre = this.placeAt(this.middle());
+    if (!this.fits) this.hold(place, at, this.scale);
   }
 
   /** The place of the picture at a point of the stage. @param {Point} point @returns {Point} */

@@ -1,12 +1,16 @@
 /**
- * What the stages of both widgets share: the picture in the middle, handles above, room around it
+ * What the stages of all widgets share: the picture in the middle, handles above, room around it
  * for a sun outside the picture, and the progress line at the foot.
+ *
+ * Places on the picture are fractions of its width and height, (0, 0) at the top left corner and
+ * also outside 0–1. The overlay lies over the whole stage, in CSS pixels.
  */
 
 import { element, shape } from "./element.js";
 
 /**
  * @typedef {import("../host/types.js").Point} Point
+ * @typedef {{ clientX: number, clientY: number }} Spot where a pointer is
  * @typedef {{ x: number, y: number, width: number, height: number, stageWidth: number,
  *   stageHeight: number }} Box the picture in the overlay, and the overlay, in CSS pixels
  */
@@ -55,6 +59,24 @@ export class PictureStage {
       stageWidth: outer.width,
       stageHeight: outer.height,
     };
+  }
+
+  /** The place on the picture of a pointer. @param {Spot} spot @returns {Point} */
+  placeOf({ clientX, clientY }) {
+    const box = this.picture.getBoundingClientRect();
+    return [(clientX - box.left) / box.width, (clientY - box.top) / box.height];
+  }
+
+  /** A pointer's point on the overlay. @param {Spot} spot @returns {Point} */
+  pointOf({ clientX, clientY }) {
+    const { left, top } = this.node.getBoundingClientRect();
+    return [clientX - left, clientY - top];
+  }
+
+  /** Where on the overlay a place of the picture is. @param {Point} place @returns {Point} */
+  onOverlay([x, y]) {
+    const box = this.rectangle();
+    return [box.x + x * box.width, box.y + y * box.height];
   }
 
   /**

@@ -5,24 +5,23 @@ import { element, setAttributes } from "./element.js";
 
 /**
  * @param {import("../geometry/zoom.js").Zoom} zoom
- * @param {{ stepZoom: (way: 1 | -1) => void, toggleZoom: () => void }} stage what they act on
  * @param {string} kind CSS class of the group
  */
-export function zoomButtons(zoom, stage, kind) {
+export function zoomButtons(zoom, kind) {
   const smaller = button({
     icon: "minus",
     label: "Zoom out",
     title: "Zoom out (−)",
-    onClick: () => stage.stepZoom(-1),
+    onClick: () => zoom.step(-1),
   });
   const larger = button({
     icon: "plus",
     label: "Zoom in",
     title: "Zoom in (+)",
-    onClick: () => stage.stepZoom(1),
+    onClick: () => zoom.step(1),
   });
   const percent = element("button", { type: "button", class: "sw-button sw-percent" });
-  percent.addEventListener("click", () => stage.toggleZoom());
+  percent.addEventListener("click", () => zoom.toggle());
   return {
     node: element(
       "div",

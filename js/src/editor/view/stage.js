@@ -1,8 +1,6 @@
 /**
  * Where the picture stands: the photo at once, the canvas over it, handles above both.
  *
- * Places on the picture are fractions of its width and height, (0, 0) at the top left corner
- * and also outside 0–1. The overlay lies over the whole stage, margin included, in CSS pixels.
  * The picture fits the window in its middle until it is zoomed; then it may cover the whole stage.
  */
 
@@ -12,10 +10,6 @@ import { PictureStage } from "../../ui/stage.js";
 
 /** @typedef {import("../../host/types.js").Point} Point */
 
-const WHEEL = 0.002; // what a CSS pixel of the wheel zooms by, as a logarithm
-const PINCH = 0.01; // and of two fingers on a touchpad, which sends smaller steps
-const WHEEL_NOTCH = 50; // CSS pixels: a wheel sends more at once, two fingers less
-const LINE = 33; // CSS pixels to a line, which some browsers count in
 const STAGE = 0.75; // of the height in sight that the picture and its margin may take
 const MARGIN = 24; // CSS pixels round the picture (stage.css)
 const SMALLEST = 240; // CSS pixels
@@ -52,6 +46,7 @@ export class Stage extends PictureStage {
     this.canvas = canvas;
     this.mask = mask;
     this.zoom = new Zoom();
+    this.zoom.onChange = () => this.layOut();
     this.focusing = false; // while a pointer gives it the focus
     this.full = true; // whether the canvas holds the frame at its full size
     this.url = ""; // of the photo that is shown
@@ -63,7 +58,6 @@ export class Stage extends PictureStage {
     this.watchScreen(signal);
     this.bound();
     window.addEventListener("resize", () => this.bound(), { signal });
-    this.node.addEventListener("wheel", (event) => this.onWheel(event), { passive: false, signal });
   }
 
   /**
@@ -111,12 +105,13 @@ export class Stage extends PictureStage {
     this.url = url;
     this.photo.src = url;
     const { naturalWidth: width, naturalHeight: height } = image;
-    if (width !== this.zoom.size[0] || height !== this.zoom.size[1]) this.zoom.fit();
+    const another = width !== this.zoom.size[0] || height !== this.zoom.size[1];
     this.zoom.size = [width, height];
     this.node.style.setProperty("--sw-aspect", String(width / height));
     this.node.classList.add("sw-has-photo");
     this.redrawOriginal();
-    this.layOut();
+    if (another) this.zoom.fit();
+    else this.layOut();
   }
 
   /** The photo is another, or its canvas was emptied. */
@@ -140,106 +135,23 @@ export class Stage extends PictureStage {
     original.getContext("2d", { alpha: false })?.drawImage(photo, 0, 0);
   }
 
-  /**
-   * Place on the picture of a pointer, also outside it.
-   *
-   * @param {{ clientX: number, clientY: number }} event
-   * @returns {Point}
-   */
-  placeOf(event) {
-    const box = this.picture.getBoundingClientRect();
-    return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
-  }
-
-  /**
-   * Where in the overlay a place of the picture is, in CSS pixels.
-   *
-   * @param {Point} place
-   * @returns {Point}
-   */
-  onOverlay([x, y]) {
-    const box = this.rectangle();
-    return [box.x + x * box.width, box.y + y * box.height];
-  }
-
-  /**
-   * Plain wheel scrolls the page; with Ctrl or Cmd it zooms about the pointer, and so it does where
-   * nothing else can be meant: in full screen, and while the keyboard's cross is on the picture.
-   *
-   * @param {WheelEvent} event
-   */
-  onWheel(event) {
-    const alone = this.node.matches(".sw-crossing, .sw-full *");
-    if (!alone && !event.ctrlKey && !event.metaKey) return;
-    event.preventDefault();
-    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : LINE);
-    const pinch = event.ctrlKey && Math.abs(pixels) < WHEEL_NOTCH;
-    const much = Math.min(200, Math.max(-200, pixels)) * (pinch ? PINCH : WHEEL);
-    this.zoomTo(this.zoom.scale * Math.exp(-much), event);
-  }
-
-  /**
-   * The scale of 1 shows a pixel of the preview on one of the screen.
-   *
-   * @param {number} scale
-   * @param {{ clientX: number, clientY: number }} [about] what stays where it is
-   */
-  zoomTo(scale, about) {
-    this.zoom.zoomTo(scale, about && this.pointOf(about));
-    this.layOut();
-  }
-
-  /**
-   * Zoom and shift the picture so that a place of it is where two fingers hold it.
-   *
-   * @param {Point} place
-   * @param {{ clientX: number, clientY: number }} at
-   * @param {number} scale
-   */
-  hold(place, at, scale) {
-    if (scale !== this.zoom.scale) this.zoom.zoomTo(scale);
-    this.zoom.bring(place, this.pointOf(at));
-    this.layOut();
-  }
-
   /** @param {1 | -1} way */
   stepZoom(way) {
     this.zoom.step(way);
-    this.layOut();
   }
 
   /** Between all of the picture and 100 %. */
   toggleZoom() {
     this.zoom.toggle();
-    this.layOut();
   }
 
   fit() {
     this.zoom.fit();
-    this.layOut();
-  }
-
-  /**
-   * Shift the zoomed picture, never past its own edge.
-   *
-   * @param {number} x CSS pixels
-   * @param {number} y
-   */
-  pan(x, y) {
-    this.zoom.pan(x, y);
-    this.layOut();
   }
 
   /** Bring a place of the zoomed picture to the middle. @param {Point} place */
   bring(place) {
     this.zoom.bring(place);
-    this.layOut();
-  }
-
-  /** A pointer's point on the stage in CSS pixels. @param {{ clientX: number, clientY: number }} event @returns {Point} */
-  pointOf(event) {
-    const { left, top } = this.node.getBoundingClientRect();
-    return [event.clientX - left, event.clientY - top];
   }
 
   /** Keys reach the editor from now on; the keyboard's cross stays away. */

@@ -4,7 +4,7 @@ import { zoomButtons } from "../../ui/zoom_buttons.js";
 
 /** @type {import("../parts.js").MakePart} */
 export function zoomControl({ stage }) {
-  const buttons = zoomButtons(stage.zoom, stage, "sw-zoom-control");
+  const buttons = zoomButtons(stage.zoom, "sw-zoom-control");
   stage.node.append(buttons.node);
   return {
     draw: () => buttons.show(),
