@@ -108,14 +108,21 @@ def write(
     ends = b"".join(_field(12, value(*entry)) for entry in outputs)
     graph = _graph(nodes, constants, inputs, _field(2, "test") + ends)
     model = _field(1, 8) + _field(8, _field(2, 13)) + _field(7, graph)
-    for key, text in (metadata or {}).items():
-        model += _field(14, _field(1, key) + _field(2, text))
-    path.write_bytes(model)
+    path.write_bytes(model + _metadata(metadata or {}))
     return path
 
 
+def _metadata(entries: dict[str, str]) -> bytes:
+    return b"".join(_field(14, _field(1, key) + _field(2, text)) for key, text in entries.items())
+
+
 def wrap(
-    source: Path, path: Path, nodes: Sequence[bytes], constants: dict[str, Any], entry: Value
+    source: Path,
+    path: Path,
+    nodes: Sequence[bytes],
+    constants: dict[str, Any],
+    entry: Value,
+    metadata: dict[str, str],
 ) -> Path:
     """Put nodes before a network's only input, which the last of them must make."""
     model = b""
@@ -124,5 +131,5 @@ def wrap(
             rest = b"".join(f for n, f in _fields(_payload(field)) if n != 11)
             field = _field(7, _graph(nodes, constants, [entry], rest))
         model += field
-    path.write_bytes(model)
+    path.write_bytes(model + _metadata(metadata))
     return path

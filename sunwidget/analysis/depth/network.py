@@ -17,7 +17,6 @@ from sunwidget.analysis.depth.field import DepthField
 from sunwidget.analysis.depth.levels import fill_sky
 from sunwidget.analysis.depth.view import View
 from sunwidget.analysis.images.working_copy import Working, resize
-from sunwidget.analysis.networks import segmentation_output
 from sunwidget.analysis.networks.onnx_file import Opened
 from sunwidget.errors import AnalysisError
 
@@ -75,21 +74,14 @@ class DepthNetwork:
 
     def _run(self, working: Working) -> np.ndarray:
         opened = Opened.of(self.path, self.layout, self.size, "depth")
-        scale: tuple[Any, Any] = segmentation_output.normalisation_from(opened.metadata) or IMAGENET
-        scale = (
-            scale[0] if self.mean is None else self.mean,
-            scale[1] if self.std is None else self.std,
-        )
-        if opened.type is np.uint8:
-            scale = (0.0, 1 / 255)
+        scale = opened.scale(self.mean, self.std, IMAGENET)
         failure: AnalysisError | None = None
         for side in (None,) if not opened.free or self.size is not None else _SIDES:
             try:
-                output = opened.sized(side).run(working.encoded, scale, None)
+                values = opened.sized(side).run(working.encoded, scale)
             except AnalysisError as error:  # many networks take only multiples of 14 or of 32
                 failure = failure or error
                 continue
-            values = np.asarray(output.values, np.float32)
             if values.ndim != 2:
                 raise AnalysisError(
                     f"The depth network {self.path} returned {values.shape[-1]} maps; expected "
@@ -101,7 +93,7 @@ class DepthNetwork:
                     "value everywhere: its normalization is wrong or the file is damaged. Pass "
                     "depth=DepthNetwork(path, mean=…, std=…), another network, or an array."
                 )
-            return values
+            return values.astype(np.float32)
         assert failure is not None
         raise failure
 

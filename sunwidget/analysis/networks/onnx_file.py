@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -11,9 +13,8 @@ from typing import Any
 import numpy as np
 
 from sunwidget.analysis.images.working_copy import resize
-from sunwidget.analysis.networks import segmentation_output
 from sunwidget.analysis.networks.onnx_runtime import onnx_runtime
-from sunwidget.analysis.networks.segmentation_output import Output
+from sunwidget.analysis.networks.segmentation_output import map_of
 from sunwidget.errors import AnalysisError
 
 SIDE = 384  # of the picture for networks that take any size, as in the thesis
@@ -33,6 +34,14 @@ INSTEAD = {
     "sun": "sun=(x, y)",
     "depth": "depth=an array of metres, the path of an .onnx file, or depth='network'",
 }
+# What a network must return, by what it finds.
+EXPECTED = {
+    "sky": (
+        "a map of the sky, of classes' scores or of labels: (1, 1, h, w), (1, classes, h, w), "
+        "(1, h, w, classes) or (1, h, w)"
+    ),
+    "depth": "a map of depth: (1, 1, h, w), (1, h, w) or (1, h, w, 1)",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +50,6 @@ class Opened:
 
     path: str
     session: Any
-    stamp: tuple[int, int]  # of the file: another one under the same name is read anew
     name: str
     type: Any
     layout: str
@@ -82,9 +90,7 @@ class Opened:
         path = Path(path)
         if not path.is_file():
             raise AnalysisError(f"No {finds} network at {path}. Pass {INSTEAD[finds]}.")
-        stat = path.stat()
-        stamp = (stat.st_mtime_ns, stat.st_size)
-        opened = session(str(path), stamp, finds)
+        opened = session(str(path), _stamp(path), finds)
         entries = opened.get_inputs()
         takes = "; ".join(f"{e.name} {e.type} {e.shape}" for e in entries) or "nothing"
         refused = f"{path} is no network of one picture: it takes {takes}. "
@@ -120,17 +126,48 @@ class Opened:
             )
         kind = TYPES[entry.type]
         free = width is None and height is None
-        return cls(
-            str(path), opened, stamp, entry.name, kind, layout, batch, takes_size, free, finds
-        )
+        return cls(str(path), opened, entry.name, kind, layout, batch, takes_size, free, finds)
 
-    @property
-    def metadata(self) -> dict[str, str]:
-        """What the exporter wrote into the file besides the network."""
+    def class_names(self) -> dict[int, str]:
+        """Return the names of the classes by index, as the metadata give them; else nothing.
+
+        They are a list or a dictionary as Python or JSON writes it, or words between commas or
+        line ends, under one of the keys in use: names, classes, labels, class_names, id2label.
+        """
+        for key in ("names", "classes", "labels", "class_names", "id2label"):
+            value = _literal(self._metadata().get(key, ""))
+            if isinstance(value, str):
+                value = [word.strip() for word in value.replace("\n", ",").split(",")]
+            if isinstance(value, (list, tuple)) and any(value):
+                value = dict(enumerate(value))
+            try:
+                if isinstance(value, Mapping):
+                    return {int(index): str(name) for index, name in value.items()}
+            except (TypeError, ValueError):  # a dictionary the other way round, or of another thing
+                continue
+        return {}
+
+    def scale(self, mean: Any, std: Any, default: Scale) -> Scale:
+        """Return mean and deviation of the input: the given ones, the metadata's or ``default``.
+
+        Raises
+        ------
+        AnalysisError
+            When one is given for a network of bytes, which scales its input itself.
+        """
+        if self.type is np.uint8:
+            if mean is not None or std is not None:
+                raise AnalysisError(f"{self.path} takes bytes, 0 to 255; leave out mean= and std=.")
+            return 0.0, 1 / 255
+        told = _scale_from(self._metadata()) or default
+        return told[0] if mean is None else mean, told[1] if std is None else std
+
+    def _metadata(self) -> dict[str, str]:
+        """Return what the exporter wrote into the file besides the network."""
         return dict(self.session.get_modelmeta().custom_metadata_map)
 
-    def run(self, picture: np.ndarray, scale: Scale, label: int | None) -> Output:
-        """Run on a picture and return the first output that is a map and has the class.
+    def run(self, picture: np.ndarray, scale: Scale, output: str | None = None) -> np.ndarray:
+        """Run on a picture and return one of its outputs as a map (``map_of``).
 
         Parameters
         ----------
@@ -138,14 +175,19 @@ class Opened:
             Encoded, [0, 1], the channels in the network's order.
         scale : (mean, deviation)
             Each a number or three: the network sees (picture - mean) / deviation.
-        label : int, optional
-            Without an output that has it the first map is returned.
+        output : str, optional
+            Name of the output. Default: the first that is a map.
 
         Raises
         ------
         AnalysisError
-            When the network fails or returns no map.
+            When the network fails, has no such output, or returns no map.
         """
+        names = [entry.name for entry in self.session.get_outputs()]
+        if output not in (None, *names):
+            raise AnalysisError(
+                f"{self.path} has no output {output!r:.80}; it has {', '.join(names)}."
+            )
         image = resize(picture, *self.size)
         mean, deviation = (np.asarray(part, np.float32) for part in scale)
         image = (image - mean) / deviation
@@ -154,7 +196,7 @@ class Opened:
         image = image.transpose(2, 0, 1) if self.layout == "nchw" else image
         batch = np.ascontiguousarray(image[None] if self.batch else image, self.type)
         try:
-            outputs = self.session.run(None, {self.name: batch})
+            outputs = self.session.run(output and [output], {self.name: batch})
         except Exception as error:  # onnxruntime's exceptions share no public base class
             raise AnalysisError(
                 f"The {self.finds} network {self.path} failed on a {self.size[0]} × {self.size[1]} "
@@ -162,22 +204,40 @@ class Opened:
                 f"{self.finds}={self.finds.capitalize()}Network(path, size=…, layout=…), or an "
                 "array."
             ) from error
-        for asked in dict.fromkeys((label, None)):  # without the label: for the error
-            for output in outputs:
-                found = segmentation_output.understand(output, self.size, self.layout, asked)
-                if found is not None:
-                    return found
-        shapes = ", ".join(str(np.shape(output)) for output in outputs)
-        if self.finds == "depth":
+        maps = (map_of(output, self.size, self.layout) for output in outputs)
+        found = next((values for values in maps if values is not None), None)
+        if found is None:
+            shapes = ", ".join(str(np.shape(output)) for output in outputs)
             raise AnalysisError(
-                f"The depth network {self.path} returned {shapes}; expected a map of depth: "
-                "(1, 1, h, w), (1, h, w) or (1, h, w, 1)."
+                f"The {self.finds} network {self.path} returned {shapes}; expected "
+                f"{EXPECTED[self.finds]}."
             )
-        raise AnalysisError(
-            f"The sky network {self.path} returned {shapes}; expected a map of the sky, of "
-            "classes' scores or of labels: (1, 1, h, w), (1, classes, h, w), (1, h, w, classes) or "
-            "(1, h, w)."
-        )
+        return found
+
+
+def _scale_from(metadata: Mapping[str, str]) -> Scale | None:
+    """Read mean and deviation of the input, in units of [0, 1], from a file's metadata."""
+    for prefix in ("", "image_", "img_"):
+        try:
+            mean, std = (
+                np.broadcast_to(np.asarray(_literal(metadata[prefix + name]), np.float32), 3)
+                for name in ("mean", "std")
+            )
+        except (KeyError, TypeError, ValueError):
+            continue
+        if np.isfinite([mean, std]).all() and (std > 0).all():
+            # Some are in units of code values: (123.675, 116.28, 103.53), (58.395, 57.12, 57.375).
+            unit = 255 if max(mean.max(), std.max()) > 2 else 1
+            return mean / unit, std / unit
+    return None
+
+
+def _literal(text: str) -> Any:
+    """Return the Python value that a text writes, or the text."""
+    try:
+        return ast.literal_eval(text)
+    except (ValueError, SyntaxError, TypeError, RecursionError, MemoryError):
+        return text
 
 
 @lru_cache(maxsize=8)  # three are our own
@@ -224,5 +284,10 @@ def bundled_session(path: Path, finds: str) -> Any:
     """
     if not path.is_file():
         raise AnalysisError(f"No {finds} network at {path}. Reinstall sunwidget.")
+    return session(str(path), _stamp(path), finds)
+
+
+def _stamp(path: Path) -> tuple[int, int]:
+    """Return what tells that another file lies under the same name."""
     stat = path.stat()
-    return session(str(path), (stat.st_mtime_ns, stat.st_size), finds)
+    return stat.st_mtime_ns, stat.st_size

@@ -1,4 +1,4 @@
-"""From what a segmentation network returns to a map of the sky, whatever its form.
+"""From what a segmentation network returns to a map of the sky.
 
 The thesis takes the pixels whose strongest class is "sky" (equations 3.1 and 3.2). ``sky_of``
 keeps that border exactly and stays soft around it.
@@ -6,20 +6,16 @@ keeps that border exactly and stays soft around it.
 
 from __future__ import annotations
 
-import ast
-import json
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+import re
+from collections.abc import Mapping
 
 import numpy as np
 
 from sunwidget.errors import AnalysisError
 
-LABELS = {1: 0, 2: 1, 19: 10, 150: 2, 151: 3}
+LABELS = {1: 0, 2: 1, 19: 10, 150: 2, 151: 3, None: 2}
 """Index of "sky" by the number of classes: sky alone, land and sky, Cityscapes, ADE20K, and
-ADE20K with its background class."""
-LABEL_MAP = 2  # a map of labels does not say how many there are: ADE20K's, as in the thesis
-_MOST_CLASSES = 65_536  # larger numbers are scores, whole as they may be
+ADE20K with its background class. None stands for a map of labels: ADE20K's, as in the thesis."""
 
 _KNOWN = (
     "2 for ADE20K's 150 classes, 3 for its 151 with background, 10 for Cityscapes' 19, "
@@ -27,37 +23,22 @@ _KNOWN = (
 )
 
 
-class Output(NamedTuple):
-    """One output of a network, understood.
-
-    ``kind`` is "sky" (h, w), probability or logit; "labels" (h, w), class indices; or "scores"
-    (h, w, classes), logits or probabilities.
-    """
-
-    kind: str
-    values: np.ndarray
-
-    @property
-    def classes(self) -> int | None:
-        """Number of classes; None when a map of labels does not tell."""
-        return {"sky": 1, "labels": None}.get(self.kind, self.values.shape[-1])
-
-
-def understand(
-    output: object, size: tuple[int, int], layout: str, label: int | None = None
-) -> Output | None:
-    """Tell which axes of an output are rows, columns and classes; None when it is no map.
+def map_of(output: object, size: tuple[int, int], layout: str) -> np.ndarray | None:
+    """Return a network's output as a map, or None when it is none.
 
     Parameters
     ----------
     output : array
         (h, w), (1, h, w), (h, w, 1), (1, classes, h, w) or (1, h, w, classes), any number type.
     size : (width, height)
-        Of the network's input: the map's axes have its proportions.
+        Of the network's input. The map's rows and columns have its proportions.
     layout : {"nchw", "nhwc"}
-        Of the network's input: decides where the proportions do not.
-    label : int, optional
-        Class asked for; a map without it does not fit.
+        Of the network's input; decides where the proportions do not.
+
+    Returns
+    -------
+    (h, w) of whole numbers, (h, w) float32 or (h, w, classes) float32
+        Labels, one value, or scores for each pixel.
     """
     array = np.asarray(output)
     if array.dtype.kind not in "fiub" or 0 in array.shape:
@@ -70,56 +51,33 @@ def understand(
             array = array[..., 0]
     if array.ndim not in (2, 3) or min(array.shape[:2]) < 2:
         return None
-    if array.ndim == 2:
-        if _whole_numbers(array, label):
-            return Output("labels", array.astype(np.int64))
-        fits = label in (None, 0)
-        return Output("sky", array.astype(np.float32)) if fits else None
-    if array.dtype.kind != "f" or (label is not None and label >= array.shape[-1]):
-        return None
-    return Output("scores", array.astype(np.float32))
+    return array if array.ndim == 2 and array.dtype.kind in "iu" else array.astype(np.float32)
 
 
 def _class_axis(shape: tuple[int, ...], size: tuple[int, int], layout: str) -> int:
-    """Axis of the classes: the one without which the rest has the picture's proportions."""
+    """Return the axis of length 1, or the one beside which the rest has the picture's shape."""
 
-    def distortion(height: int, width: int) -> float:
-        return abs(float(np.log(width / height * size[1] / size[0])))
+    def misfit(axis: int) -> tuple[bool, float]:
+        height, width = np.delete(shape, axis)
+        distortion = abs(float(np.log(width / height * size[1] / size[0])))
+        return shape[axis] != 1, round(distortion, 6)
 
-    if 1 in (shape[0], shape[2]):
-        return 0 if shape[0] == 1 else 2
-    first, last = distortion(shape[1], shape[2]), distortion(shape[0], shape[1])
-    if abs(first - last) < 1e-6:
-        return 0 if layout == "nchw" else 2
-    return 0 if first < last else 2
+    return min((0, 2) if layout == "nchw" else (2, 0), key=misfit)
 
 
-def _whole_numbers(array: np.ndarray, label: int | None) -> bool:
-    """Tell a map of labels, which some exports return as floats, from a map of the sky."""
-    if array.dtype.kind == "b":
-        return False
-    if array.dtype.kind != "f":
-        return True
-    if not np.isfinite(array).all() or array.min() < 0 or array.max() > _MOST_CLASSES:
-        return False
-    if np.any(array != np.round(array)):
-        return False
-    return bool(array.max() > 1) or label not in (None, 0)
-
-
-def sky_of(output: Output, label: int) -> np.ndarray:
+def sky_of(values: np.ndarray, label: int) -> np.ndarray:
     """Return the sky (h, w) float32 in [0, 1], above 0.5 exactly where sky is the likeliest.
 
-    For scores that is the odds of sky against the strongest other class: the logistic function
-    of the difference of their logits, or p / (p + q) for probabilities.
+    Scores give the odds of sky against the strongest other class: the logistic function of the
+    difference of their logits, or p / (p + q) for probabilities. One value a pixel is the sky's
+    probability or logit. It is a label where its type holds whole numbers, or ``label`` is not 0.
 
     Raises
     ------
     AnalysisError
         When the network returned NaN or infinite values.
     """
-    values = output.values
-    if output.kind == "labels":
+    if values.ndim == 2 and (label or values.dtype.kind != "f"):
         return (values == label).astype(np.float32)
     if not np.isfinite(values).all():
         share = 1 - float(np.isfinite(values).mean())
@@ -129,7 +87,7 @@ def sky_of(output: Output, label: int) -> np.ndarray:
             "std=…), another network or a mask."
         )
     probable = values.min() >= -1e-3 and values.max() <= 1 + 1e-3
-    if output.kind == "sky":
+    if values.ndim == 2:
         return np.clip(values, 0, 1) if probable else _logistic(values)
     sky = values[..., label]
     other = np.delete(values, label, axis=-1).max(axis=-1)
@@ -143,16 +101,17 @@ def _logistic(x: np.ndarray) -> np.ndarray:
 
 
 def label_of(
-    wanted: int | str | None, classes: int | None, names: Mapping[int, str], network: str
-) -> int | None:
-    """Return the index of the sky's class, or None when nothing says which one it is.
+    wanted: int | str | None, values: np.ndarray, names: Mapping[int, str], network: str
+) -> int:
+    """Return the index of the sky's class.
 
     Parameters
     ----------
     wanted : int, str or None
-        Index or name that the caller gave.
-    classes : int or None
-        How many the network has; None for a map of labels.
+        Index or name that the caller gave. None takes the class that the file names "sky", else
+        the one of ``LABELS``.
+    values : ndarray
+        The map that the network returned (``map_of``).
     names : dict
         Index to name, as the file gives them; may be empty.
     network : str
@@ -161,95 +120,36 @@ def label_of(
     Raises
     ------
     AnalysisError
-        When there is no such class.
+        When there is no such class, or nothing says which one is the sky.
     """
-    if isinstance(wanted, str):
-        indices = [i for i, name in names.items() if wanted.strip().lower() in _synonyms(name)]
-        if not indices:
-            listed = ", ".join(f"{i} {n}" for i, n in list(names.items())[:200])
-            told = f"its classes are {listed}" if names else "the file names none"
-            raise AnalysisError(
-                f"{network} has no class {wanted!r:.80}: {told}. Pass the index: {_KNOWN}."
-            )
-        wanted = indices[0]
-    if wanted is not None:
-        if classes is not None and not 0 <= wanted < classes:
-            raise AnalysisError(
-                f"{network} has no class {wanted}: it has {classes}, counted from 0. Known "
-                f"indices of the sky: {_KNOWN}."
-            )
-        return wanted
-    for index, name in names.items():
-        if "sky" in _synonyms(name) and (classes is None or index < classes):
-            return index
-    return LABEL_MAP if classes is None else LABELS.get(classes)
+    classes: int | None = values.shape[-1] if values.ndim == 3 else 1
+    if values.ndim == 2 and (values.dtype.kind != "f" or (wanted and _whole(values))):
+        classes = None  # labels, which do not say of how many classes
+    if isinstance(wanted, int):
+        index: int | None = wanted
+    else:
+        word = "sky" if wanted is None else wanted.strip().lower()
+        index = next((i for i, name in names.items() if word in _synonyms(name)), None)
+        if wanted is None and (index is None or (classes and index >= classes)):
+            index = LABELS.get(classes)
+    if index is not None and (classes is None or 0 <= index < classes):
+        return index
+    if wanted is None:
+        problem = f"has {classes} classes and does not say which one is sky"
+    elif isinstance(wanted, int) or index is not None:
+        problem = f"has no class {index}: it has {classes}, counted from 0"
+    else:
+        listed = ", ".join(f"{i} {name}" for i, name in list(names.items())[:200])
+        named = f"its classes are {listed}" if names else "the file names none"
+        problem = f"has no class {wanted!r:.80}: {named}"
+    raise AnalysisError(f"{network} {problem}. Pass sky_label=index or name: {_KNOWN}.")
 
 
-def _synonyms(name: str) -> set[str]:
+def _whole(values: np.ndarray) -> bool:
+    return bool((values == np.round(values)).all())
+
+
+def _synonyms(name: str) -> list[str]:
     """ADE20K names a class by several words: "sidewalk, pavement" or "sidewalk;pavement"."""
-    words = name.lower().replace(";", ",").split(",")
-    return {word.strip() for word in words} | {name.lower()}
-
-
-def which_label(network: str, classes: int | None, best: tuple[int, float]) -> AnalysisError:
-    """Return the error that asks for ``sky_label``; ``best`` is a class and its overlap."""
-    guess = (
-        f"Class {best[0]} lies over the sample pictures' sky best (IoU {best[1]:.2f}): pass "
-        f"sky_label={best[0]} if that is it."
-        if best[1] > 0.3
-        else "None of them lies over the sample pictures' sky."
-    )
-    return AnalysisError(
-        f"{network} has {classes} classes and does not say which one is sky. Pass "
-        f"sky_label=index or name ({_KNOWN}). {guess}"
-    )
-
-
-def names_from(metadata: Mapping[str, str]) -> dict[int, str]:
-    """Read the names of the classes from a file's metadata; empty when it has none.
-
-    Takes a JSON or Python list or dictionary, or words between commas or line ends, under one
-    of the keys in use: names, classes, labels, class_names, id2label.
-    """
-    for key in ("names", "classes", "labels", "class_names", "id2label"):
-        if not metadata.get(key):
-            continue
-        value = _literal(metadata[key])
-        if isinstance(value, str):
-            value = [word.strip() for word in value.replace("\n", ",").split(",")]
-        try:
-            if isinstance(value, Mapping):
-                return {int(index): str(name) for index, name in value.items()}
-            if isinstance(value, Sequence):
-                return {index: str(name) for index, name in enumerate(value)}
-        except ValueError:  # a dictionary the other way round, or of something else
-            continue
-    return {}
-
-
-def normalisation_from(metadata: Mapping[str, str]) -> tuple[np.ndarray, np.ndarray] | None:
-    """Read mean and deviation of the input, in units of [0, 1], from a file's metadata."""
-    found = []
-    for what in ("mean", "std"):
-        values = [metadata[k] for k in (what, "image_" + what, "img_" + what) if k in metadata]
-        try:
-            numbers = np.asarray(_literal(values[0]), np.float32).reshape(-1) if values else None
-        except (TypeError, ValueError):
-            numbers = None
-        if numbers is None or numbers.size not in (1, 3) or not np.isfinite(numbers).all():
-            return None
-        found.append(numbers)
-    mean, std = found
-    if not (std > 0).all():
-        return None
-    # In units of code values, as (123.675, 116.28, 103.53) and (58.395, 57.12, 57.375).
-    return (mean / 255, std / 255) if max(mean.max(), std.max()) > 2 else (mean, std)
-
-
-def _literal(text: str) -> object:
-    for parse in (json.loads, ast.literal_eval):
-        try:
-            return parse(text)
-        except (ValueError, SyntaxError, RecursionError, MemoryError):
-            continue
-    return text
+    whole = name.strip().lower()
+    return [whole, *re.split(r"\s*[,;]\s*", whole)]

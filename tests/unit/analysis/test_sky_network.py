@@ -1,4 +1,4 @@
-"""Foreign networks: every layout, type, scale and output is understood, or refused in words."""
+"""Foreign networks: what a file holds is read, the rest is an argument, or an error names it."""
 
 import numpy as np
 import onnx_files as onnx
@@ -6,19 +6,14 @@ import pytest
 
 import sunwidget as sw
 from sunwidget.analysis.images.working_copy import Working
-from sunwidget.analysis.networks import segmentation_output
+from sunwidget.analysis.networks.segmentation_output import map_of, sky_of
 from sunwidget.analysis.segmentation import coarse_sky
-from sunwidget.analysis.segmentation.sky_network import (
-    BUNDLED,
-    NORMALISATIONS,
-    SkyNetwork,
-    bundled,
-    calibrate,
-)
+from sunwidget.analysis.segmentation.sky_network import BUNDLED, SkyNetwork, bundled
 from sunwidget.errors import AnalysisError
 from sunwidget.photo.photo import open_photo
 
 F4 = np.float32
+IMAGENET = ((0.485, 0.456, 0.406), (0.229, 0.224, 0.225))
 
 
 def picture() -> np.ndarray:
@@ -79,16 +74,28 @@ def test_well_known_numbers_of_classes_need_no_label(tmp_path, classes, label):
     assert is_the_sky(found(blueness(tmp_path, classes, label)))
 
 
-def test_a_label_that_is_given_wins_over_the_guessed_one(tmp_path):
+def test_a_label_that_is_given_wins_over_the_number_of_classes(tmp_path):
     path = blueness(tmp_path, 150, 7)
     assert is_the_sky(found(path, label=7))
     assert is_the_sky(found(SkyNetwork(path, label=7)))
     assert not is_the_sky(found(path))
 
 
-def test_the_fifth_class_of_nine_must_be_said_and_is_suggested(tmp_path):
+@pytest.mark.parametrize("layout", ["nchw", "nhwc"])
+@pytest.mark.parametrize("sigmoid", [True, False])
+def test_a_plain_map_of_the_sky_needs_no_arguments(tmp_path, layout, sigmoid):
+    tail = [onnx.node("Sigmoid", ["scores"], ["map"])] if sigmoid else []
+    name = "map" if sigmoid else "scores"
+    axes = (0, 2, 3, 1) if layout == "nhwc" else (0, 1, 2, 3)
+    tail += [onnx.node("Transpose", [name], ["sky"], perm=axes)]
+    shape = (1, 48, 64, 1) if layout == "nhwc" else (1, 1, 48, 64)
+    path = blueness(tmp_path, 1, 0, layout=layout, tail=tail, result=("sky", F4, shape))
+    assert is_the_sky(found(str(path)))
+
+
+def test_the_fifth_class_of_nine_must_be_said(tmp_path):
     path = blueness(tmp_path, 9, 5)
-    with pytest.raises(AnalysisError, match=r"9 classes.*sky_label.*ADE20K.*Class 5 lies"):
+    with pytest.raises(AnalysisError, match=r"9 classes.*which one is sky.*sky_label=.*ADE20K"):
         found(path)
     assert is_the_sky(found(path, label=5))
 
@@ -131,9 +138,17 @@ def test_a_map_of_labels_is_read_as_sky_or_not(tmp_path, dtype, keep):
     ]
     shape = (1, 1, 48, 64) if keep else (1, 48, 64)
     path = blueness(tmp_path, tail=tail, result=("labels", dtype, shape))
-    probability = found(path)
+    # Floats may as well be probabilities: that they are labels must be said.
+    probability = found(path, label=2 if dtype == F4 else None)
     assert is_the_sky(probability)
     assert set(np.unique(probability)) == {0, 1}
+    if dtype == F4:
+        assert not is_the_sky(found(path))
+
+
+def test_a_map_of_the_sky_has_no_second_class():
+    with pytest.raises(AnalysisError, match="no class 2: it has 1"):
+        found(BUNDLED, label=2)
 
 
 def test_channels_last_and_probabilities(tmp_path):
@@ -147,38 +162,38 @@ def test_channels_last_and_probabilities(tmp_path):
     assert np.allclose(found(path), logits, atol=1e-3)
 
 
-@pytest.mark.parametrize("scale", range(len(NORMALISATIONS)))
-@pytest.mark.parametrize("layout", ["nchw", "nhwc"])
-def test_the_scale_of_a_real_network_is_found(tmp_path, scale, layout):
-    """Our own network behind nodes that undo a normalisation: it must be found, to the digit."""
-    mean, deviation = (np.broadcast_to(np.asarray(v, F4), 3) for v in NORMALISATIONS[scale])
-    entry = SkyNetwork(BUNDLED).open().name
-    nodes = [onnx.node("Mul", ["pixels", "std_"], ["wide_"])]
-    if layout == "nchw":
-        mean, deviation, shape = mean.reshape(3, 1, 1), deviation.reshape(3, 1, 1), (3, 384, 384)
-        nodes.append(onnx.node("Add", ["wide_", "mean_"], [entry]))
-    else:
-        shape = (384, 384, 3)
-        nodes.append(onnx.node("Add", ["wide_", "mean_"], ["last_"]))
-        nodes.append(onnx.node("Transpose", ["last_"], [entry], perm=(0, 3, 1, 2)))
-    constants = {"mean_": mean, "std_": deviation}
-    entries = ("pixels", F4, (1, *shape))
-    path = onnx.wrap(BUNDLED, tmp_path / "ours.onnx", nodes, constants, entries)
-    label, detected = calibrate(SkyNetwork(path))
-    assert label == 0
-    assert detected == NORMALISATIONS[scale]
+@pytest.mark.parametrize("scale", [(0, 1), (0.5, 0.5), (0, 1 / 255), IMAGENET])
+@pytest.mark.parametrize("told", ["argument", "metadata"])
+def test_a_network_gets_the_scale_that_is_told(tmp_path, scale, told):
+    """Our own network behind nodes that undo a normalisation."""
+    mean, std = (np.broadcast_to(np.asarray(v, F4), 3) for v in scale)
+    nodes = [
+        onnx.node("Mul", ["pixels", "std_"], ["wide_"]),
+        onnx.node("Add", ["wide_", "mean_"], [SkyNetwork(BUNDLED).open().name]),
+    ]
+    constants = {"mean_": mean.reshape(3, 1, 1), "std_": std.reshape(3, 1, 1)}
+    entries = ("pixels", F4, (1, 3, 384, 384))
+    fields = {"mean": scale[0], "std": scale[1]}
+    metadata = {name: str(value) for name, value in fields.items() if told == "metadata"}
+    path = onnx.wrap(BUNDLED, tmp_path / "ours.onnx", nodes, constants, entries, metadata)
+    network = SkyNetwork(path, **({} if metadata else fields))
     working = Working.of(sw.sample("harbour"))
-    assert np.allclose(SkyNetwork(path)(working), bundled()(working), atol=2e-3)
+    assert np.allclose(network(working), bundled()(working), atol=2e-3)
 
 
-def test_the_scale_in_the_metadata_and_the_given_one_win(tmp_path):
+def test_the_scale_is_the_given_one_the_metadata_s_or_0_to_1(tmp_path):
     metadata = {"mean": "[123.675, 116.28, 103.53]", "std": "[58.395, 57.12, 57.375]"}
-    path = blueness(tmp_path, metadata=metadata)
-    _, (mean, deviation) = calibrate(SkyNetwork(path))
-    assert np.allclose(mean, (0.485, 0.456, 0.406))
-    assert np.allclose(deviation, (0.229, 0.224, 0.225))
-    given = SkyNetwork(path, mean=0.25, std=(1, 2, 3))
-    assert calibrate(given) == (2, (0.25, (1, 2, 3)))
+    opened = SkyNetwork(blueness(tmp_path, metadata=metadata)).open()
+    assert np.allclose(opened.scale(None, None, (0, 1)), IMAGENET)
+    mean, std = opened.scale(0.25, None, (0, 1))
+    assert mean == 0.25
+    assert np.allclose(std, IMAGENET[1])
+    for metadata in ({}, {"mean": "0.5"}, {"mean": "grey", "std": "1"}, {"mean": "0", "std": "0"}):
+        opened = SkyNetwork(blueness(tmp_path, metadata=metadata)).open()
+        assert opened.scale(None, None, (0, 1)) == (0, 1)
+    takes_bytes = blueness(tmp_path, dtype=np.uint8)
+    with pytest.raises(AnalysisError, match="takes bytes.*leave out mean="):
+        found(SkyNetwork(takes_bytes, mean=0.5))
 
 
 def test_a_network_that_wants_blue_green_red_gets_it(tmp_path):
@@ -205,7 +220,7 @@ def test_an_open_layout_is_given(tmp_path):
     assert is_the_sky(found(SkyNetwork(path, layout="nhwc")))
 
 
-def test_the_first_output_that_is_a_map_is_taken(tmp_path):
+def test_of_several_outputs_the_first_map_or_the_named_one_is_taken(tmp_path):
     entries = [("image", F4, (1, 3, 48, 64))]
     weight = np.zeros((150, 3, 1, 1), F4)
     weight[2, :, 0, 0] = (-8, 0, 8)
@@ -218,7 +233,11 @@ def test_the_first_output_that_is_a_map_is_taken(tmp_path):
     outputs += [("scores", F4, (1, 150, 48, 64))]
     constants = {"w": weight, "few": np.zeros((2, 3, 1, 1), F4)}
     path = onnx.write(tmp_path / "many.onnx", nodes, constants, entries, outputs)
-    assert is_the_sky(found(path, label=2))
+    with pytest.raises(AnalysisError, match="no class 2: it has 2"):
+        found(path, label=2)
+    assert is_the_sky(found(SkyNetwork(path, output="scores")))
+    with pytest.raises(AnalysisError, match="no output 'sky'; it has pooled, features, scores"):
+        found(SkyNetwork(path, output="sky"))
 
 
 def test_above_one_half_is_where_sky_is_the_strongest_class():
@@ -226,8 +245,7 @@ def test_above_one_half_is_where_sky_is_the_strongest_class():
     scores = generator.normal(0, 2, (1, 5, 12, 16)).astype(F4)
     shares = np.exp(scores) / np.exp(scores).sum(axis=1, keepdims=True)
     for values in (scores, shares):
-        output = segmentation_output.understand(values, (16, 12), "nchw")
-        probability = segmentation_output.sky_of(output, 3)
+        probability = sky_of(map_of(values, (16, 12), "nchw"), 3)
         assert np.array_equal(probability > 0.5, scores[0].argmax(axis=0) == 3)
     assert probability.std() > 0.1  # and it is soft
 
@@ -235,17 +253,21 @@ def test_above_one_half_is_where_sky_is_the_strongest_class():
 @pytest.mark.parametrize("layout", ["nchw", "nhwc"])
 @pytest.mark.parametrize("shape", [(1, 30, 40, 20), (1, 20, 30, 40), (30, 40, 20)])
 def test_the_picture_s_proportions_tell_rows_columns_and_classes_apart(shape, layout):
-    output = segmentation_output.understand(np.zeros(shape, F4), (160, 120), layout)
-    assert output.values.shape == (30, 40, 20)
-    assert output.classes == 20
+    assert map_of(np.zeros(shape, F4), (160, 120), layout).shape == (30, 40, 20)
+
+
+@pytest.mark.parametrize("layout", ["nchw", "nhwc"])
+def test_the_layout_tells_where_proportions_do_not(layout):
+    scores = np.zeros((8, 8, 8), F4)
+    scores[(3, ...) if layout == "nchw" else (..., 3)] = 1
+    assert (map_of(scores, (8, 8), layout).argmax(-1) == 3).all()
 
 
 def test_one_map_of_the_sky_may_be_probabilities_or_logits():
     logits = np.linspace(-6, 6, 48, dtype=F4).reshape(6, 8)
     for values in (logits, 1 / (1 + np.exp(-logits))):
         for shape in ((1, 1, 6, 8), (1, 6, 8), (6, 8), (1, 6, 8, 1)):
-            output = segmentation_output.understand(values.reshape(shape), (8, 6), "nchw")
-            probability = segmentation_output.sky_of(output, 0)
+            probability = sky_of(map_of(values.reshape(shape), (8, 6), "nchw"), 0)
             assert np.allclose(probability, 1 / (1 + np.exp(-logits)), atol=1e-6)
 
 
@@ -284,16 +306,10 @@ def test_a_network_of_enormous_pictures_is_refused_before_one_is_made(tmp_path):
         found(path)
 
 
-def test_whole_numbers_too_large_for_labels_are_scores():
-    logits = np.full((6, 8), 1e30, F4)
-    assert segmentation_output.understand(logits, (8, 6), "nchw").kind == "sky"
-
-
 def test_a_network_of_nan_is_an_error_in_words(tmp_path):
     path = blueness(tmp_path, gain=np.nan)
-    for network in (path, SkyNetwork(path, label=2, mean=0, std=1)):
-        with pytest.raises(AnalysisError, match="NaN or infinite values"):
-            found(network)
+    with pytest.raises(AnalysisError, match="NaN or infinite values"):
+        found(path)
 
 
 @pytest.mark.parametrize("keep", [0, 10, 0.5, 0.99])
