@@ -225,16 +225,16 @@ def _measure_sun(
     found: FoundSun | None, fit: SkyFit, closed: float
 ) -> tuple[str, NDArray[np.float64], NDArray[np.float64]]:
     """Return the sun's kind, its illuminance, and its light per klx of the model's."""
-    grey = np.full(3, float(np.array(fit.gain) @ LUMINANCE))
+    gray = np.full(3, float(np.array(fit.gain) @ LUMINANCE))
     clear = sunlight(fit.atmosphere, fit.sun[1])
     if found is None:
-        return "hidden", np.zeros(3), grey
+        return "hidden", np.zeros(3), gray
     if closed > _HALF:
-        return "veiled", found.illuminance, grey
+        return "veiled", found.illuminance, gray
     level = float(found.illuminance @ LUMINANCE) / max(float(clear @ LUMINANCE), 1e-30)
-    if (found.clipped or level < _CUT_OFF * grey[0]) and level < grey[0]:
-        return "clipped", grey * clear, grey
-    level = min(level, _MOST * grey[0])
+    if (found.clipped or level < _CUT_OFF * gray[0]) and level < gray[0]:
+        return "clipped", gray * clear, gray
+    level = min(level, _MOST * gray[0])
     gain = found.illuminance / np.maximum(clear, 1e-30)
     # White balance and the model's red have errors; the true tint is smaller than that limit.
     return "disc", found.illuminance, np.clip(gain, level / _TINT, level * _TINT)

@@ -1,1 +1,1 @@
-"""Pictures and films on disk."""
+"""Saving pictures: stills, layers, maps, environment maps."""

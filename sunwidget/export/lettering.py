@@ -21,9 +21,9 @@ def width(text: str, size: int) -> int:
     return math.ceil(font(size).getlength(text.translate(_SIGNS)))
 
 
-def write(draw: Any, at: tuple[int, int], text: str, size: int, colour: Any) -> None:
+def write(draw: Any, at: tuple[int, int], text: str, size: int, color: Any) -> None:
     """Draw a text with its top left corner at ``at``."""
-    draw.text(at, text.translate(_SIGNS), font=font(size), fill=colour)
+    draw.text(at, text.translate(_SIGNS), font=font(size), fill=color)
 
 
 def cut(text: str, room: int, size: int) -> str:

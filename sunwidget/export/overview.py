@@ -122,10 +122,10 @@ def tint_map(photo: np.ndarray, shares: np.ndarray, entry: SceneMap) -> Image.Im
     """
     from PIL import Image
 
-    grey = photo.astype(np.float32).mean(-1, keepdims=True) * np.float32(0.75) + 10
-    colour = ramp_colours(entry.ramp)[np.round(shares * 255).astype(np.uint8)]
-    alpha = colour[..., 3:]
-    mixed = grey * (1 - alpha) + 255 * colour[..., :3] * alpha
+    gray = photo.astype(np.float32).mean(-1, keepdims=True) * np.float32(0.75) + 10
+    color = ramp_colours(entry.ramp)[np.round(shares * 255).astype(np.uint8)]
+    alpha = color[..., 3:]
+    mixed = gray * (1 - alpha) + 255 * color[..., :3] * alpha
     return Image.fromarray(np.round(mixed).astype(np.uint8))
 
 
@@ -156,8 +156,8 @@ def _legend(sheet: Image.Image, at: tuple[int, int], width: int, entry: SceneMap
     """Draw the color ramp between its lowest and highest value."""
     from PIL import Image, ImageDraw
 
-    colours = ramp_colours(entry.ramp, 160)
-    mixed = 60 * (1 - colours[:, 3:]) + 255 * colours[:, :3] * colours[:, 3:]
+    colors = ramp_colours(entry.ramp, 160)
+    mixed = 60 * (1 - colors[:, 3:]) + 255 * colors[:, :3] * colors[:, 3:]
     bar = np.repeat(np.round(mixed).astype(np.uint8)[None], 10, axis=0)
     draw = ImageDraw.Draw(sheet)
     x, y = at

@@ -1,1 +1,1 @@
-"""Frames of one fixed camera: analysed together, edited together."""
+"""Frames of one fixed camera: analyzed together, edited together."""

@@ -107,10 +107,10 @@ def normalization(
 
 def _tones(image: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     share = weight.ravel().astype(np.float64)
-    colours = image.reshape(-1, 3).astype(np.float64)
+    colors = image.reshape(-1, 3).astype(np.float64)
     total = max(float(share.sum()), 1e-9)
-    mean = share @ colours / total
-    deviation = np.sqrt(share @ np.square(colours - mean) / total)
+    mean = share @ colors / total
+    deviation = np.sqrt(share @ np.square(colors - mean) / total)
     # One spread for all channels: three would change hues.
     spread = np.maximum(float(np.sqrt(np.mean(np.square(deviation)))), 1e-3)
     return mean.astype(np.float32), np.full(3, spread, np.float32)

@@ -34,7 +34,7 @@ _TINT_OF_LAND = np.array([0.05, 0.015])
 _SKY_IN_TINT = 0.3  # share of the visible sky in the land's tint
 _WELL_EXPOSED = 0.22  # luminance of land that a camera would not brighten further
 _MARGIN = 0.35  # natural log by which land over sky may leave the range of the two photos
-_CONTRAST, _COLOUR = (0.75, 1.2), (0.65, 1.25)
+_CONTRAST, _COLOR = (0.75, 1.2), (0.65, 1.25)
 _FROM_LAB = np.linalg.inv(LMS_TO_LAB)
 _FROM_LMS = np.linalg.inv(RGB_TO_LMS)
 
@@ -159,7 +159,7 @@ def _label_change(
     low, high = max(bounds[0], _DARKEST), min(bounds[1], _BRIGHTEST)
     shift[0] = np.clip(shift[0], step * low, step * max(high, low))
     spread = np.sqrt(np.maximum(other.deviation, 1e-3) / np.maximum(own.deviation, 1e-3))
-    limits = np.array([_CONTRAST, _COLOUR, _COLOUR])
+    limits = np.array([_CONTRAST, _COLOR, _COLOR])
     gain = 1 + sure * (np.clip(spread, limits[:, 0], limits[:, 1]) - 1)
     return shift, gain
 

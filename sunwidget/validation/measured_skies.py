@@ -115,7 +115,7 @@ class Measurements:
         return {
             "time": self.times[index].isoformat(),
             "sun_elevation": round(float(self.sun_elevation[index]), 3),
-            "sun_azimuth": round(float(_centred(self.sun_azimuth[index])), 3),
+            "sun_azimuth": round(float(_center(self.sun_azimuth[index])), 3),
             "directions": np.stack([azimuth, self.elevation], axis=1).round(4).tolist(),
             "radiance": four.tolist(),
             "rgb": spectral_to_rec709(four).tolist(),
@@ -274,5 +274,5 @@ def _sun_elevation(time: dt.datetime) -> float:
     return float(solar_position(time, LATITUDE, LONGITUDE).true_elevation)
 
 
-def _centred(azimuth: float) -> float:
+def _center(azimuth: float) -> float:
     return (azimuth + 180) % 360 - 180

@@ -76,20 +76,20 @@ def compare(
     ----------
     models : sequence of str
         ``"single"`` (Nishita 1993), ``"multiple"`` (all orders), ``"reference"`` (path tracing,
-        about a second a scan) and names in ``others``.
+        about a second per scan) and names in ``others``.
     scan : int, optional
-        Index of one scan; default all.
+        Index of one scan. Default: all.
     atmosphere : Atmosphere, optional
-        What is in the air; default ``AIR_OF_THE_DAY``.
+        The air. Default: ``AIR_OF_THE_DAY``.
     data : Measurements, optional
-        Default ``load()``.
+        Default: ``load()``.
     others : mapping, optional
         Further models by name: ``radiance(elevation, azimuth from the sun, sun elevation)`` of
-        shape (81, 4) at the shaders' four wavelengths. They, and path tracing, are carried to
-        the whole spectrum by their ratio to ``"multiple"``, which varies little.
+        shape (81, 4) at the shaders' four wavelengths. These and path tracing are extended to the
+        whole spectrum by their ratio to ``"multiple"``, which varies little.
     paths : int, default 30
-        Paths for each direction and wavelength of ``"reference"``. Their noise, some per cent of
-        what is scattered more than once, is small beside the error.
+        Paths for each direction and wavelength of ``"reference"``. Their noise, a few percent of
+        the multiply scattered light, is small compared with the error.
     progress : callable, optional
         ``progress(fraction, message)``; raise in it to cancel.
 

@@ -136,7 +136,7 @@ def test_a_machine_that_cannot_render_ends_the_batch(folder, quick, monkeypatch)
 
 def test_a_worker_of_another_version_says_so(folder, quick):
     job = develop.Job(0, "0.png", "", "0-sun.png", Request(LOW), version="0.0.1")
-    with pytest.raises(RuntimeError, match=r"the batch is run by 0\.0\.1"):
+    with pytest.raises(RuntimeError, match=r"the batch has 0\.0\.1"):
         develop.develop(job)
 
 
@@ -253,7 +253,7 @@ def test_photos_are_found_once_each(folder, tmp_path, monkeypatch):
         ({"analysis": {"fow": 3}}, "Did you mean 'fov'"),
         ({"workers": -1}, "workers must be a whole number"),
         ({"workers": 2, "scheduler": "tcp://127.0.0.1:1"}, "has its own"),
-        ({"edit": "sunsett"}, "the presets are"),
+        ({"edit": "sunsett"}, "The presets are"),
         ({"edit": 3}, "not int"),
         ({"format": "jpg", "bit_depth": 16}, "16"),
     ],

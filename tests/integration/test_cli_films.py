@@ -20,7 +20,7 @@ def refusal(capsys, *arguments):
 @pytest.mark.parametrize(
     ("flags", "says"),
     [
-        ("--steps dawn sunset --to-sun-elevation 3", "--steps and --to-… both say where"),
+        ("--steps dawn sunset --to-sun-elevation 3", "--steps and --to-… both set the film"),
         ("--key-frame 0:dawn --key-frame 2:sunset --to-time 17:00", "--key-frame and --to-…"),
         ("--day --sun-elevation 3", "The clock moves the sun"),
         ("--to-time 17:00 --to-sun-azimuth 3", "The clock moves the sun"),
@@ -46,14 +46,14 @@ def test_a_sweep_that_contradicts_itself_is_refused(capsys, tmp_path, flags, say
     ("flags", "says"),
     [
         ("--steps dawn", "needs two or more"),
-        ("--steps dawn sunset --sun-elevation 3", "leave the other flags out"),
-        ("--steps dawn sunset --preset dawn", "leave the other flags out"),
+        ("--steps dawn sunset --sun-elevation 3", "Leave out the other parameter flags"),
+        ("--steps dawn sunset --preset dawn", "Leave out the other parameter flags"),
         ("--preset dawn --exposure 1", "excludes other parameters"),
         ("--heading 30", "--heading needs --place"),
         ("--start 2024-06-21T17:30", "--start and --interval go together"),
         ("--interval 30", "--start and --interval go together"),
-        ("--start 2024-06-21T17:30 --interval 30 --times %Y", "leave one out"),
-        ("--start noon --interval 30", "is not a time as 2024-06-21T17:30"),
+        ("--start 2024-06-21T17:30 --interval 30 --times %Y", "Leave one out"),
+        ("--start noon --interval 30", "is not of the form 2024-06-21T17:30"),
         ("--place here", "is not latitude,longitude"),
         ("--broken mend", "invalid choice"),
         ("--loop there_and_back", "invalid choice"),

@@ -186,7 +186,7 @@ def test_openexr_has_floats_that_hold_the_sun(tmp_path, scene):
 
 
 def test_what_is_no_dome_is_refused_before_the_work(tmp_path, scene):
-    with pytest.raises(PhotoError, match=r"ends in \.hdr or \.exr"):
+    with pytest.raises(PhotoError, match=r"must end in \.hdr or \.exr"):
         sw.to_dome(scene, None, tmp_path / "sky.png")
     for width in (5, 2, 99_999, "wide", 10.5):
         with pytest.raises(PhotoError, match="twice as wide as high"):

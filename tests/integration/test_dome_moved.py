@@ -154,7 +154,7 @@ def test_a_sun_that_is_cut_off_gets_the_models_light():
     cut = np.minimum(light, 400 * np.median(light))
     dome = dome_of(cut)
     assert dome.sun_kind == "clipped"
-    assert "cut off or hidden" in dome.warnings[0]
+    assert "clipped or hidden" in dome.warnings[0]
     out = move_sun(dome, sw.Edit(sun_azimuth=-60), WIDTH)
     true = UNIT * sunlight(AIR, HIGH[1]) @ LUMINANCE
     assert out.direct @ LUMINANCE == pytest.approx(true, rel=0.4)
@@ -236,7 +236,7 @@ def test_what_is_no_environment_map_is_refused(tmp_path, high):
         sw.analyze_dome(np.zeros((64, 128, 3), np.uint8))
     with pytest.raises(sw.PhotoError, match="twice as wide"):
         sw.analyze_dome(np.zeros((64, 100, 3), np.float32))
-    with pytest.raises(sw.AnalysisError, match="not a place in array"):
+    with pytest.raises(sw.AnalysisError, match="not a position in array"):
         dome_of(true_map(HIGH)[0], sun=(900, 20))
     with pytest.raises(sw.EditError, match="not cloud_opacity, exposure"):
         sw.to_dome(high, {"cloud_opacity": 0.5, "exposure": 1}, tmp_path / "sky.hdr")

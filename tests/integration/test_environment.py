@@ -107,7 +107,7 @@ def test_a_map_is_written_and_opens_again(tmp_path, scene, ending):
 
 
 def test_what_is_no_map_is_refused(tmp_path, scene):
-    with pytest.raises(PhotoError, match=r"ends in \.hdr or \.exr"):
+    with pytest.raises(PhotoError, match=r"must end in \.hdr or \.exr"):
         sw.environment_map(scene, None, tmp_path / "sky.png")
     for size in ((64, 64), (4, 2), (40_000, 20_000)):
         with pytest.raises(PhotoError, match="twice as wide as high"):

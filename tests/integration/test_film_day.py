@@ -169,9 +169,9 @@ def test_a_sheet_and_frames_one_by_one(scene, tmp_path, capsys, monkeypatch):
     ("flags", "message"),
     [
         (["--steps", "dawn", "noon"], "Nothing to write"),
-        (["-o", "x.avi", "--day"], "ends in .mp4"),
+        (["-o", "x.avi", "--day"], "must end in .mp4"),
         (["-o", "x.gif", "--day", "--sun-elevation", "3"], "The clock moves the sun"),
-        (["-o", "x.gif", "--steps", "dawn", "noon", "--to-exposure", "1"], "leave one of them out"),
+        (["-o", "x.gif", "--steps", "dawn", "noon", "--to-exposure", "1"], "Leave one of them out"),
         (["-o", "x.gif", "--steps", "dawn", "--day"], "not allowed with"),
         (["-o", "x.gif", "--key-frame", "3"], "not of the form"),
         (["-o", "x.gif", "--key-frame", "x:sun_elevation=3"], "not of the form"),

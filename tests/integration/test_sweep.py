@@ -244,8 +244,8 @@ def test_a_film_has_the_permissions_of_any_new_file(scene, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"path": "film.avi"}, "ends in .mp4"),
-        ({"path": "film"}, "ends in .mp4"),
+        ({"path": "film.avi"}, "must end in .mp4"),
+        ({"path": "film"}, "must end in .mp4"),
         ({"fps": 0}, "fps"),
         ({"frames": 1}, "whole number"),
         ({"frames": 10, "seconds": 1}, "not both"),
@@ -253,15 +253,15 @@ def test_a_film_has_the_permissions_of_any_new_file(scene, tmp_path):
         ({"seconds": float("inf")}, "above 0"),
         ({"seconds": float("nan")}, "above 0"),
         ({"frames": 10**7}, "at most"),
-        ({"size": (1, 100)}, "not possible"),
+        ({"size": (1, 100)}, "2 to 8192 pixels per side"),
         ({"size": "big"}, "width, height"),
         ({"edits": [Edit()]}, "two or more"),
         ({"edits": Edit()}, "not one Edit"),
         ({"easing": "bounce"}, "easing must be one of"),
         ({"loop": "sometimes"}, "loop must be one of"),
         ({"quality": 0}, "quality"),
-        ({"path": "%d-%d.png"}, "named as"),
-        ({"path": "%04d.jpg"}, "named as"),
+        ({"path": "%d-%d.png"}, "Name single frames like"),
+        ({"path": "%04d.jpg"}, "Name single frames like"),
     ],
 )
 def test_an_impossible_film_is_refused_before_rendering(scene, tmp_path, arguments, message):

@@ -28,8 +28,8 @@ _ZIP = "application/zip"
 class Kind(NamedTuple):
     """A file format that the panel offers.
 
-    ``quality`` and ``frames`` tell whether it has a quality and one file per frame. It needs
-    ``module``, which the extra ``extra`` installs.
+    ``quality``: it has a quality setting. ``frames``: it writes one file per frame. ``module`` is
+    required and installed by the extra ``extra``.
     """
 
     suffix: str

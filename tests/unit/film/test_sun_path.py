@@ -77,9 +77,9 @@ def test_the_photos_own_light_by_any_name_joins_edits_and_presets():
         ("sunset", "not one str"),
         (None, "not one NoneType"),
         ([(0, Edit()), Edit()], "Either every step"),
-        ([(1, Edit()), (1, Edit(exposure=1))], "order of their seconds"),
-        ([(-1, Edit()), (1, Edit())], "order of their seconds"),
-        ([(0, Edit()), (float("nan"), Edit())], "order of their seconds"),
+        ([(1, Edit()), (1, Edit(exposure=1))], "must increase"),
+        ([(-1, Edit()), (1, Edit())], "must increase"),
+        ([(0, Edit()), (float("nan"), Edit())], "must increase"),
         ([(0, Edit())], "two or more"),
     ],
 )
