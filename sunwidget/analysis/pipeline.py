@@ -18,6 +18,7 @@ from sunwidget.analysis.backdrop.backdrop import Backdrop, behind_sun
 from sunwidget.analysis.backdrop.erase import Erased, before_land, erase, unerased
 from sunwidget.analysis.clouds import clouds as cloud_stage
 from sunwidget.analysis.clouds.clouds import Clouds
+from sunwidget.analysis.clouds.cover import unmix_clouds
 from sunwidget.analysis.clouds.unmix import cloud_gain
 from sunwidget.analysis.depth import depth as depth_stage
 from sunwidget.analysis.fit.fit import SkyFit, fit_sky
@@ -25,8 +26,7 @@ from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import horizon as horizon_stage
 from sunwidget.analysis.horizon.horizon import Horizon
 from sunwidget.analysis.images.enlarge import raise_to, take_from
-from sunwidget.analysis.images.fill import fill_by_pyramid
-from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
+from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.networks.sun import SunMaps, look_for_sun
@@ -45,7 +45,6 @@ from sunwidget.photo.photo import Photo
 from sunwidget.progress import Progress
 
 FIT_SIDE = 384
-_SURROUNDINGS = 0.05  # of the longer side: how far round a glow the sky tells what it hides
 SURE_HORIZON = 0.68  # confidence from which nothing below the horizon can be sky
 
 METHODS: dict[str, dict[str, Callable[..., Any]]] = {
@@ -350,57 +349,6 @@ def _glare_of(
     excess = fit.response.scene_light(display) - fit.response.scene_light(clean)
     angle = angle_to_sun(camera, size, fit.sun)
     return dataclasses.replace(fit, glare=measured_glare(excess, angle, trusted, fit))
-
-
-def unmix_clouds(
-    erased: Erased,
-    sky: np.ndarray,
-    camera: Camera,
-    fitted: SkyFit,
-    covers: tuple[Clouds, Clouds],
-    *,
-    sun_seen: bool,
-) -> tuple[Clouds, Clouds]:
-    """Return ``covers`` with opacity and shade un-mixed from the fitted sky."""
-    of_sky, of_all = cloud_stage.veil(erased.working, sky, camera, fitted, sun_seen=sun_seen)
-    # Where the matte is soft, twigs darken the sky as a cloud would: continue the clouds from
-    # around them. Round the sun whiteness tells nothing: there clouds go on as beside it.
-    weight = np.asarray(inner(sky > 0.98), np.float32)
-    filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), weight)
-    if erased.glow.any():
-        # The clearer the surroundings are, the more it is the clear sky alone that goes on.
-        weight *= 1 - erased.glow
-        clear = weight * _clearness(of_sky.opacity, weight > 0.5)
-        cloudy, open_ = (fill_by_pyramid(of_sky.opacity[..., None], w) for w in (weight, clear))
-        share = _round_glow(erased.glow, weight, clear)
-        behind = (cloudy + share * (open_ - cloudy))[..., 0]
-        filled[..., 0] += erased.glow * (behind - filled[..., 0])
-    return (
-        Clouds(filled[..., 0] * sky, covers[0].softness, filled[..., 1]),
-        Clouds(of_all.opacity * (1 - erased.glow), covers[1].softness, of_all.shade),
-    )
-
-
-def _clearness(opacity: np.ndarray, sky: np.ndarray) -> np.ndarray:
-    """How clear each pixel is beside the clearest quarter of the sky, (h, w) in [0, 1]."""
-    usual = float(np.quantile(opacity[sky], 0.25)) if sky.any() else 0.0
-    return np.asarray(1 - smoothstep(0.05, 0.3, opacity - usual), np.float32)
-
-
-def _round_glow(glow: np.ndarray, weight: np.ndarray, clear: np.ndarray) -> float:
-    """Return which share of what surrounds the glow (h, w) is clear sky."""
-    import cv2
-
-    side = 2 * max(1, round(_SURROUNDINGS * max(glow.shape))) + 1
-    near = cv2.dilate(glow, np.ones((side, side), np.uint8))
-    return float((near * clear).sum() / max(float((near * weight).sum()), 1e-6))
-
-
-def inner(mask: np.ndarray) -> np.ndarray:
-    """Return where a mask (h, w) bool holds 2 px around, too; beyond the frame it goes on."""
-    import cv2
-
-    return cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
 
 
 def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> Scene:

@@ -15,12 +15,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from sunwidget.analysis.backdrop.backdrop import behind_sun
+from sunwidget.analysis.clouds.cover import unmix_clouds
 from sunwidget.analysis.clouds.unmix import cloud_gain
 from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.networks.sun import look_for_sun
-from sunwidget.analysis.pipeline import clouds_by_colour, erased_for, unmix_clouds
+from sunwidget.analysis.pipeline import clouds_by_colour, erased_for
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit.table import Edit
 from sunwidget.errors import PhotoError

@@ -209,6 +209,7 @@ def test_every_module_says_what_it_is_for(root):
 
 
 SOURCES = ("sunwidget/**/*.py", "js/src/**/*.js", "js/src/**/*.css", "sunwidget/shaders/**/*.glsl")
+TABLES = {"sunwidget/edit/table.py"}  # data: one row a parameter
 
 
 @pytest.mark.parametrize("pattern", SOURCES)
@@ -218,8 +219,7 @@ def test_files_are_small_enough_to_be_read_at_a_sitting(root, pattern):
         for path in root.glob(pattern)
     }
     assert len(lines) > 20
-    # The largest holds the one table of parameters.
-    assert {name: count for name, count in lines.items() if count > 600} == {}
+    assert {name for name, count in lines.items() if count > 400} - TABLES == set()
     assert statistics.median(lines.values()) <= 150
 
 

@@ -1,0 +1,68 @@
+"""Clouds un-mixed from the fitted sky, and continued where twigs or the sun's glow hide them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sunwidget.analysis.backdrop.erase import Erased
+from sunwidget.analysis.clouds.clouds import Clouds, veil
+from sunwidget.analysis.fit.fit import SkyFit
+from sunwidget.analysis.images.fill import fill_by_pyramid
+from sunwidget.analysis.images.working_copy import smoothstep
+from sunwidget.geometry.camera import Camera
+
+_SURROUNDINGS = 0.05  # of the longer side: how far round a glow the sky shows what it hides
+
+
+def unmix_clouds(
+    erased: Erased,
+    sky: np.ndarray,
+    camera: Camera,
+    fitted: SkyFit,
+    covers: tuple[Clouds, Clouds],
+    *,
+    sun_seen: bool,
+) -> tuple[Clouds, Clouds]:
+    """Return ``covers`` with opacity and shade un-mixed from the fitted sky.
+
+    Both are the clouds of the sky, and of the whole picture as if it were sky.
+    """
+    of_sky, of_all = veil(erased.working, sky, camera, fitted, sun_seen=sun_seen)
+    # Where the matte is soft, twigs darken the sky as a cloud would: continue the clouds from
+    # around them. Round the sun all is white: there clouds go on as beside it.
+    weight = np.asarray(_inner(sky > 0.98), np.float32)
+    filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), weight)
+    if erased.glow.any():
+        # The clearer the surroundings are, the more the clear sky alone goes on.
+        weight *= 1 - erased.glow
+        clear = weight * _clearness(of_sky.opacity, weight > 0.5)
+        cloudy, open_ = (fill_by_pyramid(of_sky.opacity[..., None], w) for w in (weight, clear))
+        share = _round_glow(erased.glow, weight, clear)
+        behind = (cloudy + share * (open_ - cloudy))[..., 0]
+        filled[..., 0] += erased.glow * (behind - filled[..., 0])
+    return (
+        Clouds(filled[..., 0] * sky, covers[0].softness, filled[..., 1]),
+        Clouds(of_all.opacity * (1 - erased.glow), covers[1].softness, of_all.shade),
+    )
+
+
+def _clearness(opacity: np.ndarray, sky: np.ndarray) -> np.ndarray:
+    """Return how clear each pixel is beside the sky's clearest quarter, (h, w) in [0, 1]."""
+    usual = float(np.quantile(opacity[sky], 0.25)) if sky.any() else 0.0
+    return np.asarray(1 - smoothstep(0.05, 0.3, opacity - usual), np.float32)
+
+
+def _round_glow(glow: np.ndarray, weight: np.ndarray, clear: np.ndarray) -> float:
+    """Return which share of what surrounds the glow (h, w) is clear sky."""
+    import cv2
+
+    side = 2 * max(1, round(_SURROUNDINGS * max(glow.shape))) + 1
+    near = cv2.dilate(glow, np.ones((side, side), np.uint8))
+    return float((near * clear).sum() / max(float((near * weight).sum()), 1e-6))
+
+
+def _inner(mask: np.ndarray) -> np.ndarray:
+    """Return where a mask (h, w) bool also holds 2 px around. Beyond the frame it goes on."""
+    import cv2
+
+    return cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0

@@ -1,0 +1,174 @@
+"""The sun of SkyExplorer: where a hand puts it, or where a place's time or a measured sky has it.
+
+The browser moves the sun itself, from the path in ``_day``; the kernel computes that path.
+Handlers may run on any thread: JupyterLab sends messages to kernel subshells.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import datetime as dt
+import math
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import traitlets
+
+from sunwidget.explorer import table
+from sunwidget.geometry import solar
+from sunwidget.validation import measurements
+from sunwidget.widgets.explorer.answers import scans
+from sunwidget.widgets.explorer.parameters import ExplorerParameters
+
+SUN = ("sun_azimuth", "sun_elevation")
+_SAME_PLACE = 0.01  # degrees; the browser's arithmetic is not to the bit the kernel's
+
+
+class SunFollower(ExplorerParameters):
+    """A widget of the explorer's table whose sun follows a place's time or a measured scan."""
+
+    # Without pvlib there is no sun of a place.
+    _refusals = (traitlets.TraitError, ImportError)
+
+    _day: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
+    _measured: Any = traitlets.Any(None).tag(sync=True, echo_update=False)
+    _scans: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
+
+    def __init__(self, **parameters: Any) -> None:
+        self._lock = threading.RLock()
+        self._browser_thread: int | None = None
+        self._moving = False
+        super().__init__(_scans=scans(), **parameters)
+        self._refresh_day()
+        # The sun is where it is said to be, else where the time puts it, else where the scan does.
+        if self.scan is not None:
+            self._measured = measurements.load().scan_json(self.scan)
+        self._place_sun(*self._followed_sun())
+        for name in SUN:
+            if name in parameters:
+                setattr(self, name, parameters[name])
+        self._on_sun(None)
+        self.observe(self._on_place, list(table.PLACE))
+        self.observe(self._on_time, "time")
+        self.observe(self._on_scan, "scan")
+        self.observe(self._on_sun, list(SUN))
+
+    def set_place(
+        self, latitude: float, longitude: float, date: dt.date | str | None = None
+    ) -> None:
+        """Say where and on which day the sky is seen; ``time`` then moves the sun.
+
+        Parameters
+        ----------
+        latitude, longitude : float
+            Degrees, positive to the north and to the east.
+        date : datetime.date or "YYYY-MM-DD", optional
+            Default: the one that is set, else today.
+        """
+        day = date or self.date or dt.datetime.now(dt.UTC).date()
+        with self.hold_trait_notifications():
+            for name, value in zip(table.PLACE, (day, latitude, longitude), strict=True):
+                setattr(self, name, value)
+
+    def refresh_scans(self) -> None:
+        """Look again for measured skies on this machine, after ``measurements.download()``."""
+        self._scans = scans()
+
+    def set_state(self, sync_data: dict[str, Any]) -> None:
+        """Take over what the browser sent; a value that is refused is answered, not raised."""
+        with self._lock:
+            self._browser_thread = threading.get_ident()
+            try:
+                super().set_state(sync_data)
+            finally:
+                self._browser_thread = None
+
+    @contextlib.contextmanager
+    def _moving_the_sun(self) -> Iterator[None]:
+        """Mark that what moves the sun meanwhile is the time or the scan, not a hand."""
+        self._moving = True
+        try:
+            with self.hold_sync():
+                yield
+        finally:
+            self._moving = False
+
+    def _refresh_day(self) -> None:
+        place = [getattr(self, name) for name in table.PLACE]
+        if None in place:
+            self._day = []
+            return
+        try:
+            path = solar.day_path(*place)
+        except ImportError:
+            self._day = []  # never the path of another place
+            raise
+        self._day = np.round(path, 6).tolist()
+
+    def _followed_sun(self) -> tuple[float, float]:
+        """Azimuth and elevation that time, scan or else the table give."""
+        if self._day and self.time is not None:
+            azimuth, elevation = solar.sun_on_path(self._day, self.time)
+            # The table ends at -12°: below it is night all the same.
+            return azimuth, max(elevation, table.parameter("sun_elevation").minimum)
+        if self.scan is not None:
+            return self._measured["sun_azimuth"], self._measured["sun_elevation"]
+        return table.parameter("sun_azimuth").default, table.parameter("sun_elevation").default
+
+    def _sun_follows(self) -> bool:
+        """Tell whether the sun is where time, scan or else the table put it."""
+        azimuth, elevation = self._followed_sun()
+        turn = (self.sun_azimuth - azimuth + 180) % 360 - 180
+        return math.hypot(turn, self.sun_elevation - elevation) < _SAME_PLACE
+
+    def _follow_time(self) -> None:
+        if self._day and self.time is not None:
+            with self._moving_the_sun():
+                self._place_sun(*self._followed_sun())
+
+    def _on_place(self, _change: Any) -> None:
+        with self._lock:
+            self._refresh_day()
+            self._follow_time()
+
+    def _on_time(self, _change: Any) -> None:
+        if self._browser_thread != threading.get_ident():  # it has moved the sun itself
+            with self._lock:
+                self._follow_time()
+
+    def _on_sun(self, _change: Any) -> None:
+        # A hand moved the sun off its path; the browser does likewise.
+        if self._moving or self._browser_thread == threading.get_ident():
+            return
+        if self._day and not self._sun_follows():
+            self.time = None
+
+    def _on_scan(self, _change: Any) -> None:
+        with self._lock:
+            self._show_scan()
+
+    def _show_scan(self) -> None:
+        if self.scan is None:
+            self._measured = None
+            return
+        self._measured = measurements.load().scan_json(self.scan)
+        with self._moving_the_sun():
+            self.time = None
+            self._place_sun(*self._followed_sun())
+
+    def _place_sun(self, azimuth: float, elevation: float) -> None:
+        self.sun_azimuth, self.sun_elevation = azimuth, elevation
+
+    @traitlets.validate("scan")
+    def _validate_scan(self, proposal: Any) -> int | None:
+        value: int | None = proposal["value"]
+        if value is not None:
+            try:
+                count = len(measurements.load())
+            except measurements.MeasurementsError as error:
+                raise traitlets.TraitError(str(error)) from None
+            if value >= count:
+                raise traitlets.TraitError(f"scan = {value}: there are scans 0 to {count - 1}.")
+        return value
