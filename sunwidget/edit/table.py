@@ -321,7 +321,7 @@ class Edit:
         return format_call("Edit", self.changed())
 
     def replace(self, **changes: Any) -> Edit:
-        """Return a copy with the named parameters changed.
+        """Return a copy with ``changes`` to parameters by name.
 
         Raises
         ------
