@@ -66,7 +66,7 @@ class Segmentation(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Scene:
-    """A photo and its analysis, as ``analyze`` returns it; immutable.
+    """A photo and its analysis. Made by ``analyze``; immutable.
 
     Attributes
     ----------
@@ -285,7 +285,7 @@ class Scene:
         return find_depth(view, self.hints.depth, self.hints.method("depth"))
 
     def log_depth(self, width: int, height: int, rows: slice = slice(None)) -> np.ndarray:
-        """Return ln(metres), (height, width) or some ``rows``; in the sky that of nearest land."""
+        """Return ln(metres), (``height``, ``width``) or ``rows`` of it; sky as nearest land."""
         # Depth has no detail beyond the size of a preview.
         size = size_within((width, height), _DEPTH_EDGE)
         if size not in self._log_depths:

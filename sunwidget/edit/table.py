@@ -321,7 +321,7 @@ class Edit:
         return format_call("Edit", self.changed())
 
     def replace(self, **changes: Any) -> Edit:
-        """Return a copy with the named parameters changed.
+        """Return a copy with ``changes`` to parameters by name.
 
         Raises
         ------
@@ -415,7 +415,7 @@ class Edit:
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Edit:
-        """Return the Edit of a recipe in JSON; raises EditError like ``from_dict``.
+        """Return the Edit of a recipe in JSON ``text``; raises EditError like ``from_dict``.
 
         If a name occurs twice, the last value counts, as in the browser.
         """

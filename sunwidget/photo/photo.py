@@ -41,7 +41,7 @@ class FieldOfView(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Photo:
-    """An opened picture, as :func:`open_photo` returns it.
+    """An opened picture. Made by :func:`open_photo`.
 
     Attributes
     ----------

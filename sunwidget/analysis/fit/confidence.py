@@ -61,7 +61,7 @@ class Evidence:
         Range of the clear sky's angles from the sun in degrees, between the deciles.
     doubt : float
         Standard deviation of log2 of the likely airs' optical depths.
-    told : float
+    sun_confidence : float
         Confidence of the sun's position, [0, 1].
     """
 
@@ -69,7 +69,7 @@ class Evidence:
     share: float
     spread: float
     doubt: float
-    told: float = 1.0
+    sun_confidence: float = 1.0
 
 
 def spread_of_angles(azimuth: np.ndarray, elevation: np.ndarray, sun: tuple[float, float]) -> float:
@@ -95,7 +95,7 @@ def features_of_fit(evidence: Evidence) -> np.ndarray:
             np.log2(max(evidence.share, 0.002) / 0.2),
             min(evidence.spread, 90.0) / 30,
             evidence.doubt,
-            evidence.told,
+            evidence.sun_confidence,
         ]
     )
 

@@ -225,7 +225,7 @@ def fit_sky(
             np.array([air[0] for air in airs]),
             np.log2([air[1].aerosol_optical_depth for air in airs]),
         ),
-        told=sure_of_sun,
+        sun_confidence=sure_of_sun,
     )
     trials = []
     for _, atmosphere, model in airs[:4]:

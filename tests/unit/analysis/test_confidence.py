@@ -33,7 +33,7 @@ def test_a_clear_sky_with_a_known_sun_is_sure():
 
 @pytest.mark.parametrize(
     "worse",
-    [{"residual": 0.06}, {"share": 0.004}, {"told": 0.1}],
+    [{"residual": 0.06}, {"share": 0.004}, {"sun_confidence": 0.1}],
     ids=lambda worse: next(iter(worse)),
 )
 def test_less_evidence_is_less_sure(worse):
