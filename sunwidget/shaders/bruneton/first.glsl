@@ -1,6 +1,6 @@
 // First order of the precomputed sky: sunlight scattered once, or reflected by the ground, in each
-// direction of the quadrature (bruneton/field.glsl, "incident"), from which the source of the
-// second order is made.
+// direction of the quadrature (bruneton/field.glsl, "incident"). The source of the second order is
+// computed from it.
 
 #include "bruneton/field.glsl"
 #include "bruneton/single.glsl"
