@@ -9,7 +9,7 @@ out vec4 result;
 
 const int kLobeSamples = 3;
 
-// Mean of the aerosol's phase function over the cell of directions that a node stands for: a
+// Mean of the aerosol's phase function over the cell of directions that a node represents: a
 // node that a narrow lobe falls on would else count it for the whole cell.
 Number GetMeanMiePhase(int zenith, int azimuth, Number mu_s) {
   float side = zenith < 8 ? 1.0 : -1.0;
