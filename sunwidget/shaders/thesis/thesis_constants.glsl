@@ -47,7 +47,8 @@ vec3 GetSkyMean(vec3 mean, sampler2D light, float visible) {
     return (mean + share * vec3(1.0)) / (1.0 + share);
   }
   float beam = GetLuminance(GetLightTexel(light, 1)) / max(GetLuminance(GetLightTexel(light_before, 7)), 1e-9);
-  return mean + 0.25 * sun_sky_ratio / 1000.0 * visible * beam * GetLuminance(texelFetch(thesis_mean_source, ivec2(0), 0).rgb) * GetSunColor(light);
+  return mean + 0.25 * sun_sky_ratio / 1000.0 * visible * beam
+      * GetLuminance(texelFetch(thesis_mean_source, ivec2(0), 0).rgb) * GetSunColor(light);
 }
 
 vec3 GetLandFactor(float visible_before, float visible_now) {
