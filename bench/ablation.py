@@ -1,11 +1,11 @@
-"""What each effect adds: the score against rendered truth with every effect off in turn.
+"""The contribution of each effect: the score against rendered truth with each effect off in turn.
 
 usage: python bench/ablation.py [--truth FOLDER ...] [--hints] [--only NAME,NAME] [--width N]
                                 [--json OUT]
 
 The score is that of the shared tool ``score_relight.py``, means over all moves of all scenes: skill
-and ΔE00 of sky and land, and the angle between the mean colours. A row "without X" is the
-default edit with X at the value that switches it off; what it lacks against "all" is what X adds.
+and ΔE00 of sky and land, and the angle between the mean colors. A row "without X" is the default
+edit with X at the value that switches it off; its deficit against "all" is the contribution of X.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from speed.effects import WITHOUT
 import sunwidget as sw
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"
-# The value that switches an effect off, where it is not 0.
+# The value that switches an effect off, if not 0.
 OFF: dict[str, dict[str, float]] = {
     name: {name: 0.0} for name in (*WITHOUT, "colourfulness", "lens_flare", "cloud_strength")
 }
@@ -38,7 +38,7 @@ MEASURES = ("sky_skill", "fg_skill", "sky_dE", "fg_dE", "sky_angle", "fg_angle",
 
 
 class Move(NamedTuple):
-    """One frame of the truth: the sun there, and the picture."""
+    """One frame of the truth: its sun and its picture."""
 
     azimuth: float
     elevation: float
@@ -46,7 +46,7 @@ class Move(NamedTuple):
 
 
 class Subject(NamedTuple):
-    """One scene: analysed photo, its masks, and the moves to predict."""
+    """One scene: its analyzed photo, its masks, and the moves to predict."""
 
     name: str
     scene: sw.Scene
@@ -57,7 +57,7 @@ class Subject(NamedTuple):
 
 
 def load_score() -> Any:
-    """Return the shared tool as a module, so that both measure the same."""
+    """Return the shared tool as a module, so that both compute the same score."""
     path = SHARED / "tools" / "score_relight.py"
     spec = importlib.util.spec_from_file_location("score_relight", path)
     if spec is None or spec.loader is None or not path.is_file():
@@ -70,7 +70,7 @@ def load_score() -> Any:
 
 
 def subjects(folder: Path, *, hints: bool) -> Iterator[Subject]:
-    """Analyse every scene of ``folder``; the photo is the frame at azimuth 0, elevation 12."""
+    """Analyze every scene of ``folder``; the photo is the frame at azimuth 0, elevation 12."""
     for path in sorted(folder.glob("*.json")):
         told = json.loads(path.read_text())
         if "frames" not in told:
@@ -104,7 +104,7 @@ def subjects(folder: Path, *, hints: bool) -> Iterator[Subject]:
 def score_of(
     score: Any, subject: Subject, changes: dict[str, float], width: int | None
 ) -> list[dict[str, float]]:
-    """Score each move of ``subject`` with these parameters changed, in pictures this wide."""
+    """Score each move of ``subject`` with these changed parameters, at this picture width."""
     rows = []
     rows_of, columns = subject.moves[0].truth.shape[:2]
     width = width or columns

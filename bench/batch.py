@@ -2,8 +2,8 @@
 
 usage: python bench/batch.py [FOLDER...] [--photos 60] [--long-edge 1024] [--json FILE]
 
-Every way starts cold in this process's own time: a batch pays for its workers' start, the loop for
-its imports (it runs first). What the ways make is compared byte by byte.
+Every variant starts cold: a batch includes the start of its workers, the loop its imports (it runs
+first). Their pictures are compared byte by byte.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ SHARED = Path(os.environ.get("SUNWIDGET_SHARED", Path(__file__).resolve().parent
 
 
 def copies(folders: list[Path], count: int, long_edge: int, into: Path) -> list[Path]:
-    """Shrink photos into a folder; when there are too few, some come turned left to right."""
+    """Shrink photos into a folder; if there are too few, add mirrored copies."""
     found = sorted(p for folder in folders for p in folder.rglob("*.jpg"))
     if not found:
         sys.exit(f"No photos in {', '.join(map(str, folders))}. Name folders that hold some.")
@@ -47,7 +47,7 @@ def copies(folders: list[Path], count: int, long_edge: int, into: Path) -> list[
 
 
 def loop(photos: list[Path], out: Path) -> list[str]:
-    """What a person would write without a batch."""
+    """Run the loop that a user would write without a batch."""
     out.mkdir()
     failed = []
     for photo in photos:
@@ -76,7 +76,7 @@ def kill_one(fraction_at: float) -> Callable[[float, str], None]:
 
 
 def same_files(first: Path, second: Path) -> str:
-    """Count the pictures of two folders that are equal to the byte."""
+    """Count the pictures that are identical in two folders, byte by byte."""
     names = sorted(p.name for p in first.glob("*.jpg"))
     same = sum((first / n).read_bytes() == (second / n).read_bytes() for n in names)
     extra = len(list(second.glob("*.jpg"))) - len(names)
@@ -84,7 +84,7 @@ def same_files(first: Path, second: Path) -> str:
 
 
 def main() -> int:
-    """Run every way and print the table."""
+    """Run every variant and print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folders", nargs="*", type=Path, default=[SHARED / "data" / "photos"])
     parser.add_argument("--photos", type=int, default=60)

@@ -3,9 +3,9 @@
 usage: python bench/bench.py [--quick] [--only NAME,NAME] [--compare OLD.json] [--docs]
        python bench/bench.py --against REV [--turns 3] [--quick] [--only NAME,NAME]
 
-Every goal of speed.md is a row, met or MISSED, and so is every peer. Times are medians by the
-clock; beside them stand the processor's, which a busy machine hardly changes. A row that cannot be
-measured says why, and the rest goes on. Groups (--only): see bench/speed/groups.py.
+Every goal of speed.md is a row, met or MISSED, and so is every peer. Times are medians of
+wall-clock time, with processor time beside them, which a busy machine hardly changes. A row that
+cannot be measured gives the reason; the others continue. Groups (--only): bench/speed/groups.py.
 """
 
 from __future__ import annotations

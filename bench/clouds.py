@@ -1,10 +1,10 @@
-"""Score every cloud method against labelled skies: a table on stdout.
+"""Score every cloud method against labeled skies: a table on stdout.
 
 usage: python bench/clouds.py DIR [--limit N]
 
-DIR holds images/ and masks/ (255 = cloud, 0 = clear, anything between is not counted), as the
-HYTA set of Li et al. 2011 does. Each photo is analysed once and its clouds are then found by each
-method, as the editor does; a pixel counts as cloud from opacity 0.5. Pooled over all photos.
+DIR holds images/ and masks/ (255 = cloud, 0 = clear, values between are ignored), like the HYTA set
+of Li et al. 2011. Each photo is analyzed once, and each method then detects its clouds, as in the
+editor; a pixel counts as cloud from opacity 0.5. Pooled over all photos.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from sunwidget.analysis.clouds.clouds import METHODS
 
 
 def score(folder: Path, limit: int | None) -> dict[str, tuple[float, float, float]]:
-    """Return IoU of cloud, accuracy, and share of sky found in the photo, by method."""
+    """Return the clouds' IoU, accuracy, and the share of detected sky in the photo, by method."""
     counts = {name: np.zeros(5) for name in METHODS}
     for path in sorted((folder / "images").iterdir())[:limit]:
         mask = cv2.imread(str(folder / "masks" / f"{path.stem}.png"), cv2.IMREAD_GRAYSCALE)

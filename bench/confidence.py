@@ -1,10 +1,10 @@
-"""How often the fit is right when it says so: draws known skies, fits them, and calibrates.
+"""Reliability of the fit's confidence: draws known skies, fits them, and calibrates.
 
-    python bench/confidence.py            # how the shipped weights do
-    python bench/confidence.py --fit      # weights for sunwidget/analysis/fit/confidence.py, too
+    python bench/confidence.py            # evaluate the shipped weights
+    python bench/confidence.py --fit      # also fit those of sunwidget/analysis/fit/confidence.py
 
 The skies are drawn by our own model under random sun, haze, camera and clouds, with grain and
-with responses that the search does not know. An error is measured where it hurts: how the sky
+with responses unknown to the search. The error is measured in what it affects: how the sky
 changes when the sun moves, in stops, after the best gain.
 """
 
@@ -26,7 +26,7 @@ MOVES = ((-60.0, 2.0), (25.0, 12.0), (0.0, 40.0))
 
 
 def draw(random: np.random.Generator) -> tuple[Any, ...]:
-    """Return a small photo of a known sky: what ``fit_sky`` asks for, and the truth."""
+    """Return a small photo of a known sky: the inputs of ``fit_sky``, and the truth."""
     width, height = SIZE
     camera = Camera.from_horizon(
         width, height, random.uniform(20, 75), random.uniform(0.35, 1.05) * height
@@ -56,7 +56,7 @@ def draw(random: np.random.Generator) -> tuple[Any, ...]:
     encoded = np.clip(code, 0, 1).astype(np.float32)
     linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
     working = Working(linear.astype(np.float32), encoded, encoded, (1.0, 1.0))
-    # Cloud maps are never quite right.
+    # Cloud maps are never exact.
     seen = np.clip(cover * random.uniform(0.7, 1) + random.uniform(0, 0.1), 0, 1)
     return working, sky.astype(np.float32), seen.astype(np.float32), camera, air, sun
 
@@ -64,7 +64,7 @@ def draw(random: np.random.Generator) -> tuple[Any, ...]:
 def stops_wrong(
     found: fit.SkyFit, air: Atmosphere, sun: tuple[float, float], camera: Camera
 ) -> float:
-    """Return mean stops by which the fitted sky's change is wrong, over ``MOVES``."""
+    """Return the mean error, in stops, of the fitted sky's change over ``MOVES``."""
     azimuth, elevation = fit.view_angles(camera, *SIZE)
     above = elevation > 1
     where = azimuth[above][::7], elevation[above][::7]
@@ -118,7 +118,7 @@ def logistic(features: np.ndarray, outcome: np.ndarray, ridge: float = 0.5) -> n
 
 
 def report(name: str, weights: Any, features: np.ndarray, outcome: np.ndarray) -> None:
-    """Print how often what was said was so."""
+    """Print predicted against observed frequencies."""
     p = np.array([stage.probability(tuple(weights), row) for row in features])
     base, brier = outcome.mean() * (1 - outcome.mean()), np.mean((p - outcome) ** 2)
     print(f"{name}: {len(p)} skies, {outcome.mean():.2f} good, Brier {brier:.3f} (base {base:.3f})")
@@ -131,7 +131,7 @@ def report(name: str, weights: Any, features: np.ndarray, outcome: np.ndarray) -
 
 
 def main() -> None:
-    """Fit if asked to, and report on skies that the weights have not seen."""
+    """Fit on request, and evaluate on skies that the weights were not fitted to."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fit", action="store_true")
     parser.add_argument("--count", type=int, default=400)

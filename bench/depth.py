@@ -1,10 +1,10 @@
-"""Measure the methods of depth against the rendered scenes whose depth is known.
+"""Measure the depth methods against rendered scenes of known depth.
 
     python bench/depth.py [folder with truth/ and samples/]
 
-A row is a scene, with and without the hints that its JSON tells (field of view, horizon, sun):
-root mean square error of ln depth but for one scale (RMSE), and the share of the land that is right
-within 25 % after one median scale (δ).
+A row is a scene, with or without the hints in its JSON (field of view, horizon, sun): root mean
+square error of ln depth up to one scale (RMSE), and the share of the land that is correct within
+25 % after one median scale (δ).
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ import numpy as np
 import sunwidget as sw
 from sunwidget.analysis.depth import depth
 
-FARTHEST = 50_000.0  # metres: beyond, the renders' depth says nothing
+FARTHEST = 50_000.0  # meters: beyond, the renders' depth is meaningless
 
 
 def scenes(folder: Path) -> Iterator[tuple[str, Path, np.ndarray, dict[str, Any]]]:
-    """Yield name, picture, known depth in metres and hints."""
+    """Yield name, picture, known depth in meters and hints."""
     for path in sorted(folder.glob("truth/*.json")):
         facts = json.loads(path.read_text("utf-8"))
         known = np.load(path.with_name(f"{path.stem}_depth.npz"))["depth_m"]
@@ -43,19 +43,19 @@ def scenes(folder: Path) -> Iterator[tuple[str, Path, np.ndarray, dict[str, Any]
 
 
 def hints(facts: dict[str, Any], frame: dict[str, Any]) -> dict[str, Any]:
-    """Return what a person could tell."""
+    """Return the hints that a user could give."""
     sun = (frame["sun_x"], frame["sun_y"])
     return {"fov": facts["fov_v_deg"], "horizon": facts["horizon_row"], "sun": sun}
 
 
 def by(scene: sw.Scene, method: str) -> sw.Scene:
-    """Return the scene as if analysed with another method of depth."""
+    """Return the scene as if analyzed with another depth method."""
     methods = tuple((dict(scene.hints.methods) | {"depth": method}).items())
     return dataclasses.replace(scene, hints=dataclasses.replace(scene.hints, methods=methods))
 
 
 def score(scene: sw.Scene, known: np.ndarray) -> tuple[float, float]:
-    """Return RMSE and δ over the land that both know."""
+    """Return RMSE and δ over the land where both have a depth."""
     both = np.isfinite(scene.depth) & np.isfinite(known) & (known < FARTHEST)
     error = np.log(scene.depth[both]) - np.log(known[both])
     right = np.abs(error - np.median(error)) < np.log(1.25)

@@ -1,8 +1,8 @@
-"""Domes against skies that are known all the way round (docs/guide/dome.md).
+"""Domes against skies that are known in all directions (docs/guide/dome.md).
 
 ``python -m training.skies.domes FOLDER 0 16`` makes the skies and needs bpy;
-``python bench/dome.py FOLDER`` then judges the domes of their photos. Nothing in a photo tells its
-exposure, so a dome is compared up to one factor: the mean logarithm of both over the picture.
+``python bench/dome.py FOLDER`` then evaluates the domes of their photos. A photo does not reveal
+its exposure, so a dome is compared up to one factor: the mean logarithm of both over the picture.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ PLANES = {
     "behind": (-1, 0, 0),
     "left": (0, 1, 0),
 }
-_DEVELOPED = 8  # seeds below it were looked at while the method was made
+_DEVELOPED = 8  # seeds below it were used during development
 _SUN_ASIDE = 12.0  # degrees
 
 
@@ -58,7 +58,7 @@ def read(path: Path) -> tuple[TrueSky, np.ndarray]:
 def judged(sky: TrueSky, photo: np.ndarray, *, told: bool) -> dict[str, Any]:
     """Return how far a photo's dome is from its sky, in stops, and its sun, in degrees.
 
-    ``told``: field of view, horizon, and a sun ahead of the camera are given to the analysis.
+    ``told``: the analysis gets field of view, horizon, and a sun ahead of the camera.
     """
     hints: dict[str, Any] = {}
     if told:

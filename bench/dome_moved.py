@@ -1,8 +1,8 @@
-"""Domes whose sun was moved, against the same weather under the other sun (docs/guide/dome.md).
+"""Domes with a moved sun, against the same weather under that sun (docs/guide/dome.md).
 
 ``python -m training.skies.domes FOLDER 0 24 moved`` makes the skies and needs bpy;
-``python bench/dome_moved.py FOLDER`` then moves each sun to where the other is. No factor is taken
-out: one map tells the exposure of the other.
+``python bench/dome_moved.py FOLDER`` then moves each sun to the other's position. No factor is
+removed: one map gives the exposure of the other.
 """
 
 from __future__ import annotations

@@ -6,14 +6,14 @@ usage: python bench/frames.py [FRAMES] [--take N] [--width W] [--place LAT,LON,H
 
 FRAMES is a folder or a glob; without it a sequence is made from the bundled coast: a sinking sun,
 drifting clouds, an exposure that jitters by 6 % and noise of 1.2 levels. Each frame's sun is moved
-to one place. Told are, for sky and land,
+to one place. Printed for sky and land:
 
-    source   deviation of the second difference from frame to frame of the mean log luminance
-    moved    the same of the pictures with their sun moved
-    change   the same of moved over source, which is what the edit adds by itself
-    mask     mean difference of the sky's matte from one frame to the next
+    source   deviation of the second difference between frames of the mean log luminance
+    moved    the same for the pictures with a moved sun
+    change   the same for moved over source: the contribution of the edit itself
+    mask     mean difference of the sky's matte between consecutive frames
 
-and with --alone the same of frames that were each analysed for themselves.
+With --alone also for frames that were analyzed separately.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 def made_up(count: int, width: int) -> list[np.ndarray]:
-    """A sequence whose every frame is known: 8 bits, jitter and noise as a camera has them."""
+    """Make a sequence of known frames: 8 bits, with a camera's jitter and noise."""
     scene = sw.analyze(sw.sample("coast"))
     own, random = scene.automatic, np.random.default_rng(1)
     frames = []

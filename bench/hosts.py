@@ -1,4 +1,4 @@
-"""Measure what widgets leave behind in a notebook: contexts, memory, listeners, blob URLs.
+"""Measure leaks of widgets in a notebook: contexts, memory, listeners, blob URLs.
 
 usage: python bench/hosts.py [--runs 20] [--editors 20]
 
@@ -51,7 +51,7 @@ COUNT_URLS = """(() => {
 
 
 def left(page: Any) -> dict[str, float]:
-    """Return what the page holds after a garbage collection."""
+    """Return the page's resources after a garbage collection."""
     session = page.context.new_cdp_session(page)
     for _ in range(3):
         session.send("HeapProfiler.collectGarbage")
@@ -70,7 +70,7 @@ def left(page: Any) -> dict[str, float]:
 
 
 def rerun(browser: Any, runs: int, side: int) -> dict[str, dict[str, float]]:
-    """Run one cell ``runs`` times in JupyterLab; what is left after the second and the last."""
+    """Run one cell ``runs`` times in JupyterLab; return the resources after the second and last."""
     found = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -101,7 +101,7 @@ def rerun(browser: Any, runs: int, side: int) -> dict[str, dict[str, float]]:
 
 
 def many(browser: Any, editors: int, side: int) -> dict[str, dict[str, float]]:
-    """Scroll through a page of editors; what is held with one, with all, and after closing."""
+    """Scroll through a page of editors; return the resources with one, all, and after closing."""
     found = {}
     context = browser.new_context(viewport={"width": 1180, "height": 860})
     context.add_init_script(COUNT_CONTEXTS)

@@ -3,9 +3,9 @@
 usage: python bench/large.py [--megapixels 12 24 100]
 
 The sample photo is enlarged, given noise and saved as a file of 8 and of 16 bits. Every size is
-opened, analysed and exported in a process of its own, whose peak memory is that of the whole
-process (``ru_maxrss``), interpreter and libraries included. Seams: the picture drawn in strips
-against the same picture drawn at once, where a texture can hold it. Identity: an unmoved sun.
+opened, analyzed and exported in a separate process. Peak memory is that of the whole process
+(``ru_maxrss``), including interpreter and libraries. Seams: the picture drawn in strips
+against the same picture drawn at once, if a texture can hold it. Identity: an unmoved sun.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ WHOLE = 13_000_000  # pixels: a larger picture is not drawn at once for comparis
 
 
 def enlarged(width: int, height: int, bits: int) -> np.ndarray:
-    """Return the sample photo at a size, with noise as a camera's: uint8 or uint16."""
+    """Return the sample photo at a size, with a camera's noise: uint8 or uint16."""
     small = sw.open(sw.sample("coast")).encoded
     rng = np.random.default_rng(7)
     kind, scale = (np.uint8, 1) if bits == 8 else (np.uint16, 257)
@@ -50,7 +50,7 @@ def file_of(folder: Path, megapixels: float, bits: int) -> Path:
 
 
 def made(folder: Path, megapixels: float, bits: int) -> None:
-    """Write a photo of about so many pixels, in the shape 3:2."""
+    """Write a photo of about this many pixels, with aspect ratio 3:2."""
     height = round((megapixels * 1e6 / 1.5) ** 0.5)
     path = file_of(folder, megapixels, bits)
     ending = cv2.cvtColor(enlarged(round(1.5 * height), height, bits), cv2.COLOR_RGB2BGR)
@@ -58,7 +58,7 @@ def made(folder: Path, megapixels: float, bits: int) -> None:
 
 
 def peak() -> float:
-    """Return the most memory that this process has held, in GB."""
+    """Return the peak memory of this process in GB."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9
 
 

@@ -1,17 +1,17 @@
-"""What five files tell before and after an edit: a table of tags on stdout.
+"""Metadata of five files before and after an edit: a table of tags on stdout.
 
 usage: python bench/metadata.py [PHOTO ...] [--all]
 
-Every photo is analysed small, its sun moved, and saved in its own format (camera raw as TIFF). Tags
-are read before and after by exiftool where it is installed, else by exifread (EXIF only). A tag is
-kept, changed, added or lost; tags that tell how one file stores its pixels (strip offsets, Huffman
-tables, dates of the file …) are no metadata and left out. Changes that the edit itself makes are
+Every photo is analyzed small, its sun moved, and saved in its own format (camera raw as TIFF). Tags
+are read before and after by exiftool if it is installed, else by exifread (EXIF only). A tag is
+kept, changed, added or lost; tags that describe how a file stores its pixels (strip offsets,
+Huffman tables, dates of the file …) are not metadata and omitted. Changes by the edit itself are
 expected: Software, UserComment, XMP's recipe and history, orientation and size of a picture that
-was turned upright. --all lists the kept tags as well.
+was turned upright. --all also lists the kept tags.
 
 Without photos five are made: a phone's JPEG stored on its side, a 16-bit TIFF in Adobe RGB with a
-program's history, a 16-bit PNG in Display P3, a WebP, and a DNG. Exit status 1 when a tag was lost
-or changed unexpectedly.
+program's history, a 16-bit PNG in Display P3, a WebP, and a DNG. The exit status is 1 if a tag was
+lost or changed unexpectedly.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def main() -> int:
 
 
 def compare(path: Path, folder: Path, *, listed: bool) -> int:
-    """Print what became of each tag of one file; return how many were lost."""
+    """Print the outcome for each tag of one file; return the number of lost tags."""
     photo = sw.open(path)
     scene = sw.analyze(photo)
     ending = ".tif" if photo.format == "RAW" else path.suffix
@@ -86,14 +86,14 @@ def compare(path: Path, folder: Path, *, listed: bool) -> int:
 
 
 def fate(before: str | None, now: str | None) -> str:
-    """Name what became of a tag."""
+    """Name the outcome for a tag."""
     if before is None or now is None:
         return "added" if before is None else "lost"
     return "kept" if before == now else "changed"
 
 
 def tags(path: Path) -> dict[str, str]:
-    """Return every tag of a file but those that tell how it stores its pixels."""
+    """Return every tag of a file except those that describe how it stores its pixels."""
     if shutil.which("exiftool"):
         command = ["exiftool", "-j", "-G0", "-a", "-n", *_ASKED, str(path)]
         said = subprocess.run(command, capture_output=True, check=True, text=True)
@@ -109,13 +109,13 @@ def tags(path: Path) -> dict[str, str]:
 
 
 def short(value: str | None) -> str:
-    """Return a value on one line, cut."""
+    """Return a value on one line, truncated."""
     line = " ".join((value or "–").split())
     return line if len(line) <= 28 else line[:27] + "…"
 
 
 def made(folder: Path) -> list[Path]:
-    """Make five files that tell as much as cameras and programs do."""
+    """Make five files with as much metadata as those of cameras and programs."""
     codes = cv2.resize(sw.sample("coast").encoded, (384, 256), interpolation=cv2.INTER_AREA)
     deep = codes.astype(np.uint16) * 257
     first = {0x010F: "Maker", 0x0110: "Model 3", 0x0131: "Firmware 2.1", 0x013B: "A. Person"}

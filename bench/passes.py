@@ -2,10 +2,10 @@
 
 usage: python bench/passes.py [--size 1024x698] [--runs 20] [--method ratio] [--scene scene.pickle]
 
-llvmpipe draws on the cores of this process, so the processor time of all its threads is what a
-pass costs, whoever else is busy on the machine; divided by the number of cores it is the time
-that a person waits on an idle one. On a graphics card the figures mean nothing. Memory is shared:
-a busy neighbour still makes the large passes dearer, so compare runs made in turn.
+llvmpipe draws in threads of this process, so their total processor time is the cost of a pass,
+whatever else runs on the machine; divided by the number of cores it is the waiting time on an idle
+one. On a graphics card the figures are meaningless. Memory is shared: other busy processes still
+slow down the large passes, so compare runs that alternate.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from sunwidget.renderer.offscreen import draw_part, scene_textures
 
 
 class TimedGraph(FrameGraph):
-    """A frame graph that waits for each pass and keeps its processor time in milliseconds."""
+    """A frame graph that waits for each pass and records its processor time in milliseconds."""
 
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)

@@ -2,10 +2,10 @@
 
 usage: python bench/strokes.py FOLDER... [--photos 20] [--strokes 8] [--out SHEETS] [--json FILE]
 
-A folder holds images/ and masks/ (white = sky, black = land, grey = not judged). The person sees
-where the sky is wrong, takes the largest wrong patch, chooses a brush that fits inside it and
-draws along its length; as careful people do, never over what is right. Photos whose automatic sky
-already has an IoU of 0.98 are passed over.
+A folder holds images/ and masks/ (white = sky, black = land, gray = ignored). The simulated person
+takes the largest patch of wrong sky or land, chooses a brush that fits inside it and draws along
+its length, never over correct parts, like a careful user. Photos whose automatic sky already has
+an IoU of 0.98 are skipped.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def next_stroke(sky: np.ndarray, truth: np.ndarray, judged: np.ndarray) -> sw.St
 
 
 def _along(patch: np.ndarray, label: Any) -> sw.Stroke:
-    """Draw along the patch's length, as broad as fits."""
+    """Draw along the patch's length, as wide as fits."""
     height, width = patch.shape
     depth = cv2.distanceTransform(np.pad(patch.astype(np.uint8), 1), cv2.DIST_L2, 5)[1:-1, 1:-1]
     deepest = float(depth.max())

@@ -1,4 +1,4 @@
-"""How a new sun looks in photos, beside what cameras make of real ones.
+"""Appearance of a new sun in photos, compared with cameras' pictures of real suns.
 
     python bench/sun_look.py FOLDER_OR_FILES... [--seed 15 --skip 30 --limit 30] [--sheets OUT]
 
@@ -73,7 +73,7 @@ def glare_above(picture: np.ndarray, sky: np.ndarray, x: float, y: float) -> lis
 
 
 def look(scene: Any, density: Any) -> tuple[dict[str, dict[str, Any]], list[np.ndarray]]:
-    """Set the suns into one photo."""
+    """Move the sun of one photo to each position and measure it."""
     before = render(scene, sw.Edit())
     mask = np.asarray(scene.sky)
     sky, land = inside(mask > 0.97), inside(mask < 0.03)

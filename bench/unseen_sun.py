@@ -1,4 +1,4 @@
-"""Where is the sun when it is not seen: errors against suns that are known.
+"""Errors of the estimated position of an unseen sun against known suns.
 
     PYTHONPATH=. python bench/unseen_sun.py DIR [--photos DIR] [--webcam DIR] [--limit N] [--fit]
 
@@ -53,7 +53,7 @@ class Case(NamedTuple):
 
 
 class Answer(NamedTuple):
-    """Where the sun is, where it was put, and within what it was said to lie."""
+    """The sun's true position, its estimate, and the estimate's spread."""
 
     sun: Direction
     found: Direction
@@ -157,7 +157,7 @@ def photos(folder: Path, test: bool, limit: int | None) -> Iterator[Case]:
 
 
 def search(case: Case) -> fit.SkyFit:
-    """Return the fit with the camera told, by the search of the analysis on a small copy."""
+    """Return the fit with a known camera, by the search of the analysis on a small copy."""
     working = Working.of(open_photo(case.picture))
     sky = resize(coarse_sky.coarse(working), working.width, working.height)
     sky = (sky > 0.5).astype(np.float32)
@@ -194,7 +194,7 @@ def report(name: str, answers: list[Answer]) -> None:
 
 
 def stranger(case: Case) -> Answer:
-    """Return what the whole analysis says of a picture of which nothing is told."""
+    """Return the estimate of the whole analysis for a picture without hints."""
     scene = sw.analyze(case.picture)
     found = scene.automatic
     return Answer(case.sun, (found["sun_azimuth"], found["sun_elevation"]), scene.sun_spread)

@@ -2,9 +2,9 @@
 
 usage: python bench/validate.py [--paths N] [--data FOLDER]
 
-Prints the nine rows of atmosphere.md and writes build/validation.json; ends with 1 when a row
-is missed. FOLDER (default $SUNWIDGET_SHARED/data/sky-reference, else ../shared/…) may hold the
-measured skies and other models' skies; measured skies are also looked for where
+Prints the nine rows of atmosphere.md and writes build/validation.json; the exit status is 1 if a
+row misses its bound. FOLDER (default $SUNWIDGET_SHARED/data/sky-reference, else ../shared/…) may
+hold the measured skies and other models' skies; measured skies are also looked for where
 `sunwidget.validation.measurements.download()` keeps them.
 """
 
@@ -156,7 +156,7 @@ def directions() -> np.ndarray:
 
 
 def numpy_difference(sun: float) -> float:
-    """Of radiance at four wavelengths, relative; the largest of all but one direction in 100."""
+    """Return the relative error of radiance at four wavelengths: the 99th percentile."""
     from sunwidget.atmosphere.parameters import Atmosphere
     from sunwidget.atmosphere.sky import SHADER, SkyTable
     from sunwidget.explorer.draw import radiance_at

@@ -8,8 +8,8 @@
 
 #include "atmosphere/constants.glsl"
 
-uniform float air_density;            // molecules at sea level over the standard's, 0..2
-uniform float rayleigh_exponent;      // 4.09 is air's
+uniform float air_density;            // molecules at sea level relative to standard air, 0..2
+uniform float rayleigh_exponent;      // 4.09 in real air
 uniform float rayleigh_scale_height;  // m
 uniform float aerosol_scale_height;   // m
 uniform float aerosol_optical_depth;  // at 550 nm, vertical, 0..0.6
@@ -20,8 +20,8 @@ uniform float ozone;                  // Dobson units, 0..500
 uniform float ground_albedo;          // Lambertian, 0..1
 
 // ---- Geometry -------------------------------------------------------------------------------
-// With q = r^2 - R^2 the altitude is q / (sqrt(R^2 + q) + R): no difference of large radii, so
-// single precision resolves centimetres at 6360 km.
+// With q = r^2 - R^2 the altitude is q / (sqrt(R^2 + q) + R). This avoids a difference of large radii,
+// so single precision resolves centimeters at 6360 km.
 
 Number GetSquaredHorizonDistance(Length h) {
   return h * (2.0 * kGroundRadius + h);
@@ -36,7 +36,7 @@ Length GetDistanceToTop(Length h, Number mu) {
   float r_mu = (kGroundRadius + h) * mu;
   float shell = (kAtmosphereHeight - h) * (kTopRadius + kGroundRadius + h);
   float root = sqrt(r_mu * r_mu + shell);
-  // Of the two equal forms the one without cancellation.
+  // Choose the one of two equal forms that does not cancel.
   return r_mu > 0.0 ? shell / (root + r_mu) : root - r_mu;
 }
 
@@ -60,19 +60,19 @@ Number GetVisibleFractionOfDisc(Angle above) {
   return 0.5 + (x * sqrt(1.0 - x * x) + asin(x)) / kPi;
 }
 
-// ---- What the air is made of ----------------------------------------------------------------
+// ---- Constituents of the air ----------------------------------------------------------------
 
 // Relative density of Rayleigh scatterers, aerosol and ozone at altitude h.
 vec3 GetDensity(Length h) {
   float below = (h - kOzoneBottom) / (kOzonePeak - kOzoneBottom);
   float above = (kOzoneTop - h) / (kOzoneTop - kOzonePeak);
-  // Where the air thins faster its scale height keeps its share of the one below.
+  // Above kMesosphereAltitude air thins faster: its scale height keeps its ratio to the one below.
   float thin = kRayleighScaleHeight / kMesosphereScaleHeight - 1.0;
   float air = (h + max(h - kMesosphereAltitude, 0.0) * thin) / rayleigh_scale_height;
   return vec3(exp(-air), exp(-h / aerosol_scale_height), max(0.0, min(below, above)));
 }
 
-// Bodhaine's coefficients, tilted where another exponent is asked for.
+// Bodhaine's coefficients, tilted if another exponent is set.
 ScatteringSpectrum GetRayleighScattering() {
   return air_density * kRayleighScattering
       * pow(kWavelengths / 550.0, vec4(kRayleighExponent - rayleigh_exponent));
@@ -88,8 +88,8 @@ ScatteringSpectrum GetOzoneAbsorption() {
   return ozone / (0.5 * (kOzoneTop - kOzoneBottom)) * kOzoneDepthPerDobson;
 }
 
-// Extinction of the three at density one, 1/m: times densities the extinction coefficient, times
-// columns the optical depth.
+// Extinction of the three constituents at density one, 1/m. Times densities it gives the extinction
+// coefficient, times columns the optical depth.
 mat3x4 GetExtinctionCoefficients() {
   return mat3x4(GetRayleighScattering(), GetMieExtinction(), GetOzoneAbsorption());
 }
@@ -108,10 +108,10 @@ Number MiePhase(Number g, Number nu) {
 }
 
 // ---- Columns and transmittance --------------------------------------------------------------
-// The table holds path lengths to the top, not transmittances: of all that is in the air only the
-// scale heights touch it, and exp() after the interpolation errs 0.6 % at the horizon instead of 13 %.
+// The table holds path lengths to the top, not transmittances: so it depends only on the scale heights,
+// and exp() after the interpolation errs 0.6 % at the horizon instead of 13 %.
 // Coordinates after Bruneton 2017: x from the distance to the top, y from the distance to the
-// horizon, here on a square-root scale (h is about y^4), for haze lies low.
+// horizon, here on a square-root scale (h is about y^4) because haze lies low.
 
 const float kLongestHorizon = 1132254.3;  // sqrt(kTopRadius^2 - kGroundRadius^2), m
 
@@ -123,7 +123,7 @@ vec2 GetColumnsCoordinate(Length h, Number mu) {
               sqrt(rho / kLongestHorizon));
 }
 
-// Texel centers sit on the ends of [0, 1], so that the horizon is a sample and not a guess.
+// Texel centers lie on the ends of [0, 1], so that the horizon is sampled, not extrapolated.
 vec4 FetchBilinear(sampler2D table, vec2 coordinate) {
   ivec2 last = textureSize(table, 0) - 1;
   vec2 place = clamp(coordinate, 0.0, 1.0) * vec2(last);
@@ -145,8 +145,8 @@ DimensionlessSpectrum GetTransmittanceToTop(sampler2D columns, Length h, Number 
   return GetTransmittanceOfColumns(FetchBilinear(columns, GetColumnsCoordinate(h, grazing)).xyz);
 }
 
-// Transmittance to the sun times the visible share of its disc. The smooth step stands in for
-// GetVisibleFractionOfDisc (within 0.02) where it is evaluated at every step of a march.
+// Transmittance to the sun times the visible share of its disc. The smooth step approximates
+// GetVisibleFractionOfDisc (within 0.02), because it is evaluated at every step of a march.
 DimensionlessSpectrum GetTransmittanceToSun(sampler2D columns, Length h, Number mu_s) {
   float above = mu_s - GetCosineOfHorizon(h);
   return GetTransmittanceToTop(columns, h, mu_s)
@@ -155,7 +155,7 @@ DimensionlessSpectrum GetTransmittanceToSun(sampler2D columns, Length h, Number 
 
 // ---- Integration along a ray ----------------------------------------------------------------
 
-// Integral of exp(-extinction t) over t from 0 to dt; series where 1 - exp() would cancel.
+// Integral of exp(-extinction t) over t from 0 to dt, as a series where 1 - exp() would cancel.
 vec4 IntegrateTransmittance(vec4 extinction, Length dt) {
   vec4 x = extinction * dt;
   vec4 series = dt * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0)));

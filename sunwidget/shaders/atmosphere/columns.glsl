@@ -1,6 +1,6 @@
-// Path lengths of Rayleigh scatterers, aerosol and ozone (R, G, B; in metres at sea-level
+// Path lengths of Rayleigh scatterers, aerosol and ozone (R, G, B; in meters at sea-level
 // density) from altitude h along mu to the top of the atmosphere. Depends on the scale heights
-// alone. 40 steps with t = d u^2: 0.02 % error along the horizon where uniform steps give 3.7 %.
+// only. 40 steps with t = d u^2 err 0.02 % along the horizon, uniform steps 3.7 %.
 
 #include "atmosphere/atmosphere.glsl"
 
@@ -23,8 +23,8 @@ void main() {
   for (int i = 0; i < kColumnSteps; ++i) {
     float u = (float(i) + 0.5) / float(kColumnSteps);
     float dt = 2.0 * d * u / float(kColumnSteps);
-    // The mean of u^2 over the step, not its middle: takes away the error of the dense end, 0.4 %
-    // of the haze overhead (first term of Euler and Maclaurin).
+    // The mean of u^2 over the step, not its value in the middle, removes the error at the dense
+    // end, 0.4 % of the haze overhead (first term of Euler and Maclaurin).
     float t = d * (u * u + 1.0 / float(12 * kColumnSteps * kColumnSteps));
     path += GetDensity(GetAltitudeAlongRay(h, mu, t)) * dt;
   }

@@ -11,8 +11,8 @@ out vec4 result;
 const int kSteps = 20;
 const int kLobeSamples = 5;
 
-// Mean of the aerosol's phase function over the cell of directions that a node stands for: a
-// node that a narrow lobe falls on would else count it for the whole cell.
+// Mean of the aerosol's phase function over the cell of directions that a node represents: otherwise
+// a narrow lobe that falls on a node would count for the whole cell.
 Number GetMeanMiePhase(int zenith, int azimuth, Number mu_s) {
   float side = zenith < 4 ? 1.0 : -1.0;
   int node = zenith < 4 ? zenith : zenith - 4;

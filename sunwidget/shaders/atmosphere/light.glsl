@@ -6,7 +6,7 @@
 //      the camera                                             incidence, as if fully risen
 //   3  ... on one that faces right                        8  as 1, at the heights of clouds
 // in W m^-2 nm^-1 (6: W m^-2 sr^-1 nm^-1). Upright surfaces see the sky above the horizon only,
-// not the ground. "Ahead" weighs each direction by its cosine to the heading.
+// not the ground. "Ahead" weights each direction by its cosine to the heading.
 
 #include "atmosphere/read_sky_view.glsl"
 
@@ -18,14 +18,14 @@ out vec4 result;
 
 // Every second row and every fourth column: trapezoids over the sky view's own samples.
 const int kColumnStride = 4;
-// Clouds stand in the sun after the land has lost it, the later the higher they are: 1.2 degrees
-// for cumulus (1.5 km), 3 for cirrus (9 km). Ever fewer of them ever higher let their light fade
-// without a jump.
+// Clouds stay sunlit after sunset on the land, the longer the higher they are: down to 1.2 degrees
+// for cumulus (1.5 km), 3 for cirrus (9 km). Their number decreases with height, so that their light
+// fades without a jump.
 const Length kLowestCloud = 1500.0;
 const Length kHighestCloud = 15000.0;
 const int kCloudLevels = 16;
 
-// Share of the light from `direction` that counts in texel `index`.
+// Weight of the light from `direction` in texel `index`.
 Number GetWeight(int index, vec3 direction) {
   float cosine = index == 0 ? direction.y
       : index == 2 ? -direction.z

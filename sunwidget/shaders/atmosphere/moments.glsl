@@ -1,4 +1,4 @@
-// Moments of a radiance that was drawn for the quadrature of atmosphere/multiple.glsl.
+// Moments of a radiance drawn for the quadrature of atmosphere/multiple.glsl.
 
 #include "atmosphere/multiple.glsl"
 
@@ -13,7 +13,7 @@ Number GetMomentWeight(int moment, vec2 direction, Number mu_s) {
       : 0.5 * nu * (5.0 * nu * nu - 3.0);
 }
 
-// `cell`: sun and altitude within a tile of `size`. Over GetTwilight, as the field is kept.
+// `cell`: sun and altitude within a tile of `size`. Divided by GetTwilight, as the field is stored.
 vec4 GetMoment(sampler2D radiance, int azimuths, int moment, ivec2 cell, ivec2 size) {
   float mu_s = GetSunCosineOfField(float(cell.x) / float(size.x - 1));
   vec4 sum = vec4(0.0);

@@ -1,18 +1,18 @@
-// Light that was scattered before it arrives: its field around a point, kept as moments.
+// The field of previously scattered light around a point, stored as moments.
 //
-// Hillaire 2020 keeps the mean radiance only and scatters it evenly. Here the field keeps its
+// Hillaire 2020 stores only the mean radiance and scatters it evenly. Here the field has its
 // moments up to second order, in the frame x = horizontal towards the sun, z = zenith (y, across,
-// follows by symmetry). That is all Rayleigh's phase function can see, and most of what a haze
-// does: against path tracing the error falls from 6 to 2 % by day and from 15 to 4 % in the blue
+// follows by symmetry). They suffice for Rayleigh's phase function, and for most of the effect of
+// haze: against path tracing the error falls from 6 to 2 % by day and from 15 to 4 % in the blue
 // at sunset, and in haze from 33 to 7 %.
 //
 //   mean = <L>   x = <L w_x>   z = <L w_z>   xx = <L (w_x^2 - 1/3)>   zz, xz alike
 //   lobe = <L P_3(nu)>
 //
 // with <> the mean over all directions w from which light comes, per unit of solar irradiance.
-// The last one says how much light haze has gathered around the sun, beyond what the others hold.
-// Texture: seven tiles side by side in this order, over GetTwilight; within a tile mu_s along x,
-// altitude along y.
+// The last one is the light that haze concentrates around the sun, beyond the other moments.
+// Texture: seven tiles side by side in this order, divided by GetTwilight; within a tile mu_s along
+// x, altitude along y.
 
 #include "atmosphere/atmosphere.glsl"
 
@@ -22,7 +22,7 @@ const int kZeniths = 8;   // four-point Gauss-Legendre on each hemisphere
 const int kSecondAzimuths = 4;
 const float kNodes[4] = float[4](0.0694318442, 0.3300094782, 0.6699905218, 0.9305681558);
 const float kWeights[4] = float[4](0.1739274226, 0.3260725774, 0.3260725774, 0.1739274226);
-// The part of [0, 1] that each node stands for.
+// Edges of the part of [0, 1] that each node represents.
 const float kEdges[5] = float[5](0.0, 0.1739274226, 0.5, 0.8260725774, 1.0);
 
 struct LightField {
@@ -36,9 +36,9 @@ struct LightField {
 };
 
 // ---- Coordinates ----------------------------------------------------------------------------
-// mu_s is dense about the terminator and below it, altitude on a cube-root scale (haze lies low).
+// mu_s is dense around the terminator and below it, altitude on a cube-root scale (haze lies low).
 // Once the sun is down the light falls by a factor of e every degree, far too fast to interpolate;
-// the table holds it over a rough guess of that fall, the density at the height of the shadow.
+// so the table divides it by an approximation of that fall, the density at the height of the shadow.
 
 const float kNightCosine = -0.35;
 const float kNightShare = 0.65;  // of the table
@@ -82,7 +82,7 @@ vec2 GetFieldDirection(int zenith, int azimuth, int azimuths) {
 
 // ---- Quadrature -----------------------------------------------------------------------------
 // An order's radiance is drawn for each direction: tiles of azimuth along x and of zenith angle
-// along y, in each of them mu_s along x and altitude along y.
+// along y, each with mu_s along x and altitude along y.
 
 struct FieldRay {
   ivec2 tile;  // azimuth, zenith angle
@@ -141,9 +141,9 @@ vec3 GetMieMoments(Number g) {
   return 1.5 / (2.0 + g2) * vec3(first, second, third);
 }
 
-// What a second pass through haze leaves of the sun's lobe beyond its second moment, per unit of
-// the field's third moment. A lobe of moments chi_l, scattered again, has chi_l^2; it is drawn as
-// the Henyey-Greenstein function of the same third moment, less its own first three terms.
+// The part of the sun's lobe beyond its second moment that remains after a second scattering by haze,
+// per unit of the field's third moment. A lobe of moments chi_l, scattered again, has chi_l^2; it is
+// approximated by the Henyey-Greenstein function of the same third moment, less its first three terms.
 Number GetLobe(vec3 mie_moments, Number nu) {
   float third = mie_moments.z;
   float g = pow(third * third, 1.0 / 3.0);
@@ -153,7 +153,7 @@ Number GetLobe(vec3 mie_moments, Number nu) {
   return (whole - kept) / max(third, 1e-3);
 }
 
-// What air and haze send on of the field towards a viewer who looks along `direction` (its x and z
+// Light of the field that air and haze scatter towards a viewer looking along `direction` (its x and z
 // components), for a scattering coefficient of one.
 vec4 GetQuadrupole(LightField field, vec2 direction) {
   float xx = direction.x * direction.x;
@@ -168,8 +168,8 @@ vec4 GetFieldThroughAir(LightField field, vec2 direction) {
   return field.mean + 0.75 * GetQuadrupole(field, direction);
 }
 
-// `lobe` is GetLobe of the view; after sunset there is none, and a negative moment is no hole around
-// the sun. A truncated series can dip below zero; a tenth of the mean is kept.
+// `lobe` is GetLobe of the view. After sunset there is no lobe, and a negative moment does not mean a
+// hole around the sun. A truncated series can dip below zero, so at least a tenth of the mean is kept.
 vec4 GetFieldThroughHaze(LightField field, vec2 direction, vec3 moments, Number lobe) {
   vec4 dipole = field.x * direction.x + field.z * direction.y;
   vec4 sum = field.mean + 3.0 * moments.x * dipole

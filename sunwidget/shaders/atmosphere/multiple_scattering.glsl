@@ -2,14 +2,14 @@
 // second order as drawn, the rest as a geometric series of isotropic scattering (Hillaire 2020,
 // section 5.5.3).
 //
-// Hillaire's ratio is f, the share of an even light that comes back after one more scattering at
-// the point itself (transfer.glsl). But from one order to the next light spreads, until all of it
-// falls by the same factor everywhere: the largest eigenvalue of scattering. It is the geometric
-// mean of f and of what the second order has of the first, taken 3 km up under a high sun: within
-// 8 % in air from none to twice ours, over any ground; up to 18 % in the thickest haze. The third order
-// lies half way between what the second had of the first at the point and that.
+// Hillaire's ratio is f, the share of uniform light that returns after one more scattering at the
+// point itself (transfer.glsl). But light spreads from order to order, until all of it decreases by the
+// same factor everywhere: the largest eigenvalue of scattering. It is approximated by the geometric
+// mean of f and the ratio of second to first order, 3 km up under a high sun: within 8 % in air from
+// none to twice ours, over any ground; up to 18 % in the thickest haze. The ratio of the third order to
+// the second is the geometric mean of that and the ratio of second to first order at the point.
 //
-// `scattering_orders` n ends the sum (Nishita et al. 1996): the field holds orders 1 to n - 1, of
+// `scattering_orders` n ends the sum (Nishita et al. 1996): the field holds orders 1 to n - 1, from
 // which the sky view makes 2 to n.
 
 #include "atmosphere/multiple.glsl"
@@ -25,7 +25,7 @@ out vec4 result;
 
 const float kEigenvalueRow = 6.0 / 19.0;  // of the table: 3 km
 
-// What the second order has of the first, in the mean.
+// Ratio of the mean of the second order to that of the first.
 vec4 GetGain(ivec2 cell, ivec2 size) {
   vec4 second = GetMoment(second_order, kSecondAzimuths, 0, cell, size);
   return min(second / max(texelFetch(first_field, cell, 0), vec4(1e-30)), 1.0);
@@ -48,7 +48,7 @@ void main() {
   vec4 second_mean = GetMoment(second_order, kSecondAzimuths, 0, cell, size);
   vec4 second = GetMoment(second_order, kSecondAzimuths, moment, cell, size);
   vec4 third_mean = second_mean * sqrt(GetGain(cell, size) * eigenvalue);
-  // What the series leaves out after its first n - 3 terms: nothing when it goes on for ever.
+  // The share that the series omits after its first n - 3 terms: 0 for the infinite series.
   vec4 omitted = scattering_orders == 0.0 ? vec4(0.0)
       : pow(max(eigenvalue, 1e-9), vec4(max(scattering_orders - 3.0, 0.0)));
   vec4 rest = shape / max(even, 1e-30) * third_mean * (1.0 - omitted) / (1.0 - eigenvalue);

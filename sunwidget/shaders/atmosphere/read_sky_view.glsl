@@ -1,9 +1,9 @@
-// Looking up the sky view, and the sun's disc.
+// Look-ups of the sky view and of the sun's disc.
 //
-// The sky view holds radiance divided by a rough guess of it, so that what is interpolated is
-// smooth even inside the aureole of a haze with g = 0.95. The last row is its own description
-// (sun, haze, horizon), so a look-up needs nothing but the texture: the source's sky and the
-// edited one are read by the same function.
+// The sky view holds radiance divided by an approximation, the guess, so that the interpolated values
+// are smooth even inside the aureole of a haze with g = 0.95. Its last row describes it (sun, haze,
+// horizon), so a look-up needs only the texture: one function reads both the source's sky and the
+// edited one.
 //
 // Directions are unit vectors in the camera's level frame: x right, y up, z heading.
 
@@ -25,7 +25,7 @@ vec3 GetSunDirection(float azimuth_degrees, float elevation_degrees) {
   return vec3(cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth));
 }
 
-// `origin` and `size` are the part of a texture that one view takes.
+// `origin` and `size` delimit the part of a texture that one view occupies.
 SkyView ReadSkyView(sampler2D sky_view, ivec2 origin, ivec2 size) {
   ivec2 row = origin + ivec2(0, size.y - 1);
   vec4 first = texelFetch(sky_view, row, 0);
@@ -38,12 +38,12 @@ SkyView ReadSkyView(sampler2D sky_view) {
   return ReadSkyView(sky_view, ivec2(0), textureSize(sky_view, 0));
 }
 
-// The guess: scattering once by thin air and thin haze, plus an even share for all other orders.
+// The guess: single scattering by thin air and thin haze, plus a uniform share for all other orders.
 vec4 GuessRadiance(SkyView view, Number nu) {
   return view.rayleigh * (RayleighPhase(nu) + 0.04) + view.mie * MiePhase(view.asymmetry, nu);
 }
 
-// Number of rows above the horizon and in all, without the description.
+// Number of rows above the horizon and in total, without the description.
 ivec2 GetSkyViewRows(int height) {
   return ivec2(int(float(height - 1) * kSkyShare), height - 1);
 }
@@ -103,12 +103,12 @@ RadianceSpectrum GetSkyRadiance(sampler2D sky_view, vec3 direction) {
 }
 
 // Radiance of the disc, zero outside it. `size` is its diameter in units of the true 0.533
-// degrees (radiance stays), `softness` the angle of one pixel. Each direction is reddened by its
-// own path; what lies below the horizon is dark.
+// degrees (the radiance does not change), `softness` the angle of one pixel. Each direction is
+// reddened by its own path; the part below the horizon is dark.
 RadianceSpectrum GetSunDiscRadiance(sampler2D columns, vec3 direction, vec3 sun, Length altitude,
                                     Number size, Angle softness) {
   float radius = kSunAngularRadius * size;
-  // The chord keeps its digits where acos(dot) has none.
+  // The chord is precise where acos(dot) is not.
   float angle = 2.0 * asin(min(0.5 * length(direction - sun), 1.0));
   float coverage = clamp((radius - angle) / max(softness, 1e-6) + 0.5, 0.0, 1.0);
   if (size <= 0.0 || coverage <= 0.0) {

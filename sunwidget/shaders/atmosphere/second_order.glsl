@@ -1,5 +1,5 @@
-// Radiance of twice-scattered sunlight, laid out as first_order with half the azimuths: what is
-// left after two scatterings is smooth.
+// Radiance of twice-scattered sunlight, laid out like first_order but with half the azimuths, because
+// light is smooth after two scatterings.
 
 #include "atmosphere/multiple.glsl"
 

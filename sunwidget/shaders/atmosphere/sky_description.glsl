@@ -1,4 +1,4 @@
-// What a sky view is drawn for, and the description of it in its last row (atmosphere/read_sky_view.glsl).
+// The sun and camera of a sky view, and its description in the last row (atmosphere/read_sky_view.glsl).
 
 #include "atmosphere/read_sky_view.glsl"
 
@@ -7,14 +7,14 @@ uniform float sun_elevation;  // degrees, apparent
 uniform float altitude;       // m
 
 Length GetCameraHeight() {
-  // One metre keeps the horizon below the eye; grazing rays would else start in the ground.
+  // One meter keeps the horizon below the eye; otherwise grazing rays would start in the ground.
   return clamp(altitude, 1.0, 0.99 * kAtmosphereHeight);
 }
 
 SkyView DescribeSky() {
   float h = GetCameraHeight();
   vec3 density = GetDensity(h);
-  // Optical depths overhead, never zero, so that the division is safe without air or haze.
+  // Optical depths overhead, never zero, so that division by the guess is safe without air or haze.
   vec4 rayleigh = GetRayleighScattering() * rayleigh_scale_height * density.x + 1e-4;
   vec4 mie = GetMieExtinction() * aerosol_albedo * aerosol_scale_height * density.y;
   return SkyView(GetSunDirection(sun_azimuth, sun_elevation), aerosol_asymmetry, rayleigh, mie,

@@ -1,5 +1,5 @@
-// The sky's radiance along one ray: single scattering is marched, all further orders come from the
-// table of scattered light, and the ground lies below.
+// The sky's radiance along one ray: single scattering is marched, all higher orders come from the
+// table of scattered light, and rays below the horizon end on the ground.
 
 #include "atmosphere/multiple.glsl"
 
@@ -11,12 +11,12 @@ uniform sampler2D multiple_scattering;
 const int kGroups = 16;
 const int kGroupSteps = 2;
 
-// Single scattering alone leaves out what atmosphere/multiple.glsl knows, whichever orders that holds.
+// Single scattering alone ignores the field of atmosphere/multiple.glsl, whichever orders that holds.
 Number GetFieldShare() {
   return scattering_orders == 1.0 ? 0.0 : 1.0;
 }
 
-// What a Lambertian ground sends up at the point where the sun has cosine mu_s.
+// Radiance of a Lambertian ground at the point where the sun's zenith angle has cosine mu_s.
 RadianceSpectrum GetGroundRadiance(Number mu_s) {
   vec4 sun = max(mu_s, 0.0) * GetTransmittanceToSun(columns, 0.0, mu_s);
   LightField field = GetLightField(multiple_scattering, 0.0, mu_s);

@@ -1,7 +1,7 @@
 // Radiance of the sky around the camera, without the sun's disc: azimuth from the sun along x
 // (half the circle; the other half mirrors it), elevation along y, zenith in row 0, everything
 // divided by GuessRadiance. See atmosphere/read_sky_view.glsl for the layout and the description in the last row.
-// Below the horizon: the ground under air light.
+// Below the horizon it shows the ground seen through airlight.
 
 #include "atmosphere/sky_description.glsl"
 #include "atmosphere/sky_march.glsl"

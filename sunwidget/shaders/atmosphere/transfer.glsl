@@ -1,6 +1,6 @@
-// What one scattering makes of an even light of radiance one, the ground's reflection included:
-// its moments mean, z, xx and zz (even light is the same all round the zenith, the others vanish)
-// along x, altitude along y. See atmosphere/multiple.glsl.
+// Uniform light of radiance one after one scattering, the ground's reflection included:
+// its moments mean, z, xx and zz along x (it is symmetric around the zenith, so the others vanish),
+// altitude along y. See atmosphere/multiple.glsl.
 
 #include "atmosphere/multiple.glsl"
 
@@ -10,7 +10,7 @@ out vec4 result;
 
 const int kSteps = 12;
 
-// Radiance along mu at altitude h of air that is lit evenly with radiance one.
+// Radiance along mu at altitude h of air lit uniformly with radiance one.
 vec4 GetTransfer(Length h, Number mu) {
   mat3x4 coefficients = GetExtinctionCoefficients();
   bool ground = RayIntersectsGround(h, mu);

@@ -1,4 +1,4 @@
-// The coefficients of atmosphere/atmosphere.glsl at any wavelength (nm): at density one, 1/m.
+// The coefficients of atmosphere/atmosphere.glsl at any wavelength (nm), at density one, 1/m.
 
 #include "atmosphere/atmosphere.glsl"
 #include "atmosphere/spectrum.glsl"

@@ -1,15 +1,15 @@
 // Coordinates of the precomputed sky, after Bruneton & Neyret, "Precomputed Atmospheric
 // Scattering" (2008) and Bruneton's second implementation (2017): radiance over
-//   r     altitude h, evenly in the fourth root of h, for haze lies low (Bruneton: square root)
-//   mu    view zenith angle, by the distance to what the ray meets: the ground in the first
+//   r     altitude h, evenly in the fourth root of h, because haze lies low (Bruneton: square root)
+//   mu    view zenith angle, by the distance to the end of the ray: the ground in the first
 //         half of the samples, the top of the atmosphere in the second, so that no look-up
 //         interpolates across the horizon (Bruneton 2017, "Scattering texture"). Towards the top
 //         evenly in its square root, or the highest 40 degrees would lie between two samples
-//   mu_s  sun zenith angle, dense about the terminator
+//   mu_s  sun zenith angle, dense around the terminator
 //   nu    angle between view and sun, as their difference in azimuth. Bruneton spaces nu itself
-//         evenly over [-1, 1], half of which cannot occur; here every sample counts.
-// The table is held over GetFading, a guess of how light falls once the sun is down; unlike
-// GetTwilight of atmosphere/multiple.glsl it knows no parameter, so that a table outlives its sliders.
+//         evenly over [-1, 1], half of which cannot occur; here every sample is used.
+// The table is divided by GetFading, an approximation of how light falls once the sun is down; unlike
+// GetTwilight of atmosphere/multiple.glsl it has no parameter, so it does not depend on the sliders.
 
 #include "atmosphere/multiple.glsl"
 
@@ -26,7 +26,7 @@ Length GetAltitudeOfCoordinate(float y) {
 
 // ---- View -----------------------------------------------------------------------------------
 
-// Place of a view among `count` samples: 0 is straight down, count / 2 - 1 the ground at the
+// Position of a view among `count` samples: 0 is straight down, count / 2 - 1 the ground at the
 // horizon, count / 2 the zenith, count - 1 the sky at the horizon.
 float GetViewCoordinate(Length h, Number mu, bool ground, int count) {
   float rho = sqrt(GetSquaredHorizonDistance(h));
@@ -40,7 +40,7 @@ float GetViewCoordinate(Length h, Number mu, bool ground, int count) {
   return last + 1.0 + last * sqrt(clamp(x, 0.0, 1.0));
 }
 
-// Zenith cosine in x and distance to the ground or the top in y, of sample `index`.
+// Zenith cosine (x) of sample `index`, and its distance to the ground or the top (y).
 vec2 GetViewOfSample(Length h, int index, int count) {
   float rho2 = GetSquaredHorizonDistance(h);
   float rho = sqrt(rho2);
@@ -60,11 +60,11 @@ vec2 GetViewOfSample(Length h, int index, int count) {
 
 // ---- Sun and azimuth ------------------------------------------------------------------------
 
-// Even in the inverse hyperbolic sine of the elevation: dense about the terminator, where the path
+// Even in the inverse hyperbolic sine of the elevation: dense around the terminator, where the path
 // through the air to the sun changes fastest, and down to -18 degrees; by day close enough that
-// the aureole moves by little from sample to sample.
+// the aureole moves little from sample to sample.
 const Angle kLowestSun = -0.314;
-const float kTerminator = 0.36;  // place of mu_s = 0 in [0, 1]
+const float kTerminator = 0.36;  // position of mu_s = 0 in [0, 1]
 const Angle kDayScale = 0.1;
 const Angle kNightScale = 0.08;
 
@@ -89,12 +89,12 @@ Number GetFading(Number mu_s) {
   return exp(-0.5 * kGroundRadius / kTwilightScaleHeight * down * down);
 }
 
-// Between two suns light is interpolated by its logarithm: it fades as the exponential of a path.
+// Interpolates the logarithm of light between two suns, because light fades as the exponential of a path.
 vec4 MixSuns(vec4 low, vec4 high, float part) {
   return exp(mix(log(max(low, vec4(1e-12))), log(max(high, vec4(1e-12))), part));
 }
 
-// Cosine of the azimuth between view and sun. Undefined at the zenith, where it matters to none.
+// Cosine of the azimuth between view and sun. Undefined at the zenith, where it has no effect.
 Number GetCosineOfAzimuth(Number mu, Number mu_s, Number nu) {
   float across = sqrt(max((1.0 - mu * mu) * (1.0 - mu_s * mu_s), 1e-12));
   return clamp((nu - mu * mu_s) / across, -1.0, 1.0);
@@ -109,8 +109,8 @@ Number GetCosineOfAzimuthSample(float index, int count) {
   return cos(kPi * index / float(count - 1));
 }
 
-// Place among `count` samples from azimuth 0 to pi. They are even in the angle, but light varies
-// with its cosine: linear in that, the slope at both ends comes out flat as it is.
+// Position among `count` samples from azimuth 0 to pi. They are even in the angle, but light varies with
+// its cosine: interpolation linear in the cosine gives the correct flat slope at both ends.
 float GetAzimuthCoordinate(Number cosine_of_azimuth, int count) {
   float index = floor(acos(cosine_of_azimuth) / kPi * float(count - 1));
   index = min(index, float(count - 2));

@@ -1,14 +1,14 @@
-// Scattered light by direction at every altitude and sun: what the orders of scattering are made
-// of while the precomputed sky is under way.
+// Scattered light by direction at every altitude and sun: the intermediate textures from which the
+// precomputed sky's orders of scattering are computed.
 //
-// Two textures, both over GetFading and per unit of solar irradiance:
+// Two textures, both divided by GetFading and per unit of solar irradiance:
 //   incident   radiance of one order in each direction of a quadrature (eight-point
-//              Gauss-Legendre on each hemisphere times kFieldAzimuths over half a circle), that is
-//              tiles of azimuth along x and zenith along y; in each mu_s along x, r along y
-//   source     what air (upper half) and haze (lower half) send on of it towards a viewer who
-//              looks along theta, phi, for a scattering coefficient of one, that is the mean of
-//              the radiance over their phase functions. Tiles of phi along x and theta along y.
-// Bruneton keeps the density of scattered light itself; without the density of the air it varies
+//              Gauss-Legendre on each hemisphere times kFieldAzimuths over half a circle):
+//              tiles of azimuth along x and zenith along y, each with mu_s along x, r along y
+//   source     its light scattered by air (upper half) and haze (lower half) towards a viewer
+//              looking along theta, phi, for a scattering coefficient of one: the mean of the
+//              radiance over their phase functions. Tiles of phi along x and theta along y.
+// Bruneton stores the density of scattered light itself; without the density of the air it varies
 // slowly with altitude, so that a coarse r is enough.
 
 #include "bruneton/coordinates.glsl"
@@ -23,7 +23,7 @@ const float kFieldNodes[8] = float[8](0.0198550718, 0.1016667613, 0.2372337950, 
     0.5917173212, 0.7627662050, 0.8983332387, 0.9801449282);
 const float kFieldWeights[8] = float[8](0.0506142681, 0.1111905172, 0.1568533229, 0.1813418917,
     0.1813418917, 0.1568533229, 0.1111905172, 0.0506142681);
-// The part of [0, 1] that each node stands for.
+// Edges of the part of [0, 1] that each node represents.
 const float kFieldEdges[9] = float[9](0.0000000000, 0.0506142681, 0.1618047854, 0.3186581083,
     0.5000000000, 0.6813418917, 0.8381952146, 0.9493857319, 1.0000000000);
 
@@ -36,7 +36,7 @@ Number GetFieldWeight(int zenith) {
   return 0.5 * kFieldWeights[zenith % 8] / float(kFieldAzimuths);
 }
 
-// The ray that a texel of "incident" stands for.
+// The ray that a texel of "incident" represents.
 struct IncidentRay {
   ivec2 tile;  // azimuth, zenith
   Length h;
@@ -59,7 +59,7 @@ IncidentRay GetIncidentRay(ivec2 texel) {
   return IncidentRay(tile, h, mu, mu_s, nu, ground, d);
 }
 
-// Means over the phase functions of air and haze of light around a point.
+// Means of the light around a point over the phase functions of air and haze.
 struct Source {
   vec4 air;
   vec4 haze;
@@ -113,8 +113,8 @@ IrradianceSpectrum GetScatteredIrradiance(Number mu_s) {
 const int kSourceGroups = 16;
 const int kSourceGroupSteps = 2;
 
-// Radiance that the source sends towards h from along mu, and what the ground adds that it lights
-// besides `sun_on_ground`, the irradiance of the sun there.
+// Radiance of the source along mu as seen from h, plus that of the ground under the source's light and
+// `sun_on_ground`, the sun's irradiance there.
 RadianceSpectrum GatherSource(Length h, Number mu, Number mu_s, Number nu, Length d, bool ground,
                               IrradianceSpectrum sun_on_ground) {
   float r = kGroundRadius + h;

@@ -1,6 +1,6 @@
 // First order of the precomputed sky: sunlight scattered once, or reflected by the ground, in each
-// direction of the quadrature (bruneton/field.glsl, "incident"), from which the source of the
-// second order is made.
+// direction of the quadrature (bruneton/field.glsl, "incident"). The source of the second order is
+// computed from it.
 
 #include "bruneton/field.glsl"
 #include "bruneton/single.glsl"
@@ -9,7 +9,7 @@ out vec4 result;
 
 const int kLobeSamples = 3;
 
-// Mean of the aerosol's phase function over the cell of directions that a node stands for: a
+// Mean of the aerosol's phase function over the cell of directions that a node represents: a
 // node that a narrow lobe falls on would else count it for the whole cell.
 Number GetMeanMiePhase(int zenith, int azimuth, Number mu_s) {
   float side = zenith < 8 ? 1.0 : -1.0;

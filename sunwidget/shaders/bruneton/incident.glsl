@@ -1,6 +1,6 @@
-// One more order of the precomputed sky, in each direction of the quadrature ("incident" in
-// bruneton/field.glsl): what the source of that order sends along the direction, and the
-// ground under the light of the order before.
+// The next order of the precomputed sky, in each direction of the quadrature ("incident" in
+// bruneton/field.glsl): radiance of that order's source along the direction, plus that of the
+// ground under the previous order's light.
 
 #include "bruneton/field.glsl"
 

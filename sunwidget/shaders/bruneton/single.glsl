@@ -1,5 +1,5 @@
-// Single scattering along a ray: sunlight that met air or haze once, without the phase function,
-// which is the same all along the ray and belongs to the look-up (Bruneton & Neyret 2008, 4).
+// Single scattering along a ray: sunlight scattered once by air or haze, without the phase function,
+// which is constant along the ray and applied at the look-up (Bruneton & Neyret 2008, 4).
 
 #include "bruneton/coordinates.glsl"
 

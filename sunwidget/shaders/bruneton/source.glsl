@@ -1,5 +1,5 @@
-// Source of the next order from the incident light of this one (bruneton/field.glsl): its mean
-// over the phase function of air (upper half) or haze (lower half) around each direction of view
+// Source of the next order, from this order's incident light (bruneton/field.glsl): its mean
+// over the phase function of air (upper half) or haze (lower half) around each view direction
 // (Bruneton & Neyret 2008, "Delta J", without the densities).
 
 #include "bruneton/field.glsl"
@@ -35,6 +35,6 @@ void main() {
       norm += weight * phase;
     }
   }
-  // Over its own sum: a lobe between two nodes neither makes nor loses light.
+  // Normalized by its own sum, so that a lobe between two nodes neither adds nor loses light.
   result = sum / norm;
 }

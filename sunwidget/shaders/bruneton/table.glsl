@@ -1,9 +1,9 @@
 // The precomputed sky itself, four-dimensional: nu and mu along x (nu fastest), mu_s and r along y
 // (mu_s fastest), see bruneton/coordinates.glsl. Three tables, drawn one by one:
 //   0  single scattering by air, without phase function
-//   1  single scattering by haze, likewise (Bruneton packs one component of it and guesses the rest)
+//   1  single scattering by haze, likewise (Bruneton packs one component and estimates the rest)
 //   2  all other light: higher orders and the ground
-// Per unit of solar irradiance, over GetFading.
+// Per unit of solar irradiance, divided by GetFading.
 
 #include "bruneton/field.glsl"
 #include "bruneton/single.glsl"

@@ -1,9 +1,9 @@
 // The sky view of sky_view.glsl from the precomputed sky instead of a march: same layout, same
-// guess, same description, so that all that follows reads it alike. `bruneton` is the slice of the
+// guess, same description, so that later passes read both alike. `bruneton` is the slice of the
 // table for one altitude: single scattering by air, by haze, and all other light, one above the
-// other, mu_s along y, mu and nu along x (bruneton/coordinates.glsl). Its last row tells what it was made
-// for: altitude, asymmetry, and how many samples nu and mu_s have. The sun moves for nothing; for
-// other air or another altitude the kernel makes another slice.
+// other, mu_s along y, mu and nu along x (bruneton/coordinates.glsl). Its last row describes it:
+// altitude, asymmetry, and the numbers of samples of nu and mu_s. Moving the sun needs no new slice;
+// for other air or another altitude the kernel makes one.
 
 #include "bruneton/coordinates.glsl"
 #include "atmosphere/sky_description.glsl"
@@ -38,7 +38,7 @@ RadianceSpectrum LookUpSkyRadiance(Number mu, bool ground, Number mu_s, Number c
   float azimuth = GetAzimuthCoordinate(cosine_of_azimuth, azimuths);
   float view = GetViewCoordinate(h, mu, ground, views);
   float sun = GetSunCoordinate(mu_s, suns);
-  // Neither half of the views is left for the other.
+  // Interpolation stays within its half of the views.
   int first = ground ? 0 : views / 2;
   ivec3 corner = ivec3(clamp(int(azimuth), 0, azimuths - 2),
                        clamp(int(view), first, first + views / 2 - 2),

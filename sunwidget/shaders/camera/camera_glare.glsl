@@ -1,17 +1,17 @@
-// The camera's own glare round the sun: what its lens and its sensor scatter over the whole picture, sky
-// and land alike. It is light of the sun's color that is added: the glow in a deep blue sky is white.
-// `glare_profile` (analysis/sun/camera_glare.py) is that of a sun in a well exposed picture.
+// The camera's own glare around the sun: light that lens and sensor scatter over the whole picture, sky
+// and land alike. It adds light of the sun's color: the glow in a deep blue sky is white.
+// `glare_profile` (analysis/sun/camera_glare.py) is the profile for a sun in a well exposed picture.
 
 uniform vec3 glare_profile;  // a (scene-linear luminance), b (degrees), c
 
-// G(angle) = a / (1 + (angle / b)^2)^c. The angle is its chord: it matters only where glare is gone.
+// G(angle) = a / (1 + (angle / b)^2)^c. The chord stands in for the angle: they differ only where glare is gone.
 float GetCameraGlare(vec3 view, vec3 sun) {
   vec3 chord = view - sun;
   float x = degrees(1.0) / max(glare_profile.y, 0.05);
   return glare_profile.x * pow(1.0 + x * x * dot(chord, chord), -glare_profile.z);
 }
 
-// A camera exposes for the sun that it sees, so that its glare grows less than the sun's light.
+// A camera exposes for a visible sun, so its glare grows more slowly than the sun's light.
 const float kSunOfProfile = 20.0;  // klx on the lens: a sun ten degrees high in clear air
 const float kGlareGrowth = 0.35;
 
@@ -19,13 +19,13 @@ float GetGlareStrength(float illuminance) {
   return pow(max(illuminance, 1e-9) / kSunOfProfile, kGlareGrowth);
 }
 
-// The color of the sun travels as one float: shares of red and blue in 12 bits each.
+// Packs the sun's color into one float: shares of red and blue in 12 bits each.
 float PackColor(vec3 color) {
   vec3 share = color / max(dot(color, vec3(1.0)), 1e-12);
   return floor(share.r * 4095.0 + 0.5) + 4096.0 * floor(share.b * 4095.0 + 0.5);
 }
 
-// Of luminance 1.
+// Returns the color with luminance 1.
 vec3 UnpackColor(float code) {
   float blue = floor(code / 4096.0);
   vec2 share = vec2(code - 4096.0 * blue, blue) / 4095.0;

@@ -1,14 +1,14 @@
-// Lens flare: faint ghosts, images of the aperture by reflection between two of the lens' surfaces,
-// on the line from the sun through the picture's center, and a ring round the center. Per unit of the
+// Lens flare: faint ghosts (images of the aperture, reflected between two surfaces of the lens)
+// on the line from the sun through the picture's center, and a ring around the center. Per unit of the
 // sun's light.
 
 float GetGhost(vec2 at, vec2 center, float radius) {
   float edge = length(at - center) / radius;
-  // A little brighter at its rim, as ghosts are.
+  // Ghosts are a little brighter at the rim.
   return smoothstep(1.0, 0.8, edge) * (0.6 + 0.4 * edge * edge);
 }
 
-// `at` and `sun` from the picture's center, in its heights.
+// `at` and `sun` are relative to the picture's center, in heights of the picture.
 vec3 GetFlare(vec2 at, vec2 sun) {
   vec3 light = vec3(0.9, 0.7, 0.5) * GetGhost(at, -0.35 * sun, 0.035);
   light += vec3(0.5, 0.8, 0.6) * GetGhost(at, -0.62 * sun, 0.06);
@@ -16,6 +16,6 @@ vec3 GetFlare(vec2 at, vec2 sun) {
   light += vec3(0.8, 0.5, 0.4) * GetGhost(at, 0.45 * sun, 0.022);
   vec3 ring = (length(at + 0.2 * sun) - vec3(0.62, 0.6, 0.58)) / 0.035;
   light += 0.25 / (1.0 + ring * ring * ring * ring);
-  // A sun far outside the picture makes none.
+  // A sun far outside the picture causes no flare.
   return 0.02 * light * (1.0 - smoothstep(0.8, 1.3, length(sun)));
 }

@@ -1,6 +1,6 @@
-// What a camera's exposure meter would see with this sun, from the model alone. One pixel: r is the mean
-// log2 luminance of the picture, g log2 of the sky's (the mean of its fourth root, so that a sun in view is not
-// all), both in the photo's scene-linear unit.
+// The reading of a camera's exposure meter under this sun, from the model alone. One pixel: r is the mean
+// log2 luminance of the picture, g log2 of the sky's (from the mean of its fourth root, so that a sun in view does
+// not dominate), both in the photo's scene-linear unit.
 
 #include "frame/picture.glsl"
 #include "atmosphere/read_sky_view.glsl"
@@ -24,8 +24,8 @@ void main() {
   float sum = 0.0;
   vec2 bright = vec2(0.0);
   vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);
-  // The meter averages, so a half-visible sun stands for any state of the disc: whether a
-  // twig hides the sun must not change the exposure.
+  // The meter averages, so a half-visible sun represents any state of the disc: a twig that hides
+  // the sun must not change the exposure.
   vec3 land = sky_gain * kLandAlbedo * (GetNightSky(GetMoon()) + GetLightScale(GetMoon()) / 3.14159265
       * GetLandIrradiance(light, 0.5, land_facing, sun));
   for (int row = 0; row < kRows; ++row) {

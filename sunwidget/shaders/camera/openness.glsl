@@ -1,8 +1,8 @@
 // How freely the sun shines through each part of the picture, for the light shafts: r is 1 in clear
-// sky and 0 on land or thick cloud, times g, 1 above the horizon: what lies below it stands before no
-// sun and tells nothing. b, for the clouds' shadows on the land, is how much of the sun the clouds
-// seen around here take, over the width of their penumbra. Both are soft: an eighth of the size is
-// enough, and it is drawn when the clouds change, not when the sun moves.
+// sky and 0 on land or thick cloud, times g, which is 1 above the horizon: parts below it never stand
+// before the sun and carry no information. b, for the clouds' shadows on the land, is the share of
+// sunlight that the clouds around this place block, averaged over the width of their penumbra. Both are
+// soft, so an eighth of the size is enough; drawn when the clouds change, not when the sun moves.
 
 #include "frame/picture.glsl"
 #include "clouds/cloud_cover.glsl"
@@ -13,12 +13,12 @@ uniform vec2 pass_size;
 
 out vec4 result;
 
-const int kSide = 3;  // samples a side of each texel
+const int kSide = 3;  // samples per side of each texel
 
-const int kShadeTaps = 4;           // by as many
+const int kShadeTaps = 4;           // per side
 const float kShadePace = 0.022;     // between taps, in heights of the picture
 
-// Where the sun's glare burnt the photo its whiteness is no cloud; land before the sky tells nothing.
+// White where the sun's glare clipped the photo is not cloud; land in front of the sky carries no information.
 float GetShade(vec2 place) {
   vec2 layer = ReadPicture(layers, place).rg;
   float own = EditOpacity(layer.g, layer.r, ReadBilinear(clear_sky, place).a);
@@ -39,7 +39,7 @@ float GetMeanShade(vec2 middle) {
 void main() {
   vec2 corner = gl_FragCoord.xy - 0.5;
   vec2 middle = gl_FragCoord.xy / pass_size;
-  // The old sun's glare whitens the sky, but no cloud need be there.
+  // The old sun's glare whitens the sky even without a cloud.
   float trust = 1.0 - 0.8 * ReadBilinear(surface, middle).r;
   float added = GetAddedCover(GetViewDirection(middle));
   float open = 0.0;

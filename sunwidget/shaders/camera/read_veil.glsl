@@ -1,17 +1,17 @@
-// What the camera and the air between put before the whole picture, in the exposure of the frame.
+// Light that the camera and the air in between add over the whole picture, in the frame's exposure.
 
 #include "sky/relit_sky.glsl"
 #include "land/relit_land.glsl"
 #include "sky/sky_seen.glsl"
 
-// Shadows in the haze take no more than this share of what is there: the model may know more of them than
+// Shadows in the haze remove at most this share of a pixel's light: the model may have more haze than
 // the photo holds.
 const float kMostTaken = 0.4;
-// Much of a glare is lit air, and that lies behind the land: this share of it comes from the lens.
+// Much of a glare is lit air, which lies behind the land: this share of it comes from the lens.
 const float kLensShare = 0.25;
 
-// `veil` of the exposure of `light` (veil.glsl); `matte` is the pixel's share of sky. The old sun's glare
-// has gone with what hid sky and land behind it.
+// `veil` (veil.glsl) has the exposure of `light`; `matte` is the pixel's share of sky. The old sun's glare
+// was already removed together with the veil that hid sky and land behind it.
 vec3 GetVeil(vec3 light, vec3 view, vec3 veil, float matte) {
   veil *= GetSkySeen();
   vec3 color = UnpackColor(described[0].w);

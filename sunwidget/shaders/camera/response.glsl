@@ -8,7 +8,7 @@ uniform float response_contrast;  // 0.7 .. 1.15
 
 #include "frame/srgb.glsl"
 
-// How near to its asymptote the response is inverted; brighter values count as this bright.
+// Distance from its asymptote up to which the response is inverted; brighter values are clamped.
 const float kDeepestShoulder = 0.003;
 
 float GetWhiteLevel() {
@@ -21,7 +21,7 @@ vec3 GetSceneLight(vec3 display) {
   return pow(max(r, vec3(1e-6)), vec3(1.0 / response_contrast));
 }
 
-// What analysis/backdrop/backdrop.py stores: scene-linear light up to 16.
+// Decodes the backdrop of analysis/backdrop/backdrop.py: scene-linear light up to 16.
 vec3 GetBackdropLight(vec3 code) {
   return (exp2(10.0 * code) - 1.0) / 64.0;
 }
@@ -31,8 +31,8 @@ vec3 GetDisplayLight(vec3 scene) {
   return (1.0 - exp(-w * pow(max(scene, vec3(1e-9)), vec3(response_contrast)))) / w;
 }
 
-// new / old that is exactly one when the two agree to the bit, on every driver, and keeps its
-// digits in deep twilight, where it is a millionth.
+// new / old, exactly one on every driver if the two agree to the bit, and precise in deep
+// twilight, where it is a millionth.
 vec3 GetRatio(vec3 now, vec3 before) {
   return mix(now / before, vec3(1.0), equal(now, before));
 }

@@ -1,5 +1,5 @@
-// The photo through the inverse camera response: scene-linear light. Drawn once a photo. Alpha
-// carries what else the frame asks about the land of a pixel: water, glitter and log-depth.
+// The photo through the inverse camera response: scene-linear light. Drawn once per photo. Alpha
+// packs the other land values that the frame needs: water, glitter and log-depth.
 
 #include "frame/picture.glsl"
 #include "frame/strip.glsl"

@@ -1,6 +1,6 @@
-// How open the picture is towards the sun on rings round it, in the mean: r along x, from the sun to
-// kLargestRing. The model's sky holds as much lit haze as there is in the mean; shafts are what
-// differs from it.
+// Mean openness of the picture towards the sun on rings around it: radius along x, from the sun to
+// kLargestRing. The model's sky contains the mean amount of lit haze; shafts are the deviations
+// from it.
 
 #include "camera/read_shafts.glsl"
 
@@ -18,7 +18,7 @@ void main() {
   for (int i = 0; i < kAngles; ++i) {
     float turn = 6.2831853 * float(i) / float(kAngles);
     vec2 place = sun.xy + radius * vec2(cos(turn) / GetAspect(), sin(turn));
-    // Only what the picture shows, softly, so that a drag makes no step.
+    // Count only places inside the picture, with a soft edge, so that a drag causes no step.
     vec2 inside = smoothstep(vec2(-0.05), vec2(0.05), min(place, 1.0 - place));
     vec2 shaft = GetShaft(place, sun.xy);
     float weight = inside.x * inside.y * shaft.y;

@@ -1,5 +1,5 @@
-// One pixel: the opacity of what un-mixing calls cloud and the photo's sun shines through, so that it takes no light
-// from the land: haze. The mean of the clouds where the land is lit, 0 where it lies in shade. Drawn once a photo.
+// One pixel: the opacity of haze, which un-mixing classifies as cloud but which the photo's sun shines through, so
+// that it does not shade the land. The clouds' mean if the land is sunlit, 0 if it is in shade. Drawn once per photo.
 
 #include "frame/picture.glsl"
 #include "land/land_mean.glsl"
@@ -8,7 +8,7 @@ uniform sampler2D openness;
 
 out vec4 result;
 
-// Share of the land that the photo's sun reaches, from which and by which it shines.
+// Sunlit shares of the land at which the photo's sun begins to count as shining, and fully counts.
 const vec2 kShines = vec2(0.05, 0.2);
 
 void main() {

@@ -1,4 +1,4 @@
-// Radiance in the directions that a table lists: azimuth and elevation in degrees in r and g.
+// Radiance in the directions listed in a table: azimuth and elevation in degrees in r and g.
 
 #include "explorer/read_shown.glsl"
 

@@ -1,5 +1,5 @@
-// Phase functions over the scattering angle, one degree a texel (1/sr): molecules, aerosol, and
-// both as they are mixed at the camera at 550 nm.
+// Phase functions over the scattering angle, one degree per texel (1/sr): molecules, aerosol, and
+// their mixture at the camera at 550 nm.
 
 #include "atmosphere/wavelength.glsl"
 

@@ -1,4 +1,4 @@
-// Radiance along the great circle through the sun and the zenith, one degree a texel: 0 the
+// Radiance along the great circle through the sun and the zenith, one degree per texel: 0 is the
 // horizon below the sun, 90 the zenith, 180 the horizon opposite.
 
 #include "explorer/read_shown.glsl"

@@ -1,5 +1,5 @@
-// The direct sun over its elevation from -1 to 90 degrees, dense at the horizon (-1 + 91 t^2): its
-// illuminance at normal incidence as linear Rec. 709 and as luminous flux, klx.
+// The direct sun's illuminance at normal incidence over its elevation from -1 to 90 degrees, dense at the
+// horizon (-1 + 91 t^2): rgb linear Rec. 709, a luminous, klx.
 
 #include "atmosphere/read_sky_view.glsl"
 #include "frame/srgb.glsl"

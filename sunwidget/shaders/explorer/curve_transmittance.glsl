@@ -1,5 +1,5 @@
-// Transmittance of the path to the sun over 380-780 nm: in all, and of molecules, aerosol and ozone
-// alone. Below the horizon that of the path that grazes it.
+// Transmittance of the path to the sun over 380-780 nm: total, and of molecules, aerosol and ozone
+// alone. A sun below the horizon gets the path that grazes the horizon.
 
 #include "atmosphere/wavelength.glsl"
 

@@ -1,4 +1,4 @@
-// What all pixels of explorer_frame.glsl share: the sky's description and the exposure.
+// Values shared by all pixels of explorer_frame.glsl: the sky's description and the exposure.
 
 #include "atmosphere/read_sky_view.glsl"
 

@@ -1,9 +1,9 @@
-// Paths of light through the air, followed backwards from the camera, for four wavelengths at once
-// (Wilkie et al., "Hero Wavelength Spectral Sampling", 2014): every choice is made by the
-// probabilities of one wavelength, drawn at random, the hero. A path carries what it transports at
-// each wavelength and how likely each of the four would have made it as a hero; transport over the
-// mean of the likelihoods (the balance heuristic) is an unbiased estimate at all four, and one
-// that varies little from color to color.
+// Paths of light through the air, traced backwards from the camera, for four wavelengths at once
+// (Wilkie et al., "Hero Wavelength Spectral Sampling", 2014): every choice follows the probabilities
+// of one randomly drawn wavelength, the hero. A path carries its transport at each wavelength and the
+// likelihood with which each of the four would have produced it as the hero; transport over the mean
+// of the likelihoods (the balance heuristic) is an unbiased estimate at all four, with little
+// noise in color.
 
 #include "atmosphere/atmosphere.glsl"
 #include "explorer/random.glsl"
@@ -13,9 +13,9 @@ uniform sampler2D columns;
 struct Path {
   Length h;
   vec3 up;           // from the center of the earth
-  vec3 direction;    // in which the path is followed
+  vec3 direction;    // in which the path is traced
   vec4 transport;
-  vec4 likelihood;   // of every wavelength as hero; of the hero itself it is one
+  vec4 likelihood;   // with each wavelength as hero; 1 for the hero itself
 };
 
 const int kEventSteps = 40;
@@ -29,15 +29,15 @@ float PickHero(vec4 spectrum, int hero) {
   return hero == 0 ? spectrum.r : hero == 1 ? spectrum.g : hero == 2 ? spectrum.b : spectrum.a;
 }
 
-// Distance along the ray at u in [0, 1]: dense at the start, and at the ground, where air is.
+// Distance along the ray at u in [0, 1]: dense at the start, and at the ground, where the air is dense.
 Length GetEventDistance(float u, Length d, bool ground) {
   return d * u * u * (ground ? 3.0 - 2.0 * u : 1.0);
 }
 
-// Move `path` to its next meeting with air, haze, ozone or ground and return whether it is the
-// ground; the light that the event sends on is still to be counted. Rays to space are forced to
-// meet the air, with the weight of that; rays to the ground get there as often as light does.
-// A ray through nothing ends with a transport of zero.
+// Moves `path` to its next event in air, haze, ozone or on the ground, and returns whether it is on
+// the ground; the caller applies scattering or albedo. Rays to space are forced to meet the air, with
+// the corresponding weight; rays to the ground reach it as often as light does.
+// A ray through a vacuum ends with a transport of zero.
 bool GoToNextEvent(inout Path path, int hero, mat3x4 coefficients) {
   float mu = clamp(dot(path.up, path.direction), -1.0, 1.0);
   bool ground = RayIntersectsGround(path.h, mu);
@@ -90,12 +90,12 @@ bool GoToNextEvent(inout Path path, int hero, mat3x4 coefficients) {
     path.likelihood /= ground ? vec4(1.0) : max(opacity, vec4(1e-30));
   }
   path.up = normalize((kGroundRadius + path.h) * path.up + t * path.direction);
-  // A centimetre keeps the next ray out of the ground.
+  // A centimeter keeps the next ray out of the ground.
   path.h = on_ground ? 0.01 : max(GetAltitudeAlongRay(path.h, mu, t), 0.01);
   return on_ground;
 }
 
-// Divide by the hero's likelihood, so that no product runs out of range.
+// Divides by the hero's likelihood, so that no product overflows or underflows.
 void NormalizePath(inout Path path, int hero) {
   float scale = 1.0 / max(PickHero(path.likelihood, hero), 1e-37);
   path.transport *= scale;
@@ -126,7 +126,7 @@ Number SampleRayleigh(float random) {
   return clamp(u - 1.0 / u, -1.0, 1.0);
 }
 
-// Henyey & Greenstein's has an inverse and is within a factor of 1.5 of Cornette & Shanks'.
+// Henyey & Greenstein's function has an inverse and is within a factor of 1.5 of Cornette & Shanks'.
 Number HenyeyGreenstein(Number g, Number nu) {
   float base = max(1.0 + g * g - 2.0 * g * nu, 1e-6);
   return (1.0 - g * g) / (4.0 * kPi * base * sqrt(base));
@@ -139,18 +139,18 @@ Number SampleHenyeyGreenstein(Number g, float random) {
 }
 
 void ReflectByGround(inout Path path) {
-  // By the cosine, which cancels: what is left of Lambert's law is the albedo.
+  // Sampled by the cosine, which cancels: of Lambert's law only the albedo remains.
   path.direction = GetDirectionAround(path.up, sqrt(GetRandom()), 2.0 * kPi * GetRandom());
 }
 
-// A new direction where the path meets air and haze of these scattering coefficients.
+// Draws a new direction at an event in air and haze with these scattering coefficients.
 void Scatter(inout Path path, int hero, vec4 rayleigh, vec4 mie) {
   vec4 by_air = rayleigh / max(rayleigh + mie, vec4(1e-37));
   bool air = GetRandom() < PickHero(by_air, hero);
   float random = GetRandom();
   float nu = air ? SampleRayleigh(random) : SampleHenyeyGreenstein(aerosol_asymmetry, random);
   path.direction = GetDirectionAround(path.direction, nu, 2.0 * kPi * GetRandom());
-  // Whichever of the two drew it, both could have.
+  // Count both phase functions, because either could have drawn this direction.
   float air_phase = RayleighPhase(nu);
   path.transport *= rayleigh * air_phase + mie * MiePhase(aerosol_asymmetry, nu);
   path.likelihood *= mix(vec4(HenyeyGreenstein(aerosol_asymmetry, nu)), vec4(air_phase), by_air);

@@ -1,11 +1,11 @@
-// From a pixel to the direction it shows, three ways. Twins: sunwidget/explorer/projection.py and
+// Three projections from a pixel to its direction. Twins: sunwidget/explorer/projection.py and
 // js/src/explorer/projection.js.
 //
 //   0  dome      equidistant fisheye of the upper half of the sky, zenith in the middle, the
-//                azimuth `view_azimuth` at the top. One looks up, so east lies to the left of
-//                north. The rim, kDomeShare of the smaller side, leaves room for names.
-//   1  panorama  equirectangular, all azimuths about `view_azimuth`, elevations from -10 to 90
-//                degrees, as large as it fits
+//                azimuth `view_azimuth` at the top. The view is upwards, so east lies to the left of
+//                north. The dome's diameter is kDomeShare of the smaller side: room for labels.
+//   1  panorama  equirectangular, all azimuths around `view_azimuth`, elevations from -10 to 90
+//                degrees, as large as fits
 //   2  camera    perspective towards `view_azimuth` and `view_elevation`, `fov` degrees high
 //
 // Directions are unit vectors: x towards azimuth 90, y up, z towards azimuth 0; azimuths grow
@@ -32,7 +32,7 @@ float GetDomeRadius() {
   return 0.5 * kDomeShare * min(frame_size.x, frame_size.y);
 }
 
-// Pixels a degree.
+// Pixels per degree.
 float GetPanoramaScale() {
   return min(frame_size.x / 360.0, frame_size.y / kPanoramaHeight);
 }
@@ -49,7 +49,7 @@ float GetPixelAngle() {
       : 1.0 / GetCameraFocal();
 }
 
-// The share of a pixel that shows the sky: the dome's rim is soft.
+// The share of a pixel that shows sky: the dome's rim is soft.
 float GetCoverage(vec2 pixel) {
   vec2 at = abs(pixel - 0.5 * frame_size);
   if (projection < 0.5) return clamp(GetDomeRadius() - length(at) + 0.5, 0.0, 1.0);
@@ -57,7 +57,7 @@ float GetCoverage(vec2 pixel) {
   return projection < 1.5 ? step(at.x, half_size.x) * step(at.y, half_size.y) : 1.0;
 }
 
-// Where `pixel` looks; false where it shows no sky.
+// Sets the direction that `pixel` shows; returns false if it shows no sky.
 bool GetViewDirection(vec2 pixel, out vec3 direction) {
   vec2 at = pixel - 0.5 * frame_size;
   float heading = radians(view_azimuth);

@@ -1,4 +1,4 @@
-// Random numbers in [0, 1), a sequence for each pixel and sample: the generator that Hash is a step of.
+// Random numbers in [0, 1), one sequence per pixel and sample, by the generator that Hash is a step of.
 
 #include "frame/hash.glsl"
 

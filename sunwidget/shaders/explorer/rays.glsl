@@ -1,4 +1,4 @@
-// Where each pixel looks, and in a the share of it that shows sky. Drawn again only when the
+// Each pixel's direction in rgb, and in a the share of it that shows sky. Redrawn only when the
 // projection changes, not while the sun moves.
 
 #include "explorer/projection.glsl"

@@ -1,5 +1,5 @@
-// Where the picture of the disc (sun_disc.glsl) lies on the sphere: a square about the sun, in the
-// plane that touches the sphere there, that holds the disc and the softness of its rim.
+// Position of the disc's picture (sun_disc.glsl) on the sphere: a square around the sun, in the
+// plane tangent to the sphere there, which contains the disc and its soft rim.
 
 uniform float sun_azimuth;
 uniform float sun_elevation;

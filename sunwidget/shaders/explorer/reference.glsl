@@ -1,11 +1,11 @@
-// The sky by path tracing: all orders of scattering with their true phase functions and no table but
-// that of path lengths to the sun. One path per pixel and run; `history` holds the mean of the runs
-// before. Slow and noisy, but the other models are measured by it.
+// The sky by path tracing: all orders of scattering with their true phase functions and no table except
+// that of path lengths to the sun. One path per pixel and run; `history` holds the mean of the previous
+// runs. Slow and noisy, but the reference for the other models.
 //
-// Single scattering is marched, in strata with one random place in each, so that noise touches only
-// what comes later (as in validation/path_tracer.py). The path is followed for the second order
-// and above: at every event the sun is sampled directly (next-event estimation), rays to space are
-// forced to scatter, and paths end by Russian roulette. All orders means 24: what is left out is
+// Single scattering is marched, in strata with one random place in each, so that noise affects only
+// higher orders (as in validation/path_tracer.py). The path is traced for the second order and
+// above: at every event the sun is sampled directly (next-event estimation), rays to space are
+// forced to scatter, and paths end by Russian roulette. All orders means 24: the rest is
 // 1e-6 of the light over grass or snow, and 0.4 % over white ground in thick white haze.
 
 #include "explorer/path.glsl"
@@ -38,8 +38,8 @@ RadianceSpectrum MarchFirstOrder(Path path, vec3 sun, mat3x4 coefficients) {
   for (int i = 0; i < kStrata; ++i) {
     float u = float(i + 1) / float(kStrata);
     float end = d * u * u;
-    // Light is drawn somewhere in the stratum, extinction in its middle: the exponential of a random
-    // depth would be brighter than that of its mean.
+    // Light is sampled at a random place in the stratum, extinction in its middle: the exponential of
+    // a random depth would on average be brighter than that of its mean.
     vec4 extinction = coefficients * GetDensity(GetAltitudeAlongRay(h, mu, 0.5 * (start + end)));
     float t = mix(start, end, place);
     float h_t = GetAltitudeAlongRay(h, mu, t);

@@ -1,12 +1,12 @@
-// The views of one or two models, and of them the orders of scattering that are shown, texel by
-// texel: all are laid out alike (atmosphere/read_sky_view.glsl) over the same guess, so that they add up. What a run
-// does not draw is bound to `sky_view` and not counted.
+// The views of one or two models with the shown orders of scattering, texel by texel: all have the
+// same layout (atmosphere/read_sky_view.glsl) and are divided by the same guess, so that they add up.
+// Views that a run does not draw are bound to `sky_view` and not used.
 //
-// The reference is no view but a picture; here lies what it takes beside it, so that what is shown
-// is show_multiple times the reference plus this.
+// The reference is a picture, not a view. For it this holds the remainder: the shown sky is
+// show_multiple times the reference plus this.
 
 uniform vec2 pass_size;
-uniform sampler2D sky_view;         // all orders, or as many as are asked for
+uniform sampler2D sky_view;         // all orders, or as many as are set
 uniform sampler2D sky_view_single;  // the first order alone
 uniform sampler2D bruneton_view;
 uniform float model;                // 0 multiple, 1 single, 2 bruneton, 3 reference
@@ -28,7 +28,7 @@ void main() {
   float chosen = right && compare > 0.5 ? compare - 1.0 : model;
   vec4 single = texelFetch(sky_view_single, texel, 0);
   vec4 bruneton = texelFetch(bruneton_view, texel, 0);
-  // Single scattering is the same light whoever adds the rest.
+  // Single scattering is the same light in every model.
   vec4 whole = chosen < 0.5 ? all_orders : chosen < 1.5 ? single : bruneton;
   bool every = show_single * show_multiple > 0.5;
   vec4 part = show_multiple * max(whole - single, 0.0) + show_single * single;

@@ -1,5 +1,5 @@
-// A small picture of the sun's disc, linear Rec. 709 in kcd m^-2: limb-darkened, reddened on its
-// way, and cut by the horizon. See explorer/read_sun_disc.glsl.
+// A small picture of the sun's disc, linear Rec. 709 in kcd m^-2: limb-darkened, reddened by the
+// air, and cut by the horizon. See explorer/read_sun_disc.glsl.
 
 #include "explorer/projection.glsl"
 #include "atmosphere/read_sky_view.glsl"

@@ -37,7 +37,7 @@ vec3 GetAirChange(vec2 place, float log_depth, vec3 light, vec3 gain) {
   float believed = min(kLargestShare * GetLuminance(light) / max(GetLuminance(before), 1e-12), 1.0);
   // Air that the photo shows in another color than the model gives way as far as the pixel has it.
   vec3 held = min(believed * before, kLargestShare * light);
-  vec3 change = share_now * WithoutLostTint(air_before, air_now) / max(before, vec3(1e-12));
+  vec3 change = share_now * RemoveLostTint(air_before, air_now) / max(before, vec3(1e-12));
   vec3 given = held * change + (believed * before - held) * max(change - 1.0, 0.0);
   vec3 taken = gain * held;
   return GetSkySeen() * aerial_perspective * mix(given - taken, vec3(0.0), equal(given, taken));

@@ -55,7 +55,7 @@ vec3 WithoutGuesses(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
   float another = max(turned, risen);  // how far its light is another
   float guessed = max(kLitColor * another, dark * lift * lift / (lift * lift + 4.0));
   // A balance that the photo's light has bent is not that of another light.
-  vec3 color = WithoutBalance(lit, max(max(kBalanceGone * turned, risen * GetEveningsBalance()), GetVividness()));
+  vec3 color = RemoveBalance(lit, max(max(kBalanceGone * turned, risen * GetEveningBalance()), GetVividness()));
   land += guessed * (color * (level / GetLuminance(color)) - land);
   vec3 mean = GetSceneLight(photo_land_linear_mean);
   vec3 usual = mix(color / GetLuminance(color), mean * ratio / max(GetLuminance(mean * ratio), 1e-9),

@@ -7,16 +7,16 @@ vec3 GetLightTexel(sampler2D light, int index) {
 
 #include "land/soft_cosine.glsl"
 
-// Irradiance of a landscape seen from the camera: `facing` of its surfaces stand upright and
-// face the viewer, the rest lie flat. `visible` is the share of the disc that is not hidden.
+// Irradiance of a landscape seen from the camera: the share `facing` of its surfaces is upright and
+// faces the viewer, the rest is level. `visible` is the visible share of the sun's disc.
 vec3 GetLandIrradiance(sampler2D light, float visible, float facing, vec3 sun_direction) {
   vec3 sky = mix(GetLightTexel(light, 0), GetLightTexel(light, 2), facing);
   float cosine = mix(GetSoftCosine(sun_direction.y, kRoughness), GetSoftCosine(-sun_direction.z, kRoughness), facing);
   return sky + visible * cosine * GetLightTexel(light, 1);
 }
 
-// Radiance of a white cloud: it sees the sky above and around, and the sun of its own height
-// from any side. `forward` adds the forward lobe of thin cloud (silver lining).
+// Radiance of a white cloud, lit by the sky above and around it and, from any side, by the sun as
+// seen at its height. `forward` adds the forward lobe of thin cloud (silver lining).
 vec3 GetCloudRadiance(sampler2D light, float forward) {
   vec3 sky = 0.5 * (GetLightTexel(light, 0) + GetLightTexel(light, 2));
   return (sky + 0.5 * (1.0 + forward) * GetLightTexel(light, 8)) / 3.14159265;

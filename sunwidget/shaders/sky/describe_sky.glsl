@@ -1,5 +1,5 @@
-// For a pass's constants: what a look-up in one sky view needs beside its radiances, read once.
-// sky/described_sky.glsl takes it up.
+// The description of one sky view (what a look-up needs besides its radiances), read once into a
+// pass's constants for sky/described_sky.glsl.
 
 #include "atmosphere/read_sky_view.glsl"
 #include "sky/sun_behind_cloud.glsl"

@@ -1,5 +1,5 @@
-// The matched sky of one sky view, in the photo's scene-linear unit, and the camera's glare. What is the
-// same for all pixels comes from sky/describe_sky.glsl and frame_constants.glsl.
+// The matched sky of one sky view, in the photo's scene-linear unit, and the camera's glare. Values shared by
+// all pixels come from sky/describe_sky.glsl and frame_constants.glsl.
 
 #include "atmosphere/read_sky_view.glsl"
 #include "sky/matched_sky.glsl"

@@ -1,15 +1,15 @@
-// The new sun's disc, in the photo's scene-linear unit: limb-darkened, and reddened on its way.
-// composite_constants.glsl holds log2 of its radiance as a parabola over its height. Where the photo shows its own larger, which
-// its camera burnt to white or drew by a longer lens, the new one is as large.
+// The new sun's disc, in the photo's scene-linear unit: limb-darkened, and reddened by the air.
+// composite_constants.glsl holds log2 of its radiance as a parabola over its height. If the photo's own disc is
+// larger, because it is clipped or the lens is longer, the new disc is as large.
 
 #include "frame/read_composite_constants.glsl"
 #include "sky/described_sky.glsl"
 #include "sky/moon_disc.glsl"
 
-uniform float own_disc_burnt;  // how far the photo's own disc is white, 0 to 1
-uniform float own_disc_rim;    // where its light is halved, in units of its radius, 1.1 to 1.9
+uniform float own_disc_burnt;  // how far the photo's own disc is clipped to white, 0 to 1
+uniform float own_disc_rim;    // where its light falls to half, in units of its radius, 1.1 to 1.9
 
-const float kBurnt = 30.0;  // times its light: what lies above white in the middle of a burnt core
+const float kBurnt = 30.0;  // light beyond white in the middle of a clipped core, relative to the disc's light
 
 vec3 GetDisc(vec3 view, vec3 sun) {
   vec4 extent = composite[kDisc];
@@ -32,10 +32,10 @@ vec3 GetDisc(vec3 view, vec3 sun) {
   vec4 own = texelFetch(composite_constants, ivec2(kOwnDisc, 0), 0);
   if (own.a > radius) {
     float x = chord / own.a;
-    // Even up to a sharp rim, soft from the middle on in a glow.
+    // A sharp rim leaves the disc uniform inside; a glow fades from the middle on.
     vec2 fades = mix(own_disc_rim + vec2(-0.3, 0.2), vec2(0.0, 1.2), smoothstep(1.3, 1.9, own_disc_rim));
     float even = 1.0 - smoothstep(fades.x, fades.y, x);
-    // Of the channels that the air leaves less of the camera burns a smaller core: a low sun has a warm rim.
+    // Channels that the air dims more have a smaller clipped core in the camera: a low sun has a warm rim.
     vec3 color = UnpackColor(described[0].w);
     vec3 rim = pow(vec3(even), clamp(color.r / max(color, vec3(1e-6)), 1.0, 5.0));
     float inside = max(1.0 - x * x, 0.0);

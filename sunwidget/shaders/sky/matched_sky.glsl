@@ -1,4 +1,4 @@
-// The model's sky in the photo's colors: gain per channel, fitted once at the photo's own
+// The model's sky in the photo's colors: one gain per channel, fitted once at the photo's own
 // sun (analysis/fit/fit.py) and frozen, since a refit after a move would pull a sunset back to noon.
 
 #include "sky/moonlight.glsl"

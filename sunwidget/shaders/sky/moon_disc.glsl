@@ -1,7 +1,7 @@
-// What a full moon looks like: no limb darkening (its dust sends light back to where it came from),
-// and maria, the dark plains, as the northern hemisphere sees them when it stands in the south.
+// Appearance of a full moon: no limb darkening (its dust scatters light back towards the source),
+// and maria, the dark plains, as seen from the northern hemisphere when it stands in the south.
 
-// Albedo over its mean at a place of the disc, x to the right and y up in units of its radius.
+// Albedo relative to its mean at a point of the disc, x to the right and y up in units of its radius.
 float GetMoonAlbedo(vec2 place) {
   // x, y and inverse radius: Imbrium, Serenitatis, Tranquillitatis, Procellarum, Nubium, Fecunditatis.
   const vec3 maria[6] = vec3[6](vec3(-0.25, 0.5, 3.2), vec3(0.3, 0.45, 5.0), vec3(0.46, 0.14, 4.2),

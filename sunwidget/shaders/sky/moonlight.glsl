@@ -1,5 +1,5 @@
-// The light of the picture: the sun's, or a full moon's, which the same air scatters in the same
-// way. Only method "ratio" changes one for the other; passes of the others define PHOTOS_OWN_LIGHT.
+// The picture's light source: the sun or a full moon, whose light the air scatters in the same way.
+// Only method "ratio" exchanges them; passes of the other methods define PHOTOS_OWN_LIGHT.
 
 uniform int light_source;   // 0 sun, 1 moon, 2 as in the photo
 uniform float photo_light;  // the photo's own: 0 sun, 1 moon
@@ -7,7 +7,7 @@ uniform float photo_light;  // the photo's own: 0 sun, 1 moon
 // Full moon over sun, each at its mean distance: 14.01 magnitudes, and redder, B-V 0.92 against
 // 0.65 (Krisciunas & Schaefer 1991, "A model of the brightness of moonlight", PASP 103; Allen 1973).
 const vec3 kMoonOverSun = vec3(1.1, 1.0, 0.8) / 402000.0;
-// Air glow and stars, 21.6 magnitudes a square arc second, in kcd m^-2: what is left when the moon
+// Airglow and stars, 21.6 magnitudes per square arc second, in kcd m^-2: what remains when the moon
 // has set.
 const vec3 kNightSky = vec3(2.6e-7, 2.5e-7, 2.3e-7);
 
@@ -20,13 +20,13 @@ float GetMoon() {
 #endif
 }
 
-// The model is lit by the sun and matched to the photo (sky_gain), whichever light that had.
-// Times this, it is lit by the light of this state: exactly one where that is the photo's own.
+// The model is lit by the sun and matched to the photo (sky_gain), whichever source lit the photo. This
+// factor converts it to the source of this state; it is exactly one if that is the photo's own.
 vec3 GetLightScale(float moon) {
   return mix(vec3(1.0), kMoonOverSun, moon) / mix(vec3(1.0), kMoonOverSun, photo_light);
 }
 
-// Radiance that no moon is needed for.
+// Radiance that does not come from the moon.
 vec3 GetNightSky(float moon) {
   return moon * kNightSky / mix(vec3(1.0), kMoonOverSun, photo_light);
 }

@@ -1,5 +1,5 @@
-// How much brighter than the model, clouds included, the photo's sky without its sun is, slowly varying: log of
-// luminance. Second, by how much more that is than elsewhere in the sky, away from the sun. Drawn once a photo.
+// r: how much brighter the photo's sky without its sun is than the model with clouds, slowly varying (log of
+// luminance). g: how far that exceeds the rest of the sky, away from the sun. Drawn once per photo.
 
 #define PHOTOS_OWN_LIGHT
 #include "frame/picture.glsl"
@@ -21,9 +21,9 @@ uniform vec2 pass_size;
 out vec4 result;
 
 const float kReach = 0.1;  // two deviations, in longer sides of the picture
-const int kTaps = 6;       // on either side
-const int kElsewhere = 12;  // columns and rows of taps all over the picture
-const float kFewest = 1.0;  // taps' weight that tells half of what lies elsewhere
+const int kTaps = 6;       // on each side
+const int kElsewhere = 12;  // columns and rows of taps over the whole picture
+const float kFewest = 1.0;  // total weight of taps elsewhere at which g has half its size
 
 // The model's light where `opacity` of a pixel is cloud, lit by the sky (`ambient`) and the sun (`direct`).
 vec3 GetModel(vec2 place, vec3 light, float opacity, vec3 ambient, vec3 direct) {
@@ -41,8 +41,8 @@ float GetWeight(vec2 tap) {
   return inside * matte * matte;
 }
 
-// Log of luminance, photo over model.
-float GetOwn(vec2 tap, vec3 ambient, vec3 direct) {
+// Log of the photo's luminance over the model's.
+float GetLogExcess(vec2 tap, vec3 ambient, vec3 direct) {
   vec4 layer = ReadPicture(layers, tap);
   vec3 light = GetBackdropLight(ReadBilinear(backdrop, tap).rgb);
   vec3 model = GetModel(tap, light, min(layer.g / layer.r, 1.0), ambient, direct);
@@ -64,7 +64,7 @@ void main() {
       vec2 tap = place + vec2(i, j) * pace;
       float weight = GetWeight(tap) * exp(-2.0 * float(i * i + j * j) / float(kTaps * kTaps));
       if (weight < 1e-4) continue;
-      sum += weight * GetOwn(tap, ambient, direct);
+      sum += weight * GetLogExcess(tap, ambient, direct);
       total += weight;
     }
   }
@@ -78,7 +78,7 @@ void main() {
       float far = 1.0 - GetNearness(dot(GetViewDirection(tap), sun));
       float weight = GetWeight(tap) * far * far;
       if (weight < 1e-4) continue;
-      elsewhere += weight * GetOwn(tap, ambient, direct);
+      elsewhere += weight * GetLogExcess(tap, ambient, direct);
       known += weight;
     }
   }

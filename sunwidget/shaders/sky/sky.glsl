@@ -1,5 +1,5 @@
-// The matched sky at every pixel (sky/described_sky.glsl). Of the photo's own sun it is drawn once
-// a photo; the frame relights by what the sky at the moved sun is to it, and draws that itself.
+// The matched sky at every pixel (sky/described_sky.glsl), for the photo's own sun: drawn once per photo.
+// The frame relights by the ratio of the moved sun's sky to it, and computes the moved sun's sky itself.
 
 #define PHOTOS_OWN_LIGHT
 #include "frame/picture.glsl"

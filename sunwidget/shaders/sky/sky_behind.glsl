@@ -1,7 +1,7 @@
-// The sky without the old sun, as the analysis found it (analysis/backdrop/backdrop.py). Drawn once a photo.
-// Alpha carries what else the frame asks about the sky of a pixel, so that it reads one map for both:
-// matte, cloud opacity and glare of the old sun. On water it is the water without the old sun's glints,
-// and what its waves make of glints instead of the glare (water_behind.glsl). CLOUDS_UNEDITED as in retouch.glsl.
+// The sky without the old sun, from the analysis (analysis/backdrop/backdrop.py). Drawn once per photo.
+// Alpha packs the other sky values that the frame needs, so that it reads one map for both:
+// matte, cloud opacity and glare of the old sun. On water this is the water without the old sun's glints,
+// with the waves' share of glints instead of the glare (water_behind.glsl). CLOUDS_UNEDITED as in retouch.glsl.
 
 #include "frame/picture.glsl"
 #include "frame/strip.glsl"
@@ -30,7 +30,7 @@ void main() {
 #ifndef CLOUDS_UNEDITED
   if (IsCloudEdited()) {
     vec3 model = texelFetch(sky_source, texel, 0).rgb;
-    // As retouch.glsl changes the photo; a sky without detail needs no dissolving.
+    // The same edit as in retouch.glsl; a sky without detail needs no dissolving.
     vec4 open = ReadBilinear(clear_sky, place);
     sky = GetEditedSky(sky, model * DecodeResidual(open.rgb), sky, layer, open.a, 1.0, ReadAddedLayer(place));
   }

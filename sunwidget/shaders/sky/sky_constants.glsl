@@ -1,4 +1,4 @@
-// What all pixels of sky.glsl share.
+// Values shared by all pixels of sky.glsl.
 
 #define PHOTOS_OWN_LIGHT
 #include "sky/describe_sky.glsl"

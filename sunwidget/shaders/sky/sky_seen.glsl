@@ -1,10 +1,10 @@
-// Whether the photo shows a sky that tells what light it stands in.
+// Whether the photo shows enough sky to reveal its light.
 
 uniform float sky_share;  // of the picture
 
-// Where none does, the land changes as one, and by this share of stops.
+// Without a visible sky, the land changes uniformly, by this share of the stops.
 const float kRestraint = 0.6;
-// Shares of which nothing and all is told.
+// Shares of sky that reveal nothing, and everything.
 const float kNoSky = 0.005;
 const float kSomeSky = 0.03;
 
@@ -12,7 +12,7 @@ float GetSkySeen() {
   return smoothstep(kNoSky, kSomeSky, sky_share);
 }
 
-// Of the stops by which light and exposure change.
+// Factor on the stops by which light and exposure change.
 float GetRestraint() {
   return mix(kRestraint, 1.0, GetSkySeen());
 }

@@ -1,5 +1,5 @@
 // The sky's scene-linear light with its clouds' edges dissolved: the photo, blurred within the sky as
-// far as the opacity in clear_sky's alpha is (analysis/clear_sky.py).
+// widely as the opacity in clear_sky's alpha (analysis/clear_sky.py).
 
 #include "frame/picture.glsl"
 #include "camera/response.glsl"
@@ -12,7 +12,7 @@ uniform vec2 pass_size;
 out vec4 result;
 
 const float kReach = 0.055;  // about two deviations, in longer sides of the picture
-const int kTaps = 6;         // on either side
+const int kTaps = 6;         // on each side
 
 void main() {
   vec2 place = gl_FragCoord.xy / pass_size;

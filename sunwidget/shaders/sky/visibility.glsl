@@ -1,9 +1,9 @@
-// How much of the sun's disc the picture leaves visible: one pixel, r in [0, 1]; g the same of the
-// bright sky round it, kAureole wide, for the glow: that comes before the disc and stays after it.
-// Land hides it (sky matte), clouds veil it (opacity); the horizon itself is light.glsl's
-// affair, so only the part of the disc above it is counted here. A sun that the photo shows (its
-// glare, in `surface`) is not behind the thick cloud that its whiteness pretends. Outside the picture the
-// edge's answer fades to "visible" over a tenth of the picture. `sun_visibility` veils all of it.
+// The visible share of the sun's disc in the picture: one pixel, r in [0, 1]; g the same for the
+// bright sky around it, kAureole wide, for the glow, which appears before the disc and outlasts it.
+// Land hides the sun (sky matte), clouds veil it (opacity); light.glsl handles the horizon itself,
+// so only the part of the disc above it is counted here. A sun that the photo shows (its glare, in
+// `surface`) is not behind the thick cloud that its whiteness suggests. Outside the picture the
+// edge's value fades to "visible" over a tenth of the picture. `sun_visibility` veils all of it.
 
 #include "frame/picture.glsl"
 #include "clouds/cloud_cover.glsl"
@@ -21,8 +21,8 @@ const float kDiscRadius = 0.2665;  // degrees
 const int kRings = 3;
 const int kSpokes = 12;
 
-// The added clouds are bright themselves and let light through: they take no more than this share
-// (of a cloud of optical depth 16 a third comes through), and come slowly before the sun.
+// Added clouds are bright themselves and transmit light: they remove at most this share
+// (a cloud of optical depth 16 transmits a third), and cover the sun gradually.
 const float kCloudShade = 0.65;
 const float kCloudPenumbra = 10.0;  // in disc radii
 const float kAureole = 4.0;         // in disc radii

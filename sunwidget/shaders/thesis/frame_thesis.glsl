@@ -1,6 +1,6 @@
-// The picture as the founding thesis makes it (M. Türe, METU 2017, chapter 3). Equation numbers
-// are the thesis'. method 1, "thesis": the errata corrected; method 2, "thesis_literal": as
-// printed, for teaching. All colors here are display-linear, as the thesis has them.
+// The picture by the founding thesis' method (M. Türe, METU 2017, chapter 3). Equation numbers
+// are the thesis'. Method 1, "thesis": errata corrected; method 2, "thesis_literal": as
+// printed, for teaching. All colors here are display-linear, as in the thesis.
 
 #include "frame/picture.glsl"
 #include "frame/strip.glsl"
@@ -33,7 +33,7 @@ uniform float cloud_ratio_max;
 uniform float blend_distance;
 uniform float blend_power;
 
-// As GetSunDiscRadiance has it, dimmed by its way through the air as a parabola over its height.
+// As in GetSunDiscRadiance, but with the transmittance of the air as a parabola over the disc's height.
 RadianceSpectrum GetDiscRadiance(vec3 view) {
   float radius = disc_extent.a;
   float softness = 1.0 / (camera_focal * frame_size.y);
@@ -57,7 +57,7 @@ void main() {
   vec3 color = retouched_texel.rgb;
   vec4 layer = ReadPixel(layers, place);
 
-  // The rendered sky, with the disc: F' is the new sun mask.
+  // The rendered sky with the disc; the mask is F', the new sun mask.
   vec3 sky_first = GetThesisSky(texelFetch(sky_source, texel, 0).rgb, model_mean.rgb, model_deviation.rgb);
   vec3 sky_now = GetThesisSky(texelFetch(sky_edit, texel, 0).rgb, model_mean.rgb, model_deviation.rgb);
   vec3 disc = sky_gain * max(SpectralToRec709(GetDiscRadiance(view)), vec3(0.0));

@@ -1,5 +1,5 @@
-// Reinhard et al. 2001, "Color Transfer between Images": mean and deviation in lαβ, here over
-// sky pixels only (thesis 3.2.3), with statistics taken once at the photo's own sun.
+// Reinhard et al. 2001, "Color Transfer between Images": matches mean and deviation in lαβ, here over
+// sky pixels only (thesis 3.2.3), with statistics computed once at the photo's own sun.
 
 const mat3 kLmsFromRgb = mat3(0.3811, 0.1967, 0.0241, 0.5783, 0.7244, 0.1288, 0.0402, 0.0782, 0.8444);
 const mat3 kRgbFromLms = mat3(4.4679, -1.2186, 0.0497, -3.5873, 2.3809, -0.2439, 0.1193, -0.1624, 1.2045);

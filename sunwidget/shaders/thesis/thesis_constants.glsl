@@ -1,4 +1,4 @@
-// What all pixels of the thesis' picture share: its statistics, how land changes (eq. 3.7), and the new sun's disc.
+// Values shared by all pixels of the thesis' picture: its statistics, the land's change (eq. 3.7), the new sun's disc.
 
 #include "frame/picture.glsl"
 #include "atmosphere/read_sky_view.glsl"
@@ -28,26 +28,27 @@ uniform float altitude;
 flat out vec4 model_mean;       // lαβ of the model at the photo's sun
 flat out vec4 model_deviation;
 flat out vec4 land_change;      // rgb the factor of eq. 3.7; a the power of eq. 3.8
-flat out vec4 disc_extent;      // its direction; a its radius, as a chord
+flat out vec4 disc_extent;      // xyz the disc's direction; a its radius, as a chord
 flat out vec4 disc_height;      // sine of the elevation of its visible part's middle, inverse of half its height
-flat out vec4 disc_path[3];     // log2 of the transmittance to that part: in its middle, slope and bend
+flat out vec4 disc_path[3];     // log2 of the transmittance to that part: value in the middle, slope and bend
 
-// The color of the sun's light: what is left of white after its way through the air.
+// The color of the sun's light: white, filtered by its path through the air.
 vec3 GetSunColor(sampler2D light) {
   vec3 sun = GetLightTexel(light, 7);
   return sun / max(GetLuminance(sun), 1e-9);
 }
 
 // S̄ with the sun's pixels amplified by F^s. Corrected: the disc adds a fixed share of the sky's
-// mean (the true disc at F^s = 1000 adds a quarter), dimmed by its way through the air; printed:
-// the weight falls on the mask's pixels, whatever their number.
+// mean (the true disc at F^s = 1000 adds a quarter), dimmed by the air; as printed: the weight
+// applies to the mask's pixels, whatever their number.
 vec3 GetSkyMean(vec3 mean, sampler2D light, float visible) {
   if (method == 2) {
     float share = sun_sky_ratio * sun_mask_share * visible;
     return (mean + share * vec3(1.0)) / (1.0 + share);
   }
   float beam = GetLuminance(GetLightTexel(light, 1)) / max(GetLuminance(GetLightTexel(light_before, 7)), 1e-9);
-  return mean + 0.25 * sun_sky_ratio / 1000.0 * visible * beam * GetLuminance(texelFetch(thesis_mean_source, ivec2(0), 0).rgb) * GetSunColor(light);
+  return mean + 0.25 * sun_sky_ratio / 1000.0 * visible * beam
+      * GetLuminance(texelFetch(thesis_mean_source, ivec2(0), 0).rgb) * GetSunColor(light);
 }
 
 vec3 GetLandFactor(float visible_before, float visible_now) {
@@ -61,13 +62,14 @@ vec3 GetLandFactor(float visible_before, float visible_now) {
   return mean_now / max(mean_first, vec3(1e-4));                               // 3.7
 }
 
+// Log2 of the transmittance to the top of the atmosphere.
 vec4 GetPath(float sine_of_elevation) {
   return log2(max(GetTransmittanceToTop(columns, altitude, sine_of_elevation), vec4(1e-30)));
 }
 
 void SetDisc() {
   disc_extent = vec4(GetSunDirection(sun_azimuth, sun_elevation), kSunAngularRadius * sun_size);
-  // From the horizon, or the lower edge above it, to the upper one; pixels on an edge look past it.
+  // From the horizon, or the lower edge if above it, to the upper edge; pixels on an edge extend past it.
   float reach = disc_extent.a + 0.5 / (camera_focal * frame_size.y);
   float low = max(disc_extent.y - reach, GetCosineOfHorizon(altitude));
   float high = max(disc_extent.y + reach, low + 1e-4);

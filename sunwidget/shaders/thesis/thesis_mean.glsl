@@ -1,4 +1,4 @@
-// S̄: the mean of the thesis' sky over the picture's sky pixels. One pixel.
+// S̄: the thesis' sky, averaged over the picture's sky pixels. One pixel.
 
 #define PHOTOS_OWN_LIGHT
 #include "frame/picture.glsl"

@@ -12,7 +12,7 @@ uniform sampler2D layers;
 
 out vec4 result;
 
-const ivec2 kGrid = ivec2(96, 72);  // once a photo; the gradient at the horizon needs it
+const ivec2 kGrid = ivec2(96, 72);  // drawn once per photo; the gradient at the horizon needs this many
 
 void main() {
   vec3 sum = vec3(0.0);

@@ -37,7 +37,7 @@ vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirr
   vec3 sun = texelFetch(composite_constants, ivec2(kWaterSunNow, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
   vec3 glints = changed * shown / (1.0 + shown / kBrightest) * sun;
   vec3 relit = max(calm * mirror.rgb + air, vec3(0.0));
-  sky = WithoutBalance(sky, GetRisen(GetSunBefore(), GetDescribedSun()) * GetEveningsBalance());
+  sky = RemoveBalance(sky, GetRisen(GetSunBefore(), GetDescribedSun()) * GetEveningBalance());
   // As in the sky (sky/tint.glsl): color that the photo's water has beyond the model's fades.
   float level = GetLuminance(relit);
   relit += kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))) * (sky * (level / GetLuminance(sky)) - relit);
