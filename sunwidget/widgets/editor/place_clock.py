@@ -16,9 +16,10 @@ from sunwidget.analysis.heading import HeadingMatch, heading_by_sun
 from sunwidget.analysis.place_resolver import ResolvedPlace, resolve_place
 from sunwidget.edit.table import Edit
 from sunwidget.errors import EditError
-from sunwidget.geometry.place import Place, day_table, solar_day
+from sunwidget.geometry.place import Place
 from sunwidget.photo.photo import Photo
 from sunwidget.photo.place import PhotoPlace, from_photo
+from sunwidget.widgets.editor.editor_state import day_key, day_state
 from sunwidget.widgets.editor.history import EditHistory
 from sunwidget.widgets.kernel import background
 from sunwidget.widgets.kernel.analysed import Analysed
@@ -159,7 +160,7 @@ class PlaceClock(EditHistory, Analysed):
         return super().get_state(key, drop_defaults)
 
     def _on_place(self, change: Any) -> None:
-        if change.new is None or self._day_key(change.new) != self._day.get("key"):
+        if change.new is None or day_key(change.new) != self._day.get("key"):
             self._refresh_day()
 
     def _on_source(self, _change: Any) -> None:
@@ -167,20 +168,7 @@ class PlaceClock(EditHistory, Analysed):
 
     def _refresh_day(self) -> None:
         with self._lock:
-            place = self.place
-            if place is None:
-                self._day = {}
-                return
-            key = self._day_key(place)
-            try:
-                self._day = {"key": key, "path": day_table(place).tolist()}
-            except ImportError as error:
-                # Without pvlib there is a place all the same, only no clock.
-                self._day = {"key": key, "error": str(error)}
-
-    @staticmethod
-    def _day_key(place: Place) -> list[Any]:
-        return [place.latitude, place.longitude, solar_day(place)]
+            self._day = day_state(self.place)
 
 
 @contextlib.contextmanager
