@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from sunwidget.transfer.look import transfer_look
     from sunwidget.transfer.sky_replacement import replace_sky
     from sunwidget.widgets import Compare, SkyExplorer, Study, SunEditor
-    from sunwidget.widgets.page.headless import to_html
+    from sunwidget.widgets.page.standalone import to_html
 
 # Public name -> (module, name in it).
 _HOMES: dict[str, tuple[str, str]] = {
@@ -93,7 +93,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "sweep": ("sunwidget.film.sweep", "sweep"),
     "timelapse": ("sunwidget.timelapses.timelapse", "timelapse"),
     "to_dome": ("sunwidget.export.dome.photo", "to_dome"),
-    "to_html": ("sunwidget.widgets.page.headless", "to_html"),
+    "to_html": ("sunwidget.widgets.page.standalone", "to_html"),
 }
 
 __all__ = [

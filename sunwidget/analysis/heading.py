@@ -70,8 +70,8 @@ def heading_by_sun(scene: Scene, place: Place) -> HeadingMatch:
     """
     if scene.lit_by_moon:
         raise ValueError(
-            "The photo shows the moon, and a heading is found by the sun. Give heading=, degrees "
-            "from north."
+            "The photo shows the moon, and a heading is found by the sun. Give the heading, "
+            "degrees clockwise from north."
         )
     found = scene.automatic
     seen = scene.sun is not None and scene.sun.visible

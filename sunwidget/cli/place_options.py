@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import argparse
-import re
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from sunwidget.edit.recipe import read_recipe
 from sunwidget.edit.table import Edit
-from sunwidget.geometry.place import Place
+from sunwidget.geometry.place import Place, clock_hours
 
 if TYPE_CHECKING:
+    from sunwidget.analysis.place_resolver import ResolvedPlace
     from sunwidget.analysis.scene import Scene
     from sunwidget.photo.photo import Photo
-    from sunwidget.photo.place import PhotoPlace
 
-_TIME = re.compile(r"(\d{1,2})(?::([0-5]\d))?$")
+_REMEDIES = {
+    "latitude": "--place LAT,LON",
+    "longitude": "--place LAT,LON",
+    "date": "--date YYYY-MM-DD",
+    "time": "--time HH:MM",
+    "heading": "--heading DEG, clockwise from north",
+}
 
 
 def add_place(parser: argparse.ArgumentParser, *, end: bool = False) -> None:
@@ -83,78 +88,39 @@ def place_of(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
     ValueError
         When place, date or time are neither given nor known, or the heading cannot be found.
     """
-    told, values = _values(options, scene.photo, edit.place)
-    if values["heading"] is None or options.time is None:
-        for note in told.notes:
+    resolved = _resolved(options, scene.photo, edit.place)
+    if resolved.place.heading is None or options.time is None:
+        for note in resolved.notes:
             print(f"sunwidget: {note}", file=sys.stderr)
-    place = Place(**values)
-    own = told.values()
-    return place if place.heading is not None else _facing(scene, place, own["date"], own["time"])
+    place, match = resolved.facing(scene)
+    if match is not None:
+        print(f"sunwidget: Heading {place.heading:.1f}°. {match.note}", file=sys.stderr)
+    return place
 
 
 def refuse_unplaced(options: argparse.Namespace, photo: Photo) -> None:
-    """Fail before the analysis when the clock is asked for and place, day or time are unknown."""
+    """Fail before the analysis when the clock needs a value that nothing provides."""
     if is_placed(options) or _whole_day(options):
         recipe = None if options.recipe is None else read_recipe(options.recipe)
-        _values(options, photo, recipe.place if recipe else None)
+        _resolved(options, photo, recipe.place if recipe else None)
 
 
-def _values(
-    options: argparse.Namespace, photo: Photo, place: Place | None
-) -> tuple[PhotoPlace, dict[str, Any]]:
-    """Return what the photo's file tells, and the fields of the Place that flags are to give."""
-    from sunwidget.photo.place import from_photo
+def _resolved(options: argparse.Namespace, photo: Photo, place: Place | None) -> ResolvedPlace:
+    from sunwidget.analysis.place_resolver import resolve_place
 
     latitude, longitude = options.coordinates or (None, None)
-    told = from_photo(photo, longitude)
-    values = told.values()
-    given = {
-        "latitude": latitude,
-        "longitude": longitude,
-        "date": options.date,
-        "time": options.time,
-        "heading": options.heading,
-    }
-    known = vars(place) if place is not None else {}
-    for source in (known, given):
-        values |= {name: value for name, value in source.items() if value is not None}
-    if values["time"] is None and values["longitude"] is not None and _whole_day(options):
-        values["time"] = (12 - values["longitude"] / 15) % 24  # any hour while the sun is up
-    _refuse_missing(values)
-    return told, values
-
-
-def _refuse_missing(values: dict[str, Any]) -> None:
-    needed = {
-        "latitude": ("the place", "--place LAT,LON"),
-        "date": ("the day", "--date YYYY-MM-DD"),
-        "time": ("the time", "--time HH:MM"),
-    }
-    missing = [words for name, words in needed.items() if values[name] is None]
-    if missing:
-        what, flags = (" and ".join(words) for words in zip(*missing, strict=True))
-        raise ValueError(
-            f"The sun's position needs place, day and time, but neither the photo's file "
-            f"nor a recipe gives {what}. Give {flags}."
-        )
+    return resolve_place(
+        photo,
+        _REMEDIES,
+        given={"latitude": latitude, "longitude": longitude, "heading": options.heading},
+        place=place,
+        moved_to={"date": options.date, "time": options.time},
+        whole_day=_whole_day(options),
+    )
 
 
 def _whole_day(options: argparse.Namespace) -> bool:
     return bool(getattr(options, "day", False))
-
-
-def _facing(scene: Scene, place: Place, date: str | None, time: float | None) -> Place:
-    """Return the place with the heading that the photo's sun gives at the photo's own time."""
-    from sunwidget.analysis.heading import heading_by_sun
-
-    if date is None or time is None:
-        raise ValueError(
-            "Which way the camera looks is found by the photo's sun at the photo's own time, "
-            "which its file does not record. Give --heading, degrees from north."
-        )
-    found = heading_by_sun(scene, place.replace(date=date, time=time))
-    print(f"sunwidget: Heading {found.place.heading:.1f}°. {found.note}", file=sys.stderr)
-    return place.replace(heading=found.place.heading)
 
 
 def coordinates(text: str) -> tuple[float, float]:
@@ -177,11 +143,10 @@ def _date(text: str) -> str:
 
 
 def _time(text: str) -> float:
-    found = _TIME.match(text)
-    hours = int(found[1]) + int(found[2] or 0) / 60 if found else -1.0
-    if not 0 <= hours <= 24:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a time of day in UTC as 17:30")
-    return hours
+    try:
+        return clock_hours(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a time of day in UTC as 17:30") from None
 
 
 def _heading(text: str) -> float:

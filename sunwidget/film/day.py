@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -11,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sunwidget.edit.table import Edit
-from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day
+from sunwidget.geometry.place import Place, at_hours, clock_hours, day_table, hours_of_day
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -21,7 +19,10 @@ Between = Callable[[Edit, Edit, float, "Scene"], Edit]
 CIVIL_TWILIGHT = -6.0
 """Degrees of the sun's centre below the horizon at civil dawn and dusk."""
 
-_CLOCK = re.compile(r"(\d{1,2})(?::([0-5]\d))?$")
+_REMEDIES = dict.fromkeys(
+    ("latitude", "longitude", "date", "time", "heading"),
+    "the day its place: sunwidget.Day(sunwidget.Place(latitude, longitude, date, time))",
+)
 
 
 @dataclass(frozen=True)
@@ -104,23 +105,10 @@ class Day:
         return row
 
     def _place(self, scene: Scene) -> Place:
-        from sunwidget.analysis.heading import heading_by_sun
-        from sunwidget.photo.place import from_photo
+        from sunwidget.analysis.place_resolver import resolve_place
 
-        place = self.place or self.edit.place or from_photo(scene.photo).place
-        if place is None:
-            raise ValueError(
-                "The photo's file does not record where and when it was taken. Give the day its "
-                "place: sunwidget.Day(sunwidget.Place(latitude, longitude, date, time))."
-            )
-        if place.heading is not None:
-            return place
-        told = from_photo(scene.photo, place.longitude)
-        if told.heading is not None:
-            return place.replace(heading=told.heading)
-        taken = {name: told.values()[name] for name in ("date", "time")}
-        then = place if told.moment is None else place.replace(**taken)
-        return place.replace(heading=heading_by_sun(scene, then).place.heading)
+        place = self.place or self.edit.place
+        return resolve_place(scene.photo, _REMEDIES, place=place).facing(scene)[0]
 
     def _hours(self, place: Place) -> tuple[Place, float, float]:
         """Return a place on the film's day, and first and last hour as ``day_table`` counts."""
@@ -146,26 +134,6 @@ class Day:
         if last == first:
             raise ValueError("The film of a day ends when it begins: give it another end.")
         return place, first, last
-
-
-def clock_hours(value: float | str) -> float:
-    """Return a time of day as hours, 0–24.
-
-    Raises
-    ------
-    ValueError
-        For what is neither hours nor "HH:MM".
-    """
-    found = _CLOCK.match(value.strip()) if isinstance(value, str) else None
-    if found:
-        hours = int(found[1]) + int(found[2] or 0) / 60
-    elif isinstance(value, (int, float)) and not isinstance(value, bool):
-        hours = float(value)
-    else:
-        hours = math.nan
-    if not 0 <= hours <= 24:
-        raise ValueError(f"A time of day is hours UTC from 0 to 24 or 'HH:MM', not {value!r:.40}.")
-    return hours
 
 
 def _crossing(table: np.ndarray, row: int, way: int) -> float:

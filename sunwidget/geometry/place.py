@@ -10,6 +10,7 @@ import dataclasses
 import datetime as dt
 import functools
 import math
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
 
 _LOWEST, _HIGHEST = -12.0, 90.0  # elevations that an edit takes
+_CLOCK = re.compile(r"(\d{1,2})(?::([0-5]\d))?$")
 
 
 @dataclass(frozen=True)
@@ -153,6 +155,26 @@ def at_hours(place: Place, hours: float) -> Place:
     days = math.floor(hours / 24)
     time = round(hours - 24 * days, 4)
     return place.replace(date=_later(solar_day(place), days), time=time)
+
+
+def clock_hours(value: float | str) -> float:
+    """Return a time of day as hours, 0–24.
+
+    Raises
+    ------
+    ValueError
+        For what is neither hours nor "HH:MM".
+    """
+    found = _CLOCK.match(value.strip()) if isinstance(value, str) else None
+    if found:
+        hours = int(found[1]) + int(found[2] or 0) / 60
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        hours = float(value)
+    else:
+        hours = math.nan
+    if not 0 <= hours <= 24:
+        raise ValueError(f"A time of day is hours UTC from 0 to 24 or 'HH:MM', not {value!r:.40}.")
+    return hours
 
 
 def turned(degrees: float) -> float:

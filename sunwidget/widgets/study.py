@@ -28,7 +28,7 @@ from sunwidget.widgets.kernel.output import with_picture
 from sunwidget.widgets.kernel.payload import encode_jpeg, encode_preview
 from sunwidget.widgets.page.framed import StaticPage
 from sunwidget.widgets.page.saved_state import SavedLight
-from sunwidget.widgets.page.standalone import embedded_state, written_page
+from sunwidget.widgets.page.standalone import widget_state, written_page
 
 _MOST_REPEATS = 100
 _SMALL_EDGE = 400  # pixels of each picture in the static one
@@ -186,7 +186,7 @@ class Study(SavedLight):
     def _page(self, title: str) -> str:
         from sunwidget.widgets.page.html import Still, page
 
-        embedded = embedded_state(self)
+        embedded = widget_state(self)
         embedded["state"] |= {"_answers": [], "rater": "", "_thumbnail": None}
         embedded["buffers"] = [b for b in embedded["buffers"] if b["path"] != ["_thumbnail"]]
         first = self._pictures[0]

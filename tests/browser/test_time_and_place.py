@@ -9,7 +9,7 @@ from chromium import widget_state
 import sunwidget as sw
 from sunwidget.geometry.place import sun_at
 from sunwidget.widgets import SunEditor
-from sunwidget.widgets.editor.place_clock import _told
+from sunwidget.widgets.editor.place_clock import recorded_place
 
 pytest.importorskip("pvlib")
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
@@ -19,7 +19,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 def widget(coast):
     """The coast at its own place and time; the clock stands at 17:00."""
     editor = SunEditor(coast).wait()
-    editor._photo_place = _told(sw.sample("coast"))
+    editor._photo_place = recorded_place(sw.sample("coast"))
     told = editor._photo_place
     editor.set_place(*(told[n] for n in ("latitude", "longitude", "date", "time", "heading")))
     editor.time = 17.0

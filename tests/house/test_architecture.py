@@ -61,6 +61,7 @@ STAGES = [
     "frame_inputs",
     "maps",
     "heading",
+    "place_resolver",
     "pipeline",
     "strokes",
     "correct",

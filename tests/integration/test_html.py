@@ -14,6 +14,7 @@ from PIL import Image
 import sunwidget as sw
 from sunwidget.errors import RendererError
 from sunwidget.widgets import SkyExplorer, SunEditor
+from sunwidget.widgets.editor.editor_state import editor_state
 from sunwidget.widgets.page import html as module
 from sunwidget.widgets.page import standalone as parts
 from sunwidget.widgets.page.html import Still, page
@@ -154,9 +155,35 @@ def test_an_editor_writes_what_it_shows(scene):
     assert "47.123456" not in text
 
 
+def test_a_page_holds_what_an_editor_of_the_same_edit_shows(scene):
+    edit = sw.Edit(
+        sun_elevation=3,
+        strokes=(sw.Stroke("not_sky", ((0.3, 0.2), (0.5, 0.25)), 0.05),),
+        horizon_hint=((0, 0.6), (1, 0.61)),
+        place=sw.Place(50.09, 14.42, "2024-03-20", 17.0, 270.0),
+    )
+    editor = SunEditor(scene, recipe=edit).wait()
+    shown = parts.widget_state(editor)
+    shown["state"]["_scene"]["notes"] = []
+    shown["state"]["_photo_place"] = {}
+    session = editor._source["session"]
+    made = parts.embedded_state(editor_state(scene, edit, session=session))
+    assert made["state"] == shown["state"]
+    for state in (made, shown):
+        state["buffers"].sort(key=lambda buffer: buffer["path"])
+    assert made["buffers"] == shown["buffers"]
+    # What its maker keeps beside the edit goes along.
+    editor.keep("low")
+    editor.key_frames = [(0, sw.Edit()), (2, edit)]
+    state = content(editor.to_html())["state"]
+    for name in ("_versions", "key_frames", "_source"):
+        assert state[name] == parts.widget_state(editor)["state"][name]
+    assert (len(state["_versions"]), len(state["key_frames"])) == (1, 2)
+
+
 def test_binary_traits_are_where_they_were(scene):
     editor = SunEditor(scene).wait()
-    embedded = parts.embedded_state(editor)
+    embedded = parts.widget_state(editor)
     names = {tuple(row["path"]) for row in embedded["buffers"]}
     assert {("_photo",), ("_layers",), ("_surface",)} <= names
     for row in embedded["buffers"]:

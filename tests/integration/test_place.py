@@ -10,9 +10,10 @@ from PIL import Image
 
 import sunwidget as sw
 from sunwidget.analysis.heading import heading_by_sun, match
+from sunwidget.analysis.place_resolver import resolve_place
 from sunwidget.cli import sweep
 from sunwidget.cli.main import _parser, main
-from sunwidget.cli.place_options import placed
+from sunwidget.cli.place_options import place_of, placed
 from sunwidget.errors import EditError
 from sunwidget.film.path import film_edits
 from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, solar_day, sun_at
@@ -36,13 +37,13 @@ def scene():
     return sw.analyze(photo.preview(384), fov=photo.field_of_view.vertical)
 
 
-def taken(clock="2024:03:20 18:00:00", offset=None, gps=None, **tags):
-    """Open a photo that was taken so."""
+def taken(clock="2024:03:20 18:00:00", offset=None, gps=None, pixels=None, **tags):
+    """Open a photo that was taken so; black where no pixels are given."""
     shot = {} if clock is None else {0x9003: clock}
     if offset is not None:
         shot[0x9011] = offset
     block = corpus.exif_block(tags=tags or None, shot=shot, gps=gps)
-    stored = np.zeros((30, 40, 3), np.uint8)
+    stored = np.zeros((30, 40, 3), np.uint8) if pixels is None else pixels
     return sw.open(corpus.png_file(stored, chunks=[(b"eXIf", block[6:])]))
 
 
@@ -266,6 +267,61 @@ def test_the_samples_heading_is_found_by_its_sun(pvlib, scene):
     assert found.seen
 
 
+# --- one rule for every caller -----------------------------------------------------------
+
+NO_REMEDY = dict.fromkeys(("latitude", "longitude", "date", "time", "heading"), "it")
+
+
+def test_each_field_is_the_first_that_is_known():
+    photo = taken(gps=fix(time=(17, 0, 0), heading=262.5))
+    assert resolve_place(photo, NO_REMEDY).place == PRAGUE.replace(heading=262.5)
+    edited = SYDNEY.replace(heading=None)
+    found = resolve_place(photo, NO_REMEDY, given={"latitude": -30, "time": None}, place=edited)
+    assert found.place == Place(-30, 151.21, "2024-06-21", 2.0, 262.5)
+    assert resolve_place(photo, NO_REMEDY, place=edited, moved_to={"time": 9}).place.time == 9
+
+
+def test_the_moment_at_which_a_photo_was_taken_is_not_the_one_to_which_the_sun_moves():
+    photo, late = taken(gps=fix(time=(17, 0, 0))), PRAGUE.replace(time=20)
+    found = resolve_place(photo, NO_REMEDY, place=late, moved_to={"date": "2024-06-21"})
+    assert found.place.moment.isoformat() == "2024-06-21T20:00:00+00:00"
+    assert found.taken == late.replace(time=17)
+    # Who gives a time corrects the camera's clock; without any, the edit's is the best guess.
+    assert resolve_place(photo, NO_REMEDY, given={"time": 16}).taken.time == 16
+    assert resolve_place(taken(clock=None), NO_REMEDY, place=late).taken == late
+
+
+def test_a_clock_without_a_zone_is_read_by_the_longitude_that_holds():
+    found = resolve_place(taken(), NO_REMEDY, given={"latitude": 50, "longitude": 14, "heading": 0})
+    assert found.place == Place(50, 14, "2024-03-20", 17.0, 0)
+    assert "guess" in found.notes[0]
+    assert resolve_place(taken(), NO_REMEDY, place=SYDNEY).taken.time == 8
+
+
+def test_what_is_missing_is_said_with_its_remedy():
+    remedies = {**NO_REMEDY, "date": "a date", "time": "a time", "heading": "a heading"}
+    bare = taken(clock=None)
+    with pytest.raises(ValueError, match=r"longitude, date and time\. Give it, a date and"):
+        resolve_place(bare, remedies, given={"latitude": 50})
+    moved_to = {"date": "2024-06-21", "time": 12}
+    with pytest.raises(ValueError, match=r"heading is found by .* Give a heading\."):
+        resolve_place(bare, remedies, given={"latitude": 50, "longitude": 14}, moved_to=moved_to)
+
+
+def test_editor_film_and_command_line_resolve_alike(pvlib, scene):
+    told = from_photo(sw.sample("coast")).place
+    position = fix(told.latitude, told.longitude)
+    photo = taken("2025:09:27 17:41:51", "+01:00", position, scene.photo.encoded)
+    again = sw.analyze(photo, fov=scene.camera.fov_vertical_deg)
+    editor = editor_of(again)
+    editor.set_place()
+    assert editor.place.heading == pytest.approx(told.heading, abs=2.5)
+    options = _parser().parse_args(["sweep", "x.png", "--day", "-o", "x.gif"])
+    assert place_of(options, again, sw.Edit()) == editor.place
+    by_film = film_edits(again, sw.Day(), frames=2)[0].place
+    assert (by_film.heading, by_film.latitude) == (editor.place.heading, editor.place.latitude)
+
+
 # --- in the editor -----------------------------------------------------------------------
 
 
@@ -443,7 +499,7 @@ def test_the_command_line_says_what_is_missing(pvlib, tmp_path, capsys, scene):
     output = ["-o", str(tmp_path / "x.png")]
     assert main(["render", str(plain), "--time", "12:00", *output]) == 2
     said = capsys.readouterr().err
-    assert "gives the place and the day. Give --place LAT,LON and --date YYYY-MM-DD." in said
+    assert "latitude, longitude and date. Give --place LAT,LON and --date YYYY-MM-DD." in said
     assert said.count("\n") == 1  # before the analysis, and so without what that warns of
     assert main(["render", str(plain), "--place", "50,14", *output]) == 2
     assert "Give --date YYYY-MM-DD and --time HH:MM." in capsys.readouterr().err

@@ -37,7 +37,7 @@ from sunwidget.widgets.kernel.payload import (
 )
 from sunwidget.widgets.kernel.sources import opened
 from sunwidget.widgets.page.framed import StaticPage
-from sunwidget.widgets.page.standalone import embedded_state, written_page
+from sunwidget.widgets.page.standalone import widget_state, written_page
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -246,7 +246,7 @@ class Compare(Analysed, AnswersRefusals):
         size = open_photo(picture).size
         still = Still(picture, size, f"{self.photo.name}: {', '.join(self._edits)}")
         with self._lock:
-            embedded = embedded_state(self)
+            embedded = widget_state(self)
         return page(embedded, still, title=title, notes=_NOTES)
 
     def _deliver(self, scene: Scene) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import os
 import tempfile
 from pathlib import Path
@@ -10,18 +9,18 @@ from typing import Any
 
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit.recipe import edit_of
-from sunwidget.edit.table import Edit, plain
+from sunwidget.edit.table import Edit
 from sunwidget.formats.png import encode_small_png
 from sunwidget.progress import Progress
 from sunwidget.widgets.editor.detail import detail
-from sunwidget.widgets.editor.history import NAMES, EditHistory
+from sunwidget.widgets.editor.history import EditHistory
 from sunwidget.widgets.editor.snapshot import SNAPSHOT_EDGE, Snapshot
 from sunwidget.widgets.kernel.analysed import Analysed
 from sunwidget.widgets.kernel.output import with_picture
 from sunwidget.widgets.kernel.payload import THUMBNAIL_EDGE, encode_picture, thumbnail
 from sunwidget.widgets.kernel.requests import Answer
 from sunwidget.widgets.page.framed import StaticPage
-from sunwidget.widgets.page.standalone import editor_page, embedded_state, still_of, written_page
+from sunwidget.widgets.page.standalone import editor_page, written_page
 
 _SUFFIXES = {"JPEG": ".jpg", "PNG": ".png", "TIFF": ".tif", "WEBP": ".webp"}
 _TYPES = {
@@ -120,12 +119,9 @@ class Pictures(EditHistory, Analysed):
         return save((self._base_scene(), edit), path, **options)
 
     def _page(self, edit: Edit, title: str | None = None) -> str:
-        self._analyst.wait()
-        still = still_of(self.photo, functools.partial(self._render, edit))
-        with self._lock:
-            embedded = embedded_state(self)
-        embedded["state"] |= {name: plain(getattr(edit, name)) for name in NAMES}
-        return editor_page(embedded, still, self.photo, title=title)
+        kept = self.whole_state(("_versions", "key_frames"))
+        session = self._source["session"]
+        return editor_page(self._base_scene(), edit, session=session, kept=kept, title=title)
 
     def _base_scene(self) -> Scene:
         # The renderer applies the edit's corrections to the scene without them.

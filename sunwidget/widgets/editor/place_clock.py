@@ -5,20 +5,32 @@ The browser moves the sun itself, from the path in ``_day``; the kernel computes
 
 from __future__ import annotations
 
+import contextlib
 import datetime as dt
+from collections.abc import Iterator
 from typing import Any
 
 import traitlets
 
 from sunwidget.analysis.heading import HeadingMatch, heading_by_sun
+from sunwidget.analysis.place_resolver import ResolvedPlace, resolve_place
 from sunwidget.edit.table import Edit
 from sunwidget.errors import EditError
-from sunwidget.geometry.place import Place, day_table, solar_day
+from sunwidget.geometry.place import Place
 from sunwidget.photo.photo import Photo
 from sunwidget.photo.place import PhotoPlace, from_photo
+from sunwidget.widgets.editor.editor_state import day_key, day_state
 from sunwidget.widgets.editor.history import EditHistory
 from sunwidget.widgets.kernel import background
 from sunwidget.widgets.kernel.analysed import Analysed
+
+_POSITION_AND_TIME = (
+    "where and when it was taken, in degrees and hours UTC: "
+    'editor.set_place(41.0, 29.0, "2026-06-21", 17.5)'
+)
+_REMEDIES = dict.fromkeys(("latitude", "longitude", "date", "time"), _POSITION_AND_TIME) | {
+    "heading": "degrees clockwise from north: editor.set_place(heading=270)"
+}
 
 
 class PlaceClock(EditHistory, Analysed):
@@ -26,14 +38,14 @@ class PlaceClock(EditHistory, Analysed):
 
     # What the browser needs of the day: its key and its path, or why there is none.
     _day = traitlets.Dict().tag(sync=True, echo_update=False)
-    # What the photo's file says of place and time.
+    # Place and time as the photo's file records them.
     _photo_place = traitlets.Dict().tag(sync=True, echo_update=False)
 
     place: Place | None
 
     def __init__(self, start: Edit, **state: Any) -> None:
         self._made = False
-        super().__init__(start, _photo_place=_told(self.photo), **state)
+        super().__init__(start, _photo_place=recorded_place(self.photo), **state)
         self._made = True
         self.observe(self._on_place, "place")
         self.observe(self._on_source, "_source")
@@ -43,25 +55,23 @@ class PlaceClock(EditHistory, Analysed):
 
     @property
     def photo_place(self) -> PhotoPlace:
-        """What the photo's file says of place, time and heading."""
+        """Place, time and heading as the photo's file records them."""
         return from_photo(self.photo)
 
     @property
     def time(self) -> float | None:
         """Hours UTC on the place's date; None without a place. Assign hours to move the sun.
 
-        The sun goes where it stands at that time: one step with the place. With no place set,
-        the one in the photo's file is taken; see ``set_place`` for what is raised.
+        The sun moves to where it stands at that time, in one step with the place. Without a
+        place, the photo's file provides it; the errors are those of ``set_place``.
         """
         return None if self.place is None else self.place.time
 
     @time.setter
     def time(self, hours: float) -> None:
-        place = self.place if self.place is not None else self._found_place()
-        try:
+        with _as_edit_error():
+            place = self.place or self._facing(self._resolved())
             self._step(self.edit.at(place.replace(time=hours)))
-        except ValueError as error:
-            raise EditError(str(error)) from None
 
     def set_place(
         self,
@@ -71,11 +81,12 @@ class PlaceClock(EditHistory, Analysed):
         time: float | None = None,
         heading: float | None = None,
     ) -> None:
-        """Say where and when the photo was taken and which way the camera looked.
+        """Set where and when the photo was taken and which way the camera looked.
 
-        What is not given stays as it is set, else it is what the photo's file says; a heading
-        that neither knows is found by the photo's sun (``heading_by_sun``), which waits for the
-        analysis. The sun stays where it is until ``time`` is assigned.
+        A value that is not given stays as it is set; where none is set, the photo's file provides
+        it. Without a heading in either, the photo's sun gives it at the time at which the photo
+        was taken: the one given here, else the file's, else the one that is set. That waits for
+        the analysis. The sun stays where it is until ``time`` is assigned.
 
         Parameters
         ----------
@@ -91,7 +102,7 @@ class PlaceClock(EditHistory, Analysed):
         Raises
         ------
         EditError
-            When something is missing that neither place nor file knows, or out of range.
+            When a value is out of range, or missing in the call, the place and the file.
         ImportError
             When a heading has to be found, without pvlib (``pip install 'sunwidget[solar]'``).
 
@@ -107,12 +118,15 @@ class PlaceClock(EditHistory, Analysed):
             "time": time,
             "heading": heading,
         }
-        self._step(self.edit.replace(place=self._found_place(given)))
+        with _as_edit_error():
+            place = self._facing(self._resolved(given))
+        self._step(self.edit.replace(place=place))
 
     def heading_by_sun(self) -> HeadingMatch:
         """Set the heading so that the photo's own sun stands where time and place put it.
 
-        Waits for the analysis. The time must be the photo's, not one the clock was moved to.
+        Waits for the analysis. The time must be the one at which the photo was taken, not one to
+        which the clock was moved.
 
         Returns
         -------
@@ -125,33 +139,19 @@ class PlaceClock(EditHistory, Analysed):
         EditError
             Without a place; ValueError for a photo of the moon; ImportError without pvlib.
         """
-        place = self.place if self.place is not None else self._found_place(match=False)
+        with _as_edit_error():
+            place = self._resolved().place
         found = heading_by_sun(self.scene, place)
         self._step(self.edit.replace(place=found.place))
         return found
 
-    def _found_place(self, given: dict[str, Any] | None = None, *, match: bool = True) -> Place:
-        """Return the place of what is given, else set, else told by the file."""
-        values = {name: value for name, value in (given or {}).items() if value is not None}
-        known = from_photo(self.photo, values.get("longitude")).values()
-        if self.place is not None:
-            known |= vars(self.place)
-        values = {**known, **values}
-        missing = [n for n in ("latitude", "longitude", "date", "time") if values.get(n) is None]
-        if missing:
-            *first, last = missing
-            told = f"{', '.join(first)} and {last}" if first else last
-            raise EditError(
-                f"The photo's file does not say its {told}. Give where and when it was taken, in "
-                'degrees and hours UTC: editor.set_place(41.0, 29.0, "2026-06-21", 17.5).'
-            )
-        try:
-            place = Place(**values)
-            if place.heading is None and match:
-                place = heading_by_sun(self.scene, place).place
-        except ValueError as error:
-            raise EditError(str(error)) from None
-        return place
+    def _resolved(self, given: dict[str, Any] | None = None) -> ResolvedPlace:
+        return resolve_place(self.photo, _REMEDIES, given=given, place=self.place)
+
+    def _facing(self, resolved: ResolvedPlace) -> Place:
+        """Return the place with its heading; waits for the analysis only to find one."""
+        known = resolved.place.heading is not None
+        return resolved.place if known else resolved.facing(self.scene)[0]
 
     def get_state(self, key: Any = None, drop_defaults: bool = False) -> Any:
         """Return the traits as they travel; all of them with the path of the place's day."""
@@ -160,35 +160,30 @@ class PlaceClock(EditHistory, Analysed):
         return super().get_state(key, drop_defaults)
 
     def _on_place(self, change: Any) -> None:
-        if change.new is None or self._day_key(change.new) != self._day.get("key"):
+        if change.new is None or day_key(change.new) != self._day.get("key"):
             self._refresh_day()
 
     def _on_source(self, _change: Any) -> None:
-        self._photo_place = _told(self.photo)
+        self._photo_place = recorded_place(self.photo)
 
     def _refresh_day(self) -> None:
         with self._lock:
-            place = self.place
-            if place is None:
-                self._day = {}
-                return
-            key = self._day_key(place)
-            try:
-                self._day = {"key": key, "path": day_table(place).tolist()}
-            except ImportError as error:
-                # Without pvlib there is a place all the same, only no clock.
-                self._day = {"key": key, "error": str(error)}
-
-    @staticmethod
-    def _day_key(place: Place) -> list[Any]:
-        return [place.latitude, place.longitude, solar_day(place)]
+            self._day = day_state(self.place)
 
 
-def _told(photo: Photo) -> dict[str, Any]:
-    """Return what a photo's file tells, for the browser."""
-    told = from_photo(photo)
-    return told.values() | {
-        # Where no zone is known, the browser guesses one once a longitude is said.
-        "clock": told.clock.isoformat() if told.clock is not None else None,
-        "notes": list(told.notes),
+@contextlib.contextmanager
+def _as_edit_error() -> Iterator[None]:
+    try:
+        yield
+    except ValueError as error:
+        raise EditError(str(error)) from None
+
+
+def recorded_place(photo: Photo) -> dict[str, Any]:
+    """Return the place and time that a photo's file records, for the browser."""
+    recorded = from_photo(photo)
+    return recorded.values() | {
+        # Where no zone is known, the browser guesses one once a longitude is given.
+        "clock": recorded.clock.isoformat() if recorded.clock is not None else None,
+        "notes": list(recorded.notes),
     }

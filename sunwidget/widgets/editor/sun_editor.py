@@ -7,36 +7,34 @@ sends messages to kernel subshells.
 
 from __future__ import annotations
 
+import itertools
 import uuid
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import traitlets
 
 from sunwidget import presets
-from sunwidget.analysis.frame_inputs import uniforms
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit.recipe import edit_of, read_code
 from sunwidget.edit.table import CORRECTIONS, Edit
 from sunwidget.photo.photo import Photo
 from sunwidget.progress import Progress
+from sunwidget.widgets.editor.editor_state import scene_state, source_state
 from sunwidget.widgets.editor.exports import Exports
 from sunwidget.widgets.editor.place_clock import PlaceClock
-from sunwidget.widgets.editor.uploads import Uploads, fingerprint
+from sunwidget.widgets.editor.uploads import Uploads
 from sunwidget.widgets.kernel.analysed import OPENING
 from sunwidget.widgets.kernel.analyst import Analyst
 from sunwidget.widgets.kernel.front_end import front_end
 from sunwidget.widgets.kernel.payload import (
     MAP_TRAITS,
     encode_map,
-    encode_maps,
     encode_preview,
     map_json,
     other_horizons,
     parameter_json,
     saved_photo,
-    scene_json,
 )
 from sunwidget.widgets.kernel.preload import preload
 from sunwidget.widgets.kernel.requests import Action, Answer, Requests
@@ -109,12 +107,12 @@ class SunEditor(PlaceClock, Exports):
         start = edit_of(recipe).replace(**options)
         self.photo: Photo = source.photo if isinstance(source, Scene) else source
         self._set_asides: dict[str, dict[str, Any]] = {}  # edits of other photos, by fingerprint
-        self._revision = 0
+        self._revisions = itertools.count(1)
         self._shown: Scene | None = None  # the scene that the browser has
         super().__init__(
             start,
             _photo=encode_preview(self.photo),
-            _source=self._source_json(uuid.uuid4().hex),
+            _source=source_state(self.photo, uuid.uuid4().hex),
             _status=OPENING,
         )
         self._requests = Requests(self.send, self._actions())
@@ -163,7 +161,7 @@ class SunEditor(PlaceClock, Exports):
             self._photo, self._status, self._scene = preview, OPENING, {}
             self._layers = self._surface = self._backdrop = b""
             self._clear_sky = self._relief = self._transfer = self._lamps = b""
-            self._source = self._source_json(self._source["session"])
+            self._source = source_state(photo, self._source["session"])
             aside = self._set_asides.pop(self._source["fingerprint"], None)
             self._take_up(**(aside or {"edit": start}))
             if aside and given:
@@ -231,13 +229,6 @@ class SunEditor(PlaceClock, Exports):
         if change.new is None:  # closed: nobody is there to take what was asked for
             self._requests.cancel()
 
-    def _source_json(self, session: str) -> dict[str, str]:
-        return {
-            "name": self.photo.name,
-            "fingerprint": fingerprint(self.photo),
-            "session": session,
-        }
-
     def _analyst_of(self, source: Photo | Scene, options: dict[str, Any]) -> Analyst:
         def report(stage: str, fraction: float, message: str) -> None:
             # Work on a photo that is no longer shown may still be under way.
@@ -248,20 +239,15 @@ class SunEditor(PlaceClock, Exports):
         return analyst
 
     def _deliver(self, scene: Scene) -> None:
-        with ThreadPoolExecutor(1) as beside:
-            beside.submit(uniforms, scene)  # asked for below
-            maps = encode_maps(scene)
+        state = scene_state(scene, next(self._revisions))
         with self._lock:
             if scene.photo is not self.photo:
                 return
-            self._revision += 1
             self._shown = scene
-            described = scene_json(scene, self._revision)
             # One message, so that a view never sees maps of two scenes.
             with self.hold_sync():
-                for name, data in maps.items():
-                    setattr(self, name, data)
-                self._scene = described
+                for name, value in state.items():
+                    setattr(self, name, value)
 
     def _actions(self) -> dict[str, Action]:
         """Return what the browser can ask for, by name."""

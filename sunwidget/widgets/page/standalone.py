@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import base64
 import contextlib
+import functools
 import os
-from collections.abc import Callable
+import uuid
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from sunwidget.analysis.scene import Scene, checked_scene
+from sunwidget.edit.recipe import edit_of
+from sunwidget.edit.table import Edit
 from sunwidget.files import complete_or_absent, target
 from sunwidget.photo.photo import Photo
+from sunwidget.widgets.editor.editor_state import editor_state
 from sunwidget.widgets.page.html import Still, page
 from sunwidget.widgets.page.saved_state import SavedLight
 
@@ -33,20 +39,72 @@ _NOTES = (
 )
 
 
+def to_html(
+    scene: Scene,
+    edit: Edit | dict[str, Any] | None = None,
+    path: str | os.PathLike[str] | None = None,
+    *,
+    title: str | None = None,
+    overwrite: bool = False,
+) -> Path | str:
+    """Write a page in which the sun of an analysed photo can be moved: one file, no kernel.
+
+    Parameters
+    ----------
+    scene : Scene
+        What ``analyze`` returned.
+    edit : Edit or dict, optional
+        What the page starts with. Its strokes and hints are applied, and stay as they are.
+    path : path, optional
+        Where to write it. Default: nowhere, and the page is returned as text.
+    title : str, optional
+        Of the page. Default: the photo's name.
+    overwrite : bool
+        Replace an existing file.
+
+    Returns
+    -------
+    Path or str
+        Where the page is, or the page. It holds the photo's preview (at most 2048 pixels a
+        side), its maps and the front end: 2 to 8 MB. In it everything that a shader draws is
+        live; strokes, hints and the full size are not there, and it says so.
+
+    Raises
+    ------
+    FileExistsError
+        When ``path`` exists and ``overwrite`` is false.
+    AnalysisError
+        When a hint of the edit cannot be used.
+    OSError
+        When the folder is missing or the disk full; no half-written file is left.
+
+    Examples
+    --------
+    >>> sw.to_html(scene, sw.Edit(sun_elevation=3), "evening.html")
+    """
+    start = edit_of(edit)
+    return written_page(
+        lambda: editor_page(checked_scene(scene), start, session=uuid.uuid4().hex, title=title),
+        path,
+        overwrite=overwrite,
+    )
+
+
 def editor_page(
-    embedded: dict[str, Any], still: Still, photo: Photo, *, title: str | None = None
+    scene: Scene,
+    edit: Edit,
+    *,
+    session: str,
+    kept: Mapping[str, Any] | None = None,
+    title: str | None = None,
 ) -> str:
-    """Return the page of an editor from its ``embedded_state``."""
-    state = embedded["state"] | {
-        # The steps back are the maker's own, and a stroke taken back would need the kernel.
-        "_history": {"past": [], "future": []},
-        # Pages are passed on: where a photo was taken is in none that its maker did not put there.
-        "_photo_place": {},
-        # Notes tell the maker what to correct; in a page nothing can be.
-        "_scene": embedded["state"]["_scene"] | {"notes": []},
-    }
-    name = photo.name if title is None else title
-    return page({**embedded, "state": state}, still, title=name, notes=_NOTES)
+    """Return the page of an edit; ``scene``, ``session`` and ``kept`` as ``editor_state``."""
+    from sunwidget.renderer.offscreen import render
+
+    photo = scene.photo
+    still = still_of(photo, functools.partial(render, scene, edit))
+    embedded = embedded_state(editor_state(scene, edit, session=session, kept=kept))
+    return page(embedded, still, title=photo.name if title is None else title, notes=_NOTES)
 
 
 def explorer_page(widget: Any, *, title: str) -> str:
@@ -57,18 +115,25 @@ def explorer_page(widget: Any, *, title: str) -> str:
     with contextlib.suppress(RendererError):
         picture = widget.render(_EXPLORER_STILL)
         still = Still(_jpeg(picture), _EXPLORER_STILL, "The sky as the page was made")
-    return page(embedded_state(widget), still, title=title, notes=_EXPLORER_NOTES)
+    return page(widget_state(widget), still, title=title, notes=_EXPLORER_NOTES)
 
 
-def embedded_state(widget: Any) -> dict[str, Any]:
+def widget_state(widget: Any) -> dict[str, Any]:
     """Return what a page needs of a widget, as ``page`` takes it."""
-    buffers: list[dict[str, Any]] = []
     whole = widget.whole_state() if isinstance(widget, SavedLight) else widget.get_state()
-    state = {
-        name: _without_bytes(value, [name], buffers)
-        for name, value in whole.items()
-        if name not in _HOST and not name.startswith(_HOST_PREFIXES)
-    }
+    return embedded_state(
+        {
+            name: value
+            for name, value in whole.items()
+            if name not in _HOST and not name.startswith(_HOST_PREFIXES)
+        }
+    )
+
+
+def embedded_state(traits: dict[str, Any]) -> dict[str, Any]:
+    """Return traits as ``page`` takes them: the binary ones apart, as text."""
+    buffers: list[dict[str, Any]] = []
+    state = {name: _without_bytes(value, [name], buffers) for name, value in traits.items()}
     return {"state": state, "buffers": buffers}
 
 
