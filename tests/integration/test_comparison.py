@@ -102,7 +102,7 @@ def test_what_cannot_be_compared_is_said_to_be(scene, what, says):
 def test_unknown_options_and_values_are_refused(scene, methods):
     with pytest.raises(TypeError, match="Did you mean 'sun_elevation'"):
         Compare(scene, ["photo", "ratio"], sun_elevatoin=3)
-    with pytest.raises(TypeError, match="analysed already"):
+    with pytest.raises(TypeError, match="already analyzed"):
         Compare(scene, ["photo", "ratio"], clouds="unmix")
     with pytest.raises(TraitError, match="arrangement"):
         methods.arrangement = "heap"
@@ -132,7 +132,7 @@ def test_a_comparison_becomes_a_study(methods):
 @pytest.mark.parametrize(
     ("pictures", "says"),
     [
-        ([plain(0), plain(1)], "by the name"),
+        ([plain(0), plain(1)], "must be a mapping by method"),
         ({"a": plain(0)}, "at least two"),
         ({"coast": {"a": plain(0)}}, "coast has 1"),
         ({"a": plain(0), "coast": {"a": plain(0), "b": plain(1)}}, "are mixed"),
@@ -158,7 +158,8 @@ def test_a_study_tells_its_strengths_and_writes_its_file(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("row", "says"), [({"rater": "eve", "choice": "both"}, "lacks"), (7, "int has none")]
+    ("row", "says"),
+    [({"rater": "eve", "choice": "both"}, "is missing"), (7, "mapping of columns, not int")],
 )
 def test_answers_that_no_study_writes_are_refused(row, says):
     study = Study({"a": plain(0), "b": plain(1)})

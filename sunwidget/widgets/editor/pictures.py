@@ -42,7 +42,7 @@ class Pictures(EditHistory, Analysed):
         return self._render(self.edit, **options)
 
     def save(self, path: Any, **options: Any) -> Path:
-        """Save the picture at full size; ``options`` as in ``sunwidget.save``.
+        """Save the picture at full size to ``path``; ``options`` as in ``sunwidget.save``.
 
         Returns
         -------

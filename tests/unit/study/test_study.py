@@ -203,7 +203,7 @@ HEADER = "rater,trial,picture,left,right,choice,seconds,timestamp\n"
             "number",
         ),
         (HEADER + "a,1,,x,x,left,1,t\n", "two dif"),
-        (HEADER + "a,1\n", "lacks"),
+        (HEADER + "a,1\n", "is missing"),
     ],
 )
 def test_a_file_that_holds_no_answers_says_what_is_wrong(tmp_path, text, says):
