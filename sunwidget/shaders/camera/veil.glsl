@@ -36,7 +36,7 @@ void main() {
   vec3 beam_now = gain * GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
 
   // The old sun's shafts in the photo were relit with the land; remove them at their relit brightness.
-  float relit = GetLuminance(texelFetch(composite_constants, ivec2(kLyingNow, 0), 0).rgb) / max(GetLuminance(texelFetch(composite_constants, ivec2(kLyingBefore, 0), 0).rgb), 1e-20);
+  float relit = GetLuminance(texelFetch(composite_constants, ivec2(kLevelLandNow, 0), 0).rgb) / max(GetLuminance(texelFetch(composite_constants, ivec2(kLevelLandBefore, 0), 0).rgb), 1e-20);
 
   float shaft_before = ReadBilinear(shafts_source, place).r;
   float shaft_now = ReadBilinear(shafts_edit, place).r;

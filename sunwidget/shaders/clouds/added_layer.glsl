@@ -1,9 +1,9 @@
-// The added clouds under the photo's own sun, at half size: cumulus with flat bases, marched through
-// the layer. rgb is their scene-linear light times alpha, alpha their opacity, both after the air in
-// front, through which they fade into the sky.
+// The added clouds under the photo's own sun, at half size: cumulus with flat bases, by a march through
+// the layer. rgb is their scene-linear light times alpha, alpha their opacity, both behind the air in
+// front of them, which fades them into the sky.
 //
-// Self-shading is that of light scattered many times, which fades with the optical depth t towards
-// the sun as diffusion does, 1 / (1 + 0.13 t) (two-stream, asymmetry 0.85: Bohren 1987).
+// Self-shading is that of multiply scattered light, which fades with the optical depth t towards
+// the sun like diffusion, 1 / (1 + 0.13 t) (two-stream, asymmetry 0.85: Bohren 1987).
 
 #include "frame/picture.glsl"
 #include "atmosphere/read_sky_view.glsl"
@@ -23,41 +23,41 @@ uniform float source_rayleigh_scale_height;
 out vec4 result;
 
 const int kSteps = 18;
-const float kThickness = 0.45;     // of the layer; lengths here are in cloud sizes
+const float kThickness = 0.45;     // of the layer; lengths are in cloud sizes
 const float kExtinction = 40.0;
 const float kLongestPath = 4.0;
-const float kWhitest = 0.8;        // display-linear: no photographer lets clouds burn out
-const float kTallest = 0.34;       // how far the cover field rises under the tallest tower
+const float kWhitest = 0.8;        // display-linear: photographers do not let clouds clip
+const float kTallest = 0.34;       // rise of the cover field under the tallest tower
 
 // Towers grow where the field rises; the base is flat.
-float GetShape(vec3 at, vec2 warp, vec2 known) {
+float GetShape(vec3 at, vec2 warp, vec2 detail) {
   float height = at.y / kThickness;
   float base = 0.12 * (1.0 - smoothstep(0.0, 0.12, height));
   float top = kTallest * max(height, 0.0) * sqrt(max(height, 0.0));
-  return GetCoverField(at.xz, warp, known) - top - base - 2.0 * max(-height, 0.0);
+  return GetCoverField(at.xz, warp, detail) - top - base - 2.0 * max(-height, 0.0);
 }
 
 // Rounded lumps with sharp creases between them, in up to three sizes.
-float GetLumps(vec3 at, vec3 known) {
+float GetLumps(vec3 at, vec3 detail) {
   vec3 p = at + vec3(0.0, 0.31 * cloud_pattern, 0.0);
-  float lumps = 0.34 * known.x * (abs(GetNoise(2.7 * p)) - 0.15);
-  if (known.y > 0.0) lumps += 0.20 * known.y * (abs(GetNoise(6.1 * p)) - 0.15);
-  if (known.z > 0.0) lumps += 0.11 * known.z * (abs(GetNoise(13.7 * p)) - 0.15);
+  float lumps = 0.34 * detail.x * (abs(GetNoise(2.7 * p)) - 0.15);
+  if (detail.y > 0.0) lumps += 0.20 * detail.y * (abs(GetNoise(6.1 * p)) - 0.15);
+  if (detail.z > 0.0) lumps += 0.11 * detail.z * (abs(GetNoise(13.7 * p)) - 0.15);
   return lumps;
 }
 
-// Optical depth of a part of the way to the sun. It rises slowly with the shape, so that the inside
-// of a cloud is not all of one gray.
+// Optical depth of a part of the path to the sun. It rises slowly with the shape, so that the inside
+// of a cloud is not a uniform gray.
 float GetShadeFrom(float shape, float part) {
   return kExtinction * part * clamp(shape / 0.35, 0.0, 1.0);
 }
 
-// How much of structure of this size shows where a pixel is `footprint` wide.
-float GetKnown(float size, float footprint) {
+// Visible share of structure of this size where a pixel is `footprint` wide.
+float GetDetailShare(float size, float footprint) {
   return 1.0 - smoothstep(0.2 * size, 0.6 * size, footprint);
 }
 
-// The photo's own air, as all that is changed before the sun is moved.
+// Transmittance of the photo's own air: clouds are edited before the sun moves.
 vec3 GetAirBefore(float far) {
   float top = 1000.0 * added_cloud_height;
   vec3 depth = GetExtinction(source_air_density, 0.0, 1.0, 0.0) * source_rayleigh_scale_height
@@ -77,25 +77,26 @@ void main() {
   vec2 start = GetLayerPlace(near * view.xz);
   float climb = kThickness * path * added_cloud_size / max(far - near, 1e-3);
 
-  // A pixel's length along the layer, which grazing rays draw out.
-  float grazing = near / (camera_focal * min(frame_size.y, 2.0 * pass_size.y)) * near / added_cloud_height / added_cloud_size;
+  // A pixel's length along the layer, longer for grazing rays.
+  float grazing = near / (camera_focal * min(frame_size.y, 2.0 * pass_size.y)) * near
+      / added_cloud_height / added_cloud_size;
   float footprint = max(grazing, 0.4 * stride);
-  vec2 known = vec2(GetKnown(1.0, footprint), GetKnown(0.5, footprint));
-  vec3 fine = vec3(GetKnown(0.5, footprint), GetKnown(0.22, footprint), GetKnown(0.1, footprint));
+  vec2 detail = vec2(GetDetailShare(1.0, footprint), GetDetailShare(0.5, footprint));
+  vec3 fine = vec3(GetDetailShare(0.5, footprint), GetDetailShare(0.22, footprint), GetDetailShare(0.1, footprint));
 
   vec3 direct = GetLightTexel(light_before, 8) / kPi;
   vec3 above = 0.5 * (GetLightTexel(light_before, 0) + GetLightTexel(light_before, 2)) / kPi;
   vec3 below = 0.15 * (above + max(sun.y, 0.0) * direct);
-  // What is turned aside again and again inside spreads the lobe: its peak is not that of one drop.
+  // Multiple scattering inside spreads the lobe, so its peak is lower than a single drop's.
   vec3 lobe = 0.12 * min(GetForwardLobe(dot(sun, view)), 8.0) * direct;
 
-  // Where single clouds are smaller than a pixel is the share that they cover, and rows of them hide
-  // the gaps between: an even bank.
+  // Where single clouds are smaller than a pixel only their cover counts, and rows of clouds hide
+  // the gaps: an even bank.
   float bank = smoothstep(0.4, 1.5, grazing);
-  // Neighbors start a quarter of a step apart, else the steps show as slices; retouch.glsl averages
-  // any four of them.
+  // Neighbors start a quarter of a step apart, because otherwise the steps show as slices; read_added_layer.glsl
+  // averages any four of them.
   ivec2 parity = ivec2(gl_FragCoord.xy) & 1;
-  // Within its quarter each starts at random, else large pictures show combs at the fringes.
+  // Each starts at random within its quarter, because otherwise large pictures show combs at the fringes.
   float jitter = float(Hash(uint(gl_FragCoord.x) + Hash(uint(gl_FragCoord.y))) >> 8u) / 16777216.0;
   float offset = 0.5 * float(parity.x ^ parity.y) + 0.25 * (float(parity.y) + jitter);
   float edge = 0.08 + 0.5 * stride;
@@ -107,10 +108,10 @@ void main() {
     float part = (float(i) + offset) / float(kSteps);
     vec3 at = vec3(start + part * path * view.xz, part * climb).xzy;
     vec2 warp = GetWarp(at.xz);
-    float density = smoothstep(0.0, edge, GetShape(at, warp, known) + GetLumps(at, fine));
+    float density = smoothstep(0.0, edge, GetShape(at, warp, detail) + GetLumps(at, fine));
     vec3 next = at + 0.07 * sun;
-    float shade = GetShadeFrom(GetShape(next, warp, known) + GetLumps(next, vec3(fine.x, 0.0, 0.0)), 0.12)
-        + GetShadeFrom(GetShape(at + 0.25 * sun, warp, vec2(known.x, 0.0)), 0.30)
+    float shade = GetShadeFrom(GetShape(next, warp, detail) + GetLumps(next, vec3(fine.x, 0.0, 0.0)), 0.12)
+        + GetShadeFrom(GetShape(at + 0.25 * sun, warp, vec2(detail.x, 0.0)), 0.30)
         + GetShadeFrom(GetShape(at + 0.70 * sun, warp, vec2(0.0)), 0.50);
     float height = clamp(at.y / kThickness, 0.0, 1.0);
     vec3 lit = direct * (0.1 * exp(-0.5 * shade) + 0.5 / (1.0 + 0.13 * shade))

@@ -1,4 +1,4 @@
-// Which shader draws a pass that knows clouds: 0 the one for a photo's own clouds, 1 that for edited ones.
+// Selects the shader of a pass with cloud edits: 0 for the photo's own clouds, 1 for edited ones.
 
 #include "clouds/cloud_edit.glsl"
 #include "frame/part.glsl"

@@ -1,5 +1,5 @@
-// The clouds that water mirrors at each place below the horizon, drawn out along the line of sight and
-// blurred across it. They stay where the photo has them. Slow, so a quarter of the size is enough.
+// The clouds mirrored by water at each place below the horizon, stretched along the line of sight and
+// blurred across it. They stay where the photo has them. The map varies slowly, so a quarter of the size is enough.
 
 #include "frame/picture.glsl"
 #include "water/glint.glsl"

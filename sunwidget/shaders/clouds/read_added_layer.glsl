@@ -1,4 +1,4 @@
-// Reading added_layer.glsl's map, a texel about: neighbors hold parts of one march.
+// Reads the map of added_layer.glsl, averaged over about a texel: neighbors hold parts of one march.
 
 uniform sampler2D added_layer;
 

@@ -1,7 +1,7 @@
-// The photo with its clouds changed under its own sun, display-linear; alpha is the clouds' opacity
-// afterwards. What follows takes it for the photo, so that a moved sun costs the same with other
-// clouds as with the photo's own. CLOUDS_UNEDITED leaves out what only edited clouds need
-// (cloud_parts.glsl): the same to the bit.
+// The photo with edited clouds under its own sun, display-linear; alpha is the clouds' opacity
+// after the edit. Later passes use it as the photo, so that a moved sun costs the same with edited
+// clouds as with the photo's own. CLOUDS_UNEDITED omits what only edited clouds need
+// (cloud_parts.glsl), with the same result to the bit.
 
 #include "frame/picture.glsl"
 #include "frame/strip.glsl"
@@ -22,9 +22,9 @@ uniform vec2 tile_origin;
 
 out vec4 result;
 
-const float kCore = 0.03;  // radians round the sun
+const float kCore = 0.03;  // radians around the sun
 
-// log of a pixel's light over that of its surroundings, where it is no more than grain.
+// Log of a pixel's light over that of its surroundings, limited to amplitudes of grain.
 vec3 GetGrain(ivec2 texel, vec3 light) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 9; ++i) {
@@ -50,16 +50,16 @@ void main() {
   vec3 model = texelFetch(sky_source, ivec2(gl_FragCoord.xy), 0).rgb;
   vec3 clear = model * DecodeResidual(behind.rgb);
   vec3 dissolved = ReadBilinear(soft_sky, place).rgb;
-  // Where the matte is soft the pixel's own light is land as well.
+  // Where the matte is soft the pixel's own light is partly land.
   vec3 scene = GetSceneLight(display);
   vec3 slow = GetBackdropLight(ReadBilinear(backdrop, place).rgb);
   vec3 light = mix(slow, scene, smoothstep(0.85, 1.0, layer.r));
-  // Near the sun's core a burnt pixel is sun and not cloud.
+  // Near the sun's core a clipped pixel is sun, not cloud.
   float from_sun = length(GetViewDirection(place) - GetSunDirection(source_sun_azimuth, source_sun_elevation));
-  float sure = 1.0 - ReadPixel(surface, place).r * (1.0 - smoothstep(kCore, 3.0 * kCore, from_sun));
-  vec3 edited = GetEditedSky(light, clear, dissolved, layer, behind.a, sure, added);
+  float confidence = 1.0 - ReadPixel(surface, place).r * (1.0 - smoothstep(kCore, 3.0 * kCore, from_sun));
+  vec3 edited = GetEditedSky(light, clear, dissolved, layer, behind.a, confidence, added);
 
-  // What replaces the photo gets the photo's grain.
+  // Light that replaces the photo's gets the photo's grain.
   vec3 kept = clamp(1.0 - abs(edited - light) / max(max(edited, light), vec3(1e-6)), 0.0, 1.0);
   vec3 grain = GetGrain(ivec2(place * vec2(GetPictureSize(photo))), display);
   edited *= exp((1.0 - kept) * smoothstep(0.85, 1.0, layer.r) * grain);

@@ -1,4 +1,4 @@
-// The photo itself, where no clouds are changed (cloud_parts.glsl).
+// The photo itself, for pictures without cloud edits (cloud_parts.glsl).
 
 #define CLOUDS_UNEDITED
 #include "clouds/retouch.glsl"

@@ -1,5 +1,4 @@
-// Everything of the ratio composite that is the same for all pixels, so that no pixel computes
-// it again; texels as in composite_texels.glsl.
+// The values of the ratio composite that all pixels share, computed once. composite_texels.glsl lists the texels.
 
 #include "frame/composite_texels.glsl"
 #include "frame/picture.glsl"
@@ -35,44 +34,46 @@ uniform float auto_exposure;
 uniform float glow;
 uniform vec3 photo_land_linear_mean;
 uniform float photo_key;  // mean log2 of the luminance of the photo without its sun, display-linear
-uniform float photo_sky_key;  // the same of its sky
-uniform vec3 own_disc;  // the photo's own sun: display-linear light of its disc or burnt core
-uniform float own_disc_radius;  // tangent of its angle, 0 where none is seen
+uniform float photo_sky_key;  // the same for its sky
+uniform vec3 own_disc;  // the photo's own sun: display-linear light of its disc or clipped core
+uniform float own_disc_radius;  // tangent of its angular radius, 0 if no sun is visible
 
 out vec4 result;
 
-// Over this many degrees of movement the old sun's glare gives way to the sky behind it: long
-// enough that a pixel's drag shows no step, short enough that a moved sun leaves no ghost.
+// The old sun's glare fades to the sky behind it over this many degrees of movement: long enough that
+// dragging by a pixel shows no step, short enough that a moved sun leaves no ghost.
 const float kGlareFade = 4.0;
-// A camera that re-exposes for dusk and night stops short of what it does by day, by this much (EV)
-// between these luminances (log2 of cd m^-2: 60 and 0.03): a print of a night is dark, or it is taken
-// for a day. Krawczyk et al. 2005 ("Perceptual effects in real-time tone mapping", eq. 11) find 2.2 EV
-// at 0.1 cd m^-2 beyond what `auto_exposure` leaves out already; less of it keeps the land readable.
+// At dusk and night a camera's re-exposure stops short of its daytime amount, by up to this much (EV) between
+// these luminances (log2 of cd m^-2: 60 and 0.03): a night picture must be dark or it looks like day.
+// Krawczyk et al. 2005 ("Perceptual effects in real-time tone mapping", eq. 11) find 2.2 EV at 0.1 cd m^-2
+// beyond what `auto_exposure` already leaves out; a smaller amount keeps the land readable.
 const float kNightKey = 1.6;
 const vec2 kNightBegins = vec2(5.9, -5.06);
 
-// Where a sun in view would burn the sky, a camera exposes for the sky: by so much of what its mean exceeds
-// this (display-linear).
+// If a visible sun would clip the sky, a camera exposes for the sky: it reduces the exposure by kProtection
+// of the amount by which the sky's mean exceeds kBrightSky (display-linear).
 const float kBrightSky = 0.35;
 const float kProtection = 0.9;
 
-// A photo is dark because of a low sun in it, or of the evening. When that has risen, it is exposed as half of the photos
-// of a day are, but for no more than is in it.
+// A photo is dark because of a low sun in it or the evening. Once the sun has risen, the picture is exposed like half
+// of the daytime photos (mean log2 of display-linear luminance). It is raised by at most kMaxDayLift stops, because a
+// dark photo holds no more light.
 const float kDayKey = -2.95;
-const float kMostHidden = 2.0;
-// Its sky then is as bright as that of half of the blue and white skies of a day, for no more stops than these.
+const float kMaxDayLift = 2.0;
+// Its sky is then as bright as half of the blue and white daytime skies, raised by at most kMaxSkyLift stops.
 const float kDaySky = -1.9;
-const float kMostOfSky = 1.5;
+const float kMaxSkyLift = 1.5;
 
-// Cameras and phones lift land that has become darker than this (stops) by this share of the rest.
+// Cameras and phones lift land that has become darker than kDark (stops) by kLift of the rest.
 const float kDark = -1.2;
 const float kLift = 0.7;
-// And hold back land that would be brighter than nine in ten photos of a day have it (log2 of its mean, display-linear).
+// They reduce land that would be brighter than in nine of ten daytime photos (log2 of its mean, display-linear)
+// by kBrightLandReduction of the excess.
 const float kBrightLand = -1.65;
-const float kHeldBack = 0.8;
+const float kBrightLandReduction = 0.8;
 
-// A moon is 20 EV brighter than the sky it lights and would burn to a white hole; it is drawn so
-// bright, of white, and dimmed less by the air, as when a second, short exposure is laid over.
+// A moon is 20 EV brighter than the sky it lights and would clip to a white hole. It is drawn at this share of
+// white, and dimmed less by the air, as if by a second, short exposure.
 const float kMoonLevel = 0.85;
 const float kMoonDimming = 0.35;
 
@@ -80,19 +81,19 @@ vec2 GetMeter(sampler2D meter) {
   return texelFetch(meter, ivec2(0), 0).rg;
 }
 
-// `meter` as meter.glsl has it, of the photo's unit.
+// `meter` is the value of meter.glsl, in the photo's unit.
 float GetNightStops(float meter) {
   float luminance = meter + log2(1000.0 / GetLuminance(sky_gain)) + photo_light * log2(kMoonOverSun.g);
   return kNightKey * (1.0 - smoothstep(kNightBegins.y, kNightBegins.x, luminance));
 }
 
-// Stops by which one exceeds another, softly: 1 where they are alike.
+// Softened excess of one level over another, in stops: 1 where they are equal.
 float GetExcess(float stops) {
   return log2(1.0 + exp2(stops));
 }
 
-// How far the sky's bright side, log2 of display white, is over what a camera lets pass.
-float GetStopsTooBright(float level) {
+// Stops by which the sky's bright side (log2 of display white) exceeds what a camera accepts.
+float GetSkyExcess(float level) {
   float over = level - log2(GetSceneLight(vec3(kBrightSky)).g);
   return kProtection * GetExcess(over);
 }
@@ -102,18 +103,18 @@ float GetRisen() {
                   GetSunDirection(sun_azimuth, sun_elevation));
 }
 
-// What a fully automatic exposure does by day: it follows the mean, and holds back for a bright sky.
+// Stops of a fully automatic exposure by day: it follows the mean, less the reduction for a bright sky.
 float GetDayStops() {
   vec2 before = GetMeter(meter_source);
   vec2 now = GetMeter(meter_edit);
-  float stops = before.r - now.r + GetRisen() * clamp(kDayKey - photo_key, 0.0, kMostHidden);
-  return stops - (GetStopsTooBright(now.g + stops) - GetStopsTooBright(before.g));
+  float stops = before.r - now.r + GetRisen() * clamp(kDayKey - photo_key, 0.0, kMaxDayLift);
+  return stops - (GetSkyExcess(now.g + stops) - GetSkyExcess(before.g));
 }
 
-// By how much the sky, and what mirrors it, is lifted beyond the land.
+// Stops by which the sky, and what mirrors it, is lifted more than the land.
 float GetSkyLift() {
   float level = photo_sky_key + GetMeter(meter_edit).g - GetMeter(meter_source).g + GetDayStops();
-  return GetSkySeen() * auto_exposure * GetRisen() * clamp(kDaySky - level, 0.0, kMostOfSky);
+  return GetSkySeen() * auto_exposure * GetRisen() * clamp(kDaySky - level, 0.0, kMaxSkyLift);
 }
 
 float GetStops() {
@@ -121,17 +122,19 @@ float GetStops() {
   return exposure + GetRestraint() * auto_exposure * (GetDayStops() - night) + GetSkyLift();
 }
 
-// The glare of a sun in a picture that is exposed for it: with another exposure it is as much brighter.
+// The glare of a sun in a picture that is exposed for it, scaled with any other exposure.
 vec3 GetGlare() {
   vec3 beam = GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
   float light = GetLuminance(beam);
   float visible = texelFetch(visibility_edit, ivec2(0), 0).g;
-  // Cameras balance their white half way. A red tint of the photo dyes the sun's light, a blue one its sky.
+  // Cameras balance white half way. A red tint of the photo colors the sun's light, a blue one only its sky.
   vec3 color = sqrt(beam * (sky_gain.r > sky_gain.b ? sky_gain : vec3(1.0)));
-  return glow * visible * exp2(GetStops() - GetSkyLift() - GetDayStops()) * GetGlareStrength(light) * color / GetLuminance(color);
+  return glow * visible * exp2(GetStops() - GetSkyLift() - GetDayStops()) * GetGlareStrength(light)
+      * color / GetLuminance(color);
 }
 
-// Light of the land, lying and upright, by its part of land_terms.glsl: luminance.
+// Luminance of the light on land, level and upright, from its texels of land_terms.glsl. `share` is the share of the
+// sun past land, and past clouds.
 float GetLandLevel(int first, vec2 share) {
   vec3 sun = texelFetch(land_terms, ivec2(first + 7, 0), 0).xyz;
   vec3 sky = texelFetch(land_terms, ivec2(first, 0), 0).rgb + texelFetch(land_terms, ivec2(first + 4, 0), 0).rgb;
@@ -139,22 +142,23 @@ float GetLandLevel(int first, vec2 share) {
   return GetLuminance(sky + share.x * share.y * cosine * texelFetch(land_terms, ivec2(first + 6, 0), 0).rgb);
 }
 
-// Log2 of how far land of this mean is over what is held back.
-float GetTooBright(float level) {
+// Stops by which the land's mean, `level`, exceeds bright land.
+float GetLandExcess(float level) {
   return GetExcess(2.0 * (level - kBrightLand)) / 2.0;
 }
 
-// Stops by which a camera lifts land that has become dark, and holds back what has become bright.
+// Stops by which a camera lifts land that has become dark and reduces land that has become bright.
 float GetLift() {
   vec4 share = texelFetch(land_terms, ivec2(16, 0), 0);
   float stops = auto_exposure * GetDayStops() + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
   stops *= GetRestraint();
   float lift = kLift * (GetExcess(kDark - stops) - GetExcess(kDark));
   float level = log2(max(GetLuminance(photo_land_linear_mean), 1e-4));
-  return auto_exposure * (lift - kHeldBack * (GetTooBright(level + stops) - GetTooBright(level))) - GetSkyLift();
+  return auto_exposure * (lift - kBrightLandReduction * (GetLandExcess(level + stops) - GetLandExcess(level)))
+      - GetSkyLift();
 }
 
-// log2 of the radiance in the middle of a disc at this height, without its limb's darkening.
+// log2 of the radiance at the center of a disc at this height, before limb darkening.
 vec4 GetDiscRadiance(float sine_of_elevation) {
   vec4 path = log2(max(GetTransmittanceToTop(columns, altitude, sine_of_elevation), vec4(1e-30)));
   vec4 sun = log2(kSolarIrradiance / (kPi * kSunAngularRadius * kSunAngularRadius)
@@ -164,7 +168,7 @@ vec4 GetDiscRadiance(float sine_of_elevation) {
   return mix(sun, moon, GetMoon()) + log2(max(sun_visibility, 1e-9));
 }
 
-// The light that a sky sends in all directions is the same to the bit only when the sky is.
+// Whether the sky is the same to the bit, judged by the light that it sends in all directions.
 bool IsSkyUnchanged() {
   bool same = sun_azimuth == source_sun_azimuth && sun_elevation == source_sun_elevation
       && GetMoon() == photo_light && sun_visibility == source_sun_visibility;
@@ -174,17 +178,18 @@ bool IsSkyUnchanged() {
   return same;
 }
 
-// Brightest that a disc becomes over the photo's own.
+// Largest factor by which the photo's own disc becomes brighter.
 const float kBrightestDisc = 4.0;
 
-// The photo's own disc under the new sun's light. What burnt to white is not known to be brighter, and a camera
-// exposes for the sun it sees, so its luminance goes as glare does and its color as the light's.
+// The photo's own disc under the new sun's light. The true light of a clipped disc is unknown, and a camera exposes
+// for a visible sun, so the disc's luminance changes as the glare does and its color as the sunlight does.
 vec3 GetOwnDisc() {
   vec3 before = max(GetLightTexel(light_before, 1), vec3(1e-9));
   vec3 now = max(GetLightTexel(light_edit, 1), vec3(0.0));
   float level = GetLuminance(now) / GetLuminance(before);
   vec3 hue = now / before / max(level, 1e-9);
-  return sun_visibility * GetSceneLight(own_disc) * min(hue, vec3(kBrightestDisc)) * min(pow(level, kGlareGrowth), kBrightestDisc);
+  return sun_visibility * GetSceneLight(own_disc) * min(hue, vec3(kBrightestDisc))
+      * min(pow(level, kGlareGrowth), kBrightestDisc);
 }
 
 vec3 GetForwardLight(sampler2D light) {
@@ -198,7 +203,7 @@ void main() {
   float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;
   float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
   float radius = kSunAngularRadius * sun_size;
-  // From the horizon, or the lower edge above it, to the upper one.
+  // Sines of the elevations of the disc's lower edge, or of the horizon if that is higher, and of its upper edge.
   float low = max(sun_now.y - radius, GetCosineOfHorizon(altitude));
   float high = max(sun_now.y + radius, low + 1e-4);
   vec4 middle = GetDiscRadiance(0.5 * (low + high));
@@ -209,13 +214,12 @@ void main() {
   float disc = parabola[part / 4][part % 4];
   if (index == kGains) {
     float turn = degrees(2.0 * asin(min(0.5 * length(sun_now - sun_before), 1.0)));
-    // As the landscape sees the sun on average, not the camera alone; a sun that comes out gives
-    // the color back.
+    // Mean over the landscape, not the sun at the camera alone. A sun that comes out restores the color.
     vec4 reached = texelFetch(land_terms, ivec2(16, 0), 0);
     float hidden = reached.x * reached.y * source_sun_visibility - reached.z * reached.w * sun_visibility;
     bool same = visible_before == visible_now && IsSkyUnchanged();
-    // Another light has another disc and another glow, also in the same place.
-    // A sun that is taken away leaves the sky behind it, as one that moves does.
+    // A different light source has a different disc and glow even in the same place.
+    // A removed sun reveals the sky behind it, as a moved one does.
     float moved = GetMoon() == photo_light
         ? max(smoothstep(0.0, kGlareFade, turn), source_sun_visibility - sun_visibility) : 1.0;
     result = vec4(exp2(GetStops()), moved, 0.5 * hidden * colourfulness, (same ? -1.0 : 1.0) * exp2(GetLift()));
@@ -226,10 +230,10 @@ void main() {
   } else if (index == kOwnDisc) {
     result = vec4(GetOwnDisc(), GetMoon() == photo_light ? own_disc_radius * sun_size : 0.0);
   } else {
-    vec3 light = index == kLyingBefore ? GetLandIrradiance(light_before, visible_before, source_land_facing, sun_before)
-        : index == kUprightBefore ? GetLandIrradiance(light_before, visible_before, 1.0, sun_before)
-        : index == kLyingNow ? GetLandIrradiance(light_edit, visible_now, land_facing, sun_now)
-        : index == kUprightNow ? GetLandIrradiance(light_edit, visible_now, 1.0, sun_now)
+    vec3 light = index == kLevelLandBefore ? GetLandIrradiance(light_before, visible_before, source_land_facing, sun_before)
+        : index == kUprightLandBefore ? GetLandIrradiance(light_before, visible_before, 1.0, sun_before)
+        : index == kLevelLandNow ? GetLandIrradiance(light_edit, visible_now, land_facing, sun_now)
+        : index == kUprightLandNow ? GetLandIrradiance(light_edit, visible_now, 1.0, sun_now)
         : index == kCloudBefore ? GetCloudRadiance(light_before, 0.0)
         : index == kCloudLobeBefore ? GetForwardLight(light_before)
         : index == kCloudNow ? GetCloudRadiance(light_edit, 0.0)
@@ -237,9 +241,10 @@ void main() {
         : index == kGlare ? GetGlare()
         : index == kWaterSunBefore ? visible_before * GetLightTexel(light_before, 1)
         : visible_now * GetLightTexel(light_edit, 1);
-    // Without a moon no light reaches a surface but the night sky's, from half the sphere.
-    float moon = index == kLyingNow || index == kUprightNow || index == kCloudNow || index == kCloudLobeNow || index == kWaterSunNow ? GetMoon() : photo_light;
-    float night = index <= kUprightNow ? kPi : index == kCloudBefore || index == kCloudNow ? 1.0 : 0.0;
+    // Without a moon a surface receives only the night sky's light, from half the sphere.
+    float moon = index == kLevelLandNow || index == kUprightLandNow || index == kCloudNow || index == kCloudLobeNow
+        || index == kWaterSunNow ? GetMoon() : photo_light;
+    float night = index <= kUprightLandNow ? kPi : index == kCloudBefore || index == kCloudNow ? 1.0 : 0.0;
     result = index == kGlare ? vec4(light, 0.0)
         : vec4(sky_gain * (GetLightScale(moon) * light + night * GetNightSky(moon)), disc);
   }

@@ -1,11 +1,11 @@
 // The picture, method "ratio": every term is a ratio new/old of one model at two suns, so an
-// unmoved sun multiplies by exactly one. Where a ratio means nothing (clipped pixels, the old
+// unmoved sun multiplies by exactly one. Where a ratio is meaningless (clipped pixels, the old
 // disc and its halo, extreme ratios) the frame cross-fades to the matched model itself.
-// Software rendering is bound by memory: a full-size map costs more than a dozen functions, so
-// the sky at the moved sun is computed here and not read from a map of its own.
+// Software rendering is memory-bound: a full-size map costs more than a dozen functions, so
+// the sky at the moved sun is computed here and not read from a separate map.
 //
-// SKY_ALONE and LAND_ALONE leave out what comes to nothing where the matte is 1 or 0
-// (frame_parts.glsl): the picture is the same to the bit.
+// SKY_ALONE and LAND_ALONE omit the terms that are zero where the matte is 1 or 0
+// (frame_parts.glsl); the picture stays the same to the bit.
 
 #include "frame/picture.glsl"
 #include "frame/packed.glsl"
@@ -31,10 +31,10 @@ uniform sampler2D veil;
 const float kBlackestAlbedo = 0.06;
 
 // Share of a pixel's light that is sky. Where the matte is soft a pixel shows both, and twigs
-// before a bright sky are mostly sky: the light behind is known (sky_behind.glsl), and the rest is
-// the land's own, without the old sky's tint. Inside the sky it is the matte itself, and so it is
-// where the matte promises more sky than the pixel holds (it is wrong there) and in the glare. No land is black in its
-// light, `lit`: a matte that is a little wrong would leave a dark line along the skyline.
+// in front of a bright sky are mostly sky: the light behind is known (sky_behind.glsl), and the rest is
+// the land's own, without the old sky's tint. Inside the sky the share is the matte itself, as it is
+// where the matte implies more sky than the pixel holds (it is wrong there) and in the glare. No land is black under its
+// irradiance, `lit`: otherwise a slightly wrong matte would leave a dark line along the skyline.
 vec3 GetSkyShare(float matte, vec3 scene, vec3 behind, float glare, vec3 lit) {
   vec3 least = min((1.0 - matte) * kBlackestAlbedo / 3.14159265 * lit, (1.0 - matte) * scene);
   vec3 light = min(matte * behind, scene - least);
@@ -53,7 +53,7 @@ void main() {
   vec3 sky_marks = UnpackLevels(behind_texel.a);
   vec3 clean = behind_texel.rgb;
 #ifdef SKY_ALONE
-  // Three powers cost less than a map that nothing else is read from.
+  // Three powers cost less than reading a map that nothing else here needs.
   vec3 scene = GetSceneLight(display);
 #else
   vec4 scene_texel = texelFetch(scene_light, texel, 0);
@@ -61,7 +61,7 @@ void main() {
   vec3 land_marks = UnpackLevels(scene_texel.a);
 #endif
 
-  // What of the pixel is sky and what is land, each as if it filled the pixel.
+  // The pixel's sky and land, each as if it filled the pixel.
 #if defined(SKY_ALONE)
   const float matte = 1.0;
   const float glare = 0.0;
@@ -73,7 +73,7 @@ void main() {
 #else
   float matte = sky_marks.r;
   float glare = sky_marks.b;
-  vec3 share = GetSkyShare(matte, scene, clean, glare, GetLitBefore(GetUprightness(view)));
+  vec3 share = GetSkyShare(matte, scene, clean, glare, GetIrradianceBefore(GetUprightness(view)));
   vec3 behind = scene * share / max(matte, 1e-4);
   vec3 front = scene * (1.0 - share) / max(1.0 - matte, 1e-4);
 #endif
@@ -81,37 +81,39 @@ void main() {
   vec3 change = vec3(0.0);
 #ifndef LAND_ALONE
   vec3 sky_before = texelFetch(sky_source, texel, 0).rgb;
-  // An unchanged sky is the same to the bit, whatever two programs make of the same formula.
-  vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(IsSkyAsItWas()));
+  // An unchanged sky stays the same to the bit, even if two programs round the same formula differently.
+  vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(IsSkyUnchanged()));
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   vec3 disc = GetDisc(view, GetDescribedSun());
-  change += matte * GetSkyChange(behind, clean, opacity, glare, ReadBilinear(own_sky, place).rg, sky_before, sky_now, view, disc);
+  change += matte
+      * GetSkyChange(behind, clean, opacity, glare, ReadBilinear(own_sky, place).rg, sky_before, sky_now, view, disc);
 #endif
 
 #ifndef SKY_ALONE
   float wet = smoothstep(0.2, 0.8, land_marks.r);  // the edge of a mask is softer than a shore
-  float water = GetSkySeen() * water_strength * wet;  // what it would mirror is not known else
+  float water = GetSkySeen() * water_strength * wet;  // without a sky what it mirrors is unknown
   float upright = GetUprightness(view);
-  vec3 lit_before = GetLitBefore(upright);
-  float gone = glare * GetMoved() * (1.0 - wet);
-  vec3 land = WithoutGlare(front, gone, lit_before);
-  gone = min(gone, max(1.0 - GetLuminance(land) / max(GetLuminance(front), 1e-6), 0.0));
+  vec3 lit_before = GetIrradianceBefore(upright);
+  float removed = glare * GetMoved() * (1.0 - wet);
+  vec3 land = RemoveGlare(front, removed, lit_before);
+  removed = min(removed, max(1.0 - GetLuminance(land) / max(GetLuminance(front), 1e-6), 0.0));
   float shine = GetSkySeen() * (1.0 - upright / kMostUpright) * GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
   vec3 lifted = GetLandGain() * land_ratio;
   vec3 air = GetAirChange(place, land_marks.b, land, lifted + water * (mirror.rgb - lifted));
-  vec3 land_change = GetLandChange(front, land, land_ratio, GetLitNow(upright), shine, mirror.rgb, air, gone);
+  vec3 land_change = GetLandChange(front, land, land_ratio, GetIrradianceNow(upright), shine, mirror.rgb, air, removed);
   vec3 horizon = texelFetch(air_edit, ivec2(GetAirColumn(place), 0), 0).rgb;
   vec3 water_change = GetWaterChange(front, clean, land_marks.g, glare, mirror, air, horizon);
   land_change += water * (water_change - land_change);
-  land_change += GetExposureGain() * GetLampLight(place, 3.14159265 * GetLuminance(land) / max(GetLuminance(lit_before), 1e-6));
+  land_change += GetExposureGain()
+      * GetLampLight(place, 3.14159265 * GetLuminance(land) / max(GetLuminance(lit_before), 1e-6));
   change += (1.0 - matte) * land_change;
 #endif
 
   change += GetVeil(scene + change, view, ReadBilinear(veil, place).rgb, matte);
   change += mix(land_strength, sky_strength, matte) * GetNight() * GetRodShift(scene + change);
-  // What was filled where the old sun hid the sky gets the grain of the rest.
+  // Sky filled in where the old sun hid it gets the photo's grain.
   float filled = matte * glare * GetMoved() * min(sky_strength, 1.0);
   WriteChange(display, scene, change, filled, pixel);
 }

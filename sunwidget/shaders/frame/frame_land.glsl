@@ -1,4 +1,4 @@
-// The frame where a pixel is land or water and no sky (frame_parts.glsl). How land changes: land/relit_land.glsl.
+// The frame for pixels of land or water without sky (frame_parts.glsl). land/relit_land.glsl relights the land.
 
 #define LAND_ALONE
 #include "frame/frame.glsl"

@@ -1,21 +1,21 @@
-// The photo with a change of its scene-linear light.
+// Adds a change of scene-linear light to the photo.
 
 #include "camera/response.glsl"
 #include "frame/output.glsl"
 #include "camera/grain.glsl"
 
-uniform float output_white;  // what highlights near: 1 the display's white, more where the target holds light above it
+uniform float output_white;  // limit of the highlights: 1 the display's white, more if the target holds light above it
 
-// From here on highlights roll off: display-linear.
+// Highlights roll off from here on; display-linear.
 const float kKnee = 0.5;
-const float kInk = 0.0035;
-const float kBurns = 1.06;  // of the way to white, at infinity: the sun itself burns
+const float kToe = 0.0035;
+const float kOvershoot = 1.06;  // asymptote, in units of the distance from knee to white: the sun itself clips
 
-// Display-linear light as a good camera draws highlights. What is `brighter` than it was, 0 to 1, leaves the
-// response at the knee and nears white slowly, without a flat plate. Each channel does so for itself, which
-// makes a sunset's orange yellow, as films do; but cold colors would end in cyan, and keep their hue. The
-// core is white. All this as far as the pixel has `changed`, 0 to 1. With a higher `output_white` they rise on, by the same
-// curve about the same knee.
+// Display-linear light with the highlights of a good camera. Pixels that became `brighter`, 0 to 1, leave the
+// response at the knee and approach white slowly, without a flat plate. Warm colors do so channel by channel, which
+// turns a sunset's orange yellow, as film does; cold colors keep their hue, because they would end in cyan. The
+// core is white. The effect scales with how far the pixel has `changed`, 0 to 1. With a higher `output_white` highlights
+// rise further, by the same curve from the same knee.
 vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
   float w = max(response_shoulder, 1e-4);
   float luminance = max(GetLuminance(scene), 1e-9);
@@ -23,7 +23,7 @@ vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
   vec4 plain = (1.0 - exp(-w * r)) / w;
   float knee = -log(1.0 - w * kKnee) / w;
   vec4 over = (1.0 - w * kKnee) / (output_white - kKnee) * max(r - knee, vec4(0.0));
-  vec4 slow = kKnee + (output_white - kKnee) * kBurns * over / (1.0 + over);
+  vec4 slow = kKnee + (output_white - kKnee) * kOvershoot * over / (1.0 + over);
   vec4 level = min(plain + brighter * step(knee, r) * (slow - plain), vec4(0.9999 * output_white));
   vec3 color = scene / luminance - 1.0;
   color.g -= smoothstep(0.5, 0.8, level.a) * max(color.g - max(color.r, color.b), 0.0);  // no light is green
@@ -34,15 +34,15 @@ vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
   return plain.rgb + changed * bright * (mix(same_hue, level.rgb, warm) - plain.rgb);
 }
 
-// What has become darker does not drown in black, as it does not in a good print: the darker, the more is added, up to
-// kInk, and never so much that what loses light gains. Display-linear.
+// Keeps darkened pixels from black, as a good print does: display-linear light to add, more for darker pixels, up to
+// kToe, and never so much that a pixel that lost light gains.
 float GetToe(vec3 light, vec3 before) {
   float level = max(GetLuminance(before), 1e-9);
-  return kInk * level / (level + kInk) * max(1.0 - max(GetLuminance(light), 0.0) / level, 0.0);
+  return kToe * level / (level + kToe) * max(1.0 - max(GetLuminance(light), 0.0) / level, 0.0);
 }
 
-// Written as a difference, so that what did not change adds exactly nothing. What was `filled`
-// gets the photo's noise (camera/grain.glsl).
+// Written as a difference, so that unchanged light adds exactly zero. `filled` pixels get the photo's
+// noise (camera/grain.glsl).
 void WriteChange(vec3 display, vec3 scene, vec3 change, float filled, vec2 pixel) {
   float touched = step(1e-30, dot(abs(change), vec3(1.0)));
   vec3 representable = clamp(display, vec3(0.0), vec3(GetWhiteLevel()));

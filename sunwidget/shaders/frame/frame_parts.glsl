@@ -1,4 +1,4 @@
-// Which shader draws a pixel of the frame: 0 frame_sky, 1 frame_land, 2 the frame itself.
+// Selects the shader that draws a pixel of the frame: 0 frame_sky, 1 frame_land, 2 frame itself.
 
 #include "frame/pixel.glsl"
 #include "frame/packed.glsl"

@@ -1,4 +1,4 @@
-// Up to three maps of 8 bits in one float of a texel, exact: floats hold whole numbers below 2^24.
+// Up to three 8-bit maps in one float of a texel, exactly: floats hold integers below 2^24.
 
 float PackLevels(vec3 levels) {
   return dot(floor(levels * 255.0 + 0.5), vec3(1.0, 256.0, 65536.0));

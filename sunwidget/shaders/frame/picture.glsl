@@ -1,4 +1,4 @@
-// Where a pixel looks, and how scene textures are read.
+// Viewing directions of pixels, and reading of scene textures.
 // Picture coordinates: fractions of width and height, (0,0) at the top left corner.
 // World coordinates: x to the right of the camera's heading, y up, z along the heading.
 
@@ -15,7 +15,7 @@ vec3 GetViewDirection(vec2 place) {
   return vec3(dot(ray, camera_right), dot(ray, camera_up), dot(ray, camera_forward));
 }
 
-// The inverse: where a direction appears. z of the result is positive in front of the camera.
+// The inverse: the place where a direction appears. z of the result is positive in front of the camera.
 vec3 GetPlaceOfDirection(vec3 direction) {
   float aspect = frame_size.x / frame_size.y;
   vec3 ray = direction.x * camera_right + direction.y * camera_up + direction.z * camera_forward;
@@ -23,7 +23,7 @@ vec3 GetPlaceOfDirection(vec3 direction) {
   return vec3(0.5 + ray.x / depth * camera_focal / aspect, 0.5 + ray.y / depth * camera_focal, ray.z);
 }
 
-// Bilinear by hand, clamped at the edge: no filter state, so both hosts agree.
+// Bilinear, clamped at the edge. Computed by hand: without filter state both hosts agree.
 vec4 ReadBilinear(sampler2D image, vec2 place) {
   vec2 size = vec2(textureSize(image, 0));
   vec2 at = clamp(place * size - 0.5, vec2(0.0), size - 1.0);
@@ -35,7 +35,7 @@ vec4 ReadBilinear(sampler2D image, vec2 place) {
   return mix(top, bottom, share.y);
 }
 
-// For textures of the picture's size or more: exact where the sizes agree.
+// Nearest texel, for textures of at least the picture's size: exact if the sizes agree.
 vec4 ReadPicture(sampler2D image, vec2 place) {
   ivec2 size = textureSize(image, 0);
   return texelFetch(image, clamp(ivec2(place * vec2(size)), ivec2(0), size - 1), 0);

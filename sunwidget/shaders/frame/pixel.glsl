@@ -1,10 +1,10 @@
-// The pixel that is drawn, top-left origin on every host, and its noise.
+// The pixel being drawn, with top-left origin on every host, and its noise.
 
 #include "frame/frame_size.glsl"
 #include "frame/hash.glsl"
 
 uniform vec2 tile_origin;
-uniform float canvas_flip;     // 1 when drawing to the browser's canvas, whose row 0 is the lowest
+uniform float canvas_flip;     // 1 when drawing to the browser's canvas, whose row 0 is at the bottom
 uniform int output_transfer;   // 0 linear light, 1 sRGB
 uniform float dither;          // half-width of the triangular dither, in levels of 1/255
 

@@ -1,12 +1,12 @@
-// What all pixels of the frame share (composite_constants.glsl), by name, by way of frame_constants.glsl. What few pixels
-// need is read from the map itself.
+// Named access to the values that all pixels of the frame share (composite_constants.glsl), passed on by
+// frame_constants.glsl. Values that few pixels need are read from the map itself.
 
 #include "frame/composite_texels.glsl"
 
 flat in vec4 composite[11];
 uniform sampler2D composite_constants;
 
-// Of the picture, as a factor.
+// Exposure of the picture, as a factor.
 float GetExposureGain() {
   return composite[kGains].x;
 }
@@ -16,18 +16,18 @@ float GetMoved() {
   return composite[kGains].y;
 }
 
-// Share of its color that the land loses in the shade.
-float GetLostColor() {
+// Share of its color that land loses in shade.
+float GetColorLoss() {
   return composite[kGains].z;
 }
 
-// Of the land over the picture's exposure, as a factor.
+// Exposure of the land relative to the picture's, as a factor.
 float GetLandGain() {
   return abs(composite[kGains].w);
 }
 
-// The light that a sky sends in all directions is the same to the bit.
-bool IsSkyAsItWas() {
+// Whether the light that the sky sends in all directions is the same to the bit.
+bool IsSkyUnchanged() {
   return composite[kGains].w < 0.0;
 }
 
@@ -35,7 +35,7 @@ vec3 GetSunBefore() {
   return composite[kSunBefore].rgb;
 }
 
-// Light of a cloud: `Ambient` from the sky and the shaded side, `Lobe` what its forward lobe adds.
+// Light of a cloud: `Ambient` from the sky and the shaded side, `Lobe` the contribution of its forward lobe.
 vec3 GetCloudAmbientBefore() {
   return composite[kCloudBefore].rgb - composite[kCloudLobeBefore].rgb;
 }
@@ -52,11 +52,11 @@ vec3 GetCloudLobeNow() {
   return composite[kCloudLobeNow].rgb;
 }
 
-// Irradiance of land that is `upright` or lies.
-vec3 GetLitBefore(float upright) {
-  return mix(composite[kLyingBefore].rgb, composite[kUprightBefore].rgb, upright);
+// Irradiance of land, from level (`upright` = 0) to upright (1).
+vec3 GetIrradianceBefore(float upright) {
+  return mix(composite[kLevelLandBefore].rgb, composite[kUprightLandBefore].rgb, upright);
 }
 
-vec3 GetLitNow(float upright) {
-  return mix(composite[kLyingNow].rgb, composite[kUprightNow].rgb, upright);
+vec3 GetIrradianceNow(float upright) {
+  return mix(composite[kLevelLandNow].rgb, composite[kUprightLandNow].rgb, upright);
 }

@@ -1,4 +1,4 @@
-// Display light and its code values.
+// Luminance, and the code values of display light.
 
 const vec3 kRec709Luminance = vec3(0.2126, 0.7152, 0.0722);
 

@@ -1,6 +1,6 @@
-// How frame-sized passes read the scene textures of the picture's size. A host may give them as a
-// strip: some rows of a large picture, and where the rows are longer than a texture can be, their
-// pieces one below the other. All other passes read the whole picture (ReadPicture).
+// Reading of picture-sized scene textures in frame-sized passes. A host may provide a texture as a strip: some
+// rows of a large picture, where rows longer than the largest texture are cut into stacked
+// pieces. All other passes read the whole picture (ReadPicture).
 
 uniform vec4 picture_strip;  // first row, width and height of the picture, rows; texels, 0 = no strip
 
@@ -8,7 +8,7 @@ ivec2 GetPictureSize(sampler2D image) {
   return picture_strip.y > 0.0 ? ivec2(picture_strip.yz) : textureSize(image, 0);
 }
 
-// The texel of the picture; beyond its edge the nearest one.
+// A texel of the picture, clamped at the edge.
 vec4 FetchPixel(sampler2D image, ivec2 texel) {
   texel = clamp(texel, ivec2(0), GetPictureSize(image) - 1);
   if (picture_strip.y > 0.0) {
@@ -21,7 +21,7 @@ vec4 FetchPixel(sampler2D image, ivec2 texel) {
   return texelFetch(image, texel, 0);
 }
 
-// As ReadPicture.
+// Like ReadPicture.
 vec4 ReadPixel(sampler2D image, vec2 place) {
   return FetchPixel(image, ivec2(place * vec2(GetPictureSize(image))));
 }

@@ -1,5 +1,5 @@
-// The light of the air before distant land, by column of the picture: what an endless path along
-// the horizon sends, in the photo's scene-linear unit. Round a sun that land or clouds hide the near air lies in
+// The light of the air in front of distant land, by column of the picture: that of an endless path along
+// the horizon, in the photo's scene-linear unit. Around a sun hidden by land or clouds the near air lies in
 // their shade, and is no brighter than air to the side of the sun.
 
 #include "frame/picture.glsl"

@@ -1,5 +1,5 @@
-// The land's log-depth at an eighth of the size, for the march of shadow.glsl, laid out as
-// land/read_land_depth.glsl says. Drawn once a photo.
+// The land's log-depth at an eighth of the size, for the march of shadow.glsl, in the layout of
+// land/read_land_depth.glsl. Drawn once per photo.
 
 #include "frame/picture.glsl"
 #include "land/read_land_depth.glsl"
@@ -20,7 +20,7 @@ vec2 GetLandDepth(vec2 middle) {
     for (int column = 0; column < kSamples; ++column) {
       vec2 inside = (vec2(column, row) + 0.5) / float(kSamples) - 0.5;
       vec2 place = (middle + inside) / pass_size;
-      // The sky of a texel has its depth from the land beside it: only land counts where there is some.
+      // A texel's sky takes its depth from the land beside it, so only land counts where there is any.
       float here = 1.0 - ReadPicture(layers, place).r;
       level += (here + 1e-6) * ReadPicture(surface, place).a;
       weight += here + 1e-6;

@@ -1,4 +1,4 @@
-// Means over the picture by a grid of taps: of dry land, and of the clouds in the sky that is seen.
+// Means over the picture on a grid of taps: of dry land, and of the clouds in the visible sky.
 
 #include "land/read_land_depth.glsl"
 #include "land/relief.glsl"
@@ -14,12 +14,12 @@ vec2 GetTap(int i) {
   return (vec2(i % kColumns, i / kColumns) + 0.5) / vec2(kColumns, kRows);
 }
 
-// How much of a place is land and no water, which sends the sun elsewhere.
+// Share of a place that is land but not water, which reflects the sun elsewhere.
 float GetDryLand(vec2 place) {
   return ReadLandDepth(land_depth, place).g * (1.0 - ReadPicture(surface, place).g);
 }
 
-// How much of the sky the clouds take beyond a veil of this opacity.
+// Share of the sky that clouds cover beyond a veil of this opacity.
 float GetMeanCover(sampler2D openness, float veil) {
   vec2 sky = vec2(0.0, 0.5);
   for (int i = 0; i < kTaps; ++i) {

@@ -1,5 +1,5 @@
-// How the light on land changes that the photo's sun does not reach: rgb the ratio, alpha the log-depth, by which
-// the frame chooses among texels. A quarter of the size.
+// Change of the light on land in shade of the photo's sun: rgb the ratio, alpha the log-depth, by which
+// the frame weights texels. A quarter of the size.
 
 #include "land/lit_land.glsl"
 

@@ -1,5 +1,5 @@
-// How the light on land changes that the photo's sun reaches: rgb the ratio; alpha how many times the light of
-// land in shade falls on it in the photo. A quarter of the size.
+// Change of the light on land lit by the photo's sun: rgb the ratio; alpha its irradiance in the photo
+// relative to that of land in shade. A quarter of the size.
 
 #include "land/lit_land.glsl"
 

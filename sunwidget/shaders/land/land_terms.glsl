@@ -1,9 +1,9 @@
-// The light on the land that is the same for all its places, before and now, in the photo's
+// The light on land that is the same everywhere, before and now, in the photo's
 // scene-linear unit. Texels, for the photo's sun, and from 8 on for the moved one:
 //   0 the sky's irradiance on a surface that faces up, 1 right, 2 left, 3 away, 4 the camera
-//   5 what lying land throws up    6 the sun's irradiance at normal incidence; alpha: sun_visibility
-//   7 direction of the sun; alpha, of the moved one: what the photo's sky lets through of any sun
-//  16 what of the sun reaches the land on average: r past land, g past clouds, before; b, a now
+//   5 light reflected by level land    6 the sun's irradiance at normal incidence, times sun_visibility
+//   7 direction of the sun; alpha, of the moved one: share of any sun that the photo's sky lets through
+//  16 mean share of the sun that reaches the land: r past land, g past clouds, before; b, a now
 
 #include "frame/picture.glsl"
 #include "atmosphere/read_sky_view.glsl"
@@ -30,13 +30,13 @@ uniform float source_sun_visibility;
 out vec4 result;
 
 const float kGroundAlbedo = 0.2;
-const float kCloudLight = 0.5;  // of that of a white cloud's sunlit side: most are seen from below
-const float kSunny = 0.6;       // of the sunlight that a land's relief lets expect: by so much its sky lets it through
-const vec2 kTellsShine = vec2(0.0, 0.05);  // sine of the photo's sun's height from which its land tells that
+const float kCloudLight = 0.5;  // light of clouds relative to a white cloud's sunlit side: most are seen from below
+const float kSunny = 0.6;       // the sky counts as clear from this share of the sunlight expected from the relief
+const vec2 kShineKnown = vec2(0.0, 0.05);  // sines of the photo's sun's height: land reveals the sky's clearness
 
-// A landscape is not lit as one point: the mean over its dry places. With hardly any land it is what the camera
-// itself sees of the sun.
-vec2 GetMean(sampler2D shadow, float visible) {
+// Mean share of the sun past land and past clouds over the dry land, because a landscape is not lit like one point. With
+// hardly any land it is the share of the sun visible from the camera.
+vec2 GetMeanSunShare(sampler2D shadow, float visible) {
   vec3 sum = 0.5 * vec3(visible, 1.0, 1.0);
   for (int i = 0; i < kTaps; ++i) {
     sum += GetDryLand(GetTap(i)) * vec3(ReadBilinear(shadow, GetTap(i)).rg, 1.0);
@@ -44,9 +44,9 @@ vec2 GetMean(sampler2D shadow, float visible) {
   return sum.xy / sum.z;
 }
 
-// Of the photo's sun: what reaches the land by what the photo shows, how much light it throws there, and how much
-// the land's relief lets expect.
-vec3 GetSeen(float visible) {
+// Means for the photo's sun: its share on the land as seen in the photo, its light there, and the light expected
+// from the land's relief.
+vec3 GetSunInPhoto(float visible) {
   vec4 sum = 0.5 * vec4(visible, visible, visible, 1.0);
   for (int i = 0; i < kTaps; ++i) {
     Relief land = ReadRelief(GetTap(i));
@@ -59,12 +59,12 @@ vec3 GetSeen(float visible) {
 vec3 GetIrradiance(bool now, int index) {
   float moon = now ? GetMoon() : photo_light;
   vec3 light = now ? GetLightTexel(light_edit, index) : GetLightTexel(light_before, index);
-  // Without a moon no light reaches a surface but the night sky's, from half the sphere.
+  // Without a moon a surface receives only the night sky's light, from half the sphere.
   vec3 night = index == 1 ? vec3(0.0) : kPi * GetNightSky(moon);
   return sky_gain * (GetLightScale(moon) * light + night);
 }
 
-// The sky's irradiance with the clouds that it has: up, or (`part` above 0) on upright surfaces.
+// Irradiance of the sky with its clouds: on surfaces that face up, or (`part` above 0) on upright ones.
 vec3 GetSkyIrradiance(bool now, int part) {
   // light.glsl's order is up, sun, facing the camera, right, left, away.
   vec3 clear = GetIrradiance(now, part == 0 ? 0 : part == 4 ? 2 : part + 2);
@@ -81,14 +81,14 @@ void main() {
   vec3 sun_before = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
   float visible = texelFetch(visibility_source, ivec2(0), 0).r;
-  vec3 seen = GetSeen(visible);
-  vec2 mean_before = vec2(seen.x, GetMean(shadow_source, visible).y);
-  vec2 mean_now = GetMean(shadow_edit, texelFetch(visibility_edit, ivec2(0), 0).r);
-  // A sky that keeps the sun from the land in the photo keeps any sun from it.
-  float tells = smoothstep(kTellsShine.x, kTellsShine.y, sun_before.y);
+  vec3 seen = GetSunInPhoto(visible);
+  vec2 mean_before = vec2(seen.x, GetMeanSunShare(shadow_source, visible).y);
+  vec2 mean_now = GetMeanSunShare(shadow_edit, texelFetch(visibility_edit, ivec2(0), 0).r);
+  // A sky that blocks the photo's sun from the land also blocks any other sun.
+  float known = smoothstep(kShineKnown.x, kShineKnown.y, sun_before.y);
   float sunny = min(seen.y / max(kSunny * seen.z, 1e-3), 1.0);
-  float shine = 1.0 + tells * (sunny - 1.0);
-  mean_now.x = mean_before.x + GetOtherShadows(sun_before, sun_now) * (shine * mean_now.x - mean_before.x);
+  float shine = 1.0 + known * (sunny - 1.0);
+  mean_now.x = mean_before.x + GetShadowChange(sun_before, sun_now) * (shine * mean_now.x - mean_before.x);
   if (index == 16) {
     result = vec4(mean_before, mean_now);
     return;

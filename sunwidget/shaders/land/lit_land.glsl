@@ -1,10 +1,10 @@
-// How the land's light changes from the photo's sun to the moved one, per surface: the ratio of irradiances
+// Change of the land's light from the photo's sun to the moved one, per surface: the ratio of irradiances
 //   E = E_sky(normal) + (direct + gloss) E_sun
-// where `direct` is what of the sun's light falls on the place past other land, by what falls on a surface that faces
-// it. In the photo that is seen (relief), so the ratio is asked for twice, for a place in shadow and for one in the
-// sun, and the frame, which has the shadows' edges, chooses (land/read_land_light.glsl). Of the moved sun it is what the
-// photo lets expect (land/read_transfer.glsl); of a depth that somebody told that knows slopes alone, and the shadows are
-// what the depth casts (shadow.glsl).
+// where `direct` is the sun's light on the place past other land, relative to a surface facing the sun. For the photo's
+// sun it is visible in the photo (relief): the ratio is computed twice, for shade and for sunshine, and the frame, which
+// has the shadows' edges, selects between them (land/read_land_light.glsl). For the moved sun it is predicted from the
+// photo (land/read_transfer.glsl); with a given depth map the prediction covers slopes alone, and the depth casts the
+// shadows (shadow.glsl).
 
 #include "frame/picture.glsl"
 #include "camera/response.glsl"
@@ -28,16 +28,16 @@ uniform float source_land_facing;
 
 // Walls and slopes are smoother than the ground.
 const float kWallRoughness = 0.04;
-const float kExpected = 0.4;  // of the light of the photo's sun: what its land lets expect, over what is seen of it
-const float kAlike = 1e-6;
-const float kLeastOpen = 0.2;  // of what a slope sees of the sky: no wall stands all round a place that is seen
+const float kExpected = 0.4;  // weight of the predicted light of the photo's sun against the visible one
+const float kEqual = 1e-6;     // relative difference below which irradiances count as equal
+const float kLeastOpen = 0.2;  // smallest open share of a slope's sky: no visible place is walled in all round
 
 vec3 GetTerm(int index) {
   return texelFetch(land_terms, ivec2(index, 0), 0).rgb;
 }
 
-// Irradiance of the sky and of the lying land on a surface with this normal: by the squares of its
-// components, as an ambient cube (McTaggart, "Half-Life 2 / Valve Source Shading", GDC 2004).
+// Irradiance of the sky and the level land on a surface with this normal, weighted by the squares of the normal's
+// components: an ambient cube (McTaggart, "Half-Life 2 / Valve Source Shading", GDC 2004).
 vec3 GetSkyIrradiance(int first, vec3 normal) {
   vec3 square = normal * normal;
   vec3 bounce = GetTerm(first + 5);
@@ -47,22 +47,23 @@ vec3 GetSkyIrradiance(int first, vec3 normal) {
   return square.x * side + square.y * height + square.z * depth + 0.5 * (square.x + square.z) * bounce;
 }
 
-// What of the sky a place does not see is land, lit as lying land is.
+// The same where part of the sky is hidden: there stands land, lit like level land.
 vec3 GetOpenIrradiance(int first, vec3 normal, float openness) {
   float most = 0.5 + 0.5 * normal.y;
   float open = clamp(openness / max(most, 0.25), kLeastOpen, 1.0);
   return mix(GetTerm(first + 5), GetSkyIrradiance(first, normal), open);
 }
 
-// What of one sun reaches a place.
+// Shares of one sun's light that reach a place.
 struct SunShare {
   float past_land;
   float past_clouds;
-  float direct;  // as above; believed as far as shadows and slopes are
+  float direct;  // as above; weighted like shadows and slopes
 };
 
-// `first` is the first texel of the state in land_terms.glsl; `known` how far slope and shadows are believed.
-vec3 GetIrradiance(int first, Relief land, float openness, float known, float upright, float facing, vec3 view, SunShare share) {
+// `first` is the state's first texel in land_terms.glsl, `known` the weight of slope and shadows.
+vec3 GetIrradiance(int first, Relief land, float openness, float known, float upright, float facing, vec3 view,
+                   SunShare share) {
   vec3 sun = GetTerm(first + 7);
   float stands = mix(facing, 1.0, upright);
   vec3 sky = mix(GetTerm(first), GetTerm(first + 4) + 0.5 * GetTerm(first + 5), stands);
@@ -78,8 +79,8 @@ vec3 GetIrradiance(int first, Relief land, float openness, float known, float up
   return sky + share.past_clouds * direct * GetTerm(first + 6);
 }
 
-// What of the photo's sun comes past clouds, and of the moved sun past land and past clouds, averaged with
-// neighbors of like depth: the march's few steps leave stripes else.
+// Share of the photo's sun past clouds, and of the moved sun past land and past clouds, averaged over
+// neighbors of similar depth: otherwise the march's few steps leave stripes.
 vec3 GetSunShare(ivec2 texel, float level) {
   ivec2 last = ivec2(pass_size) - 1;
   vec3 sum = vec3(0.0);
@@ -98,11 +99,11 @@ vec3 GetSunShare(ivec2 texel, float level) {
 
 struct LandLight {
   vec3 before;  // irradiance in the photo
-  vec3 ratio;   // of what there is now
+  vec3 ratio;   // irradiance now over before
   float level;  // log-depth
 };
 
-// Of a place that the photo's sun reaches as far as `lit` says.
+// Light at this place, with `lit` the share of the photo's sun that reaches it.
 LandLight GetLandLight(float lit) {
   ivec2 texel = ivec2(gl_FragCoord.xy);
   vec2 place = gl_FragCoord.xy / pass_size;
@@ -112,9 +113,9 @@ LandLight GetLandLight(float lit) {
   float upright = GetUprightness(view);
   vec4 mean = texelFetch(land_terms, ivec2(16, 0), 0);
   vec3 here = GetSunShare(texel, level);
-  vec2 expected = texelFetch(shadow_edit, texel, 0).ba;  // light of the moved sun, and of an even sky
+  vec2 expected = texelFetch(shadow_edit, texel, 0).ba;  // light of the moved sun, and of a uniform sky
   float shine = texelFetch(land_terms, ivec2(15, 0), 0).a;
-  float other = GetOtherShadows(GetTerm(7), GetTerm(15));
+  float other = GetShadowChange(GetTerm(7), GetTerm(15));
   vec4 share = vec4(lit, here.x, lit + other * (shine * here.y - lit), here.z);
   share = mean + vec2(cast_shadows, cloud_shadows).xyxy * (share - mean);
   float direct = mix(lit * land.facing, texelFetch(shadow_source, texel, 0).b, kExpected);
@@ -122,15 +123,16 @@ LandLight GetLandLight(float lit) {
   SunShare moved = SunShare(share.z, share.w, direct + other * (shine * expected.x - direct));
   vec3 before = GetIrradiance(0, land, expected.y, shading, upright, source_land_facing, view, old);
   vec3 now = GetIrradiance(8, land, expected.y, shading, upright, land_facing, view, moved);
-  // A constant `lit` lets a compiler order the sums of the one otherwise than those of the other.
-  now = mix(now, before, lessThan(abs(now - before), kAlike * before));
+  // With a constant `lit` a compiler may order the two sums differently.
+  now = mix(now, before, lessThan(abs(now - before), kEqual * before));
   vec3 ratio = GetRatio(now, before);
-  vec3 down = vec3(0.0, -1.0, 0.0);  // where nothing gleams
+  vec3 down = vec3(0.0, -1.0, 0.0);  // a view without gloss
   SunShare all_before = SunShare(mean.x, mean.y, 0.0);
   SunShare all_now = SunShare(mean.z, mean.w, 0.0);
   vec3 plain_before = GetIrradiance(0, land, 1.0, 0.0, 0.5, source_land_facing, down, all_before);
   vec3 plain_now = GetIrradiance(8, land, 1.0, 0.0, 0.5, land_facing, down, all_now);
-  vec3 as_one = GetRatio(plain_now, plain_before);
-  as_one = mix(pow(as_one, vec3(kRestraint)), vec3(1.0), equal(as_one, vec3(1.0)));
-  return LandLight(before, as_one + GetSkySeen() * (ratio - as_one), level);
+  // Without a sky all land changes alike.
+  vec3 common_ratio = GetRatio(plain_now, plain_before);
+  common_ratio = mix(pow(common_ratio, vec3(kRestraint)), vec3(1.0), equal(common_ratio, vec3(1.0)));
+  return LandLight(before, common_ratio + GetSkySeen() * (ratio - common_ratio), level);
 }

@@ -1,4 +1,4 @@
-// The air before distant land (aerial perspective), by the strips that air.glsl draws.
+// The air in front of distant land (aerial perspective), from the strips of air.glsl.
 
 #include "atmosphere/atmosphere.glsl"
 #include "atmosphere/extinction.glsl"
@@ -9,9 +9,9 @@ uniform sampler2D air_source;
 uniform sampler2D air_edit;
 uniform float aerial_perspective;
 
-// Depth is a guess where it is large: beyond this it counts ever less.
+// Large depths are guesses: distances are compressed to at most this.
 const float kFarthestAir = 15000.0;  // m
-// A pixel is no darker than the air before it, so that this share of it at most is air.
+// A pixel is no darker than the air in front of it, so at most this share of it is air.
 const float kLargestShare = 0.9;
 
 int GetAirColumn(vec2 place) {
@@ -19,9 +19,9 @@ int GetAirColumn(vec2 place) {
   return clamp(int(place.x * float(columns)), 0, columns - 1);
 }
 
-// What the air adds to relit land when sun or haze change. `light` is the pixel's light, `gain` the
-// land's own ratio. Koschmieder 1924: I = J t + A (1 - t) with t = exp(-extinction * distance), so
-// that the land without its air, I - A (1 - t), takes the ratio and the new air comes before it:
+// Light that the air adds to relit land when sun or haze change. `light` is the pixel's light, `gain` the
+// land's own ratio. Koschmieder 1924: I = J t + A (1 - t) with t = exp(-extinction * distance). The
+// land without its air, I - A (1 - t), takes the ratio, and the new air is added:
 // I gain - A (1 - t) gain + A' (1 - t'). Nothing is divided by t.
 vec3 GetAirChange(vec2 place, float log_depth, vec3 light, vec3 gain) {
   float distance = exp2(16.0 * log_depth);
@@ -35,10 +35,10 @@ vec3 GetAirChange(vec2 place, float log_depth, vec3 light, vec3 gain) {
   vec3 air_now = texelFetch(air_edit, ivec2(column, 0), 0).rgb;
   vec3 before = share_before * air_before;
   float believed = min(kLargestShare * GetLuminance(light) / max(GetLuminance(before), 1e-12), 1.0);
-  // Air that the photo shows in another color than the model gives way as far as the pixel has it.
+  // If the photo's air has another color than the model's, only as much is removed as the pixel holds.
   vec3 held = min(believed * before, kLargestShare * light);
   vec3 change = share_now * RemoveLostTint(air_before, air_now) / max(before, vec3(1e-12));
-  vec3 given = held * change + (believed * before - held) * max(change - 1.0, 0.0);
-  vec3 taken = gain * held;
-  return GetSkySeen() * aerial_perspective * mix(given - taken, vec3(0.0), equal(given, taken));
+  vec3 added = held * change + (believed * before - held) * max(change - 1.0, 0.0);
+  vec3 removed = gain * held;
+  return GetSkySeen() * aerial_perspective * mix(added - removed, vec3(0.0), equal(added, removed));
 }

@@ -1,7 +1,7 @@
-// The land's log-depth map of land_depth.glsl: r the level, g how much is land. A march reads it dozens
-// of times, so a texel holds itself and its right, lower and diagonal neighbor: bilinear is one fetch.
+// The land's log-depth map of land_depth.glsl: r the level, g the share of land. A march reads it dozens
+// of times, so a texel also holds its right, lower and diagonal neighbors: a bilinear read is one fetch.
 
-// Level and land in one number: 16 bits of the level, a 4000th of an octave, are left beside the land's 8.
+// Level and land in one number: beside the land's 8 bits 16 remain for the level, steps of a 4000th of an octave.
 vec4 PackLandDepth(vec4 level, vec4 land) {
   return floor(255.0 * clamp(land, 0.0, 1.0) + 0.5) + min(level, vec4(0.9999));
 }

@@ -1,6 +1,6 @@
-// Reading the maps of land_shade.glsl and land_sunshine.glsl in the frame: four texels, weighed by how alike
-// their depth is, so that the light of far land does not bleed into what stands before it; and between the two by
-// what of the photo's light here is the sun's.
+// Reads the maps of land_shade.glsl and land_sunshine.glsl in the frame: four texels, weighted by the similarity of
+// their depth, so that the light of far land does not bleed into things in front of it. The two maps are mixed by
+// the sun's share of the photo's light here.
 
 #include "land/relief.glsl"
 
@@ -25,7 +25,7 @@ vec3 GetLandLight(vec2 place, float log_depth) {
                    (1.0 - share.x) * share.y, share.x * share.y);
   vec4 weight = (near + 1e-4) / (1.0 + apart * apart * apart * apart);
   weight /= weight.x + weight.y + weight.z + weight.w;
-  // From one of them, so that four equal ones give just that, to the bit.
+  // As differences from one texel, so that four equal ones give exactly their value.
   vec3 shade = a.rgb + weight.y * (b.rgb - a.rgb) + weight.z * (c.rgb - a.rgb) + weight.w * (d.rgb - a.rgb);
   a = texelFetch(land_sunshine, low, 0);
   b = texelFetch(land_sunshine, right, 0);

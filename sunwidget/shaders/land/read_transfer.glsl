@@ -1,7 +1,7 @@
-// What of any sun's light may be expected to fall on a place of land, by what falls on a surface that faces the sun:
-// the product of twelve shares of the place, which the land network sees (analysis/depth/relief.py), with twelve functions
+// The light of any sun expected on a place of land, relative to a surface facing the sun: the scalar
+// product of twelve shares of the place, predicted by the land network (analysis/depth/relief.py), with twelve functions
 // of the sun's direction, after Sloan et al., "Precomputed Radiance Transfer for Real-Time Rendering in Dynamic,
-// Low-Frequency Lighting Environments", SIGGRAPH 2002. The shares' roots lie in three pictures above each other.
+// Low-Frequency Lighting Environments", SIGGRAPH 2002. The roots of the shares are stored in three stacked pictures.
 
 uniform sampler2D transfer;
 
@@ -30,18 +30,19 @@ Transfer ReadTransfer(vec2 place) {
   return Transfer(ReadShares(place, 0), ReadShares(place, 1), ReadShares(place, 2));
 }
 
-// Of a sun in this direction, in world coordinates.
+// Light of a sun in this direction, in world coordinates.
 float GetSunlight(Transfer land, vec3 sun) {
   float height = max(sun.y, 0.0);
   float low = sqrt(height);
   float along = sun.x * sun.x - sun.z * sun.z;
   float across = 2.0 * sun.x * sun.z;
-  float light = dot(land.first, vec4(1.0, sun.x, sun.z, height)) + dot(land.second, vec4(low, sun.x * low, sun.z * low, along))
+  float light = dot(land.first, vec4(1.0, sun.x, sun.z, height))
+      + dot(land.second, vec4(low, sun.x * low, sun.z * low, along))
       + dot(land.third, vec4(across, along * height, across * height, height * height));
   return clamp(light, 0.0, 1.0);
 }
 
-// Of an even sky: the mean over it of what its parts throw on the place.
+// Light of a uniform sky: the mean over all directions.
 float GetOpenness(Transfer land) {
   float mean = dot(land.first, vec4(2.0, 0.0, 0.0, 1.0)) + 4.0 / 3.0 * land.second.x + 2.0 / 3.0 * land.third.w;
   return clamp(mean, 0.0, 1.0);

@@ -1,12 +1,13 @@
-// What of the sun reaches the land: r past other land, g past the clouds, both 1 where nothing is in the way; b what
-// of its light may be expected to fall on a place by all that the photo shows (land/read_transfer.glsl), and a what of an
-// even sky's. A quarter of the size.
+// The share of the sun that reaches the land: r past other land, g past the clouds, both 1 if nothing blocks it; b
+// the sunlight expected on a place from the whole photo (land/read_transfer.glsl), a the same for a uniform
+// sky. A quarter of the size.
 //
-// Past land: nothing but a depth that somebody told hides the sun there; b knows of other shadows, too. A march through the log-depth from a point towards the sun, in steps even in the picture at
-// first and even in log-depth later (after McGuire & Mara, "Efficient GPU Screen-Space Ray
-// Tracing", JCGT 2014). Only ratios of depths matter, so the unknown scale of the depth does not. What hides the sun counts softly, the
-// more so the farther along the ray it stands: a penumbra, and no jump when the sun moves.
-// Clouds: where the ray leaves through the clouds' layer is seen from the camera elsewhere in the sky.
+// Land: only a given depth map blocks the sun in r; b includes predicted shadows. The march goes through the log-depth
+// from a point towards the sun, in steps that are uniform in the picture at first and uniform in log-depth later (after
+// McGuire & Mara, "Efficient GPU Screen-Space Ray Tracing", JCGT 2014). Only ratios of depths matter, so the unknown
+// scale of the depth does not. An obstacle counts more softly the farther along the ray it stands: this gives a
+// penumbra, and no jump when the sun moves.
+// Clouds: the point where the ray leaves through the cloud layer is looked up where the camera sees it in the sky.
 
 #include "frame/picture.glsl"
 #include "land/read_land_depth.glsl"
@@ -18,23 +19,23 @@ uniform sampler2D veil_opacity;
 uniform sampler2D land_depth;
 uniform float sun_azimuth;
 uniform float sun_elevation;
-uniform float depth_told;  // whether somebody did, 0 or 1
+uniform float depth_told;  // whether a depth map was given, 0 or 1
 uniform vec2 pass_size;
 
 out vec4 result;
 
 const int kSteps = 24;
-const float kOctaves = 5.0;      // of depth that a march spans, in ever longer steps
-const float kClearance = 0.05;   // octaves that the ray passes behind land before it counts
+const float kOctaves = 5.0;      // octaves of depth that a march spans, in ever longer steps
+const float kClearance = 0.05;   // octaves behind land's face from which it blocks the ray
 const float kThickness = 0.8;    // octaves behind its face at which land ends
 const float kCloudHeight = 1500.0;
 
-// In camera coordinates: x right, y down, z forward.
+// The direction in camera coordinates: x right, y down, z forward.
 vec3 GetCameraDirection(vec3 direction) {
   return direction.x * camera_right + direction.y * camera_up + direction.z * camera_forward;
 }
 
-// Whether some land is near enough to read this texel, or beside one that it reads.
+// Whether land is near enough to read this texel or one of its neighbors.
 bool IsNearLand(vec2 place) {
   vec2 margin = 2.5 / vec2(textureSize(land_depth, 0));
   float land = ReadLandDepth(land_depth, place).g;
@@ -45,7 +46,8 @@ bool IsNearLand(vec2 place) {
   return land > 0.0;
 }
 
-float GetLandHiding(vec2 place, float level, vec3 sun) {
+// Share of the sun that land hides from a place at log-depth `level`; `sun` in camera coordinates.
+float GetLandOcclusion(vec2 place, float level, vec3 sun) {
   float aspect = frame_size.x / frame_size.y;
   vec3 ray = vec3((place.x - 0.5) * aspect / camera_focal, (place.y - 0.5) / camera_focal, 1.0);
   float hidden = 0.0;
@@ -66,7 +68,7 @@ float GetLandHiding(vec2 place, float level, vec3 sun) {
         * (1.0 - smoothstep(-0.02, 0.0, max(outside.x, outside.y)));
     hidden = max(hidden, hit);
   }
-  // At the ray's end stands whatever is in the sun's own direction: far land hides it from all.
+  // At the ray's end stands the land in the sun's own direction: far land hides the sun from every place.
   if (sun.z > 0.02) {
     vec2 seen = vec2(0.5 + sun.x / sun.z * camera_focal / aspect, 0.5 + sun.y / sun.z * camera_focal);
     vec2 outside = max(-seen, seen - 1.0);
@@ -78,12 +80,12 @@ float GetLandHiding(vec2 place, float level, vec3 sun) {
   return hidden;
 }
 
-// Clouds take no more of the sun's light than this: of a cloud of optical depth 16 a third comes through,
-// and what the others throw back lights their shadows.
+// Largest share of sunlight that clouds block: a third passes a cloud of optical depth 16,
+// and light reflected by other clouds fills the shadows.
 const float kCloudShade = 0.65;
 
-// Share of the sun that clouds take at `position`, metres from the camera in world coordinates.
-float GetCloudHiding(vec3 position, vec3 sun) {
+// Share of the sun that clouds block at `position`, meters from the camera in world coordinates.
+float GetCloudOcclusion(vec3 position, vec3 sun) {
   vec3 leaves = position + sun * (kCloudHeight - position.y) / max(sun.y, 0.03);
   vec3 seen = GetPlaceOfDirection(leaves);
   vec2 outside = max(-seen.xy, seen.xy - 1.0);
@@ -99,7 +101,7 @@ void main() {
   vec3 view = GetViewDirection(place);
   float along = exp2(16.0 * level) / max(dot(view, vec3(camera_right.z, camera_up.z, camera_forward.z)), 0.1);
   Transfer land = ReadTransfer(place);
-  float hidden = depth_told > 0.0 ? GetLandHiding(place, level, GetCameraDirection(sun)) : 0.0;
+  float hidden = depth_told > 0.0 ? GetLandOcclusion(place, level, GetCameraDirection(sun)) : 0.0;
   float light = GetSunlight(land, sun) * (1.0 - hidden);
-  result = vec4(1.0 - hidden, 1.0 - GetCloudHiding(along * view, sun), light, GetOpenness(land));
+  result = vec4(1.0 - hidden, 1.0 - GetCloudOcclusion(along * view, sun), light, GetOpenness(land));
 }

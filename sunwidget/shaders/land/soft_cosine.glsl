@@ -1,5 +1,5 @@
-// Ground is rough: grains, blades and waves catch a low sun that a plane would lose, so the cosine
-// runs out softly (half of the roughness at grazing light) instead of at zero.
+// Ground is rough: grains, blades and waves catch a low sun that a plane would miss. The cosine therefore
+// fades softly (half of the roughness at grazing light) instead of ending at zero.
 
 const float kRoughness = 0.45;
 

@@ -1,5 +1,5 @@
-// What level water (or a wet road) reflects at each place below the horizon: rgb the sky, a the
-// sun's glints per unit of its light (water/glint.glsl). Slow, so a quarter of the size is enough.
+// The reflection in level water (or a wet road) at each place below the horizon: rgb the sky, a the
+// sun's glints per unit of its light (water/glint.glsl). It varies slowly, so a quarter of the size is enough.
 
 #include "frame/picture.glsl"
 #include "atmosphere/read_sky_view.glsl"
@@ -18,7 +18,7 @@ out vec4 result;
 void main() {
   vec3 view = GetViewDirection(gl_FragCoord.xy / pass_size);
   view.y = min(view.y, -0.002);
-  // The facets that are seen lean towards the viewer, and mirror what lies above the exact reflection.
+  // The visible facets lean towards the viewer and mirror the sky above the exact reflection.
   float facing = GetFacing(view, wind_speed);
   vec3 up = normalize(vec3(view.x, facing, view.z));
   vec3 sun = GetSunDirection(sun_azimuth, sun_elevation);

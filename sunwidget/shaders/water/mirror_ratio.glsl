@@ -1,7 +1,7 @@
-// How what is mirrored changes from the photo's sun to the moved one: rgb the ratio, a the new sun's
-// glints per unit of its light. On water the sky is mirrored, less the steeper one looks, and the
-// water's own light follows what falls into it; glints are left to the frame (water/water.glsl). What
-// glitters on land is mirrored sky and sun together.
+// Change of mirrored light from the photo's sun to the moved one: rgb the ratio, a the new sun's
+// glints per unit of its light. Water mirrors the sky, less at steeper views, and the
+// water's own light follows its irradiance; the frame adds the glints (water/water.glsl). Shiny
+// land mirrors sky and sun together.
 
 #include "frame/picture.glsl"
 #include "frame/composite_texels.glsl"
@@ -23,18 +23,17 @@ uniform float water_strength;
 
 out vec4 result;
 
-// A clipped glint does not say how bright it was: let it fade freely, but hardly grow.
+// The true light of a clipped glint is unknown: it may fade freely, but hardly grow.
 const float kLargestGrowth = 2.0;
 // Asphalt, wet sand, roofs.
 const float kRoadRoughness = 0.3;
 // Irradiance reflectance of the sea just below its surface, between clear ocean and coast
-// (Jerlov 1976): water swallows red.
-const vec3 kBody = vec3(0.008, 0.025, 0.035);
+// (Jerlov 1976): water absorbs red.
+const vec3 kWaterReflectance = vec3(0.008, 0.025, 0.035);
 
-// Light of the water itself under an irradiance, of which the surface lets in what it does not
-// reflect.
-vec3 GetBody(vec3 irradiance, vec3 view, float wind) {
-  return (1.0 - GetFresnel(GetFacing(view, wind))) * kBody / 3.14159265 * irradiance;
+// Light of the water itself under an irradiance, without the share that the surface reflects.
+vec3 GetWaterLight(vec3 irradiance, vec3 view, float wind) {
+  return (1.0 - GetFresnel(GetFacing(view, wind))) * kWaterReflectance / 3.14159265 * irradiance;
 }
 
 vec3 GetConstant(int index) {
@@ -53,16 +52,16 @@ void main() {
   float share = GetFresnel(GetFacing(view, source_wind_speed));
   vec3 sky_before = before.rgb + cloud * (share * GetConstant(kCloudBefore) - before.rgb);
   vec3 sky_now = now.rgb + cloud * (share * GetConstant(kCloudNow) - now.rgb);
-  vec3 water = GetRatio(sky_now + GetBody(GetConstant(kLyingNow), view, wind_speed),
-                        sky_before + GetBody(GetConstant(kLyingBefore), view, source_wind_speed));
-  // On land the sun is mirrored by a surface that is rougher than water, wide round its glints.
+  vec3 water = GetRatio(sky_now + GetWaterLight(GetConstant(kLevelLandNow), view, wind_speed),
+                        sky_before + GetWaterLight(GetConstant(kLevelLandBefore), view, source_wind_speed));
+  // Land mirrors the sun with a rougher surface than water, in a wide lobe around its glints.
   float shine_before = GetGroundLobe(view, texelFetch(land_terms, ivec2(7, 0), 0).xyz, kRoadRoughness);
   float shine_now = GetGroundLobe(view, texelFetch(land_terms, ivec2(15, 0), 0).xyz, kRoadRoughness);
   vec3 gleam = before.rgb + shine_before * GetConstant(kWaterSunBefore);
   vec3 shine = min(GetRatio(now.rgb + shine_now * GetConstant(kWaterSunNow), gleam), vec3(kLargestGrowth));
-  // Burnt glints are white in the photo, whatever their color was.
+  // Clipped glints are white in the photo, whatever their true color.
   vec3 bleached = gleam / GetLuminance(gleam);
   shine *= 1.0 + marks.b * GetConstant(kGains).y * (bleached - 1.0);
-  float known = marks.g * water_strength;
-  result = vec4(shine + known * (water - shine), glitter * now.a);
+  float water_share = marks.g * water_strength;
+  result = vec4(shine + water_share * (water - shine), glitter * now.a);
 }

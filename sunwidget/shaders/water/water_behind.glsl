@@ -1,6 +1,6 @@
 // The water without the old sun's glints: its light (water_level.glsl) with the waves of the water
-// beside it, which looks the same as far away. Alpha: what waves make of new glints here
-// (water/waves.glsl), which lie on the waves that are there. Drawn once a photo. NO_GLINTS leaves out what only
+// beside it at the same distance. Alpha: the effect of the photo's waves on new glints here
+// (water/waves.glsl). Drawn once per photo. NO_GLINTS omits what only
 // the zone of the old glints needs (water_parts.glsl).
 
 #include "frame/picture.glsl"
@@ -16,8 +16,8 @@ uniform vec2 tile_origin;
 out vec4 result;
 
 const int kPlaces = 6;
-const float kHighestWave = 0.35;  // of natural logarithm
-const float kRock = 0.2;  // the same; so far from the water's light half is believed
+const float kHighestWave = 0.35;  // natural logarithm of brightness
+const float kRock = 0.2;  // the same; a deviation from the water's light that gets half the weight
 
 // Inside the picture, mirrored at its sides.
 float Reflect(float x) {
@@ -43,21 +43,21 @@ void main() {
   float sum = 0.0;
   float squares = 1e-4;
   for (int i = 0; i < kPlaces; ++i) {
-    // No water about as far away. Leaving a loop does save time on software rendering, unlike a branch.
+    // No water at a similar distance. Leaving a loop saves time on software rendering, unlike a branch.
     if (level.a <= 0.0) break;
     float shift = (i % 2 == 0 ? -0.13 : 0.17) + 0.19 * float(i / 2) * (i % 2 == 0 ? -1.0 : 1.0);
     vec2 at = vec2(Reflect(place.x + shift), place.y);
     vec2 marks = ReadPixel(surface, at).gb;
     float weight = smoothstep(0.5, 1.0, marks.x) * (1.0 - marks.y) * (1.0 - marks.y);
     float wave = GetBrightness(GetSceneLight(ReadPixel(photo, at).rgb), ReadBilinear(water_level, at).rgb);
-    // Rocks that the mask calls water stand out more than waves do.
+    // Rocks that the mask includes as water stand out more than waves.
     weight /= 1.0 + wave * wave * wave * wave / (kRock * kRock * kRock * kRock);
     sum += weight * clamp(wave, -kHighestWave, kHighestWave);
     squares += weight * weight;
   }
-  // Waves of several places, as high as those of one.
+  // Waves summed over several places, scaled to the height of one place's.
   float wave = sum * inversesqrt(squares);
-  // Where no water is without glints, nothing better is known than what is seen.
+  // Without water free of glints, the pixel's own light is the best estimate.
   vec3 water = mix(own, level.rgb * exp(wave), smoothstep(0.0, 0.01, level.a));
   wave = mix(seen, wave, ReadPixel(surface, place).b);
   result = vec4(water, GetSparkle(place, wave));

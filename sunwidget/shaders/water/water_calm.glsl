@@ -1,4 +1,4 @@
-// Water away from the old sun's glints (water_parts.glsl): its light is its own.
+// Water away from the old sun's glints (water_parts.glsl), which keeps its own light.
 
 #define NO_GLINTS
 #include "water/water_behind.glsl"

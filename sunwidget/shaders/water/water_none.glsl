@@ -1,4 +1,4 @@
-// Where there is no water (water_parts.glsl), nobody asks what lies behind it.
+// Pixels without water (water_parts.glsl), where nothing reads the result.
 
 out vec4 result;
 

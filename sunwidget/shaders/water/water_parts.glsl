@@ -1,5 +1,5 @@
-// Which shader draws a pixel of the water: 0 water_none, 1 water_calm, 2 water_behind itself. What the first two
-// leave out is multiplied by zero (sky_behind.glsl, water/water.glsl).
+// Selects the shader that draws a pixel of the water: 0 water_none, 1 water_calm, 2 water_behind itself. What the
+// first two omit is multiplied by zero (sky_behind.glsl, water/water.glsl).
 
 #include "frame/picture.glsl"
 #include "frame/strip.glsl"
@@ -14,6 +14,6 @@ void main() {
   float matte = ReadPixel(layers, place).r;
   vec2 marks = ReadPixel(surface, place).gb;
   bool wet = marks.x > 0.2 && matte < 0.2;
-  // Along a shore that shows some sky, what lies behind it is asked without its glints, too.
+  // Along a shore that shows some sky, the light behind it must also be free of glints.
   SetPart(!wet ? 0 : marks.y == 0.0 && matte == 0.0 ? 1 : 2);
 }

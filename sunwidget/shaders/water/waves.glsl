@@ -1,10 +1,10 @@
-// Waves as a pattern: which parts of water glint. It does not know the sun, so that glints stay on
+// Waves as a pattern of the parts of water that glint. It does not depend on the sun, so glints stay on
 // their waves while the sun is dragged.
 
 #include "frame/hash.glsl"
 
-// Height of a wave in the picture, in radians: a part for the horizon, and a share of how far below
-// the horizon it lies. Waves look several times as wide as high.
+// Height of a wave in the picture, in radians: its height at the horizon, plus a share of its depth below
+// the horizon. Waves look several times as wide as high.
 const float kFarWave = 0.0011;
 const float kNearWave = 0.035;
 const float kWaveWidth = 5.0;
@@ -18,8 +18,8 @@ float GetWave(int row, float column) {
   return mix(left, right, share * share * (3.0 - 2.0 * share)) / 16777216.0;
 }
 
-// A pattern of waves in [0, 1] that lies on the water in perspective. `azimuth` and `depth` below the
-// horizon in radians.
+// A pattern of waves in [0, 1] on the water in perspective. `azimuth` and `depth` below the
+// horizon are in radians.
 float GetWaves(float azimuth, float depth, float size) {
   float far = size * kFarWave;
   float row = log(1.0 + depth * kNearWave / far) / kNearWave;
@@ -31,9 +31,9 @@ float GetWaves(float azimuth, float depth, float size) {
   return mix(GetWave(int(first), column.x), GetWave(int(first) + 1, column.y), share * share * (3.0 - 2.0 * share));
 }
 
-// What waves make of glints of mean radiance one, as its logarithm: near ones are larger than a pixel
-// and glint one by one, far ones blend. Log-normal, as the facets that happen to face the sun are few.
-// `own_wave` is how bright the photo's own wave is here, 0.5 for the mean.
+// Log of the radiance of glints on waves, for glints of mean radiance one: near waves are larger than a pixel
+// and glint one by one, far ones blend. Log-normal, because few facets happen to face the sun.
+// `own_wave` is the brightness of the photo's own wave here, 0.5 for the mean.
 float GetLogSparkle(vec3 view, float own_wave) {
   float depth = max(-view.y, 0.0);
   float azimuth = atan(view.x, max(view.z, 1e-3));
@@ -43,7 +43,7 @@ float GetLogSparkle(vec3 view, float own_wave) {
   return mix(4.0, 7.0, near) * waves + mix(1.5, 4.0, near) * (own_wave - 0.5) - mix(0.3, 1.0, near);
 }
 
-// The same in eight bits: steps of 4 %.
+// The log-sparkle as a code in [0, 1] for eight bits: steps of 4 %.
 float EncodeSparkle(float log_sparkle) {
   return clamp((log_sparkle + 5.0) / 9.0, 0.0, 1.0);
 }
