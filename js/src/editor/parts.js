@@ -1,12 +1,7 @@
 /**
  * What hangs on the editor's view, each in a room of its own. A part puts its nodes where they
- * belong (`view.stage`, `view.toolbar.end`, `view.panel.section(name)`, `view.foot.node`) and is told:
- *
- *   loaded(scene)  the analysis, or an answer to a correction, has arrived
- *   show()         the edit or the history changed: controls follow at once
- *   draw()         the overlay is drawn: layout, zoom or edit changed
- *   drawn(scale)   a frame stands on the canvas, at a share of its full size
- *   point(place)   the pointer, or the keyboard's cross, is at a place of the picture, or gone
+ * belong (`view.stage`, `view.toolbar.end`, `view.panel.section(name)`, `view.foot.node`)
+ * and is told of what happens (`part.js`).
  */
 
 import { exportPanel } from "./export/export_panel.js";
@@ -35,13 +30,7 @@ import { timings } from "./view/timings.js";
 import { zoomControl } from "./view/zoom_control.js";
 
 /**
- * @typedef {{
- *   loaded?: (scene: import("../host/types.js").Scene) => void,
- *   show?: () => void,
- *   draw?: () => void,
- *   drawn?: (scale: number) => void,
- *   point?: (place: import("../host/types.js").Point | null) => void,
- * }} Part
+ * @typedef {import("./part.js").Part} Part
  * @typedef {(view: import("./view/view.js").View, signal: AbortSignal) => Part} MakePart
  */
 

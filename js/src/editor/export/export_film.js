@@ -73,7 +73,7 @@ export function exportFilm(view, job, signal) {
   };
   /** Why there is no film, or "". */
   const still = () => {
-    if (!view.scene) return "The photo is not analysed yet.";
+    if (!view.picture.scene) return "The photo is not analysed yet.";
     if (byDay()) {
       if (!clock.place || !clock.path.length) return "Say where and when first: Time and place.";
       return clock.place.heading === null ? "Say where the camera looks: Time and place." : "";
@@ -86,9 +86,9 @@ export function exportFilm(view, job, signal) {
     keyFramePath(
       frames,
       easing.select.value,
-      view.parameters,
+      view.state.parameters,
       view.state.values,
-      view.scene?.automatic ?? {},
+      view.picture.scene?.automatic ?? {},
     );
 
   /** @type {{ on: string, film: import("./film_player.js").Film } | null} */

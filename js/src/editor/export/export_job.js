@@ -3,7 +3,6 @@
 import { chip } from "../../ui/chips.js";
 import { download } from "../../ui/download.js";
 import { element } from "../../ui/element.js";
-import { work } from "./save.js";
 
 const SHOWN_BYTES = 20_000_000; // as in sunwidget/widgets/editor/export_files.py
 
@@ -20,7 +19,7 @@ const SHOWN_BYTES = 20_000_000; // as in sunwidget/widgets/editor/export_files.p
 export function exportJob(view, isOpen, signal) {
   const bar = element("progress", { max: 1, "aria-label": "Progress of the export" });
   const said = element("span", { class: "sw-export-said" });
-  const cancel = chip("Cancel", "Stop; nothing of the file is left", () => view.work?.abort());
+  const cancel = chip("Cancel", "Stop; nothing of the file is left", () => view.work.cancel());
   const running = element("div", { class: "sw-export-running", hidden: true }, bar, said, cancel);
   const done = element("div", { class: "sw-export-done", role: "status" });
   let url = "";
@@ -73,7 +72,7 @@ export function exportJob(view, isOpen, signal) {
    * @param {(name: string) => void} rename what to do with the free name
    */
   const run = (action, content, rename) =>
-    work(view, "The export", async (stop) => {
+    view.work.run("The export", async (stop) => {
       done.replaceChildren();
       running.hidden = false;
       tell(0, "Asking the kernel …");
@@ -82,7 +81,7 @@ export function exportJob(view, isOpen, signal) {
         const onProgress = (fraction, text) => {
           if (!stop.aborted) tell(fraction, text);
         };
-        const asked = { ...content, ...view.asked(), key_frames: view.state.keyFrames() };
+        const asked = { ...content, ...view.picture.asked(), key_frames: view.state.keyFrames() };
         const { result, buffers } = await view.channel.request(action, asked, onProgress, [], stop);
         if (!result.taken) return show(result, buffers, action === "film");
         const other = chip(`Use ${result.free}`, "Export under this name", () => {

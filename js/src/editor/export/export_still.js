@@ -98,7 +98,7 @@ export function exportStill(view, job) {
   };
   const problem = (/** @type {import("./export_target.js").Format | undefined} */ kind) => {
     if (!view.kernel.answers) return "Needs the kernel: run the cell again.";
-    if (!view.scene) return "The photo is not analysed yet.";
+    if (!view.picture.scene) return "The photo is not analysed yet.";
     return lacking(kind);
   };
   format.select.addEventListener("change", () => {

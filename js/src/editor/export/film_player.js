@@ -34,17 +34,17 @@ export function filmPlayer(view, signal, read) {
 
   /** @param {Film} film */
   const draw = (film) => {
-    if (!view.passing) under = state.recipe();
-    view.passing = film.path(Math.min(1, at / film.seconds));
-    view.loop.request();
+    if (!view.picture.passing) under = state.recipe();
+    view.picture.passing = film.path(Math.min(1, at / film.seconds));
+    view.drawing.loop.request();
     show();
   };
   /** Back to the edit. */
   const leave = () => {
-    if (!view.passing) return;
-    view.passing = null;
+    if (!view.picture.passing) return;
+    view.picture.passing = null;
     at = 0;
-    view.show();
+    view.parts.show();
   };
   const play = playButton(
     {
@@ -104,7 +104,7 @@ export function filmPlayer(view, signal, read) {
     node,
     stop,
     show() {
-      if (view.passing && (state.before || !sameRecipe(under, state.recipe()))) stop();
+      if (view.picture.passing && (state.before || !sameRecipe(under, state.recipe()))) stop();
       else show();
     },
   };

@@ -34,7 +34,7 @@ export function keyFrames(view, signal) {
     const apart = sorted.map(({ seconds, recipe }) => {
       const at = round(Math.max(seconds, least));
       least = at + CLOSEST;
-      return { seconds: at, recipe: movedOf(view.parameters, recipe) };
+      return { seconds: at, recipe: movedOf(view.state.parameters, recipe) };
     });
     model.set("key_frames", apart);
     model.save_changes();
@@ -156,7 +156,7 @@ export function keyFrames(view, signal) {
     );
   };
   /** A key frame's recipe with the present edit's corrections and methods. @param {KeyFrame} frame */
-  const whole = (frame) => alongEdit(view.parameters, state.recipe(), frame.recipe);
+  const whole = (frame) => alongEdit(view.state.parameters, state.recipe(), frame.recipe);
 
   let drawn = "";
   const show = () => {
@@ -178,9 +178,9 @@ export function keyFrames(view, signal) {
     small.wake();
   };
   const small = thumbnails(view, signal, node, () => {
-    const shared = view.parameters.filter(({ kind }) => kind !== "data");
+    const shared = view.state.parameters.filter(({ kind }) => kind !== "data");
     return cards.map(({ frame, canvas }) => {
-      const edit = alongEdit(view.parameters, state.values, frame.recipe);
+      const edit = alongEdit(view.state.parameters, state.values, frame.recipe);
       const key = JSON.stringify([generation, ...shared.map(({ name }) => edit[name])]);
       return { canvas, edit, key };
     });

@@ -1,38 +1,8 @@
 /** The picture as a file: of full size from the kernel, of preview size where none answers. */
 
-import { Cancelled } from "../../host/channel.js";
 import { download } from "../../ui/download.js";
 
 /** @typedef {import("../view/view.js").View} View */
-
-/**
- * Make something that the person keeps; one at a time. `view.work` cancels it meanwhile.
- *
- * @param {View} view
- * @param {string} what as the person calls it
- * @param {(signal: AbortSignal) => Promise<void>} make
- */
-export async function work(view, what, make) {
-  if (view.work) return;
-  const controller = new AbortController();
-  view.work = controller;
-  view.state.push();
-  view.toolbar.show();
-  try {
-    await make(controller.signal);
-    view.notices.hide("save");
-  } catch (error) {
-    const why = error instanceof Error ? error.message : String(error);
-    view.notices.show("save", {
-      text: error instanceof Cancelled ? `${what} was cancelled.` : `${what} failed: ${why}`,
-      actions: [{ label: "Try again", run: () => work(view, what, make) }],
-    });
-  } finally {
-    view.work = null;
-    view.stage.setProgress(null, "");
-    view.toolbar.show();
-  }
-}
 
 /**
  * Hand the picture to the person as a file.
@@ -40,7 +10,7 @@ export async function work(view, what, make) {
  * @param {View} view
  */
 export const save = (view) =>
-  work(view, "Saving", (signal) =>
+  view.work.run("Saving", (signal) =>
     view.kernel.answers ? fromKernel(view, "save", signal) : savePreview(view),
   );
 
@@ -50,9 +20,9 @@ export function webPage(view) {
     group: "picture",
     label: "Save as a web page",
     title: "One file in which the sun can be moved, without a notebook and without network",
-    enabled: () => view.kernel.answers && view.scene !== null,
+    enabled: () => view.kernel.answers && view.picture.scene !== null,
     shown: () => view.kernel.state !== "none",
-    run: () => work(view, "Saving the page", (signal) => fromKernel(view, "page", signal)),
+    run: () => view.work.run("Saving the page", (signal) => fromKernel(view, "page", signal)),
   });
   return {};
 }
@@ -71,7 +41,13 @@ async function fromKernel(view, action, signal) {
     if (!signal.aborted) stage.setProgress(fraction, text);
   };
   onProgress(0, "Asking the kernel …");
-  const { result, buffers } = await channel.request(action, view.asked(), onProgress, [], signal);
+  const { result, buffers } = await channel.request(
+    action,
+    view.picture.asked(),
+    onProgress,
+    [],
+    signal,
+  );
   download(new Blob([/** @type {BlobPart} */ (buffers[0])], { type: result.type }), result.name);
 }
 
@@ -81,7 +57,7 @@ async function fromKernel(view, action, signal) {
  * @param {View} view
  */
 async function savePreview(view) {
-  view.drawFrame(1);
+  view.drawing.drawFrame(1);
   const { canvas } = view.stage;
   /** @type {Blob | null} */
   const blob = await new Promise((resolve) => canvas.toBlob(resolve, "image/png"));

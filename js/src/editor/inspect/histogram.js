@@ -74,7 +74,7 @@ export function histogram(view, signal) {
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
   let forget = () => {};
-  const fence = new Fence(view.frame);
+  const fence = new Fence(view.drawing.frame);
 
   /** @param {HTMLCanvasElement | HTMLImageElement} source @returns {Levels | null} */
   const read = (source) => {
@@ -102,7 +102,7 @@ export function histogram(view, signal) {
     own ??= read(view.stage.photo);
     counted = performance.now();
     // Until there is a frame, the photo stands where it will be.
-    const now = view.root.classList.contains("sw-live") ? read(view.stage.canvas) : own;
+    const now = view.drawing.live ? read(view.stage.canvas) : own;
     cost = Math.max(performance.now() - counted, FORGETS * cost);
     if (!now) return;
     const most = ceiling([now.red, now.green, now.blue, now.luminance]);

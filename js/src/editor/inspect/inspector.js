@@ -49,7 +49,7 @@ export class Inspector {
         ...this.maps.map(({ name, title }) => element("option", { value: name }, title)),
       ),
     );
-    this.choice.addEventListener("change", () => this.show(this.choice.value));
+    this.choice.addEventListener("change", () => this.choose(this.choice.value));
     this.canvas = element("canvas", { class: "sw-map", "aria-hidden": "true" });
     this.title = element("b");
     this.help = element("span", { class: "sw-legend-help" });
@@ -109,7 +109,7 @@ export class Inspector {
       icon: "close",
       label: "Close the map",
       title: "Close the map (Esc)",
-      onClick: () => this.show(""),
+      onClick: () => this.choose(""),
     });
     this.node = element(
       "div",
@@ -131,7 +131,7 @@ export class Inspector {
   }
 
   /** Show a map by name; an empty name shows the picture again. @param {string} name */
-  show(name) {
+  choose(name) {
     this.map = this.maps.find((map) => map.name === name) ?? null;
     this.choice.value = this.map?.name ?? "";
     this.node.hidden = !this.map;
@@ -156,14 +156,14 @@ export class Inspector {
   step(way) {
     const names = ["", ...this.maps.map(({ name }) => name)];
     const at = names.indexOf(this.map?.name ?? "");
-    this.show(names[(at + way + names.length) % names.length]);
+    this.choose(names[(at + way + names.length) % names.length]);
   }
 
   /** Ask for the map unless the one at hand is of the present scene. */
   async refresh() {
     const { map, view } = this;
-    if (!map || !view.scene || this.scene === view.scene) return;
-    const { scene } = view;
+    if (!map || !view.picture.scene || this.scene === view.picture.scene) return;
+    const { scene } = view.picture;
     this.scene = scene;
     this.asked += 1;
     const { asked } = this;
@@ -211,6 +211,16 @@ export class Inspector {
     this.data = data;
     this.help.textContent = map.help;
     this.readValue();
+  }
+
+  loaded() {
+    void this.refresh();
+  }
+
+  /** The canvas was emptied: paint the map anew. */
+  repaint() {
+    this.scene = null;
+    void this.refresh();
   }
 
   /** The pointer is at a place of the picture, or gone. @param {Point | null} place */

@@ -83,7 +83,7 @@ export function panel(view) {
     return { ...made, name, rows, main, more, inMore };
   };
 
-  const shown = view.parameters.filter((p) => p.kind !== "data");
+  const shown = view.state.parameters.filter((p) => p.kind !== "data");
   const names = [...new Set(shown.map((p) => p.section))];
   const sections = names.map((name) =>
     makeSection(
@@ -146,7 +146,7 @@ function makeRow(view, p) {
   });
   const show = () => {
     const value = /** @type {number | null} */ (state.values[p.name]);
-    control.show(value, view.scene?.automatic[p.name]);
+    control.show(value, view.picture.scene?.automatic[p.name]);
   };
   return { parameter: p, node: control.node, show };
 }

@@ -16,7 +16,7 @@ export function presetThumbnails(view, signal) {
 
   const chips = presetChips(
     view.state,
-    () => view.scene?.presets ?? [],
+    () => view.picture.scene?.presets ?? [],
     (preset) => {
       const canvas = element("canvas", { class: "sw-thumbnail", "aria-hidden": "true" });
       placePhoto(view, canvas);
@@ -36,7 +36,7 @@ export function presetThumbnails(view, signal) {
 
   /** What a thumbnail shows; a sun that is moved by hand changes none. @param {Preset} preset */
   const keyOf = (preset) => {
-    const numbers = view.parameters.filter(({ kind }) => kind !== "data");
+    const numbers = view.state.parameters.filter(({ kind }) => kind !== "data");
     return JSON.stringify([
       generation,
       ...numbers.map(({ name }) => preset.values[name] ?? view.state.values[name]),

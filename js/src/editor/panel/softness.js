@@ -5,6 +5,7 @@
  * (thesis 4.2). The kernel counts, by the measure of the method that found the clouds.
  */
 
+import { parameterOf } from "../../edit/parameter.js";
 import { element, setAttributes, shape } from "../../ui/element.js";
 import { gradient } from "../inspect/ramp.js";
 import { outline, spread } from "./whiteness.js";
@@ -68,14 +69,17 @@ export class Softness {
       this.view.state.commit();
     });
     this.svg.addEventListener("dblclick", () => {
-      const defaults = NAMES.map((name) => [name, view.parameter(name).default]);
+      const defaults = NAMES.map((name) => [
+        name,
+        parameterOf(view.state.parameters, name).default,
+      ]);
       view.state.set(Object.fromEntries(defaults));
     });
   }
 
   /** @param {string} name @param {number} index */
   handle(name, index) {
-    const p = this.view.parameter(name);
+    const p = parameterOf(this.view.state.parameters, name);
     const node = shape(
       "g",
       { class: "sw-histogram-line", tabindex: 0, role: "slider", "aria-label": p.label },
@@ -96,12 +100,12 @@ export class Softness {
   }
 
   measured() {
-    return this.view.scene?.whiteness ?? { method: "", reach: 1, shares: [] };
+    return this.view.picture.scene?.whiteness ?? { method: "", reach: 1, shares: [] };
   }
 
   /** m_min and m_max. */
   limits() {
-    return NAMES.map((name) => this.view.value(name));
+    return NAMES.map((name) => this.view.picture.value(name));
   }
 
   /** @param {PointerEvent} event */
@@ -124,7 +128,7 @@ export class Softness {
 
   /** @param {number} index @param {number} ratio */
   set(index, ratio) {
-    const p = this.view.parameter(NAMES[index]);
+    const p = parameterOf(this.view.state.parameters, NAMES[index]);
     const [low, high] = this.limits();
     const least = index ? low + APART : p.minimum;
     const most = index ? p.maximum : high - APART;
@@ -146,7 +150,7 @@ export class Softness {
       setAttributes(node, {
         transform: `translate(${i ? x1 : x0} 0)`,
         "aria-valuemin": 0,
-        "aria-valuemax": this.view.parameter(NAMES[i]).maximum,
+        "aria-valuemax": parameterOf(this.view.state.parameters, NAMES[i]).maximum,
         "aria-valuenow": limits[i].toFixed(2),
       });
     });
@@ -163,7 +167,7 @@ export class Softness {
       return;
     }
     if (clear + soft + white === 0) {
-      this.text.textContent = this.view.scene ? "No sky to measure." : "";
+      this.text.textContent = this.view.picture.scene ? "No sky to measure." : "";
       return;
     }
     const say = (/** @type {number} */ share) => `${Math.round(100 * share)} %`;

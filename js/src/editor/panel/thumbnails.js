@@ -26,8 +26,8 @@ const WIDTH = 150; // of the photo in a thumbnail's place, pixels
  * @param {() => Wanted[]} read what there is to draw now
  */
 export function thumbnails(view, signal, node, read) {
-  const sketch = new Sketch(view.frame);
-  const fence = new Fence(view.frame);
+  const sketch = new Sketch(view.drawing.frame);
+  const fence = new Fence(view.drawing.frame);
   /** @type {WeakMap<HTMLCanvasElement, string>} what is drawn */
   const drawn = new WeakMap();
   let inSight = false;
@@ -35,7 +35,8 @@ export function thumbnails(view, signal, node, read) {
   let timer;
   let forget = () => {};
 
-  const busy = () => view.loop.busy || view.pointer !== null || view.state.before !== null;
+  const busy = () =>
+    view.drawing.loop.busy || view.hand.pointer !== null || view.state.before !== null;
 
   /** @type {(wait?: number) => void} */
   const wake = (wait = QUIET_MS) => {
@@ -43,7 +44,7 @@ export function thumbnails(view, signal, node, read) {
     clearTimeout(timer);
     forget();
     timer = setTimeout(() => {
-      if (!view.scene || !inSight) return;
+      if (!view.picture.scene || !inSight) return;
       forget = whenIdle(draw);
     }, wait);
   };
@@ -53,12 +54,12 @@ export function thumbnails(view, signal, node, read) {
     if (!next) return sketch.rest();
     // None waits in a row behind others, where the next drag's frames would have to wait, too.
     if (!fence.passed()) return wake(PAUSE_MS);
-    const [width, height] = view.size;
+    const [width, height] = view.picture.size;
     const scale = Math.min(1, Math.sqrt(AREA / (width * height)));
     /** @type {[number, number]} */
     const size = [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
     const { canvas, edit, key } = next;
-    const frame = view.frame.describe(edit, size);
+    const frame = view.drawing.frame.describe(edit, size);
     if (!frame) return;
     canvas.width = Math.ceil((size[0] * DENSE) / SHRINK);
     canvas.height = Math.ceil((size[1] * DENSE) / SHRINK);

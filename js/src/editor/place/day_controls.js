@@ -32,7 +32,7 @@ export function dayControls(view, clock, path, signal) {
       title: "Play the day, an hour a second; the night is passed over",
       onStep: (seconds) => {
         // A hand on the picture goes first.
-        if (view.pointer !== null) return false;
+        if (view.hand.pointer !== null) return false;
         // Another gesture ends a step of the history; the playing goes on in the next.
         state.begin();
         clock.moveTo(awake(clock.hours + seconds * HOURS_A_SECOND));
@@ -49,7 +49,7 @@ export function dayControls(view, clock, path, signal) {
       parameter: { name: "", label, help, default: on },
       onChange: (now) => {
         onChange(now);
-        view.show();
+        view.parts.show();
       },
     });
   const shown = choice(

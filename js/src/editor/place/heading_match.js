@@ -44,7 +44,7 @@ export function headingMatch(view, clock) {
 
   function match() {
     const found = clock.match();
-    const { scene } = view;
+    const { scene } = view.picture;
     if (!found || !scene) return;
     clock.setPlace({ heading: found.place.heading });
     const { mismatch, agreeing } = found;
@@ -71,7 +71,7 @@ export function headingMatch(view, clock) {
     nodes: [note, offers],
     say,
     show() {
-      const ready = clock.path.length > 0 && view.scene !== null;
+      const ready = clock.path.length > 0 && view.picture.scene !== null;
       button.disabled = !ready;
       button.classList.toggle("sw-primary", ready && clock.place?.heading === null);
       if (about !== key(clock.place)) say("");

@@ -53,7 +53,7 @@ export function placeFields(view, clock) {
     const [, hours, minutes = "0"] = TIME.exec(time.input.value) ?? [];
     const value = Number(hours) + Number(minutes) / 60;
     if (clock.place && value <= 24) clock.moveToMoment(clock.place.date, value);
-    view.show();
+    view.parts.show();
   });
   heading.input.addEventListener("change", () => {
     const { value } = heading.input;

@@ -15,7 +15,7 @@ const TRAITS = ["_day", "_photo_place"];
 export function placeSection(view, signal) {
   const clock = new SunClock(view);
   const path = new SunPath(view, clock);
-  /** @type {import("../../ui/sun_tool.js").SunTool} */ (view.tools.sun).track = path;
+  /** @type {import("../../ui/sun_tool.js").SunTool} */ (view.hand.tools.sun).track = path;
 
   const day = dayControls(view, clock, path, signal);
   const fields = placeFields(view, clock);
@@ -39,7 +39,7 @@ export function placeSection(view, signal) {
   );
   view.panel.section("sun").append(node);
 
-  const arrived = () => view.show();
+  const arrived = () => view.parts.show();
   for (const name of TRAITS) view.model.on(`change:${name}`, arrived);
   signal.addEventListener("abort", () => {
     for (const name of TRAITS) view.model.off(`change:${name}`, arrived);

@@ -70,10 +70,10 @@ export class SunClock {
     const { place, path } = this;
     if (!place || !path.length) return false;
     const at = editAt(place, path, this.hours);
-    const azimuth = Number(at.sun_azimuth ?? this.view.value("sun_azimuth"));
+    const azimuth = Number(at.sun_azimuth ?? this.view.picture.value("sun_azimuth"));
     const apart = angleBetween(
       [azimuth, Number(at.sun_elevation)],
-      [this.view.value("sun_azimuth"), this.view.value("sun_elevation")],
+      [this.view.picture.value("sun_azimuth"), this.view.picture.value("sun_elevation")],
     );
     return apart < SAME_PLACE;
   }
@@ -138,7 +138,7 @@ export class SunClock {
   /** The heading by the photo's own sun, taken at the clock's time. */
   match() {
     const { place, path } = this;
-    const { scene } = this.view;
+    const { scene } = this.view.picture;
     if (!place || !path.length || !scene) return null;
     const { sun_azimuth, sun_elevation } = scene.automatic;
     return matchHeading(place, path, [sun_azimuth, sun_elevation]);

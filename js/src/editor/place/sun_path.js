@@ -67,7 +67,7 @@ export class SunPath {
   draw() {
     const { place, path } = this.clock;
     const { view } = this;
-    const seen = this.shown && path.length > 0 && place?.heading != null && view.camera;
+    const seen = this.shown && path.length > 0 && place?.heading != null && view.picture.camera;
     setAttributes(this.node, { visibility: seen ? "visible" : "hidden" });
     if (!seen || !place) {
       this.runs = [];
@@ -77,9 +77,9 @@ export class SunPath {
     const box = view.stage.rectangle();
     const { x, y, width } = box;
     const key = JSON.stringify([x, y, width, view.model.get("_day").key, place.heading]);
-    if (key !== this.key || this.camera !== view.camera) {
+    if (key !== this.key || this.camera !== view.picture.camera) {
       this.key = key;
-      this.camera = view.camera;
+      this.camera = view.picture.camera;
       this.lay(box);
     }
     const at = this.placeOf(this.clock.sun(), box);
@@ -96,7 +96,7 @@ export class SunPath {
    * @returns {{ x: number, y: number } | null} null behind the camera, or far outside
    */
   placeOf(sun, box) {
-    const { camera } = this.view;
+    const { camera } = this.view.picture;
     const heading = this.clock.place?.heading ?? 0;
     const pixel = sun && camera?.pixel(sun.azimuth - heading, sun.apparent);
     if (!pixel || !camera) return null;
@@ -222,7 +222,8 @@ export class SunPath {
   /** The time under the pointer, when it is on the path. @param {Point | null} place */
   point(place) {
     const { view } = this;
-    const idle = place && view.pointer === null && view.tool === "sun" && this.runs.length;
+    const idle =
+      place && view.hand.pointer === null && view.hand.tool === "sun" && this.runs.length;
     const near = idle ? this.nearest(this.onOverlay(place)) : null;
     const on = near !== null && near.far < REACH;
     setAttributes(this.ghost, { visibility: on ? "inherit" : "hidden" });

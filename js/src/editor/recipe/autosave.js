@@ -71,7 +71,7 @@ export function autosave(view, signal) {
     return store
       .of(fingerprint)
       .filter((entry) => entry.session !== session && !alive.has(entry.session))
-      .map((entry) => readable(view.parameters, entry))
+      .map((entry) => readable(view.state.parameters, entry))
       .find((entry) => isLost(entry, kept));
   };
 
@@ -93,10 +93,14 @@ export function autosave(view, signal) {
 
   /** @param {Entry} entry */
   const called = (entry) => {
-    const { parameters, scene } = view;
+    const { parameters } = state;
     const edit = lastOf(entry);
     if (!Object.keys(edit).length) return entry.keyFrames.length ? "key frames" : "versions";
-    return stepName({}, edit, { parameters, versions: entry.versions, presets: scene?.presets });
+    return stepName({}, edit, {
+      parameters,
+      versions: entry.versions,
+      presets: view.picture.scene?.presets,
+    });
   };
 
   const restore = () => {
@@ -151,7 +155,7 @@ export function autosave(view, signal) {
 
   const onSource = () => {
     state.abandon();
-    view.cancelGesture();
+    view.hand.cancel();
     begin();
   };
   const onChange = () => {
@@ -168,7 +172,7 @@ export function autosave(view, signal) {
   kernel.onChange(() => {
     if (!kernel.answers) leave();
     showKernel(view);
-    view.show();
+    view.parts.show();
   });
   signal.addEventListener("abort", () => {
     if (timer !== undefined) save();

@@ -92,7 +92,7 @@ export async function loadRecipe(view, file) {
 export function useRecipe(view, text) {
   const { state } = view;
   try {
-    const { values, problems } = checkRecipe(view.parameters, readRecipe(text));
+    const { values, problems } = checkRecipe(view.state.parameters, readRecipe(text));
     if (problems.length) throw new Error(problems.slice(0, 3).join(" "));
     const before = state.history().past.length;
     state.replace(values);

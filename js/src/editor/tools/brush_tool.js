@@ -30,7 +30,7 @@ class Brush {
   /** Radius in CSS pixels. */
   radius() {
     const { width, height } = this.view.stage.rectangle();
-    return this.view.brushRadius * Math.max(width, height);
+    return this.view.hand.brushRadius * Math.max(width, height);
   }
 
   /** @param {Point | null} place null when the pointer has left */
@@ -40,7 +40,7 @@ class Brush {
   }
 
   drawRing() {
-    const shown = this.view.tool === this.label && this.at;
+    const shown = this.view.hand.tool === this.label && this.at;
     setAttributes(this.ring, { visibility: shown ? "visible" : "hidden" });
     if (!this.at || !shown) return;
     const [cx, cy] = this.view.stage.onOverlay(this.at);
@@ -66,7 +66,7 @@ export class BrushTool extends Brush {
 
   /** What a stroke of this brush says. @returns {Stroke["label"]} */
   says() {
-    if (this.view.subject === "sky") return this.label === "sky" ? "sky" : "not_sky";
+    if (this.view.hand.subject === "sky") return this.label === "sky" ? "sky" : "not_sky";
     return this.label === "sky" ? "water" : "not_water";
   }
 
@@ -94,8 +94,8 @@ export class BrushTool extends Brush {
     /** @type {Stroke} */
     const stroke = {
       label: this.says(),
-      points: simplify(this.points, this.view.brushRadius / 10, this.view.stage.rectangle()),
-      radius: Math.round(this.view.brushRadius * 1e5) / 1e5,
+      points: simplify(this.points, this.view.hand.brushRadius / 10, this.view.stage.rectangle()),
+      radius: Math.round(this.view.hand.brushRadius * 1e5) / 1e5,
     };
     this.points = [];
     this.view.state.set({ strokes: [...this.view.strokes.strokes(), stroke] });
@@ -108,14 +108,14 @@ export class BrushTool extends Brush {
   }
 
   draw() {
-    const active = this.view.tool === this.label;
+    const active = this.view.hand.tool === this.label;
     setAttributes(this.node, { visibility: active ? "visible" : "hidden" });
     this.drawRing();
     if (!active) return;
     setAttributes(this.path, { class: strokeClass(this.says()) });
     setAttributes(this.ring, { class: `sw-brush sw-stroke-${this.says()}` });
     setAttributes(this.scaled, { transform: this.view.strokes.transform() });
-    setLine(this.path, this.points, this.view.brushRadius, this.view.stage.rectangle());
+    setLine(this.path, this.points, this.view.hand.brushRadius, this.view.stage.rectangle());
   }
 }
 
@@ -145,7 +145,8 @@ export class EraseTool extends Brush {
   /** Before a drag the strokes under the ring are marked. @param {Point | null} place */
   hover(place) {
     super.hover(place);
-    if (this.view.pointer === null) this.view.strokes.doom(new Set(place && this.meeting(place)));
+    if (this.view.hand.pointer === null)
+      this.view.strokes.doom(new Set(place && this.meeting(place)));
   }
 
   /** @param {Point} place */
@@ -153,7 +154,7 @@ export class EraseTool extends Brush {
     const box = this.view.stage.rectangle();
     const strokes = this.view.strokes.strokes();
     return strokes.flatMap((stroke, i) =>
-      meets(stroke, place, this.view.brushRadius, box) ? [i] : [],
+      meets(stroke, place, this.view.hand.brushRadius, box) ? [i] : [],
     );
   }
 

@@ -30,7 +30,7 @@ export function cross(view, signal) {
   let shown = false;
   let pressed = false;
   let moved = false; // since the press
-  const tool = () => view.tools[view.tool];
+  const tool = () => view.hand.tools[view.hand.tool];
   // What tools read of a pointer's event.
   const as = (/** @type {KeyboardEvent} */ event) => /** @type {any} */ (event);
 
@@ -39,8 +39,8 @@ export function cross(view, signal) {
     if (!shown) place = stage.zoom.placeAt(stage.zoom.middle());
     shown = true;
     stage.node.classList.add("sw-crossing");
-    view.drawOverlay();
-    view.point(place);
+    view.parts.draw();
+    view.parts.point(place);
   };
   const go = () => {
     release();
@@ -48,7 +48,7 @@ export function cross(view, signal) {
     shown = false;
     stage.node.classList.remove("sw-crossing");
     tool().hover?.(null);
-    view.point(null);
+    view.parts.point(null);
   };
   const release = () => {
     if (!pressed) return;
@@ -66,13 +66,13 @@ export function cross(view, signal) {
     if (pressed) tool().move(place, as(event));
     else tool().hover?.(place);
     stage.bring(place);
-    view.drawOverlay();
-    view.point(place);
+    view.parts.draw();
+    view.parts.point(place);
     tell();
   };
 
   const tell = () => {
-    const { camera } = view;
+    const { camera } = view.picture;
     if (!camera) return;
     const [x, y] = [place[0] * camera.width, place[1] * camera.height];
     view.announcer.say(`Cross at ${directionText(...camera.angles(x, y))}`, "cross");
@@ -84,7 +84,7 @@ export function cross(view, signal) {
   /** @param {KeyboardEvent} event */
   const press = (event) => {
     if (pressed) return release();
-    if (!view.scene || view.pointer !== null) return;
+    if (!view.picture.scene || view.hand.pointer !== null) return;
     pressed = true;
     moved = false;
     tool().begin(place, as(event));

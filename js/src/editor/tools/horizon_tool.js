@@ -66,8 +66,9 @@ export class HorizonTool {
 
   /** Ask what the other methods see, once a scene. */
   async refresh() {
-    const { scene, channel, tool } = this.view;
-    if (tool !== "horizon" || !scene || scene === this.scene) return;
+    const { channel, hand, picture } = this.view;
+    const { scene } = picture;
+    if (hand.tool !== "horizon" || !scene || scene === this.scene) return;
     this.scene = scene;
     this.rows = {};
     try {
@@ -76,12 +77,12 @@ export class HorizonTool {
     } catch {
       // They are for comparison only: without a kernel there are none.
     }
-    this.view.drawOverlay();
+    this.view.parts.draw();
   }
 
   /** The line now: dragged, given by the person, or found. @returns {[Point, Point] | null} */
   current() {
-    const { camera } = this.view;
+    const { camera } = this.view.picture;
     if (this.line || !camera) return this.line;
     const columns = this.columns();
     const hint = /** @type {[Point, Point] | null} */ (this.view.state.values.horizon_hint);
@@ -143,7 +144,7 @@ export class HorizonTool {
       const row = this.grip === "both" ? (left[1] + right[1]) / 2 : this.line[this.grip][1];
       left[1] = right[1] = row;
     }
-    this.view.drawOverlay();
+    this.view.parts.draw();
   }
 
   end() {
@@ -156,7 +157,7 @@ export class HorizonTool {
 
   cancel() {
     this.line = null;
-    this.view.drawOverlay();
+    this.view.parts.draw();
   }
 
   focus() {
@@ -189,7 +190,7 @@ export class HorizonTool {
 
   draw() {
     const line = this.current();
-    const shown = this.view.tool === "horizon" && line;
+    const shown = this.view.hand.tool === "horizon" && line;
     setAttributes(this.node, { visibility: shown ? "visible" : "hidden" });
     for (const handle of this.handles) setAttributes(handle, { tabindex: shown ? 0 : -1 });
     if (!shown) return;
@@ -204,7 +205,7 @@ export class HorizonTool {
         y2: a[1] + slope * (box.x + box.width - a[0]),
       });
     }
-    const { confidence = 0 } = this.view.scene?.horizon ?? {};
+    const { confidence = 0 } = this.view.picture.scene?.horizon ?? {};
     const given = this.line !== null || this.view.state.values.horizon_hint;
     this.node.classList.toggle("sw-guessed", !given && confidence < GUESSED);
     line.forEach((end, i) => {
@@ -243,7 +244,7 @@ export class HorizonTool {
 
   /** @param {[Point, Point]} line */
   describe([left, right]) {
-    const { scene, camera } = this.view;
+    const { scene, camera } = this.view.picture;
     const row = (left[1] + right[1]) / 2;
     const drop = ((right[1] - left[1]) * (camera?.height ?? 1)) / (camera?.width ?? 1);
     const roll = (Math.atan(drop / (right[0] - left[0])) * 180) / Math.PI;

@@ -44,7 +44,7 @@ export function hover(view, signal) {
   const show = () => {
     pending = 0;
     const inside = place?.every((at) => at >= 0 && at < 1);
-    const { camera } = view;
+    const { camera } = view.picture;
     node.classList.toggle("sw-shown", Boolean(place && camera));
     if (!place || !camera) return;
     direction.textContent = directionText(
@@ -62,7 +62,7 @@ export function hover(view, signal) {
   return {
     point(at) {
       // While a drag lasts the frame is the tool's, and nobody reads colours.
-      place = view.pointer === null ? at : null;
+      place = view.hand.pointer === null ? at : null;
       ask();
     },
     drawn() {

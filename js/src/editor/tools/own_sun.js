@@ -100,9 +100,10 @@ export function ownSun(view, signal) {
 
   /** Where the mark is to be seen now. @returns {Point | null} */
   const find = () => {
-    const sun = view.scene?.sun;
-    const usable = view.tool === "sun" || view.tool === "pick";
-    const still = state.before === null && view.pointer === null && view.passing === null;
+    const sun = view.picture.scene?.sun;
+    const usable = view.hand.tool === "sun" || view.hand.tool === "pick";
+    const still =
+      state.before === null && view.hand.pointer === null && view.picture.passing === null;
     // What was said in the meantime of the sun goes before what was found.
     const current = equal(state.values.sun_hint ?? null, followed);
     if (!sun?.at || !usable || !still || !current) return null;
@@ -114,14 +115,14 @@ export function ownSun(view, signal) {
   const draw = () => {
     at = find();
     node.hidden = at === null;
-    if (!at || !view.scene) return setOpen(false);
-    const { sun } = view.scene;
+    if (!at || !view.picture.scene) return setOpen(false);
+    const { sun } = view.picture.scene;
     const words = markText(sun);
     if (text.textContent !== words) text.textContent = words;
     setAttributes(ring, { "aria-label": words });
     actions.hidden = !view.kernel.answers;
     ring.style.transform = `translate(${at[0] - RADIUS}px, ${at[1] - RADIUS}px)`;
-    const handle = view.tools.sun.spot?.();
+    const handle = view.hand.tools.sun.spot?.();
     const apart = handle ? Math.hypot(handle.x - at[0], handle.y - at[1]) : 0;
     node.classList.toggle("sw-covered", apart < COVERED);
     place();
@@ -157,7 +158,7 @@ export function ownSun(view, signal) {
   });
   on(stage.overlay, "pointerup", (event) => {
     const slip = Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY);
-    if (event.pointerType === "mouse" || slip > TAP || view.tool !== "sun") return;
+    if (event.pointerType === "mouse" || slip > TAP || view.hand.tool !== "sun") return;
     requestAnimationFrame(() => {
       draw();
       if (isNear(stage.placeOf(event))) setOpen(true);
@@ -173,8 +174,8 @@ export function ownSun(view, signal) {
     show: draw,
     draw,
     point(place) {
-      if (view.pointer !== null) return;
-      wish(place !== null && view.tool === "sun" ? isNear(place) : node.contains(focused()));
+      if (view.hand.pointer !== null) return;
+      wish(place !== null && view.hand.tool === "sun" ? isNear(place) : node.contains(focused()));
     },
   };
 }

@@ -29,7 +29,7 @@ export class PickTool {
     this.at = null;
     // The sun starts from the place just given, not from where it was moved before.
     this.view.state.set({ sun_hint: hint, sun_azimuth: null, sun_elevation: null });
-    this.view.setTool("sun");
+    this.view.hand.setTool("sun");
   }
 
   cancel() {

@@ -20,7 +20,7 @@ const HESITATION = 120; // ms after which a finger that rests means one too
 export function listenToPointer(view, signal) {
   const { stage } = view;
   const { overlay } = stage;
-  const tool = () => view.tools[view.tool];
+  const tool = () => view.hand.tools[view.hand.tool];
   /** @type {Map<number, Spot>} */
   const fingers = new Map();
   let pinching = false; // until the last finger is lifted
@@ -49,9 +49,9 @@ export function listenToPointer(view, signal) {
   /** A second finger: what the first began was not meant. */
   const pinch = () => {
     clearTimeout(timer);
-    if (view.pointer !== null && !waiting && !panning) tool().cancel();
+    if (view.hand.pointer !== null && !waiting && !panning) tool().cancel();
     waiting = null;
-    view.pointer = null;
+    view.hand.pointer = null;
     panning = false;
     pinching = true;
   };
@@ -65,11 +65,11 @@ export function listenToPointer(view, signal) {
       overlay.setPointerCapture(event.pointerId);
       hold();
     }
-    if (pinching || view.pointer !== null || event.button > 1) return;
+    if (pinching || view.hand.pointer !== null || event.button > 1) return;
     panning = event.button === 1 || view.root.classList.contains("sw-hand");
-    if (!panning && !view.scene) return;
-    view.pointer = event.pointerId;
-    overlay.setPointerCapture(view.pointer);
+    if (!panning && !view.picture.scene) return;
+    view.hand.pointer = event.pointerId;
+    overlay.setPointerCapture(view.hand.pointer);
     event.preventDefault();
     stage.focus();
     last = at(event);
@@ -83,9 +83,9 @@ export function listenToPointer(view, signal) {
   const move = (event) => {
     if (pinching) return stretch(event);
     const place = stage.placeOf(event);
-    view.point(place);
-    if (view.pointer === null) tool().hover?.(place);
-    else if (event.pointerId !== view.pointer) return;
+    view.parts.point(place);
+    if (view.hand.pointer === null) tool().hover?.(place);
+    else if (event.pointerId !== view.hand.pointer) return;
     else if (panning) {
       stage.pan(event.clientX - last.clientX, event.clientY - last.clientY);
       last = at(event);
@@ -113,26 +113,26 @@ export function listenToPointer(view, signal) {
     fingers.delete(event.pointerId);
     if (!fingers.size) pinching = false;
     else if (pinching) hold();
-    if (event.pointerId !== view.pointer) return;
+    if (event.pointerId !== view.hand.pointer) return;
     begin();
-    view.pointer = null;
+    view.hand.pointer = null;
     if (!panning) tool().end();
     panning = false;
   };
   const cancel = () => {
-    const { pointer } = view;
+    const { pointer } = view.hand;
     clearTimeout(timer);
     waiting = null;
     panning = false;
-    view.pointer = null; // so that the end of its capture ends nothing of the next tool's
+    view.hand.pointer = null; // so that the end of its capture ends nothing of the next tool's
     tool().cancel();
     if (pointer !== null && overlay.hasPointerCapture(pointer)) {
       overlay.releasePointerCapture(pointer);
     }
   };
   const leave = () => {
-    view.point(null);
-    if (view.pointer === null) tool().hover?.(null);
+    view.parts.point(null);
+    if (view.hand.pointer === null) tool().hover?.(null);
   };
   overlay.addEventListener("pointerdown", down, { signal });
   overlay.addEventListener("pointermove", move, { signal });

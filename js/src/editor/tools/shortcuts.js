@@ -15,8 +15,8 @@ const take = (tool) => (view) => {
     view.announcer.say(node.title);
     return;
   }
-  view.setTool(tool);
-  if (view.tools[tool].focus) view.tools[tool].focus();
+  view.hand.setTool(tool);
+  if (view.hand.tools[tool].focus) view.hand.tools[tool].focus();
   else view.stage.node.focus({ preventScroll: true });
 };
 
@@ -28,12 +28,12 @@ function stepMap({ inspector, announcer }, way) {
 
 /** @param {View} view */
 function stepBack(view) {
-  const busy = view.pointer !== null;
-  view.cancelGesture();
+  const busy = view.hand.pointer !== null;
+  view.hand.cancel();
   // One thing at a time: the gesture, the map, the tool, the full screen.
-  if (!busy && view.inspector.map) view.inspector.show("");
-  else if (!busy && view.tool === "sun" && view.fullScreen?.on) view.fullScreen.leave();
-  else view.setTool("sun");
+  if (!busy && view.inspector.map) view.inspector.choose("");
+  else if (!busy && view.hand.tool === "sun" && view.fullScreen?.on) view.fullScreen.leave();
+  else view.hand.setTool("sun");
 }
 
 /** @type {import("../../ui/keys.js").Shortcut<View>[]} */
@@ -67,19 +67,19 @@ export const SHORTCUTS = [
     section: "Brushes",
     keys: ["["],
     label: "Smaller brush",
-    run: (view) => view.setBrushRadius(view.brushRadius / 1.25),
+    run: (view) => view.hand.setBrushRadius(view.hand.brushRadius / 1.25),
   },
   {
     section: "Brushes",
     keys: ["]"],
     label: "Larger brush",
-    run: (view) => view.setBrushRadius(view.brushRadius * 1.25),
+    run: (view) => view.hand.setBrushRadius(view.hand.brushRadius * 1.25),
   },
   {
     section: "Brushes",
     keys: ["W"],
     label: "Mark water or sky",
-    run: (view) => view.setSubject(view.subject === "sky" ? "water" : "sky"),
+    run: (view) => view.hand.setSubject(view.hand.subject === "sky" ? "water" : "sky"),
   },
 
   { section: "View", keys: ["/"], label: "Find a parameter", run: (view) => view.panel.find() },
@@ -159,7 +159,7 @@ export const SHORTCUTS = [
 
 /** @param {View} view */
 export function showKeys(view) {
-  const note = view.speed && `Drawing here: ${view.speed}`;
+  const note = view.drawing.speed && `Drawing here: ${view.drawing.speed}`;
   openHelp(view.root, "Keys of the sun editor", SHORTCUTS, note);
 }
 

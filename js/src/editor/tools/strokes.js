@@ -95,7 +95,7 @@ export class StrokesLayer {
     this.view = view;
     this.node = shape("g", { class: "sw-strokes" });
     /** @type {unknown} the strokes that the lines show */
-    this.drawn = null;
+    this.shown = null;
     /** @type {SVGElement[]} */
     this.lines = [];
   }
@@ -113,13 +113,13 @@ export class StrokesLayer {
   }
 
   draw() {
-    const shown = BRUSHES.includes(this.view.tool);
+    const shown = BRUSHES.includes(this.view.hand.tool);
     setAttributes(this.node, { visibility: shown ? "visible" : "hidden" });
     if (!shown) return;
     setAttributes(this.node, { transform: this.transform() });
     const strokes = this.strokes();
-    if (strokes === this.drawn) return;
-    this.drawn = strokes;
+    if (strokes === this.shown) return;
+    this.shown = strokes;
     this.lines = strokes.map(({ label, points, radius }) => {
       const node = line(label);
       setLine(node, points, radius, this.view.stage.rectangle());

@@ -58,16 +58,16 @@ export function toolbar(view) {
   const tools = radioButtons({
     label: "Tool",
     choices: TOOLS,
-    value: view.tool,
-    onChange: (tool) => view.setTool(tool),
+    value: view.hand.tool,
+    onChange: (tool) => view.hand.setTool(tool),
   });
-  const presets = () => view.scene?.presets ?? [];
+  const presets = () => view.picture.scene?.presets ?? [];
   const history = historyButtons(state, "Everything back to the photo", presets);
   const before = holdButton({
     icon: "before",
     label: "Before",
     title: "Show the photo as it was: hold, or click to keep (B)",
-    onChange: (on) => view.setBefore(on),
+    onChange: (on) => view.original.setBefore(on),
   });
   const saveButton = button({
     icon: "save",
@@ -84,13 +84,13 @@ export function toolbar(view) {
     step: 0.001,
     "aria-label": "Brush size",
   });
-  size.addEventListener("input", () => view.setBrushRadius(Number(size.value)));
+  size.addEventListener("input", () => view.hand.setBrushRadius(Number(size.value)));
   const water = button({
     icon: "water",
     label: "Water",
     title: "Brushes mark water instead of sky (W)",
     caption: true,
-    onClick: () => view.setSubject(view.subject === "sky" ? "water" : "sky"),
+    onClick: () => view.hand.setSubject(view.hand.subject === "sky" ? "water" : "sky"),
   });
   const menu = menuButton({
     icon: "menu",
@@ -125,17 +125,22 @@ export function toolbar(view) {
       node: /** @type {HTMLElement} */ (tools.node.children[i]),
     })),
     show() {
-      tools.show(view.tool);
+      if (view.original.isOutdated()) before.letGo();
+      tools.show(view.hand.tool);
       history.show();
-      saveButton.disabled = !view.scene || view.work !== null;
+      saveButton.disabled = !view.picture.scene || view.work.busy;
       for (const { value, label, title } of PAINTS) {
-        tools.rename(value, label.replace("sky", view.subject), title.replace("sky", view.subject));
+        tools.rename(
+          value,
+          label.replace("sky", view.hand.subject),
+          title.replace("sky", view.hand.subject),
+        );
       }
-      water.hidden = !PAINTS.some(({ value }) => value === view.tool);
-      water.setAttribute("aria-pressed", String(view.subject === "water"));
-      size.hidden = !BRUSHES.includes(view.tool);
-      size.value = String(view.brushRadius);
-      size.style.setProperty("--sw-share", String((view.brushRadius - 0.003) / 0.057));
+      water.hidden = !PAINTS.some(({ value }) => value === view.hand.tool);
+      water.setAttribute("aria-pressed", String(view.hand.subject === "water"));
+      size.hidden = !BRUSHES.includes(view.hand.tool);
+      size.value = String(view.hand.brushRadius);
+      size.style.setProperty("--sw-share", String((view.hand.brushRadius - 0.003) / 0.057));
     },
   };
 }

@@ -9,7 +9,7 @@
  * @returns {Record<string, string>}
  */
 function texts(view) {
-  const tool = view.toolbar.tools.find(({ value }) => value === view.tool);
+  const tool = view.toolbar.tools.find(({ value }) => value === view.hand.tool);
   const strokes = view.strokes.strokes().length;
   return {
     tool: tool?.node.getAttribute("aria-label") ?? "",

@@ -23,14 +23,17 @@ export function detail(view, signal) {
   let timer;
 
   const helps = () =>
-    view.scene !== null &&
-    view.scene.width > view.size[0] &&
+    view.picture.scene !== null &&
+    view.picture.scene.width > view.picture.size[0] &&
     !stage.zoom.fits && // a dense screen shows more than the preview all the time
     stage.zoom.scale > 1 &&
     view.kernel.answers &&
-    !view.passing;
+    !view.picture.passing;
   const rests = () =>
-    !state.before && view.pointer === null && !view.work && view.root.dataset.stage === READY;
+    !state.before &&
+    view.hand.pointer === null &&
+    !view.work.busy &&
+    view.root.dataset.stage === READY;
   const edit = () => JSON.stringify([scenes, state.values]);
 
   /** The part of the picture in sight, in fractions, and the screen's pixels that show it. */
@@ -60,7 +63,7 @@ export function detail(view, signal) {
     request.abort();
     request = new AbortController();
     try {
-      const content = { ...wanted, ...view.asked() };
+      const content = { ...wanted, ...view.picture.asked() };
       const answer = await view.channel.request("detail", content, undefined, [], request.signal);
       const picture = await decodePicture(answer.buffers[0]);
       if (!signal.aborted && helps() && edit() === of) put(picture, answer.result.box, of);

@@ -4,6 +4,7 @@ import { errorText } from "../../host/error_text.js";
 import { element } from "../../ui/element.js";
 import { pickFile } from "../../ui/pick_file.js";
 import { loadRecipe } from "../recipe/recipe.js";
+import { showStatus } from "./status.js";
 
 /** @typedef {import("./view.js").View} View */
 
@@ -107,7 +108,7 @@ async function upload(view, file) {
       offset += piece.byteLength;
     } while (offset < size);
   } catch (error) {
-    view.showStatus();
+    showStatus(view);
     throw error;
   }
 }

@@ -14,7 +14,7 @@ const REASONS = {
 /** @type {import("../parts.js").MakePart} */
 export function needsKernel(view) {
   const { kernel, panel, root, toolbar } = view;
-  const corrections = view.parameters.filter((p) => p.analysis).map((p) => p.name);
+  const corrections = view.state.parameters.filter((p) => p.analysis).map((p) => p.name);
   /** @type {Map<HTMLElement, string>} titles as they were */
   const titles = new Map();
 
@@ -41,8 +41,8 @@ export function needsKernel(view) {
       root.dataset.kernel = kernel.state;
       if (!reason && !titles.size) return;
       for (const node of controls()) mark(node, reason);
-      if (reason && view.tool !== "sun") view.setTool("sun");
-      if (reason && view.inspector.map) view.inspector.show("");
+      if (reason && view.hand.tool !== "sun") view.hand.setTool("sun");
+      if (reason && view.inspector.map) view.inspector.choose("");
       toolbar.save.title = reason
         ? "Download the picture at the size it has here"
         : "Render at full size and download";

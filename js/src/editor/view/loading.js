@@ -43,8 +43,9 @@ export class Loading {
 
   /** Begin to compile the shaders while the kernel analyses: some drivers take seconds. */
   prepare() {
-    const { frame, loop, scene, state } = this.view;
-    if (this.signal.aborted || scene || !loop.inSight) return;
+    const { drawing, picture, state } = this.view;
+    const { frame, loop } = drawing;
+    if (this.signal.aborted || picture.scene || !loop.inSight) return;
     try {
       frame.withGraph((graph) => graph.prepare([String(state.values.method)]));
     } catch {
@@ -73,9 +74,9 @@ export class Loading {
       }
       fresh.forEach(({ name, bytes }, i) => {
         const { width, height } = bitmaps[i];
-        view.frame.setPicture(name, bitmaps[i]);
+        view.drawing.frame.setPicture(name, bitmaps[i]);
         this.taken.set(name, bytes);
-        if (name === "photo") view.size = [width, height];
+        if (name === "photo") view.picture.size = [width, height];
       });
     } catch (error) {
       if (load !== this.loads) return;
@@ -84,14 +85,15 @@ export class Loading {
     }
     const { fov_vertical_deg, pitch, roll } = scene.camera;
     const camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
-    view.loop.first = true;
-    view.takeScene(scene, camera);
+    view.picture.take(scene, camera);
+    view.parts.loaded(scene);
   }
 
   /** Another photo is on its way: nothing of the last one is true of it. */
   forget() {
-    if (!this.view.scene) return;
+    if (!this.view.picture.scene) return;
     this.loads += 1;
-    this.view.forgetScene();
+    this.view.picture.forget();
+    this.view.parts.forget();
   }
 }

@@ -32,13 +32,13 @@ const ACTIONS = {
   },
   moon_is_sun: {
     label: "It is the sun",
-    run: ({ scene, state }) => state.set({ sun_hint: scene?.sun.moon ?? null }),
+    run: ({ picture, state }) => state.set({ sun_hint: picture.scene?.sun.moon ?? null }),
   },
   horizon: { label: "Set the horizon", run: (view, event) => take(view, "horizon", event) },
   paint: {
     label: "Paint the sky",
     run: (view, event) => {
-      view.setSubject("sky");
+      view.hand.setSubject("sky");
       take(view, "sky", event);
     },
   },
@@ -53,11 +53,11 @@ export function sayOutside(view) {
 
 /** Choose a tool and go where it is used. @param {View} view @param {string} tool @param {MouseEvent} event */
 export function take(view, tool, event) {
-  view.setTool(tool);
+  view.hand.setTool(tool);
   view.stage.node.scrollIntoView({ block: "nearest" });
   // Who pressed a key has no pointer to go on with, and gets the handle or the cross.
   if (event.detail > 0) view.stage.focus();
-  else if (view.tools[tool].focus) view.tools[tool].focus();
+  else if (view.hand.tools[tool].focus) view.hand.tools[tool].focus();
   else view.stage.node.focus({ preventScroll: true });
 }
 
@@ -108,7 +108,7 @@ export function notes(view) {
 
   /** Whether the assumed sun lies in the picture. @param {import("../../host/types.js").PhotoSun} sun */
   const isInside = ({ azimuth, elevation }) => {
-    const { camera } = view;
+    const { camera } = view.picture;
     const pixel = camera?.pixel(azimuth, elevation);
     if (!camera || !pixel) return false;
     const [x, y] = pixel;
@@ -116,13 +116,14 @@ export function notes(view) {
   };
 
   const look = () => {
-    const { kernel, scene, state, tool } = view;
+    const { kernel, hand, picture, state } = view;
+    const { scene } = picture;
     if (!scene) followed = undefined;
     const hint = state.values.sun_hint ?? null;
     const now = scene && {
       live: kernel.answers,
       inside: isInside(scene.sun),
-      picking: tool === "pick",
+      picking: hand.tool === "pick",
       pending: !equal(hint, followed),
       hint,
     };

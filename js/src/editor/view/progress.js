@@ -14,7 +14,7 @@ export function progress(view, signal) {
   cancel.addEventListener("click", () => {
     stage.caption.textContent = "Cancelling …";
     cancel.disabled = true;
-    if (view.work) view.work.abort();
+    if (view.work.busy) view.work.cancel();
     else void ask("cancel");
   });
 
@@ -22,7 +22,7 @@ export function progress(view, signal) {
   /** @type {Record<string, () => string>} */
   const texts = {
     cancelled: () =>
-      view.scene
+      view.picture.scene
         ? "The correction was cancelled: the picture does not follow it yet."
         : "The analysis was cancelled. A correction starts it again, too.",
     error: () => "The analysis went wrong; below the picture is said why.",

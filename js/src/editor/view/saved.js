@@ -20,7 +20,7 @@ export function saved(view, signal) {
   /** @type {Record<string, unknown> | null} of the view that was closed */
   let last = null;
   const light = () => {
-    const live = view.scene !== null && root.classList.contains("sw-live");
+    const live = view.picture.scene !== null && view.drawing.live;
     if (live) return { ...unseen(), _photo: thumbnail(stage.canvas, EDGE) };
     const there = stage.photo.naturalWidth > 0;
     return {

@@ -32,8 +32,7 @@ export class Split {
     this.on = !this.on;
     this.button.setAttribute("aria-pressed", String(this.on));
     this.divider.node.hidden = !this.on;
-    this.view.stage.setOriginal(this.on || this.view.toolbar.before.isOn());
-    this.view.root.classList.toggle("sw-split", this.on);
+    this.view.original.setSplit(this.on);
     this.draw();
   }
 

@@ -46,12 +46,12 @@ export function timings(view) {
   const row = element("div", { class: "sw-timings" });
   if (live) view.foot.node.append(row);
   let card = "";
-  const { frame } = view;
+  const { frame } = view.drawing;
   frame.stopwatch = new Stopwatch((lap) => {
     if (frame.graph) card ||= cardName(frame.graph.gl);
     timed.add(lap, `${frame.canvas.width} × ${frame.canvas.height}`);
-    view.speed = `${timed.text()} · ${card}`;
-    if (live) row.textContent = view.speed;
+    view.drawing.speed = `${timed.text()} · ${card}`;
+    if (live) row.textContent = view.drawing.speed;
   });
   return {};
 }
