@@ -3,13 +3,7 @@
 import { Cancelled } from "../../host/channel.js";
 
 export class Work {
-  /**
-   * @param {{
-   *   notices: import("../view/notices.js").Notices,
-   *   stage: Pick<import("../view/stage.js").Stage, "setProgress">,
-   *   state: Pick<import("../../edit/state.js").EditState, "push">,
-   * }} needs
-   */
+  /** @param {import("../types.js").Needs<"notices" | "stage" | "state">} needs */
   constructor({ notices, stage, state }) {
     this.notices = notices;
     this.stage = stage;

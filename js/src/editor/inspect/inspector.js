@@ -13,18 +13,19 @@ import { colours, gradient, textAt } from "./ramp.js";
 /**
  * @typedef {import("../../host/types.js").Point} Point
  * @typedef {import("../../host/types.js").SceneMap} SceneMap
- * @typedef {import("../view/view.js").View} View
  * @typedef {{ levels: Uint8Array, width: number, height: number }} MapLevels
  */
 
 const [SPREAD_WIDTH, SPREAD_HEIGHT] = [256, 20];
 
 export class Inspector {
-  /** @param {View} view */
-  constructor(view) {
-    this.view = view;
+  /** @param {import("../types.js").Needs<"channel" | "model" | "picture" | "root">} needs */
+  constructor({ channel, model, picture, root }) {
+    this.channel = channel;
+    this.picture = picture;
+    this.root = root;
     /** @type {SceneMap[]} */
-    this.maps = view.model.get("_maps") ?? [];
+    this.maps = model.get("_maps") ?? [];
     /** @type {SceneMap | null} the map that is shown */
     this.map = null;
     /** @type {MapLevels | null} */
@@ -138,7 +139,7 @@ export class Inspector {
     this.data = null;
     this.scene = null;
     this.canvas.width = 0;
-    this.view.root.classList.toggle("sw-inspecting", this.map !== null);
+    this.root.classList.toggle("sw-inspecting", this.map !== null);
     if (!this.map) return;
     const { title, help, ramp } = this.map;
     this.title.textContent = title;
@@ -161,9 +162,9 @@ export class Inspector {
 
   /** Ask for the map unless the one at hand is of the present scene. */
   async refresh() {
-    const { map, view } = this;
-    if (!map || !view.picture.scene || this.scene === view.picture.scene) return;
-    const { scene } = view.picture;
+    const { map } = this;
+    const { scene } = this.picture;
+    if (!map || !scene || this.scene === scene) return;
     this.scene = scene;
     this.asked += 1;
     const { asked } = this;
@@ -176,7 +177,7 @@ export class Inspector {
     }
     this.node.classList.add("sw-waiting");
     try {
-      const { buffers } = await view.channel.request("map", { name: map.name });
+      const { buffers } = await this.channel.request("map", { name: map.name });
       const bitmap = await decodePicture(buffers[0]);
       const data = levelsOf(bitmap);
       bitmap.close();

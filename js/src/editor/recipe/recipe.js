@@ -8,26 +8,29 @@ import { copied, pasted } from "../../ui/clipboard.js";
 import { download } from "../../ui/download.js";
 import { pickFile } from "../../ui/pick_file.js";
 
-/** @typedef {import("../view/view.js").View} View */
+/** @typedef {import("../types.js").Needs<"message" | "notices" | "state">} Taker */
 
 const FILES = ".json,.py,.txt,application/json,text/plain";
 const SECONDS = 6; // that good news stays
 
-/** @type {import("../parts.js").MakePart} */
-export function recipe(view, signal) {
-  const { menu } = view.toolbar;
-  const { state, root } = view;
+/**
+ * @type {import("../types.js").MakePart<"message" | "model" | "notices" | "root" | "state"
+ *   | "toolbar">}
+ */
+export function recipe({ model, root, toolbar, ...taker }, signal) {
+  const { menu } = toolbar;
+  const { message, state } = taker;
   /** @type {(text: string, what: string) => Promise<void>} */
   const copy = async (text, what) => {
-    if (await copied(text)) say(view, `${what} copied.`);
-    else view.message.show(`The page may not use the clipboard. ${what}:\n${text}`);
+    if (await copied(text)) say(taker, `${what} copied.`);
+    else message.show(`The page may not use the clipboard. ${what}:\n${text}`);
   };
   menu.add({
     group: "recipe",
     label: "Save recipe",
     title: "Every value that was changed, as a small JSON file",
     run: () =>
-      download(new Blob([toJson(state.recipe())], { type: "application/json" }), fileName(view)),
+      download(new Blob([toJson(state.recipe())], { type: "application/json" }), fileName(model)),
   });
   menu.add({
     group: "recipe",
@@ -35,7 +38,7 @@ export function recipe(view, signal) {
     title: "Set everything as a recipe's file says, as one step",
     run: async () => {
       const file = await pickFile(FILES, signal);
-      if (file) await loadRecipe(view, file);
+      if (file) await loadRecipe(taker, file);
     },
   });
   menu.add({
@@ -56,8 +59,8 @@ export function recipe(view, signal) {
     title: "JSON or Python that was copied from an editor; it is read, never run",
     run: async () => {
       const text = await pasted();
-      if (text !== null) useRecipe(view, text);
-      else say(view, "The page may not look at the clipboard by itself: press Ctrl+V.");
+      if (text !== null) useRecipe(taker, text);
+      else say(taker, "The page may not look at the clipboard by itself: press Ctrl+V.");
     },
   });
   root.addEventListener(
@@ -66,7 +69,7 @@ export function recipe(view, signal) {
       const text = event.clipboardData?.getData("text/plain");
       if (!text || writes(event.target)) return;
       event.preventDefault();
-      useRecipe(view, text);
+      useRecipe(taker, text);
     },
     { signal },
   );
@@ -78,34 +81,34 @@ const writes = (target) =>
   target instanceof HTMLTextAreaElement ||
   (target instanceof HTMLInputElement && target.type !== "range");
 
-/** @param {View} view @param {File} file */
-export async function loadRecipe(view, file) {
-  useRecipe(view, await file.text());
+/** @param {Taker} taker @param {File} file */
+export async function loadRecipe(taker, file) {
+  useRecipe(taker, await file.text());
 }
 
 /**
  * Take over a recipe from text as one step, or say what is wrong with it.
  *
- * @param {View} view
+ * @param {Taker} taker
  * @param {string} text
  */
-export function useRecipe(view, text) {
-  const { state } = view;
+export function useRecipe(taker, text) {
+  const { message, notices, state } = taker;
   try {
-    const { values, problems } = checkRecipe(view.state.parameters, readRecipe(text));
+    const { values, problems } = checkRecipe(state.parameters, readRecipe(text));
     if (problems.length) throw new Error(problems.slice(0, 3).join(" "));
     const before = state.history().past.length;
     state.replace(values);
-    view.message.show("");
+    message.show("");
     const moved = state.history().past.length !== before;
-    say(view, moved ? "Recipe taken over." : "This is the recipe already.", moved);
+    say(taker, moved ? "Recipe taken over." : "This is the recipe already.", moved);
   } catch (error) {
-    view.notices.hide("recipe"); // what it says is of another recipe
-    view.message.show(`Nothing was changed. ${errorText(error)}`);
+    notices.hide("recipe"); // what it says is of another recipe
+    message.show(`Nothing was changed. ${errorText(error)}`);
   }
 }
 
-/** @param {View} view @param {string} text @param {boolean} [undo] offer to take it back */
+/** @param {Taker} taker @param {string} text @param {boolean} [undo] offer to take it back */
 function say({ notices, state }, text, undo = false) {
   notices.show("recipe", {
     text,
@@ -114,8 +117,8 @@ function say({ notices, state }, text, undo = false) {
   });
 }
 
-/** @param {View} view */
-function fileName({ model }) {
+/** @param {import("../../host/types.js").Model} model */
+function fileName(model) {
   const name = String(model.get("_source")?.name ?? "").replace(/\.[^.]*$/, "");
   return `${name || "picture"}-recipe.json`;
 }

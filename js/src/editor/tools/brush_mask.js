@@ -36,14 +36,7 @@ function paintBrushMask(canvas, { data, width, height }, subject) {
 
 /** The tint, while a brush is chosen. */
 export class BrushMask {
-  /**
-   * @param {{
-   *   drawing: import("../view/drawing.js").Drawing,
-   *   hand: import("./hand.js").Hand,
-   *   message: import("../../ui/error_message.js").ErrorMessage,
-   *   stage: import("../view/stage.js").Stage,
-   * }} needs
-   */
+  /** @param {import("../types.js").Needs<"drawing" | "hand" | "message" | "stage">} needs */
   constructor({ drawing, hand, message, stage }) {
     this.drawing = drawing;
     this.hand = hand;

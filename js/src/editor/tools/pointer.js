@@ -5,7 +5,6 @@
 
 /**
  * @typedef {import("../../host/types.js").Point} Point
- * @typedef {import("../view/view.js").View} View
  * @typedef {{ clientX: number, clientY: number }} Spot
  */
 
@@ -13,14 +12,13 @@ const SLOP = 5; // CSS pixels that a finger may move before it means a drag
 const HESITATION = 120; // ms after which a finger that rests means one too
 
 /**
- * @param {View} view
+ * @param {import("../types.js").Needs<"hand" | "parts" | "picture" | "root" | "stage">} needs
  * @param {AbortSignal} signal
  * @returns {() => void} drops what a pointer has begun, and lets it go
  */
-export function listenToPointer(view, signal) {
-  const { stage } = view;
+export function listenToPointer({ hand, parts, picture, root, stage }, signal) {
   const { overlay } = stage;
-  const tool = () => view.hand.tools[view.hand.tool];
+  const tool = () => hand.tools[hand.tool];
   /** @type {Map<number, Spot>} */
   const fingers = new Map();
   let pinching = false; // until the last finger is lifted
@@ -49,9 +47,9 @@ export function listenToPointer(view, signal) {
   /** A second finger: what the first began was not meant. */
   const pinch = () => {
     clearTimeout(timer);
-    if (view.hand.pointer !== null && !waiting && !panning) tool().cancel();
+    if (hand.pointer !== null && !waiting && !panning) tool().cancel();
     waiting = null;
-    view.hand.pointer = null;
+    hand.pointer = null;
     panning = false;
     pinching = true;
   };
@@ -65,11 +63,11 @@ export function listenToPointer(view, signal) {
       overlay.setPointerCapture(event.pointerId);
       hold();
     }
-    if (pinching || view.hand.pointer !== null || event.button > 1) return;
-    panning = event.button === 1 || view.root.classList.contains("sw-hand");
-    if (!panning && !view.picture.scene) return;
-    view.hand.pointer = event.pointerId;
-    overlay.setPointerCapture(view.hand.pointer);
+    if (pinching || hand.pointer !== null || event.button > 1) return;
+    panning = event.button === 1 || root.classList.contains("sw-hand");
+    if (!panning && !picture.scene) return;
+    hand.pointer = event.pointerId;
+    overlay.setPointerCapture(hand.pointer);
     event.preventDefault();
     stage.focus();
     last = at(event);
@@ -83,9 +81,9 @@ export function listenToPointer(view, signal) {
   const move = (event) => {
     if (pinching) return stretch(event);
     const place = stage.placeOf(event);
-    view.parts.point(place);
-    if (view.hand.pointer === null) tool().hover?.(place);
-    else if (event.pointerId !== view.hand.pointer) return;
+    parts.point(place);
+    if (hand.pointer === null) tool().hover?.(place);
+    else if (event.pointerId !== hand.pointer) return;
     else if (panning) {
       stage.pan(event.clientX - last.clientX, event.clientY - last.clientY);
       last = at(event);
@@ -113,26 +111,26 @@ export function listenToPointer(view, signal) {
     fingers.delete(event.pointerId);
     if (!fingers.size) pinching = false;
     else if (pinching) hold();
-    if (event.pointerId !== view.hand.pointer) return;
+    if (event.pointerId !== hand.pointer) return;
     begin();
-    view.hand.pointer = null;
+    hand.pointer = null;
     if (!panning) tool().end();
     panning = false;
   };
   const cancel = () => {
-    const { pointer } = view.hand;
+    const { pointer } = hand;
     clearTimeout(timer);
     waiting = null;
     panning = false;
-    view.hand.pointer = null; // so that the end of its capture ends nothing of the next tool's
+    hand.pointer = null; // so that the end of its capture ends nothing of the next tool's
     tool().cancel();
     if (pointer !== null && overlay.hasPointerCapture(pointer)) {
       overlay.releasePointerCapture(pointer);
     }
   };
   const leave = () => {
-    view.parts.point(null);
-    if (view.hand.pointer === null) tool().hover?.(null);
+    parts.point(null);
+    if (hand.pointer === null) tool().hover?.(null);
   };
   overlay.addEventListener("pointerdown", down, { signal });
   overlay.addEventListener("pointermove", move, { signal });

@@ -8,14 +8,8 @@ const WORTHWHILE = 0.75; // a drag that shows less of the preview's size is draw
 
 export class Drawing {
   /**
-   * @param {{
-   *   message: import("../../ui/error_message.js").ErrorMessage,
-   *   parts: import("../part.js").Parts,
-   *   picture: import("./picture.js").Picture,
-   *   root: HTMLElement,
-   *   stage: import("./stage.js").Stage,
-   *   state: import("../../edit/state.js").EditState,
-   * }} needs
+   * @param {import("../types.js").Needs<"message" | "parts" | "picture" | "root" | "stage"
+   *   | "state">} needs
    * @param {AbortSignal} signal
    */
   constructor({ message, parts, picture, root, stage, state }, signal) {

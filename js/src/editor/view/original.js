@@ -3,13 +3,7 @@
 import { sameRecipe } from "../../edit/equality.js";
 
 export class Original {
-  /**
-   * @param {{
-   *   root: HTMLElement,
-   *   stage: Pick<import("./stage.js").Stage, "setOriginal">,
-   *   state: Pick<import("../../edit/state.js").EditState, "recipe">,
-   * }} needs
-   */
+  /** @param {import("../types.js").Needs<"root" | "stage" | "state">} needs */
   constructor({ root, stage, state }) {
     this.root = root;
     this.stage = stage;

@@ -1,13 +1,6 @@
 /** Where the kernel's work stands, on the stage and in the message line. */
 
-/**
- * @param {{
- *   message: import("../../ui/error_message.js").ErrorMessage,
- *   model: import("../../host/types.js").Model,
- *   root: HTMLElement,
- *   stage: Pick<import("./stage.js").Stage, "setProgress">,
- * }} needs
- */
+/** @param {import("../types.js").Needs<"message" | "model" | "root" | "stage">} needs */
 export function showStatus({ message, model, root, stage }) {
   /** @type {import("../../host/types.js").Status | null} */
   const status = model.get("_status");

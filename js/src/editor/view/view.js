@@ -24,7 +24,6 @@ import { Hand } from "../tools/hand.js";
 import { HorizonTool } from "../tools/horizon_tool.js";
 import { PickTool } from "../tools/pick_tool.js";
 import { listenToPointer } from "../tools/pointer.js";
-import { onShortcut } from "../tools/shortcuts.js";
 import { BRUSHES, StrokesLayer } from "../tools/strokes.js";
 import { toolbar } from "../tools/toolbar.js";
 import { Drawing } from "./drawing.js";
@@ -76,10 +75,6 @@ export class View {
     this.panel = panel(this);
     this.toolbar = toolbar(this);
     this.foot = new Foot(this.picture);
-    /** @type {import("./split.js").Split | null} */
-    this.split = null;
-    /** @type {import("./full_screen.js").FullScreen | null} */
-    this.fullScreen = null;
     this.build();
     this.parts.add(...makeParts(this, signal), this.drawing);
     this.listen(signal);
@@ -137,7 +132,6 @@ export class View {
       if (!kernel.answers) channel.lose(GONE);
     });
     channel.onGone = () => kernel.become("lost");
-    root.addEventListener("keydown", (event) => onShortcut(this, event), { signal });
     signal.addEventListener("abort", () => {
       this.drawing.frame.dispose();
     });
