@@ -7,11 +7,14 @@ function pressed(key) {
   const set = [];
   const tool = Object.create(SunTool.prototype);
   tool.track = null;
-  tool.view = {
-    value: (name) => ({ sun_azimuth: 9.41234567, sun_elevation: 20 })[name],
-    parameter: (name) =>
-      name === "sun_azimuth" ? { minimum: -180, maximum: 180 } : { minimum: -12, maximum: 90 },
-    state: { begin() {}, set: (changes) => set.push(changes) },
+  tool.picture = { value: (name) => ({ sun_azimuth: 9.41234567, sun_elevation: 20 })[name] };
+  tool.state = {
+    parameters: [
+      { name: "sun_azimuth", minimum: -180, maximum: 180 },
+      { name: "sun_elevation", minimum: -12, maximum: 90 },
+    ],
+    begin() {},
+    set: (changes) => set.push(changes),
   };
   tool.onKey({ key, preventDefault() {}, stopPropagation() {} });
   return set;

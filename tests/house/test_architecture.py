@@ -167,17 +167,42 @@ def test_no_module_imports_itself_in_a_circle(graph):
 JS_IMPORT = re.compile(r"""(?:from|import)\s*\(?\s*["'](\.{1,2}/[^"']+)["']""")
 
 
-def test_rooms_of_the_front_end_import_only_rooms_above_them(root):
-    # JSDoc's import("…") counts: who names a type knows it.
+@pytest.fixture(scope="module")
+def front_end(root):
+    """The files of js/src that each of them imports. JSDoc's import("…") counts as one."""
     source = root / "js" / "src"
-    edges = []
-    for path in sorted(source.rglob("*.js")):
-        for target in JS_IMPORT.findall(path.read_text("utf-8")):
-            found = Path(os.path.normpath(path.parent / target)).relative_to(source)
-            here = path.relative_to(source)
-            edges.append((here.as_posix(), found.as_posix(), here.parts[0], found.parts[0]))
+    return {
+        path.relative_to(source).as_posix(): {
+            Path(os.path.normpath(path.parent / target)).relative_to(source).as_posix()
+            for target in JS_IMPORT.findall(path.read_text("utf-8"))
+        }
+        for path in sorted(source.rglob("*.js"))
+    }
+
+
+def test_rooms_of_the_front_end_import_only_rooms_above_them(front_end):
+    edges = [
+        (source, target, source.split("/")[0], target.split("/")[0])
+        for source, targets in front_end.items()
+        for target in targets
+    ]
     assert len(edges) > 400
     assert wrong_way(edges, FRONT_END) == []
+
+
+def test_parts_of_the_editor_know_what_they_need_and_not_its_view(root, front_end):
+    knowing = {name for name, targets in front_end.items() if "editor/view/view.js" in targets}
+    assert knowing == {"editor/index.js", "editor/parts.js"}
+    names = (root / "js" / "src" / "editor" / "types.d.ts").read_text("utf-8")
+    assert "view/view.js" not in names
+
+
+def test_no_file_of_the_editor_imports_itself_in_a_circle(front_end):
+    # The view hangs its parts on itself, and their list says what each takes of it.
+    graph = {name: targets for name, targets in front_end.items() if name.startswith("editor/")}
+    graph["editor/parts.js"] = graph["editor/parts.js"] - {"editor/view/view.js"}
+    assert len(graph) > 60
+    assert list(graphlib.TopologicalSorter(graph).static_order())
 
 
 def test_shaders_of_other_pictures_are_included_by_those_alone(root):

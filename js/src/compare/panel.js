@@ -45,14 +45,16 @@ export class Panel extends PictureStage {
         commit: () => view.state.commit(),
         cancel: () => view.state.cancel(),
         set: (changes) => view.state.set({ ...changes, one_sun: true }),
+        parameters: view.state.parameters,
       },
-      parameter: (name) => view.parameter(name),
-      value: (name) => panel.value(name),
-      get camera() {
-        return view.scenes.cameras[panel.variant.scene ?? 0] ?? null;
-      },
-      get scene() {
-        return panel.scene;
+      picture: {
+        value: (name) => panel.value(name),
+        get camera() {
+          return view.scenes.cameras[panel.variant.scene ?? 0] ?? null;
+        },
+        get scene() {
+          return panel.scene;
+        },
       },
     });
     this.overlay.append(this.sun.node);

@@ -4,7 +4,6 @@
  * share sun, zoom and pan.
  */
 
-import { parameterOf } from "../edit/parameter.js";
 import { EditState } from "../edit/state.js";
 import { Zoom } from "../geometry/zoom.js";
 import { FrameLoop } from "../gl/frame_loop.js";
@@ -132,11 +131,6 @@ export class View {
   /** Whether the recipes ask for suns of their own: it began without a common one. */
   hasOwnSuns() {
     return this.state.parameters.some((p) => p.name === "one_sun" && !p.default);
-  }
-
-  /** @param {string} name */
-  parameter(name) {
-    return parameterOf(this.parameters, name);
   }
 
   async loadPhoto() {

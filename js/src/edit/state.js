@@ -255,6 +255,12 @@ export class EditState {
     this.model.save_changes();
   }
 
+  /** @param {import("../film/film_path.js").KeyFrame[]} frames sorted */
+  writeKeyFrames(frames) {
+    this.model.set("key_frames", frames);
+    this.model.save_changes();
+  }
+
   /** All that is to be kept: as if the gesture under way ended now. @returns {Kept} */
   kept() {
     const { past, future } = this.history();

@@ -1,19 +1,16 @@
 /**
- * What hangs on the editor's view, each in a room of its own. A part puts its nodes where they
- * belong (`view.stage`, `view.toolbar.end`, `view.panel.section(name)`, `view.foot.node`) and is told:
- *
- *   loaded(scene)  the analysis, or an answer to a correction, has arrived
- *   show()         the edit or the history changed: controls follow at once
- *   draw()         the overlay is drawn: layout, zoom or edit changed
- *   drawn(scale)   a frame stands on the canvas, at a share of its full size
- *   point(place)   the pointer, or the keyboard's cross, is at a place of the picture, or gone
+ * What hangs on the editor's view, each in a room of its own. A part takes only what it needs, puts
+ * its nodes where they belong (`stage`, `toolbar.end`, `panel.section(name)`, `foot.node`) and is
+ * told of what happens (`part.js`).
  */
 
 import { exportPanel } from "./export/export_panel.js";
-import { webPage } from "./export/save.js";
+import { saving } from "./export/save.js";
 import { histogram } from "./inspect/histogram.js";
 import { presetThumbnails } from "./panel/preset_thumbnails.js";
+import { Thumbnails } from "./panel/thumbnails.js";
 import { placeSection } from "./place/place_section.js";
+import { SunClock } from "./place/sun_clock.js";
 import { autosave } from "./recipe/autosave.js";
 import { recipe } from "./recipe/recipe.js";
 import { versions } from "./recipe/versions.js";
@@ -22,60 +19,92 @@ import { heldKeys } from "./tools/held_keys.js";
 import { help } from "./tools/help.js";
 import { hover } from "./tools/hover.js";
 import { ownSun } from "./tools/own_sun.js";
+import { shortcuts } from "./tools/shortcuts.js";
 import { announcements } from "./view/announcements.js";
 import { detail } from "./view/detail.js";
 import { drop } from "./view/drop.js";
-import { fullScreen } from "./view/full_screen.js";
+import { FullScreen } from "./view/full_screen.js";
 import { needsKernel } from "./view/kernel_required.js";
 import { notes } from "./view/notes.js";
 import { progress } from "./view/progress.js";
 import { saved } from "./view/saved.js";
-import { split } from "./view/split.js";
+import { Split } from "./view/split.js";
 import { timings } from "./view/timings.js";
 import { zoomControl } from "./view/zoom_control.js";
 
 /**
- * @typedef {{
- *   loaded?: (scene: import("../host/types.js").Scene) => void,
- *   show?: () => void,
- *   draw?: () => void,
- *   drawn?: (scale: number) => void,
- *   point?: (place: import("../host/types.js").Point | null) => void,
- * }} Part
- * @typedef {(view: import("./view/view.js").View, signal: AbortSignal) => Part} MakePart
- */
-
-/** @type {MakePart[]} */
-const PARTS = [
-  zoomControl,
-  timings,
-  detail,
-  hover,
-  notes,
-  ownSun,
-  cross,
-  heldKeys,
-  split,
-  fullScreen,
-  presetThumbnails,
-  histogram,
-  placeSection,
-  versions,
-  drop,
-  recipe,
-  webPage,
-  exportPanel,
-  autosave,
-  saved,
-  help,
-  progress,
-  needsKernel,
-  announcements,
-];
-
-/**
  * @param {import("./view/view.js").View} view
  * @param {AbortSignal} signal
- * @returns {Part[]}
+ * @returns {import("./part.js").Part[]}
  */
-export const makeParts = (view, signal) => PARTS.map((make) => make(view, signal));
+export function makeParts(view, signal) {
+  const { announcer, channel, drawing, foot, hand, inspector, kernel, message, model } = view;
+  const { notices, original, panel, parts, picture, root, stage, state, strokes } = view;
+  const { toolbar, work } = view;
+  const clock = new SunClock({ model, picture, state });
+  const thumbnails = new Thumbnails({ drawing, hand, picture, stage, state }, signal);
+  // Their order is that of their nodes, too.
+  const onPicture = [
+    zoomControl({ stage }, signal),
+    timings({ drawing, foot }, signal),
+    detail({ channel, hand, kernel, picture, root, stage, state, work }, signal),
+    hover({ foot, hand, picture, stage }, signal),
+    notes({ announcer, foot, hand, kernel, notices, picture, stage, state }, signal),
+    ownSun({ hand, kernel, picture, root, stage, state }, signal),
+    cross({ announcer, hand, parts, picture, stage }, signal),
+    heldKeys({ root, toolbar }, signal),
+  ];
+  const split = new Split({ original, stage, toolbar });
+  const fullScreen = new FullScreen({ root, toolbar }, signal);
+  return [
+    ...onPicture,
+    split,
+    presetThumbnails({ panel, picture, state, thumbnails }, signal),
+    histogram({ drawing, panel, stage, state }, signal),
+    placeSection({ clock, hand, kernel, model, panel, parts, picture, stage, state }, signal),
+    versions({ notices, state, toolbar }, signal),
+    drop({ channel, kernel, message, model, notices, root, stage, state, toolbar }, signal),
+    recipe({ channel, kernel, message, model, notices, root, state, toolbar }, signal),
+    saving({ channel, drawing, kernel, model, picture, stage, toolbar, work }, signal),
+    exportPanel(
+      {
+        channel,
+        clock,
+        drawing,
+        foot,
+        kernel,
+        notices,
+        parts,
+        picture,
+        stage,
+        state,
+        thumbnails,
+        toolbar,
+        work,
+      },
+      signal,
+    ),
+    autosave({ hand, kernel, model, notices, parts, picture, state, toolbar }, signal),
+    saved({ drawing, model, panel, picture, root, stage }, signal),
+    help({ drawing, root, toolbar }, signal),
+    progress({ channel, kernel, model, notices, picture, stage, work }, signal),
+    needsKernel({ hand, inspector, kernel, panel, root, state, toolbar }, signal),
+    announcements({ announcer, foot, hand, model, root, strokes, toolbar }, signal),
+    shortcuts(
+      {
+        announcer,
+        drawing,
+        fullScreen,
+        hand,
+        inspector,
+        panel,
+        root,
+        split,
+        stage,
+        state,
+        toolbar,
+      },
+      signal,
+    ),
+  ];
+}

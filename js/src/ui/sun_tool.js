@@ -4,19 +4,22 @@
  * Outside the stage the handle waits at the edge with an arrow towards the sun.
  */
 
+import { parameterOf } from "../edit/parameter.js";
 import { setAttributes, shape } from "./element.js";
 import { GRAB, keyStep, SunShape, spotOnStage } from "./sun_shape.js";
 
 /**
+ * @typedef {import("../edit/state.js").EditState} EditState
  * @typedef {import("../host/types.js").Point} Point
  * @typedef {{
- *   camera: import("../geometry/camera.js").Camera | null,
- *   scene: import("../host/types.js").Scene | null,
- *   value: (name: string) => number,
- *   parameter: (name: string) => import("../host/types.js").Parameter,
+ *   picture: {
+ *     camera: import("../geometry/camera.js").Camera | null,
+ *     scene: import("../host/types.js").Scene | null,
+ *     value: (name: string) => number,
+ *   },
  *   stage: Pick<import("./stage.js").PictureStage, "rectangle">,
- *   state: Pick<import("../edit/state.js").EditState, "begin" | "commit" | "cancel" | "set">,
- * }} SunHost what the handle needs of a view
+ *   state: Pick<EditState, "parameters" | "begin" | "commit" | "cancel" | "set">,
+ * }} Needs
  * @typedef {{
  *   takes: (place: Point, onSun: boolean) => boolean,
  *   follow: (place: Point) => void,
@@ -25,9 +28,11 @@ import { GRAB, keyStep, SunShape, spotOnStage } from "./sun_shape.js";
  */
 
 export class SunTool {
-  /** @param {SunHost} view */
-  constructor(view) {
-    this.view = view;
+  /** @param {Needs} needs */
+  constructor({ picture, stage, state }) {
+    this.picture = picture;
+    this.stage = stage;
+    this.state = state;
     /** @type {Point} offset of the grip from the sun, in fractions of the picture */
     this.offset = [0, 0];
     /** @type {SunTrack | null} */
@@ -45,14 +50,14 @@ export class SunTool {
     this.node = shape("g", { class: "sw-sun-tool" }, this.line, this.origin, this.handle);
     this.handle.addEventListener("keydown", (event) => this.onKey(event));
     for (const end of ["keyup", "blur"]) {
-      this.handle.addEventListener(end, () => this.view.state.commit());
+      this.handle.addEventListener(end, () => this.state.commit());
     }
   }
 
   /** @param {Point} place @param {PointerEvent} event */
   begin(place, event) {
     const sun = this.place();
-    const box = this.view.stage.rectangle();
+    const box = this.stage.rectangle();
     this.offset = [0, 0];
     let near = false;
     if (sun) {
@@ -68,10 +73,10 @@ export class SunTool {
 
   /** @param {Point} place @param {PointerEvent} [_event] */
   move(place, _event) {
-    const { camera } = this.view;
+    const { camera } = this.picture;
     if (!camera) return;
     // Losing the focus ends a gesture; a drag that goes on is the next one.
-    this.view.state.begin();
+    this.state.begin();
     if (this.tracked) {
       this.track?.follow([place[0] - this.offset[0], place[1] - this.offset[1]]);
       return;
@@ -84,7 +89,7 @@ export class SunTool {
   }
 
   end() {
-    this.view.state.commit();
+    this.state.commit();
   }
 
   focus() {
@@ -92,7 +97,7 @@ export class SunTool {
   }
 
   cancel() {
-    this.view.state.cancel();
+    this.state.cancel();
   }
 
   /**
@@ -100,13 +105,13 @@ export class SunTool {
    * @param {number} elevation degrees
    */
   moveTo(azimuth, elevation) {
-    this.view.state.set(this.edit(azimuth, elevation));
+    this.state.set(this.edit(azimuth, elevation));
   }
 
   /** A direction as the edit holds it. @param {number} azimuth @param {number} elevation */
   edit(azimuth, elevation) {
     const round = (/** @type {string} */ name, /** @type {number} */ value) => {
-      const p = this.view.parameter(name);
+      const p = parameterOf(this.state.parameters, name);
       return Math.round(Math.min(p.maximum, Math.max(p.minimum, value)) * 1e4) / 1e4;
     };
     const turned = ((((azimuth + 180) % 360) + 360) % 360) - 180;
@@ -120,23 +125,26 @@ export class SunTool {
   onKey(event) {
     if (event.key === "Home") {
       event.preventDefault();
-      this.view.state.set({ sun_azimuth: null, sun_elevation: null });
+      this.state.set({ sun_azimuth: null, sun_elevation: null });
     }
     const step = keyStep(event);
     if (!step) return;
-    this.view.state.begin();
+    this.state.begin();
     if (this.track?.step(step)) return;
-    const { sun_azimuth, sun_elevation } = this.edit(
-      this.view.value("sun_azimuth") + step[0],
-      this.view.value("sun_elevation") + step[1],
-    );
+    const [azimuth, elevation] = this.direction();
+    const { sun_azimuth, sun_elevation } = this.edit(azimuth + step[0], elevation + step[1]);
     // What it does not move stays the photo's own.
-    this.view.state.set(step[0] ? { sun_azimuth } : { sun_elevation });
+    this.state.set(step[0] ? { sun_azimuth } : { sun_elevation });
+  }
+
+  /** Where the sun stands: azimuth and elevation in degrees. @returns {Point} */
+  direction() {
+    return [this.picture.value("sun_azimuth"), this.picture.value("sun_elevation")];
   }
 
   /** Where the sun is on the picture, or null behind the camera. @returns {Point | null} */
   place() {
-    return this.placeOf(this.view.value("sun_azimuth"), this.view.value("sun_elevation"));
+    return this.placeOf(...this.direction());
   }
 
   /**
@@ -145,25 +153,25 @@ export class SunTool {
    * @returns {Point | null}
    */
   placeOf(azimuth, elevation) {
-    const { camera } = this.view;
+    const { camera } = this.picture;
     const pixel = camera?.pixel(azimuth, elevation);
     return camera && pixel ? [pixel[0] / camera.width, pixel[1] / camera.height] : null;
   }
 
   /** Where the handle stands on the stage. */
   spot() {
-    const [azimuth, elevation] = [this.view.value("sun_azimuth"), this.view.value("sun_elevation")];
-    return this.onStage(azimuth, elevation, this.view.stage.rectangle());
+    const [azimuth, elevation] = this.direction();
+    return this.onStage(azimuth, elevation, this.stage.rectangle());
   }
 
   draw() {
-    const { camera, stage, scene } = this.view;
+    const { camera, scene } = this.picture;
     setAttributes(this.node, { visibility: camera && scene ? "visible" : "hidden" });
     if (!camera || !scene) return;
-    const [azimuth, elevation] = [this.view.value("sun_azimuth"), this.view.value("sun_elevation")];
-    const box = stage.rectangle();
+    const [azimuth, elevation] = this.direction();
+    const box = this.stage.rectangle();
     const at = this.onStage(azimuth, elevation, box);
-    this.shape.show(at, [azimuth, elevation], this.view.parameter("sun_elevation"));
+    this.shape.show(at, [azimuth, elevation], parameterOf(this.state.parameters, "sun_elevation"));
 
     const own = this.onStage(scene.automatic.sun_azimuth, scene.automatic.sun_elevation, box);
     const apart = Math.hypot(at.x - own.x, at.y - own.y);
@@ -191,7 +199,7 @@ export class SunTool {
     if (place) {
       [dx, dy] = [(place[0] - 0.5) * box.width, (place[1] - 0.5) * box.height];
     } else {
-      const [bx, by] = this.view.camera?.bearing(azimuth, elevation) ?? [0, -1];
+      const [bx, by] = this.picture.camera?.bearing(azimuth, elevation) ?? [0, -1];
       [dx, dy] = [bx * 1e6, by * 1e6];
     }
     return spotOnStage(box, dx, dy);

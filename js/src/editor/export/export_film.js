@@ -5,7 +5,6 @@ import { clock as clockText } from "../../geometry/day.js";
 import { editAt } from "../../geometry/place.js";
 import { element } from "../../ui/element.js";
 import { inputField, selectField } from "../../ui/named_field.js";
-import { SunClock } from "../place/sun_clock.js";
 import { exportTarget, formatOptions, lacking } from "./export_target.js";
 import { filmPlayer } from "./film_player.js";
 import { keyFrames } from "./key_frames.js";
@@ -23,13 +22,14 @@ const EASING_NAMES = [
 ];
 
 /**
- * @param {import("../view/view.js").View} view
- * @param {ReturnType<typeof import("./export_job.js").exportJob>} job
+ * @param {Parameters<typeof keyFrames>[0] & Parameters<typeof filmPlayer>[0]
+ *   & import("../types.js").Needs<"clock" | "kernel">} needs
+ * @param {import("./export_job.js").Job} job
  * @param {AbortSignal} signal
  */
-export function exportFilm(view, job, signal) {
-  const clock = new SunClock(view);
-  const keys = keyFrames(view, signal);
+export function exportFilm({ clock, kernel, ...needs }, job, signal) {
+  const { picture, state } = needs;
+  const keys = keyFrames(needs);
   /** @type {import("./export_target.js").Choices | null} */
   let choices = null;
   /** @type {[number, number] | null} first and last hour of the day's film, once set by hand */
@@ -68,12 +68,12 @@ export function exportFilm(view, job, signal) {
   const stations = () => {
     const frames = keys.read();
     if (frames.length > 1) return frames;
-    const end = { seconds: Number(length.input.value), recipe: view.state.recipe() };
+    const end = { seconds: Number(length.input.value), recipe: state.recipe() };
     return [{ recipe: frames[0]?.recipe ?? {}, seconds: 0 }, end];
   };
   /** Why there is no film, or "". */
   const still = () => {
-    if (!view.scene) return "The photo is not analysed yet.";
+    if (!picture.scene) return "The photo is not analysed yet.";
     if (byDay()) {
       if (!clock.place || !clock.path.length) return "Say where and when first: Time and place.";
       return clock.place.heading === null ? "Say where the camera looks: Time and place." : "";
@@ -86,9 +86,9 @@ export function exportFilm(view, job, signal) {
     keyFramePath(
       frames,
       easing.select.value,
-      view.parameters,
-      view.state.values,
-      view.scene?.automatic ?? {},
+      state.parameters,
+      state.values,
+      picture.scene?.automatic ?? {},
     );
 
   /** @type {{ on: string, film: import("./film_player.js").Film } | null} */
@@ -96,7 +96,7 @@ export function exportFilm(view, job, signal) {
   const film = () => {
     if (still()) return null;
     const settings = [way, easing, loop].map(({ select }) => select.value);
-    const moves = [keys.read(), view.state.recipe(), span()];
+    const moves = [keys.read(), state.recipe(), span()];
     const on = JSON.stringify([settings, length.input.value, moves]);
     if (known?.on !== on) known = { on, film: makeFilm() };
     return known.film;
@@ -107,7 +107,7 @@ export function exportFilm(view, job, signal) {
     const { place, path } = clock;
     const [first, last] = span();
     const ease = EASINGS[easing.select.value];
-    const edit = { ...view.state.values };
+    const edit = { ...state.values };
     return {
       path: (/** @type {number} */ share) => ({
         ...edit,
@@ -122,7 +122,7 @@ export function exportFilm(view, job, signal) {
     if (!byDay() && frames.length > 1) return frames[frames.length - 1].seconds;
     return Math.max(0.5, Number(length.input.value) || 5);
   };
-  const player = filmPlayer(view, signal, film);
+  const player = filmPlayer(needs, signal, film);
 
   const target = exportTarget("film", () => {
     if (![length, quality].every(({ node, input }) => node.hidden || input.reportValidity())) {
@@ -201,7 +201,7 @@ export function exportFilm(view, job, signal) {
     why.textContent = reason;
     why.hidden = reason === "";
     const kind = choices?.films.find(({ suffix }) => suffix === format.select.value);
-    const asks = view.kernel.answers ? lacking(kind) : "Needs the kernel: run the cell again.";
+    const asks = kernel.answers ? lacking(kind) : "Needs the kernel: run the cell again.";
     quality.node.hidden = !kind?.quality;
     target.show(kind?.suffix === ".png" ? "" : (kind?.suffix ?? ""), asks || reason);
     target.hint.hidden = asks === "";

@@ -3,24 +3,23 @@
 import { chip } from "../../ui/chips.js";
 import { download } from "../../ui/download.js";
 import { element } from "../../ui/element.js";
-import { work } from "./save.js";
 
 const SHOWN_BYTES = 20_000_000; // as in sunwidget/widgets/editor/export_files.py
 
 /**
- * @typedef {import("../view/view.js").View} View
+ * @typedef {ReturnType<typeof exportJob>} Job
  * @typedef {{ name: string, type: string, bytes: number, files: number, path?: string }} Made
  */
 
 /**
- * @param {View} view
+ * @param {import("../types.js").Needs<"channel" | "picture" | "stage" | "state" | "work">} needs
  * @param {() => boolean} isOpen whether the panel is in sight, which then shows the progress
  * @param {AbortSignal} signal
  */
-export function exportJob(view, isOpen, signal) {
+export function exportJob({ channel, picture, stage, state, work }, isOpen, signal) {
   const bar = element("progress", { max: 1, "aria-label": "Progress of the export" });
   const said = element("span", { class: "sw-export-said" });
-  const cancel = chip("Cancel", "Stop; nothing of the file is left", () => view.work?.abort());
+  const cancel = chip("Cancel", "Stop; nothing of the file is left", () => work.cancel());
   const running = element("div", { class: "sw-export-running", hidden: true }, bar, said, cancel);
   const done = element("div", { class: "sw-export-done", role: "status" });
   let url = "";
@@ -35,7 +34,7 @@ export function exportJob(view, isOpen, signal) {
     const open = isOpen();
     bar.value = fraction;
     said.textContent = text;
-    view.stage.setProgress(open ? null : fraction, open ? "" : text);
+    stage.setProgress(open ? null : fraction, open ? "" : text);
   };
 
   /** @param {Made} made @param {DataView[]} buffers @param {boolean} isFilm */
@@ -73,7 +72,7 @@ export function exportJob(view, isOpen, signal) {
    * @param {(name: string) => void} rename what to do with the free name
    */
   const run = (action, content, rename) =>
-    work(view, "The export", async (stop) => {
+    work.run("The export", async (stop) => {
       done.replaceChildren();
       running.hidden = false;
       tell(0, "Asking the kernel …");
@@ -82,8 +81,8 @@ export function exportJob(view, isOpen, signal) {
         const onProgress = (fraction, text) => {
           if (!stop.aborted) tell(fraction, text);
         };
-        const asked = { ...content, ...view.asked(), key_frames: view.state.keyFrames() };
-        const { result, buffers } = await view.channel.request(action, asked, onProgress, [], stop);
+        const asked = { ...content, ...picture.asked(), key_frames: state.keyFrames() };
+        const { result, buffers } = await channel.request(action, asked, onProgress, [], stop);
         if (!result.taken) return show(result, buffers, action === "film");
         const other = chip(`Use ${result.free}`, "Export under this name", () => {
           rename(result.free);

@@ -6,9 +6,14 @@ import { exportFilm } from "./export_film.js";
 import { exportJob } from "./export_job.js";
 import { exportStill } from "./export_still.js";
 
-/** @type {import("../parts.js").MakePart} */
-export function exportPanel(view, signal) {
-  const { kernel, toolbar } = view;
+/**
+ * @param {Parameters<typeof exportJob>[0] & Parameters<typeof exportFilm>[0]
+ *   & import("../types.js").Needs<"foot" | "toolbar">} needs
+ * @param {AbortSignal} signal
+ * @returns {import("../part.js").Part}
+ */
+export function exportPanel({ foot, toolbar, ...needs }, signal) {
+  const { channel, kernel } = needs;
   const id = `sw-export-${Math.random().toString(36).slice(2)}`;
   const trigger = button({
     icon: "chevron",
@@ -27,10 +32,10 @@ export function exportPanel(view, signal) {
     run: () => setOpen(true),
   });
 
-  const job = exportJob(view, () => node.hidden === false, signal);
-  const film = exportFilm(view, job, signal);
+  const job = exportJob(needs, () => node.hidden === false, signal);
+  const film = exportFilm(needs, job, signal);
   const pages = [
-    { name: "Still", page: exportStill(view, job) },
+    { name: "Still", page: exportStill(needs, job) },
     { name: "Film", page: film },
   ].map(({ name, page }, i) => {
     const tab = element("button", { type: "button", role: "tab", class: "sw-tab" }, name);
@@ -62,7 +67,7 @@ export function exportPanel(view, signal) {
     job.running,
     job.done,
   );
-  view.foot.node.after(node);
+  foot.node.after(node);
   trigger.setAttribute("aria-controls", id);
 
   let chosen = 0;
@@ -94,7 +99,7 @@ export function exportPanel(view, signal) {
   const ask = async () => {
     if (!kernel.answers) return;
     try {
-      const { result } = await view.channel.request("exports");
+      const { result } = await channel.request("exports");
       for (const { page } of pages) page.take(result);
     } catch {
       kernel.check();

@@ -10,10 +10,10 @@ const BITS = { 8: "8 bits", 16: "16 bits", 32: "32 bits, linear" };
 const PREVIEW = 2048; // pixels of the longer side, as the browser has it
 
 /**
- * @param {import("../view/view.js").View} view
- * @param {ReturnType<typeof import("./export_job.js").exportJob>} job
+ * @param {import("../types.js").Needs<"kernel" | "picture">} needs
+ * @param {import("./export_job.js").Job} job
  */
-export function exportStill(view, job) {
+export function exportStill({ kernel, picture }, job) {
   /** @type {import("./export_target.js").Choices | null} */
   let choices = null;
   let layersOn = false;
@@ -97,8 +97,8 @@ export function exportStill(view, job) {
     target.show(kind?.suffix ?? "", problem(kind));
   };
   const problem = (/** @type {import("./export_target.js").Format | undefined} */ kind) => {
-    if (!view.kernel.answers) return "Needs the kernel: run the cell again.";
-    if (!view.scene) return "The photo is not analysed yet.";
+    if (!kernel.answers) return "Needs the kernel: run the cell again.";
+    if (!picture.scene) return "The photo is not analysed yet.";
     return lacking(kind);
   };
   format.select.addEventListener("change", () => {

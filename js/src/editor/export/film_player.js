@@ -10,12 +10,11 @@ import { playButton } from "../../ui/play_button.js";
  */
 
 /**
- * @param {import("../view/view.js").View} view
+ * @param {import("../types.js").Needs<"drawing" | "parts" | "picture" | "stage" | "state">} needs
  * @param {AbortSignal} signal
  * @param {() => Film | null} read the film as it is set now; null when nothing moves
  */
-export function filmPlayer(view, signal, read) {
-  const { state } = view;
+export function filmPlayer({ drawing, parts, picture, stage, state }, signal, read) {
   const range = element("input", {
     type: "range",
     class: "sw-range",
@@ -34,17 +33,17 @@ export function filmPlayer(view, signal, read) {
 
   /** @param {Film} film */
   const draw = (film) => {
-    if (!view.passing) under = state.recipe();
-    view.passing = film.path(Math.min(1, at / film.seconds));
-    view.loop.request();
+    if (!picture.passing) under = state.recipe();
+    picture.passing = film.path(Math.min(1, at / film.seconds));
+    drawing.loop.request();
     show();
   };
   /** Back to the edit. */
   const leave = () => {
-    if (!view.passing) return;
-    view.passing = null;
+    if (!picture.passing) return;
+    picture.passing = null;
     at = 0;
-    view.show();
+    parts.show();
   };
   const play = playButton(
     {
@@ -87,7 +86,7 @@ export function filmPlayer(view, signal, read) {
     draw(film);
   });
   // A hand on the picture or a panel's slider means the edit.
-  view.stage.node.addEventListener("pointerdown", stop, { capture: true, signal });
+  stage.node.addEventListener("pointerdown", stop, { capture: true, signal });
 
   const show = () => {
     const film = read();
@@ -104,7 +103,7 @@ export function filmPlayer(view, signal, read) {
     node,
     stop,
     show() {
-      if (view.passing && (state.before || !sameRecipe(under, state.recipe()))) stop();
+      if (picture.passing && (state.before || !sameRecipe(under, state.recipe()))) stop();
       else show();
     },
   };

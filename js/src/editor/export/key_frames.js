@@ -4,7 +4,6 @@ import { alongEdit, movedOf } from "../../film/film_path.js";
 import { button } from "../../ui/button.js";
 import { chip } from "../../ui/chips.js";
 import { element } from "../../ui/element.js";
-import { placePhoto, thumbnails } from "../panel/thumbnails.js";
 
 /** @typedef {import("../../film/film_path.js").KeyFrame} KeyFrame */
 
@@ -14,18 +13,13 @@ const LONGEST = 600;
 const CLOSEST = 0.05;
 const APART = 2; // seconds between a new key frame and the last
 
-/**
- * @param {import("../view/view.js").View} view
- * @param {AbortSignal} signal
- */
-export function keyFrames(view, signal) {
-  const { model, state, notices } = view;
+/** @param {import("../types.js").Needs<"notices" | "state" | "thumbnails">} needs */
+export function keyFrames({ notices, state, thumbnails }) {
   let generation = 0; // of the scene
   /** @type {{ frame: KeyFrame, canvas: HTMLCanvasElement }[]} */
   let cards = [];
 
-  /** @returns {KeyFrame[]} */
-  const read = () => model.get("key_frames") ?? [];
+  const read = () => state.keyFrames();
   /** @param {KeyFrame[]} frames */
   const write = (frames) => {
     const sorted = [...frames].sort((a, b) => a.seconds - b.seconds);
@@ -34,10 +28,9 @@ export function keyFrames(view, signal) {
     const apart = sorted.map(({ seconds, recipe }) => {
       const at = round(Math.max(seconds, least));
       least = at + CLOSEST;
-      return { seconds: at, recipe: movedOf(view.parameters, recipe) };
+      return { seconds: at, recipe: movedOf(state.parameters, recipe) };
     });
-    model.set("key_frames", apart);
-    model.save_changes();
+    state.writeKeyFrames(apart);
   };
 
   /** @param {number} i @param {KeyFrame} frame */
@@ -79,7 +72,7 @@ export function keyFrames(view, signal) {
   /** @type {(frame: KeyFrame, i: number, all: KeyFrame[]) => HTMLElement} */
   const card = (frame, i, all) => {
     const canvas = element("canvas", { class: "sw-thumbnail", "aria-hidden": "true" });
-    placePhoto(view, canvas);
+    thumbnails.placePhoto(canvas);
     cards.push({ frame, canvas });
     const name = `key frame ${i + 1}`;
     const go = element(
@@ -156,7 +149,7 @@ export function keyFrames(view, signal) {
     );
   };
   /** A key frame's recipe with the present edit's corrections and methods. @param {KeyFrame} frame */
-  const whole = (frame) => alongEdit(view.parameters, state.recipe(), frame.recipe);
+  const whole = (frame) => alongEdit(state.parameters, state.recipe(), frame.recipe);
 
   let drawn = "";
   const show = () => {
@@ -177,10 +170,10 @@ export function keyFrames(view, signal) {
     fromVersions.hidden = state.versions().length < 2;
     small.wake();
   };
-  const small = thumbnails(view, signal, node, () => {
-    const shared = view.parameters.filter(({ kind }) => kind !== "data");
+  const small = thumbnails.keep(node, () => {
+    const shared = state.parameters.filter(({ kind }) => kind !== "data");
     return cards.map(({ frame, canvas }) => {
-      const edit = alongEdit(view.parameters, state.values, frame.recipe);
+      const edit = alongEdit(state.parameters, state.values, frame.recipe);
       const key = JSON.stringify([generation, ...shared.map(({ name }) => edit[name])]);
       return { canvas, edit, key };
     });

@@ -1,91 +1,52 @@
 /** The picture as a file: of full size from the kernel, of preview size where none answers. */
 
-import { Cancelled } from "../../host/channel.js";
 import { download } from "../../ui/download.js";
 
-/** @typedef {import("../view/view.js").View} View */
-
 /**
- * Make something that the person keeps; one at a time. `view.work` cancels it meanwhile.
+ * The picture as a file, by the toolbar's button, and the editor itself as one, by the menu.
  *
- * @param {View} view
- * @param {string} what as the person calls it
- * @param {(signal: AbortSignal) => Promise<void>} make
+ * @type {import("../types.js").MakePart<"channel" | "drawing" | "kernel" | "model" | "picture"
+ *   | "stage" | "toolbar" | "work">}
  */
-export async function work(view, what, make) {
-  if (view.work) return;
-  const controller = new AbortController();
-  view.work = controller;
-  view.state.push();
-  view.toolbar.show();
-  try {
-    await make(controller.signal);
-    view.notices.hide("save");
-  } catch (error) {
-    const why = error instanceof Error ? error.message : String(error);
-    view.notices.show("save", {
-      text: error instanceof Cancelled ? `${what} was cancelled.` : `${what} failed: ${why}`,
-      actions: [{ label: "Try again", run: () => work(view, what, make) }],
-    });
-  } finally {
-    view.work = null;
-    view.stage.setProgress(null, "");
-    view.toolbar.show();
-  }
-}
+export function saving({ channel, drawing, kernel, model, picture, stage, toolbar, work }) {
+  /**
+   * A file that the kernel makes: the frame at full size, or a page.
+   *
+   * @param {"save" | "page"} action
+   * @param {AbortSignal} signal
+   */
+  const fromKernel = async (action, signal) => {
+    /** @type {import("../../host/channel.js").OnProgress} */
+    const onProgress = (fraction, text) => {
+      if (!signal.aborted) stage.setProgress(fraction, text);
+    };
+    onProgress(0, "Asking the kernel …");
+    const asked = picture.asked();
+    const { result, buffers } = await channel.request(action, asked, onProgress, [], signal);
+    const bytes = /** @type {BlobPart} */ (buffers[0]);
+    download(new Blob([bytes], { type: result.type }), result.name);
+  };
 
-/**
- * Hand the picture to the person as a file.
- *
- * @param {View} view
- */
-export const save = (view) =>
-  work(view, "Saving", (signal) =>
-    view.kernel.answers ? fromKernel(view, "save", signal) : savePreview(view),
-  );
+  /** The canvas as PNG. */
+  const preview = async () => {
+    drawing.drawFrame(1);
+    /** @type {Blob | null} */
+    const blob = await new Promise((resolve) => stage.canvas.toBlob(resolve, "image/png"));
+    if (!blob) throw new Error("the browser cannot encode the picture.");
+    const { name = "picture" } = model.get("_source") ?? {};
+    download(blob, `${name.replace(/\.[^.]*$/, "")}-sun.png`);
+  };
 
-/** The editor itself as a file. @type {import("../parts.js").MakePart} */
-export function webPage(view) {
-  view.toolbar.menu.add({
+  const save = () =>
+    work.run("Saving", (signal) => (kernel.answers ? fromKernel("save", signal) : preview()));
+  toolbar.save.addEventListener("click", () => void save());
+  toolbar.menu.add({
     group: "picture",
     label: "Save as a web page",
     title: "One file in which the sun can be moved, without a notebook and without network",
-    enabled: () => view.kernel.answers && view.scene !== null,
-    shown: () => view.kernel.state !== "none",
-    run: () => work(view, "Saving the page", (signal) => fromKernel(view, "page", signal)),
+    enabled: () => kernel.answers && picture.scene !== null,
+    shown: () => kernel.state !== "none",
+    run: () => work.run("Saving the page", (signal) => fromKernel("page", signal)),
   });
   return {};
-}
-
-/**
- * A file that the kernel makes: the frame at full size, or a page.
- *
- * @param {View} view
- * @param {"save" | "page"} action
- * @param {AbortSignal} signal
- */
-async function fromKernel(view, action, signal) {
-  const { channel, stage } = view;
-  /** @type {import("../../host/channel.js").OnProgress} */
-  const onProgress = (fraction, text) => {
-    if (!signal.aborted) stage.setProgress(fraction, text);
-  };
-  onProgress(0, "Asking the kernel …");
-  const { result, buffers } = await channel.request(action, view.asked(), onProgress, [], signal);
-  download(new Blob([/** @type {BlobPart} */ (buffers[0])], { type: result.type }), result.name);
-}
-
-/**
- * The canvas as PNG.
- *
- * @param {View} view
- */
-async function savePreview(view) {
-  view.drawFrame(1);
-  const { canvas } = view.stage;
-  /** @type {Blob | null} */
-  const blob = await new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
-  if (!blob) throw new Error("the browser cannot encode the picture.");
-  const { name = "picture" } = view.model.get("_source") ?? {};
-  download(blob, `${name.replace(/\.[^.]*$/, "")}-sun.png`);
 }

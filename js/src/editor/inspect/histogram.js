@@ -25,8 +25,8 @@ const CHANNELS = /** @type {const} */ (["red", "green", "blue"]);
 const UNKNOWN = { role: "img", "aria-label": "Not counted yet" };
 const WORTH_SAYING = 0.001; // share of the picture that is clipped
 
-/** @type {import("../parts.js").MakePart} */
-export function histogram(view, signal) {
+/** @type {import("../types.js").MakePart<"drawing" | "panel" | "stage" | "state">} */
+export function histogram({ drawing, panel, stage, state }, signal) {
   const hills = CHANNELS.map((name) => shape("path", { class: `sw-levels-${name}` }));
   const luminance = shape("path", { class: "sw-levels-luminance" });
   const before = shape("path", { class: "sw-levels-before" });
@@ -46,7 +46,6 @@ export function histogram(view, signal) {
     black: element("span", { class: "sw-clipped sw-clipped-black", ...UNKNOWN }),
     white: element("span", { class: "sw-clipped sw-clipped-white", ...UNKNOWN }),
   };
-  const { panel } = view;
   const { node, head, body } = countedSection(
     {
       title: "Histogram",
@@ -74,7 +73,7 @@ export function histogram(view, signal) {
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
   let forget = () => {};
-  const fence = new Fence(view.frame);
+  const fence = new Fence(drawing.frame);
 
   /** @param {HTMLCanvasElement | HTMLImageElement} source @returns {Levels | null} */
   const read = (source) => {
@@ -93,16 +92,16 @@ export function histogram(view, signal) {
   };
 
   const show = () => {
-    if (view.state.before !== null && cost > DEAR_MS) return; // its end draws again
+    if (state.before !== null && cost > DEAR_MS) return; // its end draws again
     if (!fence.passed()) {
       clearTimeout(timer);
       timer = setTimeout(idle, PAUSE_MS);
       return;
     }
-    own ??= read(view.stage.photo);
+    own ??= read(stage.photo);
     counted = performance.now();
     // Until there is a frame, the photo stands where it will be.
-    const now = view.root.classList.contains("sw-live") ? read(view.stage.canvas) : own;
+    const now = drawing.live ? read(stage.canvas) : own;
     cost = Math.max(performance.now() - counted, FORGETS * cost);
     if (!now) return;
     const most = ceiling([now.red, now.green, now.blue, now.luminance]);
@@ -141,7 +140,7 @@ export function histogram(view, signal) {
     clearTimeout(timer);
     forget();
   });
-  view.stage.photo.addEventListener("load", () => {
+  stage.photo.addEventListener("load", () => {
     own = null;
     wake();
   });

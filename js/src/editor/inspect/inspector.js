@@ -13,18 +13,19 @@ import { colours, gradient, textAt } from "./ramp.js";
 /**
  * @typedef {import("../../host/types.js").Point} Point
  * @typedef {import("../../host/types.js").SceneMap} SceneMap
- * @typedef {import("../view/view.js").View} View
  * @typedef {{ levels: Uint8Array, width: number, height: number }} MapLevels
  */
 
 const [SPREAD_WIDTH, SPREAD_HEIGHT] = [256, 20];
 
 export class Inspector {
-  /** @param {View} view */
-  constructor(view) {
-    this.view = view;
+  /** @param {import("../types.js").Needs<"channel" | "model" | "picture" | "root">} needs */
+  constructor({ channel, model, picture, root }) {
+    this.channel = channel;
+    this.picture = picture;
+    this.root = root;
     /** @type {SceneMap[]} */
-    this.maps = view.model.get("_maps") ?? [];
+    this.maps = model.get("_maps") ?? [];
     /** @type {SceneMap | null} the map that is shown */
     this.map = null;
     /** @type {MapLevels | null} */
@@ -49,7 +50,7 @@ export class Inspector {
         ...this.maps.map(({ name, title }) => element("option", { value: name }, title)),
       ),
     );
-    this.choice.addEventListener("change", () => this.show(this.choice.value));
+    this.choice.addEventListener("change", () => this.choose(this.choice.value));
     this.canvas = element("canvas", { class: "sw-map", "aria-hidden": "true" });
     this.title = element("b");
     this.help = element("span", { class: "sw-legend-help" });
@@ -109,7 +110,7 @@ export class Inspector {
       icon: "close",
       label: "Close the map",
       title: "Close the map (Esc)",
-      onClick: () => this.show(""),
+      onClick: () => this.choose(""),
     });
     this.node = element(
       "div",
@@ -131,14 +132,14 @@ export class Inspector {
   }
 
   /** Show a map by name; an empty name shows the picture again. @param {string} name */
-  show(name) {
+  choose(name) {
     this.map = this.maps.find((map) => map.name === name) ?? null;
     this.choice.value = this.map?.name ?? "";
     this.node.hidden = !this.map;
     this.data = null;
     this.scene = null;
     this.canvas.width = 0;
-    this.view.root.classList.toggle("sw-inspecting", this.map !== null);
+    this.root.classList.toggle("sw-inspecting", this.map !== null);
     if (!this.map) return;
     const { title, help, ramp } = this.map;
     this.title.textContent = title;
@@ -156,14 +157,14 @@ export class Inspector {
   step(way) {
     const names = ["", ...this.maps.map(({ name }) => name)];
     const at = names.indexOf(this.map?.name ?? "");
-    this.show(names[(at + way + names.length) % names.length]);
+    this.choose(names[(at + way + names.length) % names.length]);
   }
 
   /** Ask for the map unless the one at hand is of the present scene. */
   async refresh() {
-    const { map, view } = this;
-    if (!map || !view.scene || this.scene === view.scene) return;
-    const { scene } = view;
+    const { map } = this;
+    const { scene } = this.picture;
+    if (!map || !scene || this.scene === scene) return;
     this.scene = scene;
     this.asked += 1;
     const { asked } = this;
@@ -176,7 +177,7 @@ export class Inspector {
     }
     this.node.classList.add("sw-waiting");
     try {
-      const { buffers } = await view.channel.request("map", { name: map.name });
+      const { buffers } = await this.channel.request("map", { name: map.name });
       const bitmap = await decodePicture(buffers[0]);
       const data = levelsOf(bitmap);
       bitmap.close();
@@ -211,6 +212,16 @@ export class Inspector {
     this.data = data;
     this.help.textContent = map.help;
     this.readValue();
+  }
+
+  loaded() {
+    void this.refresh();
+  }
+
+  /** The canvas was emptied: paint the map anew. */
+  repaint() {
+    this.scene = null;
+    void this.refresh();
   }
 
   /** The pointer is at a place of the picture, or gone. @param {Point | null} place */

@@ -14,12 +14,10 @@ import { Softness } from "./softness.js";
 
 /**
  * @typedef {import("../../host/types.js").Parameter} Parameter
- * @typedef {import("../view/view.js").View} View
- * @typedef {{ parameter: Parameter, node: HTMLElement, show: () => void }} Row
- * @typedef {ReturnType<typeof countedSection> & {
- *   name: string, rows: Row[], main: HTMLElement, more: HTMLDetailsElement | null,
- *   inMore: HTMLElement,
- * }} Section
+ * @typedef {ReturnType<typeof panel>} Panel
+ * @typedef {import("../types.js").Needs<"inspector" | "model" | "picture" | "state">} Needs
+ * @typedef {import("./panel_filter.js").Row} Row
+ * @typedef {import("./panel_filter.js").Section} Section
  */
 
 const OPEN = ["sun", "histogram"];
@@ -34,25 +32,25 @@ const folds = new WeakMap();
 /** @param {string} name */
 const title = (name) => name[0].toUpperCase() + name.slice(1);
 
-/** @param {View} view */
-export function panel(view) {
-  const { state } = view;
-  const open = { ...folds.get(view.model) };
+/** @param {Needs} needs */
+export function panel({ inspector, model, picture, state }) {
+  const open = { ...folds.get(model) };
   /** Whether a section is open when nothing is filtered. @param {string} name */
   const isOpen = (name) => open[name] ?? OPEN.includes(name);
   /** @param {string} name @param {boolean} on */
   const keepFold = (name, on) => {
     open[name] = on;
-    folds.set(view.model, { ...open });
+    folds.set(model, { ...open });
   };
-  const softness = new Softness(view);
+  const ramp = inspector.maps.find((map) => map.name === "cloud_softness")?.ramp;
+  const softness = new Softness({ picture, state }, ramp);
 
   /** @param {Parameter} p */
   const isChanged = (p) => !equal(state.values[p.name], p.default);
 
   /** @param {string} name @param {Parameter[]} parameters @returns {Section} */
   const makeSection = (name, parameters) => {
-    const rows = parameters.map((p) => makeRow(view, p));
+    const rows = parameters.map((p) => makeRow({ picture, state }, p));
     // What the kernel has to answer is set once, not played with.
     const folded = rows.filter(({ parameter: p }) => p.advanced || p.analysis);
     const all = folded.length === rows.length;
@@ -83,7 +81,7 @@ export function panel(view) {
     return { ...made, name, rows, main, more, inMore };
   };
 
-  const shown = view.parameters.filter((p) => p.kind !== "data");
+  const shown = state.parameters.filter((p) => p.kind !== "data");
   const names = [...new Set(shown.map((p) => p.section))];
   const sections = names.map((name) =>
     makeSection(
@@ -91,7 +89,7 @@ export function panel(view) {
       shown.filter((p) => p.section === name),
     ),
   );
-  const filter = panelFilter(view, sections, { isChanged, isOpen });
+  const filter = panelFilter(state, sections, { isChanged, isOpen });
   const top = element("div", { class: "sw-panel-top" });
   const node = element(
     "div",
@@ -130,9 +128,8 @@ export function panel(view) {
   };
 }
 
-/** One control of the table. @param {View} view @param {Parameter} p @returns {Row} */
-function makeRow(view, p) {
-  const { state } = view;
+/** One control of the table. @param {Pick<Needs, "picture" | "state">} needs @param {Parameter} p @returns {Row} */
+function makeRow({ picture, state }, p) {
   if (p.kind === "choice") {
     const control = choice({ parameter: p, onChange: (value) => state.set({ [p.name]: value }) });
     const show = () => control.show(String(state.values[p.name] ?? p.default));
@@ -146,7 +143,7 @@ function makeRow(view, p) {
   });
   const show = () => {
     const value = /** @type {number | null} */ (state.values[p.name]);
-    control.show(value, view.scene?.automatic[p.name]);
+    control.show(value, picture.scene?.automatic[p.name]);
   };
   return { parameter: p, node: control.node, show };
 }

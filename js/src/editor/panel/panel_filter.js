@@ -4,17 +4,21 @@ import { element } from "../../ui/element.js";
 import { icon } from "../../ui/icons.js";
 
 /**
- * @typedef {import("./panel.js").Section} Section
  * @typedef {import("../../host/types.js").Parameter} Parameter
+ * @typedef {{ parameter: Parameter, node: HTMLElement, show: () => void }} Row
+ * @typedef {ReturnType<typeof import("../../ui/section.js").countedSection> & {
+ *   name: string, rows: Row[], main: HTMLElement, more: HTMLDetailsElement | null,
+ *   inMore: HTMLElement,
+ * }} Section
  */
 
 /**
- * @param {import("../view/view.js").View} view
+ * @param {Pick<import("../../edit/state.js").EditState, "before">} state
  * @param {Section[]} sections
  * @param {{ isChanged: (p: Parameter) => boolean, isOpen: (name: string) => boolean }} options
  *   `isOpen` says how a section is left when nothing is filtered
  */
-export function panelFilter(view, sections, { isChanged, isOpen }) {
+export function panelFilter(state, sections, { isChanged, isOpen }) {
   const input = element("input", {
     type: "search",
     class: "sw-filter-field",
@@ -131,7 +135,7 @@ export function panelFilter(view, sections, { isChanged, isOpen }) {
     show() {
       showCount();
       // A row that passes its default on the way stays under the hand.
-      if (only && view.state.before === null) apply();
+      if (only && state.before === null) apply();
     },
   };
 }

@@ -2,24 +2,23 @@
 
 import { presetChips } from "../../ui/chips.js";
 import { element } from "../../ui/element.js";
-import { placePhoto, thumbnails } from "./thumbnails.js";
 
 /** @typedef {import("../../ui/chips.js").Preset} Preset */
 
 const PLACES = 6;
 
-/** @type {import("../parts.js").MakePart} */
-export function presetThumbnails(view, signal) {
+/** @type {import("../types.js").MakePart<"panel" | "picture" | "state" | "thumbnails">} */
+export function presetThumbnails({ panel, picture, state, thumbnails }) {
   /** @type {{ preset: Preset, canvas: HTMLCanvasElement }[]} */
   let all = [];
   let generation = 0; // of the scene
 
   const chips = presetChips(
-    view.state,
-    () => view.scene?.presets ?? [],
+    state,
+    () => picture.scene?.presets ?? [],
     (preset) => {
       const canvas = element("canvas", { class: "sw-thumbnail", "aria-hidden": "true" });
-      placePhoto(view, canvas);
+      thumbnails.placePhoto(canvas);
       all = all.filter((one) => one.preset.label !== preset.label);
       all.push({ preset, canvas });
       return canvas;
@@ -32,20 +31,20 @@ export function presetThumbnails(view, signal) {
   for (const place of places) place.prepend(element("canvas", { class: "sw-thumbnail" }));
   const waiting = element("div", { class: "sw-presets sw-preset-places", "aria-hidden": "true" });
   waiting.append(...places);
-  view.panel.top.append(chips.node, waiting);
+  panel.top.append(chips.node, waiting);
 
   /** What a thumbnail shows; a sun that is moved by hand changes none. @param {Preset} preset */
   const keyOf = (preset) => {
-    const numbers = view.parameters.filter(({ kind }) => kind !== "data");
+    const numbers = state.parameters.filter(({ kind }) => kind !== "data");
     return JSON.stringify([
       generation,
-      ...numbers.map(({ name }) => preset.values[name] ?? view.state.values[name]),
+      ...numbers.map(({ name }) => preset.values[name] ?? state.values[name]),
     ]);
   };
-  const drawn = thumbnails(view, signal, chips.node, () =>
+  const drawn = thumbnails.keep(chips.node, () =>
     all.map(({ preset, canvas }) => ({
       canvas,
-      edit: { ...view.state.values, ...preset.values },
+      edit: { ...state.values, ...preset.values },
       key: keyOf(preset),
     })),
   );

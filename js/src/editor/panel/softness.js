@@ -5,11 +5,10 @@
  * (thesis 4.2). The kernel counts, by the measure of the method that found the clouds.
  */
 
+import { parameterOf } from "../../edit/parameter.js";
 import { element, setAttributes, shape } from "../../ui/element.js";
 import { gradient } from "../inspect/ramp.js";
 import { outline, spread } from "./whiteness.js";
-
-/** @typedef {import("../view/view.js").View} View */
 
 const WIDTH = 240;
 const HEIGHT = 56;
@@ -18,9 +17,13 @@ const APART = 0.02; // m_max stays above m_min
 const STEP = 0.01;
 
 export class Softness {
-  /** @param {View} view */
-  constructor(view) {
-    this.view = view;
+  /**
+   * @param {import("../types.js").Needs<"picture" | "state">} needs
+   * @param {import("../../host/types.js").SceneMap["ramp"]} [ramp] of the softness
+   */
+  constructor({ picture, state }, ramp) {
+    this.picture = picture;
+    this.state = state;
     /** @type {unknown} what the bars show */
     this.drawn = null;
     this.bars = shape("path", { class: "sw-histogram-bars" });
@@ -37,7 +40,6 @@ export class Softness {
       this.bars,
       ...this.lines,
     );
-    const ramp = view.inspector.maps.find(({ name }) => name === "cloud_softness")?.ramp;
     this.ramp = element("div", { class: "sw-histogram-ramp" });
     if (ramp) this.ramp.style.backgroundImage = gradient(ramp);
     this.numbers = element("span", { class: "sw-unit" });
@@ -65,17 +67,17 @@ export class Softness {
     });
     this.svg.addEventListener("lostpointercapture", () => {
       this.dragged = -1;
-      this.view.state.commit();
+      this.state.commit();
     });
     this.svg.addEventListener("dblclick", () => {
-      const defaults = NAMES.map((name) => [name, view.parameter(name).default]);
-      view.state.set(Object.fromEntries(defaults));
+      const defaults = NAMES.map((name) => [name, parameterOf(state.parameters, name).default]);
+      state.set(Object.fromEntries(defaults));
     });
   }
 
   /** @param {string} name @param {number} index */
   handle(name, index) {
-    const p = this.view.parameter(name);
+    const p = parameterOf(this.state.parameters, name);
     const node = shape(
       "g",
       { class: "sw-histogram-line", tabindex: 0, role: "slider", "aria-label": p.label },
@@ -90,18 +92,18 @@ export class Softness {
       this.set(index, this.limits()[index] + step * (event.shiftKey ? 10 : 1));
     });
     for (const end of ["keyup", "blur"]) {
-      node.addEventListener(end, () => this.view.state.commit());
+      node.addEventListener(end, () => this.state.commit());
     }
     return node;
   }
 
   measured() {
-    return this.view.scene?.whiteness ?? { method: "", reach: 1, shares: [] };
+    return this.picture.scene?.whiteness ?? { method: "", reach: 1, shares: [] };
   }
 
   /** m_min and m_max. */
   limits() {
-    return NAMES.map((name) => this.view.value(name));
+    return NAMES.map((name) => this.picture.value(name));
   }
 
   /** @param {PointerEvent} event */
@@ -124,13 +126,13 @@ export class Softness {
 
   /** @param {number} index @param {number} ratio */
   set(index, ratio) {
-    const p = this.view.parameter(NAMES[index]);
+    const p = parameterOf(this.state.parameters, NAMES[index]);
     const [low, high] = this.limits();
     const least = index ? low + APART : p.minimum;
     const most = index ? p.maximum : high - APART;
     const value = Math.round(Math.min(most, Math.max(least, ratio)) * 100) / 100;
-    this.view.state.begin();
-    this.view.state.set({ [p.name]: value });
+    this.state.begin();
+    this.state.set({ [p.name]: value });
   }
 
   show() {
@@ -146,7 +148,7 @@ export class Softness {
       setAttributes(node, {
         transform: `translate(${i ? x1 : x0} 0)`,
         "aria-valuemin": 0,
-        "aria-valuemax": this.view.parameter(NAMES[i]).maximum,
+        "aria-valuemax": parameterOf(this.state.parameters, NAMES[i]).maximum,
         "aria-valuenow": limits[i].toFixed(2),
       });
     });
@@ -155,7 +157,7 @@ export class Softness {
     this.ramp.style.width = `${(100 * (x1 - x0)) / WIDTH}%`;
     const [clear, soft, white] = spread(shares, reach, limits[0], limits[1]);
     // Un-mixing needs no thresholds; only the thesis' own methods take them all the same.
-    const idle = method === "unmix" && this.view.state.values.method === "ratio";
+    const idle = method === "unmix" && this.state.values.method === "ratio";
     this.node.classList.toggle("sw-idle", idle);
     this.text.classList.remove("sw-warn");
     if (idle) {
@@ -163,7 +165,7 @@ export class Softness {
       return;
     }
     if (clear + soft + white === 0) {
-      this.text.textContent = this.view.scene ? "No sky to measure." : "";
+      this.text.textContent = this.picture.scene ? "No sky to measure." : "";
       return;
     }
     const say = (/** @type {number} */ share) => `${Math.round(100 * share)} %`;

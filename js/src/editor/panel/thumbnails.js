@@ -19,81 +19,100 @@ const WIDTH = 150; // of the photo in a thumbnail's place, pixels
  *   `key` tells what it shows; with another it is drawn again
  */
 
-/**
- * @param {import("../view/view.js").View} view
- * @param {AbortSignal} signal
- * @param {HTMLElement} node drawn is while this is in sight
- * @param {() => Wanted[]} read what there is to draw now
- */
-export function thumbnails(view, signal, node, read) {
-  const sketch = new Sketch(view.frame);
-  const fence = new Fence(view.frame);
-  /** @type {WeakMap<HTMLCanvasElement, string>} what is drawn */
-  const drawn = new WeakMap();
-  let inSight = false;
-  /** @type {ReturnType<typeof setTimeout> | undefined} */
-  let timer;
-  let forget = () => {};
+export class Thumbnails {
+  /**
+   * @param {import("../types.js").Needs<"drawing" | "hand" | "picture" | "stage" | "state">} needs
+   * @param {AbortSignal} signal
+   */
+  constructor({ drawing, hand, picture, stage, state }, signal) {
+    this.drawing = drawing;
+    this.hand = hand;
+    this.picture = picture;
+    this.photo = stage.photo;
+    this.state = state;
+    this.signal = signal;
+  }
 
-  const busy = () => view.loop.busy || view.pointer !== null || view.state.before !== null;
+  /** The photo itself, until the thumbnail is drawn. @param {HTMLCanvasElement} canvas */
+  placePhoto(canvas) {
+    const { photo } = this;
+    if (!photo.naturalWidth) return;
+    canvas.width = WIDTH;
+    canvas.height = Math.round((WIDTH * photo.naturalHeight) / photo.naturalWidth);
+    canvas.getContext("2d")?.drawImage(photo, 0, 0, canvas.width, canvas.height);
+  }
 
-  /** @type {(wait?: number) => void} */
-  const wake = (wait = QUIET_MS) => {
-    if (signal.aborted) return;
-    clearTimeout(timer);
-    forget();
-    timer = setTimeout(() => {
-      if (!view.scene || !inSight) return;
-      forget = whenIdle(draw);
-    }, wait);
-  };
-  const draw = () => {
-    if (busy()) return wake();
-    const next = read().find(({ canvas, key }) => drawn.get(canvas) !== key);
-    if (!next) return sketch.rest();
-    // None waits in a row behind others, where the next drag's frames would have to wait, too.
-    if (!fence.passed()) return wake(PAUSE_MS);
-    const [width, height] = view.size;
-    const scale = Math.min(1, Math.sqrt(AREA / (width * height)));
-    /** @type {[number, number]} */
-    const size = [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
-    const { canvas, edit, key } = next;
-    const frame = view.frame.describe(edit, size);
-    if (!frame) return;
-    canvas.width = Math.ceil((size[0] * DENSE) / SHRINK);
-    canvas.height = Math.ceil((size[1] * DENSE) / SHRINK);
-    // Without a context there will be one when the picture is drawn again.
-    if (!sketch.draw(frame, canvas)) return;
-    drawn.set(canvas, key);
-    canvas.classList.add("sw-drawn");
-    wake(PAUSE_MS);
-  };
+  /**
+   * Draw them, and draw them anew when they show something else.
+   *
+   * @param {HTMLElement} node drawn is while this is in sight
+   * @param {() => Wanted[]} read what there is to draw now
+   */
+  keep(node, read) {
+    const { drawing, hand, picture, signal, state } = this;
+    const sketch = new Sketch(drawing.frame);
+    const fence = new Fence(drawing.frame);
+    /** @type {WeakMap<HTMLCanvasElement, string>} what is drawn */
+    const drawn = new WeakMap();
+    let inSight = false;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    let timer;
+    let forget = () => {};
 
-  const observer = new IntersectionObserver((entries) => {
-    inSight = entries[entries.length - 1].isIntersecting;
-    if (inSight) wake();
-  });
-  observer.observe(node);
-  // A crash of the graphics process empties canvases, too.
-  const onRestored = (/** @type {Event} */ { target }) => {
-    drawn.delete(/** @type {HTMLCanvasElement} */ (target));
-    wake();
-  };
-  node.addEventListener("contextrestored", onRestored, { capture: true, signal });
-  signal.addEventListener("abort", () => {
-    clearTimeout(timer);
-    forget();
-    observer.disconnect();
-    sketch.rest();
-  });
-  return { wake: () => wake() };
-}
+    const busy = () => drawing.loop.busy || hand.pointer !== null || state.before !== null;
 
-/** The photo itself, until the thumbnail is drawn. @param {import("../view/view.js").View} view @param {HTMLCanvasElement} canvas */
-export function placePhoto({ stage }, canvas) {
-  const { photo } = stage;
-  if (!photo.naturalWidth) return;
-  canvas.width = WIDTH;
-  canvas.height = Math.round((WIDTH * photo.naturalHeight) / photo.naturalWidth);
-  canvas.getContext("2d")?.drawImage(photo, 0, 0, canvas.width, canvas.height);
+    /** @type {(wait?: number) => void} */
+    const wake = (wait = QUIET_MS) => {
+      if (signal.aborted) return;
+      clearTimeout(timer);
+      forget();
+      timer = setTimeout(() => {
+        if (!picture.scene || !inSight) return;
+        forget = whenIdle(draw);
+      }, wait);
+    };
+    const draw = () => {
+      if (busy()) return wake();
+      const next = read().find(({ canvas, key }) => drawn.get(canvas) !== key);
+      if (!next) return sketch.rest();
+      // None waits in a row behind others, where the next drag's frames would have to wait, too.
+      if (!fence.passed()) return wake(PAUSE_MS);
+      const [width, height] = picture.size;
+      const scale = Math.min(1, Math.sqrt(AREA / (width * height)));
+      /** @type {[number, number]} */
+      const size = [
+        Math.max(1, Math.round(width * scale)),
+        Math.max(1, Math.round(height * scale)),
+      ];
+      const { canvas, edit, key } = next;
+      const frame = drawing.frame.describe(edit, size);
+      if (!frame) return;
+      canvas.width = Math.ceil((size[0] * DENSE) / SHRINK);
+      canvas.height = Math.ceil((size[1] * DENSE) / SHRINK);
+      // Without a context there will be one when the picture is drawn again.
+      if (!sketch.draw(frame, canvas)) return;
+      drawn.set(canvas, key);
+      canvas.classList.add("sw-drawn");
+      wake(PAUSE_MS);
+    };
+
+    const observer = new IntersectionObserver((entries) => {
+      inSight = entries[entries.length - 1].isIntersecting;
+      if (inSight) wake();
+    });
+    observer.observe(node);
+    // A crash of the graphics process empties canvases, too.
+    const onRestored = (/** @type {Event} */ { target }) => {
+      drawn.delete(/** @type {HTMLCanvasElement} */ (target));
+      wake();
+    };
+    node.addEventListener("contextrestored", onRestored, { capture: true, signal });
+    signal.addEventListener("abort", () => {
+      clearTimeout(timer);
+      forget();
+      observer.disconnect();
+      sketch.rest();
+    });
+    return { wake: () => wake() };
+  }
 }

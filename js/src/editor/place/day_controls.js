@@ -14,13 +14,12 @@ const HOURS_A_SECOND = 1; // while the day plays
 const NIGHT = -12; // degrees below which nothing changes any more
 
 /**
- * @param {import("../view/view.js").View} view
- * @param {import("./sun_clock.js").SunClock} clock
- * @param {import("./sun_path.js").SunPath} path
+ * @param {import("../types.js").Needs<"clock" | "hand" | "parts" | "state"> & {
+ *   path: import("./sun_path.js").SunPath,
+ * }} needs
  * @param {AbortSignal} signal
  */
-export function dayControls(view, clock, path, signal) {
-  const { state } = view;
+export function dayControls({ clock, hand, parts, path, state }, signal) {
   const strip = dayStrip({
     onBegin: () => state.begin(),
     onInput: (hours) => clock.moveTo(hours),
@@ -32,7 +31,7 @@ export function dayControls(view, clock, path, signal) {
       title: "Play the day, an hour a second; the night is passed over",
       onStep: (seconds) => {
         // A hand on the picture goes first.
-        if (view.pointer !== null) return false;
+        if (hand.pointer !== null) return false;
         // Another gesture ends a step of the history; the playing goes on in the next.
         state.begin();
         clock.moveTo(awake(clock.hours + seconds * HOURS_A_SECOND));
@@ -49,7 +48,7 @@ export function dayControls(view, clock, path, signal) {
       parameter: { name: "", label, help, default: on },
       onChange: (now) => {
         onChange(now);
-        view.show();
+        parts.show();
       },
     });
   const shown = choice(

@@ -7,11 +7,8 @@ import { element } from "../../ui/element.js";
 
 /** @typedef {import("../../geometry/place.js").Place} Place */
 
-/**
- * @param {import("../view/view.js").View} view
- * @param {import("./sun_clock.js").SunClock} clock
- */
-export function headingMatch(view, clock) {
+/** @param {import("../types.js").Needs<"clock" | "picture" | "state">} needs */
+export function headingMatch({ clock, picture, state }) {
   const button = chip(
     "By the photo's sun",
     "Set the heading so that the photo's own sun is where place and time put it; " +
@@ -37,14 +34,14 @@ export function headingMatch(view, clock) {
       `${clockText(place.time)} UTC${now === null ? "" : shift(hoursOfDay(place) - now)}`,
       "Take this for the photo's time, with its heading",
       () => {
-        view.state.set({ place });
+        state.set({ place });
         say("");
       },
     );
 
   function match() {
     const found = clock.match();
-    const { scene } = view;
+    const { scene } = picture;
     if (!found || !scene) return;
     clock.setPlace({ heading: found.place.heading });
     const { mismatch, agreeing } = found;
@@ -71,7 +68,7 @@ export function headingMatch(view, clock) {
     nodes: [note, offers],
     say,
     show() {
-      const ready = clock.path.length > 0 && view.scene !== null;
+      const ready = clock.path.length > 0 && picture.scene !== null;
       button.disabled = !ready;
       button.classList.toggle("sw-primary", ready && clock.place?.heading === null);
       if (about !== key(clock.place)) say("");

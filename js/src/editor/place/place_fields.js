@@ -5,11 +5,8 @@ import { inputField } from "../../ui/named_field.js";
 
 const TIME = /^\s*(\d{1,2})(?:[:.h ]?([0-5]\d))?\s*$/;
 
-/**
- * @param {import("../view/view.js").View} view
- * @param {import("./sun_clock.js").SunClock} clock
- */
-export function placeFields(view, clock) {
+/** @param {import("../types.js").Needs<"clock" | "parts" | "state">} needs */
+export function placeFields({ clock, parts, state }) {
   const coordinates = [
     { name: "latitude", limit: 90, title: "Degrees, positive to the north" },
     { name: "longitude", limit: 180, title: "Degrees, positive to the east" },
@@ -40,7 +37,7 @@ export function placeFields(view, clock) {
     const inputs = coordinates.map(({ input }) => input);
     if (!inputs.every((input) => input.reportValidity())) return;
     const [latitude, longitude] = inputs.map(({ value }) => (value === "" ? null : Number(value)));
-    if (latitude === null && longitude === null) view.state.set({ place: null });
+    if (latitude === null && longitude === null) state.set({ place: null });
     else if (latitude === null || longitude === null) return;
     else if (clock.place) clock.setPlace({ latitude, longitude });
     else clock.take(latitude, longitude);
@@ -53,7 +50,7 @@ export function placeFields(view, clock) {
     const [, hours, minutes = "0"] = TIME.exec(time.input.value) ?? [];
     const value = Number(hours) + Number(minutes) / 60;
     if (clock.place && value <= 24) clock.moveToMoment(clock.place.date, value);
-    view.show();
+    parts.show();
   });
   heading.input.addEventListener("change", () => {
     const { value } = heading.input;

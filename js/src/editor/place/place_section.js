@@ -6,20 +6,24 @@ import { section } from "../../ui/section.js";
 import { dayControls } from "./day_controls.js";
 import { headingMatch } from "./heading_match.js";
 import { placeFields } from "./place_fields.js";
-import { SunClock } from "./sun_clock.js";
 import { SunPath } from "./sun_path.js";
 
 const TRAITS = ["_day", "_photo_place"];
 
-/** @type {import("../parts.js").MakePart} */
-export function placeSection(view, signal) {
-  const clock = new SunClock(view);
-  const path = new SunPath(view, clock);
-  /** @type {import("../../ui/sun_tool.js").SunTool} */ (view.tools.sun).track = path;
+/**
+ * @type {import("../types.js").MakePart<"clock" | "hand" | "kernel" | "model" | "panel" | "parts"
+ *   | "picture" | "stage" | "state">}
+ */
+export function placeSection(
+  { clock, hand, kernel, model, panel, parts, picture, stage, state },
+  signal,
+) {
+  const path = new SunPath({ clock, hand, model, picture, stage });
+  /** @type {import("../../ui/sun_tool.js").SunTool} */ (hand.tools.sun).track = path;
 
-  const day = dayControls(view, clock, path, signal);
-  const fields = placeFields(view, clock);
-  const heading = headingMatch(view, clock);
+  const day = dayControls({ clock, hand, parts, path, state }, signal);
+  const fields = placeFields({ clock, parts, state });
+  const heading = headingMatch({ clock, picture, state });
   const fromPhoto = chip("From the photo", "Place, time and heading from the photo's file", () => {
     clock.takeFromFile();
     heading.say((clock.told.notes ?? []).join(" "));
@@ -37,12 +41,12 @@ export function placeSection(view, signal) {
     missing,
     ...heading.nodes,
   );
-  view.panel.section("sun").append(node);
+  panel.section("sun").append(node);
 
-  const arrived = () => view.show();
-  for (const name of TRAITS) view.model.on(`change:${name}`, arrived);
+  const arrived = () => parts.show();
+  for (const name of TRAITS) model.on(`change:${name}`, arrived);
   signal.addEventListener("abort", () => {
-    for (const name of TRAITS) view.model.off(`change:${name}`, arrived);
+    for (const name of TRAITS) model.off(`change:${name}`, arrived);
   });
 
   /** @param {string} asks @param {boolean} located */
@@ -58,7 +62,7 @@ export function placeSection(view, signal) {
   return {
     show() {
       const { place, told } = clock;
-      const asks = view.kernel.answers ? "" : "Needs the kernel: a day's path comes from it";
+      const asks = kernel.answers ? "" : "Needs the kernel: a day's path comes from it";
       const located = told.latitude != null && told.longitude != null;
       fields.show(asks);
       heading.show();

@@ -19,19 +19,21 @@ const DAY = 24 * HOUR;
 const SAME_PLACE = 0.02; // degrees between the sun and its path that count as none
 
 export class SunClock {
-  /** @param {import("../view/view.js").View} view */
-  constructor(view) {
-    this.view = view;
+  /** @param {import("../types.js").Needs<"model" | "picture" | "state">} needs */
+  constructor({ model, picture, state }) {
+    this.model = model;
+    this.picture = picture;
+    this.state = state;
   }
 
   /** @returns {Place | null} */
   get place() {
-    return /** @type {Place | null} */ (this.view.state.values.place ?? null);
+    return /** @type {Place | null} */ (this.state.values.place ?? null);
   }
 
   /** What the photo's file says. @returns {Partial<Told>} */
   get told() {
-    return this.view.model.get("_photo_place") ?? {};
+    return this.model.get("_photo_place") ?? {};
   }
 
   /** The path of the place's day; empty until the kernel has sent it. @returns {DayRow[]} */
@@ -47,7 +49,7 @@ export class SunClock {
   /** What the kernel sent for this place. @returns {{ path?: DayRow[], error?: string }} */
   answer() {
     const { place } = this;
-    const day = this.view.model.get("_day");
+    const day = this.model.get("_day");
     if (!place || !day?.key) return {};
     const [latitude, longitude, date] = day.key;
     const same =
@@ -70,10 +72,10 @@ export class SunClock {
     const { place, path } = this;
     if (!place || !path.length) return false;
     const at = editAt(place, path, this.hours);
-    const azimuth = Number(at.sun_azimuth ?? this.view.value("sun_azimuth"));
+    const azimuth = Number(at.sun_azimuth ?? this.picture.value("sun_azimuth"));
     const apart = angleBetween(
       [azimuth, Number(at.sun_elevation)],
-      [this.view.value("sun_azimuth"), this.view.value("sun_elevation")],
+      [this.picture.value("sun_azimuth"), this.picture.value("sun_elevation")],
     );
     return apart < SAME_PLACE;
   }
@@ -85,13 +87,13 @@ export class SunClock {
     const [first, last] = [path[0][0], path[path.length - 1][0]];
     // The last row is the next day's first.
     const held = Math.min(last - 1e-3, Math.max(first, hours));
-    this.view.state.set(editAt(place, path, held));
+    this.state.set(editAt(place, path, held));
   }
 
   /** Say where, when or which way anew, as a step; the sun stays. @param {Partial<Place>} changes */
   setPlace(changes) {
     const { place } = this;
-    if (place) this.view.state.set({ place: orderly({ ...place, ...changes }) });
+    if (place) this.state.set({ place: orderly({ ...place, ...changes }) });
   }
 
   /**
@@ -110,7 +112,7 @@ export class SunClock {
     const date = told.date ?? moment.slice(0, 10);
     const time = told.time ?? (guess - Date.parse(date)) / HOUR;
     const place = { latitude, longitude, date, time, heading: told.heading ?? null };
-    this.view.state.set({ place: orderly({ ...place, time: Math.round(time * 1e4) / 1e4 }) });
+    this.state.set({ place: orderly({ ...place, time: Math.round(time * 1e4) / 1e4 }) });
   }
 
   /** Take place, time and heading from the photo's file, as a step. */
@@ -138,7 +140,7 @@ export class SunClock {
   /** The heading by the photo's own sun, taken at the clock's time. */
   match() {
     const { place, path } = this;
-    const { scene } = this.view;
+    const { scene } = this.picture;
     if (!place || !path.length || !scene) return null;
     const { sun_azimuth, sun_elevation } = scene.automatic;
     return matchHeading(place, path, [sun_azimuth, sun_elevation]);

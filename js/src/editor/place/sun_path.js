@@ -9,7 +9,6 @@ import { KEY_STEP } from "../../ui/sun_shape.js";
 
 /**
  * @typedef {import("../../host/types.js").Point} Point
- * @typedef {import("./sun_clock.js").SunClock} SunClock
  * @typedef {{ x: number, y: number, hours: number, up: number }} Step a point of the path in CSS
  *   pixels on the overlay
  */
@@ -22,17 +21,21 @@ const KEY_MINUTES = 5;
 
 export class SunPath {
   /**
-   * @param {import("../view/view.js").View} view
-   * @param {SunClock} clock
+   * @param {import("../types.js").Needs<"clock" | "hand" | "model" | "picture" | "stage">} needs
    */
-  constructor(view, clock) {
-    this.view = view;
+  constructor({ clock, hand, model, picture, stage }) {
     this.clock = clock;
+    this.hand = hand;
+    this.model = model;
+    this.picture = picture;
+    this.stage = stage;
     this.shown = true; // as the person chose
     this.kept = false; // whether every drag of the sun follows the path
     /** @type {Step[][]} unbroken runs */
     this.runs = [];
     this.key = "";
+    /** @type {import("../../geometry/camera.js").Camera | null} by which they lie there */
+    this.camera = null;
     /** @type {{ run: number, at: number } | null} where on it a drag is: its run and step */
     this.grip = null;
     const line = (/** @type {string} */ name) => shape("path", { class: name });
@@ -61,25 +64,25 @@ export class SunPath {
       this.ghost,
     );
     // Under the handles: the sun stays the first thing to take hold of.
-    view.stage.overlay.prepend(this.node);
+    stage.overlay.prepend(this.node);
   }
 
   draw() {
     const { place, path } = this.clock;
-    const { view } = this;
-    const seen = this.shown && path.length > 0 && place?.heading != null && view.camera;
+    const { camera } = this.picture;
+    const seen = this.shown && path.length > 0 && place?.heading != null && camera;
     setAttributes(this.node, { visibility: seen ? "visible" : "hidden" });
     if (!seen || !place) {
       this.runs = [];
       this.key = "";
       return;
     }
-    const box = view.stage.rectangle();
+    const box = this.stage.rectangle();
     const { x, y, width } = box;
-    const key = JSON.stringify([x, y, width, view.model.get("_day").key, place.heading]);
-    if (key !== this.key || this.camera !== view.camera) {
+    const key = JSON.stringify([x, y, width, this.model.get("_day").key, place.heading]);
+    if (key !== this.key || this.camera !== camera) {
       this.key = key;
-      this.camera = view.camera;
+      this.camera = camera;
       this.lay(box);
     }
     const at = this.placeOf(this.clock.sun(), box);
@@ -96,7 +99,7 @@ export class SunPath {
    * @returns {{ x: number, y: number } | null} null behind the camera, or far outside
    */
   placeOf(sun, box) {
-    const { camera } = this.view;
+    const { camera } = this.picture;
     const heading = this.clock.place?.heading ?? 0;
     const pixel = sun && camera?.pixel(sun.azimuth - heading, sun.apparent);
     if (!pixel || !camera) return null;
@@ -160,7 +163,7 @@ export class SunPath {
 
   /** @param {Point} place of the picture @returns {{ x: number, y: number }} */
   onOverlay(place) {
-    const [x, y] = this.view.stage.onOverlay(place);
+    const [x, y] = this.stage.onOverlay(place);
     return { x, y };
   }
 
@@ -221,8 +224,8 @@ export class SunPath {
 
   /** The time under the pointer, when it is on the path. @param {Point | null} place */
   point(place) {
-    const { view } = this;
-    const idle = place && view.pointer === null && view.tool === "sun" && this.runs.length;
+    const idle =
+      place && this.hand.pointer === null && this.hand.tool === "sun" && this.runs.length;
     const near = idle ? this.nearest(this.onOverlay(place)) : null;
     const on = near !== null && near.far < REACH;
     setAttributes(this.ghost, { visibility: on ? "inherit" : "hidden" });

@@ -35,9 +35,11 @@ function living() {
   return page[SESSIONS];
 }
 
-/** @type {import("../parts.js").MakePart} */
-export function autosave(view, signal) {
-  const { model, state, kernel, notices } = view;
+/**
+ * @type {import("../types.js").MakePart<"hand" | "kernel" | "model" | "notices" | "parts"
+ *   | "picture" | "state" | "toolbar">}
+ */
+export function autosave({ hand, kernel, model, notices, parts, picture, state, toolbar }, signal) {
   const store = new KeptEdits();
   const alive = living();
   /** @type {Source | null} */
@@ -71,7 +73,7 @@ export function autosave(view, signal) {
     return store
       .of(fingerprint)
       .filter((entry) => entry.session !== session && !alive.has(entry.session))
-      .map((entry) => readable(view.parameters, entry))
+      .map((entry) => readable(state.parameters, entry))
       .find((entry) => isLost(entry, kept));
   };
 
@@ -93,10 +95,14 @@ export function autosave(view, signal) {
 
   /** @param {Entry} entry */
   const called = (entry) => {
-    const { parameters, scene } = view;
+    const { parameters } = state;
     const edit = lastOf(entry);
     if (!Object.keys(edit).length) return entry.keyFrames.length ? "key frames" : "versions";
-    return stepName({}, edit, { parameters, versions: entry.versions, presets: scene?.presets });
+    return stepName({}, edit, {
+      parameters,
+      versions: entry.versions,
+      presets: picture.scene?.presets,
+    });
   };
 
   const restore = () => {
@@ -151,7 +157,7 @@ export function autosave(view, signal) {
 
   const onSource = () => {
     state.abandon();
-    view.cancelGesture();
+    hand.cancel();
     begin();
   };
   const onChange = () => {
@@ -167,14 +173,14 @@ export function autosave(view, signal) {
   document.addEventListener("visibilitychange", save, { signal });
   kernel.onChange(() => {
     if (!kernel.answers) leave();
-    showKernel(view);
-    view.show();
+    showKernel({ kernel, model, notices });
+    parts.show();
   });
   signal.addEventListener("abort", () => {
     if (timer !== undefined) save();
     leave();
   });
-  view.toolbar.menu.add({
+  toolbar.menu.add({
     group: "photo",
     label: "Restore last edit",
     title: "What this browser has kept of this photo",
@@ -182,7 +188,7 @@ export function autosave(view, signal) {
     run: restore,
   });
   begin();
-  showKernel(view);
+  showKernel({ kernel, model, notices });
   // When a cell runs again, its last editor may go after this one has come.
   const late = setTimeout(() => notices.has("restore") || offer(), LEAVING_MS);
   signal.addEventListener("abort", () => clearTimeout(late));
@@ -192,7 +198,7 @@ export function autosave(view, signal) {
 /** Among the living: an editor with the photo that it shows. @param {Source} source */
 const atWork = ({ session, fingerprint }) => `${session} ${fingerprint}`;
 
-/** @param {import("../view/view.js").View} view */
+/** @param {Pick<Parameters<typeof autosave>[0], "kernel" | "model" | "notices">} needs */
 function showKernel({ kernel, model, notices }) {
   if (kernel.state === "live" && kernel.silent) {
     notices.show("kernel", {

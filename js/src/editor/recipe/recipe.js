@@ -8,7 +8,10 @@ import { copied, pasted } from "../../ui/clipboard.js";
 import { download } from "../../ui/download.js";
 import { pickFile } from "../../ui/pick_file.js";
 
-/** @typedef {import("../view/view.js").View} View */
+/**
+ * @typedef {import("../types.js").Needs<"channel" | "kernel" | "message" | "notices"
+ *   | "state">} Taker
+ */
 
 const FILES = ".json,.py,.txt,application/json,text/plain";
 const SECONDS = 6; // that good news stays
@@ -16,21 +19,24 @@ const NO_KERNEL =
   "Only a kernel reads Python, and none answers here. Paste the recipe as JSON: “Copy recipe” in " +
   "an editor's menu, or edit.to_json() in Python, writes it.";
 
-/** @type {import("../parts.js").MakePart} */
-export function recipe(view, signal) {
-  const { menu } = view.toolbar;
-  const { state, root } = view;
+/**
+ * @type {import("../types.js").MakePart<"channel" | "kernel" | "message" | "model" | "notices"
+ *   | "root" | "state" | "toolbar">}
+ */
+export function recipe({ model, root, toolbar, ...taker }, signal) {
+  const { menu } = toolbar;
+  const { message, state } = taker;
   /** @type {(text: string, what: string) => Promise<void>} */
   const copy = async (text, what) => {
-    if (await copied(text)) say(view, `${what} copied.`);
-    else view.message.show(`The page may not use the clipboard. ${what}:\n${text}`);
+    if (await copied(text)) say(taker, `${what} copied.`);
+    else message.show(`The page may not use the clipboard. ${what}:\n${text}`);
   };
   menu.add({
     group: "recipe",
     label: "Save recipe",
     title: "Every value that was changed, as a small JSON file",
     run: () =>
-      download(new Blob([toJson(state.recipe())], { type: "application/json" }), fileName(view)),
+      download(new Blob([toJson(state.recipe())], { type: "application/json" }), fileName(model)),
   });
   menu.add({
     group: "recipe",
@@ -38,7 +44,7 @@ export function recipe(view, signal) {
     title: "Set everything as a recipe's file says, as one step",
     run: async () => {
       const file = await pickFile(FILES, signal);
-      if (file) await loadRecipe(view, file);
+      if (file) await loadRecipe(taker, file);
     },
   });
   menu.add({
@@ -59,8 +65,8 @@ export function recipe(view, signal) {
     title: "JSON or Python that was copied from an editor; it is read, never run",
     run: async () => {
       const text = await pasted();
-      if (text !== null) await useRecipe(view, text);
-      else say(view, "The page may not look at the clipboard by itself: press Ctrl+V.");
+      if (text !== null) await useRecipe(taker, text);
+      else say(taker, "The page may not look at the clipboard by itself: press Ctrl+V.");
     },
   });
   root.addEventListener(
@@ -69,7 +75,7 @@ export function recipe(view, signal) {
       const text = event.clipboardData?.getData("text/plain");
       if (!text || writes(event.target)) return;
       event.preventDefault();
-      useRecipe(view, text);
+      useRecipe(taker, text);
     },
     { signal },
   );
@@ -81,42 +87,42 @@ const writes = (target) =>
   target instanceof HTMLTextAreaElement ||
   (target instanceof HTMLInputElement && target.type !== "range");
 
-/** @param {View} view @param {File} file */
-export async function loadRecipe(view, file) {
-  await useRecipe(view, await file.text());
+/** @param {Taker} taker @param {File} file */
+export async function loadRecipe(taker, file) {
+  await useRecipe(taker, await file.text());
 }
 
 /**
  * Take over a recipe from text as one step, or say what is wrong with it.
  *
- * @param {View} view
+ * @param {Taker} taker
  * @param {string} text
  */
-export async function useRecipe(view, text) {
-  const { state } = view;
+export async function useRecipe(taker, text) {
+  const { message, notices, state } = taker;
   try {
-    const recipe = await readRecipe(text, (python) => readPython(view, python));
-    const { values, problems } = checkRecipe(view.parameters, recipe);
+    const recipe = await readRecipe(text, (python) => readPython(taker, python));
+    const { values, problems } = checkRecipe(state.parameters, recipe);
     if (problems.length) throw new Error(problems.slice(0, 3).join(" "));
     const before = state.history().past.length;
     state.replace(values);
-    view.message.show("");
+    message.show("");
     const moved = state.history().past.length !== before;
-    say(view, moved ? "Recipe taken over." : "This is the recipe already.", moved);
+    say(taker, moved ? "Recipe taken over." : "This is the recipe already.", moved);
   } catch (error) {
-    view.notices.hide("recipe"); // what it says is of another recipe
-    view.message.show(`Nothing was changed. ${errorText(error)}`);
+    notices.hide("recipe"); // what it says is of another recipe
+    message.show(`Nothing was changed. ${errorText(error)}`);
   }
 }
 
-/** @param {View} view @param {string} text */
+/** @param {Taker} taker @param {string} text */
 async function readPython({ channel, kernel, notices }, text) {
   if (!kernel.answers) throw new Error(NO_KERNEL);
   notices.show("recipe", { text: "The kernel reads this Python …" }); // once its cell has ended
   return (await channel.request("recipe", { text })).result;
 }
 
-/** @param {View} view @param {string} text @param {boolean} [undo] offer to take it back */
+/** @param {Taker} taker @param {string} text @param {boolean} [undo] offer to take it back */
 function say({ notices, state }, text, undo = false) {
   notices.show("recipe", {
     text,
@@ -125,8 +131,8 @@ function say({ notices, state }, text, undo = false) {
   });
 }
 
-/** @param {View} view */
-function fileName({ model }) {
+/** @param {import("../../host/types.js").Model} model */
+function fileName(model) {
   const name = String(model.get("_source")?.name ?? "").replace(/\.[^.]*$/, "");
   return `${name || "picture"}-recipe.json`;
 }

@@ -11,15 +11,14 @@ import { popup } from "../../ui/popup.js";
 const MOST = 100;
 const NAME_LENGTH = 80;
 
-/** @type {import("../parts.js").MakePart} */
-export function versions(view) {
-  const { state, notices } = view;
+/** @type {import("../types.js").MakePart<"notices" | "state" | "toolbar">} */
+export function versions({ notices, state, toolbar }) {
   const trigger = button({
     icon: "versions",
     label: "Versions",
     title: "Versions: edits kept by name (V)",
   });
-  view.toolbar.versions = trigger;
+  toolbar.versions = trigger;
   const name = element("input", {
     type: "text",
     class: "sw-versions-name",
@@ -124,7 +123,7 @@ export function versions(view) {
       ? `Versions: ${kept.length} ${kept.length === 1 ? "edit" : "edits"} kept by name (V)`
       : "Versions: keep this edit by name (V)";
   };
-  view.toolbar.history.append(element("div", { class: "sw-menu-anchor" }, trigger, box.node));
+  toolbar.history.append(element("div", { class: "sw-menu-anchor" }, trigger, box.node));
   show();
   return {
     show() {

@@ -1,5 +1,7 @@
 /** What the kernel holds for sky, or for water, as a tint over the picture while a brush is chosen. */
 
+import { BRUSHES } from "./strokes.js";
+
 const OPACITY = 0.45;
 
 /**
@@ -8,7 +10,7 @@ const OPACITY = 0.45;
  *
  * @type {Record<string, { texture: string, channel: number, tint: [number, number, number] }>}
  */
-export const SUBJECTS = {
+const SUBJECTS = {
   sky: { texture: "layers", channel: 0, tint: [64, 160, 255] },
   water: { texture: "surface", channel: 1, tint: [0, 214, 170] },
 };
@@ -18,7 +20,7 @@ export const SUBJECTS = {
  * @param {import("../../gl/texture.js").Levels} levels
  * @param {string} subject
  */
-export function paintBrushMask(canvas, { data, width, height }, subject) {
+function paintBrushMask(canvas, { data, width, height }, subject) {
   const context = canvas.getContext("2d", { willReadFrequently: true });
   if (!context) return;
   const { channel, tint } = SUBJECTS[subject];
@@ -30,4 +32,28 @@ export function paintBrushMask(canvas, { data, width, height }, subject) {
     image.data[i + 3] = data[i + channel] * OPACITY;
   }
   context.putImageData(image, 0, 0);
+}
+
+/** The tint, while a brush is chosen. */
+export class BrushMask {
+  /** @param {import("../types.js").Needs<"drawing" | "hand" | "message" | "stage">} needs */
+  constructor({ drawing, hand, message, stage }) {
+    this.drawing = drawing;
+    this.hand = hand;
+    this.message = message;
+    this.canvas = stage.mask;
+  }
+
+  loaded() {
+    this.paint();
+  }
+
+  paint() {
+    const { subject, tool } = this.hand;
+    if (!BRUSHES.includes(tool)) return;
+    this.message.attempt(() => {
+      const levels = this.drawing.frame.levels(SUBJECTS[subject].texture);
+      if (levels) paintBrushMask(this.canvas, levels, subject);
+    });
+  }
 }

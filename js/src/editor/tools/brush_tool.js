@@ -6,7 +6,7 @@ import { line, meets, setLine, simplify, strokeClass } from "./strokes.js";
 /**
  * @typedef {import("../../host/types.js").Point} Point
  * @typedef {import("../../host/types.js").Stroke} Stroke
- * @typedef {import("../view/view.js").View} View
+ * @typedef {import("../types.js").Needs<"hand" | "stage" | "state" | "strokes">} Needs
  */
 
 const MOST_POINTS = 2000;
@@ -14,11 +14,14 @@ const MOST_POINTS = 2000;
 /** The ring round the pointer, as large as the brush. */
 class Brush {
   /**
-   * @param {View} view
+   * @param {Needs} needs
    * @param {string} label the tool's name
    */
-  constructor(view, label) {
-    this.view = view;
+  constructor({ hand, stage, state, strokes }, label) {
+    this.hand = hand;
+    this.stage = stage;
+    this.state = state;
+    this.strokes = strokes;
     this.label = label;
     /** A fast hand is followed point by point. */
     this.fine = true;
@@ -29,8 +32,8 @@ class Brush {
 
   /** Radius in CSS pixels. */
   radius() {
-    const { width, height } = this.view.stage.rectangle();
-    return this.view.brushRadius * Math.max(width, height);
+    const { width, height } = this.stage.rectangle();
+    return this.hand.brushRadius * Math.max(width, height);
   }
 
   /** @param {Point | null} place null when the pointer has left */
@@ -40,21 +43,21 @@ class Brush {
   }
 
   drawRing() {
-    const shown = this.view.tool === this.label && this.at;
+    const shown = this.hand.tool === this.label && this.at;
     setAttributes(this.ring, { visibility: shown ? "visible" : "hidden" });
     if (!this.at || !shown) return;
-    const [cx, cy] = this.view.stage.onOverlay(this.at);
+    const [cx, cy] = this.stage.onOverlay(this.at);
     setAttributes(this.ring, { cx, cy, r: this.radius() });
   }
 }
 
 export class BrushTool extends Brush {
   /**
-   * @param {View} view
+   * @param {Needs} needs
    * @param {"sky" | "not_sky"} tool
    */
-  constructor(view, tool) {
-    super(view, tool);
+  constructor(needs, tool) {
+    super(needs, tool);
     /** A key puts it down, and the next press lifts it. */
     this.stays = true;
     /** @type {Point[]} */
@@ -66,7 +69,7 @@ export class BrushTool extends Brush {
 
   /** What a stroke of this brush says. @returns {Stroke["label"]} */
   says() {
-    if (this.view.subject === "sky") return this.label === "sky" ? "sky" : "not_sky";
+    if (this.hand.subject === "sky") return this.label === "sky" ? "sky" : "not_sky";
     return this.label === "sky" ? "water" : "not_water";
   }
 
@@ -80,7 +83,7 @@ export class BrushTool extends Brush {
   /** @param {Point} place */
   move(place) {
     this.hover(place);
-    const box = this.view.stage.rectangle();
+    const box = this.stage.rectangle();
     const [x, y] = this.points[this.points.length - 1];
     const way = Math.hypot((place[0] - x) * box.width, (place[1] - y) * box.height);
     // Points closer than a quarter of the brush add nothing to its mark.
@@ -94,11 +97,11 @@ export class BrushTool extends Brush {
     /** @type {Stroke} */
     const stroke = {
       label: this.says(),
-      points: simplify(this.points, this.view.brushRadius / 10, this.view.stage.rectangle()),
-      radius: Math.round(this.view.brushRadius * 1e5) / 1e5,
+      points: simplify(this.points, this.hand.brushRadius / 10, this.stage.rectangle()),
+      radius: Math.round(this.hand.brushRadius * 1e5) / 1e5,
     };
     this.points = [];
-    this.view.state.set({ strokes: [...this.view.strokes.strokes(), stroke] });
+    this.state.set({ strokes: [...this.strokes.strokes(), stroke] });
     this.draw();
   }
 
@@ -108,22 +111,22 @@ export class BrushTool extends Brush {
   }
 
   draw() {
-    const active = this.view.tool === this.label;
+    const active = this.hand.tool === this.label;
     setAttributes(this.node, { visibility: active ? "visible" : "hidden" });
     this.drawRing();
     if (!active) return;
     setAttributes(this.path, { class: strokeClass(this.says()) });
     setAttributes(this.ring, { class: `sw-brush sw-stroke-${this.says()}` });
-    setAttributes(this.scaled, { transform: this.view.strokes.transform() });
-    setLine(this.path, this.points, this.view.brushRadius, this.view.stage.rectangle());
+    setAttributes(this.scaled, { transform: this.strokes.transform() });
+    setLine(this.path, this.points, this.hand.brushRadius, this.stage.rectangle());
   }
 }
 
 /** Takes whole strokes away: those that its ring has met, all of one drag in one step. */
 export class EraseTool extends Brush {
-  /** @param {View} view */
-  constructor(view) {
-    super(view, "erase");
+  /** @param {Needs} needs */
+  constructor(needs) {
+    super(needs, "erase");
     /** @type {Set<number>} */
     this.met = new Set();
     this.node = shape("g", {}, this.ring);
@@ -139,21 +142,21 @@ export class EraseTool extends Brush {
   move(place) {
     this.hover(place);
     for (const i of this.meeting(place)) this.met.add(i);
-    this.view.strokes.doom(this.met);
+    this.strokes.doom(this.met);
   }
 
   /** Before a drag the strokes under the ring are marked. @param {Point | null} place */
   hover(place) {
     super.hover(place);
-    if (this.view.pointer === null) this.view.strokes.doom(new Set(place && this.meeting(place)));
+    if (this.hand.pointer === null) this.strokes.doom(new Set(place && this.meeting(place)));
   }
 
   /** @param {Point} place */
   meeting(place) {
-    const box = this.view.stage.rectangle();
-    const strokes = this.view.strokes.strokes();
+    const box = this.stage.rectangle();
+    const strokes = this.strokes.strokes();
     return strokes.flatMap((stroke, i) =>
-      meets(stroke, place, this.view.brushRadius, box) ? [i] : [],
+      meets(stroke, place, this.hand.brushRadius, box) ? [i] : [],
     );
   }
 
@@ -161,13 +164,13 @@ export class EraseTool extends Brush {
     const { met } = this;
     this.met = new Set();
     if (!met.size) return;
-    const strokes = this.view.strokes.strokes();
-    this.view.state.set({ strokes: strokes.filter((_, i) => !met.has(i)) });
+    const strokes = this.strokes.strokes();
+    this.state.set({ strokes: strokes.filter((_, i) => !met.has(i)) });
   }
 
   cancel() {
     this.met.clear();
-    this.view.strokes.doom(this.met);
+    this.strokes.doom(this.met);
   }
 
   draw() {

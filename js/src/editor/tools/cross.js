@@ -15,9 +15,8 @@ const STEP = 16; // CSS pixels; with Shift ten times as many, with Alt one
 /** @type {Record<string, Point>} */
 const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
-/** @type {import("../parts.js").MakePart} */
-export function cross(view, signal) {
-  const { stage } = view;
+/** @type {import("../types.js").MakePart<"announcer" | "hand" | "parts" | "picture" | "stage">} */
+export function cross({ announcer, hand, parts, picture, stage }, signal) {
   const node = shape(
     "g",
     { class: "sw-cross", "aria-hidden": "true" },
@@ -30,7 +29,7 @@ export function cross(view, signal) {
   let shown = false;
   let pressed = false;
   let moved = false; // since the press
-  const tool = () => view.tools[view.tool];
+  const tool = () => hand.tools[hand.tool];
   // What tools read of a pointer's event.
   const as = (/** @type {KeyboardEvent} */ event) => /** @type {any} */ (event);
 
@@ -39,8 +38,8 @@ export function cross(view, signal) {
     if (!shown) place = stage.zoom.placeAt(stage.zoom.middle());
     shown = true;
     stage.node.classList.add("sw-crossing");
-    view.drawOverlay();
-    view.point(place);
+    parts.draw();
+    parts.point(place);
   };
   const go = () => {
     release();
@@ -48,7 +47,7 @@ export function cross(view, signal) {
     shown = false;
     stage.node.classList.remove("sw-crossing");
     tool().hover?.(null);
-    view.point(null);
+    parts.point(null);
   };
   const release = () => {
     if (!pressed) return;
@@ -66,16 +65,16 @@ export function cross(view, signal) {
     if (pressed) tool().move(place, as(event));
     else tool().hover?.(place);
     stage.bring(place);
-    view.drawOverlay();
-    view.point(place);
+    parts.draw();
+    parts.point(place);
     tell();
   };
 
   const tell = () => {
-    const { camera } = view;
+    const { camera } = picture;
     if (!camera) return;
     const [x, y] = [place[0] * camera.width, place[1] * camera.height];
-    view.announcer.say(`Cross at ${directionText(...camera.angles(x, y))}`, "cross");
+    announcer.say(`Cross at ${directionText(...camera.angles(x, y))}`, "cross");
   };
 
   /** Space is the hand of somebody with a mouse, who has no cross. @param {KeyboardEvent} event */
@@ -84,7 +83,7 @@ export function cross(view, signal) {
   /** @param {KeyboardEvent} event */
   const press = (event) => {
     if (pressed) return release();
-    if (!view.scene || view.pointer !== null) return;
+    if (!picture.scene || hand.pointer !== null) return;
     pressed = true;
     moved = false;
     tool().begin(place, as(event));
@@ -114,7 +113,7 @@ export function cross(view, signal) {
   on("keyup", (event) => {
     if (!pressed || !isPress(event)) return;
     if (moved || !tool().stays) release();
-    else view.announcer.say("Brush down: arrow keys paint, Enter lifts it", "strokes");
+    else announcer.say("Brush down: arrow keys paint, Enter lifts it", "strokes");
   });
   on("focus", () => {
     if (!stage.focusing) come();

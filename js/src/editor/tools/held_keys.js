@@ -2,9 +2,8 @@
 
 import { isTaken } from "../../ui/keys.js";
 
-/** @type {import("../parts.js").MakePart} */
-export function heldKeys(view, signal) {
-  const { root, toolbar } = view;
+/** @type {import("../types.js").MakePart<"root" | "toolbar">} */
+export function heldKeys({ root, toolbar }, signal) {
   /** @param {string} key @param {boolean} down */
   const hold = (key, down) => {
     if (key === " ") root.classList.toggle("sw-hand", down);

@@ -3,14 +3,14 @@
 import { button } from "../../ui/button.js";
 import { showKeys } from "./shortcuts.js";
 
-/** @type {import("../parts.js").MakePart} */
-export function help(view) {
+/** @type {import("../types.js").MakePart<"drawing" | "root" | "toolbar">} */
+export function help({ drawing, root, toolbar }) {
   const node = button({
     icon: "help",
     label: "Keys",
     title: "Keys of the editor (?)",
-    onClick: () => showKeys(view),
+    onClick: () => showKeys({ drawing, root }),
   });
-  view.toolbar.end.append(node);
+  toolbar.end.append(node);
   return {};
 }

@@ -8,10 +8,7 @@
 import { setAttributes, shape } from "../../ui/element.js";
 import { labelRows } from "../panel/label_rows.js";
 
-/**
- * @typedef {import("../../host/types.js").Point} Point
- * @typedef {import("../view/view.js").View} View
- */
+/** @typedef {import("../../host/types.js").Point} Point */
 
 const ENDS = [0.12, 0.88]; // fractions of the width in sight at which the handles stand
 const GRAB = 40; // CSS pixels round a handle that take hold of it
@@ -24,9 +21,17 @@ const UNSURE = 0.5; // and below which it may be that of a roof or hill (analysi
 const OTHERS = { row_argmax: "thesis row", robust_line: "skyline", water_line: "water line" };
 
 export class HorizonTool {
-  /** @param {View} view */
-  constructor(view) {
-    this.view = view;
+  /**
+   * @param {import("../types.js").Needs<"channel" | "hand" | "parts" | "picture" | "stage"
+   *   | "state">} needs
+   */
+  constructor({ channel, hand, parts, picture, stage, state }) {
+    this.channel = channel;
+    this.hand = hand;
+    this.parts = parts;
+    this.picture = picture;
+    this.stage = stage;
+    this.state = state;
     /** @type {[Point, Point] | null} the line while it is dragged */
     this.line = null;
     this.moved = false;
@@ -66,25 +71,25 @@ export class HorizonTool {
 
   /** Ask what the other methods see, once a scene. */
   async refresh() {
-    const { scene, channel, tool } = this.view;
-    if (tool !== "horizon" || !scene || scene === this.scene) return;
+    const { scene } = this.picture;
+    if (this.hand.tool !== "horizon" || !scene || scene === this.scene) return;
     this.scene = scene;
     this.rows = {};
     try {
-      const { result } = await channel.request("horizons");
+      const { result } = await this.channel.request("horizons");
       if (scene === this.scene) this.rows = result;
     } catch {
       // They are for comparison only: without a kernel there are none.
     }
-    this.view.drawOverlay();
+    this.parts.draw();
   }
 
   /** The line now: dragged, given by the person, or found. @returns {[Point, Point] | null} */
   current() {
-    const { camera } = this.view;
+    const { camera } = this.picture;
     if (this.line || !camera) return this.line;
     const columns = this.columns();
-    const hint = /** @type {[Point, Point] | null} */ (this.view.state.values.horizon_hint);
+    const hint = /** @type {[Point, Point] | null} */ (this.state.values.horizon_hint);
     if (hint) return through(hint, columns);
     const [ux, uy, uz] = camera.up;
     return /** @type {[Point, Point]} */ (
@@ -98,7 +103,7 @@ export class HorizonTool {
 
   /** Where across the picture the handles stand: both are in sight, however it is zoomed. */
   columns() {
-    const { x, width, stageWidth } = this.view.stage.rectangle();
+    const { x, width, stageWidth } = this.stage.rectangle();
     if (!width) return ENDS;
     const left = Math.max(0, -x / width);
     const right = Math.min(1, (stageWidth - x) / width);
@@ -110,8 +115,8 @@ export class HorizonTool {
     this.line = this.current();
     this.moved = false;
     if (!this.line) return;
-    const box = this.view.stage.rectangle();
-    const [x, y] = this.view.stage.onOverlay(place);
+    const box = this.stage.rectangle();
+    const [x, y] = this.stage.onOverlay(place);
     const reach = this.line.map((end) => {
       const at = this.onStage(end, box);
       return Math.hypot(at.x - x, at.y - y);
@@ -143,7 +148,7 @@ export class HorizonTool {
       const row = this.grip === "both" ? (left[1] + right[1]) / 2 : this.line[this.grip][1];
       left[1] = right[1] = row;
     }
-    this.view.drawOverlay();
+    this.parts.draw();
   }
 
   end() {
@@ -151,12 +156,12 @@ export class HorizonTool {
     this.line = null;
     // A click alone says nothing about the horizon.
     if (!line || !this.moved) return;
-    this.view.state.set({ horizon_hint: line.map(([x, y]) => [round(x), round(y)]) });
+    this.state.set({ horizon_hint: line.map(([x, y]) => [round(x), round(y)]) });
   }
 
   cancel() {
     this.line = null;
-    this.view.drawOverlay();
+    this.parts.draw();
   }
 
   focus() {
@@ -166,7 +171,7 @@ export class HorizonTool {
   /** Back to the horizon that the analysis finds. */
   reset() {
     this.line = null;
-    this.view.state.set({ horizon_hint: null });
+    this.state.set({ horizon_hint: null });
   }
 
   /**
@@ -189,12 +194,12 @@ export class HorizonTool {
 
   draw() {
     const line = this.current();
-    const shown = this.view.tool === "horizon" && line;
+    const shown = this.hand.tool === "horizon" && line;
     setAttributes(this.node, { visibility: shown ? "visible" : "hidden" });
     for (const handle of this.handles) setAttributes(handle, { tabindex: shown ? 0 : -1 });
     if (!shown) return;
-    const box = this.view.stage.rectangle();
-    const [a, b] = line.map((place) => this.view.stage.onOverlay(place));
+    const box = this.stage.rectangle();
+    const [a, b] = line.map((place) => this.stage.onOverlay(place));
     const slope = (b[1] - a[1]) / (b[0] - a[0]);
     for (const node of [this.shadow, this.path]) {
       setAttributes(node, {
@@ -204,8 +209,8 @@ export class HorizonTool {
         y2: a[1] + slope * (box.x + box.width - a[0]),
       });
     }
-    const { confidence = 0 } = this.view.scene?.horizon ?? {};
-    const given = this.line !== null || this.view.state.values.horizon_hint;
+    const { confidence = 0 } = this.picture.scene?.horizon ?? {};
+    const given = this.line !== null || this.state.values.horizon_hint;
     this.node.classList.toggle("sw-guessed", !given && confidence < GUESSED);
     line.forEach((end, i) => {
       const { x, y, outside } = this.onStage(end, box);
@@ -228,7 +233,7 @@ export class HorizonTool {
    * @param {{ stageHeight: number }} box
    */
   onStage(end, box) {
-    const [x, y] = this.view.stage.onOverlay(end);
+    const [x, y] = this.stage.onOverlay(end);
     const held = Math.min(box.stageHeight - EDGE, Math.max(EDGE, y));
     return { x, y: held, outside: Math.sign(y - held) };
   }
@@ -243,7 +248,7 @@ export class HorizonTool {
 
   /** @param {[Point, Point]} line */
   describe([left, right]) {
-    const { scene, camera } = this.view;
+    const { scene, camera } = this.picture;
     const row = (left[1] + right[1]) / 2;
     const drop = ((right[1] - left[1]) * (camera?.height ?? 1)) / (camera?.width ?? 1);
     const roll = (Math.atan(drop / (right[0] - left[0])) * 180) / Math.PI;
@@ -253,7 +258,7 @@ export class HorizonTool {
         : `${Math.abs(roll).toFixed(1)}° to the ${roll > 0 ? "right" : "left"}`;
     const out = row < 0 ? " · above the picture" : row > 1 ? " · below the picture" : "";
     if (this.line) return `${(100 * row).toFixed(1)} % · ${tilt}${out}`;
-    if (this.view.state.values.horizon_hint) return `Set by hand · ${tilt}${out}`;
+    if (this.state.values.horizon_hint) return `Set by hand · ${tilt}${out}`;
     const { confidence = 0 } = scene?.horizon ?? {};
     if (confidence < GUESSED) return `Guessed: drag it to where it is${out}`;
     return `${confidence < UNSURE ? "Found, unsure" : "Found"} · ${tilt}${out}`;

@@ -5,9 +5,8 @@ import { element } from "../../ui/element.js";
 
 /** @typedef {import("../../host/types.js").Point} Point */
 
-/** @type {import("../parts.js").MakePart} */
-export function hover(view, signal) {
-  const { stage } = view;
+/** @type {import("../types.js").MakePart<"foot" | "hand" | "picture" | "stage">} */
+export function hover({ foot, hand, picture, stage }, signal) {
   const direction = element("span", { class: "sw-hover-direction" });
   const [before, after] = ["In the photo", "Now"].map(colour);
   const node = element(
@@ -18,7 +17,7 @@ export function hover(view, signal) {
     element("span", { class: "sw-hover-arrow" }, "→"),
     after.node,
   );
-  view.foot.readout.after(node);
+  foot.readout.after(node);
   // In main memory: a canvas of the graphics card takes the whole photo up there for one pixel.
   const pixel = element("canvas", { width: 1, height: 1 });
   const sample = pixel.getContext("2d", { alpha: false, willReadFrequently: true });
@@ -29,22 +28,22 @@ export function hover(view, signal) {
   /**
    * The sRGB of one pixel.
    *
-   * @param {HTMLImageElement | HTMLCanvasElement} picture
+   * @param {HTMLImageElement | HTMLCanvasElement} source
    * @param {number} width
    * @param {number} height
    */
-  const read = (picture, width, height) => {
+  const read = (source, width, height) => {
     if (!sample || !place || !width) return null;
     const x = Math.min(width - 1, Math.floor(place[0] * width));
     const y = Math.min(height - 1, Math.floor(place[1] * height));
-    sample.drawImage(picture, x, y, 1, 1, 0, 0, 1, 1);
+    sample.drawImage(source, x, y, 1, 1, 0, 0, 1, 1);
     return sample.getImageData(0, 0, 1, 1).data;
   };
 
   const show = () => {
     pending = 0;
     const inside = place?.every((at) => at >= 0 && at < 1);
-    const { camera } = view;
+    const { camera } = picture;
     node.classList.toggle("sw-shown", Boolean(place && camera));
     if (!place || !camera) return;
     direction.textContent = directionText(
@@ -62,7 +61,7 @@ export function hover(view, signal) {
   return {
     point(at) {
       // While a drag lasts the frame is the tool's, and nobody reads colours.
-      place = view.pointer === null ? at : null;
+      place = hand.pointer === null ? at : null;
       ask();
     },
     drawn() {

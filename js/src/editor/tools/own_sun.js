@@ -18,9 +18,11 @@ const MARGIN = 6; // CSS pixels between the label and the stage's edge
 const OPEN_MS = 350;
 const CLOSE_MS = 400; // the way from the ring to its label
 
-/** @type {import("../parts.js").MakePart} */
-export function ownSun(view, signal) {
-  const { stage, state } = view;
+/**
+ * @type {import("../types.js").MakePart<"hand" | "kernel" | "picture" | "root" | "stage"
+ *   | "state">}
+ */
+export function ownSun({ hand, kernel, picture, root, stage, state }, signal) {
   const ring = element("button", {
     type: "button",
     class: "sw-own-sun-ring",
@@ -47,8 +49,8 @@ export function ownSun(view, signal) {
   const actions = element(
     "span",
     { class: "sw-own-sun-actions" },
-    action("Not the sun", () => sayOutside(view)),
-    action("Move this mark", (event) => take(view, "pick", event)),
+    action("Not the sun", () => sayOutside({ stage, state })),
+    action("Move this mark", (event) => take({ hand, stage }, "pick", event)),
   );
   const label = element("div", { class: "sw-own-sun-label", hidden: true }, text, actions);
   const node = element("div", { class: "sw-own-sun", hidden: true }, ring, label);
@@ -100,9 +102,9 @@ export function ownSun(view, signal) {
 
   /** Where the mark is to be seen now. @returns {Point | null} */
   const find = () => {
-    const sun = view.scene?.sun;
-    const usable = view.tool === "sun" || view.tool === "pick";
-    const still = state.before === null && view.pointer === null && view.passing === null;
+    const sun = picture.scene?.sun;
+    const usable = hand.tool === "sun" || hand.tool === "pick";
+    const still = state.before === null && hand.pointer === null && picture.passing === null;
     // What was said in the meantime of the sun goes before what was found.
     const current = equal(state.values.sun_hint ?? null, followed);
     if (!sun?.at || !usable || !still || !current) return null;
@@ -114,14 +116,14 @@ export function ownSun(view, signal) {
   const draw = () => {
     at = find();
     node.hidden = at === null;
-    if (!at || !view.scene) return setOpen(false);
-    const { sun } = view.scene;
+    if (!at || !picture.scene) return setOpen(false);
+    const { sun } = picture.scene;
     const words = markText(sun);
     if (text.textContent !== words) text.textContent = words;
     setAttributes(ring, { "aria-label": words });
-    actions.hidden = !view.kernel.answers;
+    actions.hidden = !kernel.answers;
     ring.style.transform = `translate(${at[0] - RADIUS}px, ${at[1] - RADIUS}px)`;
-    const handle = view.tools.sun.spot?.();
+    const handle = hand.tools.sun.spot?.();
     const apart = handle ? Math.hypot(handle.x - at[0], handle.y - at[1]) : 0;
     node.classList.toggle("sw-covered", apart < COVERED);
     place();
@@ -157,14 +159,13 @@ export function ownSun(view, signal) {
   });
   on(stage.overlay, "pointerup", (event) => {
     const slip = Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY);
-    if (event.pointerType === "mouse" || slip > TAP || view.tool !== "sun") return;
+    if (event.pointerType === "mouse" || slip > TAP || hand.tool !== "sun") return;
     requestAnimationFrame(() => {
       draw();
       if (isNear(stage.placeOf(event))) setOpen(true);
     });
   });
-  const focused = () =>
-    /** @type {Document | ShadowRoot} */ (view.root.getRootNode()).activeElement;
+  const focused = () => /** @type {Document | ShadowRoot} */ (root.getRootNode()).activeElement;
 
   return {
     loaded() {
@@ -173,8 +174,8 @@ export function ownSun(view, signal) {
     show: draw,
     draw,
     point(place) {
-      if (view.pointer !== null) return;
-      wish(place !== null && view.tool === "sun" ? isNear(place) : node.contains(focused()));
+      if (hand.pointer !== null) return;
+      wish(place !== null && hand.tool === "sun" ? isNear(place) : node.contains(focused()));
     },
   };
 }

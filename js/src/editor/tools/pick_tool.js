@@ -5,9 +5,10 @@ import { shape } from "../../ui/element.js";
 /** @typedef {import("../../host/types.js").Point} Point */
 
 export class PickTool {
-  /** @param {import("../view/view.js").View} view */
-  constructor(view) {
-    this.view = view;
+  /** @param {import("../types.js").Needs<"hand" | "state">} needs */
+  constructor({ hand, state }) {
+    this.hand = hand;
+    this.state = state;
     this.node = shape("g");
     /** @type {Point | null} */
     this.at = null;
@@ -28,8 +29,8 @@ export class PickTool {
     const hint = this.at.map((value) => Math.round(value * 1e5) / 1e5);
     this.at = null;
     // The sun starts from the place just given, not from where it was moved before.
-    this.view.state.set({ sun_hint: hint, sun_azimuth: null, sun_elevation: null });
-    this.view.setTool("sun");
+    this.state.set({ sun_hint: hint, sun_azimuth: null, sun_elevation: null });
+    this.hand.setTool("sun");
   }
 
   cancel() {

@@ -3,25 +3,24 @@
 import { listenToPointers } from "../../ui/pointers.js";
 
 /**
- * @param {import("../view/view.js").View} view
+ * @param {import("../types.js").Needs<"hand" | "parts" | "picture" | "stage">} needs
  * @param {AbortSignal} signal
  * @returns {() => void} drops what a pointer has begun, and lets it go
  */
-export function listenToPointer(view, signal) {
-  const { stage } = view;
-  const tool = () => view.tools[view.tool];
+export function listenToPointer({ hand, parts, picture, stage }, signal) {
+  const tool = () => hand.tools[hand.tool];
   const cancel = listenToPointers(
     stage,
     {
       tool,
-      ready: () => view.scene !== null,
+      ready: () => picture.scene !== null,
       zoom: stage.zoom,
       onTake(pointer) {
-        view.pointer = pointer;
+        hand.pointer = pointer;
         if (pointer !== null) stage.focus();
       },
       onPoint(place, free) {
-        view.point(place);
+        parts.point(place);
         if (free) tool().hover?.(place);
       },
     },

@@ -6,37 +6,43 @@
 import { openHelp } from "../../ui/help_dialog.js";
 import { HISTORY_KEYS, runShortcut } from "../../ui/keys.js";
 
-/** @typedef {import("../view/view.js").View} View */
+/**
+ * @typedef {import("../types.js").Needs<"announcer" | "drawing" | "fullScreen" | "hand"
+ *   | "inspector" | "panel" | "root" | "split" | "stage" | "state" | "toolbar">} Reach what the
+ *   keys reach
+ */
 
-/** Choose a tool and go to its handle, or else to the picture. @type {(tool: string) => (view: View) => void} */
-const take = (tool) => (view) => {
-  const node = view.toolbar.tools.find(({ value }) => value === tool)?.node;
-  if (node?.matches(":disabled")) {
-    view.announcer.say(node.title);
-    return;
-  }
-  view.setTool(tool);
-  if (view.tools[tool].focus) view.tools[tool].focus();
-  else view.stage.node.focus({ preventScroll: true });
-};
+/** Choose a tool and go to its handle, or else to the picture. @type {(tool: string) => (editor: Reach) => void} */
+const take =
+  (tool) =>
+  ({ announcer, hand, stage, toolbar }) => {
+    const node = toolbar.tools.find(({ value }) => value === tool)?.node;
+    if (node?.matches(":disabled")) {
+      announcer.say(node.title);
+      return;
+    }
+    hand.setTool(tool);
+    if (hand.tools[tool].focus) hand.tools[tool].focus();
+    else stage.node.focus({ preventScroll: true });
+  };
 
-/** @param {View} view @param {1 | -1} way */
+/** @param {Reach} editor @param {1 | -1} way */
 function stepMap({ inspector, announcer }, way) {
   if (inspector.choice.disabled) announcer.say(inspector.choice.title);
   else inspector.step(way);
 }
 
-/** @param {View} view */
-function stepBack(view) {
-  const busy = view.pointer !== null;
-  view.cancelGesture();
+/** @param {Reach} editor */
+function stepBack({ fullScreen, hand, inspector }) {
+  const busy = hand.pointer !== null;
+  hand.cancel();
   // One thing at a time: the gesture, the map, the tool, the full screen.
-  if (!busy && view.inspector.map) view.inspector.show("");
-  else if (!busy && view.tool === "sun" && view.fullScreen?.on) view.fullScreen.leave();
-  else view.setTool("sun");
+  if (!busy && inspector.map) inspector.choose("");
+  else if (!busy && hand.tool === "sun" && fullScreen.on) fullScreen.leave();
+  else hand.setTool("sun");
 }
 
-/** @type {import("../../ui/keys.js").Shortcut<View>[]} */
+/** @type {import("../../ui/keys.js").Shortcut<Reach>[]} */
 export const SHORTCUTS = [
   { section: "Tools", keys: ["1"], label: "Move the sun", run: take("sun") },
   { section: "Tools", keys: ["2"], label: "Set the horizon", run: take("horizon") },
@@ -67,22 +73,22 @@ export const SHORTCUTS = [
     section: "Brushes",
     keys: ["["],
     label: "Smaller brush",
-    run: (view) => view.setBrushRadius(view.brushRadius / 1.25),
+    run: ({ hand }) => hand.setBrushRadius(hand.brushRadius / 1.25),
   },
   {
     section: "Brushes",
     keys: ["]"],
     label: "Larger brush",
-    run: (view) => view.setBrushRadius(view.brushRadius * 1.25),
+    run: ({ hand }) => hand.setBrushRadius(hand.brushRadius * 1.25),
   },
   {
     section: "Brushes",
     keys: ["W"],
     label: "Mark water or sky",
-    run: (view) => view.setSubject(view.subject === "sky" ? "water" : "sky"),
+    run: ({ hand }) => hand.setSubject(hand.subject === "sky" ? "water" : "sky"),
   },
 
-  { section: "View", keys: ["/"], label: "Find a parameter", run: (view) => view.panel.find() },
+  { section: "View", keys: ["/"], label: "Find a parameter", run: ({ panel }) => panel.find() },
   {
     section: "View",
     keys: ["B"],
@@ -92,22 +98,27 @@ export const SHORTCUTS = [
     section: "View",
     keys: ["S"],
     label: "Before and after side by side",
-    run: (view) => view.split?.toggle(),
+    run: ({ split }) => split.toggle(),
   },
-  { section: "View", keys: ["F"], label: "Full screen", run: (view) => view.fullScreen?.toggle() },
-  { section: "View", keys: ["+", "="], label: "Zoom in", run: (view) => view.stage.stepZoom(1) },
-  { section: "View", keys: ["-"], label: "Zoom out", run: (view) => view.stage.stepZoom(-1) },
+  {
+    section: "View",
+    keys: ["F"],
+    label: "Full screen",
+    run: ({ fullScreen }) => fullScreen.toggle(),
+  },
+  { section: "View", keys: ["+", "="], label: "Zoom in", run: ({ stage }) => stage.stepZoom(1) },
+  { section: "View", keys: ["-"], label: "Zoom out", run: ({ stage }) => stage.stepZoom(-1) },
   {
     section: "View",
     keys: ["0", "Mod+0"],
     label: "All of the picture",
-    run: (view) => view.stage.fit(),
+    run: ({ stage }) => stage.fit(),
   },
   {
     section: "View",
     keys: ["Z"],
     label: "100 %, or all of the picture",
-    run: (view) => view.stage.toggleZoom(),
+    run: ({ stage }) => stage.toggleZoom(),
   },
   { section: "View", keys: ["Space"], label: "Held: drag the picture itself" },
   {
@@ -124,13 +135,13 @@ export const SHORTCUTS = [
     section: "View",
     keys: ["M"],
     label: "Next map of the analysis",
-    run: (view) => stepMap(view, 1),
+    run: (editor) => stepMap(editor, 1),
   },
   {
     section: "View",
     keys: ["Shift+M"],
     label: "Map before",
-    run: (view) => stepMap(view, -1),
+    run: (editor) => stepMap(editor, -1),
   },
 
   ...HISTORY_KEYS,
@@ -138,7 +149,7 @@ export const SHORTCUTS = [
     section: "History",
     keys: ["V"],
     label: "Versions: keep this edit, go to another",
-    run: (view) => view.toolbar.versions?.click(),
+    run: ({ toolbar }) => toolbar.versions?.click(),
   },
   { section: "History", keys: ["Mod+V"], label: "Paste a recipe or a photo" },
 
@@ -146,25 +157,26 @@ export const SHORTCUTS = [
     section: "Export",
     keys: ["E"],
     label: "Stills and films: format, size, key frames",
-    run: (view) => view.toolbar.export?.click(),
+    run: ({ toolbar }) => toolbar.export?.click(),
   },
 
   {
     section: "Help",
     keys: ["?"],
     label: "These keys",
-    run: (view) => showKeys(view),
+    run: showKeys,
   },
 ];
 
-/** @param {View} view */
-export function showKeys(view) {
-  const note = view.speed && `Drawing here: ${view.speed}`;
-  openHelp(view.root, "Keys of the sun editor", SHORTCUTS, note);
+/** @param {Pick<Reach, "drawing" | "root">} editor */
+export function showKeys({ drawing, root }) {
+  const note = drawing.speed && `Drawing here: ${drawing.speed}`;
+  openHelp(root, "Keys of the sun editor", SHORTCUTS, note);
 }
 
-/**
- * @param {View} view
- * @param {KeyboardEvent} event
- */
-export const onShortcut = (view, event) => runShortcut(SHORTCUTS, view, event);
+/** The keys at work. @param {Reach} editor @param {AbortSignal} signal */
+export function shortcuts(editor, signal) {
+  const onKey = (/** @type {KeyboardEvent} */ event) => runShortcut(SHORTCUTS, editor, event);
+  editor.root.addEventListener("keydown", onKey, { signal });
+  return {};
+}

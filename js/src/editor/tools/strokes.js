@@ -5,7 +5,6 @@ import { setAttributes, shape } from "../../ui/element.js";
 /**
  * @typedef {import("../../host/types.js").Point} Point
  * @typedef {import("../../host/types.js").Stroke} Stroke
- * @typedef {import("../view/view.js").View} View
  * @typedef {{ width: number, height: number }} Size
  */
 
@@ -90,19 +89,21 @@ export function setLine(node, points, radius, size) {
 }
 
 export class StrokesLayer {
-  /** @param {View} view */
-  constructor(view) {
-    this.view = view;
+  /** @param {import("../types.js").Needs<"hand" | "stage" | "state">} needs */
+  constructor({ hand, stage, state }) {
+    this.hand = hand;
+    this.stage = stage;
+    this.state = state;
     this.node = shape("g", { class: "sw-strokes" });
     /** @type {unknown} the strokes that the lines show */
-    this.drawn = null;
+    this.shown = null;
     /** @type {SVGElement[]} */
     this.lines = [];
   }
 
   /** @returns {Stroke[]} */
   strokes() {
-    return /** @type {Stroke[]} */ (this.view.state.values.strokes ?? []);
+    return /** @type {Stroke[]} */ (this.state.values.strokes ?? []);
   }
 
   /** Fade the strokes that are about to be erased. @param {Set<number>} doomed */
@@ -113,16 +114,16 @@ export class StrokesLayer {
   }
 
   draw() {
-    const shown = BRUSHES.includes(this.view.tool);
+    const shown = BRUSHES.includes(this.hand.tool);
     setAttributes(this.node, { visibility: shown ? "visible" : "hidden" });
     if (!shown) return;
     setAttributes(this.node, { transform: this.transform() });
     const strokes = this.strokes();
-    if (strokes === this.drawn) return;
-    this.drawn = strokes;
+    if (strokes === this.shown) return;
+    this.shown = strokes;
     this.lines = strokes.map(({ label, points, radius }) => {
       const node = line(label);
-      setLine(node, points, radius, this.view.stage.rectangle());
+      setLine(node, points, radius, this.stage.rectangle());
       return node;
     });
     this.node.replaceChildren(...this.lines);
@@ -130,7 +131,7 @@ export class StrokesLayer {
 
   /** From longer sides to the overlay's pixels. */
   transform() {
-    const { x, y, width, height } = this.view.stage.rectangle();
+    const { x, y, width, height } = this.stage.rectangle();
     return `translate(${x} ${y}) scale(${Math.max(width, height)})`;
   }
 }

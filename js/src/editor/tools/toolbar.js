@@ -4,10 +4,9 @@ import { button, holdButton, radioButtons } from "../../ui/button.js";
 import { element } from "../../ui/element.js";
 import { historyButtons } from "../../ui/history_buttons.js";
 import { menuButton } from "../../ui/menu.js";
-import { save } from "../export/save.js";
 import { BRUSHES } from "./strokes.js";
 
-/** @typedef {import("../view/view.js").View} View */
+/** @typedef {ReturnType<typeof toolbar>} Toolbar */
 
 /** @type {{ value: string, icon: import("../../ui/icons.js").IconName, label: string, title: string }[]} */
 const TOOLS = [
@@ -52,29 +51,30 @@ const TOOLS = [
 // Their texts name what the brush is about.
 const PAINTS = TOOLS.filter(({ label }) => label.startsWith("Brush"));
 
-/** @param {View} view */
-export function toolbar(view) {
-  const { state } = view;
+/**
+ * @param {import("../types.js").Needs<"hand" | "inspector" | "original" | "picture" | "state"
+ *   | "work">} needs
+ */
+export function toolbar({ hand, inspector, original, picture, state, work }) {
   const tools = radioButtons({
     label: "Tool",
     choices: TOOLS,
-    value: view.tool,
-    onChange: (tool) => view.setTool(tool),
+    value: hand.tool,
+    onChange: (tool) => hand.setTool(tool),
   });
-  const presets = () => view.scene?.presets ?? [];
+  const presets = () => picture.scene?.presets ?? [];
   const history = historyButtons(state, "Everything back to the photo", presets);
   const before = holdButton({
     icon: "before",
     label: "Before",
     title: "Show the photo as it was: hold, or click to keep (B)",
-    onChange: (on) => view.setBefore(on),
+    onChange: (on) => original.setBefore(on),
   });
   const saveButton = button({
     icon: "save",
     label: "Save",
     title: "Render at full size and download",
     caption: true,
-    onClick: () => save(view),
   });
   const size = element("input", {
     type: "range",
@@ -84,13 +84,13 @@ export function toolbar(view) {
     step: 0.001,
     "aria-label": "Brush size",
   });
-  size.addEventListener("input", () => view.setBrushRadius(Number(size.value)));
+  size.addEventListener("input", () => hand.setBrushRadius(Number(size.value)));
   const water = button({
     icon: "water",
     label: "Water",
     title: "Brushes mark water instead of sky (W)",
     caption: true,
-    onClick: () => view.setSubject(view.subject === "sky" ? "water" : "sky"),
+    onClick: () => hand.setSubject(hand.subject === "sky" ? "water" : "sky"),
   });
   const menu = menuButton({
     icon: "menu",
@@ -102,7 +102,7 @@ export function toolbar(view) {
   const end = element(
     "div",
     { class: "sw-group sw-end" },
-    view.inspector.choice,
+    inspector.choice,
     before.node,
     saveButton,
     menu.node,
@@ -125,17 +125,18 @@ export function toolbar(view) {
       node: /** @type {HTMLElement} */ (tools.node.children[i]),
     })),
     show() {
-      tools.show(view.tool);
+      if (original.isOutdated()) before.letGo();
+      tools.show(hand.tool);
       history.show();
-      saveButton.disabled = !view.scene || view.work !== null;
+      saveButton.disabled = !picture.scene || work.busy;
       for (const { value, label, title } of PAINTS) {
-        tools.rename(value, label.replace("sky", view.subject), title.replace("sky", view.subject));
+        tools.rename(value, label.replace("sky", hand.subject), title.replace("sky", hand.subject));
       }
-      water.hidden = !PAINTS.some(({ value }) => value === view.tool);
-      water.setAttribute("aria-pressed", String(view.subject === "water"));
-      size.hidden = !BRUSHES.includes(view.tool);
-      size.value = String(view.brushRadius);
-      size.style.setProperty("--sw-share", String((view.brushRadius - 0.003) / 0.057));
+      water.hidden = !PAINTS.some(({ value }) => value === hand.tool);
+      water.setAttribute("aria-pressed", String(hand.subject === "water"));
+      size.hidden = !BRUSHES.includes(hand.tool);
+      size.value = String(hand.brushRadius);
+      size.style.setProperty("--sw-share", String((hand.brushRadius - 0.003) / 0.057));
     },
   };
 }

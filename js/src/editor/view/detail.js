@@ -9,9 +9,11 @@ import { element } from "../../ui/element.js";
 const REST_MS = 800; // long enough that who goes on dragging shares no processor with it
 const READY = "ready";
 
-/** @type {import("../parts.js").MakePart} */
-export function detail(view, signal) {
-  const { stage, state } = view;
+/**
+ * @type {import("../types.js").MakePart<"channel" | "hand" | "kernel" | "picture" | "root"
+ *   | "stage" | "state" | "work">}
+ */
+export function detail({ channel, hand, kernel, picture, root, stage, state, work }, signal) {
   const canvas = element("canvas", { class: "sw-detail", "aria-hidden": "true", hidden: true });
   stage.canvas.after(canvas);
   let scenes = 0; // how many have come
@@ -23,17 +25,17 @@ export function detail(view, signal) {
   let timer;
 
   const helps = () =>
-    view.scene !== null &&
-    view.scene.width > view.size[0] &&
+    picture.scene !== null &&
+    picture.scene.width > picture.size[0] &&
     !stage.zoom.fits && // a dense screen shows more than the preview all the time
     stage.zoom.scale > 1 &&
-    view.kernel.answers &&
-    !view.passing;
+    kernel.answers &&
+    !picture.passing;
   const rests = () =>
-    !state.before && view.pointer === null && !view.work && view.root.dataset.stage === READY;
+    !state.before && hand.pointer === null && !work.busy && root.dataset.stage === READY;
   const edit = () => JSON.stringify([scenes, state.values]);
 
-  /** The part of the picture in sight, in fractions, and the screen's pixels that show it. */
+  /** The part of the bitmap in sight, in fractions, and the screen's pixels that show it. */
   const part = () => {
     const { x, y, width, height, stageWidth, stageHeight } = stage.rectangle();
     const inside = (/** @type {number} */ at) => Math.min(1, Math.max(0, at));
@@ -60,20 +62,20 @@ export function detail(view, signal) {
     request.abort();
     request = new AbortController();
     try {
-      const content = { ...wanted, ...view.asked() };
-      const answer = await view.channel.request("detail", content, undefined, [], request.signal);
-      const picture = await decodePicture(answer.buffers[0]);
-      if (!signal.aborted && helps() && edit() === of) put(picture, answer.result.box, of);
-      picture.close();
+      const content = { ...wanted, ...picture.asked() };
+      const answer = await channel.request("detail", content, undefined, [], request.signal);
+      const bitmap = await decodePicture(answer.buffers[0]);
+      if (!signal.aborted && helps() && edit() === of) put(bitmap, answer.result.box, of);
+      bitmap.close();
     } catch {
       // Nobody asked for it, and the frame stands: what keeps the kernel from it is said elsewhere.
     }
   };
 
-  /** @param {ImageBitmap} picture @param {number[]} box @param {string} of */
-  const put = (picture, [left, top, right, bottom], of) => {
-    Object.assign(canvas, { width: picture.width, height: picture.height });
-    canvas.getContext("2d", { alpha: false })?.drawImage(picture, 0, 0);
+  /** @param {ImageBitmap} bitmap @param {number[]} box @param {string} of */
+  const put = (bitmap, [left, top, right, bottom], of) => {
+    Object.assign(canvas, { width: bitmap.width, height: bitmap.height });
+    canvas.getContext("2d", { alpha: false })?.drawImage(bitmap, 0, 0);
     Object.assign(canvas.style, {
       left: `${100 * left}%`,
       top: `${100 * top}%`,

@@ -4,16 +4,23 @@ import { errorText } from "../../host/error_text.js";
 import { element } from "../../ui/element.js";
 import { pickFile } from "../../ui/pick_file.js";
 import { loadRecipe } from "../recipe/recipe.js";
+import { showStatus } from "./status.js";
 
-/** @typedef {import("./view.js").View} View */
+/**
+ * @typedef {import("../types.js").Needs<"channel" | "kernel" | "message" | "model" | "notices"
+ *   | "root" | "stage" | "state">} Taker
+ */
 
 const CHUNK = 4_000_000; // bytes: a message of 10 MiB breaks the connection
 const PHOTOS = "image/*,.tif,.tiff,.heic,.avif";
 const RECIPE = /\.(json|py|txt)$/i;
 
-/** @type {import("../parts.js").MakePart} */
-export function drop(view, signal) {
-  const { root } = view;
+/**
+ * @type {import("../types.js").MakePart<"channel" | "kernel" | "message" | "model" | "notices"
+ *   | "root" | "stage" | "state" | "toolbar">}
+ */
+export function drop({ toolbar, ...taker }, signal) {
+  const { kernel, root } = taker;
   const veil = element(
     "div",
     { class: "sw-drop", "aria-hidden": "true" },
@@ -37,7 +44,7 @@ export function drop(view, signal) {
       // Not the notebook's business: JupyterLab would upload it into its folder.
       event.stopPropagation();
       const file = event.dataTransfer?.files[0];
-      if (file) void take(view, file);
+      if (file) void take(taker, file);
     },
   };
   for (const [name, handler] of Object.entries(handlers)) {
@@ -57,57 +64,58 @@ export function drop(view, signal) {
       if (!file) return;
       event.preventDefault();
       event.stopImmediatePropagation();
-      void take(view, file);
+      void take(taker, file);
     },
     { signal },
   );
-  view.toolbar.menu.add({
+  toolbar.menu.add({
     group: "photo",
     label: "Open photo …",
     title: "Another photo in this editor; this one's edit is set aside",
-    enabled: () => view.kernel.answers,
+    enabled: () => kernel.answers,
     run: async () => {
       const file = await pickFile(PHOTOS, signal);
-      if (file) await take(view, file);
+      if (file) await take(taker, file);
     },
   });
   return {};
 }
 
-/** @param {View} view @param {File} file */
-async function take(view, file) {
+/** @param {Taker} taker @param {File} file */
+async function take(taker, file) {
   try {
-    if (RECIPE.test(file.name)) await loadRecipe(view, file);
-    else await upload(view, file);
+    if (RECIPE.test(file.name)) await loadRecipe(taker, file);
+    else await upload(taker, file);
   } catch (error) {
-    view.message.show(`${file.name} was not opened: ${errorText(error)}`);
+    taker.message.show(`${file.name} was not opened: ${errorText(error)}`);
   }
 }
 
 /**
  * Bring a photo to the kernel in pieces; it then comes back as a preview.
  *
- * @param {View} view
+ * @param {Taker} taker
  * @param {File} file
  */
-async function upload(view, file) {
-  if (!view.kernel.answers) {
+async function upload(taker, file) {
+  const { channel, kernel, message, stage, state } = taker;
+  if (!kernel.answers) {
     throw new Error("the kernel analyses photos, and it is not running. Run the cell again.");
   }
-  view.state.commit();
-  view.message.show("");
+  state.commit();
+  message.show("");
   const key = crypto.randomUUID?.() ?? String(Math.random());
   const { name, size } = file;
   try {
     let offset = 0;
     do {
       const piece = await file.slice(offset, offset + CHUNK).arrayBuffer();
-      view.stage.setProgress(offset / Math.max(1, size), "Uploading …");
-      await view.channel.request("upload", { upload: key, name, size, offset }, undefined, [piece]);
+      stage.setProgress(offset / Math.max(1, size), "Uploading …");
+      await channel.request("upload", { upload: key, name, size, offset }, undefined, [piece]);
       offset += piece.byteLength;
     } while (offset < size);
   } catch (error) {
-    view.showStatus();
+    showStatus(taker);
     throw error;
   }
 }

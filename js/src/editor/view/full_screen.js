@@ -7,11 +7,11 @@ import { button } from "../../ui/button.js";
 
 export class FullScreen {
   /**
-   * @param {import("./view.js").View} view
+   * @param {import("../types.js").Needs<"root" | "toolbar">} needs
    * @param {AbortSignal} signal
    */
-  constructor(view, signal) {
-    this.root = view.root;
+  constructor({ root, toolbar }, signal) {
+    this.root = root;
     this.on = false;
     this.button = button({
       icon: "full_screen",
@@ -20,7 +20,7 @@ export class FullScreen {
       onClick: () => void this.toggle(),
     });
     this.button.setAttribute("aria-pressed", "false");
-    view.toolbar.end.append(this.button);
+    toolbar.end.append(this.button);
     this.root.addEventListener("fullscreenchange", () => this.changed(), { signal });
     signal.addEventListener("abort", () => {
       if (this.isFullScreen()) void document.exitFullscreen();
@@ -69,10 +69,4 @@ export class FullScreen {
     this.root.classList.toggle("sw-full", on);
     this.button.setAttribute("aria-pressed", String(on));
   }
-}
-
-/** @type {import("../parts.js").MakePart} */
-export function fullScreen(view, signal) {
-  view.fullScreen = new FullScreen(view, signal);
-  return {};
 }

@@ -11,17 +11,19 @@ const REASONS = {
   lost: "Needs the kernel: run the cell again",
 };
 
-/** @type {import("../parts.js").MakePart} */
-export function needsKernel(view) {
-  const { kernel, panel, root, toolbar } = view;
-  const corrections = view.parameters.filter((p) => p.analysis).map((p) => p.name);
+/**
+ * @type {import("../types.js").MakePart<"hand" | "inspector" | "kernel" | "panel" | "root"
+ *   | "state" | "toolbar">}
+ */
+export function needsKernel({ hand, inspector, kernel, panel, root, state, toolbar }) {
+  const corrections = state.parameters.filter((p) => p.analysis).map((p) => p.name);
   /** @type {Map<HTMLElement, string>} titles as they were */
   const titles = new Map();
 
   /** Controls that ask the kernel. @returns {HTMLElement[]} */
   const controls = () => [
     ...toolbar.tools.filter(({ value }) => value !== "sun").map(({ node }) => node),
-    view.inspector.choice,
+    inspector.choice,
     ...corrections.flatMap((name) => inputs(panel.node, `[data-parameter="${name}"]`)),
     ...inputs(panel.node, ".sw-softness"),
   ];
@@ -41,8 +43,8 @@ export function needsKernel(view) {
       root.dataset.kernel = kernel.state;
       if (!reason && !titles.size) return;
       for (const node of controls()) mark(node, reason);
-      if (reason && view.tool !== "sun") view.setTool("sun");
-      if (reason && view.inspector.map) view.inspector.show("");
+      if (reason && hand.tool !== "sun") hand.setTool("sun");
+      if (reason && inspector.map) inspector.choose("");
       toolbar.save.title = reason
         ? "Download the picture at the size it has here"
         : "Render at full size and download";

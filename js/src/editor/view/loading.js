@@ -10,31 +10,38 @@ import { onTraits } from "../../host/traits.js";
 
 export class Loading {
   /**
-   * @param {import("./view.js").View} view
+   * @param {import("../types.js").Needs<"drawing" | "message" | "model" | "parts" | "picture"
+   *   | "stage" | "state">} needs
    * @param {AbortSignal} signal
    */
-  constructor(view, signal) {
-    this.view = view;
+  constructor({ drawing, message, model, parts, picture, stage, state }, signal) {
+    this.drawing = drawing;
+    this.message = message;
+    this.model = model;
+    this.parts = parts;
+    this.picture = picture;
+    this.stage = stage;
+    this.state = state;
     this.signal = signal;
     this.loads = 0;
     /** @type {Map<string, unknown>} the bytes of the pictures that the frame has */
     this.taken = new Map();
-    onTraits(view.model, ["_photo"], () => void this.photo(), signal);
-    onTraits(view.model, ["_scene"], () => void this.scene(), signal);
+    onTraits(model, ["_photo"], () => void this.photo(), signal);
+    onTraits(model, ["_scene"], () => void this.scene(), signal);
     signal.addEventListener("abort", () => {
       this.loads += 1; // pictures that are being decoded come too late
     });
   }
 
   async photo() {
-    const { model, stage } = this.view;
+    const { model, stage } = this;
     const bytes = model.get("_photo");
     if (!bytes?.byteLength) return;
     try {
       await stage.setPhoto(bytes);
     } catch {
       if (bytes !== model.get("_photo")) return; // another is on its way
-      this.view.message.show("The browser cannot decode the preview that the kernel sent.");
+      this.message.show("The browser cannot decode the preview that the kernel sent.");
       return;
     }
     // Not before the photo is on the screen: compiling keeps the browser's graphics process busy.
@@ -43,10 +50,10 @@ export class Loading {
 
   /** Begin to compile the shaders while the kernel analyses: some drivers take seconds. */
   prepare() {
-    const { frame, loop, scene, state } = this.view;
-    if (this.signal.aborted || scene || !loop.inSight) return;
+    const { frame, loop } = this.drawing;
+    if (this.signal.aborted || this.picture.scene || !loop.inSight) return;
     try {
-      frame.withGraph((graph) => graph.prepare([String(state.values.method)]));
+      frame.withGraph((graph) => graph.prepare([String(this.state.values.method)]));
     } catch {
       // The first frame will say what is wrong, when there is something to draw.
     }
@@ -54,17 +61,17 @@ export class Loading {
 
   /** Take over what the analysis found: decode its maps, then swap all at once. */
   async scene() {
-    const { view } = this;
+    const { drawing, message, model, parts, picture } = this;
     /** @type {Scene | null} */
-    const scene = view.model.get("_scene");
-    const photo = view.model.get("_photo");
+    const scene = model.get("_scene");
+    const photo = model.get("_photo");
     if (!scene?.uniforms) this.forget();
     if (!scene?.uniforms || !photo?.byteLength) return;
     this.loads += 1;
     const load = this.loads;
     try {
       // A correction changes some of the maps and never the photo.
-      const sent = ["photo", ...MAPS].map((name) => ({ name, bytes: view.model.get(`_${name}`) }));
+      const sent = ["photo", ...MAPS].map((name) => ({ name, bytes: model.get(`_${name}`) }));
       const fresh = sent.filter(({ name, bytes }) => bytes !== this.taken.get(name));
       const bitmaps = await Promise.all(fresh.map(({ bytes }) => decodePicture(bytes)));
       if (load !== this.loads) {
@@ -73,25 +80,26 @@ export class Loading {
       }
       fresh.forEach(({ name, bytes }, i) => {
         const { width, height } = bitmaps[i];
-        view.frame.setPicture(name, bitmaps[i]);
+        drawing.frame.setPicture(name, bitmaps[i]);
         this.taken.set(name, bytes);
-        if (name === "photo") view.size = [width, height];
+        if (name === "photo") picture.size = [width, height];
       });
     } catch (error) {
       if (load !== this.loads) return;
-      view.message.show(`The maps of the analysis cannot be shown: ${errorText(error)}`);
+      message.show(`The maps of the analysis cannot be shown: ${errorText(error)}`);
       return;
     }
     const { fov_vertical_deg, pitch, roll } = scene.camera;
     const camera = new Camera(scene.width, scene.height, fov_vertical_deg, pitch, roll);
-    view.loop.first = true;
-    view.takeScene(scene, camera);
+    picture.take(scene, camera);
+    parts.loaded(scene);
   }
 
   /** Another photo is on its way: nothing of the last one is true of it. */
   forget() {
-    if (!this.view.scene) return;
+    if (!this.picture.scene) return;
     this.loads += 1;
-    this.view.forgetScene();
+    this.picture.forget();
+    this.parts.forget();
   }
 }

@@ -12,15 +12,15 @@ import { notesOf } from "./note_choice.js";
 /**
  * @typedef {import("./note_choice.js").Note} Note
  * @typedef {import("./note_choice.js").NoteAction} NoteAction
- * @typedef {import("./view.js").View} View
+ * @typedef {import("../types.js").Needs<"hand" | "picture" | "stage" | "state">} Answering
  */
 
 const PASSING_SECONDS = 8;
 
-/** @type {Record<NoteAction, { label: string, run: (view: View, event: MouseEvent) => void }>} */
+/** @type {Record<NoteAction, { label: string, run: (needs: Answering, event: MouseEvent) => void }>} */
 const ACTIONS = {
-  pick: { label: "The sun is here …", run: (view, event) => take(view, "pick", event) },
-  not_sun: { label: "Not the sun", run: (view) => sayOutside(view) },
+  pick: { label: "The sun is here …", run: (needs, event) => take(needs, "pick", event) },
+  not_sun: { label: "Not the sun", run: sayOutside },
   take_back: {
     label: "Undo that",
     run: ({ state }) => {
@@ -32,37 +32,41 @@ const ACTIONS = {
   },
   moon_is_sun: {
     label: "It is the sun",
-    run: ({ scene, state }) => state.set({ sun_hint: scene?.sun.moon ?? null }),
+    run: ({ picture, state }) => state.set({ sun_hint: picture.scene?.sun.moon ?? null }),
   },
-  horizon: { label: "Set the horizon", run: (view, event) => take(view, "horizon", event) },
+  horizon: { label: "Set the horizon", run: (needs, event) => take(needs, "horizon", event) },
   paint: {
     label: "Paint the sky",
-    run: (view, event) => {
-      view.setSubject("sky");
-      take(view, "sky", event);
+    run: (needs, event) => {
+      needs.hand.setSubject("sky");
+      take(needs, "sky", event);
     },
   },
-  leave: { label: "Never mind", run: (view, event) => take(view, "sun", event) },
+  leave: { label: "Never mind", run: (needs, event) => take(needs, "sun", event) },
 };
 
-/** Say that nothing in the picture is the sun; a sun that was moved stays where it is. @param {View} view */
-export function sayOutside(view) {
-  view.state.set({ sun_hint: "outside" });
-  view.stage.focus();
+/** Say that nothing in the picture is the sun; a sun that was moved stays where it is. @param {Pick<Answering, "stage" | "state">} needs */
+export function sayOutside({ stage, state }) {
+  state.set({ sun_hint: "outside" });
+  stage.focus();
 }
 
-/** Choose a tool and go where it is used. @param {View} view @param {string} tool @param {MouseEvent} event */
-export function take(view, tool, event) {
-  view.setTool(tool);
-  view.stage.node.scrollIntoView({ block: "nearest" });
+/** Choose a tool and go where it is used. @param {Pick<Answering, "hand" | "stage">} needs @param {string} tool @param {MouseEvent} event */
+export function take({ hand, stage }, tool, event) {
+  hand.setTool(tool);
+  stage.node.scrollIntoView({ block: "nearest" });
   // Who pressed a key has no pointer to go on with, and gets the handle or the cross.
-  if (event.detail > 0) view.stage.focus();
-  else if (view.tools[tool].focus) view.tools[tool].focus();
-  else view.stage.node.focus({ preventScroll: true });
+  if (event.detail > 0) stage.focus();
+  else if (hand.tools[tool].focus) hand.tools[tool].focus();
+  else stage.node.focus({ preventScroll: true });
 }
 
-/** @type {import("../parts.js").MakePart} */
-export function notes(view) {
+/**
+ * @type {import("../types.js").MakePart<"announcer" | "foot" | "hand" | "kernel" | "notices"
+ *   | "picture" | "stage" | "state">}
+ */
+export function notes({ announcer, foot, kernel, notices, ...answering }) {
+  const { hand, picture, state } = answering;
   const list = element("div", { class: "sw-notes-list" });
   const back = element("button", { type: "button", class: "sw-notes-back", hidden: true });
   back.title = "Show the notes of the analysis again";
@@ -70,7 +74,7 @@ export function notes(view) {
     away.clear();
     draw(shown);
   });
-  view.foot.node.append(element("div", { class: "sw-notes" }, list, back));
+  foot.node.append(element("div", { class: "sw-notes" }, list, back));
   /** @type {Set<string>} texts that were put away */
   const away = new Set();
   /** @type {Note[]} */
@@ -84,7 +88,7 @@ export function notes(view) {
     for (const name of actions) {
       const { label, run } = ACTIONS[name];
       const act = element("button", { type: "button", class: "sw-stage-action" }, label);
-      act.addEventListener("click", (event) => run(view, event));
+      act.addEventListener("click", (event) => run(answering, event));
       said.append(" ", act);
     }
     const node = element("div", { class: "sw-note" }, said);
@@ -108,7 +112,7 @@ export function notes(view) {
 
   /** Whether the assumed sun lies in the picture. @param {import("../../host/types.js").PhotoSun} sun */
   const isInside = ({ azimuth, elevation }) => {
-    const { camera } = view;
+    const { camera } = picture;
     const pixel = camera?.pixel(azimuth, elevation);
     if (!camera || !pixel) return false;
     const [x, y] = pixel;
@@ -116,13 +120,13 @@ export function notes(view) {
   };
 
   const look = () => {
-    const { kernel, scene, state, tool } = view;
+    const { scene } = picture;
     if (!scene) followed = undefined;
     const hint = state.values.sun_hint ?? null;
     const now = scene && {
       live: kernel.answers,
       inside: isInside(scene.sun),
-      picking: tool === "pick",
+      picking: hand.tool === "pick",
       pending: !equal(hint, followed),
       hint,
     };
@@ -135,14 +139,14 @@ export function notes(view) {
   return {
     loaded(scene) {
       const before = followed;
-      followed = view.state.values.sun_hint ?? null;
+      followed = state.values.sun_hint ?? null;
       const now = look();
       if (before === undefined || equal(before, followed) || !now) return;
       // What was said of the sun is done: the status says so, to the eye and aloud.
       if (Array.isArray(followed)) {
-        view.notices.show("sun", { text: pointedText(scene.sun), seconds: PASSING_SECONDS });
+        notices.show("sun", { text: pointedText(scene.sun), seconds: PASSING_SECONDS });
       } else if (followed) {
-        view.announcer.say(assumedText(scene.sun, now), "sun note");
+        announcer.say(assumedText(scene.sun, now), "sun note");
       }
     },
     show: () => void look(),

@@ -2,9 +2,11 @@
 
 import { element } from "../../ui/element.js";
 
-/** @type {import("../parts.js").MakePart} */
-export function progress(view, signal) {
-  const { channel, kernel, model, notices, stage } = view;
+/**
+ * @type {import("../types.js").MakePart<"channel" | "kernel" | "model" | "notices" | "picture"
+ *   | "stage" | "work">}
+ */
+export function progress({ channel, kernel, model, notices, picture, stage, work }, signal) {
   const cancel = element("button", { type: "button", class: "sw-progress-cancel" }, "Cancel");
   stage.progress.append(element("div", { class: "sw-progress-line" }, stage.caption, cancel));
 
@@ -14,7 +16,7 @@ export function progress(view, signal) {
   cancel.addEventListener("click", () => {
     stage.caption.textContent = "Cancelling …";
     cancel.disabled = true;
-    if (view.work) view.work.abort();
+    if (work.busy) work.cancel();
     else void ask("cancel");
   });
 
@@ -22,7 +24,7 @@ export function progress(view, signal) {
   /** @type {Record<string, () => string>} */
   const texts = {
     cancelled: () =>
-      view.scene
+      picture.scene
         ? "The correction was cancelled: the picture does not follow it yet."
         : "The analysis was cancelled. A correction starts it again, too.",
     error: () => "The analysis went wrong; below the picture is said why.",

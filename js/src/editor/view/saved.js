@@ -11,16 +11,18 @@ export const unseen = () => ({
   _scene: {},
 });
 
-/** @type {import("../parts.js").MakePart} */
-export function saved(view, signal) {
-  const { model, stage, root, panel } = view;
+/**
+ * @type {import("../types.js").MakePart<"drawing" | "model" | "panel" | "picture" | "root"
+ *   | "stage">}
+ */
+export function saved({ drawing, model, panel, picture, root, stage }, signal) {
   // Without maps no slider moves the picture.
   panel.node.inert = Boolean(model.get("_saved"));
   root.classList.toggle("sw-saved", panel.node.inert);
   /** @type {Record<string, unknown> | null} of the view that was closed */
   let last = null;
   const light = () => {
-    const live = view.scene !== null && root.classList.contains("sw-live");
+    const live = picture.scene !== null && drawing.live;
     if (live) return { ...unseen(), _photo: thumbnail(stage.canvas, EDGE) };
     const there = stage.photo.naturalWidth > 0;
     return {

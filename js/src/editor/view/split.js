@@ -10,9 +10,10 @@ import { Divider } from "../../ui/divider.js";
 const SIDES = ["Before", "After"];
 
 export class Split {
-  /** @param {import("./view.js").View} view */
-  constructor(view) {
-    this.view = view;
+  /** @param {import("../types.js").Needs<"original" | "stage" | "toolbar">} needs */
+  constructor({ original, stage, toolbar }) {
+    this.original = original;
+    this.stage = stage;
     this.on = false;
     this.button = button({
       icon: "split",
@@ -24,26 +25,25 @@ export class Split {
     const label = "Divider between before and after";
     this.divider = new Divider({ label, onMove: () => this.draw() });
     this.divider.node.hidden = true;
-    view.stage.overlay.after(this.divider.node);
-    view.toolbar.before.node.after(this.button);
+    stage.overlay.after(this.divider.node);
+    toolbar.before.node.after(this.button);
   }
 
   toggle() {
     this.on = !this.on;
     this.button.setAttribute("aria-pressed", String(this.on));
     this.divider.node.hidden = !this.on;
-    this.view.stage.setOriginal(this.on || this.view.toolbar.before.isOn());
-    this.view.root.classList.toggle("sw-split", this.on);
+    this.original.setSplit(this.on);
     this.draw();
   }
 
   draw() {
-    const { canvas } = this.view.stage;
+    const { canvas } = this.stage;
     if (!this.on) {
       canvas.style.clipPath = "";
       return;
     }
-    const box = this.view.stage.rectangle();
+    const box = this.stage.rectangle();
     const inSight = {
       left: Math.max(0, box.x),
       right: Math.min(box.stageWidth, box.x + box.width),
@@ -53,10 +53,4 @@ export class Split {
     const x = this.divider.place(inSight, SIDES);
     canvas.style.clipPath = `inset(0 0 0 ${(100 * (x - box.x)) / box.width}%)`;
   }
-}
-
-/** @type {import("../parts.js").MakePart} */
-export function split(view) {
-  view.split = new Split(view);
-  return view.split;
 }

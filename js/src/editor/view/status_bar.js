@@ -10,21 +10,29 @@ const SURENESS =
 const wordOf = (share) => (share >= 0.6 ? "fits well" : share >= 0.3 ? "fits roughly" : "a guess");
 
 export class Foot {
-  constructor() {
+  /** @param {import("./picture.js").Picture} picture */
+  constructor(picture) {
+    this.picture = picture;
     this.readout = element("div", { class: "sw-readout" });
     this.sureness = element("div", { class: "sw-sureness", title: SURENESS });
     this.node = element("div", { class: "sw-foot" }, this.readout, this.sureness);
   }
 
-  /** What the analysis says of the photo; null while there is none. @param {import("../../host/types.js").Scene | null} scene */
-  showScene(scene) {
-    const { sureness = null } = scene ?? {};
+  /** What the analysis says of the photo. @param {import("../../host/types.js").Scene} scene */
+  loaded({ sureness }) {
     this.sureness.textContent =
       typeof sureness === "number" ? `Atmosphere: ${wordOf(sureness)}` : "";
   }
 
-  /** @param {number} azimuth degrees @param {number} elevation degrees */
-  showSun(azimuth, elevation) {
+  forget() {
+    this.sureness.textContent = "";
+  }
+
+  draw() {
+    if (!this.picture.scene) return;
+    const [azimuth, elevation] = ["sun_azimuth", "sun_elevation"].map((name) =>
+      this.picture.value(name),
+    );
     this.readout.textContent = sunText(azimuth, elevation);
   }
 }

@@ -39,19 +39,19 @@ export class Timings {
 /** @param {string} address of a page */
 export const wantsTimings = (address) => new URL(address).searchParams.has("timings");
 
-/** @type {import("../parts.js").MakePart} */
-export function timings(view) {
+/** @type {import("../types.js").MakePart<"drawing" | "foot">} */
+export function timings({ drawing, foot }) {
   const live = wantsTimings(window.location.href);
   const timed = new Timings();
   const row = element("div", { class: "sw-timings" });
-  if (live) view.foot.node.append(row);
+  if (live) foot.node.append(row);
   let card = "";
-  const { frame } = view;
+  const { frame } = drawing;
   frame.stopwatch = new Stopwatch((lap) => {
     if (frame.graph) card ||= cardName(frame.graph.gl);
     timed.add(lap, `${frame.canvas.width} × ${frame.canvas.height}`);
-    view.speed = `${timed.text()} · ${card}`;
-    if (live) row.textContent = view.speed;
+    drawing.speed = `${timed.text()} · ${card}`;
+    if (live) row.textContent = drawing.speed;
   });
   return {};
 }

@@ -2,7 +2,7 @@
 
 import { zoomButtons } from "../../ui/zoom_buttons.js";
 
-/** @type {import("../parts.js").MakePart} */
+/** @type {import("../types.js").MakePart<"stage">} */
 export function zoomControl({ stage }) {
   const buttons = zoomButtons(stage.zoom, "sw-zoom-control");
   stage.node.append(buttons.node);

@@ -1,0 +1,51 @@
+/** What a person waits for and then keeps, one at a time: a picture, a page, an export. */
+
+import { Cancelled } from "../../host/channel.js";
+
+export class Work {
+  /** @param {import("../types.js").Needs<"notices" | "stage" | "state">} needs */
+  constructor({ notices, stage, state }) {
+    this.notices = notices;
+    this.stage = stage;
+    this.state = state;
+    /** @type {AbortController | null} cancels what is being made */
+    this.controller = null;
+    /** @type {() => void} called when it begins and when it ends */
+    this.onChange = () => {};
+  }
+
+  get busy() {
+    return this.controller !== null;
+  }
+
+  cancel() {
+    this.controller?.abort();
+  }
+
+  /**
+   * Make something, unless something else is being made.
+   *
+   * @param {string} what as the person calls it
+   * @param {(signal: AbortSignal) => Promise<void>} make
+   */
+  async run(what, make) {
+    if (this.busy) return;
+    this.controller = new AbortController();
+    this.state.push();
+    this.onChange();
+    try {
+      await make(this.controller.signal);
+      this.notices.hide("save");
+    } catch (error) {
+      const why = error instanceof Error ? error.message : String(error);
+      this.notices.show("save", {
+        text: error instanceof Cancelled ? `${what} was cancelled.` : `${what} failed: ${why}`,
+        actions: [{ label: "Try again", run: () => this.run(what, make) }],
+      });
+    } finally {
+      this.controller = null;
+      this.stage.setProgress(null, "");
+      this.onChange();
+    }
+  }
+}

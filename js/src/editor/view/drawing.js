@@ -1,0 +1,77 @@
+/** Draws the picture's frame on the stage's canvas: when it is due, and as large as can be seen. */
+
+import { Frame } from "../../gl/frame.js";
+import { FrameLoop } from "../../gl/frame_loop.js";
+import { watchSight } from "../../host/visibility.js";
+
+const WORTHWHILE = 0.75; // a drag that shows less of the preview's size is drawn smaller
+
+export class Drawing {
+  /**
+   * @param {import("../types.js").Needs<"message" | "parts" | "picture" | "root" | "stage"
+   *   | "state">} needs
+   * @param {AbortSignal} signal
+   */
+  constructor({ message, parts, picture, root, stage, state }, signal) {
+    this.message = message;
+    this.parts = parts;
+    this.picture = picture;
+    this.root = root;
+    this.stage = stage;
+    this.frame = new Frame(stage.canvas, state.parameters);
+    this.live = false; // whether the canvas shows the scene
+    this.speed = ""; // how fast the picture is drawn here, and by what (timings.js)
+    this.loop = new FrameLoop(
+      (scale) => this.drawFrame(scale),
+      () => state.before !== null || picture.passing !== null,
+      signal,
+    );
+    this.loop.limit = () => this.visibleScale();
+    this.loop.setSight(false); // until the page is laid out
+    watchSight(root, signal, (inSight) => this.loop.setSight(inSight));
+  }
+
+  /** @param {import("../../host/types.js").Scene} scene */
+  loaded(scene) {
+    this.frame.setScene(scene);
+    this.loop.first = true;
+  }
+
+  forget() {
+    this.setLive(false);
+  }
+
+  show() {
+    this.loop.request();
+  }
+
+  /** @param {boolean} live */
+  setLive(live) {
+    this.live = live;
+    this.root.classList.toggle("sw-live", live);
+  }
+
+  /** Share of the preview's size that the screen can show; 1 where less would gain little. */
+  visibleScale() {
+    const shown = this.stage.rectangle().width * (window.devicePixelRatio || 1);
+    const scale = shown / Math.max(1, this.picture.size[0]);
+    return scale < WORTHWHILE ? scale : 1;
+  }
+
+  /** @param {number} scale of the full size */
+  drawFrame(scale) {
+    const { parts, picture } = this;
+    parts.draw();
+    if (!picture.scene) return;
+    const [width, height] = picture.size;
+    /** @type {[number, number]} */
+    const size = [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
+    const drawn = this.message.attempt(() => this.frame.draw(picture.shown, size));
+    if (drawn) {
+      this.setLive(true);
+      parts.drawn(scale);
+    } else if (drawn === false) {
+      this.loop.request(); // the context was lost meanwhile; the next frame makes another
+    }
+  }
+}
