@@ -43,7 +43,7 @@ export function layOut(view) {
 
 /** The picture over the other begins at the divider. @param {View} view */
 export function placeDivider(view) {
-  const { divider, panels, wipes, zoom } = view;
+  const { divider, panels, wipes } = view;
   for (const { canvas } of panels) canvas.style.clipPath = "";
   if (!wipes) {
     divider.node.remove();
@@ -51,16 +51,5 @@ export function placeDivider(view) {
   }
   const [under, over] = view.shown();
   if (divider.node.parentElement !== over.node) over.node.append(divider.node);
-  const box = zoom.box();
-  const { width, height } = zoom.room;
-  const x = divider.place(
-    {
-      left: Math.max(0, box.x),
-      right: Math.min(width, box.x + box.width),
-      top: Math.max(0, box.y),
-      bottom: Math.min(height, box.y + box.height),
-    },
-    [under.variant.label, over.variant.label],
-  );
-  over.canvas.style.clipPath = `inset(0 0 0 ${(100 * (x - box.x)) / box.width}%)`;
+  divider.divide(over.rectangle(), over.canvas, [under.variant.label, over.variant.label]);
 }

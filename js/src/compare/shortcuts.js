@@ -1,7 +1,7 @@
 /** Every key of a comparison; the sun's arrow keys and the divider's belong to these. */
 
 import { openHelp } from "../ui/help_dialog.js";
-import { HISTORY_KEYS, isTaken, runShortcut } from "../ui/keys.js";
+import { HISTORY_KEYS, isTaken, runShortcut, zoomKeys } from "../ui/keys.js";
 
 /** @typedef {import("./view.js").View} View */
 
@@ -19,20 +19,7 @@ const SHORTCUTS = [
     label: "Difference from the first",
     run: (view) => view.setDifference(!view.model.get("difference")),
   },
-  { section: "Pictures", keys: ["+", "="], label: "Zoom in", run: (view) => view.zoom.step(1) },
-  { section: "Pictures", keys: ["-"], label: "Zoom out", run: (view) => view.zoom.step(-1) },
-  {
-    section: "Pictures",
-    keys: ["0", "Mod+0"],
-    label: "All of the picture",
-    run: (v) => v.zoom.fit(),
-  },
-  {
-    section: "Pictures",
-    keys: ["Z"],
-    label: "100 %, or all of the picture",
-    run: (view) => view.zoom.toggle(),
-  },
+  ...zoomKeys("Pictures", ({ zoom }) => zoom),
   { section: "Pictures", keys: ["Space"], label: "Held: drag the pictures themselves" },
   {
     section: "Sun, when it has the focus",

@@ -80,13 +80,15 @@ export class Divider {
   }
 
   /**
-   * Put it where it belongs; returns its place from the parent's left edge in CSS pixels.
+   * Put it where it belongs, and leave of the picture's upper canvas what is right of it.
    *
-   * @param {{ left: number, right: number, top: number, bottom: number }} box what it divides, in
-   *   its parent
+   * @param {import("./stage.js").Box} box the picture in the divider's parent
+   * @param {HTMLCanvasElement} upper
    * @param {[string, string]} names of the two sides
    */
-  place({ left, right, top, bottom }, names) {
+  divide(box, upper, names) {
+    const [left, right] = [Math.max(0, box.x), Math.min(box.stageWidth, box.x + box.width)];
+    const [top, bottom] = [Math.max(0, box.y), Math.min(box.stageHeight, box.y + box.height)];
     this.reach = [left, right];
     const x = left + this.share * (right - left);
     Object.assign(this.node.style, {
@@ -104,6 +106,6 @@ export class Divider {
       this.sides[i].textContent = names[i];
       this.sides[i].classList.toggle("sw-tight", room < ROOM);
     });
-    return x;
+    upper.style.clipPath = `inset(0 0 0 ${(100 * (x - box.x)) / box.width}%)`;
   }
 }

@@ -32,6 +32,21 @@ export const HISTORY_KEYS = [
   },
 ];
 
+/**
+ * The keys of every widget with a picture that can be zoomed.
+ *
+ * @template V
+ * @param {string} section
+ * @param {(view: V) => import("../geometry/zoom.js").Zoom} of
+ * @returns {Shortcut<V>[]}
+ */
+export const zoomKeys = (section, of) => [
+  { section, keys: ["+", "="], label: "Zoom in", run: (view) => of(view).step(1) },
+  { section, keys: ["-"], label: "Zoom out", run: (view) => of(view).step(-1) },
+  { section, keys: ["0", "Mod+0"], label: "All of the picture", run: (view) => of(view).fit() },
+  { section, keys: ["Z"], label: "100 %, or all of the picture", run: (view) => of(view).toggle() },
+];
+
 const MOVES = [
   ...["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
   ...["Home", "End", "PageUp", "PageDown"],

@@ -64,7 +64,7 @@ export function cross({ announcer, hand, parts, picture, stage }, signal) {
     moved = true;
     if (pressed) tool().move(place, as(event));
     else tool().hover?.(place);
-    stage.bring(place);
+    stage.zoom.bring(place);
     parts.draw();
     parts.point(place);
     tell();

@@ -4,7 +4,7 @@
  */
 
 import { openHelp } from "../../ui/help_dialog.js";
-import { HISTORY_KEYS, runShortcut } from "../../ui/keys.js";
+import { HISTORY_KEYS, runShortcut, zoomKeys } from "../../ui/keys.js";
 
 /**
  * @typedef {import("../types.js").Needs<"announcer" | "drawing" | "fullScreen" | "hand"
@@ -106,20 +106,7 @@ export const SHORTCUTS = [
     label: "Full screen",
     run: ({ fullScreen }) => fullScreen.toggle(),
   },
-  { section: "View", keys: ["+", "="], label: "Zoom in", run: ({ stage }) => stage.stepZoom(1) },
-  { section: "View", keys: ["-"], label: "Zoom out", run: ({ stage }) => stage.stepZoom(-1) },
-  {
-    section: "View",
-    keys: ["0", "Mod+0"],
-    label: "All of the picture",
-    run: ({ stage }) => stage.fit(),
-  },
-  {
-    section: "View",
-    keys: ["Z"],
-    label: "100 %, or all of the picture",
-    run: ({ stage }) => stage.toggleZoom(),
-  },
+  ...zoomKeys("View", ({ stage }) => stage.zoom),
   { section: "View", keys: ["Space"], label: "Held: drag the picture itself" },
   {
     section: "Picture, when it has the focus",

@@ -43,14 +43,6 @@ export class Split {
       canvas.style.clipPath = "";
       return;
     }
-    const box = this.stage.rectangle();
-    const inSight = {
-      left: Math.max(0, box.x),
-      right: Math.min(box.stageWidth, box.x + box.width),
-      top: Math.max(0, box.y),
-      bottom: Math.min(box.stageHeight, box.y + box.height),
-    };
-    const x = this.divider.place(inSight, SIDES);
-    canvas.style.clipPath = `inset(0 0 0 ${(100 * (x - box.x)) / box.width}%)`;
+    this.divider.divide(this.stage.rectangle(), canvas, SIDES);
   }
 }

@@ -135,25 +135,6 @@ export class Stage extends PictureStage {
     original.getContext("2d", { alpha: false })?.drawImage(photo, 0, 0);
   }
 
-  /** @param {1 | -1} way */
-  stepZoom(way) {
-    this.zoom.step(way);
-  }
-
-  /** Between all of the picture and 100 %. */
-  toggleZoom() {
-    this.zoom.toggle();
-  }
-
-  fit() {
-    this.zoom.fit();
-  }
-
-  /** Bring a place of the zoomed picture to the middle. @param {Point} place */
-  bring(place) {
-    this.zoom.bring(place);
-  }
-
   /** Keys reach the editor from now on; the keyboard's cross stays away. */
   focus() {
     this.focusing = true;
