@@ -30,7 +30,7 @@ class Goal(NamedTuple):
 # those of two cores without a graphics card (Mesa's llvmpipe), unless the key says otherwise.
 GOALS: dict[str, Goal] = {
     "import": Goal(0.5),
-    "bundle sun_editor": Goal(335),
+    "bundle sun_editor": Goal(300),
     "bundle sky_explorer": Goal(300),
     "bundle compare": Goal(300),
     "bundle study": Goal(120),
