@@ -51,6 +51,7 @@ export class View {
     this.state = new EditState(model, model.get("_parameters"), signal);
     this.channel = new Channel(model, signal);
     this.kernel = new Kernel(model, signal);
+    this.state.follow = () => this.kernel.follow;
     this.picture = new Picture(model, this.state);
     this.stage = new Stage(signal);
     this.message = new ErrorMessage();
@@ -109,7 +110,6 @@ export class View {
   /** @param {AbortSignal} signal */
   listen(signal) {
     const { channel, hand, kernel, model, parts, root, stage, state } = this;
-    state.follow = () => kernel.follow;
     state.subscribe(() => parts.show());
     stage.onLayout = () => parts.draw();
     // Said at once: a busy kernel may take its time until it reports itself.
