@@ -21,7 +21,7 @@ def software() -> str:
     return f"sunwidget {__version__}"
 
 
-def told(
+def metadata_for(
     photo: Photo, size: tuple[int, int], recipe: dict[str, Any] | None = None
 ) -> dict[str, Any]:
     """Return the fields of a ``Still`` that tell of ``photo``, for a picture of ``size``.

@@ -20,7 +20,7 @@ from sunwidget.errors import PhotoError
 from sunwidget.export.formats import Format, check_format, check_quality
 from sunwidget.export.gain_map import gain_map_of
 from sunwidget.export.layers import LAYERS, layer_alone, layers_of
-from sunwidget.export.metadata import told
+from sunwidget.export.metadata import metadata_for
 from sunwidget.export.still import Still
 from sunwidget.files import complete_or_absent, target
 from sunwidget.formats.color import strips
@@ -321,7 +321,7 @@ def _with_metadata(
 ) -> Still:
     height, width = codes.shape[:2]
     still = Still(codes, alpha=_alpha_codes(alpha, codes), bits=bits)
-    for name, value in told(photo, (width, height), recipe).items():
+    for name, value in metadata_for(photo, (width, height), recipe).items():
         setattr(still, name, value)
     if codes.dtype.kind == "f":
         still.icc = None  # it is of the encoding that was undone

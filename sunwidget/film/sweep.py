@@ -21,8 +21,8 @@ from sunwidget.film.writer import (
     film_target,
     is_sequence,
     size_for,
-    told,
     whole_film,
+    with_progress,
     writer,
 )
 from sunwidget.messages import shown
@@ -127,7 +127,7 @@ def sweep(
         whole_film(place, overwrite=overwrite) as unfinished,
         contextlib.closing(ahead(_rendered(scene, row, order, size))) as pictures,
     ):
-        write(told(pictures, len(order), with_time_left(progress)), unfinished, film)
+        write(with_progress(pictures, len(order), with_time_left(progress)), unfinished, film)
     return place.parent if is_sequence(place) else place
 
 

@@ -220,8 +220,8 @@ def whole_film(path: Path, *, overwrite: bool) -> contextlib.AbstractContextMana
     return (whole_sequence if is_sequence(path) else complete_or_absent)(path, overwrite=overwrite)
 
 
-def told(frames: Frames, count: int, progress: Progress) -> Frames:
-    """Pass frames on and tell ``progress`` when each has been taken."""
+def with_progress(frames: Frames, count: int, progress: Progress) -> Frames:
+    """Yield the frames and report each to ``progress`` once it is taken."""
     for done, frame in enumerate(frames, start=1):
         yield frame
         progress(done / count, f"frame {done} of {count}")

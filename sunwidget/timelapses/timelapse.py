@@ -27,8 +27,8 @@ from sunwidget.film.writer import (
     is_sequence,
     longest_side,
     size_for,
-    told,
     whole_film,
+    with_progress,
     writer,
 )
 from sunwidget.geometry.place import Place
@@ -195,7 +195,7 @@ def timelapse(
                 ahead(_drawn(prepared, steps, scenes.daylight, size, broken))
             ) as pictures,
         ):
-            row = told(pictures, count, drawing)
+            row = with_progress(pictures, count, drawing)
             write(row, unfinished, Film(size, fps, count, loop, quality))
         return place_out.parent if is_sequence(place_out) else place_out
 
