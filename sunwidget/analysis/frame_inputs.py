@@ -48,7 +48,7 @@ def _cache_per_scene(find: Callable[[Scene], T]) -> Callable[[Scene], T]:
 def uniforms(scene: Scene) -> dict[str, Any]:
     """Return the frame graph's scene uniforms by name: floats and tuples of floats."""
     small, sky = scene.working, scene.small_sky
-    blot = 0.0 if scene.sun is None else float(scene.sun.blot.mean())
+    sun_mask = 0.0 if scene.sun is None else float(scene.sun.blot.mean())
     share = float(sky.mean())
     logs = np.log2(np.maximum(scene.without_sun.working.luminance, _SHADOW))
     own = color_transfer.statistics_of_lab(small.lab, sky)
@@ -64,7 +64,7 @@ def uniforms(scene: Scene) -> dict[str, Any]:
         "sky_share": share,
         "photo_key": float(logs.mean()),
         "photo_sky_key": float((logs * sky).sum() / max(float(sky.sum()), 1e-6)),
-        "sun_mask_share": min(1.0, blot / max(share, 1 / sky.size)),
+        "sun_mask_share": min(1.0, sun_mask / max(share, 1 / sky.size)),
         "photo_sky_mean": own.mean,
         "photo_sky_deviation": own.deviation,
         "photo_sky_linear_mean": _weighted_mean(small.linear, sky),

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, sun_at, turned
+from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, sun_at, wrap_angle
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -107,7 +107,7 @@ def _facing(place: Place, azimuth: float) -> Place:
     north = place.replace(heading=0.0)
     true = sun_at(north).azimuth
     assert true is not None
-    return place.replace(heading=round(turned(true - azimuth) % 360, 4) % 360)
+    return place.replace(heading=round(wrap_angle(true - azimuth) % 360, 4) % 360)
 
 
 def _crossings(hours: np.ndarray, heights: np.ndarray, level: float) -> list[float]:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from sunwidget.analysis.backdrop.backdrop import Backdrop, behind_sun
-from sunwidget.analysis.backdrop.erase import Erased, before_land, erase, unerased
+from sunwidget.analysis.backdrop.erase import Erased, erase, erase_nothing, find_glare_on_land
 from sunwidget.analysis.clouds import clouds as cloud_stage
 from sunwidget.analysis.clouds.clouds import Clouds
 from sunwidget.analysis.clouds.cover import unmix_clouds
@@ -36,7 +36,7 @@ from sunwidget.analysis.segmentation import matting, refine
 from sunwidget.analysis.sun import sun as sun_stage
 from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
 from sunwidget.analysis.sun.search import Peak
-from sunwidget.analysis.sun.sun import Blot, SunObservation
+from sunwidget.analysis.sun.sun import SunMask, SunObservation
 from sunwidget.analysis.water import water as water_stage
 from sunwidget.errors import AnalysisError
 from sunwidget.formats.pixels import size_within
@@ -119,23 +119,23 @@ def complete(
     maps = look_for_sun(working)
     searched = seed is None and not hints.sun_outside
     peak = sun_stage.find(working, maps, sky) if searched else None
-    blot = sun_blot(working, sky, seed or peak, camera.focal / zoom_y, hints.method("sun"))
-    if blot is not None and ours:
+    sun_mask = grow_sun_mask(working, sky, seed or peak, camera.focal / zoom_y, hints.method("sun"))
+    if sun_mask is not None and ours:
         # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
         least = 0.6 if peak is None else 0.25
-        disc = sun_stage.in_sky(blot, sky, working.encoded, least)
+        disc = sun_stage.in_sky(sun_mask, sky, working.encoded, least)
         sky = np.maximum(sky, disc)
         raise_to(matte, disc, working.zoom)
-        foot = sun_stage.foot(blot, sky)
+        foot = sun_stage.find_land_glare(sun_mask, sky)
         sky = sky * (1 - foot)
         take_from(matte, foot, working.zoom)
 
-    if peak is not None and blot is not None and _lens_unknown(photo, hints):
-        lens = sun_stage.field_of_view_of(blot, peak, working, camera.fov_vertical_deg)
+    if peak is not None and sun_mask is not None and _lens_unknown(photo, hints):
+        lens = sun_stage.field_of_view_of(sun_mask, peak, working, camera.fov_vertical_deg)
         camera = Camera(*photo.size, lens or camera.fov_vertical_deg)
 
     step("horizon", 0.8, "Fitting the horizon")
-    horizon = _horizon(working, sky, maps, hints, photo.width, seed, blot)
+    horizon = _horizon(working, sky, maps, hints, photo.width, seed, sun_mask)
     camera = Camera.from_horizon(
         *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll
     )
@@ -145,19 +145,19 @@ def complete(
         # Water that mirrors the sky is not sky.
         sky = sky * horizon_stage.above(camera, *sky.shape[::-1])
         horizon_stage.cut_below(matte, camera)
-    sun = sun_stage.observe(seed, blot, sky, camera, working, peak)
+    sun = sun_stage.observe(seed, sun_mask, sky, camera, working, peak)
     moon = None if sun is not None else sun_stage.find_moon(working, sky)
     light = sun
     if moon is not None:
         # The light of a night is its moon: the fit looks round it as it does round a sun by day.
         seed = moon[0] * working.width, moon[1] * working.height
-        blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
-        light = sun_stage.observe(seed, blot, sky, camera, working)
+        sun_mask = grow_sun_mask(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
+        light = sun_stage.observe(seed, sun_mask, sky, camera, working)
 
-    erased = erased_for(working, maps, sky, light, blot)
+    erased = erased_for(working, maps, sky, light, sun_mask)
 
     step("clouds", 0.81, "Finding clouds")
-    covers = clouds_by_colour(erased.working, sky, hints, None if blot is None else blot.mask)
+    covers = clouds_by_colour(erased.working, sky, hints, sun_mask and sun_mask.mask)
 
     step("fit", 0.82, "Fitting the atmosphere")
     small_horizon = horizon.scaled(1 / zoom_x, 1 / zoom_y)
@@ -211,16 +211,16 @@ def _cut_out(base: Segmentation, step: Steps) -> tuple[np.ndarray, np.ndarray]:
     return sky, matte
 
 
-def sun_blot(
+def grow_sun_mask(
     working: Working, sky: np.ndarray, seed: Point | Peak | None, focal: float, method: str
-) -> Blot | None:
-    """Grow the blot of the hinted or found sun; None when none is in the frame."""
+) -> SunMask | None:
+    """Grow the mask of the hinted or detected sun; return None if it is outside the frame."""
     if seed is None or not (0 <= seed[0] < working.width and 0 <= seed[1] < working.height):
         return None
-    blot = sun_stage.METHODS[method](working, sky, seed[0], seed[1], focal)
+    sun_mask = sun_stage.METHODS[method](working, sky, seed[0], seed[1], focal)
     if isinstance(seed, Peak) and method != "flood_fill":  # the thesis' way stays as it is
-        return sun_stage.settled(blot, seed)
-    return blot
+        return sun_stage.limit_to_peak(sun_mask, seed)
+    return sun_mask
 
 
 def _lens_unknown(photo: Photo, hints: Hints) -> bool:
@@ -232,7 +232,7 @@ def erased_for(
     maps: SunMaps,
     sky: np.ndarray,
     light: SunObservation | None,
-    blot: Blot | None = None,
+    sun_mask: SunMask | None = None,
 ) -> Erased:
     """Return the photo without the sun or moon that it shows; as it is where it shows none.
 
@@ -240,11 +240,11 @@ def erased_for(
     """
     if light is not None and light.visible:
         return erase(working, maps, sky, light)
-    if light is None or blot is None or not blot.mask.any():
-        return unerased(working)
-    radius = blot.radius * working.zoom[1]
-    through = dataclasses.replace(light, blot=blot.mask, radius_px=radius)
-    return unerased(working)._replace(on_land=before_land(working, maps, sky, through))
+    if light is None or sun_mask is None or not sun_mask.mask.any():
+        return erase_nothing(working)
+    radius = sun_mask.radius * working.zoom[1]
+    through = dataclasses.replace(light, blot=sun_mask.mask, radius_px=radius)
+    return erase_nothing(working)._replace(on_land=find_glare_on_land(working, maps, sky, through))
 
 
 def _horizon(
@@ -254,7 +254,7 @@ def _horizon(
     hints: Hints,
     width: int,
     seed: Point | None,
-    blot: Blot | None,
+    sun_mask: SunMask | None,
 ) -> Horizon:
     """Return the hinted horizon, or the found one below the sun that is seen; in photo's pixels.
 
@@ -269,10 +269,10 @@ def _horizon(
         row = look_at_land(working).horizon * working.height
         found = horizon_stage.expected(found, sky, row)
     found = found.scaled(*working.zoom)
-    if blot is None or (seed is not None and found.confidence >= SURE_HORIZON):
+    if sun_mask is None or (seed is not None and found.confidence >= SURE_HORIZON):
         return found
-    (x, y), (zoom_x, zoom_y) = seed or (blot.x, blot.y), working.zoom
-    return horizon_stage.below_sun(found, x * zoom_x, y * zoom_y, blot.radius * zoom_y, width)
+    (x, y), (zoom_x, zoom_y) = seed or (sun_mask.x, sun_mask.y), working.zoom
+    return horizon_stage.below_sun(found, x * zoom_x, y * zoom_y, sun_mask.radius * zoom_y, width)
 
 
 def _water(

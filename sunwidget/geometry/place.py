@@ -14,7 +14,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sunwidget.messages import shown
+from sunwidget.messages import short_repr
 
 if TYPE_CHECKING:
     import numpy as np
@@ -71,7 +71,8 @@ class Place:
         names = [field.name for field in dataclasses.fields(cls)]
         if not isinstance(values, dict) or not set(names[:4]) <= values.keys() <= set(names):
             raise ValueError(
-                f"place needs {', '.join(names[:4])} and may have {names[4]}, not {shown(values)}."
+                f"place needs {', '.join(names[:4])} and may have {names[4]}, "
+                f"not {short_repr(values)}."
             )
         return cls(**values)
 
@@ -140,7 +141,7 @@ def sun_at(place: Place) -> SunOfDay:
     hours = hours_of_day(place)
     azimuth, elevation = sun_on_path(table, hours)
     true = float(np.interp(hours, table[:, 0], table[:, 3]))
-    relative = None if place.heading is None else turned(azimuth - place.heading)
+    relative = None if place.heading is None else wrap_angle(azimuth - place.heading)
     return SunOfDay(relative, min(max(elevation, _LOWEST), _HIGHEST), true)
 
 
@@ -177,7 +178,7 @@ def clock_hours(value: float | str) -> float:
     return hours
 
 
-def turned(degrees: float) -> float:
+def wrap_angle(degrees: float) -> float:
     """Return an angle from −180 up to 180."""
     return (degrees + 180) % 360 - 180
 
@@ -210,7 +211,7 @@ def _number(name: str, value: Any, high: float, low: float | None = None) -> flo
         number = math.nan
     if not least <= number <= high:
         raise ValueError(
-            f"place: {name} must be a number from {least:g} to {high:g}, not {shown(value)}."
+            f"place: {name} must be a number from {least:g} to {high:g}, not {short_repr(value)}."
         )
     return number
 
@@ -224,5 +225,5 @@ def _day(value: Any) -> str:
         day = None
     # Years that a count of nanoseconds reaches (pandas), with a day to spare.
     if day is None or not 1700 <= day.year <= 2200:
-        raise ValueError(f"place: date must be a day as YYYY-MM-DD, not {shown(value)}.")
+        raise ValueError(f"place: date must be a day as YYYY-MM-DD, not {short_repr(value)}.")
     return day.isoformat()

@@ -35,7 +35,7 @@ class LandMaps(NamedTuple):
     facing : (h/2, w/2) float32
         Cosine between the normal and the photo's sun, [0, 1], where that lights the surface.
     transfer : (h/2, w/2, 12) float32
-        Shares of the functions of ``of_suns``: what of any sun's light falls on the surface.
+        Shares of the functions of ``sun_basis``: what of any sun's light falls on the surface.
     water : (h/2, w/2) float32
         Probability of water.
     horizon : float
@@ -55,7 +55,7 @@ class LandMaps(NamedTuple):
     sun: np.ndarray
 
 
-def of_suns(direction: np.ndarray) -> np.ndarray:
+def sun_basis(direction: np.ndarray) -> np.ndarray:
     """Return the functions of suns' directions by which light on land is told.
 
     Parameters

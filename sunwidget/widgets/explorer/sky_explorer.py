@@ -24,7 +24,7 @@ from sunwidget.widgets.kernel.front_end import front_end
 from sunwidget.widgets.kernel.output import with_picture
 from sunwidget.widgets.kernel.requests import Action, Requests
 from sunwidget.widgets.page.framed import StaticPage
-from sunwidget.widgets.page.standalone import explorer_page, written_page
+from sunwidget.widgets.page.standalone import explorer_page, write_page
 
 if TYPE_CHECKING:
     import numpy as np
@@ -158,7 +158,7 @@ class SkyExplorer(SunFollower, ExplorerAir):
         OSError
             When the folder is missing or the disk full; no half-written file is left.
         """
-        return written_page(lambda: explorer_page(self, title=title), path, overwrite=overwrite)
+        return write_page(lambda: explorer_page(self, title=title), path, overwrite=overwrite)
 
     def render_static(self, *, title: str = "Sky explorer") -> StaticPage:
         """Return the page of ``to_html`` as a cell's output: live without a kernel.

@@ -83,7 +83,7 @@ def to_html(
     >>> sw.to_html(scene, sw.Edit(sun_elevation=3), "evening.html")
     """
     start = edit_of(edit)
-    return written_page(
+    return write_page(
         lambda: editor_page(checked_scene(scene), start, session=uuid.uuid4().hex, title=title),
         path,
         overwrite=overwrite,
@@ -180,7 +180,7 @@ def still_of(photo: Photo, render: Callable[..., np.ndarray]) -> Still:
     return Still(_jpeg(picture), (picture.shape[1], picture.shape[0]), text)
 
 
-def written_page(
+def write_page(
     make: Callable[[], str], path: str | os.PathLike[str] | None, *, overwrite: bool
 ) -> Path | str:
     """Return the page that ``make`` makes, or write it to ``path``, whole or not at all.
