@@ -108,8 +108,8 @@ def _about_sky(photo: Photo, share: float, rejected_share: float) -> Notice | No
             "was rejected as unlikely.",
             "If it is sky, draw a sky stroke over it.",
             "sky",
-            f"A patch ({100 * rejected_share:.1f} % of the picture) looks like sky but was rejected "
-            "as unlikely. If it is sky, paint over it.",
+            f"A patch ({100 * rejected_share:.1f} % of the picture) looks like sky but was "
+            "rejected as unlikely. If it is sky, paint over it.",
             "If it is sky, pass --sky network, which skips this check, or a mask: --sky MASK.png.",
         )
     if share < NO_SKY:
