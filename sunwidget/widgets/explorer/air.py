@@ -64,7 +64,7 @@ class ExplorerAir(ExplorerParameters):
 
     @property
     def visibility(self) -> float:
-        """Meteorological visibility at sea level in meters; settable."""
+        """Meteorological visibility at sea level in metres; settable."""
         return self._air().visibility
 
     @visibility.setter

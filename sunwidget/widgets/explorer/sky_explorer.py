@@ -47,7 +47,7 @@ class SkyExplorer(SunFollower, ExplorerAir):
         Ratio of the optical depth with haze to that of air alone, at 550 nm; sets
         ``aerosol_optical_depth``.
     visibility : float, optional
-        Meteorological visibility in meters; sets ``aerosol_optical_depth``.
+        Meteorological visibility in metres; sets ``aerosol_optical_depth``.
     **parameters
         Any row of the table, which overrides ``atmosphere``.
 

@@ -304,7 +304,7 @@ def test_a_network_of_enormous_pictures_is_refused_before_one_is_made(tmp_path):
     nodes = [onnx.node("Identity", ["a"], ["out"])]
     entries, outputs = [("a", F4, (1, 3, 200_000, 200_000))], [("out", F4, ("b", "c", "h", "w"))]
     path = onnx.write(tmp_path / "enormous.onnx", nodes, {}, entries, outputs)
-    with pytest.raises(AnalysisError, match="at most 4096 pixels a side"):
+    with pytest.raises(AnalysisError, match="at most 4096 pixels per side"):
         found(path)
 
 
