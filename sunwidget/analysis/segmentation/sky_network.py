@@ -112,7 +112,7 @@ class SkyNetwork:
         return sky_of(values, label_of(self.label, values, opened.class_names(), str(self.path)))
 
     def open(self) -> Opened:
-        """Open the file and read the properties of its input."""
+        """Return the opened file with the properties of its input."""
         return Opened.of(self.path, self.layout, self.size)
 
     def arrange(self, picture: np.ndarray) -> np.ndarray:

@@ -72,7 +72,7 @@ class ExplorerAir(ExplorerParameters):
         self._set_haze("visibility", value)
 
     def preset(self, name: str) -> None:
-        """Set the air to a preset of ``sunwidget.atmosphere.presets.PRESETS``, in one step.
+        """Set the air to the preset ``name`` of ``atmosphere.presets.PRESETS``, in one step.
 
         Raises
         ------
