@@ -107,7 +107,7 @@ def entry(name: str) -> Iterator[str]:
         plain = {name: value for name, value in found.items() if not callable_on(value)}
         if plain:
             yield "*Properties*\n"
-            yield "\n".join(told(name, value) for name, value in plain.items()) + "\n"
+            yield "\n".join(format_property(name, value) for name, value in plain.items()) + "\n"
         for member, what in found.items():
             if member not in plain:
                 yield f"#### {name}.{member}\n"
@@ -145,7 +145,7 @@ def callable_on(value: Any) -> bool:
     return inspect.isfunction(value) or isinstance(value, (classmethod, staticmethod))
 
 
-def told(name: str, value: Any) -> str:
+def format_property(name: str, value: Any) -> str:
     """Return a property as one entry of a list."""
     text = " ".join((inspect.getdoc(unwrapped(value)) or "").split())
     return f"- `{name}`. {prose(text)}"

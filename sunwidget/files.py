@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from sunwidget.messages import shown
+from sunwidget.messages import short_repr
 
 # Reason and remedy by error number, for messages.
 _OBSTACLES = {
@@ -96,9 +96,9 @@ def complete_or_absent(path: Path, *, overwrite: bool) -> Iterator[Path]:
     FileExistsError
         When ``path`` was created meanwhile and ``overwrite`` is false.
     NotWrittenError
-        As ``explained``.
+        As ``explain_write_errors``.
     """
-    with explained(path):
+    with explain_write_errors(path):
         handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=".sunwidget-", dir=path.parent)
         os.close(handle)
         unfinished = Path(name)
@@ -119,7 +119,7 @@ def complete_or_absent(path: Path, *, overwrite: bool) -> Iterator[Path]:
 
 
 @contextlib.contextmanager
-def explained(path: Path) -> Iterator[None]:
+def explain_write_errors(path: Path) -> Iterator[None]:
     """Replace the system's errors about writing ``path`` by errors with a remedy.
 
     Raises
@@ -155,7 +155,7 @@ def _named(path: Any) -> Iterator[None]:
     except (TypeError, ValueError, RuntimeError, OSError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         name = os.fspath(path) if isinstance(path, os.PathLike) else path
-        raise NotWrittenError(f"No file can have the name {shown(name)}: {reason}.") from error
+        raise NotWrittenError(f"No file can have the name {short_repr(name)}: {reason}.") from error
 
 
 def _first_closed(path: Any) -> Path:

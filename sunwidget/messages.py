@@ -10,7 +10,7 @@ from typing import Any
 _READABLE = 1e6  # whole numbers below this are written without a decimal point
 
 
-def shown(value: Any, most: int = 80) -> str:
+def short_repr(value: Any, most: int = 80) -> str:
     """Return the first characters of a value's ``repr`` for a message; never raises."""
     try:
         return repr(value)[:most]

@@ -15,7 +15,7 @@ from sunwidget.analysis.scene import checked_scene
 from sunwidget.edit.recipe import edit_of
 from sunwidget.edit.table import Edit
 from sunwidget.errors import EditError
-from sunwidget.messages import did_you_mean, shown
+from sunwidget.messages import did_you_mean, short_repr
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -97,7 +97,7 @@ def find(name: str) -> Preset:
     spelled = name[:80].strip().lower() if isinstance(name, str) else ""
     spelled = spelled.replace(" ", "_").replace("-", "_")
     hint = did_you_mean(spelled, NAMES, f"There are {', '.join(NAMES)}.")
-    raise EditError(f"Unknown preset {shown(name)}.{hint}")
+    raise EditError(f"Unknown preset {short_repr(name)}.{hint}")
 
 
 def azimuth(preset: Preset, scene: Scene) -> float:

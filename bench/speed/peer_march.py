@@ -73,7 +73,7 @@ def rows(effort: Effort) -> Rows:
         effort.runs,
         max(1, effort.runs // 4),
     )
-    accuracy = told_error(graph, peer, rays)
+    accuracy = describe_error(graph, peer, rays)
     yield beside(
         "march as a shader",
         f"sky {width}×{height} for a new sun, beside a march in a shader",
@@ -121,7 +121,7 @@ def in_numpy(rays: Rays, effort: Effort) -> tuple[float, Times]:
     return len(mu) / total, times
 
 
-def told_error(graph: Passes, peer: Shader, rays: Rays) -> str:
+def describe_error(graph: Passes, peer: Shader, rays: Rays) -> str:
     """Say how far both are from the truth that they claim, and what one order leaves out."""
     shape = rays.elevation.shape
     random = np.random.default_rng(3)

@@ -26,10 +26,10 @@ def rows(_effort: Effort) -> Rows:
             page_of_widgets(browser, folder, ROOT, failed=failed) as page,
         ):
             save(page)
-        yield from told("JupyterLab", megabytes(folder / "cells.ipynb"))
-        yield from told("nbclient", megabytes(run_by_nbclient(folder)))
+        yield from size_rows("JupyterLab", megabytes(folder / "cells.ipynb"))
+        yield from size_rows("nbclient", megabytes(run_by_nbclient(folder)))
 
 
-def told(host: str, sizes: dict[str, float]) -> Rows:
+def size_rows(host: str, sizes: dict[str, float]) -> Rows:
     for name, size in sizes.items():
         yield Row(f"saved by {host}, {name}", f"a notebook saved by {host}: {name}", size, "MB")

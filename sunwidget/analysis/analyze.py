@@ -122,11 +122,11 @@ def analyze(
         coarse = coarse_sky.coarse(working, sky, photo.size, sky_label)
         step("refine", 0.4, "Following the skyline")
         decision = METHODS["refine"][refine](working, coarse)
-    doubted = 0.0
+    rejected_share = 0.0
     if sky is None:  # a sky that the caller chose is never rejected
         believed = np.float32(plausible(decision.sky, coarse, working))
         kept = believed * patches.settle(decision.sky, coarse, working)
-        doubted = float(np.mean((decision.sky > 0.5) & (kept <= 0.5)))
+        rejected_share = float(np.mean((decision.sky > 0.5) & (kept <= 0.5)))
         decision = decision._replace(sky=kept)
-    segmentation = Segmentation(photo, working, coarse, decision, doubted)
+    segmentation = Segmentation(photo, working, coarse, decision, rejected_share)
     return apply_strokes(complete(segmentation, hints, step), strokes)

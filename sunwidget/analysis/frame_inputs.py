@@ -32,23 +32,23 @@ _SHADOW = 2.0**-7  # display-linear luminance at which a picture's key stops fal
 
 
 def _cache_per_scene(find: Callable[[Scene], T]) -> Callable[[Scene], T]:
-    """Cache a result per scene, since all strips of a picture and all strokes' answers use it."""
-    kept: WeakKeyDictionary[Scene, T] = WeakKeyDictionary()
+    """Cache a result per scene, since all strips of a picture and all strokes use it."""
+    results: WeakKeyDictionary[Scene, T] = WeakKeyDictionary()
 
     @functools.wraps(find)
-    def found(scene: Scene) -> T:
-        if scene not in kept:
-            kept[scene] = find(scene)
-        return kept[scene]
+    def find_once(scene: Scene) -> T:
+        if scene not in results:
+            results[scene] = find(scene)
+        return results[scene]
 
-    return found
+    return find_once
 
 
 @_cache_per_scene
 def uniforms(scene: Scene) -> dict[str, Any]:
     """Return the frame graph's scene uniforms by name: floats and tuples of floats."""
     small, sky = scene.working, scene.small_sky
-    blot = 0.0 if scene.sun is None else float(scene.sun.blot.mean())
+    sun_share = 0.0 if scene.sun is None else float(scene.sun.blot.mean())
     share = float(sky.mean())
     logs = np.log2(np.maximum(scene.without_sun.working.luminance, _SHADOW))
     own = color_transfer.statistics_of_lab(small.lab, sky)
@@ -64,7 +64,7 @@ def uniforms(scene: Scene) -> dict[str, Any]:
         "sky_share": share,
         "photo_key": float(logs.mean()),
         "photo_sky_key": float((logs * sky).sum() / max(float(sky.sum()), 1e-6)),
-        "sun_mask_share": min(1.0, blot / max(share, 1 / sky.size)),
+        "sun_mask_share": min(1.0, sun_share / max(share, 1 / sky.size)),
         "photo_sky_mean": own.mean,
         "photo_sky_deviation": own.deviation,
         "photo_sky_linear_mean": _weighted_mean(small.linear, sky),
@@ -171,7 +171,7 @@ _READ: dict[str, Callable[[Scene, Size], np.ndarray]] = {
 }
 
 TEXTURES = tuple(_READ)
-"""The scene textures that the analysis makes; the photo is another one."""
+"""The scene textures that the analysis provides, in addition to the photo."""
 
 
 def texture(scene: Scene, name: str, size: Size) -> NDArray[np.uint8]:

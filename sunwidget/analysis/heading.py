@@ -1,8 +1,8 @@
-"""Which way a camera looked, by the sun in its photo.
+"""A camera's heading, derived from the sun in its photo.
 
-The photo's sun was found at an azimuth a from the camera's axis; time and place give its true
-azimuth A. The heading is A − a. What is left over, the difference of the elevations, checks
-time and place: it is large when the clock or its zone is wrong.
+The photo's sun was detected at azimuth a from the camera's axis; time and place give its true
+azimuth A. The heading is A − a. The difference of the elevations checks time and place: it is
+large if the clock or its time zone is wrong.
 """
 
 from __future__ import annotations
@@ -12,31 +12,31 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, sun_at, turned
+from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, sun_at, wrap_angle
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
 
 AGREES = 3.0
-"""Degrees that the elevations may differ by: horizon and field of view are known no better."""
+"""Largest difference of the elevations in degrees: the accuracy of horizon and field of view."""
 
 
 class HeadingMatch(NamedTuple):
-    """A heading by the photo's sun, and what speaks for it.
+    """A heading from the photo's sun, and the evidence for it.
 
     Attributes
     ----------
     place : Place
-        The place that was asked about, with its heading.
+        The requested place, with its heading.
     mismatch : float
-        Degrees that the photo's sun stands higher than the time puts it (apparent elevation).
+        Apparent elevation of the photo's sun minus that at the place's time, in degrees.
     agreeing : tuple of Place
-        The times of that day at which the elevations agree, each with its own heading, the
-        nearest first; none when the sun does not reach the photo's elevation that day.
+        The place at the times of that day at which the elevations agree, each with the matching
+        heading, nearest first; empty if the sun does not reach the photo's elevation that day.
     seen : bool
-        Whether the photo shows its sun; otherwise the heading is as much a guess as its place.
+        Whether the photo shows its sun; otherwise sun position and heading are guesses.
     note : str
-        All that in words.
+        The result in words.
     """
 
     place: Place
@@ -52,26 +52,26 @@ class HeadingMatch(NamedTuple):
 
 
 def heading_by_sun(scene: Scene, place: Place) -> HeadingMatch:
-    """Return the heading at which the photo's own sun stands where time and place put it.
+    """Return the heading that places the photo's sun where it stood at the given time and place.
 
     Parameters
     ----------
     scene : Scene
         The analysed photo.
     place : Place
-        Where and when the photo was taken; its heading is not looked at.
+        Where and when the photo was taken; its heading is ignored.
 
     Raises
     ------
     ValueError
-        When the photo shows the moon: the sun's path says nothing about it.
+        If the photo shows the moon, for which the sun's path is no evidence.
     ImportError
-        Without pvlib; the message names the extra that brings it.
+        Without pvlib; the message names the extra that installs it.
     """
     if scene.lit_by_moon:
         raise ValueError(
-            "The photo shows the moon, and a heading is found by the sun. Give the heading, "
-            "degrees clockwise from north."
+            "The photo shows the moon, but a heading can only be derived from the sun. Give the "
+            "heading, degrees clockwise from north."
         )
     found = scene.automatic
     seen = scene.sun is not None and scene.sun.visible
@@ -81,13 +81,13 @@ def heading_by_sun(scene: Scene, place: Place) -> HeadingMatch:
 def match(place: Place, azimuth: float, elevation: float, *, seen: bool = True) -> HeadingMatch:
     """Return the heading for a sun seen at ``azimuth`` from the camera's axis, in degrees.
 
-    ``elevation`` is the apparent one. The rest as ``heading_by_sun``.
+    ``elevation`` is apparent; everything else is as in ``heading_by_sun``.
     """
-    here = _facing(place, azimuth)
+    here = _with_heading(place, azimuth)
     mismatch = elevation - sun_at(here).elevation
     table, now = day_table(place), hours_of_day(place)
     times = sorted(_crossings(table[:, 0], table[:, 2], elevation), key=lambda h: abs(h - now))
-    agreeing = tuple(_facing(at_hours(place, hours), azimuth) for hours in times)
+    agreeing = tuple(_with_heading(at_hours(place, hours), azimuth) for hours in times)
     note = _note(here, mismatch, [(hours - now) for hours in times], agreeing, elevation)
     if not seen:
         note = (
@@ -103,15 +103,15 @@ def clock(hours: float) -> str:
     return f"{minutes // 60:02d}:{minutes % 60:02d}"
 
 
-def _facing(place: Place, azimuth: float) -> Place:
+def _with_heading(place: Place, azimuth: float) -> Place:
     north = place.replace(heading=0.0)
     true = sun_at(north).azimuth
     assert true is not None
-    return place.replace(heading=round(turned(true - azimuth) % 360, 4) % 360)
+    return place.replace(heading=round(wrap_angle(true - azimuth) % 360, 4) % 360)
 
 
 def _crossings(hours: np.ndarray, heights: np.ndarray, level: float) -> list[float]:
-    """Hours at which the elevation passes a level, between the rows of the table."""
+    """Return the hours at which the elevation passes a level, interpolated between rows."""
     above = heights - level
     found = []
     for i in np.flatnonzero(above[:-1] * above[1:] < 0):
@@ -136,7 +136,7 @@ def _note(
 
 
 def _shift(hours: float) -> str:
-    """Say whether a difference is one of time zones, which come in whole hours."""
+    """Describe a difference of nearly whole hours, as between time zones; else return ""."""
     whole = round(hours)
     if whole == 0 or abs(hours - whole) > 0.2:
         return ""

@@ -57,19 +57,19 @@ def notices(
     horizon: Horizon,
     camera: Camera,
     hints: Hints,
-    doubted: float = 0.0,
+    rejected_share: float = 0.0,
     moon: Point | None = None,
     fit: SkyFit | None = None,
 ) -> tuple[Notice, ...]:
     """Return a notice for each uncertain result.
 
-    ``sky`` is the matte at working size, ``doubted`` the share of the picture that was rejected
-    as sky (plausible.py), ``moon`` the position of a detected moon in fractions of the picture,
-    ``fit`` the fit to the sky.
+    ``sky`` is the matte at working size, ``rejected_share`` the share of the picture that was
+    rejected as sky (plausible.py), ``moon`` the position of a detected moon in fractions of the
+    picture, ``fit`` the fit to the sky.
     """
     share = float(np.mean(sky > 0.5))
     notes = [
-        _about_sky(photo, share, doubted),
+        _about_sky(photo, share, rejected_share),
         _about_sun(photo, sun, camera, hints, moon, fit),
         _about_air(photo, share, sun, fit),
         _about_horizon(photo, sky, horizon, camera),
@@ -91,25 +91,25 @@ def notices(
     return tuple(note for note in notes if note is not None)
 
 
-def _about_sky(photo: Photo, share: float, doubted: float) -> Notice | None:
-    if share < NO_SKY and doubted > NO_SKY:
+def _about_sky(photo: Photo, share: float, rejected_share: float) -> Notice | None:
+    if share < NO_SKY and rejected_share > NO_SKY:
         return _notice(
             f"No sky found in {photo.name}: an area that looks slightly like sky "
-            f"({100 * doubted:.0f} % of pixels) is more likely a wall or ceiling.",
+            f"({100 * rejected_share:.0f} % of pixels) is more likely a wall or ceiling.",
             "If it is sky, draw a sky stroke or pass sky='network', which skips this check.",
             "sky",
             "No sky was found: an area that looks slightly like sky is more likely a wall or "
             "ceiling. If it is sky, paint over it.",
             "If it is sky, pass --sky network, which skips this check, or a mask: --sky MASK.png.",
         )
-    if doubted > NO_SKY:
+    if rejected_share > NO_SKY:
         return _notice(
-            f"A patch of {photo.name} ({100 * doubted:.1f} % of pixels) looks like sky but was "
-            "rejected as unlikely.",
+            f"A patch of {photo.name} ({100 * rejected_share:.1f} % of pixels) looks like sky but "
+            "was rejected as unlikely.",
             "If it is sky, draw a sky stroke over it.",
             "sky",
-            f"A patch ({100 * doubted:.1f} % of the picture) looks like sky but was rejected as "
-            "unlikely. If it is sky, paint over it.",
+            f"A patch ({100 * rejected_share:.1f} % of the picture) looks like sky but was "
+            "rejected as unlikely. If it is sky, paint over it.",
             "If it is sky, pass --sky network, which skips this check, or a mask: --sky MASK.png.",
         )
     if share < NO_SKY:

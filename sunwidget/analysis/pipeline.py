@@ -1,7 +1,7 @@
-"""The stages of the analysis after the decision sky or land, one function each.
+"""The stages of the analysis after the decision between sky and land, one function each.
 
 Order: matte → sun → horizon → camera → clouds (minus sun) → atmosphere fit → water; depth is
-found when it is asked for. All but the final matte work on a copy of at most 1024 px (``Working``).
+computed on request. All but the final matte work on a copy of at most 1024 px (``Working``).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from sunwidget.analysis.backdrop.backdrop import Backdrop, behind_sun
-from sunwidget.analysis.backdrop.erase import Erased, before_land, erase, unerased
+from sunwidget.analysis.backdrop.erase import Erased, erase, erase_nothing, find_glare_on_land
 from sunwidget.analysis.clouds import clouds as cloud_stage
 from sunwidget.analysis.clouds.clouds import Clouds
 from sunwidget.analysis.clouds.cover import unmix_clouds
@@ -36,7 +36,7 @@ from sunwidget.analysis.segmentation import matting, refine
 from sunwidget.analysis.sun import sun as sun_stage
 from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
 from sunwidget.analysis.sun.search import Peak
-from sunwidget.analysis.sun.sun import Blot, SunObservation
+from sunwidget.analysis.sun.sun import SunMask, SunObservation
 from sunwidget.analysis.water import water as water_stage
 from sunwidget.errors import AnalysisError
 from sunwidget.formats.pixels import size_within
@@ -45,7 +45,7 @@ from sunwidget.photo.photo import Photo
 from sunwidget.progress import Progress
 
 FIT_SIDE = 384
-SURE_HORIZON = 0.68  # confidence from which nothing below the horizon can be sky
+SURE_HORIZON = 0.68  # least confidence at which nothing below the horizon can be sky
 
 METHODS: dict[str, dict[str, Callable[..., Any]]] = {
     "refine": refine.METHODS,
@@ -67,7 +67,7 @@ def check_method(stage: str, name: Any) -> None:
 
 
 class Steps:
-    """Times the stages and tells the caller about them."""
+    """Times the stages and reports them to the caller."""
 
     def __init__(self, progress: Progress | None) -> None:
         self.progress = progress
@@ -86,21 +86,21 @@ class Steps:
             self.progress(fraction, message)
 
     def within(self, fraction: float) -> None:
-        """Tell how far a long stage is, so that the caller may cancel it there."""
+        """Report the progress of a long stage; the caller can cancel it there."""
         if self.progress is not None:
             self.progress(fraction, self._message)
 
     def between(self, first: float, last: float) -> Callable[[float], None]:
-        """Return what a part of the work tells its share done, 0 to 1, from first to last."""
+        """Return a callback that maps a part's progress, 0 to 1, to the range first to last."""
         return lambda share: self.within(first + (last - first) * share)
 
 
 def complete(
     base: Segmentation, hints: Hints, step: Steps | None = None, matte: np.ndarray | None = None
 ) -> Scene:
-    """Run every stage after the decision sky or land, and return the scene.
+    """Run every stage after the decision between sky and land, and return the scene.
 
-    A ``matte`` (H, W) that is given, as a person's strokes made it, is not changed any more.
+    A given ``matte`` (H, W), such as one edited by strokes, is not changed.
     """
     step = step or Steps(None)
     photo, working = base.photo, base.working
@@ -114,60 +114,60 @@ def complete(
     camera = Camera(*photo.size, hints.fov or photo.field_of_view.vertical)
 
     step("sun", 0.7, "Looking for the sun")
-    told = hints.sun_point
-    seed = told and (told[0] / zoom_x, told[1] / zoom_y)
+    hint = hints.sun_point
+    seed = hint and (hint[0] / zoom_x, hint[1] / zoom_y)
     maps = look_for_sun(working)
     searched = seed is None and not hints.sun_outside
     peak = sun_stage.find(working, maps, sky) if searched else None
-    blot = sun_blot(working, sky, seed or peak, camera.focal / zoom_y, hints.method("sun"))
-    if blot is not None and ours:
-        # A burnt disc looks like no sky to network and GrabCut, yet the sun is in the sky.
+    sun_mask = grow_sun_mask(working, sky, seed or peak, camera.focal / zoom_y, hints.method("sun"))
+    if sun_mask is not None and ours:
+        # Network and GrabCut reject a clipped disc as sky, yet the sun is in the sky.
         least = 0.6 if peak is None else 0.25
-        disc = sun_stage.in_sky(blot, sky, working.encoded, least)
+        disc = sun_stage.in_sky(sun_mask, sky, working.encoded, least)
         sky = np.maximum(sky, disc)
         raise_to(matte, disc, working.zoom)
-        foot = sun_stage.foot(blot, sky)
-        sky = sky * (1 - foot)
-        take_from(matte, foot, working.zoom)
+        glare = sun_stage.find_land_glare(sun_mask, sky)
+        sky = sky * (1 - glare)
+        take_from(matte, glare, working.zoom)
 
-    if peak is not None and blot is not None and _lens_unknown(photo, hints):
-        lens = sun_stage.field_of_view_of(blot, peak, working, camera.fov_vertical_deg)
+    if peak is not None and sun_mask is not None and _lens_unknown(photo, hints):
+        lens = sun_stage.field_of_view_of(sun_mask, peak, working, camera.fov_vertical_deg)
         camera = Camera(*photo.size, lens or camera.fov_vertical_deg)
 
     step("horizon", 0.8, "Fitting the horizon")
-    horizon = _horizon(working, sky, maps, hints, photo.width, seed, blot)
+    horizon = _horizon(working, sky, maps, hints, photo.width, seed, sun_mask)
     camera = Camera.from_horizon(
         *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll
     )
-    # The thesis' row may be a roof's, and sky below it is what tells.
+    # The thesis method's row may be that of a roof, with sky below it.
     seen = horizon.confidence >= SURE_HORIZON and horizon.source != "row_argmax"
     if ours and (hints.horizon is not None or seen):
-        # Water that mirrors the sky is not sky.
+        # Water that reflects the sky is not sky.
         sky = sky * horizon_stage.above(camera, *sky.shape[::-1])
         horizon_stage.cut_below(matte, camera)
-    sun = sun_stage.observe(seed, blot, sky, camera, working, peak)
+    sun = sun_stage.observe(seed, sun_mask, sky, camera, working, peak)
     moon = None if sun is not None else sun_stage.find_moon(working, sky)
     light = sun
     if moon is not None:
-        # The light of a night is its moon: the fit looks round it as it does round a sun by day.
+        # At night the moon is the light source; the fit treats it as it treats the sun by day.
         seed = moon[0] * working.width, moon[1] * working.height
-        blot = sun_blot(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
-        light = sun_stage.observe(seed, blot, sky, camera, working)
+        sun_mask = grow_sun_mask(working, sky, seed, camera.focal / zoom_y, hints.method("sun"))
+        light = sun_stage.observe(seed, sun_mask, sky, camera, working)
 
-    erased = erased_for(working, maps, sky, light, blot)
+    erased = erased_for(working, maps, sky, light, sun_mask)
 
     step("clouds", 0.81, "Finding clouds")
-    covers = clouds_by_colour(erased.working, sky, hints, None if blot is None else blot.mask)
+    covers = clouds_by_colour(erased.working, sky, hints, sun_mask and sun_mask.mask)
 
     step("fit", 0.82, "Fitting the atmosphere")
     small_horizon = horizon.scaled(1 / zoom_x, 1 / zoom_y)
-    with ThreadPoolExecutor(1) as beside:  # neither asks what the other finds
-        looked = beside.submit(_water, working, sky, small_horizon, maps, hints)
+    with ThreadPoolExecutor(1) as pool:  # the two are independent
+        water_search = pool.submit(_water, working, sky, small_horizon, maps, hints)
         fitted, behind, (cover, everywhere) = fit_atmosphere(
             working, erased, sky, covers, camera, light, hints, step
         )
         step("water", 0.95, "Looking for water")
-        water = looked.result()
+        water = water_search.result()
     scene = Scene(
         **base._asdict(),
         sky=matte,
@@ -211,16 +211,16 @@ def _cut_out(base: Segmentation, step: Steps) -> tuple[np.ndarray, np.ndarray]:
     return sky, matte
 
 
-def sun_blot(
+def grow_sun_mask(
     working: Working, sky: np.ndarray, seed: Point | Peak | None, focal: float, method: str
-) -> Blot | None:
-    """Grow the blot of the hinted or found sun; None when none is in the frame."""
+) -> SunMask | None:
+    """Grow the mask of the hinted or detected sun; return None if it is outside the frame."""
     if seed is None or not (0 <= seed[0] < working.width and 0 <= seed[1] < working.height):
         return None
-    blot = sun_stage.METHODS[method](working, sky, seed[0], seed[1], focal)
-    if isinstance(seed, Peak) and method != "flood_fill":  # the thesis' way stays as it is
-        return sun_stage.settled(blot, seed)
-    return blot
+    sun_mask = sun_stage.METHODS[method](working, sky, seed[0], seed[1], focal)
+    if isinstance(seed, Peak) and method != "flood_fill":  # the thesis method stays unchanged
+        return sun_stage.limit_to_peak(sun_mask, seed)
+    return sun_mask
 
 
 def _lens_unknown(photo: Photo, hints: Hints) -> bool:
@@ -232,19 +232,19 @@ def erased_for(
     maps: SunMaps,
     sky: np.ndarray,
     light: SunObservation | None,
-    blot: Blot | None = None,
+    sun_mask: SunMask | None = None,
 ) -> Erased:
-    """Return the photo without the sun or moon that it shows; as it is where it shows none.
+    """Return the photo without its visible sun or moon, or unchanged if it shows none.
 
-    Of one that shines through trees, where the mask knows no sky, the glare goes.
+    If the sun shines through trees, where the sky mask is empty, only its glare is removed.
     """
     if light is not None and light.visible:
         return erase(working, maps, sky, light)
-    if light is None or blot is None or not blot.mask.any():
-        return unerased(working)
-    radius = blot.radius * working.zoom[1]
-    through = dataclasses.replace(light, blot=blot.mask, radius_px=radius)
-    return unerased(working)._replace(on_land=before_land(working, maps, sky, through))
+    if light is None or sun_mask is None or not sun_mask.mask.any():
+        return erase_nothing(working)
+    radius = sun_mask.radius * working.zoom[1]
+    through = dataclasses.replace(light, blot=sun_mask.mask, radius_px=radius)
+    return erase_nothing(working)._replace(on_land=find_glare_on_land(working, maps, sky, through))
 
 
 def _horizon(
@@ -254,11 +254,11 @@ def _horizon(
     hints: Hints,
     width: int,
     seed: Point | None,
-    blot: Blot | None,
+    sun_mask: SunMask | None,
 ) -> Horizon:
-    """Return the hinted horizon, or the found one below the sun that is seen; in photo's pixels.
+    """Return the hinted horizon, or the detected one, below a visible sun; in photo pixels.
 
-    A sun that was pointed at (``seed``) says less than a horizon that is plain to see.
+    A confident horizon takes precedence over a hinted sun (``seed``).
     """
     if hints.horizon is not None:
         return horizon_stage.from_hint(hints.horizon, width)
@@ -269,16 +269,16 @@ def _horizon(
         row = look_at_land(working).horizon * working.height
         found = horizon_stage.expected(found, sky, row)
     found = found.scaled(*working.zoom)
-    if blot is None or (seed is not None and found.confidence >= SURE_HORIZON):
+    if sun_mask is None or (seed is not None and found.confidence >= SURE_HORIZON):
         return found
-    (x, y), (zoom_x, zoom_y) = seed or (blot.x, blot.y), working.zoom
-    return horizon_stage.below_sun(found, x * zoom_x, y * zoom_y, blot.radius * zoom_y, width)
+    (x, y), (zoom_x, zoom_y) = seed or (sun_mask.x, sun_mask.y), working.zoom
+    return horizon_stage.below_sun(found, x * zoom_x, y * zoom_y, sun_mask.radius * zoom_y, width)
 
 
 def _water(
     working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps, hints: Hints
 ) -> np.ndarray:
-    """Return the given or found water, (h, w) float32; a given map keeps its size."""
+    """Return the given or detected water, (h, w) float32; a given map keeps its size."""
     if hints.water is not None:
         return hints.water
     found = METHODS["water"][hints.method("water")](working, sky, horizon, maps)
@@ -288,7 +288,7 @@ def _water(
 def clouds_by_colour(
     working: Working, sky: np.ndarray, hints: Hints, sun_mask: np.ndarray | None
 ) -> tuple[Clouds, Clouds]:
-    """Return the clouds of the sky, and of the whole picture as if it were sky; minus the sun."""
+    """Return the clouds of the sky, and of the whole picture as if it were sky, without the sun."""
     find = METHODS["clouds"][hints.method("clouds")]
     everywhere = find(working, np.ones_like(sky), *hints.cloud_ratios)
     if sun_mask is not None:
@@ -306,14 +306,14 @@ def fit_atmosphere(
     hints: Hints,
     step: Steps,
 ) -> tuple[SkyFit, Backdrop, tuple[Clouds, Clouds]]:
-    """Fit the sky, look behind the sun, and un-mix the clouds from the fitted sky.
+    """Fit the sky, reconstruct it behind the sun, and un-mix the clouds from the fitted sky.
 
-    The clouds come twice: of the sky, and of the whole picture as if it were sky.
+    The clouds are returned twice: for the sky, and for the whole picture as if it were sky.
     """
     sun_angles = None if sun is None else (sun.azimuth, sun.elevation)
     visible = sun is not None and sun.visible
     unmixed = hints.method("clouds") == "unmix"
-    # A fit looks at a few hundred pixels; on a small copy they are less noisy, too.
+    # The fit uses a few hundred pixels, which are less noisy on a small copy.
     small = erased.working.shrunk(FIT_SIDE)
     small_sky = resize(sky, small.width, small.height)
     opacity = resize(covers[0].opacity, small.width, small.height)
@@ -322,7 +322,7 @@ def fit_atmosphere(
         small, small_sky, opacity, camera, sun_angles, expected, step.between(0.82, 0.87)
     )
     if unmixed:
-        # The colour of the clear sky tells the clouds, and without them it is known better.
+        # The clear sky's color reveals the clouds; without them the fit is more accurate.
         veil = cloud_stage.veil(small, small_sky, camera, fitted, sun_seen=visible)[0]
         fitted = fit_sky(
             *(small, small_sky, veil.opacity, camera, fitted.sun),
@@ -342,7 +342,7 @@ def fit_atmosphere(
 def _glare_of(
     fit: SkyFit, working: Working, erased: Erased, sky: np.ndarray, camera: Camera
 ) -> SkyFit:
-    """Return the fit with the glare that the camera put round the sun: what was erased."""
+    """Return the fit with the camera's glare around the sun, measured from the erased light."""
     size = size_within((working.width, working.height), FIT_SIDE)
     display, clean = (resize(w.linear, *size) for w in (working, erased.working))
     trusted = (resize(sky, *size) > 0.95) & (display.max(-1) < 0.95)
@@ -352,9 +352,9 @@ def _glare_of(
 
 
 def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> Scene:
-    """Return the scene with its clouds found by another method or other thresholds.
+    """Return the scene with its clouds detected by another method or other thresholds.
 
-    All else stays as it is, the fit too.
+    Everything else stays unchanged, including the fit.
     """
     working, sun = base.without_sun.working, base.sun
     sky = base.small_sky

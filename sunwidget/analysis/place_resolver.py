@@ -1,7 +1,7 @@
-"""Which place, date, time and camera heading hold for a photo: one rule for every caller.
+"""Resolve a photo's place, date, time and camera heading by one rule for every caller.
 
-Each field is the first of these that is known: what the caller gives, what the edit's place holds,
-what the photo's file records. A heading that is still unknown is found by the photo's own sun.
+Each field comes from the first of these that has it: the caller, the edit's place, the photo's
+file. A heading that is still unknown is derived from the photo's own sun.
 """
 
 from __future__ import annotations
@@ -24,32 +24,32 @@ Fields = Mapping[str, Any]
 
 
 class ResolvedPlace(NamedTuple):
-    """The place of a photo, before its camera's heading is searched for.
+    """The place of a photo, before an unknown heading is derived.
 
     Attributes
     ----------
     place : Place
-        Where and when the sun is wanted; ``heading`` is None where nothing records it.
+        Where and when the sun is requested; ``heading`` is None if nothing records it.
     taken : Place or None
-        The same place at the date and time at which the photo was taken; None where the heading
-        is known and that moment is not.
+        The same place at the date and time at which the photo was taken; None if the heading is
+        known but that moment is not.
     notes : tuple of str
-        What the photo's file leaves to a guess, and why.
+        Which values from the photo's file are guesses, and why.
     """
 
     place: Place
     taken: Place | None
     notes: tuple[str, ...]
 
-    def facing(self, scene: Scene) -> tuple[Place, HeadingMatch | None]:
-        """Return the place with its heading, and how the photo's sun gave that if it did.
+    def with_heading(self, scene: Scene) -> tuple[Place, HeadingMatch | None]:
+        """Return the place with its heading, and the match if the photo's sun gave the heading.
 
         Raises
         ------
         ValueError
-            When the photo shows the moon and the heading is unknown.
+            If the photo shows the moon and the heading is unknown.
         ImportError
-            When the heading has to be found, without pvlib.
+            Without pvlib, if the heading has to be derived.
         """
         if self.taken is None or self.place.heading is not None:
             return self.place, None
@@ -72,22 +72,21 @@ def resolve_place(
     ----------
     photo : Photo
     remedies : mapping
-        How a person provides each field of a Place, by its name: what follows "Give" in an error.
+        How a user provides each field of a Place, by name: the words after "Give" in an error.
     given : mapping, optional
-        Facts about the photo by the names of a Place's fields. None stands for unknown.
+        Facts about the photo by the names of a Place's fields. None means unknown.
     place : Place, optional
         The edit's place.
     moved_to : mapping, optional
-        The date and the time to which the sun moves. They say nothing about when the photo was
-        taken.
+        The date and time to which the sun moves. They do not indicate when the photo was taken.
     whole_day : bool, default False
-        Whether any time at which the sun is up serves where none is known.
+        If no time is known, use solar noon.
 
     Raises
     ------
     ValueError
-        When position, date or time are unknown or out of range, or the heading is unknown and so
-        is the moment at which the photo was taken. The message says how to provide them.
+        If position, date or time is unknown or out of range, or if both the heading and the time
+        at which the photo was taken are unknown. The message says how to provide them.
     """
     given, known = given or {}, vars(place) if place is not None else {}
     recorded = from_photo(photo, _first("longitude", given, known))
@@ -102,7 +101,7 @@ def resolve_place(
             f"record its {_listed(missing)}. Give {_remedy(missing, remedies)}."
         )
     resolved = Place(**values)
-    # A date or a time that somebody gives outweighs the camera's clock, and that the edit's clock.
+    # A given date or time takes precedence over the camera's clock, which precedes the edit's.
     dated = any(given.get(name) is not None for name in _MOMENT)
     sources = (given, known, file) if dated else (file, known)
     moment = {name: _first(name, *sources) for name in _MOMENT}
@@ -117,7 +116,7 @@ def resolve_place(
 
 
 def _first(name: str, *sources: Fields) -> Any:
-    """Return the first value of a field that is known."""
+    """Return the first known value of a field."""
     return next((source[name] for source in sources if source.get(name) is not None), None)
 
 

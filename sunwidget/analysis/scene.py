@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.backdrop.erase import Erased, unerased
+from sunwidget.analysis.backdrop.erase import Erased, erase_nothing
 from sunwidget.analysis.clouds.clouds import Clouds
 from sunwidget.analysis.depth import levels, relief
 from sunwidget.analysis.depth.depth import find_depth
@@ -200,7 +200,7 @@ class Scene:
     @property
     def without_sun(self) -> Erased:
         """The small photo without its sun, or the photo itself if it shows none."""
-        return self.erased or unerased(self.working)
+        return self.erased or erase_nothing(self.working)
 
     @property
     def lit_by_moon(self) -> bool:
@@ -210,7 +210,7 @@ class Scene:
     @cached_property
     def sureness(self) -> np.ndarray:
         """Confidence of the decision sky or land in each pixel: (H, W) float32 in (0, 1]."""
-        return resize(self.decision.sureness, self.width, self.height)
+        return resize(self.decision.confidence, self.width, self.height)
 
     @cached_property
     def land(self) -> LandMaps:
@@ -306,8 +306,8 @@ class Scene:
         sky = self.small_sky > 0.5
         decided = resize(self.decision.sky, width, height) > 0.5
         # Where a later stage overruled the decision, its confidence is unknown.
-        sureness = np.where(sky == decided, resize(self.decision.sureness, width, height), 0.5)
-        return refine.Decision(sky.astype(np.float32), sureness.astype(np.float32))
+        confidence = np.where(sky == decided, resize(self.decision.confidence, width, height), 0.5)
+        return refine.Decision(sky.astype(np.float32), confidence.astype(np.float32))
 
     @property
     def cloud_shade(self) -> np.ndarray:

@@ -202,7 +202,7 @@ def glsl(c: dict[str, Any]) -> str:
         f"const Length kGroundRadius = {_float(c['ground_radius_m'])};",
         f"const Length kTopRadius = {_float(c['top_radius_m'])};",
         f"const Length kAtmosphereHeight = {_float(c['top_radius_m'] - c['ground_radius_m'])};",
-        "// Standard air; what is drawn with are the uniforms of atmosphere/atmosphere.glsl.",
+        "// Standard air; the shaders use the uniforms of atmosphere/atmosphere.glsl instead.",
         f"const Number kRayleighExponent = {_float(c['rayleigh_exponent'])};",
         f"const Length kRayleighScaleHeight = {_float(c['rayleigh_scale_height_m'])};",
         "// Above 40 km (0.9 % of the column) air thins faster; deep twilight comes from there.",
@@ -243,8 +243,7 @@ def spectrum_glsl(c: dict[str, Any]) -> str:
 // Scattering and absorption at any wavelength (nm), for the plotted spectra.
 
 // Rayleigh scattering coefficient of standard air at sea level, 1/m: Bodhaine et al. 1999, eqs. 5,
-// 6, 9, 18, 19, 22, 23. The excess of the refractive index is kept apart from its one, for its
-// digits.
+// 6, 9, 18, 19, 22, 23. `excess` is the refractive index minus one, to keep its digits.
 Number GetBodhaineScattering(Number wavelength) {{
   float um2 = 1e6 / (wavelength * wavelength);
   float excess = 1e-8 * (8060.51 + 2480990.0 / (132.274 - um2) + 17455.7 / (39.32957 - um2))

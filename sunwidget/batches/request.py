@@ -13,7 +13,7 @@ from sunwidget import presets
 from sunwidget.edit.recipe import edit_of, is_recipe_file, read_recipe
 from sunwidget.edit.table import Edit
 from sunwidget.errors import EditError
-from sunwidget.messages import did_you_mean, shown
+from sunwidget.messages import did_you_mean, short_repr
 
 # Parts of a recipe that apply to one photo only.
 _OF_ONE_PHOTO = ("strokes", "sun_hint", "horizon_hint", "fov_hint")
@@ -88,7 +88,7 @@ def _edit(edit: Any) -> Edit:
     if isinstance(edit, (str, os.PathLike)):
         if not is_recipe_file(edit):
             raise EditError(
-                f"There is no recipe {shown(os.fspath(edit))}. The presets are "
+                f"There is no recipe {short_repr(os.fspath(edit))}. The presets are "
                 f"{', '.join(presets.NAMES)}."
             )
         return read_recipe(edit)
@@ -121,5 +121,5 @@ def check_whole(name: str, value: Any, least: int) -> None:
         return
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise ValueError(
-            f"{name} must be a whole number from {least} upwards, not {shown(value, 40)}."
+            f"{name} must be a whole number from {least} upwards, not {short_repr(value, 40)}."
         )

@@ -15,7 +15,7 @@ from sunwidget.batches.record import Record, recipe_key
 from sunwidget.batches.report import BatchReport, BatchRow
 from sunwidget.batches.request import Request, check_endings, check_request, check_whole
 from sunwidget.batches.workers import ThisProcess, Workers, has_dask, require_dask
-from sunwidget.files import complete_or_absent, explained, folder_target
+from sunwidget.files import complete_or_absent, explain_write_errors, folder_target
 from sunwidget.progress import with_time_left
 
 
@@ -200,7 +200,7 @@ class _Run:
         error = outcome.error
         if not error:
             try:
-                with explained(self.record.folder / output):
+                with explain_write_errors(self.record.folder / output):
                     self._write(outcome)
             except OSError as wrong:
                 error = sentence(wrong)

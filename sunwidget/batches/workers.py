@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from sunwidget.batches.develop import Job, Outcome, develop, sentence
-from sunwidget.photo.decode_apart import kept
+from sunwidget.photo.decode_apart import keep_process
 from sunwidget.version import __version__
 
 # Seconds to wait for the first worker, and for a new one when all are gone.
@@ -43,7 +43,7 @@ class ThisProcess:
 
     def outcomes(self, jobs: Iterator[Job]) -> Iterator[Outcome]:
         """Yield the outcome of each job in turn; report progress within each photo."""
-        with kept():
+        with keep_process():
             for job in jobs:
                 outcome = develop(job, self.progress)
                 if outcome.unreadable:  # it changed between two reads

@@ -153,9 +153,9 @@ def _opencv() -> Iterator[Finding]:
 
 
 def _sky_network() -> Iterator[Finding]:
-    from sunwidget.analysis.networks.onnx_runtime import onnx_runtime
+    from sunwidget.analysis.networks.onnx_runtime import import_onnxruntime
 
-    onnxruntime = onnx_runtime()
+    onnxruntime = import_onnxruntime()
     model = files("sunwidget").joinpath("analysis", "models", "sky.onnx").read_bytes()
     session = onnxruntime.InferenceSession(model, providers=["CPUExecutionProvider"])
     sides = session.get_inputs()[0].shape

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from sunwidget import presets
 from sunwidget.cli.photo_options import flag, pick_given
-from sunwidget.cli.place_options import is_placed, placed
+from sunwidget.cli.place_options import is_placed, place_sun
 from sunwidget.edit.recipe import read_recipe
 from sunwidget.edit.table import PARAMETERS, Edit, Parameter
 from sunwidget.errors import EditError
@@ -107,5 +107,5 @@ def edit_of_scene(options: argparse.Namespace, scene: Scene, edit: Edit) -> Edit
     if options.preset is not None:
         edit = edit_of_flags(options, start=presets.edit(options.preset, scene, recipe(options)))
     if is_placed(options):
-        edit = edit_of_flags(options, start=placed(options, scene, edit))
+        edit = edit_of_flags(options, start=place_sun(options, scene, edit))
     return edit

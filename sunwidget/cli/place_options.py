@@ -1,4 +1,4 @@
-"""The command line's clock: flags of place and time, and the edit that they make."""
+"""The flags of place and time, and the edit that results from them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _REMEDIES = {
 
 
 def add_place(parser: argparse.ArgumentParser, *, end: bool = False) -> None:
-    """Add the flags of place and time; with ``end`` also the time at which a film ends."""
+    """Add the flags of place and time, and with ``end`` the time of a film's last frame."""
     group = parser.add_argument_group(
         "time and place (what is not given comes from the recipe or the photo's file)"
     )
@@ -67,15 +67,15 @@ def is_placed(options: argparse.Namespace) -> bool:
     return any(getattr(options, name, None) is not None for name in names)
 
 
-def placed(options: argparse.Namespace, scene: Scene, edit: Edit) -> Edit:
-    """Return ``edit`` with the sun where the flags of place and time put it.
+def place_sun(options: argparse.Namespace, scene: Scene, edit: Edit) -> Edit:
+    """Return ``edit`` with the sun at the place and time of the flags.
 
     Raises
     ------
     ValueError
-        When place, date or time are neither given nor known, or the heading cannot be found.
+        If place, date or time is neither given nor recorded, or the heading cannot be derived.
     ImportError
-        Without pvlib; the message names the extra that brings it.
+        Without pvlib; the message names the extra that installs it.
     """
     return edit.at(place_of(options, scene, edit))
 
@@ -86,20 +86,20 @@ def place_of(options: argparse.Namespace, scene: Scene, edit: Edit) -> Place:
     Raises
     ------
     ValueError
-        When place, date or time are neither given nor known, or the heading cannot be found.
+        If place, date or time is neither given nor recorded, or the heading cannot be derived.
     """
     resolved = _resolved(options, scene.photo, edit.place)
     if resolved.place.heading is None or options.time is None:
         for note in resolved.notes:
             print(f"sunwidget: {note}", file=sys.stderr)
-    place, match = resolved.facing(scene)
+    place, match = resolved.with_heading(scene)
     if match is not None:
         print(f"sunwidget: Heading {place.heading:.1f}°. {match.note}", file=sys.stderr)
     return place
 
 
 def refuse_unplaced(options: argparse.Namespace, photo: Photo) -> None:
-    """Fail before the analysis when the clock needs a value that nothing provides."""
+    """Fail before the analysis if a required field of the place is missing."""
     if is_placed(options) or _whole_day(options):
         recipe = None if options.recipe is None else read_recipe(options.recipe)
         _resolved(options, photo, recipe.place if recipe else None)

@@ -12,7 +12,7 @@ from typing import Any
 from sunwidget.edit.table import Edit, Stroke
 from sunwidget.errors import EditError
 from sunwidget.geometry.place import Place
-from sunwidget.messages import shown
+from sunwidget.messages import short_repr
 
 # Strokes make a recipe long; a larger file is not a recipe.
 _MOST_BYTES = 50_000_000
@@ -50,7 +50,7 @@ def read_recipe(path: str | os.PathLike[str]) -> Edit:
     EditError
         For a file that is missing, unreadable or not a recipe; the message names it.
     """
-    name = shown(os.fspath(path), 400)  # the end of a path matters most
+    name = short_repr(os.fspath(path), 400)  # the end of a path matters most
     try:
         with Path(path).expanduser().open("rb") as file:
             data = file.read(_MOST_BYTES + 1)
@@ -114,7 +114,7 @@ def _value(node: ast.expr) -> Any:
     try:
         return ast.literal_eval(node)
     except ValueError:
-        source = shown(ast.unparse(node))
+        source = short_repr(ast.unparse(node))
         raise EditError(
             f"Line {node.lineno} of the recipe: {source} is not a plain value."
         ) from None

@@ -17,7 +17,7 @@ from typing import Any, Literal, NamedTuple, Self
 
 from sunwidget.errors import EditError, UnknownParameterError
 from sunwidget.geometry.place import Place, sun_at
-from sunwidget.messages import did_you_mean, format_call, shown
+from sunwidget.messages import did_you_mean, format_call, short_repr
 
 RECIPE_VERSION = 1
 METHODS = ("ratio", "thesis", "thesis_literal")
@@ -399,11 +399,11 @@ class Edit:
             )
         version = recipe.get("version", RECIPE_VERSION)
         if isinstance(version, bool) or not isinstance(version, int) or version < 1:
-            raise EditError(f"Recipe version {shown(version)} is not a positive whole number.")
+            raise EditError(f"Recipe version {short_repr(version)} is not a positive whole number.")
         if version > RECIPE_VERSION:
             raise EditError(
-                f"This recipe has version {shown(version)}; this sunwidget reads versions up to "
-                f"{RECIPE_VERSION}. Update sunwidget to open it."
+                f"This recipe has version {short_repr(version)}; this sunwidget reads versions up "
+                f"to {RECIPE_VERSION}. Update sunwidget to open it."
             )
         values = {k: v for k, v in recipe.items() if k != "version"}
         _refuse_unknown(values)
@@ -473,7 +473,7 @@ def parameter(name: str) -> Parameter:
 def unknown_name_message(name: str, others: tuple[str, ...] = ()) -> str:
     """Return the message for an unknown name, with the nearest spelling, also of ``others``."""
     hint = did_you_mean(name, [*_BY_NAME, *others], "See sunwidget.PARAMETERS for the list.")
-    return f"Unknown parameter {shown(name)}.{hint}"
+    return f"Unknown parameter {short_repr(name)}.{hint}"
 
 
 def _refuse_unknown(names: Any) -> None:
@@ -486,7 +486,9 @@ def checked(p: Parameter, value: Any) -> Any:
     """Return ``value`` in the form that an Edit stores; raises EditError if the row rejects it."""
     if p.kind == "choice":
         if not isinstance(value, str) or value not in p.choices:
-            raise EditError(f"{p.name} must be one of {', '.join(p.choices)}, not {shown(value)}.")
+            raise EditError(
+                f"{p.name} must be one of {', '.join(p.choices)}, not {short_repr(value)}."
+            )
         return p.choices[p.choices.index(value)]  # a plain str, even for a subclass of str
     if p.kind == "number":
         if value is None and p.default is None:
@@ -504,7 +506,7 @@ def checked(p: Parameter, value: Any) -> Any:
         return _check_sun_hint(p.name, value)
     points = _check_points(p.name, value)
     if len(points) != 2 or points[0][0] == points[1][0]:
-        raise EditError(f"{p.name} needs two points with different x, not {shown(value)}.")
+        raise EditError(f"{p.name} needs two points with different x, not {short_repr(value)}.")
     return points
 
 
@@ -514,7 +516,9 @@ def _check_number(name: str, value: Any, low: float, high: float, unit: str = ""
     except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
-        raise EditError(f"{name} must be a number from {low:g} to {high:g}, not {shown(value)}.")
+        raise EditError(
+            f"{name} must be a number from {low:g} to {high:g}, not {short_repr(value)}."
+        )
     if not low <= number <= high:
         raise EditError(f"{name} = {number:g} is outside {low:g} to {high:g} {unit}".rstrip() + ".")
     return number
@@ -522,7 +526,7 @@ def _check_number(name: str, value: Any, low: float, high: float, unit: str = ""
 
 def _check_point(name: str, value: Any) -> Point:
     if not isinstance(value, (tuple, list)) or len(value) != 2:
-        raise EditError(f"{name} must be a pair (x, y), not {shown(value)}.")
+        raise EditError(f"{name} must be a pair (x, y), not {short_repr(value)}.")
     return (
         _check_number(f"{name} x", value[0], -10, 10),
         _check_number(f"{name} y", value[1], -10, 10),
@@ -534,33 +538,34 @@ def _check_sun_hint(name: str, value: Any) -> SunHint:
         return OUTSIDE
     if isinstance(value, (tuple, list)) and len(value) == 2:
         return _check_point(name, value)
-    raise EditError(f"{name} must be a pair (x, y) or {OUTSIDE!r}, not {shown(value)}.")
+    raise EditError(f"{name} must be a pair (x, y) or {OUTSIDE!r}, not {short_repr(value)}.")
 
 
 def _check_points(name: str, value: Any) -> tuple[Point, ...]:
     if not isinstance(value, (tuple, list)) or not value:
-        raise EditError(f"{name} must be a list of (x, y) pairs, not {shown(value)}.")
+        raise EditError(f"{name} must be a list of (x, y) pairs, not {short_repr(value)}.")
     return tuple(_check_point(name, point) for point in value)
 
 
 def _check_strokes(value: Any) -> tuple[Stroke, ...]:
     if not isinstance(value, (tuple, list)):
-        raise EditError(f"strokes must be a list of strokes, not {shown(value)}.")
+        raise EditError(f"strokes must be a list of strokes, not {short_repr(value)}.")
     checked = []
     for stroke in value:
         if isinstance(stroke, Stroke):
             stroke = vars(stroke)
         if not isinstance(stroke, dict) or not {"label", "points"} <= stroke.keys():
-            raise EditError(f"A stroke needs a label and points, not {shown(stroke)}.")
+            raise EditError(f"A stroke needs a label and points, not {short_repr(stroke)}.")
         label = stroke["label"]
         if not isinstance(label, str) or label not in STROKE_LABELS:
             raise EditError(
-                f"A stroke's label must be one of {', '.join(STROKE_LABELS)}, not {shown(label)}."
+                f"A stroke's label must be one of {', '.join(STROKE_LABELS)}, "
+                f"not {short_repr(label)}."
             )
         extra = stroke.keys() - {"label", "points", "radius"}
         if extra:
             raise EditError(
-                f"A stroke has label, points and radius, but no {shown(min(map(str, extra)))}."
+                f"A stroke has label, points and radius, but no {short_repr(min(map(str, extra)))}."
             )
         checked.append(
             Stroke(

@@ -23,7 +23,7 @@ from sunwidget.edit.recipe import edit_of
 from sunwidget.errors import PhotoError
 from sunwidget.files import complete_or_absent, target
 from sunwidget.formats.color import LUMINANCE
-from sunwidget.messages import shown
+from sunwidget.messages import short_repr
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -128,7 +128,7 @@ def checked_size(size: Any) -> tuple[int, int]:
     if width != 2 * height or not 8 <= width <= 16384:
         raise PhotoError(
             "An environment map must be twice as wide as high, 8 to 16384 pixels wide, not "
-            f"{shown(size, 40)}."
+            f"{short_repr(size, 40)}."
         )
     return width, height
 

@@ -20,7 +20,7 @@ from sunwidget.export.still import Still
 from sunwidget.export.tiff import EFFORT, tiff
 from sunwidget.formats import exif as exif_tags
 from sunwidget.formats import openexr
-from sunwidget.messages import did_you_mean, shown
+from sunwidget.messages import did_you_mean, short_repr
 
 # A JPEG segment holds 65533 bytes; Pillow's EXIF header uses six of them.
 _SEGMENT = 65_500
@@ -163,7 +163,9 @@ FORMATS: dict[str, Format] = {
 def check_quality(quality: Any) -> None:
     """Raise PhotoError, before any work, for an invalid quality of a picture or film."""
     if isinstance(quality, bool) or not isinstance(quality, int) or not 1 <= quality <= 100:
-        raise PhotoError(f"quality must be a whole number from 1 to 100, not {shown(quality, 40)}.")
+        raise PhotoError(
+            f"quality must be a whole number from 1 to 100, not {short_repr(quality, 40)}."
+        )
 
 
 def check_format(
@@ -186,7 +188,7 @@ def check_format(
         )
     form = FORMATS[suffix]
     if bit_depth is not None and (type(bit_depth) is not int or bit_depth not in (8, 16, 32)):
-        raise PhotoError(f"bit_depth must be 8, 16 or 32, not {shown(bit_depth, 40)}.")
+        raise PhotoError(f"bit_depth must be 8, 16 or 32, not {short_repr(bit_depth, 40)}.")
     if bit_depth is not None and bit_depth not in form.depths:
         held = " or ".join(str(depth) for depth in sorted(form.depths))
         others = [key for key, other in FORMATS.items() if bit_depth in other.depths]

@@ -14,7 +14,7 @@ import numpy as np
 
 from sunwidget.analysis.maps import MAPS, levels, shares_of
 from sunwidget.analysis.scene import checked_scene
-from sunwidget.files import complete_or_absent, explained, folder_target
+from sunwidget.files import complete_or_absent, explain_write_errors, folder_target
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -78,7 +78,7 @@ def save_maps(
         if path.exists() and not overwrite:
             raise FileExistsError(f"{path} exists already. Pass overwrite to replace it.")
     text = json.dumps(facts(scene, made), indent=2, allow_nan=False, ensure_ascii=False)
-    with explained(folder), contextlib.ExitStack() as stack:
+    with explain_write_errors(folder), contextlib.ExitStack() as stack:
         folder.mkdir(parents=True, exist_ok=True)
         # Every file is written before the first one gets its name.
         whole = [stack.enter_context(complete_or_absent(p, overwrite=overwrite)) for p in paths]

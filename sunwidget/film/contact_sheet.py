@@ -12,7 +12,7 @@ from sunwidget.export.sheet import sheet
 from sunwidget.files import target
 from sunwidget.film.day import Day
 from sunwidget.film.path import SunPath, film_edits
-from sunwidget.messages import shown
+from sunwidget.messages import short_repr
 from sunwidget.progress import Progress, with_time_left
 
 if TYPE_CHECKING:
@@ -82,7 +82,8 @@ def contact_sheet(
     for name, value, least in (("frames", frames, 2), ("columns", columns, 1)):
         if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= _MOST:
             raise ValueError(
-                f"{name} must be a whole number from {least} to {_MOST}, not {shown(value, 40)}."
+                f"{name} must be a whole number from {least} to {_MOST}, "
+                f"not {short_repr(value, 40)}."
             )
     if out is not None:
         target(out, overwrite=overwrite)

@@ -27,26 +27,26 @@ _REMEDIES = dict.fromkeys(
 
 @dataclass(frozen=True)
 class Day:
-    """A day, or some hours of it: the sun stands in each frame where it truly stood.
+    """A day, or some hours of it, with the sun at its true position in each frame.
 
     Parameters
     ----------
     place : Place, optional
-        Where, which day, and which way the camera looks. Default: the edit's place, or what
-        the photo's file tells. A heading that neither knows is found by the photo's own sun
-        at the time of its file, or else at the place's time.
+        Position, day and camera heading. Default: the edit's place, or the one that the photo's
+        file records. If neither has a heading, the photo's own sun gives it, at the time that
+        the file records, or else at the place's time.
     start, end : float or "HH:MM", optional
         Hours UTC of the first and the last frame. An end before the start is on the next day.
         Default: civil dawn and civil dusk, when the sun stands 6° below the horizon.
     edit : Edit
-        Everything but the sun, which stays.
+        All parameters but the sun.
     last : Edit, optional
-        Everything but the sun at the last frame, where that changes on the way.
+        All parameters but the sun at the last frame, if they change along the way.
 
     Raises
     ------
     ValueError
-        For a time of day that is none.
+        For an invalid time of day.
 
     Examples
     --------
@@ -78,22 +78,22 @@ class Day:
         scene : Scene
             What ``analyze`` returned.
         shares : sequence of float
-            Where they lie on the way from the start (0) to the end (1).
+            Positions between the start (0) and the end (1).
         between : callable
-            Called as ``between(edit, last, share, scene)`` for the edit at a share, when the day
-            has a ``last``; the sun then goes where it stands.
+            ``between(edit, last, share, scene)`` returns the edit at a share; it is called if the
+            day has a ``last``. The sun's position is set afterwards.
 
         Returns
         -------
         list of Edit
-            One a share.
+            One per share.
 
         Raises
         ------
         ValueError
-            When place, day or heading are not known, or the sun does not rise that day.
+            If place, day or heading is unknown, or the sun does not rise that day.
         ImportError
-            Without pvlib; the message names the extra that brings it.
+            Without pvlib; the message names the extra that installs it.
         """
         place, first, last = self._hours(self._place(scene))
         row = []
@@ -108,10 +108,10 @@ class Day:
         from sunwidget.analysis.place_resolver import resolve_place
 
         place = self.place or self.edit.place
-        return resolve_place(scene.photo, _REMEDIES, place=place).facing(scene)[0]
+        return resolve_place(scene.photo, _REMEDIES, place=place).with_heading(scene)[0]
 
     def _hours(self, place: Place) -> tuple[Place, float, float]:
-        """Return a place on the film's day, and first and last hour as ``day_table`` counts."""
+        """Return a place on the film's day, and its first and last hour as in ``day_table``."""
         if self.start is not None:
             place = place.replace(time=self.start)
         if self.start is not None and self.end is not None:
@@ -123,7 +123,7 @@ class Day:
             if not up.size:
                 raise ValueError(
                     f"On {place.date} the sun stays more than 6° below the horizon there. Give "
-                    "the hours of the film, as Day(start='10:00', end='14:00')."
+                    "the film's hours: Day(start='10:00', end='14:00')."
                 )
             dawn, dusk = _crossing(table, int(up[0]), -1), _crossing(table, int(up[-1]), 1)
             first = dawn if self.start is None else hours_of_day(place)
@@ -132,13 +132,13 @@ class Day:
             else:
                 last = first + (float(self.end) - first) % 24
         if last == first:
-            raise ValueError("The film of a day ends when it begins: give it another end.")
+            raise ValueError("The film's start and end are the same time; give another end.")
         return place, first, last
 
 
-def _crossing(table: np.ndarray, row: int, way: int) -> float:
-    """Return the hour near ``row`` at which the sun passes civil twilight, going ``way``."""
-    other = row + way
+def _crossing(table: np.ndarray, row: int, step: int) -> float:
+    """Return the hour between ``row`` and ``row + step`` at which the sun crosses −6°."""
+    other = row + step
     if not 0 <= other < len(table):
         return float(table[row, 0])
     inside, outside = table[row, 2], table[other, 2]

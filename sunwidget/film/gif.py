@@ -1,10 +1,10 @@
-"""Animated GIF of a photograph: palettes that follow the light, dithering that holds still.
+"""Animated GIFs of a photograph, with palettes that follow the light and static dithering.
 
-A GIF has 256 colours a frame. One palette for a whole sunset bands the sky at one end of it; a
-palette of its own for each frame, or error diffusion, makes the picture boil. Here the palette
-of a frame is that of the last one moved on to the new colours (k-means from a warm start, Lloyd
-1982), the threshold matrix of the dithering (Bayer 1973) stands still, and a pixel that would
-hardly change keeps its colour, which also makes the file smaller.
+A GIF has 256 colors per frame. One palette for a whole sunset causes banding in part of the film;
+independent palettes, or error diffusion, cause flicker. Here each frame's palette starts from the
+previous one and moves to the new colors (k-means with a warm start, Lloyd 1982), the dithering
+matrix (Bayer 1973) is static, and a pixel that would hardly change keeps its color, which also
+makes the file smaller.
 """
 
 from __future__ import annotations
@@ -17,30 +17,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 _COLOURS = 255
-_KEPT = 255  # the index of a pixel that stays as it was
-# A pixel whose new colour lies nearer to the shown one than this, in levels, is left alone.
+_KEPT = 255  # the index of an unchanged pixel
+# Color difference, in levels, below which a pixel keeps its color.
 _UNSEEN = 3.5
 _SAMPLES = 8000
-# What a mixture of two colours costs for being grainy, against being off by the same amount.
+# Cost of the grain of a mixture of two colors, relative to the same amount of color error.
 _GRAIN = 0.4
-_NEAREST = 6  # entries of the palette that a mixture is sought among
+_NEAREST = 6  # candidate palette entries for a mixture
 
 
 def write_gif(
     frames: Iterator[NDArray[np.uint8]], file: BinaryIO, hundredths: list[int], *, forever: bool
 ) -> None:
-    """Write frames as they come; only one is held.
+    """Write frames as they arrive; only one is held in memory.
 
     Parameters
     ----------
     frames : iterator of (H, W, 3) uint8 arrays
         sRGB.
     file : binary file
-        To write to.
+        The file to write.
     hundredths : list of int
-        How long each frame stands, in hundredths of a second.
+        Duration of each frame in hundredths of a second.
     forever : bool
-        Repeat without end; otherwise it stops at the last frame.
+        Repeat without end; otherwise stop at the last frame.
     """
     from PIL import Image
     from PIL.GifImagePlugin import getdata
@@ -56,7 +56,7 @@ def write_gif(
                 file.write(b"!\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00")
         else:
             palette.follow(frame)
-        indices = palette.dithered(frame)
+        indices = palette.dither(frame)
         new = palette.colours[indices]
         if shown is not None:
             kept = ((new - shown) ** 2).sum(axis=-1) < _UNSEEN**2
@@ -77,7 +77,7 @@ def write_gif(
 
 
 class _Palette:
-    """255 colours that follow a film's frames."""
+    """255 colors that follow a film's frames."""
 
     def __init__(self, frame: NDArray[np.uint8]) -> None:
         from PIL import Image
@@ -85,20 +85,20 @@ class _Palette:
         sample = _sample(frame)
         cut = Image.fromarray(sample[None]).quantize(_COLOURS).getpalette() or []
         rgb = np.array(cut, np.uint8).reshape(-1, 3)[:_COLOURS]
-        # A picture of few colours: the rest are found where they are missed.
+        # With few colors in the picture, ``_move`` places the remaining entries.
         rgb = np.pad(rgb, ((0, _COLOURS - len(rgb)), (0, 0)), mode="edge")
         self.colours = rgb.astype(np.float32)
         self._move(sample, rounds=6)
 
     def follow(self, frame: NDArray[np.uint8]) -> None:
-        """Move on to the colours of the next frame."""
+        """Move to the colors of the next frame."""
         self._move(_sample(frame), rounds=2)
 
-    def dithered(self, frame: NDArray[np.uint8]) -> NDArray[np.uint8]:
-        """Return the index of each pixel, (H, W): two colours mixed by a still threshold."""
+    def dither(self, frame: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """Return the index of each pixel, (H, W): two colors mixed by a static threshold."""
         height, width = frame.shape[:2]
         threshold = np.tile(_BAYER, (-(-height // 8), -(-width // 8)))[:height, :width]
-        # Pairs are sought for colours of 6 bits; the rounding to them is dithered as well.
+        # Pairs are searched for 6-bit colors; the rounding to 6 bits is dithered as well.
         rgb6 = (frame * np.int32(63) + threshold[..., None] * np.int32(4)) // 255
         code = rgb6[..., 0] << 12 | rgb6[..., 1] << 6 | rgb6[..., 2]
         used = np.flatnonzero(np.bincount(code.ravel(), minlength=1 << 18))
@@ -112,16 +112,16 @@ class _Palette:
     def _pairs(
         self, rgb: NDArray[np.float32]
     ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.float32]]:
-        """Return for each colour the two entries, and the second one's share, that mix to it."""
+        """Return, for each color, the two entries that mix to it and the share of the second."""
         from scipy.spatial import cKDTree
 
         _, near = cKDTree(self.colours).query(rgb, k=_NEAREST)
         first = self.colours[near[:, :1]]
-        way = self.colours[near[:, 1:]] - first
-        length = (way**2).sum(axis=-1)
-        share = ((rgb[:, None] - first) * way).sum(axis=-1) / np.maximum(length, 1e-6)
+        step = self.colours[near[:, 1:]] - first
+        length = (step**2).sum(axis=-1)
+        share = ((rgb[:, None] - first) * step).sum(axis=-1) / np.maximum(length, 1e-6)
         share = np.clip(share, 0, 1)
-        miss = ((rgb[:, None] - first - share[..., None] * way) ** 2).sum(axis=-1)
+        miss = ((rgb[:, None] - first - share[..., None] * step) ** 2).sum(axis=-1)
         best = np.argmin(miss + _GRAIN * share * (1 - share) * length, axis=1)
         row = np.arange(len(rgb))
         second = near[row, best + 1]
@@ -132,7 +132,7 @@ class _Palette:
         )
 
     def _move(self, sample: NDArray[np.uint8], rounds: int) -> None:
-        """Lloyd's iterations; entries that nothing is near to go where most is missed."""
+        """Run Lloyd's iterations; unused entries move to the pixels with the largest error."""
         from scipy.spatial import cKDTree
 
         colours = self.colours
@@ -146,12 +146,12 @@ class _Palette:
             moved[idle] = colours[idle]
             moved[idle[: len(worst)]] = sample[worst]
             colours = moved.astype(np.float32)
-        # The file has whole levels; what is mixed is what is shown.
+        # Round to whole levels, as the file stores them, so that mixtures match the display.
         self.colours = np.rint(colours)
 
 
 def _sample(frame: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Return some thousand pixels, the same places in every frame."""
+    """Return some thousand pixels, at the same positions in every frame."""
     height, width = frame.shape[:2]
     step = max(1, round((height * width / _SAMPLES) ** 0.5))
     return frame[step // 2 :: step, step // 2 :: step].reshape(-1, 3)

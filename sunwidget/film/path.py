@@ -19,7 +19,7 @@ from sunwidget.edit.table import NUMBERS, PARAMETERS, Edit
 from sunwidget.errors import EditError
 from sunwidget.film.day import Day
 from sunwidget.film.easing import EASINGS
-from sunwidget.messages import shown
+from sunwidget.messages import short_repr
 
 if TYPE_CHECKING:
     from sunwidget.analysis.scene import Scene
@@ -158,12 +158,14 @@ def named_edit(what: Step) -> Edit:
 def check_rate(fps: float) -> None:
     """Raise ValueError, before any work, for an invalid number of frames per second."""
     if not (isinstance(fps, (int, float)) and 1 <= fps <= 120):
-        raise ValueError(f"fps = {shown(fps, 40)} is outside 1 to 120 frames per second.")
+        raise ValueError(f"fps = {short_repr(fps, 40)} is outside 1 to 120 frames per second.")
 
 
 def _check_easing(easing: str) -> None:
     if not isinstance(easing, str) or easing not in EASINGS:
-        raise ValueError(f"easing must be one of {', '.join(EASINGS)}, not {shown(easing, 40)}.")
+        raise ValueError(
+            f"easing must be one of {', '.join(EASINGS)}, not {short_repr(easing, 40)}."
+        )
 
 
 def _stations(scene: Scene, path: Any) -> _Stations:
@@ -181,7 +183,8 @@ def _stations(scene: Scene, path: Any) -> _Stations:
         apart = all(b > a for a, b in itertools.pairwise(starts))
         if not (apart and starts[0] >= 0 and starts[-1] < MOST_FRAMES):
             raise ValueError(
-                f"The seconds of key frames must increase, from 0 upwards, not {shown(starts)}."
+                "The seconds of key frames must increase, from 0 upwards, "
+                f"not {short_repr(starts)}."
             )
         times = [float(seconds) for seconds in starts]
         edits = [step(scene, what) for _, what in steps]
@@ -213,12 +216,14 @@ def frame_count(fps: float, frames: int | None, seconds: float | None, otherwise
     if frames is None:
         length = otherwise if seconds is None else seconds
         if not (isinstance(length, (int, float)) and 0 < length < MOST_FRAMES):
-            raise ValueError(f"seconds must be a number above 0, not {shown(seconds, 40)}.")
+            raise ValueError(f"seconds must be a number above 0, not {short_repr(seconds, 40)}.")
         frames = max(2, round(length * fps))
     if isinstance(frames, bool) or not isinstance(frames, int) or frames < 2:
-        raise ValueError(f"frames must be a whole number from 2 upwards, not {shown(frames, 40)}.")
+        raise ValueError(
+            f"frames must be a whole number from 2 upwards, not {short_repr(frames, 40)}."
+        )
     if frames > MOST_FRAMES:
-        raise ValueError(f"A film has at most {MOST_FRAMES} frames, not {shown(frames, 9)}.")
+        raise ValueError(f"A film has at most {MOST_FRAMES} frames, not {short_repr(frames, 9)}.")
     return frames
 
 

@@ -25,7 +25,7 @@ from sunwidget.film.writer import (
     with_progress,
     writer,
 )
-from sunwidget.messages import shown
+from sunwidget.messages import short_repr
 from sunwidget.progress import Progress, with_time_left
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ def sweep(
     place = Path(out)
     write = writer(place)
     if not isinstance(loop, str) or loop not in LOOPS:
-        raise ValueError(f"loop must be one of {', '.join(LOOPS)}, not {shown(loop, 40)}.")
+        raise ValueError(f"loop must be one of {', '.join(LOOPS)}, not {short_repr(loop, 40)}.")
     check_quality(quality)
     size = size_for(place, (scene.camera.width, scene.camera.height), size)
     place = film_target(place, overwrite=overwrite)

@@ -18,10 +18,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from sunwidget.files import complete_or_absent, explained, folder_target, target
+from sunwidget.files import complete_or_absent, explain_write_errors, folder_target, target
 from sunwidget.film.gif import write_gif
 from sunwidget.formats.pixels import size_within
-from sunwidget.messages import shown
+from sunwidget.messages import short_repr
 from sunwidget.progress import Progress
 
 Frames = Iterator[NDArray[np.uint8]]
@@ -73,10 +73,10 @@ def film_size(
         width, height = (int(n) for n in size)
     except (TypeError, ValueError, OverflowError):
         raise ValueError(
-            f"size must be (width, height) in pixels, not {shown(size, 40)}."
+            f"size must be (width, height) in pixels, not {short_repr(size, 40)}."
         ) from None
     if not (2 <= width <= 8192 and 2 <= height <= 8192):
-        asked = f"{shown(width, 9)}×{shown(height, 9)}"
+        asked = f"{short_repr(width, 9)}×{short_repr(height, 9)}"
         raise ValueError(f"A film must have 2 to 8192 pixels per side, not {asked}.")
     return width, height
 
@@ -261,7 +261,7 @@ def whole_sequence(path: Path, *, overwrite: bool) -> Iterator[Path]:
     """
     folder = path.parent
     with (
-        explained(folder),
+        explain_write_errors(folder),
         tempfile.TemporaryDirectory(
             prefix=".sunwidget-", dir=folder if folder.is_dir() else folder.parent
         ) as name,

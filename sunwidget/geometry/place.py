@@ -1,7 +1,7 @@
-"""Where and when a photo is taken, which way its camera looks, and where the sun then stands.
+"""Where and when a photo is taken, the camera's heading, and the resulting position of the sun.
 
-A ``Place`` is part of the edit and moves nothing by itself. Its day's path, ``day_table``, is
-read the same way here and in the browser, so that a clock moves the sun in both alike.
+A ``Place`` is part of the edit and does not move the sun by itself. The kernel and the browser
+read its sun path, ``day_table``, in the same way, so that the clock moves the sun equally in both.
 """
 
 from __future__ import annotations
@@ -14,20 +14,20 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from sunwidget.messages import shown
+from sunwidget.messages import short_repr
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
 
-_LOWEST, _HIGHEST = -12.0, 90.0  # elevations that an edit takes
+_LOWEST, _HIGHEST = -12.0, 90.0  # valid elevations of an edit
 _CLOCK = re.compile(r"(\d{1,2})(?::([0-5]\d))?$")
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where, when and which way.
+    """Position, date, time and camera heading.
 
     Parameters
     ----------
@@ -38,8 +38,8 @@ class Place:
     time : float
         Hours UTC, 0 … 24.
     heading : float, optional
-        Where the camera looks, degrees clockwise from true north (0 ≤ heading < 360). None is
-        unknown: then the time moves the sun's elevation alone.
+        Direction of the camera, degrees clockwise from true north (0 ≤ heading < 360). None means
+        unknown: then the time changes only the sun's elevation.
 
     Raises
     ------
@@ -67,11 +67,12 @@ class Place:
 
     @classmethod
     def from_dict(cls, values: Any) -> Place:
-        """Return the Place of ``values``, a mapping by field; raises ValueError for one of none."""
+        """Return the Place with ``values`` by field; raises ValueError if they do not form one."""
         names = [field.name for field in dataclasses.fields(cls)]
         if not isinstance(values, dict) or not set(names[:4]) <= values.keys() <= set(names):
             raise ValueError(
-                f"place needs {', '.join(names[:4])} and may have {names[4]}, not {shown(values)}."
+                f"place needs {', '.join(names[:4])} and may have {names[4]}, "
+                f"not {short_repr(values)}."
             )
         return cls(**values)
 
@@ -88,10 +89,10 @@ class Place:
 
 
 class SunOfDay(NamedTuple):
-    """Where the sun stands, in degrees.
+    """Position of the sun in degrees.
 
-    Azimuth is relative to the camera, None where the heading is unknown; ``elevation`` is the
-    apparent one, as the air lifts it.
+    ``azimuth`` is relative to the camera, or None if the heading is unknown. ``elevation`` is
+    apparent: it includes refraction.
     """
 
     azimuth: float | None
@@ -100,10 +101,10 @@ class SunOfDay(NamedTuple):
 
 
 def solar_day(place: Place) -> str:
-    """Return the day by the sun, from its midnight to its midnight, that the place's time is in.
+    """Return the solar day, from one solar midnight to the next, that contains the place's time.
 
-    A day by UTC begins while the sun is up in half of the world; by local mean solar time it
-    begins and ends at night.
+    In half of the world a UTC day begins in daylight; a day in local mean solar time begins and
+    ends at night.
     """
     shift = math.floor((place.time + place.longitude / 15) / 24)
     return _later(place.date, shift)
@@ -115,22 +116,22 @@ def day_table(place: Place) -> NDArray[np.float64]:
     Returns
     -------
     ndarray, shape (289, 4), float64, read-only
-        Hours UTC from the midnight of ``solar_day(place)`` on (some are below 0 or above 24),
-        azimuth 0–360°, apparent and true elevation in degrees. NREL's SPA (Reda & Andreas 2004)
-        by pvlib.
+        Hours UTC from midnight of ``solar_day(place)`` (some are below 0 or above 24), azimuth
+        0–360°, apparent and true elevation in degrees. From NREL's SPA (Reda & Andreas 2004) in
+        pvlib.
 
     Raises
     ------
     ImportError
-        Without pvlib; the message names the extra that brings it.
+        Without pvlib; the message names the extra that installs it.
     """
     return _table(place.latitude, place.longitude, solar_day(place))
 
 
 def sun_at(place: Place) -> SunOfDay:
-    """Return where the sun stands at the time of ``place``, as an edit takes it.
+    """Return the position of the sun at the time of ``place``, in the ranges of an edit.
 
-    Elevations are held at −12 … 90°; raises ImportError as ``day_table``.
+    The elevation is limited to −12 … 90°. Raises ImportError as ``day_table`` does.
     """
     import numpy as np
 
@@ -140,18 +141,18 @@ def sun_at(place: Place) -> SunOfDay:
     hours = hours_of_day(place)
     azimuth, elevation = sun_on_path(table, hours)
     true = float(np.interp(hours, table[:, 0], table[:, 3]))
-    relative = None if place.heading is None else turned(azimuth - place.heading)
+    relative = None if place.heading is None else wrap_angle(azimuth - place.heading)
     return SunOfDay(relative, min(max(elevation, _LOWEST), _HIGHEST), true)
 
 
 def hours_of_day(place: Place) -> float:
-    """Return the place's time as ``day_table`` counts it."""
+    """Return the place's time in the hours of ``day_table``."""
     shift = dt.date.fromisoformat(place.date) - dt.date.fromisoformat(solar_day(place))
     return place.time + 24 * shift.days
 
 
 def at_hours(place: Place, hours: float) -> Place:
-    """Return ``place`` at a time that is counted as in ``day_table``: UTC's date follows."""
+    """Return ``place`` at a time in the hours of ``day_table``, with the matching UTC date."""
     days = math.floor(hours / 24)
     time = round(hours - 24 * days, 4)
     return place.replace(date=_later(solar_day(place), days), time=time)
@@ -163,7 +164,7 @@ def clock_hours(value: float | str) -> float:
     Raises
     ------
     ValueError
-        For what is neither hours nor "HH:MM".
+        If the value is neither hours nor "HH:MM".
     """
     found = _CLOCK.match(value.strip()) if isinstance(value, str) else None
     if found:
@@ -177,8 +178,8 @@ def clock_hours(value: float | str) -> float:
     return hours
 
 
-def turned(degrees: float) -> float:
-    """Return an angle from −180 up to 180."""
+def wrap_angle(degrees: float) -> float:
+    """Return the same angle in [−180, 180)."""
     return (degrees + 180) % 360 - 180
 
 
@@ -188,7 +189,7 @@ def _table(latitude: float, longitude: float, day: str) -> NDArray[np.float64]:
 
     from sunwidget.geometry.solar import day_path
 
-    # Rounded as it travels, so that the browser reads the very same numbers.
+    # Rounded as for transport, so that the browser reads exactly the same numbers.
     table = np.round(day_path(day, latitude, longitude, start=-longitude / 15), 6)
     table.flags.writeable = False
     return table
@@ -210,7 +211,7 @@ def _number(name: str, value: Any, high: float, low: float | None = None) -> flo
         number = math.nan
     if not least <= number <= high:
         raise ValueError(
-            f"place: {name} must be a number from {least:g} to {high:g}, not {shown(value)}."
+            f"place: {name} must be a number from {least:g} to {high:g}, not {short_repr(value)}."
         )
     return number
 
@@ -222,7 +223,7 @@ def _day(value: Any) -> str:
         day = value if isinstance(value, dt.date) else dt.date.fromisoformat(value)
     except (TypeError, ValueError):
         day = None
-    # Years that a count of nanoseconds reaches (pandas), with a day to spare.
+    # Years within the range of pandas' nanosecond timestamps, with a day to spare.
     if day is None or not 1700 <= day.year <= 2200:
-        raise ValueError(f"place: date must be a day as YYYY-MM-DD, not {shown(value)}.")
+        raise ValueError(f"place: date must be a day as YYYY-MM-DD, not {short_repr(value)}.")
     return day.isoformat()

@@ -82,7 +82,7 @@ def release() -> None:
 
 
 @contextlib.contextmanager
-def kept() -> Iterator[None]:
+def keep_process() -> Iterator[None]:
     """Keep the process while many files are opened, and end it after the last."""
     try:
         yield

@@ -1,4 +1,4 @@
-"""Where, when and which way a photo was taken, as its file tells it or lets it be guessed."""
+"""Where, when and in which direction a photo was taken, as its file records or suggests it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class PhotoPlace(NamedTuple):
-    """What a photo's file says of place, time and heading.
+    """Place, time and heading as a photo's file records them.
 
     Attributes
     ----------
@@ -21,14 +21,14 @@ class PhotoPlace(NamedTuple):
     moment : datetime.datetime or None
         UTC.
     clock : datetime.datetime or None
-        What the camera's clock showed, without a zone.
+        Time on the camera's clock, without a time zone.
     heading : float or None
         Degrees from north, clockwise.
     source : str
-        Where UTC is known from: "offset" (the tag), "gps" (the GPS' time stamp), "longitude" (a
-        guess), or "" where it is not.
+        Source of UTC: "offset" (the tag), "gps" (the GPS time stamp), "longitude" (a guess), or
+        "" if UTC is unknown.
     notes : tuple of str
-        What of it is a guess, and why.
+        Which values are guesses, and why.
     """
 
     latitude: float | None
@@ -41,13 +41,13 @@ class PhotoPlace(NamedTuple):
 
     @property
     def place(self) -> Place | None:
-        """The Place, when the file tells position and time."""
+        """The Place if the file records position and time, else None."""
         if self.latitude is None or self.longitude is None or self.moment is None:
             return None
         return Place(**self.values())
 
     def values(self) -> dict[str, Any]:
-        """Return what is told by the names of a Place's fields; what is not told is None."""
+        """Return the values by the names of a Place's fields; None for each that is unknown."""
         date, hours = (None, None) if self.moment is None else date_and_hours(self.moment)
         return {
             "latitude": self.latitude,
@@ -59,16 +59,16 @@ class PhotoPlace(NamedTuple):
 
 
 def from_photo(photo: Photo, longitude: float | None = None) -> PhotoPlace:
-    """Return what the EXIF of ``photo`` says of place, time and heading.
+    """Return place, time and heading from the EXIF of ``photo``.
 
-    The offset of the camera's clock from UTC is the one that the file names; else the one that
-    the GPS' time stamp shows; else a guess by the longitude, an hour each 15°.
+    The offset of the camera's clock from UTC is the file's offset tag, else derived from the GPS
+    time stamp, else guessed from the longitude at one hour per 15°.
 
     Parameters
     ----------
     photo : Photo
     longitude : float, optional
-        Degrees east, for a photo whose file has none.
+        Degrees east, for a photo whose file records none.
     """
     facts = photo.facts
     notes = []
@@ -82,15 +82,16 @@ def from_photo(photo: Photo, longitude: float | None = None) -> PhotoPlace:
         offset = round(east / 15)
         moment, source = (moment - dt.timedelta(hours=offset)).replace(tzinfo=dt.UTC), "longitude"
         notes.append(
-            f"The photo's clock names no time zone. {zone_name(offset)} is a guess by the "
-            "longitude; daylight saving time may make it an hour more."
+            f"The photo records no time zone. {zone_name(offset)} is guessed from the longitude; "
+            "daylight saving time may add an hour."
         )
     elif moment is not None:
         moment = None
-        notes.append("The photo's clock names no time zone, and its file no place to guess it by.")
+        notes.append("The photo records no time zone, and no place from which to guess it.")
     if facts.heading is not None and facts.heading_magnetic:
         notes.append(
-            "The photo's heading is from magnetic north, which may be some degrees off true north."
+            "The photo's heading is relative to magnetic north, which can differ from true north "
+            "by some degrees."
         )
     return PhotoPlace(
         None if facts.latitude is None else round(facts.latitude, 6),
@@ -104,7 +105,7 @@ def from_photo(photo: Photo, longitude: float | None = None) -> PhotoPlace:
 
 
 def date_and_hours(moment: dt.datetime) -> tuple[str, float]:
-    """Return a moment as date and hours in UTC; without a zone it is UTC."""
+    """Return a moment as date and hours in UTC; a moment without a zone is taken as UTC."""
     utc = moment.replace(tzinfo=moment.tzinfo or dt.UTC).astimezone(dt.UTC)
     seconds = utc.hour * 3600 + utc.minute * 60 + utc.second + utc.microsecond / 1e6
     return utc.date().isoformat(), round(seconds / 3600, 4)

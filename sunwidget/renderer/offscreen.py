@@ -17,7 +17,7 @@ from sunwidget.edit.recipe import edit_of
 from sunwidget.edit.table import METHODS, Edit
 from sunwidget.errors import EditError
 from sunwidget.formats.pixels import MAX_PIXELS
-from sunwidget.messages import shown
+from sunwidget.messages import short_repr
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs, largest_texture
 from sunwidget.renderer.shader_source import frame_graph
@@ -213,7 +213,9 @@ def strips_of(
         As ``render``, when the first strip is requested.
     """
     if not isinstance(dtype, str) or dtype not in ("uint8", "uint16", "float32"):
-        raise EditError(f"dtype must be 'uint8', 'uint16' or 'float32', not {shown(dtype, 40)}.")
+        raise EditError(
+            f"dtype must be 'uint8', 'uint16' or 'float32', not {short_repr(dtype, 40)}."
+        )
     white = 2.0 ** checked_headroom(headroom, dtype)
     edit = edit_of(edit)
     scene = corrected(scene, edit)
@@ -315,11 +317,13 @@ def checked_size(size: Any) -> tuple[int, int]:
     except (TypeError, ValueError):
         width = height = 0
     if width < 1 or height < 1:
-        raise EditError(f"size must be (width, height) in whole pixels, not {shown(size, 40)}.")
+        raise EditError(
+            f"size must be (width, height) in whole pixels, not {short_repr(size, 40)}."
+        )
     if width * height > MAX_PIXELS:
         raise EditError(
-            f"size = {shown((width, height), 40)} is more than {MAX_PIXELS / 1e6:.0f} megapixels. "
-            "Choose a smaller size."
+            f"size = {short_repr((width, height), 40)} is more than {MAX_PIXELS / 1e6:.0f} "
+            "megapixels. Choose a smaller size."
         )
     return width, height
 
@@ -336,7 +340,7 @@ def checked_headroom(headroom: Any, dtype: str = "float32") -> float:
     if not number or not 0 <= headroom <= MAX_HEADROOM:
         raise EditError(
             f"headroom must be a number of stops from 0 to {MAX_HEADROOM}, not "
-            f"{shown(headroom, 40)}."
+            f"{short_repr(headroom, 40)}."
         )
     if headroom and dtype != "float32":
         raise EditError(f"headroom needs dtype='float32', since {dtype} has no light above white.")

@@ -18,11 +18,11 @@ import numpy as np
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import look_for_sun
-from sunwidget.analysis.pipeline import sun_blot
+from sunwidget.analysis.pipeline import grow_sun_mask
 from sunwidget.analysis.sun.sun import SunObservation, find, observe
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
-from sunwidget.geometry.place import Place, sun_at, turned
+from sunwidget.geometry.place import Place, sun_at, wrap_angle
 from sunwidget.photo.place import date_and_hours
 
 Direction = tuple[float, float]
@@ -67,11 +67,11 @@ class SunTrack:
             sun = sun_at(self.place.replace(date=date, time=hours))
             assert sun.azimuth is not None
             elevation = sun.elevation + self.correction[1]
-            return turned(sun.azimuth + self.correction[0]), min(max(elevation, -12.0), 90.0)
+            return wrap_angle(sun.azimuth + self.correction[0]), min(max(elevation, -12.0), 90.0)
         indices, azimuths, elevations = zip(*self.samples, strict=True)
         around = np.unwrap(np.radians(azimuths))
         azimuth = float(np.degrees(np.interp(index, indices, around)))
-        return turned(azimuth), float(np.interp(index, indices, elevations))
+        return wrap_angle(azimuth), float(np.interp(index, indices, elevations))
 
 
 def find_seen_sun(
@@ -82,8 +82,8 @@ def find_seen_sun(
         return None
     focal = camera.focal / working.zoom[1]
     peak = find(working, look_for_sun(working), sky)
-    blot = sun_blot(working, sky, peak, focal, hints.method("sun"))
-    sun = observe(None, blot, sky, camera, working, peak)
+    sun_mask = grow_sun_mask(working, sky, peak, focal, hints.method("sun"))
+    sun = observe(None, sun_mask, sky, camera, working, peak)
     if sun is None or not sun.visible or sun.kind != "sun":
         return None
     return sun.azimuth, sun.elevation
@@ -145,7 +145,7 @@ def _by_clock(timed: Sequence[Sample], place: Place, guess: Direction) -> SunTra
     facing = place.replace(heading=heading)
     track = SunTrack((), facing, (0.0, 0.0), "clock")
     off = [
-        (turned(seen[0] - expected[0]), seen[1] - expected[1])
+        (wrap_angle(seen[0] - expected[0]), seen[1] - expected[1])
         for s in timed
         if (seen := s.seen) is not None
         and math.dist(seen, expected := track.at(s.number, s.moment)) < _NEAR
@@ -202,9 +202,9 @@ def observation(
         )
         burnt = (working.encoded[window] @ LUMINANCE > _BURNT) & (sky[window] > 0.5)
         if burnt.any():
-            blot = sun_blot(working, sky, (small_x, small_y), focal, hints.method("sun"))
-            if blot is not None and blot.mask.any():
-                radius = blot.radius * working.zoom[1]
-                return SunObservation(x, y, radius, *sun, blot.mask, size, True, source)
+            sun_mask = grow_sun_mask(working, sky, (small_x, small_y), focal, hints.method("sun"))
+            if sun_mask is not None and sun_mask.mask.any():
+                radius = sun_mask.radius * working.zoom[1]
+                return SunObservation(x, y, radius, *sun, sun_mask.mask, size, True, source)
     none = np.zeros(sky.shape, np.float32)
     return SunObservation(x, y, 0.0, *sun, none, size, False, source)

@@ -33,7 +33,7 @@ from sunwidget.film.writer import (
 )
 from sunwidget.geometry.place import Place
 from sunwidget.messages import did_you_mean
-from sunwidget.photo.decode_apart import kept
+from sunwidget.photo.decode_apart import keep_process
 from sunwidget.progress import Progress, part, with_time_left
 from sunwidget.renderer.gl_thread import require_renderer
 from sunwidget.timelapses.edits import FrameEdits
@@ -163,7 +163,7 @@ def timelapse(
     steps = FrameEdits(edit, len(sources), easing)
     require_renderer()  # before the long analysis of the frames
     report = with_time_left(progress)
-    with kept():
+    with keep_process():
         scenes = FrameScenes.of(
             sources,
             long_edge=long_edge,

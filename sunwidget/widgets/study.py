@@ -28,7 +28,7 @@ from sunwidget.widgets.kernel.output import with_picture
 from sunwidget.widgets.kernel.payload import encode_jpeg, encode_preview
 from sunwidget.widgets.page.framed import StaticPage
 from sunwidget.widgets.page.saved_state import SavedLight
-from sunwidget.widgets.page.standalone import widget_state, written_page
+from sunwidget.widgets.page.standalone import widget_state, write_page
 
 _MOST_REPEATS = 100
 _SMALL_EDGE = 400  # pixels of each picture in the static one
@@ -168,7 +168,7 @@ class Study(SavedLight):
         FileExistsError
             When ``path`` exists and ``overwrite`` is false.
         """
-        return written_page(lambda: self._page(title), path, overwrite=overwrite)
+        return write_page(lambda: self._page(title), path, overwrite=overwrite)
 
     def render_static(self, *, title: str = "Study") -> StaticPage:
         """Return the page of ``to_html`` as a cell's output, which people answer without a kernel.

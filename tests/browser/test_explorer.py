@@ -212,11 +212,11 @@ def test_plots_follow_the_sun(explorer):
     page = explorer(sun_elevation=60)
     before = plot_pixels(page)
 
-    def told(title, pattern):
+    def read_values(title, pattern):
         text = card(page, title).locator(".sw-card-value").text_content()
         return [float(number) for number in re.findall(pattern, text)]
 
-    (noon,) = told("The sun's colour", r"^[\d.]+")
+    (noon,) = read_values("The sun's colour", r"^[\d.]+")
     page.get_by_role("button", name="Blue hour").click()
     settled(page)
     after = plot_pixels(page)
@@ -224,7 +224,7 @@ def test_plots_follow_the_sun(explorer):
     assert 90 < noon < 125  # klx of direct sun at 60° in clear air
     assert "sun below −1°" in card(page, "The sun's colour").text_content()
     assert "the sun is down" in card(page, "Sunlight that arrives").text_content()
-    x, y = told("Zenith in CIE x, y", r"[\d.]+")
+    x, y = read_values("Zenith in CIE x, y", r"[\d.]+")
     # As docs/methods/atmosphere.md has the zenith at −6°.
     assert (x, y) == (pytest.approx(0.235, abs=0.01), pytest.approx(0.235, abs=0.01))
 

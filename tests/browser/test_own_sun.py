@@ -1,4 +1,4 @@
-"""What the editor says of the photo's own sun, and how it is told better, in a real browser."""
+"""What the editor says of the photo's own sun, and how a person corrects it, in a real browser."""
 
 import dataclasses
 
@@ -36,7 +36,7 @@ def editor(page, state):
 
 
 @pytest.fixture
-def told(page, scene):
+def connected(page, scene):
     """An editor with a kernel that answers: the page, and its widget."""
     widget = SunEditor(scene).wait(120)
     connect(page, widget)
@@ -89,8 +89,8 @@ def test_a_ring_marks_the_found_sun_and_says_how_sure_that_is(editor, scene):
 
 
 def test_a_sun_that_is_sure_has_no_percentage(page, coast):
-    told = dataclasses.replace(coast, sun=dataclasses.replace(coast.sun, confidence=1.0))
-    page.evaluate("(state) => showEditor(state)", widget_state(SunEditor(told).wait(120)))
+    hinted = dataclasses.replace(coast, sun=dataclasses.replace(coast.sun, confidence=1.0))
+    page.evaluate("(state) => showEditor(state)", widget_state(SunEditor(hinted).wait(120)))
     page.locator(".sunwidget.sw-live").wait_for()
     assert page.locator(RING).get_attribute("aria-label") == "The photo’s sun"
 
@@ -114,8 +114,8 @@ def test_the_ring_takes_no_drag_from_the_handle_and_is_gone_while_it_lasts(edito
     assert trait(editor, "sun_azimuth") == moved
 
 
-def test_not_the_sun_leaves_the_photo_without_one_and_can_be_undone(told):
-    page, widget = told
+def test_not_the_sun_leaves_the_photo_without_one_and_can_be_undone(connected):
+    page, widget = connected
     hover(page, middle(page, RING))
     page.locator(LABEL).get_by_role("button", name="Not the sun").click()
     said = page.get_by_text("You said that the sun is not in the picture.")
@@ -156,8 +156,8 @@ def test_a_note_leads_to_the_tool_that_points_at_the_sun(page, coast):
     assert page.locator(RING).get_attribute("aria-label") == "The photo’s sun, as you said"
 
 
-def test_the_mark_is_reached_and_used_by_keyboard_alone(told):
-    page, widget = told
+def test_the_mark_is_reached_and_used_by_keyboard_alone(connected):
+    page, widget = connected
     page.locator(RING).focus()
     label = page.locator(LABEL)
     label.wait_for()

@@ -13,7 +13,7 @@ from sunwidget.cli.main import main
 from sunwidget.edit.recipe import edit_of, read_recipe
 from sunwidget.edit.table import PARAMETERS
 from sunwidget.film.path import named_edit
-from sunwidget.messages import printable, shown
+from sunwidget.messages import printable, short_repr
 
 CYCLE = {}
 CYCLE["strokes"] = [CYCLE]
@@ -151,6 +151,6 @@ def test_a_photo_or_a_path_is_no_scene():
 @given(st.text() | st.binary())
 @settings(max_examples=100, derandomize=True)
 def test_what_is_shown_of_a_value_is_short_and_obeyed_by_no_terminal(value):
-    assert len(shown(value)) <= 80
+    assert len(short_repr(value)) <= 80
     assert printable(str(value)).isprintable()
-    assert json.dumps(shown(value))
+    assert json.dumps(short_repr(value))

@@ -13,7 +13,7 @@ from sunwidget.analysis.heading import heading_by_sun, match
 from sunwidget.analysis.place_resolver import resolve_place
 from sunwidget.cli import sweep
 from sunwidget.cli.main import _parser, main
-from sunwidget.cli.place_options import place_of, placed
+from sunwidget.cli.place_options import place_of, place_sun
 from sunwidget.errors import EditError
 from sunwidget.film.path import film_edits
 from sunwidget.geometry.place import Place, at_hours, day_table, hours_of_day, solar_day, sun_at
@@ -178,10 +178,10 @@ def test_a_zone_by_the_longitude_is_said_to_be_a_guess():
     found = from_photo(taken(gps=fix()))
     assert found.source == "longitude"
     assert found.moment == dt.datetime(2024, 3, 20, 17, tzinfo=dt.UTC)
-    assert "UTC+1 is a guess" in found.notes[0]
+    assert "UTC+1 is guessed" in found.notes[0]
     # The same for a place that a person gives.
-    placed = from_photo(taken(), longitude=-76.5)
-    assert placed.moment == dt.datetime(2024, 3, 20, 23, tzinfo=dt.UTC)
+    guessed = from_photo(taken(), longitude=-76.5)
+    assert guessed.moment == dt.datetime(2024, 3, 20, 23, tzinfo=dt.UTC)
 
 
 def test_a_clock_alone_gives_no_moment():
@@ -478,14 +478,14 @@ def test_a_time_on_the_command_line_puts_the_sun_there(pvlib, file, tmp_path):
     flags = ["--place", "-33.9,18.4", "--date", "2024-12-21", "--heading", "200"]
     options = _parser().parse_args(["render", str(file), *flags, "-o", "x.png"])
     there = Place(-33.9, 18.4, "2024-12-21", 16.6975, 200.0)
-    assert placed(options, scene, sw.Edit()) == sw.Edit().at(there)
+    assert place_sun(options, scene, sw.Edit()) == sw.Edit().at(there)
 
 
 def test_a_film_of_the_day_keeps_the_sun_on_its_path(pvlib, file):
     flags = ["--time", "15:00", "--to-time", "19:00", "--to-exposure", "1"]
     options = _parser().parse_args(["sweep", str(file), *flags, "-o", "x.gif"])
     scene = sw.analyze(sw.open(file))
-    path = sweep._path(options, scene, placed(options, scene, sw.Edit()))
+    path = sweep._path(options, scene, place_sun(options, scene, sw.Edit()))
     edits = film_edits(scene, path, frames=5)
     assert [edit.place.time for edit in edits] == [15, 16, 17, 18, 19]
     assert [edit.exposure for edit in edits] == [0, 0.25, 0.5, 0.75, 1]

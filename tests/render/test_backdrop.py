@@ -13,7 +13,7 @@ from sunwidget.analysis.backdrop.backdrop import (
     to_code,
     to_light,
 )
-from sunwidget.analysis.backdrop.erase import unerased
+from sunwidget.analysis.backdrop.erase import erase_nothing
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.edit.table import Edit
 from sunwidget.photo.photo import open_photo
@@ -22,7 +22,7 @@ from sunwidget.renderer import render, render_pass
 
 def behind(photo, mark=None):
     working = Working.of(open_photo(photo.bytes))
-    erased = unerased(working) if mark is None else unerased(working)._replace(mark=mark)
+    erased = erase_nothing(working) if mark is None else erase_nothing(working)._replace(mark=mark)
     return behind_sun(erased, photo.sky, photo.camera, exact_fit(photo))
 
 
@@ -54,10 +54,10 @@ def test_what_was_found_behind_the_sun_counts_although_it_is_bright():
     bright[10:20, 10:30] = 255  # clipped: not believed
     white = Working.of(open_photo(bright))
     fit = exact_fit(photo)
-    plain = behind_sun(unerased(white), photo.sky, photo.camera, fit)
+    plain = behind_sun(erase_nothing(white), photo.sky, photo.camera, fit)
     mark = np.zeros(bright.shape[:2], np.float32)
     mark[8:22, 8:32] = 1
-    found = behind_sun(unerased(white)._replace(mark=mark), photo.sky, photo.camera, fit)
+    found = behind_sun(erase_nothing(white)._replace(mark=mark), photo.sky, photo.camera, fit)
     assert found.field[15, 20].mean() > plain.field[15, 20].mean() + 0.02
     assert found.glare[15, 20] == pytest.approx(1)
 

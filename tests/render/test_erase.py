@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sunwidget.analysis.backdrop.erase import erase, unerased
+from sunwidget.analysis.backdrop.erase import erase, erase_nothing
 from sunwidget.analysis.images.working_copy import Working, encode
 from sunwidget.analysis.networks.sun import LIGHT_FLOOR, SunMaps
 from sunwidget.analysis.sun.sun import SunObservation
@@ -27,23 +27,23 @@ def maps(clean):
     return SunMaps(plain, plain + 0.02, plain, np.asarray(clean, np.float32), plain)
 
 
-def light(blot):
-    return SunObservation(80.0, 40.0, 6.0, 0.0, 20.0, blot, SIZE, True, "detected")
+def light(sun_mask):
+    return SunObservation(80.0, 40.0, 6.0, 0.0, 20.0, sun_mask, SIZE, True, "detected")
 
 
 def sky():
     return np.ones(SIZE[::-1], np.float32)
 
 
-def blot(radius=6):
+def sun_mask(radius=6):
     rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
     return (np.hypot(columns - 80, rows - 40) < radius).astype(np.float32)
 
 
 def test_a_photo_without_a_sun_stays_the_same_object():
     working = picture()
-    assert unerased(working).working is working
-    assert not unerased(working).mark.any()
+    assert erase_nothing(working).working is working
+    assert not erase_nothing(working).mark.any()
 
 
 def glow(strength):
@@ -55,7 +55,7 @@ def glow(strength):
 
 def test_little_glare_is_taken_from_the_light_and_leaves_the_detail():
     working = picture(0.25)
-    linear = erase(working, maps(glow(0.25)), sky(), light(blot())).working.linear
+    linear = erase(working, maps(glow(0.25)), sky(), light(sun_mask())).working.linear
     box = slice(36, 44), slice(56, 64)  # 20 px beside the sun: e^-1.56 of the strength
     change = np.log((linear[box] + LIGHT_FLOOR) / (working.linear[box] + LIGHT_FLOOR))
     assert change.mean() == pytest.approx(-0.25 * np.exp(-1.56), abs=0.03)
@@ -64,13 +64,13 @@ def test_little_glare_is_taken_from_the_light_and_leaves_the_detail():
 
 def test_no_more_is_taken_than_the_sky_is_brighter_than_farther_out():
     working = picture()  # without a glow, whatever the network says
-    linear = erase(working, maps(glow(0.25)), sky(), light(blot())).working.linear
+    linear = erase(working, maps(glow(0.25)), sky(), light(sun_mask())).working.linear
     assert np.abs(linear - working.linear).mean() < 0.1 * working.linear.std()
 
 
 def test_far_from_the_sun_the_photo_stays_to_the_bit():
     working = picture(1.5)
-    erased = erase(working, maps(glow(1.5)), sky(), light(blot()))
+    erased = erase(working, maps(glow(1.5)), sky(), light(sun_mask()))
     assert erased.mark[40, 80] == pytest.approx(1)
     far = slice(90, None)
     assert np.array_equal(erased.working.linear[far], working.linear[far])
@@ -79,12 +79,12 @@ def test_far_from_the_sun_the_photo_stays_to_the_bit():
 
 def test_a_core_is_filled_from_around_it():
     code = np.full((SIZE[1], SIZE[0], 3), 80, np.uint8)
-    code[blot() > 0] = 255
+    code[sun_mask() > 0] = 255
     working = Working.of(open_photo(code))
     clean = np.zeros((*SMALL, 3))
     clean[5:16, 14:27] = -1.5  # over the core and a little beyond, too strong there
     clean[7:13, 17:24] = -3.0
-    filled = erase(working, maps(clean), sky(), light(blot())).working.encoded[40, 80]
+    filled = erase(working, maps(clean), sky(), light(sun_mask())).working.encoded[40, 80]
     assert np.abs(filled - 80 / 255).max() < 0.25
     assert filled.min() > 0.05
 
@@ -92,9 +92,9 @@ def test_a_core_is_filled_from_around_it():
 @pytest.mark.parametrize("radius", [6, 1.5])  # of 1.5 it fills no pixel of the network's map
 def test_a_sun_that_only_a_person_sees_is_covered_by_its_surroundings(radius):
     code = np.full((SIZE[1], SIZE[0], 3), 80, np.uint8)
-    code[blot(radius) > 0] = 255
+    code[sun_mask(radius) > 0] = 255
     working = Working.of(open_photo(code))
-    erased = erase(working, maps(np.zeros((*SMALL, 3))), sky(), light(blot(radius)))
+    erased = erase(working, maps(np.zeros((*SMALL, 3))), sky(), light(sun_mask(radius)))
     assert erased.mark[40, 80] == pytest.approx(1)
     assert np.abs(erased.working.encoded[40, 80] - 80 / 255).max() < 0.02
     assert erased.mark[100, 20] == 0
@@ -102,10 +102,10 @@ def test_a_sun_that_only_a_person_sees_is_covered_by_its_surroundings(radius):
 
 def test_of_what_is_burnt_to_white_nothing_is_known_whatever_the_network_says():
     code = np.full((SIZE[1], SIZE[0], 3), 80, np.uint8)
-    code[blot() > 0] = 255
+    code[sun_mask() > 0] = 255
     clean = np.zeros((*SMALL, 3))
     clean[7:13, 17:24] = -0.5  # not enough by far
-    burnt = erase(Working.of(open_photo(code)), maps(clean), sky(), light(blot()))
+    burnt = erase(Working.of(open_photo(code)), maps(clean), sky(), light(sun_mask()))
     assert np.abs(burnt.working.encoded[40, 80] - 80 / 255).max() < 0.05
     assert burnt.glow[40, 80] == pytest.approx(1)
 
@@ -118,7 +118,7 @@ def test_a_red_glow_before_dark_land_counts_though_it_is_hardly_brighter():
     working = Working.of(open_photo(linear))
     clean = np.zeros((*SMALL, 3))
     clean[14:20, 14:26, 0] = -2.0
-    assert erase(working, maps(clean), above, light(blot())).on_land[66, 80] > 0.4
+    assert erase(working, maps(clean), above, light(sun_mask())).on_land[66, 80] > 0.4
 
 
 def hill(glowing):
@@ -134,7 +134,7 @@ def test_the_glare_before_the_land_is_a_share_of_its_light():
     working, above = hill(glowing=0.2)
     clean = np.zeros((*SMALL, 3))
     clean[14:20, 14:26] = -2.0
-    share = erase(working, maps(clean), above, light(blot())).on_land
+    share = erase(working, maps(clean), above, light(sun_mask())).on_land
     assert 0.25 < share[70, 80] < 0.9
     assert share[70, 20] < 0.05  # beside it
     assert share[120].max() < 0.05
@@ -143,5 +143,5 @@ def test_the_glare_before_the_land_is_a_share_of_its_light():
 def test_land_as_bright_as_farther_out_has_no_glare_before_it():
     working, above = hill(glowing=0.0)
     clean = np.full((*SMALL, 3), -2.0)
-    share = erase(working, maps(clean), above, light(0 * blot())).on_land
+    share = erase(working, maps(clean), above, light(0 * sun_mask())).on_land
     assert share[66:].max() < 0.1

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
-from sunwidget.analysis.networks.land import of_suns
+from sunwidget.analysis.networks.land import sun_basis
 from sunwidget.edit.table import Edit
 from sunwidget.geometry.camera import Camera
 from sunwidget.renderer import render, render_pass
@@ -78,7 +78,7 @@ def test_the_light_of_any_sun_on_a_told_plain_and_wall_is_the_cosine_in_both_lan
     for azimuth, elevation in ((0, 60), (150, 20), (-90, 5)):
         a, e = np.radians((azimuth, elevation))
         sun = np.array([np.cos(e) * np.sin(a), np.sin(e), np.cos(e) * np.cos(a)])
-        light = np.clip(transfer @ of_suns(sun), 0, 1)
+        light = np.clip(transfer @ sun_basis(sun), 0, 1)
         assert np.median(light[depth < 8]) == pytest.approx(sun[1], abs=0.06)
         assert np.median(light[wall]) == pytest.approx(max(-sun[2], 0), abs=0.12)
         edit = Edit(sun_azimuth=azimuth, sun_elevation=elevation)

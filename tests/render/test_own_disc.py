@@ -82,7 +82,8 @@ def test_a_soft_glow_stays_soft_and_a_sharp_disc_sharp():
     sharp_rim, soft_rim = (
         frame_inputs.uniforms(scene_of(p))["own_disc_rim"] for p in (sharp, soft)
     )
-    assert sharp_rim < 1.4  # of a radius that is the blot's, a quarter less than the true one here
+    # In radii of the sun mask, here a quarter less than the true one.
+    assert sharp_rim < 1.4
     assert soft_rim > sharp_rim + 0.2
 
 

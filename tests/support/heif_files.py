@@ -27,10 +27,10 @@ def heic(codes, auxiliary=(), **info):
     out = io.BytesIO()
     file.save(out, quality=-1, chroma=444, matrix_coefficients=0, primary_index=0, **info)
     data = out.getvalue()
-    return told(data, [kind for kind, _ in auxiliary]) if auxiliary else data
+    return mark_auxiliary(data, [kind for kind, _ in auxiliary]) if auxiliary else data
 
 
-def told(data, kinds):
+def mark_auxiliary(data, kinds):
     """Return a HEIC whose pictures after the first are auxiliary ones of ``kinds`` to it."""
     top = list(boxes(data, 0, len(data)))
     start, end = next((a, b) for name, a, b in top if name == b"meta")

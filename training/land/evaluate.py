@@ -15,7 +15,7 @@ import torch
 
 from training.land.data import WATER, Worlds, sample
 from training.land.export import AREA, OUT
-from training.land.model import SUN_HEIGHTS, SUN_TURNS, of_suns, openness
+from training.land.model import SUN_HEIGHTS, SUN_TURNS, openness, sun_basis
 
 
 def _size(shape: tuple[int, int], area: int) -> tuple[int, int]:
@@ -85,7 +85,7 @@ def _of_others(transfer: np.ndarray, truth: dict, solid: np.ndarray) -> float:
     errors = []
     for sun, light in zip(truth["suns"], truth["passed"], strict=True):
         if sun[3]:
-            parts = of_suns(torch.from_numpy(sun[:3])).numpy()
+            parts = sun_basis(torch.from_numpy(sun[:3])).numpy()
             told = np.clip(np.tensordot(parts, transfer, 1), 0, 1)
             errors.append(((told - light[0]) ** 2)[solid].mean())
     return float(np.mean(errors)) if errors else float("nan")

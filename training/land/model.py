@@ -18,7 +18,7 @@ STRIDE = 32
 HALF = 2
 """The maps but ``sunlit`` and ``sky`` are smaller than the input by this factor."""
 TRANSFER = 12
-"""Functions of a sun's direction of which ``transfer`` holds the shares (``of_suns``)."""
+"""Functions of a sun's direction of which ``transfer`` holds the shares (``sun_basis``)."""
 MATTER = len(CLASSES)
 SUN_TURNS = torch.arange(-150.0, 181, 30)
 SUN_HEIGHTS = torch.tensor([-2.0, 2.0, 8.0, 18.0, 35.0, 60.0])
@@ -32,8 +32,8 @@ class LandNet(SkyNet):
 
     ``sky``, ``sunlit`` (N, 1, H, W) logits; at half the size ``normal`` (N, 3, h, w) unit vectors
     to the camera's right, up and towards it; ``depth`` (N, 1, h, w) log2 of metres but for a
-    constant; ``transfer`` (N, 12, h, w), whose product with ``of_suns`` is what of any sun's light
-    may be expected to fall on the place, by the light that falls on what faces it; ``facing``
+    constant; ``transfer`` (N, 12, h, w), whose product with ``sun_basis`` is the expected share of
+    any sun's light on the place, relative to the light on a surface that faces it; ``facing``
     (N, 1, h, w) logits of the cosine between the normal and the photo's sun, where it shines;
     ``matter`` (N, 8, h, w) logits; ``view`` (N, 4): row of the horizon in heights from the middle
     down, its slope, log2 of the focal length in heights, and logit of sunshine; ``sun`` (N, 72)
@@ -100,7 +100,7 @@ class LandMaps(nn.Module):
         )  # fmt: skip
 
 
-def of_suns(suns: Tensor) -> Tensor:
+def sun_basis(suns: Tensor) -> Tensor:
     """Return the functions of directions by which light on land is told, (..., 12).
 
     ``suns`` (..., 3) are unit vectors to the right, up, and ahead along the camera's heading.
@@ -151,7 +151,7 @@ def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tenso
     passed = 0.0
     for i in range(2):
         direction, known = target["suns"][:, i, :3], target["suns"][:, i, 3]
-        told = torch.einsum("nkhw,nk->nhw", out["transfer"], of_suns(direction))[:, None]
+        told = torch.einsum("nkhw,nk->nhw", out["transfer"], sun_basis(direction))[:, None]
         told = F.leaky_relu(told, 0.1)  # less than no light is none
         weight = dry * known[:, None, None, None]
         miss = (told - target["passed"][:, i]) ** 2

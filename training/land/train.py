@@ -22,7 +22,7 @@ from torch import Tensor
 
 from training.data import typical
 from training.land.data import UNKNOWN, WATER, Batch, PhotoBatches, WorldBatches
-from training.land.model import LandNet, losses, of_suns
+from training.land.model import LandNet, losses, sun_basis
 from training.loop import Run
 from training.model import SkyNet
 from training.restore import restore
@@ -37,7 +37,9 @@ PEAK_RATE, PEAK_RATE_ON = 1.2e-3, 5e-4
 KEPT, KEPT_ON = 0.997, 0.9993  # of the moving average of the weights, each step
 PHOTOS_EVERY = 3  # steps: worlds have more to tell, and the trunk knows photos
 TEACHES_FROM = 250  # steps, from which on the moving average is worth listening to
-MIRRORED = (of_suns(torch.tensor([-0.3, 0.5, 0.8])) * of_suns(torch.tensor([0.3, 0.5, 0.8]))).sign()
+MIRRORED = (
+    sun_basis(torch.tensor([-0.3, 0.5, 0.8])) * sun_basis(torch.tensor([0.3, 0.5, 0.8]))
+).sign()
 """How the functions of a sun change when left and right are exchanged."""
 
 

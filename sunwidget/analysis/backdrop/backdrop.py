@@ -91,15 +91,15 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     model = matched_sky(fit, camera, size)
     seen = fit.response.scene_light(display)
     log_residual = _log_residual(seen, model)
-    # What the glare hides goes on as the model does, which knows how bright the air was round the
-    # sun: the frame takes that away with the old sun. Its clouds go on as those beside it.
+    # Behind the glare the model continues the sky, with the bright air around the sun, which the
+    # frame removes together with the old sun. The clouds there continue those beside it.
     known = 1 - np.asarray(resize(erased.hidden, *size), np.float32)
     weight = np.asarray((matte > 0.98) * (1 - clipped) * known, np.float32)
     detail = resize(erased.detail, *size)
     filled = fill_by_pyramid(log_residual - detail, weight) + detail
     beyond = model * np.exp(filled)
     sky_light = beyond + weight[..., None] * (seen - beyond)
-    # A pixel of the skyline shows sky, too, and has one mark for both.
+    # A pixel of the skyline also shows sky, and has one mark for both.
     on_land = np.asarray(resize(erased.on_land, *size), np.float32)
     glare = np.where(matte > 0.98, mark, np.maximum(mark * smoothstep(0.0, 0.2, matte), on_land))
     return Backdrop(_dithered(to_code(sky_light)), glare)

@@ -56,7 +56,7 @@ class Erased(NamedTuple):
     detail: np.ndarray
 
 
-def unerased(working: Working) -> Erased:
+def erase_nothing(working: Working) -> Erased:
     """Return the copy of a photo that shows no sun."""
     nowhere = np.zeros((working.height, working.width), np.float32)
     return Erased(working, nowhere, nowhere, nowhere, nowhere, np.zeros((1, 1, 3), np.float32))
@@ -82,13 +82,13 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     seen = np.log(resize(working.linear, columns, rows) + LIGHT_FLOOR)
     glare = _risen(maps, seen, small_sky, light)
     felt = _without_gaps(glare.max(-1))
-    blot = resize(light.blot, columns, rows)
-    if float((blot * felt).sum()) < _HIDES[0] * float(blot.sum()):
+    sun_mask = resize(light.blot, columns, rows)
+    if float((sun_mask * felt).sum()) < _HIDES[0] * float(sun_mask.sum()):
         # The network does not erase a moon, or a sun that only the user sees.
-        felt = np.maximum(felt, _round_about(blot))
+        felt = np.maximum(felt, _round_about(sun_mask))
     # Nothing is known behind clipped pixels.
     white = resize((working.encoded.min(-1) > _WHITE).astype(np.float32), columns, rows)
-    felt = np.maximum(felt, _round_about(blot * white, _LARGEST_RIM))
+    felt = np.maximum(felt, _round_about(sun_mask * white, _LARGEST_RIM))
     known = (1 - smoothstep(*_COLOURS, felt)) * smoothstep(0.8, 1.0, small_sky)
     behind = _continued(seen - glare, known.astype(np.float32))
     clouds = (seen - glare - behind) @ LUMINANCE * (1 - smoothstep(*_HIDES, felt))
@@ -112,7 +112,9 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     glow = near * smoothstep(*_WHITENS, np.maximum(felt, -maps.clean.min(-1)))
     hidden, whitened = enlarged(smoothstep(*_FELT, felt)), enlarged(glow)
     detail = sky_detail(there, sky, hidden, keep[..., 0])
-    return Erased(copy, mark, before_land(working, maps, sky, light), hidden, whitened, detail)
+    return Erased(
+        copy, mark, find_glare_on_land(working, maps, sky, light), hidden, whitened, detail
+    )
 
 
 def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservation) -> np.ndarray:
@@ -137,7 +139,7 @@ def _without_gaps(felt: np.ndarray) -> np.ndarray:
     return np.asarray(cv2.morphologyEx(felt.astype(np.float32), cv2.MORPH_CLOSE, kernel))
 
 
-def before_land(
+def find_glare_on_land(
     working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservation
 ) -> np.ndarray:
     """Return the share of the sun's glare in the light of a small copy's land, (h, w).
@@ -200,18 +202,18 @@ def _continued(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
     return layers + fill_by_pyramid((values - layers).astype(np.float32), weight)
 
 
-def _round_about(blot: np.ndarray, largest: float = 1.0) -> np.ndarray:
+def _round_about(sun_mask: np.ndarray, largest: float = 1.0) -> np.ndarray:
     """Return a disc's pixels with its rim and glow, (h, w) float32 in [0, 1].
 
     They reach three radii; ``largest`` limits the radius, in longer sides.
     """
     import cv2
 
-    radius = max(1.0, float(np.sqrt(blot.sum() / np.pi)))
-    radius = min(radius, largest * max(blot.shape))
-    if not blot.any():
-        return np.zeros(blot.shape, np.float32)
+    radius = max(1.0, float(np.sqrt(sun_mask.sum() / np.pi)))
+    radius = min(radius, largest * max(sun_mask.shape))
+    if not sun_mask.any():
+        return np.zeros(sun_mask.shape, np.float32)
     # On a small map a small disc may fill no pixel.
-    outside = blot < 0.5 * min(float(blot.max()), 1.0)
+    outside = sun_mask < 0.5 * min(float(sun_mask.max()), 1.0)
     away = cv2.distanceTransform(outside.astype(np.uint8), cv2.DIST_L2, 5)
     return np.asarray(1 - smoothstep(0.5 * radius + 1, 2 * radius + 3, away), np.float32)

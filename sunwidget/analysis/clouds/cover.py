@@ -1,4 +1,4 @@
-"""Clouds un-mixed from the fitted sky, and continued where twigs or the sun's glow hide them."""
+"""Clouds un-mixed from the fitted sky, continued where twigs or the sun's glow hide them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sunwidget.analysis.images.fill import fill_by_pyramid
 from sunwidget.analysis.images.working_copy import smoothstep
 from sunwidget.geometry.camera import Camera
 
-_SURROUNDINGS = 0.05  # of the longer side: how far round a glow the sky shows what it hides
+_SURROUNDINGS = 0.05  # of the longer side: width of the sky used around a glow
 
 
 def unmix_clouds(
@@ -25,15 +25,15 @@ def unmix_clouds(
 ) -> tuple[Clouds, Clouds]:
     """Return ``covers`` with opacity and shade un-mixed from the fitted sky.
 
-    Both are the clouds of the sky, and of the whole picture as if it were sky.
+    Both pairs hold the clouds of the sky, and those of the whole picture as if it were sky.
     """
     of_sky, of_all = veil(erased.working, sky, camera, fitted, sun_seen=sun_seen)
-    # Where the matte is soft, twigs darken the sky as a cloud would: continue the clouds from
-    # around them. Round the sun all is white: there clouds go on as beside it.
+    # Where the matte is soft, twigs darken the sky as a cloud would; continue the clouds from
+    # around them. Around the sun everything is white; continue the clouds from beside it.
     weight = np.asarray(_inner(sky > 0.98), np.float32)
     filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), weight)
     if erased.glow.any():
-        # The clearer the surroundings are, the more the clear sky alone goes on.
+        # The clearer the surroundings, the more the clear sky alone is continued.
         weight *= 1 - erased.glow
         clear = weight * _clearness(of_sky.opacity, weight > 0.5)
         cloudy, open_ = (fill_by_pyramid(of_sky.opacity[..., None], w) for w in (weight, clear))
@@ -47,13 +47,13 @@ def unmix_clouds(
 
 
 def _clearness(opacity: np.ndarray, sky: np.ndarray) -> np.ndarray:
-    """Return how clear each pixel is beside the sky's clearest quarter, (h, w) in [0, 1]."""
+    """Return each pixel's clearness relative to the sky's clearest quarter, (h, w) in [0, 1]."""
     usual = float(np.quantile(opacity[sky], 0.25)) if sky.any() else 0.0
     return np.asarray(1 - smoothstep(0.05, 0.3, opacity - usual), np.float32)
 
 
 def _round_glow(glow: np.ndarray, weight: np.ndarray, clear: np.ndarray) -> float:
-    """Return which share of what surrounds the glow (h, w) is clear sky."""
+    """Return the share of clear sky around the glow (h, w)."""
     import cv2
 
     side = 2 * max(1, round(_SURROUNDINGS * max(glow.shape))) + 1
@@ -62,7 +62,7 @@ def _round_glow(glow: np.ndarray, weight: np.ndarray, clear: np.ndarray) -> floa
 
 
 def _inner(mask: np.ndarray) -> np.ndarray:
-    """Return where a mask (h, w) bool also holds 2 px around. Beyond the frame it goes on."""
+    """Shrink a mask (h, w) bool by 2 px; outside the frame it counts as set."""
     import cv2
 
     return cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0

@@ -78,7 +78,7 @@ class DepthNetwork:
         failure: AnalysisError | None = None
         for side in (None,) if not opened.free or self.size is not None else _SIDES:
             try:
-                values = opened.sized(side).run(working.encoded, scale)
+                values = opened.with_side(side).run(working.encoded, scale)
             except AnalysisError as error:  # many networks take only multiples of 14 or of 32
                 failure = failure or error
                 continue

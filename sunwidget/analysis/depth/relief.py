@@ -7,7 +7,7 @@ import numpy as np
 from sunwidget.analysis.depth.field import guided
 from sunwidget.analysis.depth.levels import fill_sky
 from sunwidget.analysis.images.working_copy import Working, resize
-from sunwidget.analysis.networks.land import LandMaps, of_suns
+from sunwidget.analysis.networks.land import LandMaps, sun_basis
 from sunwidget.geometry.camera import Camera
 
 _EDGES, _NO_EDGE = 4, 4e-4  # pixels of the working copy; squared contrast below an edge
@@ -61,7 +61,7 @@ def with_given_depth(
     # Least squares of the cosine over a grid of the sky, in the basis functions of suns.
     azimuth, height = np.meshgrid(np.linspace(0, 2 * np.pi, 24, endpoint=False), _HEIGHTS)
     suns = _directions(azimuth, height).reshape(-1, 3)
-    solve = np.linalg.pinv(of_suns(suns)).T.astype(np.float32)
+    solve = np.linalg.pinv(sun_basis(suns)).T.astype(np.float32)
     transfer = np.maximum(world @ suns.T.astype(np.float32), 0) @ solve
     facing = np.maximum(world @ _directions(*np.radians(sun)).astype(np.float32), 0)
     return maps._replace(normal=normal, facing=facing, transfer=transfer)

@@ -1,1 +1,1 @@
-"""Networks in ONNX files: how they are read, and what the bundled ones see."""
+"""Networks in ONNX files: loading them, and the outputs of the bundled ones."""

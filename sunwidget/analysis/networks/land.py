@@ -1,4 +1,4 @@
-"""The network that sees how land lies and what light falls on it (models/MODEL_CARD.md)."""
+"""The network that infers the land's shape and illumination (models/MODEL_CARD.md)."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.onnx_file import bundled_session
 
 BUNDLED = Path(__file__).parents[1] / "models" / "land.onnx"
-AREA = 92_000  # pixels of the picture that the network sees
+AREA = 92_000  # pixels of the network's input
 _STRIDE = 32
-_WATER = 1  # of the kinds of matter
+_WATER = 1  # index of water in the output ``matter``
 
 
 class LandMaps(NamedTuple):
-    """Its answers; all but ``sky`` and ``sunlit`` at half of the size that the network sees.
+    """The network's outputs; all but ``sky`` and ``sunlit`` at half the size of its input.
 
     Parameters
     ----------
@@ -29,19 +29,20 @@ class LandMaps(NamedTuple):
     sunlit : (h, w) float32
         Share of the sun's disc that the surface sees, [0, 1]; 0 without sunshine.
     log_depth : (h/2, w/2) float32
-        ln(metres) along the optical axis, but for a constant.
+        ln(metres) along the optical axis, up to a constant.
     normal : (h/2, w/2, 3) float32
         Unit normals: to the camera's right, up, and towards it.
     facing : (h/2, w/2) float32
-        Cosine between the normal and the photo's sun, [0, 1], where that lights the surface.
+        Cosine between the normal and the direction to the photo's sun, [0, 1], in sunlit places.
     transfer : (h/2, w/2, 12) float32
-        Shares of the functions of ``of_suns``: what of any sun's light falls on the surface.
+        Weights of the functions of ``sun_basis``: their sum is the share of a sun's light that
+        reaches the surface.
     water : (h/2, w/2) float32
         Probability of water.
     horizon : float
-        Its row at the picture's centre column, of the height; may lie outside [0, 1].
+        Row of the horizon at the center column, as a share of the height; may lie outside [0, 1].
     sun : (6, 12) float32
-        Probability of where the photo's sun is, by ``confidence.HEIGHTS`` and ``TURNS``.
+        Probability of each sun position, by ``confidence.HEIGHTS`` and ``TURNS``.
     """
 
     sky: np.ndarray
@@ -55,8 +56,8 @@ class LandMaps(NamedTuple):
     sun: np.ndarray
 
 
-def of_suns(direction: np.ndarray) -> np.ndarray:
-    """Return the functions of suns' directions by which light on land is told.
+def sun_basis(direction: np.ndarray) -> np.ndarray:
+    """Return the basis functions of the sun's direction that describe the light on land.
 
     Parameters
     ----------
@@ -66,7 +67,7 @@ def of_suns(direction: np.ndarray) -> np.ndarray:
     Returns
     -------
     (..., 12)
-        As ``training/land/model.py`` and ``shaders/land/read_transfer.glsl`` have them.
+        The same as in ``training/land/model.py`` and ``shaders/land/read_transfer.glsl``.
     """
     x, height, z = np.moveaxis(direction, -1, 0)
     height = np.maximum(height, 0)
@@ -83,17 +84,17 @@ def of_suns(direction: np.ndarray) -> np.ndarray:
 
 
 def look_at_land(working: Working) -> LandMaps:
-    """Run the network on a photo's small copy; 0.1 s on two cores, once a copy.
+    """Run the network on a photo's small copy, once per copy; 0.1 s on two cores.
 
     Raises
     ------
     AnalysisError
-        When onnxruntime is missing.
+        If onnxruntime is missing.
     """
-    with _looking:  # whoever comes while it is looked at waits for what the other sees
-        if working not in _seen:
-            _seen[working] = _look(working)
-        return _seen[working]
+    with _lock:  # a second caller waits for the first one's result
+        if working not in _results:
+            _results[working] = _look(working)
+        return _results[working]
 
 
 def _look(working: Working) -> LandMaps:
@@ -120,6 +121,6 @@ def _look(working: Working) -> LandMaps:
     )
 
 
-# Strokes and hints make new scenes of the same small copy.
-_seen: WeakKeyDictionary[Working, LandMaps] = WeakKeyDictionary()
-_looking = Lock()
+# Strokes and hints create new scenes of the same small copy.
+_results: WeakKeyDictionary[Working, LandMaps] = WeakKeyDictionary()
+_lock = Lock()

@@ -1,4 +1,4 @@
-"""An ONNX file of a network that looks at a picture: what it takes, and how to run it."""
+"""An ONNX file of a network that takes a picture: its input, and how to run it."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 
 from sunwidget.analysis.images.working_copy import resize
-from sunwidget.analysis.networks.onnx_runtime import onnx_runtime
+from sunwidget.analysis.networks.onnx_runtime import import_onnxruntime
 from sunwidget.analysis.networks.segmentation_output import map_of
 from sunwidget.errors import AnalysisError
 
-SIDE = 384  # of the picture for networks that take any size, as in the thesis
-LARGEST = 4096  # a side of the picture: a float copy of it is 200 MB
+SIDE = 384  # input side for networks of any size, as in the thesis
+LARGEST = 4096  # largest input side; a float copy of such a picture is 200 MB
 TYPES = {
     "tensor(float)": np.float32,
     "tensor(float16)": np.float16,
@@ -28,7 +28,7 @@ TYPES = {
 
 Scale = tuple[Any, Any]  # mean and deviation, each a number or three
 
-# What else a person can pass instead of a network, by what the network finds.
+# What a user can pass instead of a network, by what the network finds.
 INSTEAD = {
     "sky": "sky=mask, the path of an .onnx file, or sky='skyline'",
     "sun": "sun=(x, y)",
@@ -46,7 +46,7 @@ EXPECTED = {
 
 @dataclass(frozen=True, eq=False)
 class Opened:
-    """A network's file, open, and what its input is."""
+    """An open network file and the properties of its input."""
 
     path: str
     session: Any
@@ -55,11 +55,11 @@ class Opened:
     layout: str
     batch: bool
     size: tuple[int, int]
-    free: bool = False  # the file leaves the size open
+    free: bool = False  # the file does not fix the size
     finds: str = "sky"  # key of INSTEAD
 
-    def sized(self, side: int | None) -> Opened:
-        """Return the same network for another size of its input; None leaves it."""
+    def with_side(self, side: int | None) -> Opened:
+        """Return the same network with a square input of another side; None keeps the size."""
         return self if side is None else dataclasses.replace(self, size=(side, side))
 
     @classmethod
@@ -76,16 +76,16 @@ class Opened:
         ----------
         path : str or Path
         layout : {"nchw", "nhwc"}, optional
-            Where the file leaves it open; default "nchw".
+            If the file does not determine it; default "nchw".
         size : int or (width, height), optional
-            Of the input in pixels, where the file leaves it open; default 384.
+            Of the input in pixels, if the file does not fix it; default 384.
         finds : {"sky", "depth"}
-            For the errors.
+            Named in errors.
 
         Raises
         ------
         AnalysisError
-            When the file is missing, is no ONNX network, or takes anything but one picture.
+            If the file is missing or not an ONNX network, or its input is not one picture.
         """
         path = Path(path)
         if not path.is_file():
@@ -93,7 +93,7 @@ class Opened:
         opened = session(str(path), _stamp(path), finds)
         entries = opened.get_inputs()
         takes = "; ".join(f"{e.name} {e.type} {e.shape}" for e in entries) or "nothing"
-        refused = f"{path} is no network of one picture: it takes {takes}. "
+        refused = f"{path} must take one picture, but its inputs are {takes}. "
         if len(entries) != 1:
             raise AnalysisError(f"{refused}Export it with a single input, the picture.")
         entry = entries[0]
@@ -102,7 +102,7 @@ class Opened:
         shape = [n if isinstance(n, int) and n > 0 else None for n in entry.shape]
         batch = len(shape) == 4
         if batch and shape.pop(0) not in (None, 1):
-            raise AnalysisError(f"{refused}Export it for batches of 1, or of any size.")
+            raise AnalysisError(f"{refused}Export it for batches of 1 or of any size.")
         if len(shape) != 3:
             raise AnalysisError(
                 f"{refused}Expected (1, 3, height, width) or (1, height, width, 3)."
@@ -122,17 +122,18 @@ class Opened:
         if max(takes_size) > LARGEST:
             raise AnalysisError(
                 f"{path} takes pictures of {takes_size[0]} × {takes_size[1]}; at most {LARGEST} "
-                "pixels a side are possible. Export it for smaller ones, or for any size."
+                "pixels per side are possible. Export it for a smaller or for any size."
             )
         kind = TYPES[entry.type]
         free = width is None and height is None
         return cls(str(path), opened, entry.name, kind, layout, batch, takes_size, free, finds)
 
     def class_names(self) -> dict[int, str]:
-        """Return the names of the classes by index, as the metadata give them; else nothing.
+        """Return the names of the classes by index from the metadata; empty if there are none.
 
-        They are a list or a dictionary as Python or JSON writes it, or words between commas or
-        line ends, under one of the keys in use: names, classes, labels, class_names, id2label.
+        The metadata hold them as a Python or JSON list or dictionary, or as words separated by
+        commas or line ends, under one of the usual keys: names, classes, labels, class_names,
+        id2label.
         """
         for key in ("names", "classes", "labels", "class_names", "id2label"):
             value = _literal(self._metadata().get(key, ""))
@@ -143,27 +144,27 @@ class Opened:
             try:
                 if isinstance(value, Mapping):
                     return {int(index): str(name) for index, name in value.items()}
-            except (TypeError, ValueError):  # a dictionary the other way round, or of another thing
+            except (TypeError, ValueError):  # a dictionary from name to index, or of other content
                 continue
         return {}
 
     def scale(self, mean: Any, std: Any, default: Scale) -> Scale:
-        """Return mean and deviation of the input: the given ones, the metadata's or ``default``.
+        """Return mean and deviation of the input: as given, else the metadata's, else ``default``.
 
         Raises
         ------
         AnalysisError
-            When one is given for a network of bytes, which scales its input itself.
+            If one is given for a network of bytes, which scales its input itself.
         """
         if self.type is np.uint8:
             if mean is not None or std is not None:
                 raise AnalysisError(f"{self.path} takes bytes, 0 to 255; leave out mean= and std=.")
             return 0.0, 1 / 255
-        told = _scale_from(self._metadata()) or default
-        return told[0] if mean is None else mean, told[1] if std is None else std
+        recorded = _scale_from(self._metadata()) or default
+        return recorded[0] if mean is None else mean, recorded[1] if std is None else std
 
     def _metadata(self) -> dict[str, str]:
-        """Return what the exporter wrote into the file besides the network."""
+        """Return the metadata that the exporter wrote into the file."""
         return dict(self.session.get_modelmeta().custom_metadata_map)
 
     def run(self, picture: np.ndarray, scale: Scale, output: str | None = None) -> np.ndarray:
@@ -172,16 +173,16 @@ class Opened:
         Parameters
         ----------
         picture : (h, w, 3) float32
-            Encoded, [0, 1], the channels in the network's order.
+            Encoded, [0, 1], with channels in the network's order.
         scale : (mean, deviation)
-            Each a number or three: the network sees (picture - mean) / deviation.
+            Each one number or three; the network's input is (picture - mean) / deviation.
         output : str, optional
             Name of the output. Default: the first that is a map.
 
         Raises
         ------
         AnalysisError
-            When the network fails, has no such output, or returns no map.
+            If the network fails, has no such output, or returns no map.
         """
         names = [entry.name for entry in self.session.get_outputs()]
         if output not in (None, *names):
@@ -200,7 +201,7 @@ class Opened:
         except Exception as error:  # onnxruntime's exceptions share no public base class
             raise AnalysisError(
                 f"The {self.finds} network {self.path} failed on a {self.size[0]} × {self.size[1]} "
-                f"picture: {str(error)[:300]}. Give the size and layout it was made for, "
+                f"picture: {str(error)[:300]}. Give the size and layout it was made for: "
                 f"{self.finds}={self.finds.capitalize()}Network(path, size=…, layout=…), or an "
                 "array."
             ) from error
@@ -226,40 +227,40 @@ def _scale_from(metadata: Mapping[str, str]) -> Scale | None:
         except (KeyError, TypeError, ValueError):
             continue
         if np.isfinite([mean, std]).all() and (std > 0).all():
-            # Some are in units of code values: (123.675, 116.28, 103.53), (58.395, 57.12, 57.375).
+            # Some files use code values: (123.675, 116.28, 103.53), (58.395, 57.12, 57.375).
             unit = 255 if max(mean.max(), std.max()) > 2 else 1
             return mean / unit, std / unit
     return None
 
 
 def _literal(text: str) -> Any:
-    """Return the Python value that a text writes, or the text."""
+    """Return the Python literal that a text contains, or the text."""
     try:
         return ast.literal_eval(text)
     except (ValueError, SyntaxError, TypeError, RecursionError, MemoryError):
         return text
 
 
-@lru_cache(maxsize=8)  # three are our own
+@lru_cache(maxsize=8)  # the package bundles three
 def session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
-    """Open a file once; ``finds`` is for the errors, a key of ``INSTEAD`` where one can do without.
+    """Open a file once. ``finds`` is named in errors; a key of ``INSTEAD`` adds an alternative.
 
     Raises
     ------
     AnalysisError
-        When onnxruntime is missing or the file is no network.
+        If onnxruntime is missing or the file is not a network.
     """
     import cv2
 
     try:
-        onnxruntime = onnx_runtime()
+        onnxruntime = import_onnxruntime()
     except ImportError as error:
         without = f" Without it pass {INSTEAD[finds]}." if finds in INSTEAD else ""
         raise AnalysisError(
             f"A {finds} network needs onnxruntime (pip install onnxruntime).{without}"
         ) from error
     options = onnxruntime.SessionOptions()
-    # Two gain as much as more; a batch's worker leaves OpenCV fewer, and so they share the cores.
+    # More than two threads are no faster. Batch workers limit OpenCV's threads, so use that limit.
     options.intra_op_num_threads = max(1, min(2, cv2.getNumThreads()))
     options.inter_op_num_threads = 1
     options.log_severity_level = 4
@@ -275,12 +276,12 @@ def session(path: str, _stamp: tuple[int, int], finds: str) -> Any:
 
 
 def bundled_session(path: Path, finds: str) -> Any:
-    """Open a network that ships with the package, once.
+    """Open a bundled network, once.
 
     Raises
     ------
     AnalysisError
-        When the file or onnxruntime is missing.
+        If the file or onnxruntime is missing.
     """
     if not path.is_file():
         raise AnalysisError(f"No {finds} network at {path}. Reinstall sunwidget.")
@@ -288,6 +289,6 @@ def bundled_session(path: Path, finds: str) -> Any:
 
 
 def _stamp(path: Path) -> tuple[int, int]:
-    """Return what tells that another file lies under the same name."""
+    """Return a key that changes when the file is replaced."""
     stat = path.stat()
     return stat.st_mtime_ns, stat.st_size

@@ -6,21 +6,21 @@ import os
 from types import ModuleType
 
 
-def onnx_runtime() -> ModuleType:
-    """Import onnxruntime so that it sends nothing and leaves no identifier on the disk.
+def import_onnxruntime() -> ModuleType:
+    """Import onnxruntime with its telemetry disabled and no identifier left on disk.
 
-    Since 1.29 its wheels report sessions and models to their maker, and keep a device's number
-    in the cache folder, unless a variable says no before the first import. sunwidget sends
-    nothing unasked; a person who has set the variable is asked already.
+    Since 1.29 its wheels report sessions and models to the vendor and keep a device identifier in
+    the cache folder, unless an environment variable disables this before the first import.
+    sunwidget sends nothing without consent, and respects the variable if the user has set it.
 
     Raises
     ------
     ImportError
-        When onnxruntime is not installed.
+        If onnxruntime is not installed.
     """
     refused = os.environ.setdefault("ORT_DISABLE_TELEMETRY", "1") == "1"
     import onnxruntime
 
     if refused:
-        onnxruntime.disable_telemetry_events()  # for when another's import came first
+        onnxruntime.disable_telemetry_events()  # if another package imported it first
     return onnxruntime

@@ -1,7 +1,7 @@
-"""From what a segmentation network returns to a map of the sky.
+"""Convert the output of a segmentation network to a map of the sky.
 
 The thesis takes the pixels whose strongest class is "sky" (equations 3.1 and 3.2). ``sky_of``
-keeps that border exactly and stays soft around it.
+keeps that border exactly and is soft around it.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import numpy as np
 from sunwidget.errors import AnalysisError
 
 LABELS = {1: 0, 2: 1, 19: 10, 150: 2, 151: 3, None: 2}
-"""Index of "sky" by the number of classes: sky alone, land and sky, Cityscapes, ADE20K, and
-ADE20K with its background class. None stands for a map of labels: ADE20K's, as in the thesis."""
+"""Index of "sky" by the number of classes: only sky, land and sky, Cityscapes, ADE20K, and ADE20K
+with a background class. None stands for a map of labels, ADE20K's as in the thesis."""
 
 _KNOWN = (
     "2 for ADE20K's 150 classes, 3 for its 151 with background, 10 for Cityscapes' 19, "
@@ -24,21 +24,21 @@ _KNOWN = (
 
 
 def map_of(output: object, size: tuple[int, int], layout: str) -> np.ndarray | None:
-    """Return a network's output as a map, or None when it is none.
+    """Return a network's output as a map, or None if it is not one.
 
     Parameters
     ----------
     output : array
-        (h, w), (1, h, w), (h, w, 1), (1, classes, h, w) or (1, h, w, classes), any number type.
+        (h, w), (1, h, w), (h, w, 1), (1, classes, h, w) or (1, h, w, classes), any numeric type.
     size : (width, height)
-        Of the network's input. The map's rows and columns have its proportions.
+        Of the network's input, whose aspect ratio the map has.
     layout : {"nchw", "nhwc"}
-        Of the network's input; decides where the proportions do not.
+        Of the network's input; decides if the aspect ratio does not.
 
     Returns
     -------
     (h, w) of whole numbers, (h, w) float32 or (h, w, classes) float32
-        Labels, one value, or scores for each pixel.
+        Labels, one value, or class scores per pixel.
     """
     array = np.asarray(output)
     if array.dtype.kind not in "fiub" or 0 in array.shape:
@@ -55,7 +55,7 @@ def map_of(output: object, size: tuple[int, int], layout: str) -> np.ndarray | N
 
 
 def _class_axis(shape: tuple[int, ...], size: tuple[int, int], layout: str) -> int:
-    """Return the axis of length 1, or the one beside which the rest has the picture's shape."""
+    """Return the axis of length 1, else the one whose removal leaves the picture's aspect ratio."""
 
     def misfit(axis: int) -> tuple[bool, float]:
         height, width = np.delete(shape, axis)
@@ -66,16 +66,16 @@ def _class_axis(shape: tuple[int, ...], size: tuple[int, int], layout: str) -> i
 
 
 def sky_of(values: np.ndarray, label: int) -> np.ndarray:
-    """Return the sky (h, w) float32 in [0, 1], above 0.5 exactly where sky is the likeliest.
+    """Return the sky (h, w) float32 in [0, 1], above 0.5 exactly where sky is the likeliest class.
 
     Scores give the odds of sky against the strongest other class: the logistic function of the
-    difference of their logits, or p / (p + q) for probabilities. One value a pixel is the sky's
-    probability or logit. It is a label where its type holds whole numbers, or ``label`` is not 0.
+    difference of their logits, or p / (p + q) for probabilities. One value per pixel is the
+    sky's probability or logit, or a label if its type is an integer or ``label`` is not 0.
 
     Raises
     ------
     AnalysisError
-        When the network returned NaN or infinite values.
+        If the network returned NaN or infinite values.
     """
     if values.ndim == 2 and (label or values.dtype.kind != "f"):
         return (values == label).astype(np.float32)
@@ -83,7 +83,7 @@ def sky_of(values: np.ndarray, label: int) -> np.ndarray:
         share = 1 - float(np.isfinite(values).mean())
         raise AnalysisError(
             f"The sky network returned NaN or infinite values ({share:.0%} of them): its "
-            "normalisation is wrong or the file is damaged. Give sky=SkyNetwork(path, mean=…, "
+            "normalization is wrong or the file is damaged. Give sky=SkyNetwork(path, mean=…, "
             "std=…), another network or a mask."
         )
     probable = values.min() >= -1e-3 and values.max() <= 1 + 1e-3
@@ -108,23 +108,23 @@ def label_of(
     Parameters
     ----------
     wanted : int, str or None
-        Index or name that the caller gave. None takes the class that the file names "sky", else
-        the one of ``LABELS``.
+        Index or name from the caller. None selects the class that the file names "sky", else the
+        one in ``LABELS``.
     values : ndarray
-        The map that the network returned (``map_of``).
+        The network's output as a map (``map_of``).
     names : dict
-        Index to name, as the file gives them; may be empty.
+        Names by index from the file; may be empty.
     network : str
-        For the error.
+        Named in the error.
 
     Raises
     ------
     AnalysisError
-        When there is no such class, or nothing says which one is the sky.
+        If there is no such class, or nothing identifies the sky's class.
     """
     classes: int | None = values.shape[-1] if values.ndim == 3 else 1
     if values.ndim == 2 and (values.dtype.kind != "f" or (wanted and _whole(values))):
-        classes = None  # labels, which do not say of how many classes
+        classes = None  # labels do not reveal the number of classes
     if isinstance(wanted, int):
         index: int | None = wanted
     else:

@@ -1,4 +1,4 @@
-"""The network that looks for the sun, the sky behind it, and water (models/MODEL_CARD.md)."""
+"""The network that finds the sun, the sky behind it, and water (models/MODEL_CARD.md)."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.onnx_file import bundled_session
 
 BUNDLED = Path(__file__).parents[1] / "models" / "suns.onnx"
-LONG_SIDE = 320  # of the picture that the network sees
+LONG_SIDE = 320  # of the network's input
 LIGHT_FLOOR = 0.01  # added to display-linear light before its logarithm (training/suns/model.py)
 _STRIDE = 32
 
 
 class SunMaps(NamedTuple):
-    """What the network says, at a quarter of the size at which it sees the photo.
+    """The network's outputs, at a quarter of the size of its input.
 
     Parameters
     ----------
     probability : (h, w) float32
-        That the sun's centre is there.
+        Probability that the sun's center is there.
     radius : (h, w) float32
-        Of the disc or burnt core centred there, in widths of the picture.
+        Radius of the disc or clipped core centered there, in widths of the picture.
     sharpness : (h, w) float32
-        Probability that it has a limb, and is no bloomed core.
+        Probability that it has a limb and is not a bloomed core.
     clean : (h, w, 3) float32
         log(c + LIGHT_FLOOR) - log(x + LIGHT_FLOOR), x the photo in display-linear light and c the
-        same without the sun, its halo and what the lens made of it; at most 0.
+        same without the sun, its halo and its lens artifacts; at most 0.
     water : (h, w) float32
         Probability of water, which may mirror the sun.
     """
@@ -47,7 +47,7 @@ def look_for_sun(working: Working) -> SunMaps:
     Raises
     ------
     AnalysisError
-        When onnxruntime is missing.
+        If onnxruntime is missing.
     """
     scale = LONG_SIDE / max(working.width, working.height)
     width, height = (

@@ -15,7 +15,7 @@ import numpy as np
 
 from sunwidget.analysis.images.working_copy import Working, log_odds, resize, smoothstep
 from sunwidget.analysis.networks.land import look_at_land
-from sunwidget.analysis.segmentation.sky_network import SkyNetwork, bundled
+from sunwidget.analysis.segmentation.sky_network import SkyNetwork, bundled_network
 from sunwidget.errors import AnalysisError, PhotoError
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.photo.photo import open_photo
@@ -29,7 +29,7 @@ def network(working: Working) -> np.ndarray:
 
     The land network, which knows roofs, snow and walls, counts by day only.
     """
-    seen = bundled()(working)
+    seen = bundled_network()(working)
     height, width = seen.shape
     luminance = resize(working.encoded, width, height) @ LUMINANCE
     among = luminance[seen > 0.5] if (seen > 0.5).any() else luminance

@@ -43,8 +43,8 @@ def matte(
     if decision.final or min(working.width, working.height) < MINIMUM_SIDE:
         return np.asarray(np.clip(resize(decision.sky, width, height), 0, 1))
     sky = resize(decision.sky, working.width, working.height)
-    sureness = resize(decision.sureness, working.width, working.height)
-    slope, offset = guided_coefficients(working.guide, sky, sureness, RADIUS, EPSILON)
+    confidence = resize(decision.confidence, working.width, working.height)
+    slope, offset = guided_coefficients(working.guide, sky, confidence, RADIUS, EPSILON)
     return _at_full_size(photo, working.zoom, np.dstack([slope, offset]))
 
 

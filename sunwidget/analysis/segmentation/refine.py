@@ -22,12 +22,12 @@ MINIMUM_SIDE = 4  # smaller pictures have no neighborhood for refinement
 class Decision(NamedTuple):
     """Sky or land at low resolution.
 
-    ``sky`` is (h, w) float32 in [0, 1], its confidence ``sureness`` (h, w) float32 in (0, 1]. A
+    ``sky`` is (h, w) float32 in [0, 1], its confidence ``confidence`` (h, w) float32 in (0, 1]. A
     ``final`` decision is a matte already: it is only resized to the photo.
     """
 
     sky: np.ndarray
-    sureness: np.ndarray
+    confidence: np.ndarray
     final: bool = False
 
 
@@ -80,8 +80,8 @@ def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
         evidence = np.log(certain / (1 - certain)) + 0.4 * (2 * cutout - 1)
         evidence += weight * np.clip(colors, -6, 6)
         cutout = (evidence > 0).astype(np.float32)
-    sureness = np.clip(np.abs(evidence) / 4, 0.02, 1)
-    return Decision(cutout, sureness.astype(np.float32))
+    confidence = np.clip(np.abs(evidence) / 4, 0.02, 1)
+    return Decision(cutout, confidence.astype(np.float32))
 
 
 def edge(working: Working, probability: np.ndarray) -> Decision:
@@ -234,5 +234,5 @@ def _decision(sky: np.ndarray, coarse: np.ndarray) -> Decision:
     mask = sky.astype(np.uint8)
     edge = cv2.morphologyEx(mask, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8))
     agreement = np.where(sky, coarse, 1 - coarse)
-    sureness = np.clip(agreement, 0.05, 1) * np.where(edge == 1, 0.05, 1)
-    return Decision(mask.astype(np.float32), sureness.astype(np.float32))
+    confidence = np.clip(agreement, 0.05, 1) * np.where(edge == 1, 0.05, 1)
+    return Decision(mask.astype(np.float32), confidence.astype(np.float32))

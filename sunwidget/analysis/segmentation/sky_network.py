@@ -1,7 +1,7 @@
 """Any segmentation network in an ONNX file as the source of the coarse sky (thesis 3.1.1.1).
 
-The file gives layout, type and size of its input. What it does not hold, the scale of its input
-and which class is the sky, is an argument of ``SkyNetwork`` with a default.
+The file specifies layout, type and size of its input. The scale of the input and the sky's class,
+which the file may lack, are arguments of ``SkyNetwork`` with defaults.
 """
 
 from __future__ import annotations
@@ -27,31 +27,30 @@ class SkyNetwork:
     Parameters
     ----------
     path : str or Path
-        The .onnx file. It takes one picture and returns class scores, class labels or a map
-        of the sky, in any of the usual layouts.
+        The .onnx file. The network takes one picture and returns class scores, class labels or a
+        map of the sky, in any of the usual layouts.
     label : int or str, optional
         The sky's class, as index from 0 or as one of the names in the file's metadata. Default:
         the class that the metadata name "sky", else by the number of classes: 0 of 1, 1 of 2
         (land and sky), 2 of 150 and 3 of 151 (ADE20K), 10 of 19 (Cityscapes), 2 in a map of
-        labels. Needed for any other number. A map of labels as floats needs it, too.
+        labels. Required for any other number, and for a map of labels stored as floats.
     layout : {"nchw", "nhwc"}, optional
-        Of the input. Default: the one that the file's 3 channels show, else "nchw".
+        Layout of the input. Default: inferred from the axis with 3 channels, else "nchw".
     channels : {"rgb", "bgr"}
-        Order of the colours.
+        Order of the color channels.
     mean, std : float or (r, g, b), optional
-        The network sees (value - mean) / std of encoded values in [0, 1], in the order of
-        ``channels``. std=1/255 stands for code values 0 to 255. Default: what the file's metadata
-        hold under these names, else 0 and 1.
+        The network's input is (value - mean) / std of encoded values in [0, 1], in the order of
+        ``channels``. std=1/255 gives code values 0 to 255. Default: the entries of these names in
+        the file's metadata, else 0 and 1.
     size : int or (width, height), optional
-        Of the picture that the network sees, in pixels, where the file leaves it open;
-        default 384.
+        Of the network's input in pixels, if the file does not fix it; default 384.
     output : str, optional
         Name of the output. Default: the first that is a map.
 
     Raises
     ------
     AnalysisError
-        For a field that cannot be used.
+        For an invalid field.
 
     Examples
     --------
@@ -88,7 +87,7 @@ class SkyNetwork:
             value = getattr(self, name)
             if value is not None and not _numbers(value, (1, most), lowest):
                 raise AnalysisError(f"{name} must be {takes}, not {value!r:.80}.")
-        # Hashable and plain, whatever sequence or NumPy number was given.
+        # Convert sequences and NumPy numbers to hashable plain values.
         if whole:
             object.__setattr__(self, "label", int(self.label))  # type: ignore[arg-type]
         for name, kind in (("mean", float), ("std", float), ("size", int)):
@@ -104,8 +103,8 @@ class SkyNetwork:
         Raises
         ------
         AnalysisError
-            When the file is missing or no network, its input is no picture, it does not say
-            which class is sky, it has no such class, or it fails on the picture.
+            If the file is missing or not a network, its input is not a picture, the sky's class is
+            unknown or missing, or the network fails on the picture.
         """
         opened = self.open()
         scale = opened.scale(self.mean, self.std, (0.0, 1.0))
@@ -113,16 +112,16 @@ class SkyNetwork:
         return sky_of(values, label_of(self.label, values, opened.class_names(), str(self.path)))
 
     def open(self) -> Opened:
-        """Return the opened file, with what its input is."""
+        """Return the opened file with the properties of its input."""
         return Opened.of(self.path, self.layout, self.size)
 
     def arrange(self, picture: np.ndarray) -> np.ndarray:
-        """Return a ``picture`` (h, w, 3) with its channels in the network's order."""
+        """Return ``picture`` (h, w, 3) with its channels in the network's order."""
         return picture if self.channels == "rgb" else picture[..., ::-1]
 
 
-def bundled() -> SkyNetwork:
-    """Return the network that comes with the package."""
+def bundled_network() -> SkyNetwork:
+    """Return the network that is bundled with the package."""
     return SkyNetwork(BUNDLED)
 
 

@@ -178,7 +178,7 @@ def _matte_after(
 
 
 def _differ(a: Decision, b: Decision) -> np.ndarray:
-    return np.asarray((a.sky != b.sky) | (a.sureness != b.sureness))
+    return np.asarray((a.sky != b.sky) | (a.confidence != b.confidence))
 
 
 def _tiles(scene: Scene, fresh: np.ndarray) -> Iterator[_Tile]:
@@ -206,7 +206,7 @@ def _matte_of(base: Scene, decision: Decision, near: np.ndarray, tile: _Tile) ->
     lines = guided_coefficients(
         guide,
         np.ascontiguousarray(decision.sky[tile.outer]),
-        np.ascontiguousarray(decision.sureness[tile.outer]),
+        np.ascontiguousarray(decision.confidence[tile.outer]),
         RADIUS,
         EPSILON,
     )

@@ -87,10 +87,12 @@ class Painting:
         inside = resize(changed.astype(np.float32), columns, rows) > 0.5
         edge = cv2.morphologyEx(changed, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8))
         unsure = resize(edge.astype(np.float32), columns, rows) > 0.25
-        sureness = np.where(inside, 1, decision.sureness)
-        sureness = np.where(unsure, np.minimum(sureness, 0.05), sureness)
+        confidence = np.where(inside, 1, decision.confidence)
+        confidence = np.where(unsure, np.minimum(confidence, 0.05), confidence)
         sky = np.where(inside, new, decision.sky)
-        return decision._replace(sky=sky.astype(np.float32), sureness=sureness.astype(np.float32))
+        return decision._replace(
+            sky=sky.astype(np.float32), confidence=confidence.astype(np.float32)
+        )
 
 
 def _stroked(

@@ -21,19 +21,19 @@ from sunwidget.geometry.camera import Camera, Point
 
 __all__ = [
     "METHODS",
-    "Blot",
     "Peak",
+    "SunMask",
     "SunObservation",
     "away_from",
     "disc_fit",
     "field_of_view_of",
     "find",
+    "find_land_glare",
     "find_moon",
     "flood_fill",
-    "foot",
     "in_sky",
+    "limit_to_peak",
     "observe",
-    "settled",
 ]
 
 _SHARP = 0.6  # sharpness by the network, from which a core is a disc with a limb
@@ -89,7 +89,7 @@ class SunObservation:
         return resize(self.blot, *self.size)
 
 
-class Blot(NamedTuple):
+class SunMask(NamedTuple):
     """The sun in working pixels: center, radius and mask (h, w) float32."""
 
     x: float
@@ -98,7 +98,7 @@ class Blot(NamedTuple):
     mask: np.ndarray
 
 
-def flood_fill(working: Working, sky: np.ndarray, x: float, y: float, focal: float) -> Blot:
+def flood_fill(working: Working, sky: np.ndarray, x: float, y: float, focal: float) -> SunMask:
     """Grow from the seed over pixels whose luminance differs from the seed's by at most M.
 
     Thesis Algorithm 1, with pixels marked on push (``cv2.floodFill`` with a fixed range). ``sky``
@@ -115,10 +115,10 @@ def flood_fill(working: Working, sky: np.ndarray, x: float, y: float, focal: flo
     filled = mask[1:-1, 1:-1].astype(np.float32)
     rows, columns = np.nonzero(filled)
     radius = math.sqrt(rows.size / math.pi)
-    return Blot(float(columns.mean()) + 0.5, float(rows.mean()) + 0.5, radius, filled)
+    return SunMask(float(columns.mean()) + 0.5, float(rows.mean()) + 0.5, radius, filled)
 
 
-def disc_fit(working: Working, sky: np.ndarray, x: float, y: float, focal: float) -> Blot:
+def disc_fit(working: Working, sky: np.ndarray, x: float, y: float, focal: float) -> SunMask:
     """Grow the clipped area around the seed and fit a circle to it.
 
     The area is nearly as bright as the brightest pixel within a few disc radii of the seed. Its
@@ -143,7 +143,7 @@ def disc_fit(working: Working, sky: np.ndarray, x: float, y: float, focal: float
     ]
     found = near[near > 0]
     if not found.size:
-        return Blot(x, y, true_radius, np.zeros((height, width), np.float32))
+        return SunMask(x, y, true_radius, np.zeros((height, width), np.float32))
     mask = (labels == np.bincount(found).argmax()).astype(np.uint8)
     depth = cv2.distanceTransform(np.pad(mask, 1), cv2.DIST_L2, 5)[1:-1, 1:-1]
     weight = np.where(depth > 0.5 * depth.max(), depth, 0) ** 2
@@ -151,41 +151,45 @@ def disc_fit(working: Working, sky: np.ndarray, x: float, y: float, focal: float
     total = float(weight.sum())
     center_x = float((columns * weight).sum()) / total + 0.5
     center_y = float((rows * weight).sum()) / total + 0.5
-    return Blot(center_x, center_y, max(float(depth.max()), true_radius), mask.astype(np.float32))
+    return SunMask(
+        center_x, center_y, max(float(depth.max()), true_radius), mask.astype(np.float32)
+    )
 
 
-METHODS: dict[str, Callable[[Working, np.ndarray, float, float, float], Blot]] = {
+METHODS: dict[str, Callable[[Working, np.ndarray, float, float, float], SunMask]] = {
     "flood_fill": flood_fill,
     "disc_fit": disc_fit,
 }
 
 
-def settled(blot: Blot, peak: Peak) -> Blot:
+def limit_to_peak(sun_mask: SunMask, peak: Peak) -> SunMask:
     """Return a mask grown from a detected sun, or a plain disc if it grew into cloud or glow."""
-    near = math.hypot(blot.x - peak.x, blot.y - peak.y) < max(0.7 * peak.radius, 3)
-    if near and 0.5 * peak.radius < blot.radius < 1.6 * peak.radius:
-        return blot
-    away = away_from(blot.mask.shape, peak.x, peak.y)
+    near = math.hypot(sun_mask.x - peak.x, sun_mask.y - peak.y) < max(0.7 * peak.radius, 3)
+    if near and 0.5 * peak.radius < sun_mask.radius < 1.6 * peak.radius:
+        return sun_mask
+    away = away_from(sun_mask.mask.shape, peak.x, peak.y)
     disc = np.clip(peak.radius + 0.5 - away, 0, 1).astype(np.float32)
-    return Blot(peak.x, peak.y, peak.radius, disc)
+    return SunMask(peak.x, peak.y, peak.radius, disc)
 
 
-def field_of_view_of(blot: Blot, peak: Peak, working: Working, assumed: float) -> float | None:
+def field_of_view_of(
+    sun_mask: SunMask, peak: Peak, working: Working, assumed: float
+) -> float | None:
     """Return the vertical field of view in degrees from the disc's size, or None.
 
     A sharp and round limb has the true 0.533°. A bloomed core gives no information, and a disc of a
     few pixels little. A disc no larger than in the ``assumed`` field of view counts as bloomed.
     """
-    area = float(blot.mask.sum())
-    if peak.sharpness < _SHARP or blot.radius < _LEAST_LIMB or peak.confidence < 0.5:
+    area = float(sun_mask.mask.sum())
+    if peak.sharpness < _SHARP or sun_mask.radius < _LEAST_LIMB or peak.confidence < 0.5:
         return None
-    away = away_from(blot.mask.shape, blot.x, blot.y) / blot.radius
+    away = away_from(sun_mask.mask.shape, sun_mask.x, sun_mask.y) / sun_mask.radius
     luminance = working.encoded @ LUMINANCE
     inside = float(np.median(luminance[(away > 0.7) & (away < 0.9)]))
     outside = float(np.median(luminance[(away > 1.2) & (away < 1.4)]))
     if inside - outside < _LIMB_STEP:
         return None
-    if area > 1.4 * math.pi * blot.radius**2:
+    if area > 1.4 * math.pi * sun_mask.radius**2:
         return None
     # Half way between the two sides of the limb.
     disc = np.count_nonzero((luminance > (inside + outside) / 2) & (away < 1.4))
@@ -199,7 +203,9 @@ def away_from(shape: tuple[int, ...], x: float, y: float) -> np.ndarray:
     return np.hypot(np.arange(shape[1]) + 0.5 - x, np.arange(shape[0])[:, None] + 0.5 - y)
 
 
-def in_sky(blot: Blot, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6) -> np.ndarray:
+def in_sky(
+    sun_mask: SunMask, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6
+) -> np.ndarray:
     """Return the mask with a soft rim, (h, w) float32; zeros unless sky surrounds it.
 
     Pixels much darker than the disc, such as twigs in front of it, are excluded. ``least`` is the
@@ -207,10 +213,10 @@ def in_sky(blot: Blot, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6)
     """
     import cv2
 
-    if not 0 < blot.radius < 0.12 * max(sky.shape):
+    if not 0 < sun_mask.radius < 0.12 * max(sky.shape):
         return np.zeros_like(sky)
-    reach = 2 * math.ceil(0.25 * blot.radius + 2) + 1
-    ring = cv2.dilate(blot.mask, np.ones((3 * reach, 3 * reach), np.uint8)) - blot.mask
+    reach = 2 * math.ceil(0.25 * sun_mask.radius + 2) + 1
+    ring = cv2.dilate(sun_mask.mask, np.ones((3 * reach, 3 * reach), np.uint8)) - sun_mask.mask
     if ring.sum() < 1 or float((ring * sky).sum() / ring.sum()) < least:
         return np.zeros_like(sky)
     # The land below the sky cuts a setting sun.
@@ -218,11 +224,11 @@ def in_sky(blot: Blot, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6)
     if not rows.size:
         return np.zeros_like(sky)
     below = np.arange(sky.shape[0]) > rows[-1]
-    blot = blot._replace(mask=np.where(below[:, None], 0, blot.mask).astype(np.float32))
-    grown = cv2.dilate(blot.mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
+    sun_mask = sun_mask._replace(mask=np.where(below[:, None], 0, sun_mask.mask).astype(np.float32))
+    grown = cv2.dilate(sun_mask.mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
     soft = np.clip(cv2.GaussianBlur(grown, (0, 0), reach / 6), 0, 1)
     luminance = encoded @ LUMINANCE
-    inside = luminance[blot.mask > 0.5]
+    inside = luminance[sun_mask.mask > 0.5]
     usual = float(np.median(inside)) if inside.size else 0.0
     return np.asarray(soft * smoothstep(0.5, 0.7, luminance / max(usual, 1e-3)), np.float32)
 
@@ -230,7 +236,7 @@ def in_sky(blot: Blot, sky: np.ndarray, encoded: np.ndarray, least: float = 0.6)
 _BURNS = 0.75  # radii beyond the disc
 
 
-def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
+def find_land_glare(sun_mask: SunMask, sky: np.ndarray) -> np.ndarray:
     """Return where a low sun's glare over an even skyline is not sky, (h, w) float32 in [0, 1].
 
     A setting sun clips a notch into the sea or the hills in front of it. If the skylines left and
@@ -240,8 +246,8 @@ def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
     import cv2
 
     no_sky = np.zeros_like(sky)
-    wide = math.ceil(3 * blot.radius) + 3
-    first, last = math.floor(blot.x) - wide, math.ceil(blot.x) + wide
+    wide = math.ceil(3 * sun_mask.radius) + 3
+    first, last = math.floor(sun_mask.x) - wide, math.ceil(sun_mask.x) + wide
     if first - wide < 0 or last + wide > sky.shape[1]:
         return no_sky
     # In each column, the row below its last pixel of sky.
@@ -253,21 +259,21 @@ def foot(blot: Blot, sky: np.ndarray) -> np.ndarray:
     if uneven or steep:
         near = math.ceil(wide / 3)
         left, right = left[-near:], right[:near]
-    if min(left.min(), right.min()) <= blot.y:
+    if min(left.min(), right.min()) <= sun_mask.y:
         return no_sky
     line = np.interp(np.arange(first, last), [first, last], [left.mean(), right.mean()])
     below = np.arange(sky.shape[0])[:, None] + 0.5 - line
     no_sky[:, first:last] = np.clip(below, 0, 1)
     if uneven or steep:
-        side = 2 * math.ceil(_BURNS * blot.radius + 2) + 1
-        burnt = cv2.dilate(blot.mask, np.ones((side, side), np.uint8))
+        side = 2 * math.ceil(_BURNS * sun_mask.radius + 2) + 1
+        burnt = cv2.dilate(sun_mask.mask, np.ones((side, side), np.uint8))
         no_sky *= cv2.GaussianBlur(burnt, (0, 0), 1.0)
     return no_sky
 
 
 def observe(
     seed: Point | None,
-    blot: Blot | None,
+    sun_mask: SunMask | None,
     sky: np.ndarray,
     camera: Camera,
     working: Working,
@@ -281,19 +287,19 @@ def observe(
     zoom_x, zoom_y = working.zoom
     if seed is not None:
         x, y = seed
-    elif blot is not None:
-        x, y = blot.x, blot.y
+    elif sun_mask is not None:
+        x, y = sun_mask.x, sun_mask.y
     else:
         return None
     mask = np.zeros_like(sky)
     radius, visible = 0.0, False
-    if blot is not None:
+    if sun_mask is not None:
         column = min(max(int(x), 0), working.width - 1)
         row = min(max(int(y), 0), working.height - 1)
         around = sky[max(row - 3, 0) : row + 4, max(column - 3, 0) : column + 4]
-        visible = bool(around.max() > 0.5) and bool(blot.mask.any())
+        visible = bool(around.max() > 0.5) and bool(sun_mask.mask.any())
         if visible:
-            mask, radius = blot.mask, blot.radius * zoom_y
+            mask, radius = sun_mask.mask, sun_mask.radius * zoom_y
     azimuth, elevation = camera.angles(x * zoom_x, y * zoom_y)
     source = "detected" if seed is None else "hint"
     dark = visible and peak is None and night(working.encoded @ LUMINANCE, sky)

@@ -12,7 +12,7 @@ const float kPi = 3.14159265358979;
 const Length kGroundRadius = 6360000.0;
 const Length kTopRadius = 6460000.0;
 const Length kAtmosphereHeight = 100000.0;
-// Standard air; what is drawn with are the uniforms of atmosphere/atmosphere.glsl.
+// Standard air; the shaders use the uniforms of atmosphere/atmosphere.glsl instead.
 const Number kRayleighExponent = 4.09;
 const Length kRayleighScaleHeight = 8430.0;
 // Above 40 km (0.9 % of the column) air thins faster; deep twilight comes from there.

@@ -2,8 +2,7 @@
 // Scattering and absorption at any wavelength (nm), for the plotted spectra.
 
 // Rayleigh scattering coefficient of standard air at sea level, 1/m: Bodhaine et al. 1999, eqs. 5,
-// 6, 9, 18, 19, 22, 23. The excess of the refractive index is kept apart from its one, for its
-// digits.
+// 6, 9, 18, 19, 22, 23. `excess` is the refractive index minus one, to keep its digits.
 Number GetBodhaineScattering(Number wavelength) {
   float um2 = 1e6 / (wavelength * wavelength);
   float excess = 1e-8 * (8060.51 + 2480990.0 / (132.274 - um2) + 17455.7 / (39.32957 - um2))

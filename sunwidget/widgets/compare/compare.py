@@ -37,7 +37,7 @@ from sunwidget.widgets.kernel.payload import (
 )
 from sunwidget.widgets.kernel.sources import opened
 from sunwidget.widgets.page.framed import StaticPage
-from sunwidget.widgets.page.standalone import widget_state, written_page
+from sunwidget.widgets.page.standalone import widget_state, write_page
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -223,7 +223,7 @@ class Compare(Analysed, AnswersRefusals):
         FileExistsError
             When ``path`` exists and ``overwrite`` is false.
         """
-        return written_page(lambda: self._page(title or self.photo.name), path, overwrite=overwrite)
+        return write_page(lambda: self._page(title or self.photo.name), path, overwrite=overwrite)
 
     def render_static(self, *, title: str | None = None) -> StaticPage:
         """Return the page of ``to_html`` as a cell's output; its sun moves without a kernel.

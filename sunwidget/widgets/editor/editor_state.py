@@ -1,4 +1,4 @@
-"""The state of an editor's front end, made of scene and edit alone: for its widget and its page."""
+"""The state of an editor's front end from scene and edit alone, for widget and page."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ from sunwidget.widgets.kernel.payload import (
 def editor_state(
     scene: Scene, edit: Edit, *, session: str, kept: Mapping[str, Any] | None = None
 ) -> dict[str, Any]:
-    """Return the traits of an editor that shows ``edit``, as a page without a kernel needs them.
+    """Return the traits of an editor that shows ``edit``, for a page without a kernel.
 
-    They equal those of a ``SunEditor``, but for what is its maker's own: history, notes, and the
-    place that the photo's file records are empty.
+    They equal those of a ``SunEditor``, except that private data are empty: history, notes, and the
+    place that the photo's file records.
 
     Parameters
     ----------
@@ -39,12 +39,12 @@ def editor_state(
     session : str
         Key under which the browser keeps the edit.
     kept : mapping, optional
-        ``_versions`` and ``key_frames`` as they travel; none by default.
+        ``_versions`` and ``key_frames`` in the format of the traits; none by default.
 
     Raises
     ------
     AnalysisError
-        When a hint of the edit cannot be used.
+        If a hint of the edit cannot be used.
     """
     script, style = front_end("sun_editor", "SunEditor")
     shown = scene_state(corrected(scene, edit), 1)
@@ -69,33 +69,33 @@ def editor_state(
 
 
 def scene_state(scene: Scene, revision: int) -> dict[str, Any]:
-    """Return the traits of an analysed photo: its maps, encoded, and ``_scene``.
+    """Return the traits of an analyzed photo: its encoded maps and ``_scene``.
 
-    ``revision`` differs from one scene to the next, so that the change of the trait is seen.
+    ``revision`` must differ between scenes, so that the browser notices the change.
     """
-    with ThreadPoolExecutor(1) as beside:
-        beside.submit(uniforms, scene)  # scene_json asks for them
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(uniforms, scene)  # caches them for scene_json
         maps = encode_maps(scene)
     return {**maps, "_scene": scene_json(scene, revision)}
 
 
 def source_state(photo: Photo, session: str) -> dict[str, str]:
-    """Return which photo an editor shows: its name, a fingerprint of its pixels, and a key."""
+    """Return an editor's photo as its name, a fingerprint of its pixels, and a key."""
     return {"name": photo.name, "fingerprint": fingerprint(photo), "session": session}
 
 
 def day_state(place: Place | None) -> dict[str, Any]:
-    """Return the sun's path over a place's day, or why there is none; empty without a place."""
+    """Return the sun's path over a place's day, or the error; empty without a place."""
     if place is None:
         return {}
     key = day_key(place)
     try:
         return {"key": key, "path": day_table(place).tolist()}
     except ImportError as error:
-        # Without pvlib a place can be set all the same; only the clock is missing.
+        # Without pvlib a place can still be set; only the clock is missing.
         return {"key": key, "error": str(error)}
 
 
 def day_key(place: Place) -> list[Any]:
-    """Return what the path of a day depends on."""
+    """Return the values that determine the sun's path over a day."""
     return [place.latitude, place.longitude, solar_day(place)]

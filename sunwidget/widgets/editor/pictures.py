@@ -20,7 +20,7 @@ from sunwidget.widgets.kernel.output import with_picture
 from sunwidget.widgets.kernel.payload import THUMBNAIL_EDGE, encode_picture, thumbnail
 from sunwidget.widgets.kernel.requests import Answer
 from sunwidget.widgets.page.framed import StaticPage
-from sunwidget.widgets.page.standalone import editor_page, written_page
+from sunwidget.widgets.page.standalone import editor_page, write_page
 
 _SUFFIXES = {"JPEG": ".jpg", "PNG": ".png", "TIFF": ".tif", "WEBP": ".webp"}
 _TYPES = {
@@ -88,7 +88,7 @@ class Pictures(EditHistory, Analysed):
         Waits for the analysis. ``path``, ``title``, ``overwrite`` and errors as for
         ``sunwidget.to_html``; without a path the page is returned as text.
         """
-        return written_page(lambda: self._page(self.edit, title), path, overwrite=overwrite)
+        return write_page(lambda: self._page(self.edit, title), path, overwrite=overwrite)
 
     def render_static(self, *, title: str | None = None) -> StaticPage:
         """Return the page of ``to_html`` as a cell's output; its sun moves without a kernel.

@@ -1,6 +1,6 @@
-"""The editor's clock: a place and a time move the sun along its path over the day.
+"""The editor's clock: place and time move the sun along its path over the day.
 
-The browser moves the sun itself, from the path in ``_day``; the kernel computes that path.
+The browser moves the sun along the path in ``_day``, which the kernel computes.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ _REMEDIES = dict.fromkeys(("latitude", "longitude", "date", "time"), _POSITION_A
 
 
 class PlaceClock(EditHistory, Analysed):
-    """A widget of an edit whose sun follows a clock."""
+    """An editing widget whose sun follows a clock."""
 
-    # What the browser needs of the day: its key and its path, or why there is none.
+    # The day for the browser: its key, and the sun's path or the reason why there is none.
     _day = traitlets.Dict().tag(sync=True, echo_update=False)
     # Place and time as the photo's file records them.
     _photo_place = traitlets.Dict().tag(sync=True, echo_update=False)
@@ -50,7 +50,7 @@ class PlaceClock(EditHistory, Analysed):
         self.observe(self._on_place, "place")
         self.observe(self._on_source, "_source")
         if start.place is not None:
-            # pvlib takes a second to load, which the first picture shall not wait for.
+            # pvlib takes a second to load; the first picture does not wait for it.
             background.start(self._refresh_day, name="sunwidget-day")
 
     @property
@@ -62,15 +62,15 @@ class PlaceClock(EditHistory, Analysed):
     def time(self) -> float | None:
         """Hours UTC on the place's date; None without a place. Assign hours to move the sun.
 
-        The sun moves to where it stands at that time, in one step with the place. Without a
-        place, the photo's file provides it; the errors are those of ``set_place``.
+        Place and sun change in one undo step. Without a place, the photo's file provides it; the
+        errors are those of ``set_place``.
         """
         return None if self.place is None else self.place.time
 
     @time.setter
     def time(self, hours: float) -> None:
         with _as_edit_error():
-            place = self.place or self._facing(self._resolved())
+            place = self.place or self._with_heading(self._resolved())
             self._step(self.edit.at(place.replace(time=hours)))
 
     def set_place(
@@ -83,10 +83,10 @@ class PlaceClock(EditHistory, Analysed):
     ) -> None:
         """Set where and when the photo was taken and which way the camera looked.
 
-        A value that is not given stays as it is set; where none is set, the photo's file provides
-        it. Without a heading in either, the photo's sun gives it at the time at which the photo
-        was taken: the one given here, else the file's, else the one that is set. That waits for
-        the analysis. The sun stays where it is until ``time`` is assigned.
+        A value that is not given stays as it is; if it is not set, the photo's file provides it.
+        A heading in neither is derived from the photo's sun at the time at which the photo was
+        taken: the time given here, else the file's, else the one that is set. This waits for the
+        analysis. The sun does not move until ``time`` is assigned.
 
         Parameters
         ----------
@@ -102,9 +102,9 @@ class PlaceClock(EditHistory, Analysed):
         Raises
         ------
         EditError
-            When a value is out of range, or missing in the call, the place and the file.
+            If a value is out of range, or missing in the call, the place and the file.
         ImportError
-            When a heading has to be found, without pvlib (``pip install 'sunwidget[solar]'``).
+            Without pvlib (``pip install 'sunwidget[solar]'``), if a heading has to be derived.
 
         Examples
         --------
@@ -119,20 +119,20 @@ class PlaceClock(EditHistory, Analysed):
             "heading": heading,
         }
         with _as_edit_error():
-            place = self._facing(self._resolved(given))
+            place = self._with_heading(self._resolved(given))
         self._step(self.edit.replace(place=place))
 
     def heading_by_sun(self) -> HeadingMatch:
-        """Set the heading so that the photo's own sun stands where time and place put it.
+        """Set the heading that places the photo's sun where it stood at the set time and place.
 
-        Waits for the analysis. The time must be the one at which the photo was taken, not one to
+        Waits for the analysis. The time must be that at which the photo was taken, not one to
         which the clock was moved.
 
         Returns
         -------
         HeadingMatch
-            ``note`` says how well the elevations agree; ``agreeing`` are the times of that day
-            at which they do, when the clock or its zone may be wrong.
+            ``note`` says how well the elevations agree. If they do not, the clock or its time zone
+            may be wrong; ``agreeing`` lists the times of that day at which they would.
 
         Raises
         ------
@@ -148,13 +148,13 @@ class PlaceClock(EditHistory, Analysed):
     def _resolved(self, given: dict[str, Any] | None = None) -> ResolvedPlace:
         return resolve_place(self.photo, _REMEDIES, given=given, place=self.place)
 
-    def _facing(self, resolved: ResolvedPlace) -> Place:
-        """Return the place with its heading; waits for the analysis only to find one."""
+    def _with_heading(self, resolved: ResolvedPlace) -> Place:
+        """Return the place with its heading; waits for the analysis only to derive one."""
         known = resolved.place.heading is not None
-        return resolved.place if known else resolved.facing(self.scene)[0]
+        return resolved.place if known else resolved.with_heading(self.scene)[0]
 
     def get_state(self, key: Any = None, drop_defaults: bool = False) -> Any:
-        """Return the traits as they travel; all of them with the path of the place's day."""
+        """Return the traits as they are sent; a full state includes the path of the place's day."""
         if self._made and key is None and self.place is not None and not self._day:
             self._refresh_day()
         return super().get_state(key, drop_defaults)
@@ -183,7 +183,7 @@ def recorded_place(photo: Photo) -> dict[str, Any]:
     """Return the place and time that a photo's file records, for the browser."""
     recorded = from_photo(photo)
     return recorded.values() | {
-        # Where no zone is known, the browser guesses one once a longitude is given.
+        # If no time zone is known, the browser guesses one once it has a longitude.
         "clock": recorded.clock.isoformat() if recorded.clock is not None else None,
         "notes": list(recorded.notes),
     }

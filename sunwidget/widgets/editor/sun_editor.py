@@ -1,8 +1,8 @@
 """SunEditor: drag the sun in a photo, in a notebook.
 
-The browser draws every frame itself from the traits below; the kernel analyses the photo,
-answers corrections and renders what is kept. Handlers may run on any thread: JupyterLab
-sends messages to kernel subshells.
+The browser draws every frame itself from the traits below; the kernel analyzes the photo, applies
+corrections and renders exports. Handlers may run on any thread: JupyterLab sends messages to
+kernel subshells.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ from sunwidget.widgets.kernel.sources import opened
 
 
 class SunPlace(NamedTuple):
-    """Where the sun stands, in degrees as the parameters have them."""
+    """Position of the sun in degrees, as in the parameters."""
 
     azimuth: float
     elevation: float
@@ -51,25 +51,26 @@ class SunPlace(NamedTuple):
 class SunEditor(PlaceClock, Exports):
     """Drag the sun in a photo.
 
-    Every parameter of ``Edit`` is a trait of the same name, both ways: setting one moves the
-    picture, and moving the picture sets them. ``None`` means "as found in the photo".
+    Every parameter of ``Edit`` is a trait of the same name, synchronized in both directions:
+    setting a trait changes the picture, and editing the picture sets the traits. ``None`` means
+    "as detected in the photo".
 
     Parameters
     ----------
     source : path, bytes, file object, PIL image, array, Photo or Scene
-        The picture; see ``sunwidget.open``. The photo is shown at once, and analysed behind
-        the scenes unless a Scene is given.
+        The picture; see ``sunwidget.open``. The photo is shown at once, and analyzed in the
+        background unless a Scene is given.
     recipe : Edit or dict, optional
-        What to start from.
+        The initial edit.
     **options
-        Any parameter of ``Edit``, which wins over ``recipe``, and any option of
+        Any parameter of ``Edit``, which overrides ``recipe``, and any option of
         ``sunwidget.analyze``: ``sky=mask``, ``refine="dense_crf"``, ``fov=38``.
 
     Raises
     ------
     TypeError
-        For a keyword that is neither; the nearest spelling is suggested. For an option of
-        ``analyze`` beside a Scene, which is analysed already.
+        For an unknown keyword; the nearest spelling is suggested. For an option of ``analyze``
+        together with a Scene, which is already analyzed.
     PhotoError, EditError
         For a picture that cannot be opened, or a value out of range.
 
@@ -93,7 +94,7 @@ class SunEditor(PlaceClock, Exports):
     _transfer = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _lamps = traitlets.Bytes(b"").tag(sync=True, echo_update=False)
     _scene = traitlets.Dict().tag(sync=True, echo_update=False)
-    # Which photo it is: its name, a fingerprint of its pixels, and a key of this editor.
+    # Identity of the photo: its name, a fingerprint of its pixels, and a key of this editor.
     _source = traitlets.Dict().tag(sync=True, echo_update=False)
 
     def __init__(
@@ -108,7 +109,7 @@ class SunEditor(PlaceClock, Exports):
         self.photo: Photo = source.photo if isinstance(source, Scene) else source
         self._set_asides: dict[str, dict[str, Any]] = {}  # edits of other photos, by fingerprint
         self._revisions = itertools.count(1)
-        self._shown: Scene | None = None  # the scene that the browser has
+        self._shown: Scene | None = None  # the scene that the browser shows
         super().__init__(
             start,
             _photo=encode_preview(self.photo),
@@ -134,17 +135,17 @@ class SunEditor(PlaceClock, Exports):
     def open(
         self, source: Any = None, *, recipe: Edit | dict[str, Any] | None = None, **options: Any
     ) -> None:
-        """Take another photo into this editor, which then begins anew.
+        """Open another photo in this editor with a new edit.
 
-        The edit of the photo before, its history and its versions are set aside; they are back
-        when that photo is opened again; a ``recipe`` that is given is then a step on top of them.
-        ``source``, ``options`` and errors as for the class.
+        The previous photo's edit, history and versions are kept and restored when that photo is
+        opened again; a given ``recipe`` is then one more step on top of them. ``source``,
+        ``options`` and errors are those of the class.
 
         Examples
         --------
         >>> editor.open("mountains.jpg")
         """
-        if source is None:  # ipywidgets' own method of this name, which connects to the browser
+        if source is None:  # ipywidgets' method of this name, which connects to the browser
             super().open()
             return
         source, analysis = opened(source, options, "SunEditor")
@@ -170,10 +171,10 @@ class SunEditor(PlaceClock, Exports):
 
     @property
     def sun(self) -> SunPlace:
-        """Where the sun is now: (azimuth, elevation) in degrees.
+        """Present position of the sun: (azimuth, elevation) in degrees.
 
-        As the traits ``sun_azimuth`` and ``sun_elevation`` say; where one is None, as found in the
-        photo, which waits for the analysis.
+        These are the traits ``sun_azimuth`` and ``sun_elevation``. If one is None, its value is
+        that detected in the photo, which waits for the analysis.
         """
         edit = self.edit
         azimuth, elevation = edit.sun_azimuth, edit.sun_elevation
@@ -184,10 +185,10 @@ class SunEditor(PlaceClock, Exports):
         return SunPlace(azimuth, elevation)
 
     def cancel(self) -> None:
-        """Stop the analysis, and what was asked for in the browser, at their next step.
+        """Stop the analysis and the browser's requests at their next step.
 
-        What was found before stays, and so does the edit. Corrections, and ``retry``, start the
-        analysis again; until then ``scene`` and ``render`` raise ``AnalysisError``.
+        Earlier results and the edit are kept. Corrections and ``retry`` restart the analysis;
+        until then ``scene`` and ``render`` raise ``AnalysisError``.
         """
         self._cancel_analysis()
         self._requests.cancel()
@@ -196,14 +197,14 @@ class SunEditor(PlaceClock, Exports):
         self._analyst.cancel()
 
     def retry(self) -> None:
-        """Start the analysis again that was cancelled, or went wrong."""
+        """Restart an analysis that was cancelled or failed."""
         self._analyst.ask(self.edit)
 
     def apply_preset(self, name: str) -> None:
-        """Set the time of day to a preset of ``sunwidget.presets``, in one step.
+        """Apply a preset of ``sunwidget.presets`` for the time of day, in one step.
 
-        Sun, light and exposure are set; everything else stays as it is. Waits for the analysis,
-        since where a preset puts the sun depends on the photo.
+        It sets sun, light and exposure; everything else stays unchanged. Waits for the analysis,
+        since a preset's position of the sun depends on the photo.
 
         Parameters
         ----------
@@ -226,12 +227,12 @@ class SunEditor(PlaceClock, Exports):
         return {**maps, "_scene": {}, "_photo": saved_photo(self.photo)}
 
     def _on_connection(self, change: Any) -> None:
-        if change.new is None:  # closed: nobody is there to take what was asked for
+        if change.new is None:  # closed: nobody receives the answers
             self._requests.cancel()
 
     def _analyst_of(self, source: Photo | Scene, options: dict[str, Any]) -> Analyst:
         def report(stage: str, fraction: float, message: str) -> None:
-            # Work on a photo that is no longer shown may still be under way.
+            # An analysis of a previous photo may still be running.
             if analyst is self._analyst:
                 self._report(stage, fraction, message)
 
@@ -244,13 +245,13 @@ class SunEditor(PlaceClock, Exports):
             if scene.photo is not self.photo:
                 return
             self._shown = scene
-            # One message, so that a view never sees maps of two scenes.
+            # Send one message, so that a view never has maps of two scenes.
             with self.hold_sync():
                 for name, value in state.items():
                     setattr(self, name, value)
 
     def _actions(self) -> dict[str, Action]:
-        """Return what the browser can ask for, by name."""
+        """Return the actions that the browser can request, by name."""
         return {
             "save": self._save_for_browser,
             "exports": self._describe_exports,
@@ -258,8 +259,8 @@ class SunEditor(PlaceClock, Exports):
             "film": self._export_film,
             "page": self._page_for_browser,
             "detail": self._detail_for_browser,
-            "cancel": _silently(self._cancel_analysis),
-            "retry": _silently(self.retry),
+            "cancel": _without_answer(self._cancel_analysis),
+            "retry": _without_answer(self.retry),
             "upload": Uploads(self.open),
             "recipe": lambda content, _: (read_code(str(content.get("text"))).to_dict(), []),
             "alive": lambda _content, _: ({}, []),
@@ -277,8 +278,8 @@ class SunEditor(PlaceClock, Exports):
             return self._shown
 
 
-def _silently(work: Callable[[], None]) -> Action:
-    """Return an action that has nothing to answer."""
+def _without_answer(work: Callable[[], None]) -> Action:
+    """Return an action with an empty answer."""
 
     def action(_content: dict[str, Any], _progress: Progress) -> Answer:
         work()

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from sunwidget.errors import PhotoError
-from sunwidget.photo.decode_apart import kept, open_apart
+from sunwidget.photo.decode_apart import keep_process, open_apart
 from sunwidget.photo.photo import Photo
 from sunwidget.progress import Progress
 from sunwidget.widgets.kernel.requests import Answer
@@ -72,7 +72,7 @@ class Uploads:
             file = io.BytesIO(bytes(self._data))
             self._key, self._data = None, bytearray()
             file.name = str(content["name"])[:200]
-            with kept():  # closed at once, since a notebook stays open for days
+            with keep_process():  # closed at once, since a notebook stays open for days
                 photo = open_apart(file)
             self._opened(photo)
         return {}, []

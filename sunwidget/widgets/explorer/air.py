@@ -1,4 +1,4 @@
-"""The air of SkyExplorer: as an ``Atmosphere``, as a preset, and by other names of its haze."""
+"""The air of SkyExplorer: as an ``Atmosphere``, as a preset, or by turbidity or visibility."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ ALIASES = ("turbidity", "visibility")
 
 
 class ExplorerAir(ExplorerParameters):
-    """A widget of the explorer's table whose air can be set as a whole."""
+    """A widget with the explorer's parameters whose air can be set as a whole."""
 
     _aliases: traitlets.Dict = traitlets.Dict(read_only=True).tag(sync=True)
     _presets: traitlets.Dict = traitlets.Dict(read_only=True).tag(sync=True)
 
     @traitlets.default("_aliases")
     def _default_aliases(self) -> dict[str, float]:
-        # Enough to go from turbidity and visibility to the aerosol optical depth and back, as
-        # ``Atmosphere`` does, without the kernel.
+        # The constants to convert turbidity and visibility to aerosol optical depth and back
+        # without the kernel, as ``Atmosphere`` does.
         standard = Atmosphere(aerosol_optical_depth=0)
         return {
             "air_optical_depth_550": float(rayleigh_optical_depth(550.0)),
@@ -43,7 +43,7 @@ class ExplorerAir(ExplorerParameters):
 
     @property
     def atmosphere(self) -> Atmosphere:
-        """The air as it is drawn: what a switch hides is not in it. Assign one to set the air."""
+        """The air as drawn, without parts that are switched off. Assign one to set the air."""
         values = self.values()["edit"]
         return Atmosphere(**{name: values[name] for name in table.AIR})
 
@@ -55,7 +55,7 @@ class ExplorerAir(ExplorerParameters):
 
     @property
     def turbidity(self) -> float:
-        """Optical depth of air with haze over that of air alone, at 550 nm. Assign to set it."""
+        """Ratio of the optical depth with haze to that of air alone, at 550 nm; settable."""
         return self._air().turbidity
 
     @turbidity.setter
@@ -64,7 +64,7 @@ class ExplorerAir(ExplorerParameters):
 
     @property
     def visibility(self) -> float:
-        """Meteorological visibility at sea level, in metres. Assign to set it."""
+        """Meteorological visibility at sea level in metres; settable."""
         return self._air().visibility
 
     @visibility.setter
@@ -72,21 +72,19 @@ class ExplorerAir(ExplorerParameters):
         self._set_haze("visibility", value)
 
     def preset(self, name: str) -> None:
-        """Set the air to the one called ``name``, in one step.
-
-        They are ``sunwidget.atmosphere.presets.PRESETS``.
+        """Set the air to the preset ``name`` of ``atmosphere.presets.PRESETS``, in one step.
 
         Raises
         ------
         ValueError
-            For a name that is none of them.
+            For an unknown name.
         """
         if name not in PRESETS:
             raise ValueError(f"There is no preset {name!r:.80}. Choose among {', '.join(PRESETS)}.")
         self.atmosphere = PRESETS[name]
 
     def _air(self) -> Atmosphere:
-        """Return the air as the sliders have it, whatever is switched off."""
+        """Return the air as set by the sliders, including parts that are switched off."""
         return Atmosphere(**{name: getattr(self, name) for name in table.AIR})
 
     def _set_haze(self, name: str, value: float) -> None:

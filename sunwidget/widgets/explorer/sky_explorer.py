@@ -1,7 +1,7 @@
 """SkyExplorer: see how the clear sky comes about, in a notebook.
 
-The browser draws every frame itself from the traits; the kernel adds what it alone can do: the
-sun's path over a place, Bruneton's table, measured skies, pictures and code.
+The browser draws every frame itself from the traits; the kernel provides the sun's path over a
+place, Bruneton's table, measured skies, pictures and code.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from sunwidget.widgets.kernel.front_end import front_end
 from sunwidget.widgets.kernel.output import with_picture
 from sunwidget.widgets.kernel.requests import Action, Requests
 from sunwidget.widgets.page.framed import StaticPage
-from sunwidget.widgets.page.standalone import explorer_page, written_page
+from sunwidget.widgets.page.standalone import explorer_page, write_page
 
 if TYPE_CHECKING:
     import numpy as np
@@ -37,26 +37,26 @@ class SkyExplorer(SunFollower, ExplorerAir):
     """See how the clear sky comes about: sun, air, orders of scattering, models, measurements.
 
     Every row of ``sunwidget.explorer.table.EXPLORER_PARAMETERS`` is a trait of the same name,
-    both ways: setting one changes the picture, and moving a slider sets it.
+    synchronized both ways: setting one changes the picture, and moving a slider sets it.
 
     Parameters
     ----------
     atmosphere : Atmosphere, optional
-        What is in the air, for instance ``scene.atmosphere`` of a photo.
+        The air, for instance ``scene.atmosphere`` of a photo.
     turbidity : float, optional
-        Optical depth of air with haze over that of air alone, at 550 nm; sets
+        Ratio of the optical depth with haze to that of air alone, at 550 nm; sets
         ``aerosol_optical_depth``.
     visibility : float, optional
         Meteorological visibility in metres; sets ``aerosol_optical_depth``.
     **parameters
-        Any row of the table, which wins over ``atmosphere``.
+        Any row of the table, which overrides ``atmosphere``.
 
     Raises
     ------
     TypeError
-        For a keyword that is no parameter; the nearest spelling is suggested.
+        For an unknown parameter; the nearest spelling is suggested.
     TraitError
-        For a value that its parameter does not take; the message says what it takes.
+        For an invalid value; the message says what is valid.
     ImportError
         For a date and place without pvlib (``pip install 'sunwidget[solar]'``).
 
@@ -99,17 +99,17 @@ class SkyExplorer(SunFollower, ExplorerAir):
         samples: int = 64,
         progress: Progress | None = None,
     ) -> NDArray[np.uint8]:
-        """Return the picture as it is now.
+        """Return the present picture.
 
         Parameters
         ----------
         size : (int, int), default (960, 640)
             Width and height in pixels.
         samples : int, default 64
-            Paths a pixel of the model ``reference``, whose noise falls with their root. Without a
-            graphics card a path for each of 960×640 pixels takes seconds.
+            Paths per pixel of the model ``reference``; noise falls with the square root. Without a
+            graphics card one path for each of 960×640 pixels takes seconds.
         progress : callable, optional
-            ``progress(fraction, message)``, where the model takes time; raise in it to cancel.
+            ``progress(fraction, message)``, for slow models; raise an exception in it to cancel.
 
         Returns
         -------
@@ -119,7 +119,7 @@ class SkyExplorer(SunFollower, ExplorerAir):
         Raises
         ------
         RendererError
-            When no EGL context can be made on this machine.
+            If no EGL context can be created on this machine.
         """
         from sunwidget.explorer.draw import draw
 
@@ -135,48 +135,48 @@ class SkyExplorer(SunFollower, ExplorerAir):
         title: str = "Sky explorer",
         overwrite: bool = False,
     ) -> Path | str:
-        """Write a page with the explorer as it stands: one file, no kernel, no network.
+        """Write a page with the explorer in its present state: one file, no kernel, no network.
 
         Parameters
         ----------
         path : path, optional
-            Where to write it. Default: nowhere, and the page is returned as text.
+            Where to write the page. By default it is not written but returned as text.
         title : str
-            Of the page.
+            Title of the page.
         overwrite : bool
             Replace an existing file.
 
         Returns
         -------
         Path or str
-            Where the page is, or the page.
+            The path of the page, or its text.
 
         Raises
         ------
         FileExistsError
-            When ``path`` exists and ``overwrite`` is false.
+            If ``path`` exists and ``overwrite`` is false.
         OSError
-            When the folder is missing or the disk full; no half-written file is left.
+            If the folder is missing or the disk is full; no partial file is left.
         """
-        return written_page(lambda: explorer_page(self, title=title), path, overwrite=overwrite)
+        return write_page(lambda: explorer_page(self, title=title), path, overwrite=overwrite)
 
     def render_static(self, *, title: str = "Sky explorer") -> StaticPage:
         """Return the page of ``to_html`` as a cell's output: live without a kernel.
 
-        For notebooks that are exported: ``nbconvert --to html`` keeps it live, without a network.
-        The notebook grows by the page, 0.3 MB.
+        It is for exported notebooks: ``nbconvert --to html`` keeps it live, without a network. The
+        notebook grows by the page, 0.3 MB.
 
         Parameters
         ----------
         title : str
-            Of the page.
+            Title of the page.
         """
         return StaticPage(explorer_page(self, title=title), title)
 
     def curve(self, name: str) -> NDArray[np.float32]:
         """Return one of the curves beside the picture, shape (n, 4).
 
-        What it holds is told in docs/developer/frame-graph.md.
+        docs/developer/frame-graph.md describes its columns.
 
         Parameters
         ----------
@@ -190,9 +190,9 @@ class SkyExplorer(SunFollower, ExplorerAir):
         Raises
         ------
         EditError
-            For another name.
+            For an unknown name.
         RendererError
-            When no EGL context can be made on this machine.
+            If no EGL context can be created on this machine.
         """
         from sunwidget.explorer.draw import curve
 
@@ -205,17 +205,17 @@ class SkyExplorer(SunFollower, ExplorerAir):
         scan: int | None = None,
         progress: Progress | None = None,
     ) -> list[dict[str, Any]]:
-        """Compare the sky of the present air with the measured one.
+        """Compare the sky of the present air with measured skies.
 
         Parameters
         ----------
         models : tuple of str
-            Among ``"single"``, ``"multiple"``, ``"bruneton"`` (whose table is made first, if need
-            be) and ``"reference"`` (path tracing, about a second a scan).
+            Any of ``"single"``, ``"multiple"``, ``"bruneton"`` (whose table is computed first if
+            necessary) and ``"reference"`` (path tracing, about a second per scan).
         scan : int, optional
             Index of one scan; default all.
         progress : callable, optional
-            ``progress(fraction, message)``; raise in it to cancel.
+            ``progress(fraction, message)``; raise an exception in it to cancel.
 
         Returns
         -------
@@ -226,9 +226,9 @@ class SkyExplorer(SunFollower, ExplorerAir):
         Raises
         ------
         MeasurementsError
-            When the measured skies are not on this machine; the message says how to get them.
+            If the measured skies are not on this machine; the message says how to get them.
         RendererError
-            For Bruneton's model when no EGL context can be made on this machine.
+            For Bruneton's model, if no EGL context can be created on this machine.
         """
         data, air = measurements.load(), self.atmosphere
         others = {}
@@ -248,7 +248,7 @@ class SkyExplorer(SunFollower, ExplorerAir):
             for p in EXPLORER_PARAMETERS
             if getattr(self, p.name) != p.default
         }
-        # Place and time, or a scan, bring the sun along.
+        # Place and time, or a scan, determine the sun.
         changed = {name: value for name, value in changed.items() if name not in SUN}
         if not self._sun_follows():
             changed |= {name: getattr(self, name) for name in SUN}
@@ -256,13 +256,13 @@ class SkyExplorer(SunFollower, ExplorerAir):
         return f"sw.SkyExplorer({arguments})"
 
     def _actions(self) -> dict[str, Action]:
-        """Return what the browser can ask for, by name."""
+        """Return the actions that the browser can request, by name."""
         return actions(self)
 
     def _static_picture(self) -> bytes:
         """Return a small PNG for viewers that run no widgets."""
         parameters = self.parameters()
-        # Tables and paths take seconds to minutes, which no cell should wait for.
+        # Tables and paths take seconds to minutes; a cell's output must not wait for them.
         for name in ("model", "compare"):
             if parameters[name] in ("bruneton", "reference"):
                 parameters[name] = table.parameter(name).default

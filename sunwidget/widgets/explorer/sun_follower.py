@@ -1,6 +1,6 @@
-"""The sun of SkyExplorer: where a hand puts it, or where a place's time or a measured sky has it.
+"""The sun of SkyExplorer: placed by the user, by a place's time, or by a measured sky.
 
-The browser moves the sun itself, from the path in ``_day``; the kernel computes that path.
+The browser moves the sun along the path in ``_day``, which the kernel computes.
 Handlers may run on any thread: JupyterLab sends messages to kernel subshells.
 """
 
@@ -23,13 +23,13 @@ from sunwidget.widgets.explorer.answers import scans
 from sunwidget.widgets.explorer.parameters import ExplorerParameters
 
 SUN = ("sun_azimuth", "sun_elevation")
-_SAME_PLACE = 0.01  # degrees; the browser's arithmetic is not to the bit the kernel's
+_SAME_PLACE = 0.01  # degrees; the browser's arithmetic differs slightly from the kernel's
 
 
 class SunFollower(ExplorerParameters):
-    """A widget of the explorer's table whose sun follows a place's time or a measured scan."""
+    """A widget with the explorer's parameters whose sun follows a time or a measured scan."""
 
-    # Without pvlib there is no sun of a place.
+    # Without pvlib the sun cannot follow a place.
     _refusals = (traitlets.TraitError, ImportError)
 
     _day: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
@@ -42,7 +42,7 @@ class SunFollower(ExplorerParameters):
         self._moving = False
         super().__init__(_scans=scans(), **parameters)
         self._refresh_day()
-        # The sun is where it is said to be, else where the time puts it, else where the scan does.
+        # The sun's position is as given, else from the time, else from the scan.
         if self.scan is not None:
             self._measured = measurements.load().scan_json(self.scan)
         self._place_sun(*self._followed_sun())
@@ -58,14 +58,14 @@ class SunFollower(ExplorerParameters):
     def set_place(
         self, latitude: float, longitude: float, date: dt.date | str | None = None
     ) -> None:
-        """Say where and on which day the sky is seen; ``time`` then moves the sun.
+        """Set position and day of the observer; ``time`` then moves the sun.
 
         Parameters
         ----------
         latitude, longitude : float
             Degrees, positive to the north and to the east.
         date : datetime.date or "YYYY-MM-DD", optional
-            Default: the one that is set, else today.
+            Default: the present one, else today.
         """
         day = date or self.date or dt.datetime.now(dt.UTC).date()
         with self.hold_trait_notifications():
@@ -73,11 +73,11 @@ class SunFollower(ExplorerParameters):
                 setattr(self, name, value)
 
     def refresh_scans(self) -> None:
-        """Look again for measured skies on this machine, after ``measurements.download()``."""
+        """Search this machine for measured skies again, after ``measurements.download()``."""
         self._scans = scans()
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
-        """Take over what the browser sent; a value that is refused is answered, not raised."""
+        """Take over the browser's traits; an invalid value is answered, not raised."""
         with self._lock:
             self._browser_thread = threading.get_ident()
             try:
@@ -87,7 +87,7 @@ class SunFollower(ExplorerParameters):
 
     @contextlib.contextmanager
     def _moving_the_sun(self) -> Iterator[None]:
-        """Mark that what moves the sun meanwhile is the time or the scan, not a hand."""
+        """Mark that the time or the scan moves the sun meanwhile, not the user."""
         self._moving = True
         try:
             with self.hold_sync():
@@ -103,22 +103,22 @@ class SunFollower(ExplorerParameters):
         try:
             path = solar.day_path(*place)
         except ImportError:
-            self._day = []  # never the path of another place
+            self._day = []  # do not keep the path of another place
             raise
         self._day = np.round(path, 6).tolist()
 
     def _followed_sun(self) -> tuple[float, float]:
-        """Azimuth and elevation that time, scan or else the table give."""
+        """Return azimuth and elevation from the time, else the scan, else the table's defaults."""
         if self._day and self.time is not None:
             azimuth, elevation = solar.sun_on_path(self._day, self.time)
-            # The table ends at -12°: below it is night all the same.
+            # The parameter ends at -12°; it is night below that, too.
             return azimuth, max(elevation, table.parameter("sun_elevation").minimum)
         if self.scan is not None:
             return self._measured["sun_azimuth"], self._measured["sun_elevation"]
         return table.parameter("sun_azimuth").default, table.parameter("sun_elevation").default
 
     def _sun_follows(self) -> bool:
-        """Tell whether the sun is where time, scan or else the table put it."""
+        """Return whether the sun is where the time, the scan or else the table puts it."""
         azimuth, elevation = self._followed_sun()
         turn = (self.sun_azimuth - azimuth + 180) % 360 - 180
         return math.hypot(turn, self.sun_elevation - elevation) < _SAME_PLACE
@@ -134,12 +134,12 @@ class SunFollower(ExplorerParameters):
             self._follow_time()
 
     def _on_time(self, _change: Any) -> None:
-        if self._browser_thread != threading.get_ident():  # it has moved the sun itself
+        if self._browser_thread != threading.get_ident():  # the browser has already moved the sun
             with self._lock:
                 self._follow_time()
 
     def _on_sun(self, _change: Any) -> None:
-        # A hand moved the sun off its path; the browser does likewise.
+        # The user moved the sun off its path; the browser does the same.
         if self._moving or self._browser_thread == threading.get_ident():
             return
         if self._day and not self._sun_follows():
@@ -170,5 +170,5 @@ class SunFollower(ExplorerParameters):
             except measurements.MeasurementsError as error:
                 raise traitlets.TraitError(str(error)) from None
             if value >= count:
-                raise traitlets.TraitError(f"scan = {value}: there are scans 0 to {count - 1}.")
+                raise traitlets.TraitError(f"scan = {value} must be one of the scans 0 to {count - 1}.")
         return value

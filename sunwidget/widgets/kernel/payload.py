@@ -1,4 +1,4 @@
-"""What travels to the browser: the preview and the maps as encoded pictures, the rest as JSON.
+"""Data for the browser: the preview and the maps as encoded pictures, the rest as JSON.
 
 The kernel keeps the full resolution; a preview's long edge has at most ``PREVIEW_EDGE`` pixels.
 """
@@ -29,11 +29,11 @@ from sunwidget.photo.photo import Photo, open_photo
 from sunwidget.renderer.shader_source import frame_graph
 
 PREVIEW_EDGE = 2048
-MAP_EDGE = 1024  # of an inspected map
+MAP_EDGE = 1024  # long edge of an inspected map
 THUMBNAIL_EDGE = 480
 MAP_TRAITS = tuple(f"_{name}" for name in TEXTURES)
-_SAVED_EDGE, _SAVED_QUALITY = 640, 85  # as js/src/editor/view/saved.js has them
-# Above this many bytes a lossless preview costs more than it shows.
+_SAVED_EDGE, _SAVED_QUALITY = 640, 85  # as in js/src/editor/view/saved.js
+# Above this many bytes a lossless preview is not worth its size.
 _LOSSLESS_BYTES = 4_000_000
 _JPEG_QUALITY = 95
 _thumbnails: weakref.WeakKeyDictionary[Photo, bytes] = weakref.WeakKeyDictionary()
@@ -43,13 +43,13 @@ _saved_photos: weakref.WeakKeyDictionary[Photo, bytes] = weakref.WeakKeyDictiona
 def encode_preview(photo: Photo) -> bytes:
     """Return the photo's preview, encoded as ``encode_picture`` does."""
     preview = photo.preview(PREVIEW_EDGE)
-    # A cell's output holds both, and a person waits for it: the large photo is shrunk once.
+    # A cell's output holds both, and the user waits for it, so the large photo is shrunk once.
     _thumbnails[photo] = encode_small_png(open_photo(preview).preview(THUMBNAIL_EDGE))
     return encode_picture(preview)
 
 
 def encode_picture(image: NDArray[np.uint8]) -> bytes:
-    """Return a picture (H, W, 3) as PNG, or JPEG (quality 95, 4:4:4) where PNG would be large."""
+    """Return a picture (H, W, 3) as PNG, or JPEG (quality 95, 4:4:4) if PNG would be large."""
     import cv2
 
     data = encode_png(image)
@@ -73,14 +73,14 @@ def thumbnail(photo: Photo) -> bytes:
 
 
 def saved_photo(photo: Photo) -> bytes:
-    """Return the small JPEG that a notebook keeps in the preview's place."""
+    """Return the small JPEG that a notebook keeps instead of the preview."""
     if photo not in _saved_photos:
         _saved_photos[photo] = encode_jpeg(photo.preview(_SAVED_EDGE))
     return _saved_photos[photo]
 
 
 def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
-    """Return a picture (H, W, 3) as a small JPEG, for what a notebook keeps."""
+    """Return a picture (H, W, 3) as a small JPEG, for a saved notebook."""
     import cv2
 
     options = [cv2.IMWRITE_JPEG_QUALITY, _SAVED_QUALITY]
@@ -88,23 +88,23 @@ def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
 
 
 def encode_maps(scene: Scene) -> dict[str, bytes]:
-    """Return the scene textures but the photo, by trait name, as PNG at the preview's size."""
+    """Return the scene textures except the photo, by trait name, as PNG at the preview's size."""
     size = scene.photo.size_within(PREVIEW_EDGE)
-    # Side by side: a person waits for this after every stroke.
+    # In parallel, since the user waits for this after every stroke.
     with ThreadPoolExecutor(2) as pool:
         encoded = pool.map(lambda name: encode_png(texture(scene, name, size)), TEXTURES)
         return dict(zip(MAP_TRAITS, encoded, strict=True))
 
 
 def encode_map(scene: Scene, name: str) -> bytes:
-    """Return one map as an 8-bit grey PNG, long edge at most ``MAP_EDGE``.
+    """Return one map as an 8-bit gray PNG with a long edge of at most ``MAP_EDGE``.
 
-    A level's value is ``SceneMap.value(level / 255)`` of the map's entry.
+    A level stands for the value ``SceneMap.value(level / 255)`` of the map's entry.
 
     Raises
     ------
     ValueError
-        When there is no such map, or this photo has none.
+        If there is no such map, or this photo has none.
     """
     entry = scene_map(name)
     shares = shares_of(scene, entry, scene.photo.size_within(MAP_EDGE))
@@ -120,9 +120,9 @@ def map_json() -> list[dict[str, Any]]:
 
 
 def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
-    """Return what the browser's view of a scene needs beside the maps.
+    """Return the browser's data of a scene other than the maps.
 
-    ``revision`` differs from one scene to the next, so that the trait's change is seen.
+    ``revision`` must differ between scenes, so that the browser notices the change.
     """
     known = uniforms(scene)
     return _plain(
@@ -153,10 +153,10 @@ def scene_json(scene: Scene, revision: int) -> dict[str, Any]:
 
 
 def _sun_json(scene: Scene) -> dict[str, Any]:
-    """Return what is known of the photo's own sun, and where it comes from.
+    """Return the photo's own sun and the source of its position.
 
-    ``source`` is "found", "told", "outside" (somebody said that nothing in the picture is it) or
-    "unseen"; ``at`` its place in fractions of the picture, None where it has none.
+    ``source`` is "found", "told" (by a hint), "outside" (by a hint that it is not in the picture)
+    or "unseen"; ``at`` is its position in fractions of the picture, or None if it has none.
     """
     sun = scene.sun
     source = "unseen"
@@ -182,9 +182,9 @@ def _note_json(text: str) -> dict[str, str]:
 
 
 def preset_json(scene: Scene) -> list[dict[str, Any]]:
-    """Return the presets with what each sets in this photo, as plain JSON types.
+    """Return the presets with their values for this photo, as plain JSON types.
 
-    One that lights windows is left out where the photo shows none.
+    A preset that lights windows is omitted if the photo shows none.
     """
     return [
         {"label": p.label, "title": p.help, "values": presets.values(p.name, scene)}
@@ -194,20 +194,19 @@ def preset_json(scene: Scene) -> list[dict[str, Any]]:
 
 
 def whiteness(scene: Scene, bins: int = 64, reach: float = 1.6) -> dict[str, Any]:
-    """Return how white the sky is, measured as the method that found the clouds does.
+    """Return the histogram of the sky's whiteness by the index of the cloud method.
 
-    The histogram of the editor's cloud section: m_min and m_max cut it. What is whiter than
-    ``reach`` counts in the last bin; the sun's glare is left out. Un-mixing uses no thresholds,
-    so there it is red over blue.
+    The editor's cloud section shows it; m_min and m_max are thresholds in it. Values above
+    ``reach`` count in the last bin; the sun's glare is excluded. Un-mixing uses no thresholds; for
+    it the index is red over blue.
 
     Returns
     -------
     dict
-        ``method``, ``reach``, and ``shares`` of the sky by bin: they sum to 1, or to 0 without
-        sky.
+        ``method``, ``reach``, and ``shares`` of the sky by bin, whose sum is 1, or 0 without sky.
     """
     method, small = scene.hints.method("clouds"), scene.working
-    # Every other row and column tells as much: a person waits for it after every stroke.
+    # Every other row and column is enough; the user waits for this after every stroke.
     index = INDICES.get(method, INDICES["rb_ratio"])(small.encoded[::2, ::2])
     sky = resize(scene.sky, small.width, small.height)
     sky = (sky * (resize(scene.glare, small.width, small.height) < 0.5))[::2, ::2]
@@ -218,15 +217,15 @@ def whiteness(scene: Scene, bins: int = 64, reach: float = 1.6) -> dict[str, Any
 
 
 def other_horizons(scene: Scene) -> dict[str, tuple[float, float]]:
-    """Return where the methods that were not taken see the horizon.
+    """Return the horizons of the methods that were not used.
 
-    Not part of ``scene_json``: some look at the whole picture, and few people ask.
+    Not part of ``scene_json``: some methods are slow, and few users ask.
 
     Returns
     -------
     dict
-        Rows at the left and the right edge in fractions of the height, by method's name;
-        methods that see none, or fall back on another, are left out.
+        Rows at the left and right edges in fractions of the height, by name of the method.
+        Methods that find none, or fall back on another, are omitted.
     """
     working = scene.working
     sky = resize(scene.sky, working.width, working.height)
@@ -254,7 +253,7 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (bool, np.bool_)):
         return bool(value)
     if isinstance(value, (float, np.floating)):
-        # JSON has no NaN; a view must not die of one.
+        # JSON has no NaN; a view must not fail because of one.
         return float(value) if math.isfinite(value) else 0.0
     if isinstance(value, np.integer):
         return int(value)

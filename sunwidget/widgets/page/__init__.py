@@ -1,1 +1,1 @@
-"""Widgets as HTML pages and in saved notebooks: no kernel."""
+"""Widgets as HTML pages and in saved notebooks, without a kernel."""

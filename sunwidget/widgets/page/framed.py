@@ -1,37 +1,37 @@
-"""A page inside another page: what stays live in an exported notebook."""
+"""A page in a frame, which stays live in an exported notebook."""
 
 from __future__ import annotations
 
 from html import escape
 from typing import Any
 
-from sunwidget.widgets.page.html import escaped
+from sunwidget.widgets.page.html import escape_text
 
-# The page tells its height when it is asked, and whenever that changes (js/src/standalone/).
-# As an attribute it also runs where a host puts the frame into a page that is there already.
+# The page reports its height on request and on every change (js/src/standalone/). As an
+# attribute, this code also runs if a host inserts the frame into an existing page.
 _FOLLOW = (
     "const frame = this; window.addEventListener('message', (event) => {"
     " if (event.source === frame.contentWindow && event.data?.sunwidgetHeight > 0)"
     " frame.style.height = Math.ceil(event.data.sunwidgetHeight) + 'px'; });"
     " frame.contentWindow.postMessage('sunwidget: height?', '*');"
 )
-# A study's first screen is a form; the page's own policy lets none be sent.
+# A study's first screen is a form; the page's own policy forbids sending it.
 _SANDBOX = "allow-scripts allow-forms allow-downloads"
-_HEIGHT = 720  # CSS pixels, until the page has said its own
+_HEIGHT = 720  # CSS pixels, until the page reports its height
 
 
 class StaticPage:
     """A live page as the output of a cell: no kernel, no widget manager, no network.
 
-    Made by ``render_static`` of each widget. The page runs in a frame that may run its own script
-    and offer downloads, and sees nothing of the page around it.
+    Each widget's ``render_static`` returns one. The page runs in a frame that may run its own
+    script and offer downloads, but cannot access the surrounding page.
 
     Attributes
     ----------
     html : str
         The page, as ``to_html`` returns it.
     title : str
-        Of the frame, for those who do not see it.
+        Title of the frame, for screen readers.
     """
 
     def __init__(self, page: str, title: str) -> None:
@@ -43,7 +43,7 @@ class StaticPage:
 
     def _repr_html_(self) -> str:
         return (
-            f'<iframe title="{escaped(self.title)}" sandbox="{_SANDBOX}" '
+            f'<iframe title="{escape_text(self.title)}" sandbox="{_SANDBOX}" '
             f'style="width: 100%; height: {_HEIGHT}px; border: 0" onload="{escape(_FOLLOW)}" '
             f'srcdoc="{escape(self.html)}"></iframe>'
         )

@@ -1,8 +1,8 @@
-"""One HTML file that holds a widget's front end and its state: no kernel, no network.
+"""One HTML file with a widget's front end and its state, without a kernel or network.
 
-The page may do little: its Content-Security-Policy lets the starter run, known by its hash, and
-what that makes of the state, and lets nothing be fetched or sent. What comes from a person (the
-photo's name, the title, a recipe) is escaped, and read as text only.
+The page's Content-Security-Policy allows only the starter script, identified by its hash, and the
+script that the starter creates from the state; nothing may be fetched or sent. Text from users
+(the photo's name, the title, a recipe) is escaped and only ever read as text.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 _STARTER = Path(__file__).parents[2] / "static" / "standalone.js"
 _TYPES = {b"\x89PNG": "image/png", b"\xff\xd8\xff\xe0": "image/jpeg", b"RIFF": "image/webp"}
 
-# Light and dark as the system has it; the widget brings its own colours.
+# Light or dark as the system is set; the widget has its own colors.
 _STYLE = """
 :root { color-scheme: light dark; }
 body {
@@ -44,7 +44,7 @@ figcaption, #problem { padding: 8px 0; }
 
 @dataclass(frozen=True)
 class Still:
-    """The picture of a page while its widget does not run: before it starts, or for ever.
+    """The picture of a page while its widget does not run: before it starts, or if it cannot.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class Still:
     size : (width, height)
         Pixels.
     description : str
-        What it shows, for those who do not see it.
+        Alternative text of the picture.
     """
 
     data: bytes
@@ -64,59 +64,59 @@ class Still:
 def page(
     embedded: dict[str, Any], still: Still | None, *, title: str, notes: tuple[str, ...] = ()
 ) -> str:
-    """Return an HTML page that shows a widget and needs nothing but itself.
+    """Return a self-contained HTML page that shows a widget.
 
     Parameters
     ----------
     embedded : dict
         ``state``: the traits by name, with the front end in ``_esm`` and ``_css``;
-        ``buffers``: the binary ones as ``{path, encoding: "base64", data}``, as Jupyter embeds
-        widgets.
+        ``buffers``: the binary ones as ``{path, encoding: "base64", data}``, Jupyter's format for
+        embedded widgets.
     still : Still or None
-        Shown until the widget runs, and where it cannot.
+        Shown until the widget runs, and if it cannot.
     title : str
-        Of the page; plain text.
+        Title of the page; plain text.
     notes : tuple of str
         Sentences under the widget; plain text.
 
     Returns
     -------
     str
-        HTML 5. Nothing of a person's text can end an element or begin a script.
+        HTML 5. Text from users can neither end an element nor begin a script.
 
     Raises
     ------
     ImportError
-        When the front end is not built.
+        If the front end is not built.
     ValueError
-        For state that JSON cannot hold, as NaN.
+        For state that JSON cannot hold, such as NaN.
     """
     if not _STARTER.is_file():
         raise ImportError(
             "sunwidget's front end is not built, so no page can be written. In a checkout run "
-            "`make build` (Node 20 or newer); an installed package brings it along."
+            "`make build` (Node 20 or newer); an installed package includes it."
         )
-    starter = _inside("script", _STARTER.read_text("utf-8"))
+    starter = _checked_code("script", _STARTER.read_text("utf-8"))
     state = dict(embedded["state"])
-    style = _inside("style", _STYLE + state.pop("_css", ""))
+    style = _checked_code("style", _STYLE + state.pop("_css", ""))
     policy = "; ".join(
         [
             "default-src 'none'",
-            # The front end is imported from a blob that the starter makes.
+            # The front end is imported from a blob that the starter creates.
             f"script-src {_hash(starter)} blob:",
             f"style-src-elem {_hash(style)}",
             "style-src-attr 'unsafe-inline'",
             "img-src data: blob:",
             "base-uri 'none'",
             "form-action 'none'",
-            # Nothing in the page may read text as HTML or as code, the front end included.
+            # Nothing in the page, including the front end, may read text as HTML or code.
             "require-trusted-types-for 'script'",
             "trusted-types 'none'",
         ]
     )
     content = {"state": state, "buffers": embedded.get("buffers", [])}
-    name = escaped(title)
-    paragraphs = "".join(f"\n<p>{escaped(note)}</p>" for note in notes)
+    name = escape_text(title)
+    paragraphs = "".join(f"\n<p>{escape_text(note)}</p>" for note in notes)
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -148,27 +148,27 @@ def page(
 
 
 def _image(still: Still) -> str:
-    (width, height), text = still.size, escaped(still.description)
+    (width, height), text = still.size, escape_text(still.description)
     return f'<img src="{_data_url(still.data)}" width="{width}" height="{height}" alt="{text}">'
 
 
-def escaped(value: Any) -> str:
-    """Return a person's text for an element or an attribute, on one line."""
-    # Not printable: control signs, half surrogates of file names, U+2028.
-    line = "".join(sign if sign.isprintable() else " " for sign in str(value))
+def escape_text(value: Any) -> str:
+    """Return a user's text for an element or an attribute, on one line."""
+    # Not printable: control characters, half surrogates of file names, U+2028.
+    line = "".join(c if c.isprintable() else " " for c in str(value))
     return html.escape(" ".join(line.split()))
 
 
 def _json(value: Any) -> str:
-    """Return JSON that holds no sign with a meaning in HTML."""
+    """Return JSON without characters that have a meaning in HTML."""
     text = json.dumps(value, allow_nan=False, separators=(",", ":"))
-    for sign in "<>&":
-        text = text.replace(sign, f"\\u{ord(sign):04x}")
+    for character in "<>&":
+        text = text.replace(character, f"\\u{ord(character):04x}")
     return text
 
 
-def _inside(tag: str, text: str) -> str:
-    """Return code that cannot end its own element."""
+def _checked_code(tag: str, text: str) -> str:
+    """Return code for an element; raises ValueError if the code would end that element."""
     text = text.strip().replace("\r\n", "\n")
     if f"</{tag}" in text.lower() or "<!--" in text:
         raise ValueError(f"The built front end holds </{tag} or <!--, which HTML would misread.")

@@ -1,4 +1,4 @@
-"""A widget as one HTML file: what a shader draws stays live, without kernel and network."""
+"""Widgets as single HTML files: everything that a shader draws stays live without a kernel."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ _EXPLORER_NOTES = (
     "Everything happens in this file, and nothing leaves it.",
     "Bruneton's table, measured skies and other places and days need the notebook.",
 )
-# What places a widget in a notebook means nothing in a page.
+# Traits that place a widget in a notebook have no meaning in a page.
 _HOST = ("layout", "tabbable", "tooltip", "_anywidget_id", "_dom_classes")
 _HOST_PREFIXES = ("_model_", "_view_")
 _NOTES = (
     "Drag the sun, or the sliders: everything happens in this file, and nothing leaves it.",
-    "Brushes, horizon and the full size need the notebook that it was made with.",
+    "Brushes, horizon and the full size need the notebook that created this page.",
 )
 
 
@@ -54,36 +54,36 @@ def to_html(
     scene : Scene
         What ``analyze`` returned.
     edit : Edit or dict, optional
-        What the page starts with. Its strokes and hints are applied, and stay as they are.
+        Initial edit of the page. Its strokes and hints are applied and cannot be changed there.
     path : path, optional
-        Where to write it. Default: nowhere, and the page is returned as text.
+        Where to write the page. By default it is not written but returned as text.
     title : str, optional
-        Of the page. Default: the photo's name.
+        Title of the page. Default: the photo's name.
     overwrite : bool
         Replace an existing file.
 
     Returns
     -------
     Path or str
-        Where the page is, or the page. It holds the photo's preview (at most 2048 pixels a
-        side), its maps and the front end: 2 to 8 MB. In it everything that a shader draws is
-        live; strokes, hints and the full size are not there, and it says so.
+        The path of the page, or its text. The page holds the photo's preview (at most 2048 pixels
+        per side), its maps and the front end: 2 to 8 MB. Everything that a shader draws is live;
+        strokes, hints and the full size are unavailable, which the page states.
 
     Raises
     ------
     FileExistsError
-        When ``path`` exists and ``overwrite`` is false.
+        If ``path`` exists and ``overwrite`` is false.
     AnalysisError
-        When a hint of the edit cannot be used.
+        If a hint of the edit cannot be used.
     OSError
-        When the folder is missing or the disk full; no half-written file is left.
+        If the folder is missing or the disk is full; no partial file is left.
 
     Examples
     --------
     >>> sw.to_html(scene, sw.Edit(sun_elevation=3), "evening.html")
     """
     start = edit_of(edit)
-    return written_page(
+    return write_page(
         lambda: editor_page(checked_scene(scene), start, session=uuid.uuid4().hex, title=title),
         path,
         overwrite=overwrite,
@@ -98,7 +98,7 @@ def editor_page(
     kept: Mapping[str, Any] | None = None,
     title: str | None = None,
 ) -> str:
-    """Return the page of an edit; ``scene``, ``session`` and ``kept`` as ``editor_state``."""
+    """Return the page of an edit; ``scene``, ``session`` and ``kept`` as in ``editor_state``."""
     from sunwidget.renderer.offscreen import render
 
     photo = scene.photo
@@ -108,18 +108,18 @@ def editor_page(
 
 
 def explorer_page(widget: Any, *, title: str) -> str:
-    """Return the page of a SkyExplorer as it stands."""
+    """Return the page of a SkyExplorer in its present state."""
     from sunwidget.errors import RendererError
 
     still = None
     with contextlib.suppress(RendererError):
         picture = widget.render(_EXPLORER_STILL)
-        still = Still(_jpeg(picture), _EXPLORER_STILL, "The sky as the page was made")
+        still = Still(_jpeg(picture), _EXPLORER_STILL, "The sky at the time the page was created")
     return page(widget_state(widget), still, title=title, notes=_EXPLORER_NOTES)
 
 
 def widget_state(widget: Any) -> dict[str, Any]:
-    """Return what a page needs of a widget, as ``page`` takes it."""
+    """Return a widget's state in the format of ``page``."""
     whole = widget.whole_state() if isinstance(widget, SavedLight) else widget.get_state()
     return embedded_state(
         {
@@ -131,16 +131,16 @@ def widget_state(widget: Any) -> dict[str, Any]:
 
 
 def embedded_state(traits: dict[str, Any]) -> dict[str, Any]:
-    """Return traits as ``page`` takes them: the binary ones apart, as text."""
+    """Return traits in the format of ``page``, with the binary ones separate, as text."""
     buffers: list[dict[str, Any]] = []
     state = {name: _without_bytes(value, [name], buffers) for name, value in traits.items()}
     return {"state": state, "buffers": buffers}
 
 
 def _without_bytes(value: Any, path: list[Any], buffers: list[dict[str, Any]]) -> Any:
-    """Return ``value`` with None for its bytes, which are put into ``buffers``."""
+    """Return ``value`` with None for its bytes, which are appended to ``buffers``."""
     if isinstance(value, (bytes, bytearray, memoryview)):
-        data = base64.b64encode(_packed(bytes(value))).decode("ascii")
+        data = base64.b64encode(_compress(bytes(value))).decode("ascii")
         buffers.append({"path": path, "encoding": "base64", "data": data})
         return None
     if isinstance(value, dict):
@@ -150,10 +150,10 @@ def _without_bytes(value: Any, path: list[Any], buffers: list[dict[str, Any]]) -
     return value
 
 
-def _packed(data: bytes) -> bytes:
-    """Return a PNG with the same pixels in fewer bytes; anything else as it is.
+def _compress(data: bytes) -> bytes:
+    """Return a PNG with the same pixels in fewer bytes; other data unchanged.
 
-    What travels to a notebook is packed for speed: here it takes a third off the maps.
+    Notebook traits are compressed for speed; stronger compression makes the maps a third smaller.
     """
     import cv2
 
@@ -166,26 +166,26 @@ def _packed(data: bytes) -> bytes:
 
 
 def still_of(photo: Photo, render: Callable[..., np.ndarray]) -> Still:
-    """Return the picture as ``render(size=(width, height))`` makes it, for a page.
+    """Return the picture from ``render(size=(width, height))`` for a page.
 
-    Where this machine cannot render it is the photo as it was taken.
+    If this machine cannot render, return the original photo.
     """
     from sunwidget.errors import RendererError
 
     try:
         picture = render(size=photo.size_within(_STILL_EDGE))
-        text = f"{photo.name}, its sun moved as the page was made"
+        text = f"{photo.name}, with its sun moved"
     except RendererError:
         picture, text = photo.preview(_STILL_EDGE), f"{photo.name} as it was taken"
     return Still(_jpeg(picture), (picture.shape[1], picture.shape[0]), text)
 
 
-def written_page(
+def write_page(
     make: Callable[[], str], path: str | os.PathLike[str] | None, *, overwrite: bool
 ) -> Path | str:
-    """Return the page that ``make`` makes, or write it to ``path``, whole or not at all.
+    """Return the page from ``make``, or write it to ``path`` completely or not at all.
 
-    Where it cannot go is said before it is made.
+    An invalid ``path`` raises before the page is made.
     """
     if path is None:
         return make()

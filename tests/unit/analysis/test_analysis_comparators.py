@@ -134,6 +134,6 @@ def test_every_refinement_takes_any_size_and_any_coarse_map(method, shape, level
     photo = open_photo(generator.integers(0, 256, (*shape, 3)).astype(np.uint8))
     coarse = generator.random((8, 8)) if level is None else np.full((8, 8), level)
     decision = refine.METHODS[method](Working.of(photo), coarse.astype(np.float32))
-    assert decision.sky.shape == decision.sureness.shape
+    assert decision.sky.shape == decision.confidence.shape
     assert set(np.unique(decision.sky)) <= {0, 1}
-    assert 0 < decision.sureness.min() <= decision.sureness.max() <= 1
+    assert 0 < decision.confidence.min() <= decision.confidence.max() <= 1

@@ -81,13 +81,13 @@ def test_a_lamp_on_the_land_is_no_sun():
 
 def test_where_a_blot_grew_into_the_glow_the_networks_disc_stands():
     working = evening(disc=(90.5, 60.5))
-    blot = sun.flood_fill(working, SKY, 20.0, 20.0, CAMERA.focal)  # some sky
+    sun_mask = sun.flood_fill(working, SKY, 20.0, 20.0, CAMERA.focal)  # some sky
     peak = sun.Peak(90.5, 60.5, 5.0, 0.9, 0.1)
-    settled = sun.settled(blot, peak)
+    settled = sun.limit_to_peak(sun_mask, peak)
     assert (settled.x, settled.y, settled.radius) == (90.5, 60.5, 5.0)
     assert settled.mask.sum() == pytest.approx(math.pi * 25, rel=0.1)
     fitting = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
-    assert sun.settled(fitting, peak._replace(radius=4.0)) is fitting
+    assert sun.limit_to_peak(fitting, peak._replace(radius=4.0)) is fitting
 
 
 def limb(step):
@@ -104,49 +104,49 @@ def limb(step):
 )
 def test_a_sharp_limb_tells_the_field_of_view_and_a_glow_does_not(step, sharp, expected):
     working = limb(step)
-    blot = sun.disc_fit(working, SKY, 160.0, 80.0, CAMERA.focal)
+    sun_mask = sun.disc_fit(working, SKY, 160.0, 80.0, CAMERA.focal)
     peak = sun.Peak(160.0, 80.0, 20.0, 0.9, sharp)
-    degrees = sun.field_of_view_of(blot, peak, working, 50.0)
+    degrees = sun.field_of_view_of(sun_mask, peak, working, 50.0)
     assert (degrees is not None) == expected
     if expected:  # 40 px are 0.533°
         assert degrees == pytest.approx(SIZE[1] / 40 * 0.533, rel=0.06)
 
 
 def test_disc_fit_centres_on_the_blot_even_when_clicked_off_centre():
-    blot = sun.disc_fit(evening(disc=(90.5, 60.5)), SKY, 92.5, 58.5, CAMERA.focal)
-    assert math.dist((blot.x, blot.y), (90.5, 60.5)) < 1.5
-    assert 3 <= blot.radius <= 9  # a burnt core is larger than the 4 px disc, never far larger
+    sun_mask = sun.disc_fit(evening(disc=(90.5, 60.5)), SKY, 92.5, 58.5, CAMERA.focal)
+    assert math.dist((sun_mask.x, sun_mask.y), (90.5, 60.5)) < 1.5
+    assert 3 <= sun_mask.radius <= 9  # a burnt core is larger than the 4 px disc, never far larger
 
 
 def test_disc_fit_is_never_smaller_than_the_true_disc():
-    blot = sun.disc_fit(evening(), SKY, 100.0, 60.0, CAMERA.focal)
-    assert blot.radius >= CAMERA.focal * math.tan(math.radians(SUN_ANGULAR_RADIUS_DEG)) - 1e-9
+    sun_mask = sun.disc_fit(evening(), SKY, 100.0, 60.0, CAMERA.focal)
+    assert sun_mask.radius >= CAMERA.focal * math.tan(math.radians(SUN_ANGULAR_RADIUS_DEG)) - 1e-9
 
 
 def test_flood_fill_takes_what_is_as_bright_as_the_seed_and_connected_to_it():
     picture = np.full((60, 80, 3), 60, np.uint8)
     cv2.circle(picture, (30, 30), 8, (250, 250, 250), -1)
     cv2.circle(picture, (60, 30), 5, (250, 250, 250), -1)  # as bright, but apart
-    blot = sun.flood_fill(
+    sun_mask = sun.flood_fill(
         Working.of(open_photo(picture)), np.ones((60, 80), np.float32), 31, 29, 100
     )
     white = picture[..., 0] == 250
     white[:, 48:] = False
-    assert np.array_equal(blot.mask > 0, white)
-    assert (blot.x, blot.y) == (30.5, 30.5)
-    assert blot.radius == pytest.approx(math.sqrt(white.sum() / math.pi))
+    assert np.array_equal(sun_mask.mask > 0, white)
+    assert (sun_mask.x, sun_mask.y) == (30.5, 30.5)
+    assert sun_mask.radius == pytest.approx(math.sqrt(white.sum() / math.pi))
 
 
 def test_a_burnt_disc_that_the_sky_surrounds_belongs_to_the_sky():
     working = evening(disc=(90.5, 60.5))
-    blot = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
-    hole = SKY * (1 - blot.mask)
-    disc = sun.in_sky(blot, hole, working.encoded)
-    assert (disc[blot.mask > 0] > 0.5).all()
+    sun_mask = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
+    hole = SKY * (1 - sun_mask.mask)
+    disc = sun.in_sky(sun_mask, hole, working.encoded)
+    assert (disc[sun_mask.mask > 0] > 0.5).all()
     assert disc[:, 200:].max() == 0
     twig = working.encoded.copy()
     twig[:, 90] = 0.1
-    assert sun.in_sky(blot, hole, twig)[:, 90].max() == 0
+    assert sun.in_sky(sun_mask, hole, twig)[:, 90].max() == 0
 
 
 def skyline(left, right, notch):
@@ -158,24 +158,24 @@ def skyline(left, right, notch):
 
 
 def test_the_notch_that_a_setting_sun_burns_into_an_even_skyline_is_no_sky():
-    blot = sun.Blot(80, 50, 6.0, skyline(0, 0, notch=True))
+    sun_mask = sun.SunMask(80, 50, 6.0, skyline(0, 0, notch=True))
     for left, right in ((52, 52), (49, 57)):
         notched = skyline(left, right, notch=True)
-        mended = notched * (1 - sun.foot(blot, notched))
+        mended = notched * (1 - sun.find_land_glare(sun_mask, notched))
         assert np.abs(mended - skyline(left, right, notch=False)).sum() < 12
         assert np.abs(notched - skyline(left, right, notch=False)).sum() > 40
 
 
 def test_a_sun_in_a_gap_of_the_skyline_keeps_its_sky():
     high = skyline(40, 40, notch=True)  # hills left and right of it
-    assert not sun.foot(sun.Blot(80, 50, 6.0, high), high).any()
+    assert not sun.find_land_glare(sun.SunMask(80, 50, 6.0, high), high).any()
 
 
 def test_a_sun_over_a_valley_keeps_the_sky_below_it():
     rows, columns = np.mgrid[:200, :240] + 0.5
     valley = np.float32(rows < 120 - 1.4 * np.abs(columns - 120))
     disc = np.float32(np.hypot(columns - 120, rows - 55) < 8)
-    assert not sun.foot(sun.Blot(120, 55, 8.0, disc), valley).any()
+    assert not sun.find_land_glare(sun.SunMask(120, 55, 8.0, disc), valley).any()
 
 
 def test_among_trees_only_what_is_burnt_is_no_notch():
@@ -183,7 +183,7 @@ def test_among_trees_only_what_is_burnt_is_no_notch():
     trees[:70, 28:38] = 1
     trees[:90, 33:36] = 1
     burnt = (np.hypot(*(np.mgrid[:100, :160] + 0.5 - np.array([50, 80])[:, None, None])) < 8) * 1.0
-    gone = sun.foot(sun.Blot(80, 50, 8.0, np.float32(burnt)), trees)
+    gone = sun.find_land_glare(sun.SunMask(80, 50, 8.0, np.float32(burnt)), trees)
     assert gone[62, 80] > 0.5
     assert gone[:50].max() < 0.1
     assert gone[:, :60].max() == 0
@@ -192,19 +192,19 @@ def test_among_trees_only_what_is_burnt_is_no_notch():
 
 def test_a_lamp_between_houses_does_not_become_sky():
     working = evening(disc=(90.5, 60.5))
-    blot = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
-    assert sun.in_sky(blot, np.zeros_like(SKY), working.encoded).max() == 0
+    sun_mask = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
+    assert sun.in_sky(sun_mask, np.zeros_like(SKY), working.encoded).max() == 0
 
 
 def test_the_observed_angles_are_those_of_the_camera_at_the_suns_pixel():
     working = evening(disc=(90.5, 60.5))
-    blot = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
-    seen = sun.observe(None, blot, SKY, CAMERA, working)
+    sun_mask = sun.disc_fit(working, SKY, 90.5, 60.5, CAMERA.focal)
+    seen = sun.observe(None, sun_mask, SKY, CAMERA, working)
     assert seen is not None
     assert seen.visible
     assert CAMERA.pixel(seen.azimuth, seen.elevation) == pytest.approx((seen.x, seen.y), abs=1e-6)
     # 70 px left of the centre at the camera's focal length: about 13° to the left.
-    expected = math.degrees(math.atan((blot.x - SIZE[0] / 2) / CAMERA.focal))
+    expected = math.degrees(math.atan((sun_mask.x - SIZE[0] / 2) / CAMERA.focal))
     assert seen.azimuth == pytest.approx(expected, abs=0.6)
     assert seen.mask.shape == SIZE[::-1]
 

@@ -7,7 +7,7 @@ import sys
 
 import onnxruntime
 
-from sunwidget.analysis.networks.onnx_runtime import onnx_runtime
+from sunwidget.analysis.networks.onnx_runtime import import_onnxruntime
 
 # onnxruntime 1.29 and later write a device's number within a second of their first session.
 NETWORK = """
@@ -54,10 +54,10 @@ def test_who_has_chosen_is_not_overruled(monkeypatch):
     asked = []
     monkeypatch.setattr(onnxruntime, "disable_telemetry_events", lambda: asked.append("silence"))
     monkeypatch.setenv("ORT_DISABLE_TELEMETRY", "0")
-    onnx_runtime()
+    import_onnxruntime()
     assert os.environ["ORT_DISABLE_TELEMETRY"] == "0"
     assert asked == []
     monkeypatch.delenv("ORT_DISABLE_TELEMETRY")
-    onnx_runtime()
+    import_onnxruntime()
     assert os.environ["ORT_DISABLE_TELEMETRY"] == "1"
     assert asked == ["silence"]

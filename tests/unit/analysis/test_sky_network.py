@@ -8,7 +8,7 @@ import sunwidget as sw
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.segmentation_output import map_of, sky_of
 from sunwidget.analysis.segmentation import coarse_sky
-from sunwidget.analysis.segmentation.sky_network import BUNDLED, SkyNetwork, bundled
+from sunwidget.analysis.segmentation.sky_network import BUNDLED, SkyNetwork, bundled_network
 from sunwidget.errors import AnalysisError
 from sunwidget.photo.photo import open_photo
 
@@ -178,7 +178,7 @@ def test_a_network_gets_the_scale_that_is_told(tmp_path, scale, told):
     path = onnx.wrap(BUNDLED, tmp_path / "ours.onnx", nodes, constants, entries, metadata)
     network = SkyNetwork(path, **({} if metadata else fields))
     working = Working.of(sw.sample("harbour"))
-    assert np.allclose(network(working), bundled()(working), atol=2e-3)
+    assert np.allclose(network(working), bundled_network()(working), atol=2e-3)
 
 
 def test_the_scale_is_the_given_one_the_metadata_s_or_0_to_1(tmp_path):
@@ -286,7 +286,9 @@ def test_a_network_of_something_else_says_what_it_takes(tmp_path, entries, words
     nodes = [onnx.node("Identity", ["a"], ["out"])]
     outputs = [("out", *entries[0][1:])]
     path = onnx.write(tmp_path / "other.onnx", nodes, {}, entries, outputs)
-    with pytest.raises(AnalysisError, match=f"no network of one picture: it takes a .*{words}"):
+    with pytest.raises(
+        AnalysisError, match=f"must take one picture, but its inputs are a .*{words}"
+    ):
         found(path)
 
 
@@ -302,7 +304,7 @@ def test_a_network_of_enormous_pictures_is_refused_before_one_is_made(tmp_path):
     nodes = [onnx.node("Identity", ["a"], ["out"])]
     entries, outputs = [("a", F4, (1, 3, 200_000, 200_000))], [("out", F4, ("b", "c", "h", "w"))]
     path = onnx.write(tmp_path / "enormous.onnx", nodes, {}, entries, outputs)
-    with pytest.raises(AnalysisError, match="at most 4096 pixels a side"):
+    with pytest.raises(AnalysisError, match="at most 4096 pixels per side"):
         found(path)
 
 
@@ -378,7 +380,7 @@ def test_analyze_and_the_editor_take_a_network_and_its_label(tmp_path):
 def test_the_land_network_has_a_say_by_day_and_none_by_night():
     day = Working.of(sw.sample("harbour"))
     night = Working.of(open_photo((sw.sample("harbour").encoded * 0.25).astype(np.uint8)))
-    alone = [bundled()(working) for working in (day, night)]
+    alone = [bundled_network()(working) for working in (day, night)]
     both = [coarse_sky.network(working) for working in (day, night)]
     assert np.abs(both[0] - alone[0]).max() > 0.05
     assert ((both[0] > 0.5) == (alone[0] > 0.5)).mean() > 0.98  # of the sample they know the same
