@@ -8,7 +8,7 @@ import { needsKernel } from "../src/editor/view/kernel_required.js";
 import { Original } from "../src/editor/view/original.js";
 import { Picture } from "../src/editor/view/picture.js";
 import { showStatus } from "../src/editor/view/status.js";
-import { Cancelled } from "../src/host/channel.js";
+import { Canceled } from "../src/host/channel.js";
 import { FakeModel } from "./fake_model.js";
 
 /** An element, as far as classes, titles and attributes go. */
@@ -96,16 +96,16 @@ test("one thing is made at a time", async () => {
   assert.deepEqual([work.busy, said], [false, [""]]);
 });
 
-test("work that is cancelled or fails says so in words", async () => {
+test("work that is canceled or fails says so in words", async () => {
   const { work, said } = atWork();
-  const cancelled = work.run("The export", async (signal) => {
+  const canceled = work.run("The export", async (signal) => {
     await new Promise((resolve) => signal.addEventListener("abort", resolve));
-    throw new Cancelled("cancelled");
+    throw new Canceled("canceled");
   });
   work.cancel();
-  await cancelled;
+  await canceled;
   await work.run("Saving", () => Promise.reject(new Error("no room")));
-  assert.deepEqual(said, ["The export was cancelled.", "Saving failed: no room"]);
+  assert.deepEqual(said, ["The export was canceled.", "Saving failed: no room"]);
 });
 
 test("the photo as it was stays for the split when Before goes", () => {

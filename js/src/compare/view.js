@@ -168,7 +168,7 @@ export class View {
       this.zoom.size = size; // perhaps before the photo is shown by itself
       this.show();
     } catch (error) {
-      this.message.show(`The maps of the analysis cannot be shown: ${errorText(error)}`);
+      this.message.show(`The analysis maps cannot be shown: ${errorText(error)}`);
     }
   }
 
@@ -251,6 +251,6 @@ export class View {
     if (!this.scenes.found.length) return;
     this.readout.textContent = this.state.values.one_sun
       ? sunText(this.panels[0].value("sun_azimuth"), this.panels[0].value("sun_elevation"))
-      : "Each picture under its own sun; drag one for a common sun";
+      : "Each picture has its own sun; drag one to set a common sun";
   }
 }

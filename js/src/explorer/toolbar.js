@@ -14,19 +14,19 @@ const PROJECTIONS = [
     value: "dome",
     icon: "dome",
     label: "Dome",
-    title: "Dome: the whole sky as a fisheye sees it, zenith in the middle",
+    title: "Dome: the whole sky as a fisheye image, zenith in the middle",
   },
   {
     value: "panorama",
     icon: "panorama",
     label: "Panorama",
-    title: "Panorama: all round the horizon; drag to turn",
+    title: "Panorama: all around the horizon; drag to turn",
   },
   {
     value: "camera",
     icon: "camera",
     label: "Camera",
-    title: "Camera: a picture; drag to look elsewhere, Ctrl+wheel to zoom",
+    title: "Camera: a perspective view; drag to look around, Ctrl+wheel to zoom",
   },
 ];
 const SAME_PLACE = 0.01; // degrees, as in the kernel's twin
@@ -44,11 +44,11 @@ export function toolbar(view) {
   for (const [i, node] of [...projections.node.children].entries()) {
     node.append(element("span", {}, PROJECTIONS[i].label));
   }
-  const history = historyButtons(state, "Everything back to its default");
+  const history = historyButtons(state, "Reset everything to its default");
   const copy = button({
     icon: "copy",
     label: "Copy code",
-    title: "Copy Python that makes this sky again",
+    title: "Copy Python code that recreates this sky",
     caption: true,
   });
   const help = button({

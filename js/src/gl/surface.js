@@ -17,11 +17,11 @@ import { readLevels } from "./texture.js";
  */
 
 const NO_WEBGL =
-  "This browser offers no WebGL2, which the live preview needs. Turn on hardware acceleration " +
-  "or use another browser; exports from Python work all the same.";
+  "This browser has no WebGL2, which the live preview needs. Turn on hardware acceleration " +
+  "or use another browser; exports from Python still work.";
 const TAKEN_AWAY =
-  "The browser took the graphics context away and gives no other, as after a crash of the graphics " +
-  "driver. Load the page again; your edit is kept.";
+  "The browser took the graphics context away and offers no other, as after a graphics driver " +
+  "crash. Reload the page; your edit is kept.";
 const MOST_LOSSES = 3; // in a row: what takes the context away does so at every try
 
 export class Surface {
@@ -33,7 +33,7 @@ export class Surface {
    */
   constructor(canvas, description, files, { alpha }) {
     const context = canvas.getContext("2d", { alpha });
-    if (!context) throw new Error("This browser offers no 2-D canvas.");
+    if (!context) throw new Error("This browser has no 2-D canvas.");
     this.canvas = canvas;
     this.context = context;
     this.description = description;

@@ -23,8 +23,8 @@ export function missingFeature(gl) {
   if (gl.getExtension("EXT_color_buffer_float")) return null;
   return (
     "This device cannot draw to floating-point textures (EXT_color_buffer_float), which the " +
-    "sky needs. Another browser or a computer with a graphics driver will do; exports from " +
-    "Python work all the same."
+    "sky needs. Use another browser or a computer with a graphics driver; exports from Python " +
+    "still work."
   );
 }
 

@@ -23,10 +23,10 @@
 // A kernel that says nothing for so long was restarted or is gone.
 const SILENCE_MS = 180_000;
 export const GONE = "The kernel is gone. Run the cell again.";
-const SILENT = "The kernel does not answer. If it was restarted, run the cell again.";
+const SILENT = "The kernel is not responding. If it was restarted, run the cell again.";
 
 /** The person wants the answer no more. */
-export class Cancelled extends Error {}
+export class Canceled extends Error {}
 
 export class Channel {
   /**
@@ -57,13 +57,13 @@ export class Channel {
    * @param {OnProgress} [onProgress]
    * @param {ArrayBuffer[]} [buffers]
    * @param {AbortSignal} [signal] cancels: the kernel stops at its next step, the promise rejects
-   *   with `Cancelled` at once
+   *   with `Canceled` at once
    * @returns {Promise<Answer>}
    */
   request(action, content = {}, onProgress = undefined, buffers = [], signal = undefined) {
     const id = crypto.randomUUID?.() ?? String(Math.random());
     return new Promise((resolve, reject) => {
-      if (signal?.aborted) throw new Cancelled("Cancelled.");
+      if (signal?.aborted) throw new Canceled("Canceled.");
       try {
         this.model.send({ ...content, type: "request", id, action }, undefined, buffers);
       } catch {
@@ -73,7 +73,7 @@ export class Channel {
       const outlives = content.in_folder === true;
       this.open.set(id, { resolve, reject, pieces: [], onProgress, outlives });
       this.watch(id);
-      signal?.addEventListener("abort", () => this.giveUp(id, new Cancelled("Cancelled.")), {
+      signal?.addEventListener("abort", () => this.giveUp(id, new Canceled("Canceled.")), {
         once: true,
       });
     });

@@ -60,8 +60,8 @@ export const PHOTO = "photo";
  */
 export const savedText = (model, what) =>
   model.get("_saved") === PHOTO
-    ? `The notebook holds the photo and the recipe, no more. Run the cell to see the ${what}.`
-    : `This is a picture of the ${what} as it was saved. Run the cell again to go on.`;
+    ? `The notebook saved only the photo and the recipe. Run the cell to see the ${what}.`
+    : `This is a saved picture of the ${what}. Run the cell again to continue.`;
 
 /** No bytes, as traits hold them. */
 export const nothing = () => new DataView(new ArrayBuffer(0));

@@ -13,7 +13,7 @@ const part = (id) => /** @type {HTMLElement} */ (document.getElementById(id));
 /** What this browser lacks, as a sentence; "" when nothing. */
 function missing() {
   if (document.createElement("canvas").getContext("webgl2")) return "";
-  return "This browser offers no WebGL2. Turn on hardware acceleration to move the sun here.";
+  return "This browser has no WebGL2. Turn on hardware acceleration to move the sun here.";
 }
 
 async function start() {

@@ -31,7 +31,7 @@ export function checkRecipe(parameters, recipe) {
     return { values: {}, problems: [`Recipe version ${shown(version)} is not a whole number.`] };
   }
   if (version > RECIPE_VERSION) {
-    const problem = `This recipe has version ${version}, this sunwidget reads up to ${RECIPE_VERSION}. Update sunwidget to open it.`;
+    const problem = `This recipe has version ${version}; this sunwidget reads versions up to ${RECIPE_VERSION}. Update sunwidget to open it.`;
     return { values: {}, problems: [problem] };
   }
   /** @type {Edit} */

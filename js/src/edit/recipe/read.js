@@ -13,7 +13,7 @@ export async function readRecipe(text, readPython) {
     return JSON.parse(text);
   } catch {
     if (!/\bEdit\s*\(/.test(text)) {
-      throw new Error("There is no recipe in it: neither a JSON object nor sw.Edit(…).");
+      throw new Error("No recipe found: the text is neither a JSON object nor sw.Edit(…).");
     }
     if (text.length > LONGEST) throw new Error("This Python is too long for a recipe.");
     return readPython(text);

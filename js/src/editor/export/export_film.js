@@ -18,7 +18,7 @@ const EASING_NAMES = [
   ["ease_in_out", "Slow at both ends"],
   ["ease_in", "Slow start"],
   ["ease_out", "Slow end"],
-  ["smooth", "Smooth through all"],
+  ["smooth", "Smooth throughout"],
 ];
 
 /**
@@ -49,7 +49,7 @@ export function exportFilm({ clock, kernel, ...needs }, job, signal) {
     EASING_NAMES.filter(([name]) => name in EASINGS),
   );
   const loop = selectField("Repeat", [
-    ["forever", "For ever"],
+    ["forever", "Forever"],
     ["there_and_back", "There and back"],
     ["once", "Once"],
   ]);
@@ -73,10 +73,10 @@ export function exportFilm({ clock, kernel, ...needs }, job, signal) {
   };
   /** Why there is no film, or "". */
   const still = () => {
-    if (!picture.scene) return "The photo is not analysed yet.";
+    if (!picture.scene) return "The photo has not been analyzed yet.";
     if (byDay()) {
-      if (!clock.place || !clock.path.length) return "Say where and when first: Time and place.";
-      return clock.place.heading === null ? "Say where the camera looks: Time and place." : "";
+      if (!clock.place || !clock.path.length) return "Set a place and time first: Time and place.";
+      return clock.place.heading === null ? "Set the camera's heading first: Time and place." : "";
     }
     if (keys.read().length > 1) return "";
     const [start, end] = [0, 1].map((share) => JSON.stringify(pathOf(stations())(share)));

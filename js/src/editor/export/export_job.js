@@ -19,7 +19,7 @@ const SHOWN_BYTES = 20_000_000; // as in sunwidget/widgets/editor/export_files.p
 export function exportJob({ channel, picture, stage, state, work }, isOpen, signal) {
   const bar = element("progress", { max: 1, "aria-label": "Progress of the export" });
   const said = element("span", { class: "sw-export-said" });
-  const cancel = chip("Cancel", "Stop; nothing of the file is left", () => work.cancel());
+  const cancel = chip("Cancel", "Stop; no partial file is left", () => work.cancel());
   const running = element("div", { class: "sw-export-running", hidden: true }, bar, said, cancel);
   const done = element("div", { class: "sw-export-done", role: "status" });
   let url = "";
@@ -75,7 +75,7 @@ export function exportJob({ channel, picture, stage, state, work }, isOpen, sign
     work.run("The export", async (stop) => {
       done.replaceChildren();
       running.hidden = false;
-      tell(0, "Asking the kernel …");
+      tell(0, "Waiting for the kernel …");
       try {
         /** @type {import("../../host/channel.js").OnProgress} */
         const onProgress = (fraction, text) => {
@@ -88,7 +88,7 @@ export function exportJob({ channel, picture, stage, state, work }, isOpen, sign
           rename(result.free);
           void run(action, { ...content, name: result.free }, rename);
         });
-        const text = `${result.taken} exists already and was left as it is.`;
+        const text = `${result.taken} already exists and was not overwritten.`;
         done.replaceChildren(element("p", {}, text), other);
       } finally {
         running.hidden = true;

@@ -27,7 +27,7 @@ export function exportPanel({ foot, toolbar, ...needs }, signal) {
   toolbar.menu.add({
     group: "picture",
     label: "Export …",
-    title: "A still of any format and size, or a film",
+    title: "A still in any format and size, or a film",
     shown: () => kernel.state !== "none",
     run: () => setOpen(true),
   });
@@ -58,7 +58,11 @@ export function exportPanel({ foot, toolbar, ...needs }, signal) {
     choose((chosen + step + pages.length) % pages.length);
     pages[chosen].tab.focus();
   });
-  const close = button({ icon: "close", label: "Close the export", onClick: () => setOpen(false) });
+  const close = button({
+    icon: "close",
+    label: "Close the export panel",
+    onClick: () => setOpen(false),
+  });
   const node = element(
     "section",
     { class: "sw-export", id, "aria-label": "Export", hidden: true },

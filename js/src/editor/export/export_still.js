@@ -27,7 +27,7 @@ export function exportStill({ kernel, picture }, job) {
     parameter: {
       name: "",
       label: "Layers",
-      help: "Sky, clouds, land and matte beside the picture, to go on in an image editor",
+      help: "Also write sky, clouds, land and matte as layers for an image editor",
       default: false,
     },
     onChange: (on) => {
@@ -40,7 +40,7 @@ export function exportStill({ kernel, picture }, job) {
     parameter: {
       name: "",
       label: "Light above white",
-      help: "HDR: screens that can show the moved sun and its glitter brighter than white",
+      help: "HDR: screens that can do so show the moved sun and its glitter brighter than white",
       default: false,
     },
     onChange: (on) => {
@@ -98,7 +98,7 @@ export function exportStill({ kernel, picture }, job) {
   };
   const problem = (/** @type {import("./export_target.js").Format | undefined} */ kind) => {
     if (!kernel.answers) return "Needs the kernel: run the cell again.";
-    if (!picture.scene) return "The photo is not analysed yet.";
+    if (!picture.scene) return "The photo has not been analyzed yet.";
     return lacking(kind);
   };
   format.select.addEventListener("change", () => {

@@ -18,9 +18,9 @@ export function exportTarget(what, onExport) {
   const ending = element("span", { class: "sw-export-ending" });
   name.input.after(ending);
   name.node.classList.add("sw-export-name");
-  const where = selectField("Where to", [
+  const where = selectField("Save to", [
     ["download", "Download"],
-    ["folder", "Notebook's folder"],
+    ["folder", "Notebook folder"],
   ]);
   const go = element("button", { type: "submit", class: "sw-chip sw-primary" }, "Export");
   go.setAttribute("aria-label", `Export the ${what}`); // another button opens the panel
@@ -28,7 +28,7 @@ export function exportTarget(what, onExport) {
   const node = element("form", { class: "sw-export-target" }, name.node, where.node, go);
   let folder = "";
   const showFolder = () => {
-    where.select.title = where.select.value === "folder" ? folder : "Through the browser";
+    where.select.title = where.select.value === "folder" ? folder : "Download in the browser";
   };
   where.select.addEventListener("change", showFolder);
   node.addEventListener("submit", (event) => {

@@ -22,7 +22,7 @@ export function filmPlayer({ drawing, parts, picture, stage, state }, signal, re
     max: 1,
     step: "any",
     value: 0,
-    "aria-label": "Moment of the film",
+    "aria-label": "Position in the film",
   });
   const time = element("span", { class: "sw-film-time" });
 
@@ -48,7 +48,7 @@ export function filmPlayer({ drawing, parts, picture, stage, state }, signal, re
   const play = playButton(
     {
       label: "Play the film",
-      title: "Play the film in the picture; the edit stays as it is",
+      title: "Play the film in the picture; the edit does not change",
       onStart: () => {
         if (at >= (read()?.seconds ?? 0)) at = 0;
         way = 1;

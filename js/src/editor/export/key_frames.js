@@ -37,22 +37,26 @@ export function keyFrames({ notices, state, thumbnails }) {
   const put = (i, frame) => write(read().map((other, at) => (at === i ? frame : other)));
 
   const list = element("ol", { class: "sw-key-frames", "aria-label": "Key frames" });
-  const add = chip("Add key frame", "The edit as it is now, as the film's next key frame", () => {
+  const add = chip("Add key frame", "Add the current edit as the film's next key frame", () => {
     const frames = read();
     const last = frames[frames.length - 1];
     write([...frames, { seconds: last ? last.seconds + APART : 0, recipe: state.recipe() }]);
     list.scrollLeft = list.scrollWidth;
   });
-  const fromVersions = chip("From the versions", "The kept versions, in their order", () => {
+  const fromVersions = chip("From versions", "Use the versions as key frames, in order", () => {
     const before = read();
     write(state.versions().map(({ recipe }, i) => ({ seconds: i * APART, recipe })));
     if (before.length) offer("The key frames were replaced.", before);
   });
-  const clear = chip("Clear", "No key frames: from the photo to the edit as it is", () => {
-    const before = read();
-    write([]);
-    offer("The key frames were removed.", before);
-  });
+  const clear = chip(
+    "Clear",
+    "Remove all key frames: the film goes from the photo to the current edit",
+    () => {
+      const before = read();
+      write([]);
+      offer("The key frames were removed.", before);
+    },
+  );
   /** @param {string} text @param {KeyFrame[]} before */
   const offer = (text, before) =>
     notices.show("key-frame", {
@@ -80,7 +84,7 @@ export function keyFrames({ notices, state, thumbnails }) {
       { type: "button", class: "sw-key-go", "aria-label": `Go to ${name}` },
       canvas,
     );
-    go.title = "Go to this edit, as one step";
+    go.title = "Go to this edit, as one undo step";
     go.addEventListener("click", () => state.replace(whole(frame)));
     const seconds = element("input", {
       type: "number",
@@ -113,20 +117,20 @@ export function keyFrames({ notices, state, thumbnails }) {
     };
     const earlier = button({
       icon: "chevron",
-      label: `Move ${name} forward in the film`,
+      label: `Move ${name} earlier`,
       onClick: () => move(-1),
     });
     earlier.classList.add("sw-backwards");
     earlier.disabled = i === 0;
     const later = button({
       icon: "chevron",
-      label: `Move ${name} back in the film`,
+      label: `Move ${name} later`,
       onClick: () => move(1),
     });
     later.disabled = i === all.length - 1;
     const retake = button({
       icon: "camera",
-      label: `Set ${name} to the edit as it is now`,
+      label: `Set ${name} to the current edit`,
       onClick: () => put(i, { ...frame, recipe: state.recipe() }),
     });
     const remove = button({
@@ -163,8 +167,8 @@ export function keyFrames({ notices, state, thumbnails }) {
     list.hidden = !frames.length;
     empty.hidden = frames.length > 1;
     empty.textContent = frames.length
-      ? "From this key frame to the edit as it is now. Move the sun and add the next."
-      : "From the photo as it was to the edit as it is now; or along key frames that you add.";
+      ? "The film goes from this key frame to the current edit. Move the sun and add the next."
+      : "The film goes from the photo to the current edit, or through key frames that you add.";
     add.disabled = frames.length >= MOST;
     clear.hidden = !frames.length;
     fromVersions.hidden = state.versions().length < 2;

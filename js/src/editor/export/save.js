@@ -20,7 +20,7 @@ export function saving({ channel, drawing, kernel, model, picture, stage, toolba
     const onProgress = (fraction, text) => {
       if (!signal.aborted) stage.setProgress(fraction, text);
     };
-    onProgress(0, "Asking the kernel …");
+    onProgress(0, "Waiting for the kernel …");
     const asked = picture.asked();
     const { result, buffers } = await channel.request(action, asked, onProgress, [], signal);
     const bytes = /** @type {BlobPart} */ (buffers[0]);
@@ -43,7 +43,7 @@ export function saving({ channel, drawing, kernel, model, picture, stage, toolba
   toolbar.menu.add({
     group: "picture",
     label: "Save as a web page",
-    title: "One file in which the sun can be moved, without a notebook and without network",
+    title: "One file in which the sun can be moved, without a notebook or network",
     enabled: () => kernel.answers && picture.scene !== null,
     shown: () => kernel.state !== "none",
     run: () => work.run("Saving the page", (signal) => fromKernel("page", signal)),

@@ -1,6 +1,6 @@
 /** What a person waits for and then keeps, one at a time: a picture, a page, an export. */
 
-import { Cancelled } from "../../host/channel.js";
+import { Canceled } from "../../host/channel.js";
 
 export class Work {
   /** @param {import("../types.js").Needs<"notices" | "stage" | "state">} needs */
@@ -39,7 +39,7 @@ export class Work {
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
       this.notices.show("save", {
-        text: error instanceof Cancelled ? `${what} was cancelled.` : `${what} failed: ${why}`,
+        text: error instanceof Canceled ? `${what} was canceled.` : `${what} failed: ${why}`,
         actions: [{ label: "Try again", run: () => this.run(what, make) }],
       });
     } finally {

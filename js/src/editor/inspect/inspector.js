@@ -42,11 +42,11 @@ export class Inspector {
 
     this.choice = element(
       "select",
-      { class: "sw-select sw-show", "aria-label": "Show", title: "Show a map of the analysis (M)" },
+      { class: "sw-select sw-show", "aria-label": "Show", title: "Show an analysis map (M)" },
       element("option", { value: "" }, "Picture"),
       element(
         "optgroup",
-        { label: "What the analysis found" },
+        { label: "Analysis" },
         ...this.maps.map(({ name, title }) => element("option", { value: name }, title)),
       ),
     );
@@ -82,8 +82,8 @@ export class Inspector {
       max: 1,
       step: 0.05,
       value: 1,
-      "aria-label": "Opacity of the map",
-      title: "Opacity of the map",
+      "aria-label": "Map opacity",
+      title: "Map opacity",
     });
     this.opacity.addEventListener("input", () => this.setOpacity());
     const ramp = element("span", { class: "sw-legend-ramp" }, over, this.bar);
@@ -94,8 +94,8 @@ export class Inspector {
       { class: "sw-legend-steps" },
       button({
         icon: "chevron",
-        label: "Map before",
-        title: "Map before (Shift+M)",
+        label: "Previous map",
+        title: "Previous map (Shift+M)",
         onClick: () => this.step(-1),
       }),
       this.position,
@@ -114,7 +114,7 @@ export class Inspector {
     });
     this.node = element(
       "div",
-      { class: "sw-legend", role: "group", "aria-label": "Map of the analysis", hidden: true },
+      { class: "sw-legend", role: "group", "aria-label": "Analysis map", hidden: true },
       element("span", { class: "sw-legend-name" }, this.title, this.value),
       this.scale,
       this.opacity,

@@ -92,7 +92,8 @@ export function panelFilter(state, sections, { isChanged, isOpen }) {
     }
     none.hidden = !on || found;
     if (!none.hidden) {
-      none.textContent = only && !words().length ? "Nothing is changed." : "No parameter matches.";
+      none.textContent =
+        only && !words().length ? "No parameter has been changed." : "No parameter matches.";
     }
     node.parentElement?.classList.toggle("sw-finding", on);
     filtered = on;
@@ -124,7 +125,7 @@ export function panelFilter(state, sections, { isChanged, isOpen }) {
     count.textContent = some ? String(some) : "";
     count.hidden = !some;
     changed.disabled = !some && !only;
-    changed.title = only ? "Show all parameters" : "Show only what is changed";
+    changed.title = only ? "Show all parameters" : "Show only changed parameters";
   };
 
   return {

@@ -51,7 +51,7 @@ export class Softness {
         "div",
         {
           class: "sw-histogram-title",
-          title: "Red over blue or its like. Drag m_min and m_max so that the softness is spread",
+          title: "Red over blue, or a similar measure. Drag m_min and m_max to spread the softness",
         },
         element("span", {}, "Whiteness of the sky"),
         this.numbers,
@@ -161,7 +161,7 @@ export class Softness {
     this.node.classList.toggle("sw-idle", idle);
     this.text.classList.remove("sw-warn");
     if (idle) {
-      this.text.textContent = "Clouds are un-mixed: no thresholds needed.";
+      this.text.textContent = "Clouds are un-mixed: no thresholds are needed.";
       return;
     }
     if (clear + soft + white === 0) {
@@ -169,7 +169,7 @@ export class Softness {
       return;
     }
     const say = (/** @type {number} */ share) => `${Math.round(100 * share)} %`;
-    const narrow = soft < 0.05 ? " Not spread: move the lines to where the sky is." : "";
+    const narrow = soft < 0.05 ? " Not spread: move the lines to the sky's values." : "";
     this.text.textContent = `Clear ${say(clear)} · soft ${say(soft)} · white ${say(white)}.${narrow}`;
     this.text.classList.toggle("sw-warn", narrow !== "");
   }

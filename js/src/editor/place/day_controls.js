@@ -28,7 +28,7 @@ export function dayControls({ clock, hand, parts, path, state }, signal) {
   const play = playButton(
     {
       label: "Play the day",
-      title: "Play the day, an hour a second; the night is passed over",
+      title: "Play the day, one hour per second; the night is skipped",
       onStep: (seconds) => {
         // A hand on the picture goes first.
         if (hand.pointer !== null) return false;
@@ -53,15 +53,15 @@ export function dayControls({ clock, hand, parts, path, state }, signal) {
     });
   const shown = choice(
     "Path on the picture",
-    "The sun's way over the day, with the hours in UTC. Drag along it to turn the clock.",
+    "The sun's path over the day, with hours in UTC. Drag along it to set the clock.",
     true,
     (on) => {
       path.shown = on;
     },
   );
   const kept = choice(
-    "Keep the sun on it",
-    "Dragging the sun, and its arrow keys, then turn the clock",
+    "Keep the sun on the path",
+    "Dragging the sun, or its arrow keys, then sets the clock",
     false,
     (on) => {
       path.kept = on;
@@ -90,15 +90,15 @@ export function dayControls({ clock, hand, parts, path, state }, signal) {
   const describe = (place) => {
     const sun = clock.sun();
     if (!sun) return "";
-    const lifted = `Seen at ${degrees(sun.apparent)}, truly at ${degrees(sun.true)}`;
+    const lifted = `Apparent elevation ${degrees(sun.apparent)}, true ${degrees(sun.true)}`;
     const solar = `Solar time ${clockText(solarTime(place))}`;
     if (place.heading === null) {
-      return `${lifted}. ${solar}. Without a heading the clock moves the elevation alone.`;
+      return `${lifted}. ${solar}. Without a heading, the clock changes only the elevation.`;
     }
     const north = (((sun.azimuth % 360) + 360) % 360).toFixed(1);
     const off = clock.follows()
       ? ""
-      : " The sun was moved elsewhere: turning the clock puts it back on its path.";
+      : " The sun was moved off its path: setting the clock puts it back.";
     return `${lifted}, azimuth ${north}° (${aside(turned(sun.azimuth - place.heading))}). ${solar}.${off}`;
   };
 

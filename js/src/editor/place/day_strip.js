@@ -23,7 +23,7 @@ export function dayStrip({ onBegin, onInput, onCommit }) {
     class: "sw-day-range",
     step: 1 / 60,
     "aria-label": "Time of day, UTC",
-    title: "Time of day: the sun goes along its path",
+    title: "Time of day: moves the sun along its path",
   });
   const node = element("div", { class: "sw-day-strip" }, range);
   range.addEventListener("input", () => {

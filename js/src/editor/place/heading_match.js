@@ -10,8 +10,8 @@ import { element } from "../../ui/element.js";
 /** @param {import("../types.js").Needs<"clock" | "picture" | "state">} needs */
 export function headingMatch({ clock, picture, state }) {
   const button = chip(
-    "By the photo's sun",
-    "Set the heading so that the photo's own sun is where place and time put it; " +
+    "From the photo's sun",
+    "Set the heading so that the photo's sun agrees with place and time; " +
       "set the clock to the photo's time first",
     () => match(),
   );
@@ -32,7 +32,7 @@ export function headingMatch({ clock, picture, state }) {
   const offer = (place, now) =>
     chip(
       `${clockText(place.time)} UTC${now === null ? "" : shift(hoursOfDay(place) - now)}`,
-      "Take this for the photo's time, with its heading",
+      "Use this as the photo's time, with its heading",
       () => {
         state.set({ place });
         say("");
@@ -48,19 +48,19 @@ export function headingMatch({ clock, picture, state }) {
     const apart = Math.abs(mismatch).toFixed(1);
     const guess = scene.sun?.visible
       ? ""
-      : "The photo does not show its sun: where it stood is a guess, and so is the heading. ";
+      : "The photo does not show its sun: its position is a guess, and so is the heading. ";
     if (Math.abs(mismatch) <= AGREES) {
-      return say(`${guess}Time and place agree with the photo's sun to ${apart}°.`);
+      return say(`${guess}Time and place agree with the photo's sun to within ${apart}°.`);
     }
     const way = mismatch > 0 ? "higher" : "lower";
     const than = `than at ${clockText(found.place.time)} UTC`;
-    const start = `${guess}The photo's sun stands ${apart}° ${way} ${than}. `;
+    const start = `${guess}The photo's sun is ${apart}° ${way} ${than}. `;
     if (agreeing.length) {
       const question = "Is the clock or its time zone wrong? The elevations agree at:";
       return say(start + question, agreeing);
     }
     const level = scene.automatic.sun_elevation.toFixed(1);
-    say(`${start}On this day it never stands at ${level}°: check date and place.`);
+    say(`${start}On this day the sun is never at ${level}°: check the date and place.`);
   }
 
   return {

@@ -22,7 +22,7 @@ export function placeFields({ clock, parts, state }) {
     inputmode: "numeric",
     autocomplete: "off",
     spellcheck: "false",
-    title: "Hours and minutes in UTC, as 17:30",
+    title: "Hours and minutes in UTC, such as 17:30",
   });
   const heading = inputField("Heading", {
     type: "number",
@@ -30,7 +30,7 @@ export function placeFields({ clock, parts, state }) {
     max: 360,
     step: "any",
     placeholder: "unknown",
-    title: "Where the camera looks, degrees clockwise from true north",
+    title: "Direction of the camera, degrees clockwise from true north",
   });
 
   const onCoordinate = () => {

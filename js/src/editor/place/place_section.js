@@ -28,7 +28,7 @@ export function placeSection(
     clock.takeFromFile();
     heading.say((clock.told.notes ?? []).join(" "));
   });
-  const photoTime = chip("Photo's time", "The clock back to when the photo was taken", () => {
+  const photoTime = chip("Photo's time", "Set the clock to when the photo was taken", () => {
     const { date, time } = clock.told;
     if (date != null && time != null) clock.moveToMoment(date, time);
   });
@@ -55,14 +55,14 @@ export function placeSection(
     if (clock.place) return clock.error || asks || "Waiting for the kernel …";
     if (asks) return asks;
     return located
-      ? "The photo's file records where it was taken: a clock can move the sun along its true path."
-      : "Say where the photo was taken, and a clock moves the sun along its true path.";
+      ? "The photo's file records where it was taken, so a clock can move the sun along its true path."
+      : "Enter where the photo was taken, and a clock moves the sun along its true path.";
   };
 
   return {
     show() {
       const { place, told } = clock;
-      const asks = kernel.answers ? "" : "Needs the kernel: a day's path comes from it";
+      const asks = kernel.answers ? "" : "Needs the kernel, which computes the day's path";
       const located = told.latitude != null && told.longitude != null;
       fields.show(asks);
       heading.show();

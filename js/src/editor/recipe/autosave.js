@@ -86,7 +86,7 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
     const given = Object.keys(start).length > 0;
     notices.show("restore", {
       text: `Your last edit of this photo (${called(entry)}, ${ago(entry.saved)}) is kept.${
-        given ? " It is another than the one that your code gives." : ""
+        given ? " It differs from the recipe in your code." : ""
       }`,
       actions: [{ label: "Restore", run: restore }],
       onClose: () => source && store.dismiss(source.fingerprint),
@@ -183,7 +183,7 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
   toolbar.menu.add({
     group: "photo",
     label: "Restore last edit",
-    title: "What this browser has kept of this photo",
+    title: "The last edit of this photo that this browser kept",
     shown: () => lost() !== undefined,
     run: restore,
   });
@@ -203,7 +203,7 @@ function showKernel({ kernel, model, notices }) {
   if (kernel.state === "live" && kernel.silent) {
     notices.show("kernel", {
       text:
-        "The kernel does not answer. It is busy, or it was restarted: then run the cell again. " +
+        "The kernel is not responding. It is busy, or if it was restarted, run the cell again. " +
         "Your edit is kept.",
     });
     return;
@@ -218,8 +218,8 @@ function showKernel({ kernel, model, notices }) {
   }
   notices.show("kernel", {
     text:
-      "The kernel of this editor is gone. All that is drawn here stays live and your edit is kept; " +
-      "run the cell again for strokes, maps and the full size.",
+      "The editor's kernel is gone. The preview stays live and your edit is kept; run the cell " +
+      "again for strokes, maps and full-size exports.",
   });
 }
 

@@ -16,8 +16,8 @@ import { pickFile } from "../../ui/pick_file.js";
 const FILES = ".json,.py,.txt,application/json,text/plain";
 const SECONDS = 6; // that good news stays
 const NO_KERNEL =
-  "Only a kernel reads Python, and none answers here. Paste the recipe as JSON: “Copy recipe” in " +
-  "an editor's menu, or edit.to_json() in Python, writes it.";
+  "Reading Python needs a kernel, and none is running here. Paste the recipe as JSON instead: from " +
+  "“Copy recipe” in an editor's menu, or from edit.to_json() in Python.";
 
 /**
  * @type {import("../types.js").MakePart<"channel" | "kernel" | "message" | "model" | "notices"
@@ -29,7 +29,7 @@ export function recipe({ model, root, toolbar, ...taker }, signal) {
   /** @type {(text: string, what: string) => Promise<void>} */
   const copy = async (text, what) => {
     if (await copied(text)) say(taker, `${what} copied.`);
-    else message.show(`The page may not use the clipboard. ${what}:\n${text}`);
+    else message.show(`The page cannot use the clipboard. ${what}:\n${text}`);
   };
   menu.add({
     group: "recipe",
@@ -41,7 +41,7 @@ export function recipe({ model, root, toolbar, ...taker }, signal) {
   menu.add({
     group: "recipe",
     label: "Load recipe …",
-    title: "Set everything as a recipe's file says, as one step",
+    title: "Apply a recipe file, as one undo step",
     run: async () => {
       const file = await pickFile(FILES, signal);
       if (file) await loadRecipe(taker, file);
@@ -62,11 +62,11 @@ export function recipe({ model, root, toolbar, ...taker }, signal) {
   menu.add({
     group: "recipe",
     label: "Paste recipe",
-    title: "JSON or Python that was copied from an editor; it is read, never run",
+    title: "JSON or Python copied from an editor; it is parsed, never run",
     run: async () => {
       const text = await pasted();
       if (text !== null) await useRecipe(taker, text);
-      else say(taker, "The page may not look at the clipboard by itself: press Ctrl+V.");
+      else say(taker, "The page cannot read the clipboard by itself: press Ctrl+V.");
     },
   });
   root.addEventListener(
@@ -108,7 +108,7 @@ export async function useRecipe(taker, text) {
     state.replace(values);
     message.show("");
     const moved = state.history().past.length !== before;
-    say(taker, moved ? "Recipe taken over." : "This is the recipe already.", moved);
+    say(taker, moved ? "Recipe applied." : "This recipe is already applied.", moved);
   } catch (error) {
     notices.hide("recipe"); // what it says is of another recipe
     message.show(`Nothing was changed. ${errorText(error)}`);
@@ -118,7 +118,7 @@ export async function useRecipe(taker, text) {
 /** @param {Taker} taker @param {string} text */
 async function readPython({ channel, kernel, notices }, text) {
   if (!kernel.answers) throw new Error(NO_KERNEL);
-  notices.show("recipe", { text: "The kernel reads this Python …" }); // once its cell has ended
+  notices.show("recipe", { text: "The kernel is reading the Python …" }); // once its cell has ended
   return (await channel.request("recipe", { text })).result;
 }
 
@@ -126,7 +126,7 @@ async function readPython({ channel, kernel, notices }, text) {
 function say({ notices, state }, text, undo = false) {
   notices.show("recipe", {
     text,
-    actions: undo ? [{ label: "Take it back", run: () => state.undo() }] : [],
+    actions: undo ? [{ label: "Revert", run: () => state.undo() }] : [],
     seconds: SECONDS,
   });
 }

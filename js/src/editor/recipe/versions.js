@@ -32,7 +32,7 @@ export function versions({ notices, state, toolbar }) {
   const empty = element(
     "p",
     { class: "sw-versions-empty" },
-    "Keep the edit as it is now, and come back to it whenever you like.",
+    "Keep the current edit, and come back to it at any time.",
   );
   /** @param {string} text */
   const say = (text) => {
@@ -63,7 +63,7 @@ export function versions({ notices, state, toolbar }) {
     const go = element("button", { type: "button", class: "sw-versions-go" }, version.name);
     const here = sameRecipe(version.recipe, state.recipe());
     go.setAttribute("aria-current", String(here));
-    go.title = here ? "This is how it is now" : `Go to “${version.name}”, as one step`;
+    go.title = here ? "This is the current edit" : `Go to “${version.name}”, as one undo step`;
     go.addEventListener("click", () => state.replace(version.recipe));
     const node = element(
       "li",
@@ -147,9 +147,9 @@ function freeName(state) {
 /** What is wrong with a name, or "". @param {EditState} state @param {string} name */
 function wrongName(state, name) {
   if (!name) return "A version needs a name.";
-  if (name.length > NAME_LENGTH) return `A name has at most ${NAME_LENGTH} characters.`;
+  if (name.length > NAME_LENGTH) return `A name can have at most ${NAME_LENGTH} characters.`;
   const taken = state.versions().some((version) => version.name === name);
-  return taken ? `“${name}” is kept already. Choose another name.` : "";
+  return taken ? `“${name}” already exists. Choose another name.` : "";
 }
 
 /**
@@ -163,7 +163,7 @@ function keepVersion(state, text) {
   const kept = state.versions();
   const wrong = wrongName(state, name);
   if (wrong) return wrong;
-  if (kept.length >= MOST) return `${MOST} versions are kept already. Delete one first.`;
+  if (kept.length >= MOST) return `There are already ${MOST} versions. Delete one first.`;
   state.writeVersions([...kept, { name, recipe: state.recipe() }]);
   return "";
 }

@@ -113,7 +113,7 @@ export function cross({ announcer, hand, parts, picture, stage }, signal) {
   on("keyup", (event) => {
     if (!pressed || !isPress(event)) return;
     if (moved || !tool().stays) release();
-    else announcer.say("Brush down: arrow keys paint, Enter lifts it", "strokes");
+    else announcer.say("Brush down: arrow keys paint, Enter lifts the brush", "strokes");
   });
   on("focus", () => {
     if (!stage.focusing) come();

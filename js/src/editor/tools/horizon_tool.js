@@ -260,8 +260,8 @@ export class HorizonTool {
     if (this.line) return `${(100 * row).toFixed(1)} % · ${tilt}${out}`;
     if (this.state.values.horizon_hint) return `Set by hand · ${tilt}${out}`;
     const { confidence = 0 } = scene?.horizon ?? {};
-    if (confidence < GUESSED) return `Guessed: drag it to where it is${out}`;
-    return `${confidence < UNSURE ? "Found, unsure" : "Found"} · ${tilt}${out}`;
+    if (confidence < GUESSED) return `Guessed: drag it to the horizon${out}`;
+    return `${confidence < UNSURE ? "Found, uncertain" : "Found"} · ${tilt}${out}`;
   }
 
   /** @param {ReturnType<import("../view/stage.js").Stage["rectangle"]>} box */

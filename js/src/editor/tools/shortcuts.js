@@ -53,21 +53,21 @@ export const SHORTCUTS = [
   {
     section: "Tools",
     keys: ["Escape"],
-    label: "Give up what was begun; back to the sun",
+    label: "Cancel; back to the sun tool",
     run: stepBack,
   },
 
   {
     section: "Sun and horizon",
     keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
-    label: "Move the handle that has the focus",
+    label: "Move the focused handle",
   },
   {
     section: "Sun and horizon",
     keys: ["Shift+ArrowLeft", "Shift+ArrowRight"],
     label: "Ten times as far",
   },
-  { section: "Sun and horizon", keys: ["Home"], label: "Back to what was found in the photo" },
+  { section: "Sun and horizon", keys: ["Home"], label: "Back to the value found in the photo" },
 
   {
     section: "Brushes",
@@ -84,7 +84,7 @@ export const SHORTCUTS = [
   {
     section: "Brushes",
     keys: ["W"],
-    label: "Mark water or sky",
+    label: "Brush water or sky",
     run: ({ hand }) => hand.setSubject(hand.subject === "sky" ? "water" : "sky"),
   },
 
@@ -92,7 +92,7 @@ export const SHORTCUTS = [
   {
     section: "View",
     keys: ["B"],
-    label: "The photo as it was: held, or pressed to stay",
+    label: "Original photo: hold to peek, tap to toggle",
   },
   {
     section: "View",
@@ -107,27 +107,27 @@ export const SHORTCUTS = [
     run: ({ fullScreen }) => fullScreen.toggle(),
   },
   ...zoomKeys("View", ({ stage }) => stage.zoom),
-  { section: "View", keys: ["Space"], label: "Held: drag the picture itself" },
+  { section: "View", keys: ["Space"], label: "Hold: drag the picture" },
   {
-    section: "Picture, when it has the focus",
+    section: "Picture, when focused",
     keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
     label: "Move the cross; a zoomed picture follows it",
   },
   {
-    section: "Picture, when it has the focus",
+    section: "Picture, when focused",
     keys: ["Enter", "Space"],
     label: "Use the tool at the cross; a brush stays down until the next press",
   },
   {
     section: "View",
     keys: ["M"],
-    label: "Next map of the analysis",
+    label: "Next analysis map",
     run: (editor) => stepMap(editor, 1),
   },
   {
     section: "View",
     keys: ["Shift+M"],
-    label: "Map before",
+    label: "Previous map",
     run: (editor) => stepMap(editor, -1),
   },
 
@@ -135,7 +135,7 @@ export const SHORTCUTS = [
   {
     section: "History",
     keys: ["V"],
-    label: "Versions: keep this edit, go to another",
+    label: "Versions: keep this edit or go to another",
     run: ({ toolbar }) => toolbar.versions?.click(),
   },
   { section: "History", keys: ["Mod+V"], label: "Paste a recipe or a photo" },
@@ -150,7 +150,7 @@ export const SHORTCUTS = [
   {
     section: "Help",
     keys: ["?"],
-    label: "These keys",
+    label: "Show these keys",
     run: showKeys,
   },
 ];

@@ -71,7 +71,7 @@ export function drop({ toolbar, ...taker }, signal) {
   toolbar.menu.add({
     group: "photo",
     label: "Open photo …",
-    title: "Another photo in this editor; this one's edit is set aside",
+    title: "Open another photo in this editor; the current edit is set aside",
     enabled: () => kernel.answers,
     run: async () => {
       const file = await pickFile(PHOTOS, signal);
@@ -87,7 +87,7 @@ async function take(taker, file) {
     if (RECIPE.test(file.name)) await loadRecipe(taker, file);
     else await upload(taker, file);
   } catch (error) {
-    taker.message.show(`${file.name} was not opened: ${errorText(error)}`);
+    taker.message.show(`${file.name} could not be opened: ${errorText(error)}`);
   }
 }
 
@@ -100,7 +100,7 @@ async function take(taker, file) {
 async function upload(taker, file) {
   const { channel, kernel, message, stage, state } = taker;
   if (!kernel.answers) {
-    throw new Error("the kernel analyses photos, and it is not running. Run the cell again.");
+    throw new Error("this needs the kernel, which is not running. Run the cell again.");
   }
   state.commit();
   message.show("");

@@ -46,7 +46,7 @@ export function needsKernel({ hand, inspector, kernel, panel, root, state, toolb
       if (reason && hand.tool !== "sun") hand.setTool("sun");
       if (reason && inspector.map) inspector.choose("");
       toolbar.save.title = reason
-        ? "Download the picture at the size it has here"
+        ? "Download the picture at preview size"
         : "Render at full size and download";
     },
   };

@@ -86,7 +86,7 @@ export class Loading {
       });
     } catch (error) {
       if (load !== this.loads) return;
-      message.show(`The maps of the analysis cannot be shown: ${errorText(error)}`);
+      message.show(`The analysis maps cannot be shown: ${errorText(error)}`);
       return;
     }
     const { fov_vertical_deg, pitch, roll } = scene.camera;

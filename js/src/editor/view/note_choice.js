@@ -27,7 +27,7 @@ const OF_THE_SUN = ["unseen_sun", "told_outside", "doubtful_sun", "moon", "night
 
 /** @type {Note} */
 const PICKING = {
-  text: "Click where the photo’s sun is. It may be hidden, or lie outside the picture.",
+  text: "Click where the photo’s sun is. It may be hidden or outside the picture.",
   actions: ["leave"],
   stays: true,
 };

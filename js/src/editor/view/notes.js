@@ -69,7 +69,7 @@ export function notes({ announcer, foot, kernel, notices, ...answering }) {
   const { hand, picture, state } = answering;
   const list = element("div", { class: "sw-notes-list" });
   const back = element("button", { type: "button", class: "sw-notes-back", hidden: true });
-  back.title = "Show the notes of the analysis again";
+  back.title = "Show the dismissed notes again";
   back.addEventListener("click", () => {
     away.clear();
     draw(shown);

@@ -55,7 +55,7 @@ export class Notices {
     node.append(
       button({
         icon: "close",
-        label: "Put this away",
+        label: "Dismiss this notice",
         onClick: () => {
           this.hide(key);
           onClose?.();

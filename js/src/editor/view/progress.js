@@ -14,7 +14,7 @@ export function progress({ channel, kernel, model, notices, picture, stage, work
   const ask = (/** @type {string} */ action) => channel.request(action).catch(() => kernel.check());
 
   cancel.addEventListener("click", () => {
-    stage.caption.textContent = "Cancelling …";
+    stage.caption.textContent = "Canceling …";
     cancel.disabled = true;
     if (work.busy) work.cancel();
     else void ask("cancel");
@@ -25,9 +25,9 @@ export function progress({ channel, kernel, model, notices, picture, stage, work
   const texts = {
     cancelled: () =>
       picture.scene
-        ? "The correction was cancelled: the picture does not follow it yet."
-        : "The analysis was cancelled. A correction starts it again, too.",
-    error: () => "The analysis went wrong; below the picture is said why.",
+        ? "The correction was canceled: the picture does not show it yet."
+        : "The analysis was canceled. A correction also restarts it.",
+    error: () => "The analysis failed; the reason is below the picture.",
   };
   const show = () => {
     const at = model.get("_status")?.stage;

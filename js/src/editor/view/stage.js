@@ -19,7 +19,7 @@ const PIXELS_FROM = 2; // the scale from which the preview's pixels are shown as
 export class Stage extends PictureStage {
   /** @param {AbortSignal} signal */
   constructor(signal) {
-    const photo = element("img", { class: "sw-photo", alt: "The photo as it was taken" });
+    const photo = element("img", { class: "sw-photo", alt: "The original photo" });
     const original = element("canvas", {
       class: "sw-original",
       width: 0,

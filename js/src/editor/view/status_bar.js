@@ -3,8 +3,7 @@
 import { sunText } from "../../ui/angle_text.js";
 import { element } from "../../ui/element.js";
 
-const SURENESS =
-  "Whether the sky that was fitted to the photo will change with the sun as the real one would";
+const SURENESS = "How likely the fitted sky is to change with the sun as the real one would";
 
 /** Of a probability. A percentage would promise more than it says. @param {number} share */
 const wordOf = (share) => (share >= 0.6 ? "fits well" : share >= 0.3 ? "fits roughly" : "a guess");
