@@ -255,7 +255,7 @@ def test_pasted_python_is_read_by_the_kernel_and_never_run(page, coast):
         paste(page, text)
         page.get_by_role("alert").filter(has_text=said).wait_for()
         assert trait(page, "exposure") == -0.5
-        assert page.locator(".sw-notice", has_text="The kernel reads").count() == 0
+        assert page.locator(".sw-notice", has_text="The kernel is reading").count() == 0
     assert page.errors == []
 
 

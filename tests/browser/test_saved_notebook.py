@@ -51,7 +51,7 @@ def test_a_saved_notebook_is_small_and_shows_its_pictures_without_a_kernel(
         compare.scroll_into_view_if_needed()
         page.screenshot(path=screenshots / "saved-compare.png")
         study = page.locator(".sw-study")
-        study.get_by_text("Run the cell to begin").wait_for()
+        study.get_by_text("Run the cell to start").wait_for()
         pair = study.get_by_role("img")
         assert pair.evaluate("(image) => image.naturalWidth") == 804  # 400 pixels each
         study.scroll_into_view_if_needed()
