@@ -4,7 +4,7 @@ import { Work } from "../src/editor/export/work.js";
 import { Parts } from "../src/editor/part.js";
 import { SunClock } from "../src/editor/place/sun_clock.js";
 import { Hand } from "../src/editor/tools/hand.js";
-import { needsKernel } from "../src/editor/view/kernel_required.js";
+import { kernelRequired } from "../src/editor/view/kernel_required.js";
 import { Original } from "../src/editor/view/original.js";
 import { Picture } from "../src/editor/view/picture.js";
 import { showStatus } from "../src/editor/view/status.js";
@@ -151,7 +151,7 @@ test("without a kernel its tools are disabled, say why, and come back as they we
   const kernel = { state: "lost", answers: false };
   const hand = new Hand({ answers: true });
   hand.tool = "horizon";
-  const part = needsKernel({
+  const part = kernelRequired({
     hand,
     inspector: { choice: new Node(), map: null },
     kernel,

@@ -2,7 +2,7 @@
 
 import { turned } from "../geometry/day.js";
 import { button, radioButtons } from "../ui/button.js";
-import { copied } from "../ui/clipboard.js";
+import { copyText } from "../ui/clipboard.js";
 import { element } from "../ui/element.js";
 import { historyButtons } from "../ui/history_buttons.js";
 import { pythonCode } from "./code.js";
@@ -62,7 +62,7 @@ export function toolbar(view) {
   let silence;
   copy.addEventListener("click", async () => {
     const code = await codeOf(view);
-    said.textContent = (await copied(code)) ? "Copied" : "";
+    said.textContent = (await copyText(code)) ? "Copied" : "";
     // Without a clipboard the person copies by hand.
     view.message.show(said.textContent ? "" : code);
     clearTimeout(silence);

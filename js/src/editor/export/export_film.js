@@ -1,4 +1,4 @@
-/** The export panel's page for a film: its path, how it is played, and how it is written. */
+/** The export panel's film page: the path, playback and file options. */
 
 import { EASINGS, keyFramePath } from "../../film/film_path.js";
 import { clock as clockText } from "../../geometry/day.js";
@@ -32,7 +32,7 @@ export function exportFilm({ clock, kernel, ...needs }, job, signal) {
   const keys = keyFrames(needs);
   /** @type {import("./export_target.js").Choices | null} */
   let choices = null;
-  /** @type {[number, number] | null} first and last hour of the day's film, once set by hand */
+  /** @type {[number, number] | null} first and last hour of a film of the day, once set by hand */
   let hours = null;
 
   const way = selectField("Path", [
@@ -64,14 +64,14 @@ export function exportFilm({ clock, kernel, ...needs }, job, signal) {
 
   const byDay = () => way.select.value === "day";
   const span = () => hours ?? daylight(clock.path);
-  /** The key frames, or photo and edit at the ends. @returns {import("../../film/film_path.js").KeyFrame[]} */
+  /** The key frames; with fewer than two, the photo or the one key frame, then the edit. @returns {import("../../film/film_path.js").KeyFrame[]} */
   const stations = () => {
     const frames = keys.read();
     if (frames.length > 1) return frames;
     const end = { seconds: Number(length.input.value), recipe: state.recipe() };
     return [{ recipe: frames[0]?.recipe ?? {}, seconds: 0 }, end];
   };
-  /** Why there is no film, or "". */
+  /** Return why no film can be made, or "". */
   const still = () => {
     if (!picture.scene) return "The photo has not been analyzed yet.";
     if (byDay()) {
@@ -233,14 +233,14 @@ export function exportFilm({ clock, kernel, ...needs }, job, signal) {
   };
 }
 
-/** From civil dawn to civil dusk, as the path counts hours. @param {import("../../geometry/day.js").DayRow[]} path @returns {[number, number]} */
+/** Civil dawn and civil dusk in the path's hours. @param {import("../../geometry/day.js").DayRow[]} path @returns {[number, number]} */
 function daylight(path) {
   const up = path.filter(([, , apparent]) => apparent > TWILIGHT).map(([hour]) => hour);
   if (up.length) return [up[0], up[up.length - 1]];
   return path.length ? [path[0][0], path[path.length - 1][0]] : [0, DAY];
 }
 
-/** A time of the clock as the path counts it; NaN for what is none. @param {import("../../geometry/day.js").DayRow[]} path @param {string} text */
+/** Convert a clock time to the path's hours; NaN if it is not a time. @param {import("../../geometry/day.js").DayRow[]} path @param {string} text */
 function tableHours(path, text) {
   const [, whole, minutes = "0"] = TIME.exec(text) ?? [];
   const at = Number(whole) + Number(minutes) / 60;

@@ -1,4 +1,4 @@
-/** Key frames of a film: edits at seconds, as a strip of small pictures. */
+/** A film's key frames, edits at given seconds, as a strip of thumbnails. */
 
 import { alongEdit, movedOf } from "../../film/film_path.js";
 import { button } from "../../ui/button.js";
@@ -7,15 +7,15 @@ import { element } from "../../ui/element.js";
 
 /** @typedef {import("../../film/film_path.js").KeyFrame} KeyFrame */
 
-// Twins of those in sunwidget/widgets/editor/key_frames.py.
+// The same limits as in sunwidget/widgets/editor/key_frames.py.
 const MOST = 100;
 const LONGEST = 600;
 const CLOSEST = 0.05;
-const APART = 2; // seconds between a new key frame and the last
+const APART = 2; // seconds from the last key frame to a new one
 
 /** @param {import("../types.js").Needs<"notices" | "state" | "thumbnails">} needs */
 export function keyFrames({ notices, state, thumbnails }) {
-  let generation = 0; // of the scene
+  let generation = 0; // incremented with every scene
   /** @type {{ frame: KeyFrame, canvas: HTMLCanvasElement }[]} */
   let cards = [];
 
@@ -23,7 +23,7 @@ export function keyFrames({ notices, state, thumbnails }) {
   /** @param {KeyFrame[]} frames */
   const write = (frames) => {
     const sorted = [...frames].sort((a, b) => a.seconds - b.seconds);
-    // No two stand at one time: the later gives way.
+    // No two share a time: the later one moves.
     let least = 0;
     const apart = sorted.map(({ seconds, recipe }) => {
       const at = round(Math.max(seconds, least));
@@ -152,7 +152,7 @@ export function keyFrames({ notices, state, thumbnails }) {
       element("div", { class: "sw-key-row" }, earlier, retake, later),
     );
   };
-  /** A key frame's recipe with the present edit's corrections and methods. @param {KeyFrame} frame */
+  /** Complete a key frame's recipe with the current edit's corrections and methods. @param {KeyFrame} frame */
   const whole = (frame) => alongEdit(state.parameters, state.recipe(), frame.recipe);
 
   let drawn = "";

@@ -1,16 +1,16 @@
-/** The picture as a file: of full size from the kernel, of preview size where none answers. */
+/** Saves the picture: full size from the kernel, or preview size without one. */
 
 import { download } from "../../ui/download.js";
 
 /**
- * The picture as a file, by the toolbar's button, and the editor itself as one, by the menu.
+ * Add the toolbar's Save button and the menu item that saves the editor as a web page.
  *
  * @type {import("../types.js").MakePart<"channel" | "drawing" | "kernel" | "model" | "picture"
  *   | "stage" | "toolbar" | "work">}
  */
 export function saving({ channel, drawing, kernel, model, picture, stage, toolbar, work }) {
   /**
-   * A file that the kernel makes: the frame at full size, or a page.
+   * Download a file that the kernel makes: the full-size picture, or a page.
    *
    * @param {"save" | "page"} action
    * @param {AbortSignal} signal
@@ -21,13 +21,13 @@ export function saving({ channel, drawing, kernel, model, picture, stage, toolba
       if (!signal.aborted) stage.setProgress(fraction, text);
     };
     onProgress(0, "Waiting for the kernel …");
-    const asked = picture.asked();
+    const asked = picture.requestContent();
     const { result, buffers } = await channel.request(action, asked, onProgress, [], signal);
     const bytes = /** @type {BlobPart} */ (buffers[0]);
     download(new Blob([bytes], { type: result.type }), result.name);
   };
 
-  /** The canvas as PNG. */
+  /** Download the canvas as PNG. */
   const preview = async () => {
     drawing.drawFrame(1);
     /** @type {Blob | null} */

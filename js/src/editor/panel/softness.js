@@ -1,8 +1,8 @@
 /**
- * The histogram of the sky's whiteness with m_min and m_max as lines to drag.
+ * The histogram of the sky's whiteness, with m_min and m_max as draggable lines.
  *
- * Between them the softness C^s rises from 0 to 1; they are well chosen when it is spread
- * (thesis 4.2). The kernel counts, by the measure of the method that found the clouds.
+ * Between them the softness C^s rises from 0 to 1; they are well chosen when it is spread out
+ * (thesis 4.2). The kernel counts with the measure of the method that found the clouds.
  */
 
 import { parameterOf } from "../../edit/parameter.js";
@@ -19,7 +19,7 @@ const STEP = 0.01;
 export class Softness {
   /**
    * @param {import("../types.js").Needs<"picture" | "state">} needs
-   * @param {import("../../host/types.js").SceneMap["ramp"]} [ramp] of the softness
+   * @param {import("../../host/types.js").SceneMap["ramp"]} [ramp] colors of the softness map
    */
   constructor({ picture, state }, ramp) {
     this.picture = picture;
@@ -112,7 +112,7 @@ export class Softness {
     return ((event.clientX - box.left) / box.width) * this.measured().reach;
   }
 
-  /** The nearer line is taken. @param {PointerEvent} event */
+  /** Drag the nearer line. @param {PointerEvent} event */
   onDown(event) {
     if (event.button > 0) return;
     event.preventDefault();
@@ -156,7 +156,7 @@ export class Softness {
     this.ramp.style.marginLeft = `${(100 * x0) / WIDTH}%`;
     this.ramp.style.width = `${(100 * (x1 - x0)) / WIDTH}%`;
     const [clear, soft, white] = spread(shares, reach, limits[0], limits[1]);
-    // Un-mixing needs no thresholds; only the thesis' own methods take them all the same.
+    // Un-mixing needs no thresholds; only the thesis's own methods use them anyway.
     const idle = method === "unmix" && this.state.values.method === "ratio";
     this.node.classList.toggle("sw-idle", idle);
     this.text.classList.remove("sw-warn");

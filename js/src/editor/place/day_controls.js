@@ -1,4 +1,4 @@
-/** The day's strip with its clock, playing it, and what is said of the sun at its time. */
+/** The day strip with its clock, playback, and a description of the sun at that time. */
 
 import { clock as clockText, sunAt, turned } from "../../geometry/day.js";
 import { solarTime } from "../../geometry/place.js";
@@ -11,7 +11,7 @@ import { dayStrip } from "./day_strip.js";
 /** @typedef {import("../../geometry/place.js").Place} Place */
 
 const HOURS_A_SECOND = 1; // while the day plays
-const NIGHT = -12; // degrees below which nothing changes any more
+const NIGHT = -12; // degrees below which nothing changes
 
 /**
  * @param {import("../types.js").Needs<"clock" | "hand" | "parts" | "state"> & {
@@ -30,11 +30,11 @@ export function dayControls({ clock, hand, parts, path, state }, signal) {
       label: "Play the day",
       title: "Play the day, one hour per second; the night is skipped",
       onStep: (seconds) => {
-        // A hand on the picture goes first.
+        // A drag on the picture takes precedence.
         if (hand.pointer !== null) return false;
-        // Another gesture ends a step of the history; the playing goes on in the next.
+        // Another gesture ends this history step; playback continues in the next.
         state.begin();
-        clock.moveTo(awake(clock.hours + seconds * HOURS_A_SECOND));
+        clock.moveTo(skipNight(clock.hours + seconds * HOURS_A_SECOND));
         return true;
       },
       onStop: () => state.commit(),
@@ -76,8 +76,8 @@ export function dayControls({ clock, hand, parts, path, state }, signal) {
     kept.node,
   );
 
-  /** The hour itself, or the end of the night that it is in. @param {number} hours */
-  const awake = (hours) => {
+  /** Return the hour, or the end of the night if it falls in one. @param {number} hours */
+  const skipNight = (hours) => {
     const row = clock.path;
     const [first, end] = [row[0][0], row[row.length - 1][0]];
     const at = hours >= end ? first : hours;

@@ -1,4 +1,4 @@
-/** The heading by the photo's own sun: a button, what came of it, and the times at which it fits. */
+/** Sets the heading from the photo's sun: a button, its result, and the times that fit. */
 
 import { clock as clockText } from "../../geometry/day.js";
 import { AGREES, hoursOfDay } from "../../geometry/place.js";
@@ -17,9 +17,9 @@ export function headingMatch({ clock, picture, state }) {
   );
   const note = element("p", { class: "sw-hint", role: "status", hidden: true });
   const offers = element("div", { class: "sw-chips", hidden: true });
-  let about = ""; // what the note is about: said no longer when that has changed
+  let about = ""; // the place that the note is about: it disappears when that changes
 
-  /** @param {string} text @param {Place[]} [places] times that are offered */
+  /** @param {string} text @param {Place[]} [places] times to offer */
   function say(text, places = []) {
     about = key(clock.place);
     note.textContent = text;
@@ -28,7 +28,7 @@ export function headingMatch({ clock, picture, state }) {
     offers.replaceChildren(...places.map((place, i) => offer(place, i === 0 ? clock.hours : null)));
   }
 
-  /** @param {Place} place @param {number | null} now the clock's hours, for the nearest of them */
+  /** @param {Place} place @param {number | null} now the clock's hours, for the nearest offer */
   const offer = (place, now) =>
     chip(
       `${clockText(place.time)} UTC${now === null ? "" : shift(hoursOfDay(place) - now)}`,
@@ -52,9 +52,9 @@ export function headingMatch({ clock, picture, state }) {
     if (Math.abs(mismatch) <= AGREES) {
       return say(`${guess}Time and place agree with the photo's sun to within ${apart}°.`);
     }
-    const way = mismatch > 0 ? "higher" : "lower";
+    const side = mismatch > 0 ? "higher" : "lower";
     const than = `than at ${clockText(found.place.time)} UTC`;
-    const start = `${guess}The photo's sun is ${apart}° ${way} ${than}. `;
+    const start = `${guess}The photo's sun is ${apart}° ${side} ${than}. `;
     if (agreeing.length) {
       const question = "Is the clock or its time zone wrong? The elevations agree at:";
       return say(start + question, agreeing);
@@ -76,13 +76,13 @@ export function headingMatch({ clock, picture, state }) {
   };
 }
 
-/** Whether a difference is one of time zones, which come in whole hours. @param {number} hours */
+/** Describe a difference that looks like a time zone error, a whole number of hours, or "". @param {number} hours */
 function shift(hours) {
   const whole = Math.round(hours);
   if (whole === 0 || Math.abs(hours - whole) > 0.2) return "";
   return `, ${Math.abs(whole)} h ${whole > 0 ? "later" : "earlier"}`;
 }
 
-/** What a place is but for its time. @param {Place | null} place */
+/** Identify a place apart from its time. @param {Place | null} place */
 const key = (place) =>
   JSON.stringify(place && [place.latitude, place.longitude, place.date, place.heading]);

@@ -48,7 +48,7 @@ const TOOLS = [
   },
 ];
 
-// Their texts name what the brush is about.
+// Their texts name what the brush marks.
 const PAINTS = TOOLS.filter(({ label }) => label.startsWith("Brush"));
 
 /**

@@ -1,4 +1,4 @@
-/** A photo or a recipe comes into the editor: dropped, pasted or chosen. */
+/** Opens a photo or a recipe that is dropped, pasted or chosen. */
 
 import { errorText } from "../../host/error_text.js";
 import { element } from "../../ui/element.js";
@@ -11,7 +11,7 @@ import { showStatus } from "./status.js";
  *   | "root" | "stage" | "state">} Taker
  */
 
-const CHUNK = 4_000_000; // bytes: a message of 10 MiB breaks the connection
+const CHUNK = 4_000_000; // bytes: a message of 10 MiB would break the connection
 const PHOTOS = "image/*,.tif,.tiff,.heic,.avif";
 const RECIPE = /\.(json|py|txt)$/i;
 
@@ -27,7 +27,7 @@ export function drop({ toolbar, ...taker }, signal) {
     element("span", {}, "Drop a photo or a recipe"),
   );
   root.append(veil);
-  let inside = 0; // a child's enter comes before its parent's leave
+  let inside = 0; // depth: a child's dragenter precedes its parent's dragleave
   /** @param {number} depth */
   const enter = (depth) => {
     inside = depth;
@@ -41,7 +41,7 @@ export function drop({ toolbar, ...taker }, signal) {
     drop: (event) => {
       enter(0);
       event.preventDefault();
-      // Not the notebook's business: JupyterLab would upload it into its folder.
+      // Keep it from JupyterLab, which would upload it into its folder.
       event.stopPropagation();
       const file = event.dataTransfer?.files[0];
       if (file) void take(taker, file);
@@ -92,7 +92,7 @@ async function take(taker, file) {
 }
 
 /**
- * Bring a photo to the kernel in pieces; it then comes back as a preview.
+ * Upload a photo to the kernel in chunks; it returns a preview.
  *
  * @param {Taker} taker
  * @param {File} file

@@ -1,4 +1,4 @@
-/** How far the kernel's work is, what it is doing, and a way to cancel it and to try again. */
+/** Progress of the kernel's work, with buttons to cancel and to try again. */
 
 import { element } from "../../ui/element.js";
 
@@ -10,7 +10,7 @@ export function progress({ channel, kernel, model, notices, picture, stage, work
   const cancel = element("button", { type: "button", class: "sw-progress-cancel" }, "Cancel");
   stage.progress.append(element("div", { class: "sw-progress-line" }, stage.caption, cancel));
 
-  // What goes wrong on the way is said by the part that watches the kernel.
+  // Connection failures are reported by the part that watches the kernel.
   const ask = (/** @type {string} */ action) => channel.request(action).catch(() => kernel.check());
 
   cancel.addEventListener("click", () => {
