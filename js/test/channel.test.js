@@ -74,7 +74,7 @@ test("closing the view ends what is open, except a file that the kernel keeps", 
 test("with the kernel goes all that it was asked, at once", async () => {
   const { channel } = open();
   const request = channel.request("save");
-  channel.lose("The kernel is gone.");
+  channel.rejectAll("The kernel is gone.");
   await assert.rejects(request, /The kernel is gone/);
   assert.equal(channel.open.size, 0);
 });

@@ -49,7 +49,7 @@ test("the picture shows the edit, a film's moment in its place, and else what wa
   assert.deepEqual([picture.value("sun_elevation"), picture.value("exposure")], [3, 0.5]);
   picture.passing = { sun_elevation: 9 };
   assert.equal(picture.value("sun_elevation"), 9);
-  assert.deepEqual(picture.asked(), { recipe: { a: 1 }, photo: "f" });
+  assert.deepEqual(picture.requestContent(), { recipe: { a: 1 }, photo: "f" });
   picture.forget();
   assert.equal(picture.value("exposure"), 0);
 });

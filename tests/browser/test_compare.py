@@ -344,7 +344,7 @@ def test_edits_in_turn_make_their_tables_once(browser, coast):
     counts = page.evaluate(
         """() => [1, 2].map((turns) => {
              frame.turns = turns;
-             frame.giveBack();
+             frame.releaseContext();
              const draw = (sun) => ["a", "b"].map((_, i) => drawn(
                { aerosol_optical_depth: 0.1 + 0.2 * i, sun_elevation: sun }, [96, 64]));
              const first = draw(20);

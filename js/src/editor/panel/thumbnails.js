@@ -74,7 +74,7 @@ export class Thumbnails {
     const draw = () => {
       if (busy()) return wake();
       const next = read().find(({ canvas, key }) => drawn.get(canvas) !== key);
-      if (!next) return sketch.rest();
+      if (!next) return sketch.freeTargets();
       // Queue no more than one: the next drag's frames would wait behind them.
       if (!fence.passed()) return wake(PAUSE_MS);
       const [width, height] = picture.size;
@@ -111,7 +111,7 @@ export class Thumbnails {
       clearTimeout(timer);
       forget();
       observer.disconnect();
-      sketch.rest();
+      sketch.freeTargets();
     });
     return { wake: () => wake() };
   }

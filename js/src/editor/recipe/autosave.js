@@ -107,7 +107,7 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
 
   const restore = () => {
     const entry = findLost();
-    if (entry) state.takeUp(entry);
+    if (entry) state.restore(entry);
     restored = true;
     offer();
   };
@@ -150,7 +150,7 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
     else if (isLost(own, kept)) store.setAside(fingerprint, session);
     else if (sameRecipe(own.recipe, kept.recipe) && own.past.length > kept.past.length) {
       // The page was closed before the end of a drag reached the kernel.
-      state.takeUpHistory(own);
+      state.restoreHistory(own);
     }
     offer();
   };

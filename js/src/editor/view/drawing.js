@@ -2,7 +2,7 @@
 
 import { Frame } from "../../gl/frame.js";
 import { FrameLoop } from "../../gl/frame_loop.js";
-import { watchSight } from "../../host/visibility.js";
+import { watchVisibility } from "../../host/visibility.js";
 
 const WORTHWHILE = 0.75; // share of the preview's size below which a drag draws smaller
 
@@ -27,8 +27,8 @@ export class Drawing {
       signal,
     );
     this.loop.limit = () => this.visibleScale();
-    this.loop.setSight(false); // until the page is laid out
-    watchSight(root, signal, (inSight) => this.loop.setSight(inSight));
+    this.loop.setVisible(false); // until the page is laid out
+    watchVisibility(root, signal, (visible) => this.loop.setVisible(visible));
   }
 
   /** @param {import("../../host/types.js").Scene} scene */

@@ -51,7 +51,7 @@ export class Loading {
   /** Start compiling the shaders during the analysis: some drivers take seconds. */
   prepare() {
     const { frame, loop } = this.drawing;
-    if (this.signal.aborted || this.picture.scene || !loop.inSight) return;
+    if (this.signal.aborted || this.picture.scene || !loop.visible) return;
     try {
       frame.withGraph((graph) => graph.prepare([String(this.state.values.method)]));
     } catch {

@@ -129,7 +129,7 @@ export class View {
     };
     this.work.onChange = () => this.toolbar.show();
     kernel.onChange(() => {
-      if (!kernel.answers) channel.lose(GONE);
+      if (!kernel.answers) channel.rejectAll(GONE);
     });
     channel.onGone = () => kernel.become("lost");
     signal.addEventListener("abort", () => {
