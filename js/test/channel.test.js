@@ -74,12 +74,12 @@ test("closing the view ends what is open, except a file that the kernel keeps", 
 test("with the kernel goes all that it was asked, at once", async () => {
   const { channel } = open();
   const request = channel.request("save");
-  channel.lose("The kernel is gone.");
+  channel.rejectAll("The kernel is gone.");
   await assert.rejects(request, /The kernel is gone/);
   assert.equal(channel.open.size, 0);
 });
 
-test("what cannot be sent ends at once in plain words, and can be cancelled all the same", async () => {
+test("what cannot be sent ends at once in plain words, and can be canceled all the same", async () => {
   const { model, channel } = open();
   const stop = new AbortController();
   const sent = channel.request("save", {}, undefined, [], stop.signal);
@@ -93,7 +93,7 @@ test("what cannot be sent ends at once in plain words, and can be cancelled all 
   await assert.rejects(channel.request("save"), /The kernel is gone\. Run the cell again\./);
   assert.equal(gone, 1);
   stop.abort();
-  await assert.rejects(sent, /Cancelled/);
+  await assert.rejects(sent, /Canceled/);
   assert.equal(channel.open.size, 0);
 });
 
@@ -108,7 +108,7 @@ test("a kernel that falls silent is said, one that reports progress is waited fo
   assert.equal(channel.open.size, 1);
   mock.timers.tick(20_000);
   mock.timers.reset();
-  await assert.rejects(request, /does not answer/);
+  await assert.rejects(request, /is not responding/);
   // It may only have been busy: what nobody waits for shall not be made later.
   assert.deepEqual(model.sent.at(-1), { type: "cancel", id });
 });

@@ -4,11 +4,11 @@ import { Work } from "../src/editor/export/work.js";
 import { Parts } from "../src/editor/part.js";
 import { SunClock } from "../src/editor/place/sun_clock.js";
 import { Hand } from "../src/editor/tools/hand.js";
-import { needsKernel } from "../src/editor/view/kernel_required.js";
+import { kernelRequired } from "../src/editor/view/kernel_required.js";
 import { Original } from "../src/editor/view/original.js";
 import { Picture } from "../src/editor/view/picture.js";
 import { showStatus } from "../src/editor/view/status.js";
-import { Cancelled } from "../src/host/channel.js";
+import { Canceled } from "../src/host/channel.js";
 import { FakeModel } from "./fake_model.js";
 
 /** An element, as far as classes, titles and attributes go. */
@@ -49,7 +49,7 @@ test("the picture shows the edit, a film's moment in its place, and else what wa
   assert.deepEqual([picture.value("sun_elevation"), picture.value("exposure")], [3, 0.5]);
   picture.passing = { sun_elevation: 9 };
   assert.equal(picture.value("sun_elevation"), 9);
-  assert.deepEqual(picture.asked(), { recipe: { a: 1 }, photo: "f" });
+  assert.deepEqual(picture.requestContent(), { recipe: { a: 1 }, photo: "f" });
   picture.forget();
   assert.equal(picture.value("exposure"), 0);
 });
@@ -96,16 +96,16 @@ test("one thing is made at a time", async () => {
   assert.deepEqual([work.busy, said], [false, [""]]);
 });
 
-test("work that is cancelled or fails says so in words", async () => {
+test("work that is canceled or fails says so in words", async () => {
   const { work, said } = atWork();
-  const cancelled = work.run("The export", async (signal) => {
+  const canceled = work.run("The export", async (signal) => {
     await new Promise((resolve) => signal.addEventListener("abort", resolve));
-    throw new Cancelled("cancelled");
+    throw new Canceled("canceled");
   });
   work.cancel();
-  await cancelled;
+  await canceled;
   await work.run("Saving", () => Promise.reject(new Error("no room")));
-  assert.deepEqual(said, ["The export was cancelled.", "Saving failed: no room"]);
+  assert.deepEqual(said, ["The export was canceled.", "Saving failed: no room"]);
 });
 
 test("the photo as it was stays for the split when Before goes", () => {
@@ -151,7 +151,7 @@ test("without a kernel its tools are disabled, say why, and come back as they we
   const kernel = { state: "lost", answers: false };
   const hand = new Hand({ answers: true });
   hand.tool = "horizon";
-  const part = needsKernel({
+  const part = kernelRequired({
     hand,
     inspector: { choice: new Node(), map: null },
     kernel,

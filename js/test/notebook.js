@@ -33,7 +33,7 @@ export class Notebook {
     this.work = work ?? (() => ({}));
     this.models = [];
     this.onTheWay = 0;
-    this.cancelled = new Set();
+    this.canceled = new Set();
     this.steps = 0; // numbers of messages
   }
 
@@ -91,7 +91,7 @@ export class Notebook {
 
   /** The kernel gets a custom message. */
   hear(content) {
-    if (content.type === "cancel") this.cancelled.add(content.id);
+    if (content.type === "cancel") this.canceled.add(content.id);
     if (content.type !== "request") return;
     const { id } = content;
     const say = (message) => {
@@ -101,7 +101,7 @@ export class Notebook {
     };
     const steps = Math.floor(4 * this.random());
     const step = (i) => {
-      if (this.cancelled.has(id)) return say({ type: "response", error: "Cancelled." });
+      if (this.canceled.has(id)) return say({ type: "response", error: "Canceled." });
       if (i < steps) {
         say({ type: "progress", fraction: i / steps, message: "" });
         return this.after(200 * this.random(), () => step(i + 1));

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { colours, gradient, textAt, valueAt } from "../src/editor/inspect/ramp.js";
+import { gradient, rampColors, textAt, valueAt } from "../src/editor/inspect/ramp.js";
 
 const share = { low: 0, high: 1, unit: "", scale: "linear" };
 const angle = { low: -45, high: 45, unit: "°", scale: "linear" };
@@ -22,7 +22,7 @@ test("values are read with their unit", () => {
 });
 
 test("a ramp meets its stops and is straight between them", () => {
-  const table = colours([
+  const table = rampColors([
     [0, "#00000000"],
     [0.2, "#ff000080"],
     [1, "#ffff00ff"],

@@ -68,7 +68,7 @@ test("what is neither JSON nor an edit's Python is refused, and nothing is run",
     "globalThis.ran = true",
     "Editor(globalThis.ran = true)",
   ]) {
-    await assert.rejects(readRecipe(text, noKernel), /no recipe/);
+    await assert.rejects(readRecipe(text, noKernel), /No recipe/);
   }
   assert.equal(globalThis.ran, false);
 });

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Cancelled, Channel } from "../src/host/channel.js";
+import { Canceled, Channel } from "../src/host/channel.js";
 import { NO_KERNEL, StandaloneModel, stateOf } from "../src/standalone/model.js";
 
 test("binary traits stand where they were, as anywidget gives them", () => {
@@ -36,7 +36,7 @@ test("what is asked of the kernel is answered at once: there is none", async () 
   assert.equal(channel.open.size, 0);
 });
 
-test("a request that is cancelled ends at once, and the kernel hears of it", async () => {
+test("a request that is canceled ends at once, and the kernel hears of it", async () => {
   const sent = [];
   const model = { on() {}, off() {}, send: (content) => sent.push(content) };
   const channel = new Channel(model, new AbortController().signal);
@@ -44,12 +44,12 @@ test("a request that is cancelled ends at once, and the kernel hears of it", asy
   const request = channel.request("save", {}, undefined, [], work.signal);
   work.abort();
   work.abort();
-  await assert.rejects(request, Cancelled);
+  await assert.rejects(request, Canceled);
   assert.deepEqual(sent[1], { type: "cancel", id: sent[0].id });
   assert.equal(sent.length, 2);
 });
 
-test("a request that was answered is not cancelled any more", async () => {
+test("a request that was answered is not canceled any more", async () => {
   const sent = [];
   const listeners = [];
   const model = { on: (_, f) => listeners.push(f), off() {}, send: (c) => sent.push(c) };

@@ -165,7 +165,7 @@ test("without a kernel nobody corrects the maps; what was kept comes back whole 
   const lost = following("later");
   lost.set({ strokes, exposure: 1 });
   assert.deepEqual(lost.recipe(), { exposure: 1 });
-  lost.takeUp({ recipe: { strokes }, past: [], future: [], versions: [], keyFrames: [] });
+  lost.restore({ recipe: { strokes }, past: [], future: [], versions: [], keyFrames: [] });
   assert.deepEqual(lost.recipe(), { strokes });
   const page = following("never");
   page.apply({ exposure: 2 });
@@ -211,7 +211,7 @@ test("what was kept comes back as it was over an untouched photo", () => {
     versions: [{ name: "warm", recipe: { exposure: 1 } }],
     keyFrames: [{ seconds: 2, recipe: { exposure: 3 } }],
   };
-  state.takeUp(kept);
+  state.restore(kept);
   assert.deepEqual(state.kept(), kept);
   state.redo();
   assert.deepEqual(state.recipe(), { exposure: 3 });
@@ -229,7 +229,7 @@ test("what was kept never wipes out what is there", () => {
   model.set("key_frames", keyFrames);
   const other = [{ seconds: 9, recipe: {} }];
   const past = [{ exposure: 1 }];
-  state.takeUp({ recipe: { exposure: 2 }, past, future: [], versions, keyFrames: other });
+  state.restore({ recipe: { exposure: 2 }, past, future: [], versions, keyFrames: other });
   assert.deepEqual(state.keyFrames(), keyFrames);
   assert.deepEqual(state.recipe(), { exposure: 2 });
   assert.deepEqual(

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { meets, simplify } from "../src/editor/tools/strokes.js";
+import { simplify, touches } from "../src/editor/tools/strokes.js";
 
 const size = { width: 200, height: 100 };
 const stroke = {
@@ -12,18 +12,18 @@ const stroke = {
   radius: 0.02,
 };
 
-test("a disc meets a stroke by its distance in longer sides", () => {
-  assert.ok(meets(stroke, [0.4, 0.5], 0.01, size));
+test("a disc touches a stroke by its distance in longer sides", () => {
+  assert.ok(touches(stroke, [0.4, 0.5], 0.01, size));
   // 0.05 of the height is 0.025 of the width: within 0.02 + 0.01, not within 0.02 + 0.004.
-  assert.ok(meets(stroke, [0.4, 0.55], 0.01, size));
-  assert.ok(!meets(stroke, [0.4, 0.55], 0.004, size));
-  assert.ok(!meets(stroke, [0.7, 0.5], 0.01, size));
+  assert.ok(touches(stroke, [0.4, 0.55], 0.01, size));
+  assert.ok(!touches(stroke, [0.4, 0.55], 0.004, size));
+  assert.ok(!touches(stroke, [0.7, 0.5], 0.01, size));
 });
 
 test("a dot is met, too", () => {
   const dot = { ...stroke, points: [[0.5, 0.5]] };
-  assert.ok(meets(dot, [0.51, 0.5], 0.001, size));
-  assert.ok(!meets(dot, [0.6, 0.5], 0.01, size));
+  assert.ok(touches(dot, [0.51, 0.5], 0.001, size));
+  assert.ok(!touches(dot, [0.6, 0.5], 0.01, size));
 });
 
 test("a straight stroke keeps its ends, a bent one its bend", () => {
@@ -35,7 +35,7 @@ test("a straight stroke keeps its ends, a bent one its bend", () => {
   const kept = simplify(wave, 0.001, size);
   assert.ok(kept.length < wave.length && kept.length > 8);
   for (const point of wave) {
-    assert.ok(meets({ label: "sky", points: kept, radius: 0.0011 }, point, 0, size));
+    assert.ok(touches({ label: "sky", points: kept, radius: 0.0011 }, point, 0, size));
   }
 });
 

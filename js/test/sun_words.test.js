@@ -59,26 +59,23 @@ test("a percentage is shown where one was measured, and never a hundred", () => 
     markText(sun({ source: "found", confidence: 0.93 })),
     "The photo’s sun, 93\u00a0% sure",
   );
-  assert.equal(markText(sun({ source: "told", confidence: 1 })), "The photo’s sun, as you said");
+  assert.equal(markText(sun({ source: "told", confidence: 1 })), "The photo’s sun, set by you");
 });
 
 test("of an unseen sun is said where, whether to believe it, and why that matters", () => {
   assert.equal(
     assumedText(sun(), now()),
-    "No sun is in view. It is assumed to stand behind the camera to the left, 35° high, but that " +
-      "is a guess. Shadows and sky are changed from there, so say where it is if you know.",
+    "No sun is in view. It is assumed to be behind the camera to the left, 35° high, but that is " +
+      "a guess. Shadows and sky follow from there, so mark the sun if you know where it is.",
   );
   const likely = assumedText(sun({ confidence: LIKELY }), now());
-  assert.match(
-    likely,
-    /It is likely to stand behind the camera to the left, at a guess 35° high\./,
-  );
+  assert.match(likely, /It is probably behind the camera to the left, at a guess 35° high\./);
   assert.match(assumedText(sun(), now({ inside: true })), /^No sun was found\./);
   assert.match(
     assumedText(sun({ source: "outside" }), now()),
     /^You said that the sun is not in the picture\. It is assumed/,
   );
-  assert.match(assumedText(sun(), now({ live: false })), /changed from there\.$/);
+  assert.match(assumedText(sun(), now({ live: false })), /follow from there\.$/);
   for (const confidence of [0, 0.94, 1]) {
     assert.doesNotMatch(assumedText(sun({ confidence }), now()), /%/);
   }

@@ -91,7 +91,7 @@ def match(place: Place, azimuth: float, elevation: float, *, seen: bool = True) 
     note = _note(here, mismatch, [(hours - now) for hours in times], agreeing, elevation)
     if not seen:
         note = (
-            "The photo does not show its sun: where it stood is a guess, and so is the heading. "
+            "The photo does not show its sun: its position is a guess, and so is the heading. "
             + note
         )
     return HeadingMatch(here, mismatch, agreeing, seen, note)
@@ -126,10 +126,10 @@ def _note(
     way = "higher" if mismatch > 0 else "lower"
     at = f"{clock(place.time)} UTC"
     if abs(mismatch) <= AGREES:
-        return f"Time and place agree with the photo's sun to {abs(mismatch):.1f}°."
-    start = f"The photo's sun stands {abs(mismatch):.1f}° {way} than at {at}. "
+        return f"Time and place agree with the photo's sun to within {abs(mismatch):.1f}°."
+    start = f"The photo's sun is {abs(mismatch):.1f}° {way} than at {at}. "
     if not agreeing:
-        return f"{start}On this day it never stands at {level:.1f}°: check date and place."
+        return f"{start}On this day the sun is never at {level:.1f}°: check the date and place."
     times = " and ".join(f"{clock(p.time)} UTC" for p in agreeing)
     times = times.replace(" UTC", f" UTC{_shift(apart[0])}", 1)
     return f"{start}Is the clock or its time zone wrong? The elevations agree at {times}."

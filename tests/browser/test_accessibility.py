@@ -118,7 +118,7 @@ def test_axe_finds_nothing_in_the_explorer(browser, axe, scheme):
     press(page, "2", "]")
     assert (trait(page, "projection"), trait(page, "view_azimuth")) == ("panorama", 15)
     press(page, "?")
-    assert "Turn to the right" in page.get_by_role("dialog").inner_text()
+    assert "Turn right" in page.get_by_role("dialog").inner_text()
     assert page.errors == []
     context.close()
 

@@ -99,7 +99,7 @@ def test_a_study_from_start_to_strengths(page, tmp_path, screenshots):
     assert answer(True) == sides[2]
     for _ in range(3):
         answer(True)
-    page.get_by_text("That was all: 6 pairs").wait_for()
+    page.get_by_text("You have answered all 6 pairs").wait_for()
     with page.expect_download() as download:
         page.get_by_role("button", name="Save answers").click()
     path = tmp_path / "answers.csv"
@@ -344,7 +344,7 @@ def test_edits_in_turn_make_their_tables_once(browser, coast):
     counts = page.evaluate(
         """() => [1, 2].map((turns) => {
              frame.turns = turns;
-             frame.giveBack();
+             frame.releaseContext();
              const draw = (sun) => ["a", "b"].map((_, i) => drawn(
                { aerosol_optical_depth: 0.1 + 0.2 * i, sun_elevation: sun }, [96, 64]));
              const first = draw(20);

@@ -290,7 +290,7 @@ def test_names_of_lines_that_meet_do_not_lie_on_each_other(editor):
 def test_a_guessed_horizon_is_dashed_and_a_given_one_is_not(editor, state):
     tool = editor.locator(".sw-horizon-tool")
     choose(editor, "Set the horizon")
-    expected = ((0.1, True, "Guessed"), (0.4, False, "Found, unsure"), (0.9, False, "Found ·"))
+    expected = ((0.1, True, "Guessed"), (0.4, False, "Found, uncertain"), (0.9, False, "Found ·"))
     for confidence, guessed, said in expected:
         horizon = {**state["_scene"]["horizon"], "confidence": confidence}
         scene = {**state["_scene"], "horizon": horizon, "revision": confidence}

@@ -200,7 +200,7 @@ def test_a_typed_value_is_clamped_and_nonsense_is_refused(editor):
     field.press("Enter")
     assert trait(editor, "sun_elevation") == 90
     assert field.input_value() == "90.0"
-    assert editor.get_by_text("“high” is no number").is_visible(), "refused, and it is seen"
+    assert editor.get_by_text("“high” is not a number").is_visible(), "refused, and it is seen"
     assert field.get_attribute("aria-invalid") == "true"
     field.fill("12°")
     field.press("Enter")

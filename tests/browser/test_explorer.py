@@ -216,13 +216,13 @@ def test_plots_follow_the_sun(explorer):
         text = card(page, title).locator(".sw-card-value").text_content()
         return [float(number) for number in re.findall(pattern, text)]
 
-    (noon,) = read_values("The sun's colour", r"^[\d.]+")
+    (noon,) = read_values("The sun's color", r"^[\d.]+")
     page.get_by_role("button", name="Blue hour").click()
     settled(page)
     after = plot_pixels(page)
     assert sum(a != b for a, b in zip(before, after, strict=True)) >= 5  # all but the phases
     assert 90 < noon < 125  # klx of direct sun at 60° in clear air
-    assert "sun below −1°" in card(page, "The sun's colour").text_content()
+    assert "sun below −1°" in card(page, "The sun's color").text_content()
     assert "the sun is down" in card(page, "Sunlight that arrives").text_content()
     x, y = read_values("Zenith in CIE x, y", r"[\d.]+")
     # As docs/methods/atmosphere.md has the zenith at −6°.
@@ -251,7 +251,7 @@ def test_a_pointer_on_the_sky_reads_it_and_marks_the_phase_functions(explorer):
 
 def test_dragging_in_a_plot_moves_the_sun(explorer):
     page = explorer()
-    over = card(page, "The sun's colour").locator(".u-over").bounding_box()
+    over = card(page, "The sun's color").locator(".u-over").bounding_box()
     x, y = centre(over)
     drag(page, (x, y), (over["x"] + over["width"] * np.sqrt(6 / 91), y))
     assert trait(page, "sun_elevation") == pytest.approx(5, abs=0.6)
@@ -449,7 +449,7 @@ def test_the_reference_gathers_paths_until_it_is_paused(explorer):
     page.wait_for_timeout(300)
     assert paths() == count
     assert np.array_equal(canvas_of(page), before)
-    page.get_by_role("button", name="Go on").click()
+    page.get_by_role("button", name="Resume").click()
     page.wait_for_function(
         f"Number.parseInt(document.querySelector('.sw-readout-note').textContent) > {count}"
     )

@@ -95,7 +95,7 @@ def add_key_frame(page, **edit):
 
 def test_key_frames_are_made_timed_and_ordered(page, state, choices, screenshots):
     show(page, state, choices, "Film")
-    assert page.get_by_text("From the photo as it was to the edit").is_visible()
+    assert page.get_by_text("from the photo to the current edit").is_visible()
     add_key_frame(page)
     add_key_frame(page, sun_elevation=12, sun_azimuth=-9)
     add_key_frame(page, sun_elevation=1, exposure=0.5)
@@ -103,7 +103,7 @@ def test_key_frames_are_made_timed_and_ordered(page, state, choices, screenshots
     seconds = field(page, "Seconds of key frame 2")
     seconds.fill("1.5")
     seconds.press("Enter")
-    page.get_by_role("button", name="Move key frame 3 forward in the film").click()
+    page.get_by_role("button", name="Move key frame 3 earlier").click()
     elevations = [frame["recipe"]["sun_elevation"] for frame in trait(page, "key_frames")]
     assert elevations == [4, 1, 12]
     assert [frame["seconds"] for frame in trait(page, "key_frames")] == [0, 1.5, 4]
@@ -142,7 +142,7 @@ def test_a_film_is_played_in_the_picture_and_the_edit_stays(page, state, choices
     show(page, {**state, "key_frames": frames}, choices, "Film")
     still = canvas_of(page)
     history = trait(page, "_history")
-    moment = page.get_by_role("slider", name="Moment of the film")
+    moment = page.get_by_role("slider", name="Position in the film")
     moment.fill("0.5")
     shown = drawn_anew(page, still)
     sun_stands(page, "16.0°")
@@ -161,7 +161,7 @@ def test_a_film_is_played_in_the_picture_and_the_edit_stays(page, state, choices
     page.evaluate("model.receive({ exposure: 0 })")
     moment.fill("0.9")
     assert page.locator(".sw-film-time").text_content() == "54.0 / 60.0 s"
-    page.get_by_role("button", name="Close the export").click()
+    page.get_by_role("button", name="Close the export panel").click()
     page.wait_for_function("document.querySelector('.sw-canvas').width === 768")
     for _ in range(100):
         if canvas_of(page).shape == still.shape and (canvas_of(page) == still).all():
@@ -183,7 +183,7 @@ def test_what_is_asked_for_how_far_it_is_and_a_name_that_is_taken(
     field(page, "Size").select_option("edge")
     field(page, "Longer side, pixels").fill("400")
     field(page, "Name").fill("evening")
-    field(page, "Where to").select_option("folder")
+    field(page, "Save to").select_option("folder")
     page.screenshot(path=screenshots / "export-still-light.png", full_page=True)
     page.locator("[type=submit]:visible", has_text="Export").click()
     request = sent(page, "still")
@@ -203,10 +203,10 @@ def test_what_is_asked_for_how_far_it_is_and_a_name_that_is_taken(
     assert page.locator(".sw-export progress").evaluate("(bar) => bar.value") == 0.4
     page.locator(".sw-export").get_by_role("button", name="Cancel").click()
     assert page.evaluate("model.sent.at(-1)") == {"type": "cancel", "id": request["id"]}
-    page.get_by_text("The export was cancelled.").wait_for()
+    page.get_by_text("The export was canceled.").wait_for()
     page.get_by_role("button", name="Try again").click()
     answer(page, "still", {"taken": "evening.tif", "free": "evening-2.tif"})
-    assert page.get_by_text("evening.tif exists already and was left as it is.").is_visible()
+    assert page.get_by_text("evening.tif already exists and was not overwritten.").is_visible()
     page.get_by_role("button", name="Use evening-2.tif").click()
     assert sent(page, "still")["name"] == "evening-2.tif"
     made = {"name": "evening-2.tif", "type": "image/tiff", "bytes": 2_400_000, "files": 1}

@@ -100,7 +100,7 @@ def test_a_context_that_does_not_come_back_is_said_until_it_does(fresh_page, sta
     x, y = take(page, ".sw-sun-ring")
     page.mouse.move(x - 60, y + 20, steps=3)
     page.mouse.up()
-    page.get_by_role("alert").get_by_text("Load the page again; your edit is kept.").wait_for()
+    page.get_by_role("alert").get_by_text("Reload the page; your edit is kept.").wait_for()
     assert trait(page, "sun_azimuth") is not None
     page.evaluate("window.back = true")
     page.get_by_role("button", name="Undo").click()

@@ -106,14 +106,14 @@ def test_a_map_travels_once_and_its_legend_leads_to_the_next(editor):
     assert editor.locator(".sw-legend b").text_content() == MAPS[1].title
     assert editor.locator(".sw-legend-position").text_content() == f"2 / {len(MAPS)}"
     assert editor.locator(".sw-legend-spread path").get_attribute("d") != spread
-    editor.get_by_role("button", name="Map before").click()
+    editor.get_by_role("button", name="Previous map").click()
     assert np.array_equal(painted(editor), first)
     assert editor.evaluate("asked") == [MAPS[0].name, MAPS[1].name]
 
 
 def test_opacity_and_closing(editor):
     show(editor, "sky")
-    editor.get_by_label("Opacity of the map").fill("0.4")
+    editor.get_by_label("Map opacity").fill("0.4")
     assert editor.locator(".sw-map").evaluate("(map) => getComputedStyle(map).opacity") == "0.4"
     editor.get_by_role("button", name="Close the map").click()
     assert editor.locator(".sw-map").is_hidden()

@@ -197,7 +197,7 @@ def test_no_edit_is_lost_when_the_kernel_restarts_and_the_page_is_loaded_again(
         page.locator(".sunwidget[data-kernel='lost']").wait_for()
         page.mouse.move(x - 120, y + 40, steps=3)
         page.mouse.up()
-        editor.get_by_text("The kernel of this editor is gone").wait_for()
+        editor.get_by_text("The editor's kernel is gone").wait_for()
         editor.get_by_role("button", name="Versions").click()
         editor.get_by_label("Name of the version").fill("warm")
         page.keyboard.press("Enter")

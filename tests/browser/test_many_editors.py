@@ -70,7 +70,7 @@ def test_a_context_may_be_lost_at_any_moment_of_a_frame(page, state):
     ):
         answer = page.evaluate(
             """([call, count]) => {
-              frame.giveBack();
+              frame.releaseContext();
               const prototype = WebGL2RenderingContext.prototype;
               const original = prototype[call];
               prototype[call] = function (...rest) {

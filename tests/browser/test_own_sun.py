@@ -153,7 +153,7 @@ def test_a_note_leads_to_the_tool_that_points_at_the_sun(page, coast):
     assert widget.sun_azimuth is None
     assert not any("sun" in note.lower() for note in notes(page))
     assert page.evaluate("document.querySelector('.sunwidget').dataset.tool") == "sun"
-    assert page.locator(RING).get_attribute("aria-label") == "The photo’s sun, as you said"
+    assert page.locator(RING).get_attribute("aria-label") == "The photo’s sun, set by you"
 
 
 def test_the_mark_is_reached_and_used_by_keyboard_alone(connected):

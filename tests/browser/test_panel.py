@@ -256,7 +256,7 @@ def test_a_small_picture_costs_the_next_frames_nothing(panel, state):
           );
           prototype.checkFramebufferStatus = checkFramebufferStatus;
           const after = drag(7);
-          sketch.rest();
+          sketch.freeTargets();
           const rested = drag(10);
           frame.dispose();
           frame.canvas.remove();

@@ -59,7 +59,7 @@ def test_an_export_is_cancelled_and_tried_again(page, state):
     assert page.locator(".sw-progress-text").text_content() == "Rendering …"
     page.get_by_role("button", name="Cancel").click()
     assert sent(page)[-1] == {"type": "cancel", "id": request["id"]}
-    page.get_by_text("Saving was cancelled.").wait_for()
+    page.get_by_text("Saving was canceled.").wait_for()
     assert page.get_by_role("button", name="Save", exact=True).is_enabled()
     # What the kernel says of it from now on is nobody's business.
     page.evaluate(

@@ -59,7 +59,7 @@ def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(page, s
     notice = page.locator(".sw-notice")
     assert "a moment ago" in notice.text_content()
     assert "(Camera exposure, a moment ago)" in notice.text_content(), "it says which edit"
-    assert "another than the one that your code gives" in notice.text_content()
+    assert "differs from the recipe in your code" in notice.text_content()
     assert trait(page, "exposure") == 0, "a recipe that code gives is not replaced unasked"
     page.screenshot(path=screenshots / "restore-light.png")
     page.get_by_role("button", name="Restore").click()
@@ -80,7 +80,7 @@ def test_an_edit_outlives_kernel_and_page_and_is_never_forced_on_anybody(page, s
     show(page, state, "third")
     page.evaluate("close_last()")
     page.locator(".sw-notice").get_by_text("is kept").wait_for()
-    page.get_by_role("button", name="Put this away").click()
+    page.get_by_role("button", name="Dismiss this notice").click()
     page.evaluate("close_view()")
     show(page, state, "fourth")
     assert page.get_by_role("button", name="Restore").count() == 0
@@ -136,7 +136,7 @@ def test_a_page_without_kernel_goes_on_and_keeps_what_is_done(page, state, scree
         state,
     )
     page.locator(".sunwidget.sw-live").wait_for()
-    assert "The kernel of this editor is gone" in page.locator(".sw-notice").text_content()
+    assert "The editor's kernel is gone" in page.locator(".sw-notice").text_content()
     assert page.get_by_role("radio", name="Brush: sky").is_disabled()
     page.get_by_role("slider", name="Azimuth").focus()
     page.keyboard.press("ArrowRight")
@@ -177,7 +177,7 @@ def test_versions_are_kept_renamed_gone_to_and_deleted(page, state, screenshots)
     field.fill("Version 1")
     page.keyboard.press("Enter")
     assert page.locator(".sw-versions [role=alert]").text_content() == (
-        "“Version 1” is kept already. Choose another name."
+        "“Version 1” already exists. Choose another name."
     )
     page.get_by_role("button", name="Rename “Version 1”").click()
     page.keyboard.type("<b>dim</b>")
@@ -203,18 +203,18 @@ def test_recipes_are_pasted_copied_and_saved_by_the_menus_keys(page, state):
     text = '{"sun_elevation": 3, "exposure": -0.5}'
     paste(page, text)
     assert (trait(page, "sun_elevation"), trait(page, "exposure")) == (3, -0.5)
-    page.get_by_role("button", name="Take it back").click()
+    page.get_by_role("button", name="Revert").click()
     assert trait(page, "exposure") == 0
     paste(page, text)
-    page.get_by_text("Recipe taken over.").wait_for()
+    page.get_by_text("Recipe applied.").wait_for()
     for text, said in [
         ('{"exposure": 9}', "exposure is a number from -4 to 4 EV, not 9."),
-        ("<img src=x onerror=alert(1)>", "There is no recipe in it"),
+        ("<img src=x onerror=alert(1)>", "No recipe found"),
     ]:
         paste(page, text)
         assert said in page.get_by_role("alert").first.text_content()
         assert trait(page, "exposure") == -0.5
-        assert page.get_by_text("Recipe taken over.").count() == 0
+        assert page.get_by_text("Recipe applied.").count() == 0
     menu = page.get_by_role("button", name="Menu")
     menu.focus()
     page.keyboard.press("ArrowDown")
@@ -242,7 +242,7 @@ def test_recipes_are_pasted_copied_and_saved_by_the_menus_keys(page, state):
 def test_pasted_python_is_read_by_the_kernel_and_never_run(page, coast):
     connect(page, SunEditor(coast).wait(120))
     paste(page, "import sunwidget as sw\nedit = sw.Edit(sun_elevation=3, exposure=-0.5)")
-    page.get_by_text("Recipe taken over.").wait_for()
+    page.get_by_text("Recipe applied.").wait_for()
     assert (trait(page, "sun_elevation"), trait(page, "exposure")) == (3, -0.5)
     lost = "Object.assign(model, { widget_manager: {}, comm_live: false })"
     for text, said in [
@@ -255,7 +255,7 @@ def test_pasted_python_is_read_by_the_kernel_and_never_run(page, coast):
         paste(page, text)
         page.get_by_role("alert").filter(has_text=said).wait_for()
         assert trait(page, "exposure") == -0.5
-        assert page.locator(".sw-notice", has_text="The kernel reads").count() == 0
+        assert page.locator(".sw-notice", has_text="The kernel is reading").count() == 0
     assert page.errors == []
 
 
@@ -279,7 +279,7 @@ def test_a_dropped_photo_takes_the_place_of_the_last_whose_edit_is_back_with_it(
     page.wait_for_timeout(700)
     page.evaluate(DROP, ["broken.png", list(b"no picture")])
     page.locator(".sw-message:not([hidden])").wait_for()
-    assert "broken.png was not opened" in page.locator(".sw-message").text_content()
+    assert "broken.png could not be opened" in page.locator(".sw-message").text_content()
     assert editor.edit == sw.Edit(exposure=1)
 
     small = sw.sample("coast").preview(200)

@@ -35,14 +35,14 @@ def test_a_saved_notebook_is_small_and_shows_its_pictures_without_a_kernel(
         page.wait_for_timeout(2000)
         page.reload()
         editor, compare = page.locator(".sw-editor"), page.locator(".sw-compare")
-        editor.get_by_text("as it was saved").wait_for()
+        editor.get_by_text("a saved picture").wait_for()
         photo = editor.locator(".sw-photo")
         assert photo.evaluate("(image) => image.naturalWidth") == 640
         assert editor.locator(".sw-panel").evaluate("(panel) => panel.inert"), "no map follows it"
         editor.scroll_into_view_if_needed()
         page.wait_for_timeout(500)
         page.screenshot(path=screenshots / "saved-editor.png")
-        compare.get_by_text("as it was saved").wait_for()
+        compare.get_by_text("a saved picture").wait_for()
         widths = compare.locator(".sw-compare-canvas").evaluate_all(
             "(all) => all.map((c) => c.width)"
         )
@@ -51,7 +51,7 @@ def test_a_saved_notebook_is_small_and_shows_its_pictures_without_a_kernel(
         compare.scroll_into_view_if_needed()
         page.screenshot(path=screenshots / "saved-compare.png")
         study = page.locator(".sw-study")
-        study.get_by_text("Run the cell to begin").wait_for()
+        study.get_by_text("Run the cell to start").wait_for()
         pair = study.get_by_role("img")
         assert pair.evaluate("(image) => image.naturalWidth") == 804  # 400 pixels each
         study.scroll_into_view_if_needed()

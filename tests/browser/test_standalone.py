@@ -119,7 +119,7 @@ def test_what_needs_a_kernel_is_disabled_and_says_so(page, scene):
     paste(page, "sw.Edit(exposure=1)")
     page.get_by_role("alert").filter(has_text="Paste the recipe as JSON").wait_for()
     paste(page, '{"exposure": 1}')
-    page.get_by_text("Recipe taken over.").wait_for()
+    page.get_by_text("Recipe applied.").wait_for()
     # Everything back to the photo, but for the stroke: its maps would stay as they are.
     page.get_by_role("button", name="Reset", exact=True).click()
     photo = sw.render(scene, sw.Edit(strokes=(sw.Stroke("sky", ((0.5, 0.1), (0.6, 0.1)), 0.02),)))
@@ -169,7 +169,7 @@ def test_a_hostile_name_is_text(page):
     ("options", "lack", "said"),
     [
         ({"java_script_enabled": False}, "", "nothing leaves it"),
-        ({}, "HTMLCanvasElement.prototype.getContext = () => null", "offers no WebGL2"),
+        ({}, "HTMLCanvasElement.prototype.getContext = () => null", "has no WebGL2"),
     ],
 )
 def test_where_it_cannot_run_the_picture_stays(browser, path, options, lack, said):

@@ -110,7 +110,7 @@ def test_the_clock_needs_no_kernel_once_the_path_is_there(page, state):
     on_its_path(page)
     said = page.locator(".sw-day .sw-hint").text_content()
     sun = sun_at(place_of(page))
-    assert f"Seen at {sun.elevation:.1f}°, truly at {sun.true_elevation:.1f}°" in said
+    assert f"Apparent elevation {sun.elevation:.1f}°, true {sun.true_elevation:.1f}°" in said
     # Another day or place is the kernel's to compute.
     assert page.get_by_label("Latitude").is_disabled()
     assert "Needs the kernel" in page.get_by_label("Date, UTC").get_attribute("title")
@@ -120,7 +120,7 @@ def test_the_clock_needs_no_kernel_once_the_path_is_there(page, state):
     assert place_of(page).time > 18
     on_its_path(page)
     # Kept on its path, the sun itself turns the clock.
-    page.get_by_role("switch", name="Keep the sun on it").click()
+    page.get_by_role("switch", name="Keep the sun on the path").click()
     page.get_by_role("slider", name="Sun", exact=True).focus()
     time = place_of(page).time
     page.keyboard.press("ArrowLeft")
@@ -140,7 +140,7 @@ def test_place_and_heading_come_from_the_photo(page, widget, state):
     # What the kernel answers to it.
     widget.place = place_of(page)
     page.evaluate("(day) => model.receive({ _day: day })", widget._day)
-    page.get_by_role("button", name="By the photo's sun").click()
+    page.get_by_role("button", name="From the photo's sun").click()
     found = widget.heading_by_sun()
     assert trait(page, "place")["heading"] == pytest.approx(found.place.heading, abs=1e-3)
     # An hour's error of the clock: the browser says what the kernel says, and offers its times.

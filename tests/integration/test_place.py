@@ -255,7 +255,7 @@ def test_a_wrong_zone_is_found_by_the_elevation(pvlib):
 def test_an_elevation_that_the_day_does_not_reach_doubts_the_date(pvlib):
     found = match(PRAGUE.replace(date="2024-12-21", time=11.0), 5.0, 60.0)
     assert found.agreeing == ()
-    assert "never stands at 60.0°: check date and place" in found.note
+    assert "never at 60.0°: check the date and place" in found.note
 
 
 def test_the_samples_heading_is_found_by_its_sun(pvlib, scene):

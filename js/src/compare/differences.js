@@ -13,7 +13,7 @@ export class Differences {
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
     const context = element("canvas").getContext("2d", { willReadFrequently: true, alpha: false });
-    if (!context) throw new Error("This browser offers no 2-D canvas.");
+    if (!context) throw new Error("This browser has no 2-D canvas.");
     this.context = context;
     view.signal.addEventListener("abort", () => clearTimeout(this.timer));
   }
@@ -36,7 +36,7 @@ export class Differences {
       difference.hidden = false;
       difference.textContent = `ΔE₀₀ ${mean.toFixed(1)}`;
       difference.title =
-        `Colour difference CIEDE2000 from ${first.variant.label}: ` +
+        `CIEDE2000 color difference from ${first.variant.label}: ` +
         `mean ${mean.toFixed(2)}, 95 % of the picture below ${high.toFixed(1)}`;
     }
   }

@@ -1,7 +1,7 @@
 /** The anywidget module of Compare. */
 
 import { widget } from "../host/mount.js";
-import { unseen } from "./saved.js";
+import { savedWithoutView } from "./saved.js";
 import { View } from "./view.js";
 
-export default widget("Compare", "Comparison", "sw-compare", View, unseen);
+export default widget("Compare", "Comparison", "sw-compare", View, savedWithoutView);

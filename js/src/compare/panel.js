@@ -26,7 +26,7 @@ export class Panel extends PictureStage {
     const picture = element("div", { class: "sw-compare-picture" }, canvas);
     super(picture, { className: "sw-compare-cell", signal });
     const context = canvas.getContext("2d", { alpha: false });
-    if (!context) throw new Error("This browser offers no 2-D canvas.");
+    if (!context) throw new Error("This browser has no 2-D canvas.");
     this.view = view;
     this.index = index;
     this.canvas = canvas;

@@ -10,7 +10,7 @@ const SHORTCUTS = [
   {
     section: "Pictures",
     keys: ["W"],
-    label: "Beside each other, or two with a divider",
+    label: "Side by side, or two with a divider",
     run: (view) => view.setArrangement(view.wipes ? "side_by_side" : "wipe"),
   },
   {
@@ -20,15 +20,15 @@ const SHORTCUTS = [
     run: (view) => view.setDifference(!view.model.get("difference")),
   },
   ...zoomKeys("Pictures", ({ zoom }) => zoom),
-  { section: "Pictures", keys: ["Space"], label: "Held: drag the pictures themselves" },
+  { section: "Pictures", keys: ["Space"], label: "Hold: drag the pictures" },
   {
-    section: "Sun, when it has the focus",
+    section: "Sun, when focused",
     keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
     label: "Move it in all pictures; with Shift ten times as far",
   },
-  { section: "Sun, when it has the focus", keys: ["Home"], label: "Back to the photo's own" },
+  { section: "Sun, when focused", keys: ["Home"], label: "Back to the photo's own sun" },
   {
-    section: "Divider, when it has the focus",
+    section: "Divider, when focused",
     keys: ["ArrowLeft", "ArrowRight"],
     label: "Move it; with Shift five times as far",
   },
@@ -36,7 +36,7 @@ const SHORTCUTS = [
   {
     section: "Help",
     keys: ["?"],
-    label: "These keys",
+    label: "Show these keys",
     run: (view) => openHelp(view.root, "Keys of the comparison", SHORTCUTS),
   },
 ];

@@ -17,7 +17,7 @@ export function toolbar(view) {
         value: "side_by_side",
         icon: "columns",
         label: "Side by side",
-        title: "All beside each other (W)",
+        title: "All side by side (W)",
       },
       { value: "wipe", icon: "split", label: "Wipe", title: "Two with a divider (W)" },
     ],
@@ -30,11 +30,11 @@ export function toolbar(view) {
     return select;
   });
   const pair = element("div", { class: "sw-group sw-compare-pair" }, ...selects);
-  const history = historyButtons(view.state, "Back to the sun that it began with");
+  const history = historyButtons(view.state, "Back to the initial sun");
   const own = button({
     icon: "sun",
     label: "Own suns",
-    title: "Each picture under the sun of its own recipe",
+    title: "Draw each picture under the sun of its own recipe",
     caption: true,
     onClick: () => view.state.set({ one_sun: !view.state.values.one_sun }),
   });

@@ -1,7 +1,7 @@
 /**
- * One view of a comparison. All pictures are drawn by one frame graph in turn, on one WebGL
- * context (recipes with strokes or hints of their own have maps and a graph of their own), and
- * share sun, zoom and pan.
+ * One view of a comparison. One frame graph on one WebGL context draws all pictures in turn, except
+ * recipes with their own strokes or hints, which have their own maps and graph. All pictures share
+ * sun, zoom and pan.
  */
 
 import { EditState } from "../edit/state.js";
@@ -12,7 +12,7 @@ import { errorText } from "../host/error_text.js";
 import { onKernelError } from "../host/kernel_errors.js";
 import { savedText } from "../host/saved_state.js";
 import { onTraits } from "../host/traits.js";
-import { watchSight } from "../host/visibility.js";
+import { watchVisibility } from "../host/visibility.js";
 import { sunText } from "../ui/angle_text.js";
 import { Divider } from "../ui/divider.js";
 import { element } from "../ui/element.js";
@@ -31,10 +31,10 @@ import { toolbar } from "./toolbar.js";
  * @typedef {import("../host/types.js").Status} Status
  */
 
-// Shares of the preview's size that are drawn. Few: each draws all of the picture's passes anew.
+// Drawn shares of the preview's size. Few: a new one redraws all of the picture's passes.
 const SHARES = [0.25, 0.375, 0.5, 0.75, 1];
 
-// The row of the switch, which is in no table of the kernel's.
+// The row of the switch, which the kernel's tables lack.
 const ONE_SUN = { kind: "switch", label: "One sun", section: "sun", analysis: false };
 
 export class View {
@@ -62,8 +62,8 @@ export class View {
       () => this.state.before !== null,
       signal,
     );
-    this.loop.setSight(false); // until the page is laid out
-    watchSight(root, signal, (inSight) => this.loop.setSight(inSight));
+    this.loop.setVisible(false); // until the page is laid out
+    watchVisibility(root, signal, (visible) => this.loop.setVisible(visible));
     this.panels = this.variants().map((_, index) => new Panel(this, index, signal));
     this.grid = element("div", { class: "sw-compare-grid" }, ...this.panels.map((p) => p.node));
     this.divider = new Divider({ label: "Divider", onMove: () => placeDivider(this) });
@@ -90,7 +90,7 @@ export class View {
     this.show();
   }
 
-  /** The sun's rows of the kernel's table and the switch, with what the widget began with. */
+  /** The sun's rows of the kernel's table and the switch, with the widget's initial values. */
   rows() {
     /** @type {{ name: string, default: unknown }[]} */
     const rows = this.model.get("_rows");
@@ -123,12 +123,12 @@ export class View {
     return this.model.get("arrangement") === "wipe";
   }
 
-  /** Those in sight. */
+  /** The visible panels. */
   shown() {
     return this.wipes ? this.pair.map((index) => this.panels[index]) : this.panels;
   }
 
-  /** Whether the recipes ask for suns of their own: it began without a common one. */
+  /** Whether the recipes have their own suns: the widget started without a common one. */
   hasOwnSuns() {
     return this.state.parameters.some((p) => p.name === "one_sun" && !p.default);
   }
@@ -165,10 +165,10 @@ export class View {
     try {
       const size = await this.scenes.load();
       if (!size) return;
-      this.zoom.size = size; // perhaps before the photo is shown by itself
+      this.zoom.size = size; // perhaps before the photo is shown
       this.show();
     } catch (error) {
-      this.message.show(`The maps of the analysis cannot be shown: ${errorText(error)}`);
+      this.message.show(`The analysis maps cannot be shown: ${errorText(error)}`);
     }
   }
 
@@ -181,7 +181,7 @@ export class View {
     this.message.show(status.stage === "error" ? status.message : "");
   }
 
-  /** Everything that follows from the state: marks at once, the pictures with the next refresh. */
+  /** Update everything from the state: marks at once, the pictures with the next refresh. */
   show() {
     this.toolbar.show();
     this.layOut();
@@ -209,7 +209,7 @@ export class View {
   /** @param {number} side of the wipe @param {number} index of a variant */
   setPair(side, index) {
     const other = 1 - side;
-    // Nothing is compared with itself: the other side takes what stood here.
+    // Do not compare a picture with itself: swap the sides.
     if (this.pair[other] === index) this.pair[other] = this.pair[side];
     this.pair[side] = index;
     this.show();
@@ -221,7 +221,7 @@ export class View {
     this.drawMarks();
   }
 
-  /** Pixels to draw: as many as the screen shows. @param {number} scale @returns {[number, number]} */
+  /** Size to draw, as large as the screen shows. @param {number} scale @returns {[number, number]} */
   drawSize(scale) {
     const seen = Math.min(1, this.zoom.scale);
     const share = (SHARES.find((each) => each >= 0.98 * seen) ?? 1) * scale;
@@ -237,7 +237,7 @@ export class View {
     const drawn = this.message.attempt(() => this.shown().map((panel) => panel.drawPicture(size)));
     if (!drawn) return;
     if (!drawn.every(Boolean)) {
-      this.request(); // a context was lost meanwhile; the next frame makes another
+      this.request(); // a context was lost; the next frame makes a new one
       return;
     }
     this.root.classList.add("sw-live");
@@ -251,6 +251,6 @@ export class View {
     if (!this.scenes.found.length) return;
     this.readout.textContent = this.state.values.one_sun
       ? sunText(this.panels[0].value("sun_azimuth"), this.panels[0].value("sun_elevation"))
-      : "Each picture under its own sun; drag one for a common sun";
+      : "Each picture has its own sun; drag one to set a common sun";
   }
 }

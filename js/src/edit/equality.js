@@ -1,4 +1,4 @@
-/** Whether values, or recipes, are the same. */
+/** Equality of values and recipes. */
 
 /** @type {(a: unknown, b: unknown) => boolean} */
 export function equal(a, b) {
@@ -6,7 +6,7 @@ export function equal(a, b) {
 }
 
 /**
- * Whether two recipes set the same: the kernel writes a version into each, the browser does not.
+ * Whether two recipes set the same values, apart from the version, which only the kernel writes.
  *
  * @param {import("../host/types.js").Edit} a
  * @param {import("../host/types.js").Edit} b

@@ -1,4 +1,4 @@
-/** How many steps a history keeps. */
+/** Limits of the history's length. */
 
 /** @typedef {import("../host/types.js").Edit} Edit */
 
@@ -6,7 +6,7 @@ export const HISTORY_LENGTH = 100;
 // Every step repeats all strokes, and a message of 10 MiB would break the connection.
 export const HISTORY_BYTES = 2_000_000;
 
-/** The last steps, as many as may be kept. @param {Edit[]} steps */
+/** Return the newest steps within the limits. @param {Edit[]} steps */
 export function newest(steps) {
   let bytes = 0;
   const kept = steps.slice(-HISTORY_LENGTH).reverse();

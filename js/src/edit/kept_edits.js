@@ -1,27 +1,27 @@
 /**
- * Edits in the browser's own storage, by the photo's fingerprint: what outlives a kernel. It may
- * be missing, full, or hold what another version wrote; then less is kept, and nothing fails.
+ * Edits in the browser's storage, by the photo's fingerprint, so that they survive the kernel. The
+ * storage may be missing, full, or written by another version; then less is kept, and nothing fails.
  */
 
 /**
  * @typedef {import("../host/types.js").Kept} Kept
  * @typedef {Kept & { session: string, saved: number, dismissed?: boolean }} Entry `saved` in
- *   milliseconds since 1970; `dismissed` once it was offered and refused
+ *   milliseconds since 1970; `dismissed` once the user declined it
  */
 
 const PREFIX = "sunwidget:edits:";
 const PHOTOS = 20;
-const SESSIONS = 4; // of one photo: each run of the cell is one
-const BYTES = 600_000; // of one photo; a browser grants about 5 MB to all of a server's pages
+const SESSIONS = 4; // per photo; each run of the cell is a session
+const BYTES = 600_000; // per photo; a browser grants about 5 MB to all pages of a server
 
 export class KeptEdits {
-  /** @param {() => Storage} open may throw, as reading `localStorage` does where it is forbidden */
+  /** @param {() => Storage} open may throw, as `localStorage` does where it is forbidden */
   constructor(open = () => window.localStorage) {
     this.open = open;
   }
 
   /**
-   * What is kept of a photo, newest first.
+   * Return a photo's entries, newest first.
    *
    * @param {string} fingerprint
    * @returns {Entry[]}
@@ -36,7 +36,7 @@ export class KeptEdits {
   }
 
   /**
-   * Keep an entry in place of the one of its session.
+   * Store an entry in place of its session's last one.
    *
    * @param {string} fingerprint
    * @param {Entry} entry
@@ -46,7 +46,7 @@ export class KeptEdits {
     this.write(fingerprint, [entry, ...others]);
   }
 
-  /** What is kept of a photo is offered no more by itself. @param {string} fingerprint */
+  /** Mark a photo's entries as declined. @param {string} fingerprint */
   dismiss(fingerprint) {
     this.write(
       fingerprint,
@@ -55,7 +55,7 @@ export class KeptEdits {
   }
 
   /**
-   * An entry is from now on another session's, so that its own session does not write over it.
+   * Give an entry a new session name, so that its session does not overwrite it.
    *
    * @param {string} fingerprint
    * @param {string} session
@@ -77,8 +77,8 @@ export class KeptEdits {
       this.makeRoom(storage, key);
       let kept = entries.slice(0, SESSIONS);
       while (!this.store(storage, key, kept)) {
-        if (isHeavy(kept)) kept = lighter(kept);
-        // Full. What other photos were given is older than what is being done now.
+        if (isHeavy(kept)) kept = shrink(kept);
+        // Full: other photos' entries are older than this one.
         else if (!this.dropOldest(storage, key)) return;
       }
     } catch {
@@ -104,7 +104,7 @@ export class KeptEdits {
     while (keys(storage).length >= PHOTOS) if (!this.dropOldest(storage, key)) return;
   }
 
-  /** @param {Storage} storage @param {string} except @returns {boolean} whether there was one */
+  /** @param {Storage} storage @param {string} except @returns {boolean} whether one was dropped */
   dropOldest(storage, except) {
     const others = keys(storage).filter((key) => key !== except);
     const ages = others.map((key) => {
@@ -126,8 +126,8 @@ const keys = (storage) =>
 /** @param {Entry[]} entries */
 const isHeavy = (entries) => entries.length > 1 || entries[0].past.length > 0;
 
-/** With less of the past, and at last with fewer sessions. @param {Entry[]} entries */
-function lighter(entries) {
+/** Drop half of the past, or without one the oldest session. @param {Entry[]} entries */
+function shrink(entries) {
   const steps = Math.max(...entries.map(({ past }) => past.length));
   if (steps === 0) return entries.slice(0, -1);
   return entries.map((entry) => ({

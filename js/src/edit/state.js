@@ -1,10 +1,9 @@
 /**
- * The edit as this view shows it, and its way to and from the model's traits.
+ * The edit that this view shows, synchronized with the model's traits.
  *
- * The view draws from `values` at once; traits follow, throttled while a gesture lasts and
- * exactly at its end. The history is plain data on the model (`_history`), written by
- * whoever made the step, so undo is the same from the browser, from Python and in a second
- * view.
+ * The view draws from `values` at once; traits follow, throttled during a gesture and exact at its
+ * end. The history is plain data on the model (`_history`), written by whoever made the step, so
+ * undo works the same in the browser, in Python and in a second view.
  */
 
 import { equal, sameRecipe } from "./equality.js";
@@ -36,22 +35,22 @@ export class EditState {
     /** @type {Edit} */
     this.values = {};
     for (const { name } of parameters) this.values[name] = model.get(name);
-    /** @type {Edit | null} recipe at the start of the gesture under way */
+    /** @type {Edit | null} recipe at the start of the current gesture */
     this.before = null;
     /** @type {Set<string>} names not yet sent */
     this.unsent = new Set();
-    /** @type {Set<string>} names that the gesture under way has changed */
+    /** @type {Set<string>} names that the current gesture has changed */
     this.held = new Set();
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
     /**
-     * When the photo's maps can follow a correction: until then nobody makes new ones, and where
-     * it is never, undo leaves them as they are too.
+     * When the photo's maps can follow a correction. Corrections are refused unless "now"; with
+     * "never", undo does not change them either.
      *
      * @type {() => "now" | "later" | "never"}
      */
     this.follow = () => "now";
-    /** @type {() => void} called when something was sent that the photo's maps follow */
+    /** @type {() => void} called when a correction was sent */
     this.onCorrection = () => {};
 
     const onTrait = () => this.pull();
@@ -59,7 +58,7 @@ export class EditState {
     const onHistory = () => this.notify();
     for (const name of HISTORY) model.on(`change:${name}`, onHistory);
     signal.addEventListener("abort", () => {
-      this.commit(); // a view that is closed in the middle of a drag ends it
+      this.commit(); // closing a view during a drag ends the drag
       clearTimeout(this.timer);
       for (const { name } of parameters) model.off(`change:${name}`, onTrait);
       for (const name of HISTORY) model.off(`change:${name}`, onHistory);
@@ -77,8 +76,8 @@ export class EditState {
   }
 
   /**
-   * Take what the model holds, except what this view has changed and not yet sent, and what the
-   * hand holds: an older value that arrives late must not pull the sun out of it.
+   * Take the model's values, except unsent changes and values that the current gesture has changed:
+   * an older value that arrives late must not pull the sun away from the pointer.
    */
   pull() {
     let moved = false;
@@ -93,7 +92,7 @@ export class EditState {
   }
 
   /**
-   * Change values. Outside a gesture (`begin` … `commit`) it is a step of its own.
+   * Change values. Outside a gesture (`begin` … `commit`) this is one history step.
    *
    * @param {Edit} changes
    */
@@ -117,7 +116,7 @@ export class EditState {
     return this.parameters.some((p) => p.name === name && p.analysis);
   }
 
-  /** Start a gesture: all changes until `commit` are one step of the history. */
+  /** Start a gesture: all changes until `commit` are one history step. */
   begin() {
     this.before ??= this.recipe();
   }
@@ -137,7 +136,7 @@ export class EditState {
     this.push();
   }
 
-  /** End the gesture and return to where it began. */
+  /** End the gesture and revert its changes. */
   cancel() {
     if (!this.before) return;
     const before = this.before;
@@ -146,12 +145,12 @@ export class EditState {
     this.apply(before);
   }
 
-  /** Send what is unsent. */
+  /** Send unsent changes. */
   push() {
     clearTimeout(this.timer);
     this.timer = undefined;
     const names = [...this.unsent];
-    // model.set calls back at once; `pull` leaves what is still listed as unsent alone.
+    // model.set calls back at once; `pull` skips names still listed as unsent.
     for (const name of names) this.model.set(name, this.values[name]);
     this.unsent.clear();
     this.model.save_changes();
@@ -171,7 +170,7 @@ export class EditState {
   }
 
   /**
-   * Take over a whole recipe; what it does not name returns to its default.
+   * Apply a whole recipe; names that it lacks return to their defaults.
    *
    * @param {Edit} recipe
    */
@@ -181,7 +180,7 @@ export class EditState {
     this.notify();
   }
 
-  /** The same without sending it. @param {Edit} recipe */
+  /** Apply a recipe without sending it. @param {Edit} recipe */
   assign(recipe) {
     for (const p of this.parameters) {
       const value = p.name in recipe ? recipe[p.name] : p.default;
@@ -223,12 +222,12 @@ export class EditState {
     this.apply(recipe);
   }
 
-  /** Every parameter to its default, as one step. */
+  /** Reset every parameter to its default, as one history step. */
   reset() {
     this.replace({});
   }
 
-  /** Take over a whole recipe, as one step. @param {Edit} recipe */
+  /** Apply a whole recipe as one history step. @param {Edit} recipe */
   replace(recipe) {
     this.commit();
     const before = this.recipe();
@@ -261,7 +260,7 @@ export class EditState {
     this.model.save_changes();
   }
 
-  /** All that is to be kept: as if the gesture under way ended now. @returns {Kept} */
+  /** Return the state to keep, as if the current gesture ended now. @returns {Kept} */
   kept() {
     const { past, future } = this.history();
     const recipe = this.recipe();
@@ -275,13 +274,13 @@ export class EditState {
     };
   }
 
-  /** The same recipe with more of its history. @param {Kept} kept */
-  takeUpHistory({ past, future }) {
+  /** Restore the history of the same recipe. @param {Kept} kept */
+  restoreHistory({ past, future }) {
     this.writeHistory({ past, future });
     this.model.save_changes();
   }
 
-  /** The model holds another photo's edit: what was begun or not yet sent belongs to the last. */
+  /** Drop the gesture and unsent changes: the model now holds another photo's edit. */
   abandon() {
     clearTimeout(this.timer);
     this.timer = undefined;
@@ -292,11 +291,11 @@ export class EditState {
   }
 
   /**
-   * Go on from what was kept elsewhere. What is shown now is not lost: it becomes a step.
+   * Restore a stored state. The current edit becomes a history step.
    *
    * @param {Kept} kept
    */
-  takeUp(kept) {
+  restore(kept) {
     this.commit();
     const now = this.kept();
     const fresh = now.past.length === 0 && Object.keys(now.recipe).length === 0;

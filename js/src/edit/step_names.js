@@ -1,4 +1,4 @@
-/** What a step of the history did, in words, read off the recipes on either side of it. */
+/** Names history steps from the recipes before and after them. */
 
 import { equal, sameRecipe } from "./equality.js";
 
@@ -22,12 +22,14 @@ export function stepName(from, to, { parameters, versions = [], presets = [] }) 
   if (changed.length === 0) return "Nothing";
   const preset = presets.find(({ values }) => sets(values, names, to, parameters));
   if (preset) return preset.label;
-  if (changed.length === 1) return names[0] === "strokes" ? strokes(from, to) : named(changed[0]);
+  if (changed.length === 1)
+    return names[0] === "strokes" ? strokes(from, to) : fullLabel(changed[0]);
   if (names.every((name) => SUN.includes(name))) return "Sun moved";
   if (names.length > 2 && sameRecipe(to, {})) return "Reset";
   const version = versions.find(({ recipe }) => sameRecipe(recipe, to));
   if (version) return `“${version.name}”`;
-  if (changed.length === 2) return `${named(changed[0])} and ${named(changed[1]).toLowerCase()}`;
+  if (changed.length === 2)
+    return `${fullLabel(changed[0])} and ${fullLabel(changed[1]).toLowerCase()}`;
   const sections = new Set(changed.map(({ section }) => section));
   return sections.size === 1
     ? `${title(changed[0].section)}, ${changed.length} values`
@@ -35,7 +37,7 @@ export function stepName(from, to, { parameters, versions = [], presets = [] }) 
 }
 
 /**
- * Whether a preset made the step: nothing else changed, and all of it is set. Recipes leave defaults out.
+ * Whether a preset made the step: it sets all its values and nothing else. Recipes omit defaults.
  *
  * @param {Record<string, unknown>} values of the preset
  * @param {string[]} changed
@@ -57,8 +59,8 @@ function strokes(from, to) {
   return after > before ? "Stroke" : before - after > 1 ? "Strokes erased" : "Stroke erased";
 }
 
-/** Its section tells "Opacity" from "Opacity". @param {Parameter} parameter */
-function named({ section, label, kind }) {
+/** Add the section's name, since labels such as "Opacity" repeat. @param {Parameter} parameter */
+function fullLabel({ section, label, kind }) {
   if (kind === "data" || label.toLowerCase().startsWith(section)) return label;
   return `${title(section)} ${label.charAt(0).toLowerCase()}${label.slice(1)}`;
 }

@@ -1,12 +1,12 @@
 /**
- * What hangs on the editor, and how it hears of what happens. A part is told:
+ * Parts of the editor and the events they receive:
  *
- *   loaded(scene)  the analysis, or an answer to a correction, has arrived
- *   forget()       nothing of the last photo is true of the next
- *   show()         the edit or the history changed: controls follow at once
- *   draw()         the overlay is drawn: layout, zoom or edit changed
- *   drawn(scale)   a frame stands on the canvas, at a share of its full size
- *   point(place)   the pointer, or the keyboard's cross, is at a place of the picture, or gone
+ *   loaded(scene)  the analysis, or its update after a correction, has arrived
+ *   forget()       another photo is loading: drop everything about the last one
+ *   show()         the edit or the history changed: update controls at once
+ *   draw()         layout, zoom or edit changed: draw the overlay
+ *   drawn(scale)   the canvas shows a new frame, at a share of its full size
+ *   point(place)   the pointer or the keyboard's cross moved on the picture; null when it left
  */
 
 /**
@@ -22,7 +22,7 @@
  * }} Part
  */
 
-/** All parts of an editor, told one after the other. */
+/** Passes each event to all parts of an editor in turn. */
 export class Parts {
   constructor() {
     /** @type {Part[]} */

@@ -1,7 +1,7 @@
 /**
- * What hangs on the editor's view, each in a room of its own. A part takes only what it needs, puts
- * its nodes where they belong (`stage`, `toolbar.end`, `panel.section(name)`, `foot.node`) and is
- * told of what happens (`part.js`).
+ * Makes the parts of the editor's view. A part takes only what it needs, adds its nodes where they
+ * belong (`stage`, `toolbar.end`, `panel.section(name)`, `statusBar.node`) and receives events
+ * (`part.js`).
  */
 
 import { exportPanel } from "./export/export_panel.js";
@@ -24,7 +24,7 @@ import { announcements } from "./view/announcements.js";
 import { detail } from "./view/detail.js";
 import { drop } from "./view/drop.js";
 import { FullScreen } from "./view/full_screen.js";
-import { needsKernel } from "./view/kernel_required.js";
+import { kernelRequired } from "./view/kernel_required.js";
 import { notes } from "./view/notes.js";
 import { progress } from "./view/progress.js";
 import { saved } from "./view/saved.js";
@@ -38,18 +38,18 @@ import { zoomControl } from "./view/zoom_control.js";
  * @returns {import("./part.js").Part[]}
  */
 export function makeParts(view, signal) {
-  const { announcer, channel, drawing, foot, hand, inspector, kernel, message, model } = view;
+  const { announcer, channel, drawing, statusBar, hand, inspector, kernel, message, model } = view;
   const { notices, original, panel, parts, picture, root, stage, state, strokes } = view;
   const { toolbar, work } = view;
   const clock = new SunClock({ model, picture, state });
   const thumbnails = new Thumbnails({ drawing, hand, picture, stage, state }, signal);
-  // Their order is that of their nodes, too.
+  // This is also the order of their nodes.
   const onPicture = [
     zoomControl({ stage }, signal),
-    timings({ drawing, foot }, signal),
+    timings({ drawing, statusBar }, signal),
     detail({ channel, hand, kernel, picture, root, stage, state, work }, signal),
-    hover({ foot, hand, picture, stage }, signal),
-    notes({ announcer, foot, hand, kernel, notices, picture, stage, state }, signal),
+    hover({ statusBar, hand, picture, stage }, signal),
+    notes({ announcer, statusBar, hand, kernel, notices, picture, stage, state }, signal),
     ownSun({ hand, kernel, picture, root, stage, state }, signal),
     cross({ announcer, hand, parts, picture, stage }, signal),
     heldKeys({ root, toolbar }, signal),
@@ -71,7 +71,7 @@ export function makeParts(view, signal) {
         channel,
         clock,
         drawing,
-        foot,
+        statusBar,
         kernel,
         notices,
         parts,
@@ -88,8 +88,8 @@ export function makeParts(view, signal) {
     saved({ drawing, model, panel, picture, root, stage }, signal),
     help({ drawing, root, toolbar }, signal),
     progress({ channel, kernel, model, notices, picture, stage, work }, signal),
-    needsKernel({ hand, inspector, kernel, panel, root, state, toolbar }, signal),
-    announcements({ announcer, foot, hand, model, root, strokes, toolbar }, signal),
+    kernelRequired({ hand, inspector, kernel, panel, root, state, toolbar }, signal),
+    announcements({ announcer, statusBar, hand, model, root, strokes, toolbar }, signal),
     shortcuts(
       {
         announcer,

@@ -114,9 +114,9 @@ export function measuredControls(view) {
   const explain = element(
     "p",
     { class: "sw-hint" },
-    "15 scans of a clear day, 81 directions each, measured by Kider and others (2014), can be laid over " +
-      "the sky. They are not part of the package: Download fetches them from their public repository to " +
-      "this computer, once.",
+    "15 scans of a clear day, 81 directions each, measured by Kider and others (2014), can be overlaid " +
+      "on the sky. They are not part of the package: Download fetches them once from their public " +
+      "repository to this computer.",
   );
   const question = element(
     "span",

@@ -105,8 +105,8 @@ export function modelControls(view, signal) {
     element(
       "p",
       { class: "sw-hint" },
-      `Light is followed path by path, without any shortcut: noise fades as paths add up, and at ` +
-        `${MOST_SAMPLES} a pixel it rests. Any change starts anew.`,
+      `Light is traced path by path, without approximation: noise fades as paths add up, and tracing ` +
+        `stops at ${MOST_SAMPLES} paths per pixel. Any change starts over.`,
     ),
     pause,
   );
@@ -121,12 +121,12 @@ export function modelControls(view, signal) {
     compute.textContent = busy ? "Computing …" : `Compute table (≈ ${seconds} s)`;
     if (uses("bruneton") && computed !== key()) void askCost();
     explain.textContent = !computed
-      ? "This model looks everything up in one table of four dimensions that the kernel computes once for " +
-        "an atmosphere: slow to make, and no slider of the air can be dragged. Until then all orders are shown."
+      ? "This model looks everything up in one four-dimensional table, which the kernel computes once " +
+        "per atmosphere: it is slow, so air sliders cannot be live. Until then all orders are shown."
       : old
         ? "The air has changed since the table was computed; the picture still shows the old air."
-        : "The table fits this air. The sun can be dragged; air and altitude need another table.";
-    pause.textContent = view.tracer.paused ? "Go on" : "Pause";
+        : "The table fits this air. The sun can be dragged; another air or altitude needs a new table.";
+    pause.textContent = view.tracer.paused ? "Resume" : "Pause";
   }
 
   return {
@@ -136,7 +136,7 @@ export function modelControls(view, signal) {
     note() {
       if (uses("reference")) {
         const samples = Math.min(view.frame.samples, MOST_SAMPLES);
-        return `${samples} of ${MOST_SAMPLES} paths a pixel${view.tracer.paused ? ", paused" : ""}`;
+        return `${samples} of ${MOST_SAMPLES} paths per pixel${view.tracer.paused ? ", paused" : ""}`;
       }
       if (uses("bruneton") && !computed) return "Bruneton's table is not computed yet";
       return "";

@@ -168,7 +168,7 @@ function aliasSliders(view) {
       label: "Turbidity",
       unit: "",
       step: 0.1,
-      help: "Optical depth of air with haze over that of air alone (550 nm). Moves the optical depth of the haze.",
+      help: "Optical depth of hazy air over that of clean air (550 nm). Changes the optical depth of the haze.",
       of: (a) => turbidity(clean, a),
       depthOf: (value) => depthOfTurbidity(clean, air(), value),
       span: () => [1, turbidity(clean, air(most))],
@@ -178,7 +178,7 @@ function aliasSliders(view) {
       label: "Visibility",
       unit: "km",
       step: 1,
-      help: "How far a dark hill can be seen at sea level: 3.912 over the extinction at 550 nm. Moves the optical depth of the haze.",
+      help: "How far a dark hill can be seen at sea level: 3.912 over the extinction at 550 nm. Changes the optical depth of the haze.",
       of: (a) => visibility(clean, a) / 1000,
       depthOf: (value) => depthOfVisibility(clean, air(), 1000 * value),
       span: () => [

@@ -89,7 +89,7 @@ export function placeControls(view, signal) {
   const play = playButton(
     {
       label: "Play the day",
-      title: "Play the day, an hour a second",
+      title: "Play the day, one hour per second",
       onStep: (seconds) => {
         // Another gesture ends a step of the history; the playing goes on in the next.
         state.begin();
@@ -115,15 +115,15 @@ export function placeControls(view, signal) {
       row.hidden = day.length === 0;
       if (!day.length) {
         play.stop();
-        said.textContent = "With a date and a place, the clock moves the sun along its path.";
+        said.textContent = "Set a date and a place, and the clock moves the sun along its path.";
         return;
       }
       const hours = /** @type {number | null} */ (values.time);
       time.show(hours, 12);
       const sun = hours === null ? null : sunAt(day, hours);
       said.textContent = sun
-        ? `${clock(Number(hours))} UTC: sun at ${degrees(sun.azimuth)}, seen at ${degrees(sun.apparent)}, ` +
-          `truly at ${degrees(sun.true)}.`
+        ? `${clock(Number(hours))} UTC: sun azimuth ${degrees(sun.azimuth)}, apparent elevation ${degrees(sun.apparent)}, ` +
+          `true ${degrees(sun.true)}.`
         : "The clock is paused: the sun was moved by hand. Moving the clock puts it back on its path.";
     },
   };

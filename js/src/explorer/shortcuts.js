@@ -20,16 +20,16 @@ export const SHORTCUTS = [
   { section: "View", keys: ["1"], label: "Dome", run: take("dome") },
   { section: "View", keys: ["2"], label: "Panorama", run: take("panorama") },
   { section: "View", keys: ["3"], label: "Camera", run: take("camera") },
-  { section: "View", keys: ["["], label: "Turn to the left", run: turn(-TURN) },
-  { section: "View", keys: ["]"], label: "Turn to the right", run: turn(TURN) },
+  { section: "View", keys: ["["], label: "Turn left", run: turn(-TURN) },
+  { section: "View", keys: ["]"], label: "Turn right", run: turn(TURN) },
 
   {
-    section: "Sun, when it has the focus",
+    section: "Sun, when focused",
     keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
     label: "Move it by half a degree",
   },
   {
-    section: "Sun, when it has the focus",
+    section: "Sun, when focused",
     keys: ["Shift+ArrowLeft", "Shift+ArrowRight"],
     label: "Ten times as far",
   },
@@ -39,7 +39,7 @@ export const SHORTCUTS = [
   {
     section: "Help",
     keys: ["?"],
-    label: "These keys",
+    label: "Show these keys",
     run: (view) => showKeys(view),
   },
 ];

@@ -2,7 +2,7 @@
 
 import { turned } from "../geometry/day.js";
 import { button, radioButtons } from "../ui/button.js";
-import { copied } from "../ui/clipboard.js";
+import { copyText } from "../ui/clipboard.js";
 import { element } from "../ui/element.js";
 import { historyButtons } from "../ui/history_buttons.js";
 import { pythonCode } from "./code.js";
@@ -14,19 +14,19 @@ const PROJECTIONS = [
     value: "dome",
     icon: "dome",
     label: "Dome",
-    title: "Dome: the whole sky as a fisheye sees it, zenith in the middle",
+    title: "Dome: the whole sky as a fisheye image, zenith in the middle",
   },
   {
     value: "panorama",
     icon: "panorama",
     label: "Panorama",
-    title: "Panorama: all round the horizon; drag to turn",
+    title: "Panorama: all around the horizon; drag to turn",
   },
   {
     value: "camera",
     icon: "camera",
     label: "Camera",
-    title: "Camera: a picture; drag to look elsewhere, Ctrl+wheel to zoom",
+    title: "Camera: a perspective view; drag to look around, Ctrl+wheel to zoom",
   },
 ];
 const SAME_PLACE = 0.01; // degrees, as in the kernel's twin
@@ -44,11 +44,11 @@ export function toolbar(view) {
   for (const [i, node] of [...projections.node.children].entries()) {
     node.append(element("span", {}, PROJECTIONS[i].label));
   }
-  const history = historyButtons(state, "Everything back to its default");
+  const history = historyButtons(state, "Reset everything to its default");
   const copy = button({
     icon: "copy",
     label: "Copy code",
-    title: "Copy Python that makes this sky again",
+    title: "Copy Python code that recreates this sky",
     caption: true,
   });
   const help = button({
@@ -62,7 +62,7 @@ export function toolbar(view) {
   let silence;
   copy.addEventListener("click", async () => {
     const code = await codeOf(view);
-    said.textContent = (await copied(code)) ? "Copied" : "";
+    said.textContent = (await copyText(code)) ? "Copied" : "";
     // Without a clipboard the person copies by hand.
     view.message.show(said.textContent ? "" : code);
     clearTimeout(silence);

@@ -1,8 +1,8 @@
 /**
- * One view of a SkyExplorer: it draws the sky from its own state, and the traits follow.
+ * One view of a SkyExplorer. It draws the sky from its own state, and the traits follow.
  *
- * Everything but Bruneton's table, the measured skies and their errors is computed here, so the
- * widget goes on without a kernel.
+ * Everything except Bruneton's table, the measured skies and their errors is computed here, so the
+ * widget also works without a kernel.
  */
 
 import { parameterOf } from "../edit/parameter.js";
@@ -12,7 +12,7 @@ import { FrameLoop } from "../gl/frame_loop.js";
 import { Channel } from "../host/channel.js";
 import { onKernelError } from "../host/kernel_errors.js";
 import { onTraits } from "../host/traits.js";
-import { watchSight } from "../host/visibility.js";
+import { watchVisibility } from "../host/visibility.js";
 import { Announcer } from "../ui/announcer.js";
 import { element } from "../ui/element.js";
 import { ErrorMessage } from "../ui/error_message.js";
@@ -70,18 +70,18 @@ export class View {
     this.message = new ErrorMessage();
     /** @type {Point | null} direction under the pointer */
     this.pointed = null;
-    /** @type {Point | null} direction that a plot points at */
+    /** @type {Point | null} direction highlighted by a plot */
     this.plotPoint = null;
     /** @type {string} what the picture shows */
     this.drawnKey = "";
-    this.tables = 0; // how many tables the kernel has sent
+    this.tables = 0; // number of tables that the kernel has sent
     this.loop = new FrameLoop(
       (scale) => this.drawFrame(scale),
       () => this.state.before !== null,
       signal,
     );
     this.signal = signal;
-    this.loop.setSight(false); // until the page is laid out
+    this.loop.setVisible(false); // until the page is laid out
     this.build();
     this.listen(signal);
     this.show();
@@ -105,7 +105,7 @@ export class View {
     );
   }
 
-  /** Say where the sun is, unless what moves it says so. @param {string} text */
+  /** Announce the sun's position, unless the focused control does. @param {string} text */
   say(text) {
     const { activeElement } = /** @type {Document | ShadowRoot} */ (this.root.getRootNode());
     if (!activeElement?.matches(".sw-sun, input")) this.announcer.say(text);
@@ -116,13 +116,13 @@ export class View {
     const { model, state, stage } = this;
     state.subscribe(() => this.show());
     stage.onLayout = () => this.requestFrame();
-    watchSight(this.root, signal, (inSight) => {
-      this.loop.setSight(inSight);
-      if (inSight) this.requestFrame();
+    watchVisibility(this.root, signal, (visible) => {
+      this.loop.setVisible(visible);
+      if (visible) this.requestFrame();
     });
     const onData = () => {
       this.show();
-      if (this.loop.inSight) this.plots.request();
+      if (this.loop.visible) this.plots.request();
     };
     onTraits(model, ["_day", "_measured", "_scans", "_aliases", "_presets"], onData, signal);
     onKernelError(model, (text) => this.message.show(text), signal);
@@ -160,40 +160,40 @@ export class View {
     });
   }
 
-  /** Where a direction stands on the picture, or null behind the camera. @type {(direction: Point) => Point | null} */
+  /** Return a direction's place on the picture, or null behind the camera. @type {(direction: Point) => Point | null} */
   placeOf([azimuth, elevation]) {
     return this.projection().pixel(azimuth, elevation);
   }
 
-  /** @type {(place: Point) => Point | null} null where no sky can be */
+  /** @type {(place: Point) => Point | null} null outside the sky */
   directionOf([x, y]) {
     return this.projection().direction(x, y);
   }
 
-  /** The same, or the nearest direction towards the picture's middle. @param {Point} place */
+  /** As `directionOf`, or else the nearest direction toward the picture's middle. @param {Point} place */
   nearestDirection([x, y]) {
     return this.projection().nearest(x, y);
   }
 
-  /** How far a pixel turns the view. */
+  /** Degrees that the view turns per pixel. */
   degreesPerPixel() {
     const { width, height } = this.stage.rectangle();
     return this.state.values.projection === "camera" ? this.number("fov") / height : 360 / width;
   }
 
-  /** What lies under the pointer. @param {Point | null} direction */
+  /** Set the direction under the pointer. @param {Point | null} direction */
   hover(direction) {
     this.pointed = direction && direction[1] >= -90 ? direction : null;
     this.requestFrame();
   }
 
-  /** A plot points at a direction. @param {Point | null} direction */
+  /** Highlight a direction for a plot. @param {Point | null} direction */
   point(direction) {
     this.plotPoint = direction;
     this.requestFrame();
   }
 
-  /** Everything that follows from the state: controls at once, the frame with the next refresh. */
+  /** Update everything from the state: controls at once, the frame with the next refresh. */
   show() {
     this.stage.setProjection(String(this.state.values.projection));
     this.root.dataset.projection = String(this.state.values.projection);
@@ -203,7 +203,7 @@ export class View {
   }
 
   requestFrame() {
-    if (!this.loop.inSight) return;
+    if (!this.loop.visible) return;
     this.stage.node.setAttribute("aria-busy", "true");
     this.loop.request();
   }
@@ -224,7 +224,7 @@ export class View {
       [width, height].map((side) => Math.max(1, Math.round(side * dense * scale)))
     );
     const key = JSON.stringify([this.state.values, size, this.tables]);
-    // A pointer that only reads changes no pixel.
+    // A hovering pointer changes no pixel.
     if (key === this.drawnKey && !this.tracer.works) return;
     const drawn = this.message.attempt(() => this.frame.draw(this.state.values, size));
     if (drawn) {
@@ -233,7 +233,7 @@ export class View {
       this.plots.request();
       if (this.tracer.works) this.tracer.goOn();
     } else if (drawn === false) {
-      this.requestFrame(); // the context was lost meanwhile; the next frame makes another
+      this.requestFrame(); // the context was lost; the next frame makes a new one
     }
   }
 
@@ -250,14 +250,14 @@ export class View {
     this.plots.hover(pointed && angle);
   }
 
-  /** The sky in one direction, as drawn. @param {Point} direction */
+  /** Read the drawn sky in one direction. @param {Point} direction */
   read(direction) {
     const texels = this.radiances([direction]);
     return texels && reading(texels.subarray(0, 4));
   }
 
   /**
-   * Radiances at the four wavelengths in some directions, by the model.
+   * Return the model's radiances at the four wavelengths in the given directions.
    *
    * @param {Point[]} directions
    * @returns {Float32Array | null} four numbers each

@@ -1,6 +1,6 @@
 /**
- * The path of a film: what the picture shows at each moment. Twin of `film_edits` in
- * `sunwidget/film/path.py`, so that the film that is written is the one that was played.
+ * A film's path: the edit at each moment. Twin of `film_edits` in `sunwidget/film/path.py`, so that
+ * the exported film equals the one played.
  */
 
 import { turned } from "../geometry/day.js";
@@ -12,7 +12,7 @@ import { turned } from "../geometry/day.js";
  * @typedef {(share: number) => Edit} FilmPath the edit at a share of the film's length, 0–1
  */
 
-/** A cubic Bézier from (0, 0) to (1, 1), as CSS reads it. @type {(x1: number, y1: number, x2: number, y2: number) => (x: number) => number} */
+/** CSS's cubic Bézier easing from (0, 0) to (1, 1). @type {(x1: number, y1: number, x2: number, y2: number) => (x: number) => number} */
 const bezier = (x1, y1, x2, y2) => {
   /** @type {(a: number, b: number, s: number) => number} */
   const at = (a, b, s) => 3 * (1 - s) ** 2 * s * a + 3 * (1 - s) * s ** 2 * b + s ** 3;
@@ -37,11 +37,11 @@ export const EASINGS = {
   smooth: (x) => x, // through key frames without a stop
 };
 
-/** What a film moves; all else is one for the whole film. @param {Parameter} p */
+/** Whether a film animates a parameter; all others are constant. @param {Parameter} p */
 const isMoved = (p) => p.kind === "number" && !p.analysis;
 
 /**
- * What a film moves of a recipe.
+ * Return the values of a recipe that a film animates.
  *
  * @param {Parameter[]} parameters
  * @param {Edit} recipe
@@ -53,7 +53,7 @@ export const movedOf = (parameters, recipe) =>
   );
 
 /**
- * A key frame's edit: `edit` gives all that a film does not move.
+ * Complete a key frame's edit: `edit` supplies everything that a film does not animate.
  *
  * @param {Parameter[]} parameters
  * @param {Edit} edit
@@ -71,8 +71,8 @@ export function alongEdit(parameters, edit, recipe) {
  * @param {KeyFrame[]} frames two or more, sorted
  * @param {string} easing
  * @param {Parameter[]} parameters
- * @param {Edit} edit what all frames share is its
- * @param {Record<string, number>} automatic what the analysis found
+ * @param {Edit} edit supplies what all frames share
+ * @param {Record<string, number>} automatic values from the analysis
  * @returns {FilmPath}
  */
 export function keyFramePath(frames, easing, parameters, edit, automatic) {
@@ -110,7 +110,7 @@ export function keyFramePath(frames, easing, parameters, edit, automatic) {
   };
 }
 
-/** Which of the ways between two knots a share is on. @param {number[]} knots @param {number} share */
+/** Find the segment between knots that holds a share. @param {number[]} knots @param {number} share */
 function segment(knots, share) {
   const after = knots.findIndex((knot) => knot > share);
   return after < 0 ? knots.length - 2 : Math.max(0, after - 1);
@@ -125,8 +125,8 @@ const straight = (knots, values) => (share) => {
 };
 
 /**
- * A monotone cubic (Fritsch & Butland 1984, as SciPy's PCHIP): no value goes beyond the two that it
- * is between, so that a sun that rises never dips.
+ * A monotone cubic (Fritsch & Butland 1984, as SciPy's PCHIP): values never overshoot their
+ * neighbors, so a rising sun never dips.
  *
  * @type {Track}
  */

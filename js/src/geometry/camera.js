@@ -49,7 +49,7 @@ export class Camera {
   }
 
   /**
-   * Azimuth and elevation of a pixel, which may lie outside the frame.
+   * Return azimuth and elevation of a pixel, which may lie outside the frame.
    *
    * @param {number} x
    * @param {number} y
@@ -67,7 +67,7 @@ export class Camera {
   }
 
   /**
-   * Pixel of a direction, or null when it lies behind the camera.
+   * Return the pixel of a direction, or null behind the camera.
    *
    * @param {number} azimuth
    * @param {number} elevation
@@ -83,8 +83,8 @@ export class Camera {
   }
 
   /**
-   * Where in the picture's plane a direction points: a unit vector from the centre. Also for
-   * directions behind the camera, so that an arrow at the edge can show them.
+   * Return a direction's bearing in the picture plane, a unit vector from the center. Also defined
+   * behind the camera, so that an arrow at the edge can point there.
    *
    * @param {number} azimuth
    * @param {number} elevation

@@ -1,4 +1,4 @@
-/** The sun's path over a day, read from the kernel's table; the air's lift of the sun. */
+/** The sun's path over a day, from the kernel's table, and refraction. */
 
 /**
  * One row of the kernel's table `_day`: hours UTC, azimuth, apparent and true elevation in degrees.
@@ -17,15 +17,15 @@ const vector = (azimuth, elevation) => [
   Math.sin(elevation * DEGREE),
 ];
 
-/** An angle from −180 up to 180. @param {number} degrees */
+/** Wrap an angle to −180 up to 180. @param {number} degrees */
 export const turned = (degrees) => ((((degrees + 180) % 360) + 360) % 360) - 180;
 
 /**
- * Where the sun is at an hour. Neighbouring rows are mixed as unit vectors, as
- * `geometry/solar.py` does, so that neither north nor the zenith needs care.
+ * Return the sun's position at an hour. Neighboring rows are interpolated as unit vectors, as in
+ * `geometry/solar.py`, so that neither north nor the zenith is a special case.
  *
  * @param {DayRow[]} day sorted by hour
- * @param {number} hours UTC; held at the ends of the table
+ * @param {number} hours UTC; clamped to the table
  * @returns {SunPlace | null} null without a table; azimuth −180 to 180
  */
 export function sunAt(day, hours) {
@@ -44,34 +44,34 @@ export function sunAt(day, hours) {
   };
 }
 
-/** Hours as 14:05. @param {number} hours 0–24 */
+/** Format hours as 14:05. @param {number} hours 0–24 */
 export function clock(hours) {
   const minutes = Math.round(hours * 60);
   return `${String(Math.floor(minutes / 60)).padStart(2, "0")}:${String(minutes % 60).padStart(2, "0")}`;
 }
 
-/** How far the air lifts what is seen at an elevation: Bennett 1982. @param {number} apparent degrees */
-const lift = (apparent) =>
+/** Refraction at an apparent elevation (Bennett 1982), degrees. @param {number} apparent degrees */
+const refraction = (apparent) =>
   Math.max(1 / Math.tan((apparent + 7.31 / (apparent + 4.4)) * DEGREE), 0) / 60;
 
 /**
- * The elevation without the air's lift, as `geometry/solar.py` has it: a sun below −1° is not
- * seen, and the lift fades to none where civil twilight ends.
+ * Return the elevation without refraction, as `geometry/solar.py` does: a sun below −1° is not
+ * visible, and refraction fades to zero where civil twilight ends.
  *
  * @param {number} apparent degrees
  */
 export function trueElevation(apparent) {
-  if (apparent >= -1) return apparent - lift(apparent);
-  const most = lift(-1);
+  if (apparent >= -1) return apparent - refraction(apparent);
+  const most = refraction(-1);
   const slope = most / (-1 - most - UNREFRACTED);
   const faded = (apparent + UNREFRACTED * slope) / (1 + slope);
   return Math.max(apparent - most, apparent < UNREFRACTED ? apparent : faded);
 }
 
-/** The angle between two directions. @type {(a: [number, number], b: [number, number]) => number} */
+/** Return the angle between two directions in degrees. @type {(a: [number, number], b: [number, number]) => number} */
 export function angleBetween([azimuthA, elevationA], [azimuthB, elevationB]) {
   const [a, b] = [elevationA * DEGREE, elevationB * DEGREE];
-  // Haversine: acos has no digits left near 0°.
+  // Haversine: acos loses precision near 0°.
   const half =
     Math.sin((a - b) / 2) ** 2 +
     Math.cos(a) * Math.cos(b) * Math.sin(((azimuthA - azimuthB) * DEGREE) / 2) ** 2;
@@ -80,6 +80,6 @@ export function angleBetween([azimuthA, elevationA], [azimuthB, elevationB]) {
 
 const GROUND = 6_360_000; // metres, the shaders' radius of the earth
 
-/** Where the ground ends for a camera above it: below the level. @param {number} altitude metres */
+/** Return the horizon's elevation for a camera above the ground, degrees below level. @param {number} altitude metres */
 export const horizonElevation = (altitude) =>
   -Math.acos(GROUND / (GROUND + Math.max(0, altitude))) / DEGREE;

@@ -1,6 +1,6 @@
 /**
- * Where and when a photo is taken, which way its camera looks, and where the sun then stands:
- * twins of `sunwidget/geometry/place.py` and `sunwidget/analysis/heading.py`, read from the kernel's path of a day.
+ * A photo's place, time and heading, and the sun's position, read from the kernel's path of a day:
+ * twins of `sunwidget/geometry/place.py` and `sunwidget/analysis/heading.py`.
  */
 
 import { sunAt, turned } from "./day.js";
@@ -14,17 +14,17 @@ import { sunAt, turned } from "./day.js";
  * @typedef {{ place: Place, mismatch: number, agreeing: Place[] }} HeadingMatch
  */
 
-const LOWEST = -12; // elevations that an edit takes
+const LOWEST = -12; // lowest elevation of an edit
 const DAY = 86_400_000; // milliseconds
-export const AGREES = 3; // degrees: horizon and field of view are known no better
+export const AGREES = 3; // degrees: the accuracy of horizon and field of view
 
 /** @param {string} date @param {number} days */
 const later = (date, days) => new Date(Date.parse(date) + days * DAY).toISOString().slice(0, 10);
 
-/** Rounded as a recipe holds it. @param {number} value */
+/** Round a value as recipes do. @param {number} value */
 const rounded = (value) => Math.round(value * 1e4) / 1e4;
 
-/** A place with its fields in the order that the kernel has them. @param {Place} place @returns {Place} */
+/** Return a place with its fields in the kernel's order. @param {Place} place @returns {Place} */
 export const orderly = ({ latitude, longitude, date, time, heading }) => ({
   latitude,
   longitude,
@@ -33,15 +33,15 @@ export const orderly = ({ latitude, longitude, date, time, heading }) => ({
   heading,
 });
 
-/** The day by the sun, from its midnight to its midnight, that a time is in. @param {Place} place */
+/** Return the solar day, midnight to midnight, of a place's time. @param {Place} place */
 export const solarDay = ({ longitude, date, time }) =>
   later(date, Math.floor((time + longitude / 15) / 24));
 
-/** The place's time as the path counts it: from the solar day's midnight in UTC. @param {Place} place */
+/** Return a place's time in the path's hours, from UTC midnight of the solar day. @param {Place} place */
 export const hoursOfDay = (place) =>
   place.time + (24 * (Date.parse(place.date) - Date.parse(solarDay(place)))) / DAY;
 
-/** The place at a time that is counted so: UTC's date follows. @param {Place} place @param {number} hours @returns {Place} */
+/** Return the place at a time in the path's hours; the UTC date follows. @param {Place} place @param {number} hours @returns {Place} */
 export function atHours(place, hours) {
   const days = Math.floor(hours / 24);
   const time = rounded(hours - 24 * days);
@@ -52,7 +52,7 @@ export function atHours(place, hours) {
 export const solarTime = ({ longitude, time }) => (((time + longitude / 15) % 24) + 24) % 24;
 
 /**
- * What an edit becomes when the clock stands at an hour of the path: the twin of `Edit.at`.
+ * Return an edit's changes for an hour of the path; the twin of `Edit.at`.
  *
  * @param {Place} place
  * @param {DayRow[]} path
@@ -72,7 +72,7 @@ export function editAt(place, path, hours) {
 }
 
 /**
- * The heading at which a sun seen in the photo stands where time and place put it.
+ * Find the heading at which the photo's sun agrees with time and place.
  *
  * @param {Place} place
  * @param {DayRow[]} path
@@ -95,7 +95,7 @@ export function matchHeading(place, path, [azimuth, elevation]) {
   };
 }
 
-/** Hours at which the elevation passes a level. @param {DayRow[]} path @param {number} level */
+/** Return the hours at which the elevation crosses a level. @param {DayRow[]} path @param {number} level */
 function crossings(path, level) {
   const found = [];
   for (let i = 1; i < path.length; i++) {

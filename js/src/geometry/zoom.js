@@ -1,33 +1,33 @@
 /**
- * How large the picture is drawn and which part of it is in sight: numbers only, no page.
+ * The picture's scale and visible part, as numbers without a page.
  *
- * A scale of 1 (100 %) shows a pixel of the preview on a pixel of the screen. As long as nobody
- * zooms, the picture fits the room that it has and follows it. Lengths are CSS pixels of the stage.
+ * A scale of 1 (100 %) shows a preview pixel on a screen pixel. Until it is zoomed, the picture fits
+ * the available room and follows it. Lengths are CSS pixels of the stage.
  */
 
 /**
  * @typedef {import("../host/types.js").Point} Point
  * @typedef {{ x: number, y: number, width: number, height: number }} Rectangle
  * @typedef {{ width: number, height: number, fit: Rectangle, pixelRatio: number }} Room the stage,
- *   where the picture fits in it, and the screen's pixels to a CSS pixel
+ *   the rectangle that the picture fits, and screen pixels per CSS pixel
  */
 
-// What the keys and buttons stop at, besides the fit.
+// Stops of the keys and buttons, besides the fit.
 const STEPS = [0.125, 0.167, 0.25, 0.333, 0.5, 0.667, 1, 1.5, 2, 3, 4, 6, 8, 12, 16];
-const MOST = 8; // nothing more is to be seen in a pixel as large as this
-const MOST_OF_FIT = 4; // but a small preview may grow to so many times its fit
+const MOST = 8; // largest scale: larger pixels show nothing more
+const MOST_OF_FIT = 4; // but a small preview may grow to this many times its fit
 
 export class Zoom {
   constructor() {
-    /** @type {number | null} the screen's pixels to a pixel of the preview; null fits the stage */
+    /** @type {number | null} screen pixels per preview pixel; null fits the stage */
     this.chosen = null;
     /** @type {Point} the place of the picture in the middle of the stage */
-    this.centre = [0.5, 0.5];
-    /** @type {Point} the preview in pixels */
+    this.center = [0.5, 0.5];
+    /** @type {Point} size of the preview in pixels */
     this.size = [1, 1];
     /** @type {Room} */
     this.room = { width: 1, height: 1, fit: { x: 0, y: 0, width: 1, height: 1 }, pixelRatio: 1 };
-    /** @type {() => void} called when somebody zoomed or shifted the picture */
+    /** @type {() => void} called after a zoom or pan */
     this.onChange = () => {};
   }
 
@@ -35,7 +35,7 @@ export class Zoom {
     return this.chosen === null;
   }
 
-  /** The scale at which all of the picture just has room. */
+  /** The scale at which the whole picture just fits. */
   get fitScale() {
     return (this.room.fit.width * this.room.pixelRatio) / this.size[0];
   }
@@ -55,7 +55,7 @@ export class Zoom {
     if (this.scale < this.bounds[0]) this.chosen = null;
   }
 
-  /** Where the picture lies on the stage. @returns {Rectangle} */
+  /** The picture's rectangle on the stage. @returns {Rectangle} */
   box() {
     const { fit, width, height, pixelRatio } = this.room;
     if (this.chosen === null) return fit;
@@ -63,8 +63,8 @@ export class Zoom {
     const [w, h] = this.size.map((length) => whole(length * this.scale));
     const margin = Math.max(0, Math.min(fit.x, fit.y));
     return {
-      x: start(w, width, margin, width / 2 - this.centre[0] * w),
-      y: start(h, height, margin, height / 2 - this.centre[1] * h),
+      x: start(w, width, margin, width / 2 - this.center[0] * w),
+      y: start(h, height, margin, height / 2 - this.center[1] * h),
       width: w,
       height: h,
     };
@@ -76,18 +76,19 @@ export class Zoom {
   }
 
   /**
-   * Take a scale; the place of the picture at `anchor` stays where it is, as far as there is
-   * picture.
+   * Set the scale; the place of the picture at `anchor` stays there, as far as the picture's edges
+   * allow.
    *
    * @param {number} scale
-   * @param {Point} [anchor] on the stage, its middle unless given
+   * @param {Point} [anchor] on the stage; default its middle
    */
   zoomTo(scale, anchor = this.middle()) {
     this.hold(this.placeAt(anchor), anchor, scale);
   }
 
   /**
-   * Take a scale; a place of the picture comes to a point of the stage, as far as there is picture.
+   * Set the scale and move a place of the picture to a point of the stage, as far as the picture's
+   * edges allow.
    *
    * @param {Point} place
    * @param {Point} at
@@ -100,40 +101,40 @@ export class Zoom {
     this.chosen = wanted;
     const { width, height } = this.box();
     const [mx, my] = this.middle();
-    this.centre = [place[0] + (mx - at[0]) / width, place[1] + (my - at[1]) / height];
-    // What would be past the picture's edge is not kept: the way back begins at once.
-    this.centre = this.placeAt(this.middle());
+    this.center = [place[0] + (mx - at[0]) / width, place[1] + (my - at[1]) / height];
+    // Drop what lies past the picture's edge, so that panning back responds at once.
+    this.center = this.placeAt(this.middle());
     this.onChange();
   }
 
-  /** The next larger (1) or smaller (-1) step, the fit being one. @param {1 | -1} way @param {Point} [anchor] */
-  step(way, anchor) {
+  /** Go to the next larger (1) or smaller (-1) stop; the fit is one. @param {1 | -1} direction @param {Point} [anchor] */
+  step(direction, anchor) {
     const [least, most] = this.bounds;
     const steps = [...STEPS, this.fitScale].sort((a, b) => a - b);
-    if (way < 0) steps.reverse();
-    const past = (/** @type {number} */ step) => way * (step / this.scale - 1) > 1e-3;
+    if (direction < 0) steps.reverse();
+    const past = (/** @type {number} */ step) => direction * (step / this.scale - 1) > 1e-3;
     const next = steps.find((step) => past(step) && step >= least && step <= most);
     if (next !== undefined) this.zoomTo(next, anchor);
   }
 
-  /** Between the fit and 100 %; where these are the same, 200 %. @param {Point} [anchor] */
+  /** Toggle between the fit and 100 %, or 200 % if these are the same. @param {Point} [anchor] */
   toggle(anchor) {
     if (!this.fits) return this.fit();
     this.zoomTo(Math.abs(this.fitScale - 1) < 0.02 ? 2 : 1, anchor);
   }
 
-  /** Shift the picture. @param {number} x @param {number} y */
+  /** Pan the picture. @param {number} x @param {number} y */
   pan(x, y) {
     const [left, top] = this.middle();
     this.bring(this.placeAt([left, top]), [left + x, top + y]);
   }
 
-  /** Shift the picture until a place of it is at a point of the stage, as far as there is picture. @param {Point} place @param {Point} [at] */
+  /** Pan until a place of the picture is at a point of the stage, as far as its edges allow. @param {Point} place @param {Point} [at] */
   bring(place, at = this.middle()) {
     if (!this.fits) this.hold(place, at, this.scale);
   }
 
-  /** The place of the picture at a point of the stage. @param {Point} point @returns {Point} */
+  /** Return the place of the picture at a point of the stage. @param {Point} point @returns {Point} */
   placeAt([x, y]) {
     const box = this.box();
     return [(x - box.x) / box.width, (y - box.y) / box.height];
@@ -146,8 +147,8 @@ export class Zoom {
 }
 
 /**
- * Where the picture begins along one side of the stage: in the middle where it has room, else never
- * farther in than the margin.
+ * Return the picture's start along one side of the stage: centered if it fits, else at most the
+ * margin from the edge.
  *
  * @param {number} length of the picture
  * @param {number} room of the stage

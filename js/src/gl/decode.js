@@ -1,9 +1,8 @@
 /**
- * sRGB code values to linear light, by a table of 256 floats.
+ * Converts sRGB code values to linear light with a table of 256 floats.
  *
- * The GPU could decode an SRGB8_ALPHA8 texture itself, but drivers approximate: Mesa's
- * software rasteriser errs by enough to flip a threshold against the kernel, which decodes by
- * the same table.
+ * The GPU could decode an SRGB8_ALPHA8 texture itself, but drivers approximate: Mesa's software
+ * rasterizer errs by enough to flip a threshold against the kernel, which uses the same table.
  */
 
 import { createProgram } from "./program.js";

@@ -1,4 +1,4 @@
-/** One draw of a program: a triangle over all of the target, or over its pixels at some depth. */
+/** Draws a program: a triangle over the whole target, or over its pixels at one depth. */
 
 import { setUniform } from "./program.js";
 
@@ -32,7 +32,7 @@ export function draw(gl, program, values, textures) {
 }
 
 /**
- * Write to which part each pixel belongs as its depth.
+ * Write each pixel's part as its depth.
  *
  * @param {WebGL2RenderingContext} gl
  * @param {Program} program
@@ -51,8 +51,8 @@ export function writeParts(gl, program, values, textures) {
 }
 
 /**
- * Draw each part's pixels by its program. Where the depth differs no driver runs a shader, while
- * some compute both sides of a branch.
+ * Draw each part's pixels with its program. The depth test skips other pixels on every driver,
+ * while some drivers compute both sides of a branch.
  *
  * @param {WebGL2RenderingContext} gl
  * @param {Program[]} programs

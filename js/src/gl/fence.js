@@ -1,4 +1,4 @@
-/** Whether the graphics card has done what it was told, asked without waiting for it. */
+/** Checks whether the GPU has finished its work, without waiting for it. */
 
 export class Fence {
   /** @param {import("./surface.js").Surface} surface */
@@ -11,8 +11,8 @@ export class Fence {
   }
 
   /**
-   * Whether all that the surface had drawn when this was first asked is done. Ask again later
-   * while it is not; after a yes, the next question is about what was drawn since.
+   * Whether everything that the surface had drawn at the first call is finished. Call again later
+   * while false; after true, the next call starts a new fence.
    */
   passed() {
     const gl = this.surface.graph?.gl;

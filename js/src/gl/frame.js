@@ -15,7 +15,7 @@ import { states } from "./values.js";
 export const MAPS = ["layers", "surface", "backdrop", "clear_sky", "relief", "transfer", "lamps"];
 
 /**
- * What the host adds to every frame: encode as sRGB, dither by half a level, show all of it.
+ * Host uniforms of every frame: encode as sRGB, dither by half a level, show the whole picture.
  *
  * @type {import("./values.js").Values}
  */
@@ -54,7 +54,7 @@ export class Frame extends Surface {
   }
 
   /**
-   * What the graph needs to draw an edit at a size in pixels; null before the scene is there.
+   * Return the graph's inputs for an edit at a size in pixels; null before there is a scene.
    *
    * @param {Edit} edit
    * @param {[number, number]} size
@@ -72,8 +72,8 @@ export class Frame extends Surface {
   }
 
   /**
-   * Draw the edit at a size in pixels. Returns false when the context was lost meanwhile: the
-   * canvas then keeps its last frame, and another call draws anew.
+   * Draw the edit at a size in pixels. Returns false if the context was lost: the canvas then keeps
+   * its last frame, and another call draws again.
    *
    * @param {Edit} edit
    * @param {[number, number]} size

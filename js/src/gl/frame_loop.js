@@ -1,38 +1,38 @@
 /**
- * When a view draws: once a refresh of the screen at most, only while it is in sight, smaller while
- * a drag lasts and the machine is behind, and in full as soon as the hand rests. The first frame of
- * a scene, which all that is kept of it is drawn for, is no larger than it can be seen either.
+ * Schedules a view's drawing: at most once per screen refresh, only while visible, smaller during a
+ * drag on a slow machine, and in full once the gesture rests. The first frame of a scene, which
+ * also draws everything that is cached, is no larger than visible either.
  */
 
 const SLOW_MS = 33; // a frame that waits longer makes the next ones smaller
-const FAST_MS = 18; // waiting for the screen's next refresh takes as long
-// Sizes that a drag may take. Few, since with a new size all of the picture's passes are drawn again.
+const FAST_MS = 18; // about the wait for the screen's next refresh
+// Scales of a drag. Few, since a new size redraws all of the picture's passes.
 const SCALES = [1, 0.84, 0.71, 0.59, 0.5, 0.42, 0.35];
-// Frames after a new size: the first draws what later ones find drawn, the second waits for it.
-const UNLIKE_FRAMES = 2;
-const SETTLED_MS = 160; // after this long without a change the frame is drawn in full
+// Frames after a new size that are not timed: the first fills the caches, the second waits for it.
+const UNTIMED_FRAMES = 2;
+const SETTLED_MS = 160; // without a change, after which the frame is drawn in full
 
 export class FrameLoop {
   /**
    * @param {(scale: number) => void} draw draws at a share of the full size
-   * @param {() => boolean} dragging whether a gesture is under way
+   * @param {() => boolean} dragging whether a gesture is in progress
    * @param {AbortSignal} signal
    */
   constructor(draw, dragging, signal) {
     this.draw = draw;
     this.dragging = dragging;
     this.signal = signal;
-    this.inSight = true;
-    this.owed = false; // a frame was asked for while out of sight
-    /** @type {() => number} the largest scale that can be seen while a drag lasts */
+    this.visible = true;
+    this.owed = false; // a frame was requested while not visible
+    /** @type {() => number} the largest visible scale during a drag */
     this.limit = () => 1;
-    this.first = false; // whether somebody waits for the first frame of a scene
-    this.wanted = 1; // the scale that would be just fast enough
-    this.scale = 1; // the last one that was drawn
-    this.unlike = UNLIKE_FRAMES; // how many frames still say nothing about speed
+    this.first = false; // whether the first frame of a scene is pending
+    this.wanted = 1; // the largest scale that is fast enough
+    this.scale = 1; // of the last frame
+    this.untimed = UNTIMED_FRAMES; // how many frames are still not timed
     this.pending = 0;
-    this.asked = 0; // when the frame under way was asked for, ms
-    this.spent = 0; // from asking for the last frame until it was drawn, ms
+    this.asked = 0; // when the current frame was requested, ms
+    this.spent = 0; // from the request of the last frame until it was drawn, ms
     this.rests = false;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.settle = undefined;
@@ -47,20 +47,20 @@ export class FrameLoop {
     return this.pending !== 0 || this.settle !== undefined;
   }
 
-  /** Something changed: draw with the next refresh. */
+  /** Draw with the next refresh. */
   request() {
     this.rests = false;
     this.schedule();
   }
 
-  /** Whether anybody can see the view: what it owes is drawn when it comes in sight. @param {boolean} inSight */
-  setSight(inSight) {
-    this.inSight = inSight;
-    if (inSight && this.owed) this.schedule();
+  /** Set whether the view is visible; an owed frame is drawn when it becomes visible. @param {boolean} visible */
+  setVisible(visible) {
+    this.visible = visible;
+    if (visible && this.owed) this.schedule();
   }
 
   schedule() {
-    this.owed = !this.inSight;
+    this.owed = !this.visible;
     if (this.owed || this.pending || this.signal.aborted) return;
     this.asked = performance.now();
     this.pending = requestAnimationFrame(() => {
@@ -74,20 +74,20 @@ export class FrameLoop {
     const asSeen = this.first && this.limit() < 1;
     const small = (this.dragging() || asSeen) && !this.rests;
     this.first = false;
-    const scale = small ? Math.min(rung(this.wanted), this.limit()) : 1;
-    if (scale !== this.scale) this.unlike = UNLIKE_FRAMES;
+    const scale = small ? Math.min(floorScale(this.wanted), this.limit()) : 1;
+    if (scale !== this.scale) this.untimed = UNTIMED_FRAMES;
     this.scale = scale;
     clearTimeout(this.settle);
-    // Where frames take long, so do the hand's moves until they arrive.
+    // On a slow machine pointer moves also arrive late.
     this.settle = small ? setTimeout(() => this.finish(), SETTLED_MS + 2 * this.spent) : undefined;
     this.draw(scale);
-    // A machine that is behind lets a frame wait, or its drawing; a slow hand does neither.
+    // A slow machine delays the frame or its drawing; a slow gesture delays neither.
     this.spent = performance.now() - asked;
-    if (this.unlike > 0) this.unlike -= 1;
+    if (this.untimed > 0) this.untimed -= 1;
     else if (small) this.adapt(this.spent);
   }
 
-  /** The hand rests: draw in full. */
+  /** Draw in full once the gesture rests. */
   finish() {
     this.settle = undefined;
     this.rests = true;
@@ -105,5 +105,5 @@ export class FrameLoop {
   }
 }
 
-/** The largest of `SCALES` that is not above the wanted one. @param {number} wanted */
-const rung = (wanted) => SCALES.find((scale) => scale <= wanted) ?? SCALES[SCALES.length - 1];
+/** Return the largest of `SCALES` that does not exceed the wanted one. @param {number} wanted */
+const floorScale = (wanted) => SCALES.find((scale) => scale <= wanted) ?? SCALES[SCALES.length - 1];

@@ -1,13 +1,13 @@
 /**
- * Run the frame graph on WebGL2. `docs/developer/frame-graph.md` is the contract; the kernel's twin is
- * `sunwidget/renderer/graph.py`. A runner knows nothing about skies: it compiles the passes,
- * hands them uniforms and textures, and runs again only what changed.
+ * Runs the frame graph on WebGL2. `docs/developer/frame-graph.md` is the contract; the kernel's twin
+ * is `sunwidget/renderer/graph.py`. A runner knows nothing about skies: it compiles the passes,
+ * passes them uniforms and textures, and reruns only what changed.
  */
 
 import { createLightTexture } from "./decode.js";
 import { draw, drawParts, writeParts } from "./draw.js";
 import { Programs } from "./programs.js";
-import { missingFeature, turn } from "./target.js";
+import { missingFeature, swapHistory } from "./target.js";
 import { same, Targets } from "./targets.js";
 import { createPictureTexture } from "./texture.js";
 import { uniformValue } from "./values.js";
@@ -26,13 +26,13 @@ import { uniformValue } from "./values.js";
  * @typedef {{
  *   states: Record<string, Values>, scene: Values, host: Values, size: [number, number],
  *   sizes?: Record<string, [number, number]>, methods: string[],
- * }} Frame what a run needs: values by state, and who asks for it (`when`)
+ * }} Frame inputs of a run: values by state, and the methods that select passes (`when`)
  */
 
 // Scene textures whose channels are encoded sRGB; the others hold levels.
 const ENCODED = new Set(["photo"]);
 
-// What a pass with a history reads of it; no part of what makes it dirty.
+// Inputs that a pass reads from its history; they do not make it dirty.
 const HISTORY = new Set(["history", "sample_index"]);
 
 export class Graph {
@@ -54,13 +54,13 @@ export class Graph {
     this.runs = {};
     /** @type {(number | string)[]} what the canvas's depth was drawn from (draw.js) */
     this.partsKey = [];
-    /** @type {Set<string>} passes that the present run may draw */
+    /** @type {Set<string>} passes that the current run may draw */
     this.drawn = new Set();
-    this.versions = 0; // of all textures: two sizes of one pass must differ, too
+    this.versions = 0; // of all textures: two sizes of one pass must also differ
   }
 
   /**
-   * Upload a scene texture; whatever reads it is drawn again.
+   * Upload a scene texture; passes that read it are redrawn.
    *
    * @param {string} name
    * @param {import("./texture.js").Pixels} pixels
@@ -76,8 +76,8 @@ export class Graph {
   }
 
   /**
-   * Run what changed of the pass `until` and all that it reads: unless it is named, the pass whose
-   * format is `output`, which draws to the canvas.
+   * Run what changed in the pass `until` and everything that it reads. By default `until` is the
+   * pass with format `output`, which draws to the canvas.
    *
    * @param {Frame} frame
    * @param {string} [until]
@@ -94,8 +94,7 @@ export class Graph {
   }
 
   /**
-   * Begin to compile what a run needs, and return its passes. Nobody waits yet, so a run that comes
-   * later finds the programs there.
+   * Start compiling what a run needs, without waiting, and return its passes.
    *
    * @param {string[]} methods
    * @param {string} [until]
@@ -114,7 +113,7 @@ export class Graph {
   }
 
   /**
-   * `last` and the rows that it reads, each pass by way of others.
+   * Return `last` and the rows that it reads, directly or through other passes.
    *
    * @param {Pass[]} rows
    * @param {Pass} last
@@ -130,7 +129,7 @@ export class Graph {
   }
 
   /**
-   * The first of an input's names that is drawn in this run or loaded.
+   * Return the first of an input's names that is drawn in this run or loaded.
    *
    * @param {string | string[]} names
    */
@@ -180,7 +179,7 @@ export class Graph {
     const unchanged = target?.key && same(target.key, key);
     if (target && pass.history) {
       if (!unchanged) target.samples = 0;
-      textures.history = turn(gl, pass.name, target);
+      textures.history = swapHistory(gl, pass.name, target);
       values.sample_index = target.samples;
     } else if (unchanged) {
       return;
@@ -206,8 +205,8 @@ export class Graph {
   }
 
   /**
-   * What draws a pass: its shader alone, or what tells its parts apart and then each part's. Without
-   * a depth buffer the pass' own shader draws all parts.
+   * Return a pass's stages: its shader alone, or the shader that separates its parts and then each
+   * part's. Without a depth buffer the pass's own shader draws all parts.
    *
    * @param {Pass} pass
    * @returns {Stage[]}
@@ -224,7 +223,7 @@ export class Graph {
   }
 
   /**
-   * Where a pass draws, or has drawn just this.
+   * Return the target that a pass draws to, or the one that already holds this result.
    *
    * @param {Pass} pass
    * @param {[number, number]} size

@@ -1,5 +1,5 @@
 /**
- * The include resolver. The kernel's twin is `sunwidget/renderer/shader_source.py`; a test
+ * Expands includes. The kernel's twin is `sunwidget/renderer/shader_source.py`; a test
  * asserts that both expand every pass to the same text.
  */
 

@@ -1,10 +1,10 @@
 /**
  * The WebGL contexts of a page, least recently drawn first.
  *
- * A browser keeps few (Chromium 16) and kills the oldest without asking, whoever's it is; each of
+ * A browser allows few (Chromium 16) and kills the oldest without asking, whoever owns it; each of
  * ours holds the pictures and maps of one view in graphics memory. So all surfaces of the page, of
- * every bundle and of every copy of a bundle, register here, and the one that was drawn longest ago
- * gives its context back before another is made. It makes a new one when it is drawn again.
+ * every bundle and every copy of a bundle, register here, and the least recently drawn one releases
+ * its context before another is made. It makes a new one when it is drawn again.
  */
 
 const KEY = Symbol.for("sunwidget.contexts");
@@ -12,7 +12,7 @@ const KEY = Symbol.for("sunwidget.contexts");
 export const MOST_CONTEXTS = 4;
 
 /**
- * Ways to give a context back; a set keeps the order in which they were added.
+ * Functions that release a context; a set keeps their order.
  *
  * @returns {Set<() => void>}
  */
@@ -23,9 +23,9 @@ function contexts() {
 }
 
 /**
- * A context is about to be made or drawn with.
+ * Register a context before it is made or used.
  *
- * @param {() => void} release gives it back; always the same function for one owner
+ * @param {() => void} release releases it; always the same function for one owner
  */
 export function useContext(release) {
   const all = contexts();
@@ -38,7 +38,7 @@ export function useContext(release) {
   }
 }
 
-/** A context is gone. @param {() => void} release */
+/** Unregister a lost context. @param {() => void} release */
 export function forgetContext(release) {
   contexts().delete(release);
 }

@@ -1,4 +1,4 @@
-/** One compiled pass: its program and the uniforms that the driver reflects. */
+/** Compiles a pass: its program and the uniforms that the driver reflects. */
 
 const HEADER = "#version 300 es\n";
 const PRECISION = "precision highp float; precision highp int; precision highp sampler2D;\n";
@@ -28,14 +28,14 @@ void main() {
 export const createProgram = (gl, name, text) => beginProgram(gl, name, text)();
 
 /**
- * Begin to compile and link a pass, and return how to wait for it. The driver works on several at
- * once as long as nobody asks how one came out.
+ * Start compiling and linking a pass, and return a function that waits for it. The driver works on
+ * several at once until one is queried.
  *
  * @param {WebGL2RenderingContext} gl
  * @param {string} name for error messages
  * @param {string} text fragment shader with its includes expanded
- * @param {{ constants?: string, depth?: number }} vertex what is the same for all pixels, computed once
- *   a corner, and where the triangle lies, from -1 to 1
+ * @param {{ constants?: string, depth?: number }} vertex code for values that are constant over all
+ *   pixels, run per vertex, and the triangle's depth from -1 to 1
  * @returns {() => Program}
  */
 export function beginProgram(gl, name, text, vertex = {}) {
@@ -77,7 +77,7 @@ function checkStage(gl, name, shader, text) {
 }
 
 /**
- * Put the failing line and its neighbours beside each message of a compiler log.
+ * Add the failing line and its neighbors to each message of a compiler log.
  *
  * @param {string} log
  * @param {string} text
@@ -124,7 +124,7 @@ function reflect(gl, handle) {
 }
 
 /**
- * Hand one number or vector to a uniform of the type that the driver reflects.
+ * Set a uniform, of the type that the driver reflects, to a number or vector.
  *
  * @param {WebGL2RenderingContext} gl
  * @param {Uniform} uniform

@@ -1,11 +1,11 @@
-/** The programs of a graph's shaders, compiled when they are first asked for. */
+/** The programs of a graph's shaders, compiled on demand. */
 
 import { resolveIncludes } from "./include.js";
 import { beginProgram } from "./program.js";
 
 /**
  * @typedef {import("./program.js").Program} Program
- * @typedef {{ shader: string, constants?: string, depth?: number }} Stage what one draw is compiled of
+ * @typedef {{ shader: string, constants?: string, depth?: number }} Stage inputs of one program
  */
 
 export class Programs {
@@ -18,11 +18,11 @@ export class Programs {
     this.files = files;
     /** @type {Map<string, Program>} */
     this.made = new Map();
-    /** @type {Map<string, () => Program>} those under way */
+    /** @type {Map<string, () => Program>} programs being compiled */
     this.compiling = new Map();
   }
 
-  /** Begin to compile what is not compiled yet: nobody waits for it so far. @param {Stage} stage */
+  /** Start compiling a stage if needed, without waiting. @param {Stage} stage */
   begin({ shader, constants, depth }) {
     if (this.made.has(shader) || this.compiling.has(shader)) return;
     const text = (/** @type {string} */ name) => resolveIncludes(this.files, `${name}.glsl`);
@@ -42,7 +42,7 @@ export class Programs {
     return program;
   }
 
-  /** Free them. */
+  /** Free all programs. */
   dispose() {
     for (const program of this.made.values()) this.gl.deleteProgram(program.handle);
     this.made.clear();

@@ -1,8 +1,8 @@
 /**
- * Other edits of a surface's picture, drawn small beside it.
+ * Draws other edits of a surface's picture in small.
  *
- * They run on the surface's own context with its pictures and compiled shaders, but with targets
- * of their own: what the surface has drawn stays drawn, so that its next frame costs no more.
+ * They use the surface's context, pictures and compiled shaders, but their own targets, so that the
+ * surface's drawn passes stay valid and its next frame costs no more.
  */
 
 import { Graph } from "./graph.js";
@@ -14,7 +14,7 @@ import { same } from "./targets.js";
  * @typedef {import("./target.js").Target} Target
  */
 
-/** A graph that reads what another has drawn, where it would draw just the same. */
+/** A graph that reuses another's drawn passes where it would draw the same. */
 class Borrower extends Graph {
   /** @param {Graph} lender */
   constructor(lender) {
@@ -22,9 +22,9 @@ class Borrower extends Graph {
     this.lender = lender;
     this.programs = lender.programs;
     this.textures = lender.textures;
-    /** @type {Map<string, Target>} of the present run: the lender may draw between two */
+    /** @type {Map<string, Target>} of the current run: the lender may draw between runs */
     this.lent = new Map();
-    // The lender counts in whole numbers: a version of one is never one of the other.
+    // The lender counts in whole numbers, so versions never collide.
     this.versions = 0.5;
   }
 
@@ -54,7 +54,7 @@ class Borrower extends Graph {
   }
 
   /**
-   * A pass that has parts is drawn in one go: the canvas has one depth, and it is the lender's.
+   * Draw a pass with parts at once: the canvas's only depth buffer belongs to the lender.
    *
    * @param {import("./graph.js").Pass} pass
    */
@@ -80,8 +80,8 @@ export class Sketch {
   }
 
   /**
-   * Draw onto a canvas, which takes all of the frame. Returns false while the surface has no
-   * living context: making one for a small picture would take it from a large one.
+   * Draw the whole frame onto a canvas. Returns false while the surface has no live context: making
+   * one for a small picture would take it from a large one.
    *
    * @param {Frame} frame
    * @param {HTMLCanvasElement} canvas
@@ -93,7 +93,7 @@ export class Sketch {
     if (this.graph?.lender !== lender) this.graph = new Borrower(lender);
     const { gl } = lender;
     const [width, height] = frame.size;
-    // The surface gives its canvas a size again before it draws.
+    // The surface resizes its canvas again before it draws.
     if (gl.canvas.width < width || gl.canvas.height < height) {
       gl.canvas.width = Math.max(gl.canvas.width, width);
       gl.canvas.height = Math.max(gl.canvas.height, height);
@@ -108,7 +108,7 @@ export class Sketch {
   }
 
   /** Free the targets; the next drawing makes them again. */
-  rest() {
+  freeTargets() {
     if (this.graph && this.graph.lender === this.surface.graph) this.graph.targets.dispose();
     this.graph = null;
   }

@@ -1,4 +1,4 @@
-/** sRGB's code values and the linear light that they stand for (IEC 61966-2-1). */
+/** Conversion between sRGB code values and linear light (IEC 61966-2-1). */
 
 /** @param {number} code 0–1 @returns {number} linear light, 0–1 */
 const decode = (code) => (code <= 0.04045 ? code / 12.92 : ((code + 0.055) / 1.055) ** 2.4);

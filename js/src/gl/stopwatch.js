@@ -1,6 +1,6 @@
 /**
- * How long a frame takes: by the graphics card's own clock where the browser lets a page read it, else from
- * the first command until a fence says that all of them are done.
+ * Measures a frame's time: with a GPU timer query where the browser allows it, else from the first
+ * command until a fence signals that all are done.
  */
 
 /**
@@ -8,18 +8,18 @@
  * @typedef {{ TIME_ELAPSED_EXT: number, GPU_DISJOINT_EXT: number }} TimerQueries
  */
 
-const POLL_MS = 2; // how soon the card is asked again
+const POLL_MS = 2; // interval between queries
 
 export class Stopwatch {
-  /** @param {(lap: Lap) => void} tell is told each frame's time, some time after it was drawn */
-  constructor(tell) {
-    this.tell = tell;
-    /** Whether the last frame is still being measured: frames that come meanwhile are not. */
+  /** @param {(lap: Lap) => void} onLap receives each frame's time, some time after it was drawn */
+  constructor(onLap) {
+    this.onLap = onLap;
+    /** Whether a frame is being measured; frames drawn meanwhile are not measured. */
     this.running = false;
   }
 
   /**
-   * Do the work that draws a frame, and measure it.
+   * Run the work that draws a frame, and measure it.
    *
    * @template T
    * @param {WebGL2RenderingContext} gl
@@ -55,11 +55,11 @@ export class Stopwatch {
       gl.endQuery(timer.TIME_ELAPSED_EXT);
       this.await(gl, () => {
         if (!gl.getQueryParameter(query, gl.QUERY_RESULT_AVAILABLE)) return false;
-        // A card that changed its clock meanwhile has measured nothing.
+        // A GPU clock change meanwhile invalidates the measurement.
         const valid = !gl.getParameter(timer.GPU_DISJOINT_EXT);
         const ms = Number(gl.getQueryParameter(query, gl.QUERY_RESULT)) / 1e6;
         gl.deleteQuery(query);
-        if (valid) this.tell({ ms, by: "timer query" });
+        if (valid) this.onLap({ ms, by: "timer query" });
         return true;
       });
     }
@@ -78,14 +78,14 @@ export class Stopwatch {
     this.await(gl, () => {
       if (gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) return false;
       gl.deleteSync(fence);
-      this.tell({ ms: performance.now() - begin, by: "fence" });
+      this.onLap({ ms: performance.now() - begin, by: "fence" });
       return true;
     });
     return result;
   }
 
   /**
-   * Ask until the answer is yes. A lost context never answers.
+   * Poll until `answered` returns true. A lost context never answers.
    *
    * @param {WebGL2RenderingContext} gl
    * @param {() => boolean} answered
@@ -100,7 +100,7 @@ export class Stopwatch {
 }
 
 /**
- * The graphics card's name, or its driver's, as the browser tells it.
+ * Return the name of the graphics card or driver, as the browser reports it.
  *
  * @param {WebGL2RenderingContext} gl
  */

@@ -1,9 +1,9 @@
 /**
- * A frame graph's pixels on a canvas of the page.
+ * Shows a frame graph's pixels on a canvas of the page.
  *
- * The graph draws to a WebGL canvas of its own, and each finished frame is copied to the
- * visible 2-D canvas. So the last frame stays in sight when the WebGL context is lost or given
- * back to the page's pool, and the next draw makes a new one.
+ * The graph draws to its own WebGL canvas, and each finished frame is copied to the visible 2-D
+ * canvas. So the last frame stays visible when the WebGL context is lost or released to the page's
+ * pool, and the next draw makes a new one.
  */
 
 import { Graph } from "./graph.js";
@@ -17,23 +17,23 @@ import { readLevels } from "./texture.js";
  */
 
 const NO_WEBGL =
-  "This browser offers no WebGL2, which the live preview needs. Turn on hardware acceleration " +
-  "or use another browser; exports from Python work all the same.";
+  "This browser has no WebGL2, which the live preview needs. Turn on hardware acceleration " +
+  "or use another browser; exports from Python still work.";
 const TAKEN_AWAY =
-  "The browser took the graphics context away and gives no other, as after a crash of the graphics " +
-  "driver. Load the page again; your edit is kept.";
-const MOST_LOSSES = 3; // in a row: what takes the context away does so at every try
+  "The browser took the graphics context away and offers no other, as after a graphics driver " +
+  "crash. Reload the page; your edit is kept.";
+const MOST_LOSSES = 3; // in a row, after which the cause is taken to be permanent
 
 export class Surface {
   /**
    * @param {HTMLCanvasElement} canvas the visible canvas
    * @param {Description} description
    * @param {Record<string, string>} files shader texts by path
-   * @param {{ alpha: boolean }} options whether the picture may be see-through
+   * @param {{ alpha: boolean }} options whether the picture may be transparent
    */
   constructor(canvas, description, files, { alpha }) {
     const context = canvas.getContext("2d", { alpha });
-    if (!context) throw new Error("This browser offers no 2-D canvas.");
+    if (!context) throw new Error("This browser has no 2-D canvas.");
     this.canvas = canvas;
     this.context = context;
     this.description = description;
@@ -43,12 +43,12 @@ export class Surface {
     this.pictures = new Map();
     /** @type {Graph | null} */
     this.graph = null;
-    /** @type {import("./stopwatch.js").Stopwatch | null} what measures the frames, if anybody asks */
+    /** @type {import("./stopwatch.js").Stopwatch | null} measures frames, if set */
     this.stopwatch = null;
-    this.turns = 1; // how many edits are drawn in turn (targets.js)
-    this.worked = false; // whether there ever was a context
-    this.losses = 0; // of contexts, since one worked
-    this.release = () => this.giveBack();
+    this.turns = 1; // number of edits drawn in turn (targets.js)
+    this.worked = false; // whether there has ever been a context
+    this.losses = 0; // contexts lost in a row
+    this.release = () => this.releaseContext();
   }
 
   /**
@@ -66,12 +66,12 @@ export class Surface {
     } catch (error) {
       if (!gl.isContextLost()) throw error;
     }
-    if (gl.isContextLost()) this.forget(); // the next draw loads all pictures anew
+    if (gl.isContextLost()) this.forget(); // the next draw loads all pictures again
   }
 
   /**
-   * Draw at the frame's size. Returns false when the context was lost meanwhile: the canvas then
-   * keeps its last frame, and another call draws anew.
+   * Draw at the frame's size. Returns false if the context was lost: the canvas then keeps its last
+   * frame, and another call draws again.
    *
    * @param {Frame} frame
    */
@@ -93,7 +93,7 @@ export class Surface {
   }
 
   /**
-   * Draw one pass and what it reads, and return its texels; null when the context was lost.
+   * Draw one pass and what it reads, and return its texels; null if the context was lost.
    *
    * @param {Frame} frame
    * @param {string} name
@@ -106,8 +106,8 @@ export class Surface {
   }
 
   /**
-   * The levels of a texture of bytes, all four channels as they were sent; null while there is none
-   * or when the context was lost.
+   * Return the levels of a byte texture, all four channels as sent; null if there is none or the
+   * context was lost.
    *
    * @param {string} name
    */
@@ -120,8 +120,8 @@ export class Surface {
   }
 
   /**
-   * What some work with the graph returns; null when the context was lost in it. Whatever the work
-   * had to say of a lost context is beside the point.
+   * Run work with the graph and return its result; null if the context was lost meanwhile. Errors
+   * from a lost context are ignored.
    *
    * @template T
    * @param {(graph: Graph) => T} work
@@ -152,7 +152,7 @@ export class Surface {
     throw new Error(TAKEN_AWAY);
   }
 
-  /** The present context, or a new one in place of one that was lost. */
+  /** Return the current context, or a new one if it was lost. */
   liveContext() {
     useContext(this.release);
     if (this.graph && !this.graph.gl.isContextLost()) return this.graph.gl;
@@ -192,8 +192,8 @@ export class Surface {
     return this.context.getImageData(0, 0, this.canvas.width, this.canvas.height).data;
   }
 
-  /** Free the context: the canvas keeps its last frame, and the next draw makes another context. */
-  giveBack() {
+  /** Free the context: the canvas keeps its last frame, and the next draw makes a new context. */
+  releaseContext() {
     if (this.graph) {
       this.graph.dispose();
       loseContext(this.graph.gl);
@@ -203,17 +203,17 @@ export class Surface {
 
   /** Free the context and the pictures. */
   dispose() {
-    this.giveBack();
+    this.releaseContext();
     for (const picture of this.pictures.values()) if ("close" in picture) picture.close();
     this.pictures.clear();
   }
 }
 
-/** Free a context now; without a word it would live until memory runs short. @param {WebGL2RenderingContext | null} gl */
+/** Free a context now; otherwise it would live until memory runs short. @param {WebGL2RenderingContext | null} gl */
 const loseContext = (gl) => gl?.getExtension("WEBGL_lose_context")?.loseContext();
 
 /**
- * Give a canvas a size, which empties it; returns whether it had another.
+ * Resize a canvas, which clears it; returns whether the size changed.
  *
  * @param {HTMLCanvasElement | OffscreenCanvas} canvas
  * @param {number} width

@@ -1,4 +1,4 @@
-/** A texture that a pass draws to, and the values from which it was drawn last. */
+/** A texture that a pass draws to, and the values that it was last drawn from. */
 
 import { createFloatTexture } from "./texture.js";
 
@@ -10,11 +10,11 @@ import { createFloatTexture } from "./texture.js";
  *   samples: number,
  *   frame: number,
  *   previous: Target | null,
- * }} Target `samples`: how many draws a pass with a history has gathered, in turn with `previous`;
+ * }} Target `samples`: number of draws accumulated by a pass with a history, in turn with `previous`;
  *   `frame`: width of the frame that it was drawn for
  */
 
-/** Say why a picture cannot be drawn here, or return null when it can.
+/** Return why a picture cannot be drawn here, or null.
  *
  * @param {WebGL2RenderingContext} gl
  * @returns {string | null}
@@ -23,18 +23,18 @@ export function missingFeature(gl) {
   if (gl.getExtension("EXT_color_buffer_float")) return null;
   return (
     "This device cannot draw to floating-point textures (EXT_color_buffer_float), which the " +
-    "sky needs. Another browser or a computer with a graphics driver will do; exports from " +
-    "Python work all the same."
+    "sky needs. Use another browser or a computer with a graphics driver; exports from Python " +
+    "still work."
   );
 }
 
 /**
- * The sides of the largest target that a context is known to take. Asking waits for all that it
- * has been told to draw, so a smaller one, as for a drag or a thumbnail, is not asked about.
+ * Sides of the largest target that each context has accepted. Checking waits for all pending
+ * drawing, so a smaller target, as for a drag or a thumbnail, is not checked.
  *
  * @type {WeakMap<WebGL2RenderingContext, [number, number]>}
  */
-const taken = new WeakMap();
+const accepted = new WeakMap();
 
 /**
  * @param {WebGL2RenderingContext} gl
@@ -48,26 +48,26 @@ export function createTarget(gl, pass, width, height) {
   const framebuffer = gl.createFramebuffer();
   gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
   gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture.handle, 0);
-  const [widest, highest] = taken.get(gl) ?? [0, 0];
+  const [widest, highest] = accepted.get(gl) ?? [0, 0];
   if (width > widest || height > highest) {
     const status = gl.checkFramebufferStatus(gl.FRAMEBUFFER);
     if (status !== gl.FRAMEBUFFER_COMPLETE && !gl.isContextLost()) {
       const size = `${width}×${height}`;
       throw new Error(`The target of pass "${pass}" (${size}) is incomplete (${status}).`);
     }
-    taken.set(gl, [Math.max(widest, width), Math.max(highest, height)]);
+    accepted.set(gl, [Math.max(widest, width), Math.max(highest, height)]);
   }
   return { texture, framebuffer, key: null, samples: 0, frame: 0, previous: null };
 }
 
 /**
- * Swap what a target holds with what it held before, and return the texture to be read.
+ * Swap a target's current and previous textures, and return the one to read.
  *
  * @param {WebGL2RenderingContext} gl
  * @param {string} pass for error messages
  * @param {Target} target
  */
-export function turn(gl, pass, target) {
+export function swapHistory(gl, pass, target) {
   const { width, height, version } = target.texture;
   target.previous ??= createTarget(gl, pass, width, height);
   const { texture, framebuffer, previous } = target;

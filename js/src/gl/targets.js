@@ -1,6 +1,6 @@
 /**
- * What the passes of a graph draw to: the target each used last, and those that it may take again, since a drag
- * draws smaller and several edits are drawn in turn.
+ * The targets of a graph's passes: each pass's latest, and spares for reuse, since drags draw smaller
+ * and several edits are drawn in turn.
  */
 
 import { createTarget, deleteTarget } from "./target.js";
@@ -14,17 +14,18 @@ export class Targets {
     /** @type {Map<string, Target>} by pass */
     this.latest = new Map();
     /**
-     * What passes drew at another size: a drag draws smaller, and what follows it is there already.
+     * Targets at other sizes: after a drag's smaller frames, the full-size results are still there.
      *
      * @type {Map<string, Target[]>}
      */
     this.spares = new Map();
-    /** How many edits are drawn in turn: so many are kept of each table that has a size of its own. */
+    /** Number of edits drawn in turn, and of targets kept for each table of fixed size. */
     this.turns = 1;
   }
 
   /**
-   * Where a pass draws, or has drawn just this: what it drew for another size of the frame stays.
+   * Return the target that a pass draws to, or the one that already holds this result. The result for
+   * another frame size stays.
    *
    * @param {import("./graph.js").Pass} pass
    * @param {[number, number]} size
@@ -33,17 +34,17 @@ export class Targets {
    */
   take({ name, size: asked }, size, key, frame) {
     const table = this.turns > 1 && typeof asked[0] === "number";
-    // The one that was used last comes first.
-    const made = [this.latest.get(name), this.spares.get(name)].flatMap((t) => t ?? []);
-    const fitting = made.filter(({ texture: t }) => t.width === size[0] && t.height === size[1]);
+    // Most recently used first.
+    const all = [this.latest.get(name), this.spares.get(name)].flatMap((t) => t ?? []);
+    const fitting = all.filter(({ texture: t }) => t.width === size[0] && t.height === size[1]);
     const target =
       fitting.find((t) => t.key && same(t.key, key)) ??
       (table ? fitting[this.turns - 1] : fitting.find((t) => t.frame === frame)) ??
       createTarget(this.gl, name, ...size);
     target.frame = frame;
     this.latest.set(name, target);
-    const others = made.filter((t) => t !== target);
-    // Of many sizes the picture in full is kept: it is the dearest.
+    const others = all.filter((t) => t !== target);
+    // Of many sizes keep the full picture: it is the most expensive.
     if (!table) others.sort((a, b) => b.frame - a.frame);
     const kept = table ? this.turns - 1 : 1;
     this.spares.set(name, others.slice(0, kept));
@@ -52,7 +53,7 @@ export class Targets {
   }
 
   /**
-   * What a pass drew last, RGBA by rows, row 0 at the top.
+   * Read back a pass's latest texels, RGBA by rows, row 0 at the top.
    *
    * @param {string} name
    */
@@ -67,7 +68,7 @@ export class Targets {
     return texels;
   }
 
-  /** Free them. */
+  /** Free all targets. */
   dispose() {
     for (const target of [...this.latest.values(), ...[...this.spares.values()].flat()]) {
       deleteTarget(this.gl, target);
@@ -84,6 +85,6 @@ export class Targets {
  * @param {(number | string)[]} b
  */
 export function same(a, b) {
-  // Object.is: a NaN must not draw its pass for ever.
+  // Object.is: a NaN must not redraw its pass forever.
   return a.length === b.length && a.every((value, i) => Object.is(value, b[i]));
 }

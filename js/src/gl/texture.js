@@ -1,4 +1,4 @@
-/** Textures with no filter state: every pass reads them with texelFetch. */
+/** Textures without filtering: every pass reads them with texelFetch. */
 
 /**
  * @typedef {{ handle: WebGLTexture, width: number, height: number, version: number }} Texture
@@ -21,7 +21,7 @@ function createHandle(gl) {
  * Upload a picture, row 0 at the top.
  *
  * @param {WebGL2RenderingContext} gl
- * @param {Pixels} pixels decoded picture of four 8-bit channels, or a table of four floats a texel
+ * @param {Pixels} pixels decoded picture of four 8-bit channels, or a table of four floats per texel
  * @returns {Texture}
  */
 export function createPictureTexture(gl, pixels) {
@@ -29,7 +29,7 @@ export function createPictureTexture(gl, pixels) {
   const limit = gl.getParameter(gl.MAX_TEXTURE_SIZE) ?? 2048;
   if (Math.max(width, height) > limit) {
     throw new Error(
-      `A picture of ${width}×${height} exceeds this browser's limit of ${limit} pixels a side.`,
+      `A picture of ${width}×${height} exceeds this browser's limit of ${limit} pixels per side.`,
     );
   }
   const handle = createHandle(gl);
@@ -46,7 +46,7 @@ export function createPictureTexture(gl, pixels) {
 }
 
 /**
- * Read a texture of bytes back. A 2-D canvas could not: it multiplies colours by alpha.
+ * Read back a byte texture. A 2-D canvas cannot: it multiplies colors by alpha.
  *
  * @param {WebGL2RenderingContext} gl
  * @param {Texture} texture
@@ -75,7 +75,7 @@ export function createFloatTexture(gl, width, height) {
 }
 
 /**
- * Decode PNG or JPEG bytes exactly: no premultiplied alpha, no colour conversion.
+ * Decode PNG or JPEG bytes exactly: no premultiplied alpha, no color conversion.
  *
  * @param {ArrayBufferView | ArrayBuffer} bytes
  * @returns {Promise<ImageBitmap>}

@@ -1,5 +1,5 @@
 /**
- * Where a uniform's value comes from: the edit, the scene or the host. The kernel's twin is
+ * Looks up uniform values in the edit, the scene or the host. The kernel's twin is
  * `sunwidget/renderer/values.py`.
  */
 
@@ -10,7 +10,7 @@
  */
 
 /**
- * Every number of an edit with automatic ones filled in, and the index of every choice.
+ * Return an edit's numbers, with automatic ones filled in, and the index of each choice.
  *
  * @param {Parameter[]} parameters
  * @param {Edit} edit
@@ -29,7 +29,7 @@ export function parameterValues(parameters, edit, automatic) {
 }
 
 /**
- * The values of both states, each with the `source_…` names added.
+ * Return the values of both states, each with the `source_…` names added.
  *
  * @param {Parameter[]} parameters
  * @param {Edit} edit
@@ -42,7 +42,7 @@ export function states(parameters, edit, automatic) {
   const fixed = Object.fromEntries(
     Object.entries(source).map(([name, value]) => [`source_${name}`, value]),
   );
-  // The method is no property of the picture: both states are drawn by the chosen one.
+  // The method is not a property of the picture: both states use the chosen one.
   if ("method" in current) source.method = current.method;
   return { source: { ...source, ...fixed }, edit: { ...current, ...fixed } };
 }

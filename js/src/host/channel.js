@@ -1,12 +1,12 @@
 /**
- * Requests to the kernel over the widget's custom messages. Every request has an id and is
- * answered, errors included; progress may arrive in between. The kernel's twin is
+ * Sends requests to the kernel as the widget's custom messages. Every request has an id and gets an
+ * answer or an error; progress may arrive in between. The kernel's twin is
  * `sunwidget/widgets/kernel/requests.py`.
  *
  * browser → kernel  { type: "request", id, action, … }
  *                   { type: "cancel", id }
  * kernel → browser  { type: "progress", id, fraction, message }
- *                   { type: "piece", id } with a buffer that comes before the response's own
+ *                   { type: "piece", id } with a buffer that precedes the response's own
  *                   { type: "response", id, result, error } with buffers
  */
 
@@ -17,16 +17,16 @@
  * @typedef {{
  *   resolve: (answer: Answer) => void, reject: (error: Error) => void, pieces: DataView[],
  *   onProgress?: OnProgress, outlives: boolean, timer?: ReturnType<typeof setTimeout>,
- * }} Pending `outlives` the channel: the kernel makes a file of its own of it
+ * }} Pending `outlives`: it continues after the channel closes, as it writes a file in the kernel
  */
 
-// A kernel that says nothing for so long was restarted or is gone.
+// A kernel silent for this long was restarted or is gone.
 const SILENCE_MS = 180_000;
 export const GONE = "The kernel is gone. Run the cell again.";
-const SILENT = "The kernel does not answer. If it was restarted, run the cell again.";
+const SILENT = "The kernel is not responding. If it was restarted, run the cell again.";
 
-/** The person wants the answer no more. */
-export class Cancelled extends Error {}
+/** The user canceled the request. */
+export class Canceled extends Error {}
 
 export class Channel {
   /**
@@ -37,7 +37,7 @@ export class Channel {
     this.model = model;
     /** @type {Map<string, Pending>} */
     this.open = new Map();
-    /** @type {() => void} called when the host can send nothing: it has shut the kernel down */
+    /** @type {() => void} called when the host cannot send because it has shut down the kernel */
     this.onGone = () => {};
     /** @type {(message: any, buffers: DataView[]) => void} */
     const receive = (message, buffers) => this.receive(message, buffers);
@@ -45,7 +45,7 @@ export class Channel {
     signal.addEventListener("abort", () => {
       model.off("msg:custom", receive);
       for (const [id, { outlives }] of this.open) {
-        this.end(id)?.reject(new Error("The editor was closed."));
+        this.remove(id)?.reject(new Error("The editor was closed."));
         if (!outlives) this.sendCancel(id);
       }
     });
@@ -57,13 +57,13 @@ export class Channel {
    * @param {OnProgress} [onProgress]
    * @param {ArrayBuffer[]} [buffers]
    * @param {AbortSignal} [signal] cancels: the kernel stops at its next step, the promise rejects
-   *   with `Cancelled` at once
+   *   with `Canceled` at once
    * @returns {Promise<Answer>}
    */
   request(action, content = {}, onProgress = undefined, buffers = [], signal = undefined) {
     const id = crypto.randomUUID?.() ?? String(Math.random());
     return new Promise((resolve, reject) => {
-      if (signal?.aborted) throw new Cancelled("Cancelled.");
+      if (signal?.aborted) throw new Canceled("Canceled.");
       try {
         this.model.send({ ...content, type: "request", id, action }, undefined, buffers);
       } catch {
@@ -73,19 +73,19 @@ export class Channel {
       const outlives = content.in_folder === true;
       this.open.set(id, { resolve, reject, pieces: [], onProgress, outlives });
       this.watch(id);
-      signal?.addEventListener("abort", () => this.giveUp(id, new Cancelled("Cancelled.")), {
+      signal?.addEventListener("abort", () => this.giveUp(id, new Canceled("Canceled.")), {
         once: true,
       });
     });
   }
 
-  /** The kernel is gone, and with it all that it was asked. @param {string} reason */
-  lose(reason) {
-    for (const id of [...this.open.keys()]) this.end(id)?.reject(new Error(reason));
+  /** Reject all open requests, as the kernel is gone. @param {string} reason */
+  rejectAll(reason) {
+    for (const id of [...this.open.keys()]) this.remove(id)?.reject(new Error(reason));
   }
 
-  /** Take a request off the list, which still has to be told. @param {string} id */
-  end(id) {
+  /** Remove a request and return it; the caller settles it. @param {string} id */
+  remove(id) {
     const pending = this.open.get(id);
     this.open.delete(id);
     clearTimeout(pending?.timer);
@@ -94,7 +94,7 @@ export class Channel {
 
   /** @param {string} id @param {Error} error */
   giveUp(id, error) {
-    const pending = this.end(id);
+    const pending = this.remove(id);
     if (!pending) return;
     pending.reject(error);
     this.sendCancel(id);
@@ -109,7 +109,7 @@ export class Channel {
     }
   }
 
-  /** Give up a request about which nothing is heard any more. @param {string} id */
+  /** Give up a request if the kernel stays silent about it. @param {string} id */
   watch(id) {
     const pending = this.open.get(id);
     if (!pending) return;
@@ -131,7 +131,7 @@ export class Channel {
       this.watch(message.id);
       pending.pieces.push(...buffers);
     } else if (message.type === "response") {
-      this.end(message.id);
+      this.remove(message.id);
       const { result, error } = message;
       if (error) pending.reject(new Error(error));
       else pending.resolve({ result, buffers: [...pending.pieces, ...(buffers ?? [])] });

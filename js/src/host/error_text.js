@@ -1,2 +1,2 @@
-/** What an error says, for a person to read. @param {unknown} error */
+/** Return an error's message. @param {unknown} error */
 export const errorText = (error) => (error instanceof Error ? error.message : String(error));

@@ -1,14 +1,14 @@
 /**
- * Keys that are pressed in a widget are the widget's: JupyterLab would insert cells at them. Only
- * the one that saves the notebook stays the host's. And none is lost with the focus.
+ * Keeps keys pressed in a widget from the host: JupyterLab would insert cells. Only the key that
+ * saves the notebook still reaches it. Also keeps the focus, and so the keys, inside the widget.
  */
 
 const MARK = "data-lm-suppress-shortcuts";
 
 /**
- * JupyterLab passes over what is marked, and what is inside of it; but it looks at the focused
- * element before it looks at what that is inside of, and some of its shortcuts ask only for a focus
- * within the notebook. So whatever gets the focus is marked too.
+ * JupyterLab ignores marked elements and their content; but it checks the focused element before its
+ * ancestors, and some of its shortcuts require only a focus within the notebook. So every focused
+ * element is marked too.
  *
  * @param {HTMLElement} root
  * @param {AbortSignal} signal
@@ -26,7 +26,7 @@ export function keepKeys(root, signal) {
       if (!isSaving(event) || !root.contains(/** @type {Node} */ (event.target))) return;
       const marked = [root, ...root.querySelectorAll(`[${MARK}]`)];
       for (const node of marked) node.removeAttribute(MARK);
-      // JupyterLab looks as soon as the key is on its way.
+      // JupyterLab checks while the event is dispatched.
       setTimeout(() => {
         for (const node of marked) node.setAttribute(MARK, "true");
       });
@@ -36,8 +36,8 @@ export function keepKeys(root, signal) {
 }
 
 /**
- * A control that is disabled while it has the focus drops it, and the keys that follow are lost:
- * the root takes it, and gives it back when the control is enabled again.
+ * A focused control that is disabled drops the focus, and later keys are lost: the root takes the
+ * focus, and returns it when the control is enabled again.
  *
  * @param {HTMLElement} root
  * @param {AbortSignal} signal
@@ -46,7 +46,7 @@ export function keepFocus(root, signal) {
   root.tabIndex = -1;
   /** @type {HTMLElement | null} */
   let waiting = null;
-  const seen = new MutationObserver((changes) => {
+  const observer = new MutationObserver((changes) => {
     for (const { target } of changes) {
       const node = /** @type {HTMLElement} */ (target);
       const { activeElement } = /** @type {Document | ShadowRoot} */ (root.getRootNode());
@@ -60,8 +60,8 @@ export function keepFocus(root, signal) {
       }
     }
   });
-  seen.observe(root, { subtree: true, attributeFilter: ["disabled"] });
-  signal.addEventListener("abort", () => seen.disconnect());
+  observer.observe(root, { subtree: true, attributeFilter: ["disabled"] });
+  signal.addEventListener("abort", () => observer.disconnect());
 }
 
 /** @param {KeyboardEvent} event */

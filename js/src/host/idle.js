@@ -1,11 +1,11 @@
-/** Work that may wait until the page has nothing else to do. */
+/** Runs work when the page is idle. */
 
-const FALLBACK_MS = 60; // where a browser cannot say when it is idle
-const LATEST_MS = 1500; // a slow machine that composes frame after frame may never be idle
+const FALLBACK_MS = 60; // for browsers without requestIdleCallback
+const LATEST_MS = 1500; // a slow machine that draws frame after frame may never be idle
 
 /**
  * @param {() => void} work
- * @returns {() => void} forgets the work
+ * @returns {() => void} cancels the work
  */
 export function whenIdle(work) {
   if (typeof requestIdleCallback === "function") {

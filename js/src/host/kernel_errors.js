@@ -1,4 +1,4 @@
-/** What the kernel tells of that went wrong, unasked. */
+/** Receives errors that the kernel reports outside requests. */
 
 /**
  * @param {import("./types.js").Model} model

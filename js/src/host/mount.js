@@ -1,4 +1,4 @@
-/** The anywidget module of a widget: its view in an element of the host's, and how it goes. */
+/** Makes the anywidget module of a widget: mounts its view in the host's element, and removes it. */
 
 import { errorText } from "./error_text.js";
 import { keepFocus, keepKeys } from "./host_keys.js";
@@ -7,20 +7,20 @@ import { saveLight } from "./saved_state.js";
 /** @typedef {import("./types.js").Model} Model */
 
 /**
- * Shaders and pictures belong into `render`, never into `initialize`, which must settle within
- * two seconds or the widget hears of no update any more.
+ * Shaders and pictures belong in `render`, never in `initialize`, which must finish within two
+ * seconds or the widget no longer receives updates.
  *
  * @param {string} name of the widget in Python
- * @param {string} label of the region, for those who hear the page
- * @param {string} kind CSS class of its own, beside that of all
+ * @param {string} label of the region, for screen readers
+ * @param {string} kind the widget's own CSS class
  * @param {new (model: Model, root: HTMLElement, signal: AbortSignal) => unknown} View
- * @param {() => Record<string, unknown>} [unseen] what a notebook keeps in place of heavy traits
- *   while there is no view, whose `saveLight` knows better
+ * @param {() => Record<string, unknown>} [savedWithoutView] what a notebook saves in place of heavy
+ *   traits while there is no view; a view replaces it with its own `saveLight`
  */
-export const widget = (name, label, kind, View, unseen) => ({
+export const widget = (name, label, kind, View, savedWithoutView) => ({
   /** @param {{ model: Model }} context */
   initialize({ model }) {
-    if (unseen) saveLight(model, unseen);
+    if (savedWithoutView) saveLight(model, savedWithoutView);
   },
 
   /** @param {{ model: Model, el: HTMLElement }} context */

@@ -1,7 +1,7 @@
 /**
- * What a notebook file keeps of a widget. JupyterLab saves every trait; the maps and the preview of a
- * photo are megabytes, which the kernel makes again. So they are left out of what is saved, and only
- * there: kernel, further views and a page that is loaded again have all of them.
+ * What a notebook file keeps of a widget. JupyterLab saves every trait, but a photo's maps and
+ * preview take megabytes and the kernel can make them again. So they are left out of the saved state
+ * only; the kernel, further views and a reloaded page have all of them.
  */
 
 /** @typedef {import("./types.js").Model} Model */
@@ -9,8 +9,8 @@
 const PROBE = "_connection";
 
 /**
- * ipywidgets' own model. anywidget hands on no property of it, but its events name it; other
- * hosts have none.
+ * Return ipywidgets' own model. anywidget does not expose it, but its events pass it; other hosts
+ * have none.
  *
  * @param {Model} model
  * @returns {any}
@@ -23,7 +23,7 @@ export function ownModel(model) {
   const listen = (own) => {
     found = own;
   };
-  // A name that is no trait: the kernel passes over it.
+  // Not the name of a trait: the kernel ignores it.
   model.on(`change:${PROBE}`, listen);
   model.set(PROBE, {});
   model.set(PROBE, null);
@@ -32,8 +32,8 @@ export function ownModel(model) {
 }
 
 /**
- * From now on this is saved in place of traits that are heavy; of a widget that was opened as it
- * had been saved, what was saved.
+ * Replace heavy traits in the saved state. A widget opened from a saved notebook keeps its saved
+ * state.
  *
  * @param {Model} model
  * @param {() => Record<string, unknown>} light
@@ -49,24 +49,24 @@ export function saveLight(model, light) {
   };
 }
 
-/** In place of true: what is shown is the photo, as nothing else was drawn. */
+/** Value of `_saved` when the saved picture is the photo, as nothing had been drawn. */
 export const PHOTO = "photo";
 
 /**
- * What a widget that was opened as it had been saved says of itself.
+ * Text of a widget opened from a saved notebook.
  *
  * @param {Model} model
- * @param {string} what it is
+ * @param {string} what name of the widget
  */
 export const savedText = (model, what) =>
   model.get("_saved") === PHOTO
-    ? `The notebook holds the photo and the recipe, no more. Run the cell to see the ${what}.`
-    : `This is a picture of the ${what} as it was saved. Run the cell again to go on.`;
+    ? `The notebook saved only the photo and the recipe. Run the cell to see the ${what}.`
+    : `This is a saved picture of the ${what}. Run the cell again to continue.`;
 
-/** No bytes, as traits hold them. */
-export const nothing = () => new DataView(new ArrayBuffer(0));
+/** An empty value of a binary trait. */
+export const noBytes = () => new DataView(new ArrayBuffer(0));
 
-/** A small JPEG of a picture, long edge at most `edge`. @param {HTMLCanvasElement | HTMLImageElement} picture @param {number} edge */
+/** Make a small JPEG of a picture, long edge at most `edge`. @param {HTMLCanvasElement | HTMLImageElement} picture @param {number} edge */
 export function thumbnail(picture, edge) {
   const width = "naturalWidth" in picture ? picture.naturalWidth : picture.width;
   const height = "naturalHeight" in picture ? picture.naturalHeight : picture.height;
@@ -78,5 +78,5 @@ export function thumbnail(picture, edge) {
   if (context) context.imageSmoothingQuality = "high";
   context?.drawImage(picture, 0, 0, small.width, small.height);
   const text = atob(small.toDataURL("image/jpeg", 0.85).split(",")[1]);
-  return new DataView(Uint8Array.from(text, (sign) => sign.charCodeAt(0)).buffer);
+  return new DataView(Uint8Array.from(text, (char) => char.charCodeAt(0)).buffer);
 }

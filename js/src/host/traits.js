@@ -1,22 +1,22 @@
 /**
- * Changes of traits, told when all that arrived with them is there. Hosts differ: JupyterLab takes
- * over a whole message before it tells anybody, marimo tells after each of its values, in any order.
+ * Reports trait changes once all changes of a message have arrived. Hosts differ: JupyterLab applies a
+ * whole message before it fires events, marimo fires after each value, in any order.
  */
 
 /**
  * @param {import("./types.js").Model} model
  * @param {string[]} names
- * @param {() => void} listener called once for all that changed together
+ * @param {() => void} listener called once for all traits that changed together
  * @param {AbortSignal} signal ends it
  */
 export function onTraits(model, names, listener, signal) {
   let due = false;
-  const tell = () => {
+  const notify = () => {
     due = false;
     if (!signal.aborted) listener();
   };
   const onChange = () => {
-    if (!due) queueMicrotask(tell);
+    if (!due) queueMicrotask(notify);
     due = true;
   };
   for (const name of names) model.on(`change:${name}`, onChange);

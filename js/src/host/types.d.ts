@@ -1,4 +1,4 @@
-/** Shapes of what travels between kernel and browser. */
+/** Types of the data exchanged between kernel and browser. */
 
 /** One row of the kernel's parameter tables (`sunwidget/edit/table.py`, `sunwidget/explorer/table.py`). */
 export interface Parameter {
@@ -14,7 +14,7 @@ export interface Parameter {
   help: string;
   choices: string[];
   advanced: boolean;
-  /** The photo's maps follow it: the kernel answers a change with a new scene. */
+  /** Whether the photo's maps depend on it: the kernel answers a change with a new scene. */
   analysis: boolean;
 }
 
@@ -29,7 +29,7 @@ export interface Stroke {
 /** Values by parameter name; a missing one is at its default, null is automatic. */
 export type Edit = Record<string, unknown>;
 
-/** What the analysis found, as far as the browser needs it (trait `_scene`). */
+/** The analysis, as far as the browser needs it (trait `_scene`). */
 export interface Scene {
   width: number;
   height: number;
@@ -43,28 +43,28 @@ export interface Scene {
     confidence: number;
     source: string;
   };
-  /** How likely the fitted atmosphere is right, 0–1; null when none was fitted. */
+  /** Probability that the fitted atmosphere is right, 0–1; null if none was fitted. */
   sureness: number | null;
-  /** Shares of the sky by bins of whiteness from 0 to reach, as the method measures it. */
+  /** Shares of the sky by bins of whiteness from 0 to `reach`, as measured by the method. */
   whiteness: { method: string; reach: number; shares: number[] };
-  /** Times of day, with what each sets in this photo. */
+  /** Times of day, with the values that each sets in this photo. */
   presets: import("../ui/chips.js").Preset[];
   notes: { about: string; text: string }[];
 }
 
 /** The photo's own sun. */
 export interface PhotoSun {
-  /** A person told where it is, or that nothing in the picture is it ("outside"). */
+  /** "told": the user marked it; "outside": the user said that it is not in the picture. */
   source: "found" | "told" | "outside" | "unseen";
-  /** In fractions of the picture; null where its place is only assumed. */
+  /** In fractions of the picture; null if its position is only assumed. */
   at: Point | null;
   visible: boolean;
-  /** Degrees, of the assumed one where there is no other. */
+  /** Degrees; of the assumed sun if there is no other. */
   azimuth: number;
   elevation: number;
-  /** How likely it is, or is there, 0–1; 1 where nothing measured it. */
+  /** Probability of the detection or of the assumed bearing, 0–1; 1 if not measured. */
   confidence: number;
-  /** What lights a night in its stead, in fractions of the picture. */
+  /** The moon that lights a night photo, in fractions of the picture. */
   moon: Point | null;
 }
 
@@ -80,7 +80,7 @@ export interface SceneMap {
   scale: "linear" | "log";
 }
 
-/** Where the kernel's work stands (trait `_status`). */
+/** State of the kernel's work (trait `_status`). */
 export interface Status {
   stage: "opening" | "analysing" | "ready" | "cancelled" | "error";
   fraction: number;
@@ -92,35 +92,35 @@ export interface History {
   future: Edit[];
 }
 
-/** An edit that was kept by name (trait `_versions`). */
+/** An edit kept by name (trait `_versions`). */
 export interface Version {
   name: string;
   recipe: Edit;
 }
 
-/** An edit with all that belongs to it, as it outlives page and kernel. */
+/** An edit with its history, versions and key frames, stored beyond page and kernel. */
 export interface Kept extends History {
   recipe: Edit;
   versions: Version[];
   keyFrames: import("../film/film_path.js").KeyFrame[];
 }
 
-/** Which photo it is (trait `_source`). */
 export interface Preset {
   label: string;
   title: string;
   values: Record<string, unknown>;
 }
 
+/** Identifies the photo (trait `_source`). */
 export interface Source {
   name: string;
   /** Of the photo's pixels. */
   fingerprint: string;
-  /** Of the widget: another one after the cell has run again. */
+  /** Of the widget; new each time the cell runs. */
   session: string;
 }
 
-/** The part of anywidget's model that is used. */
+/** The part of anywidget's model that we use. */
 export interface Model {
   get(name: string): any;
   set(name: string, value: unknown): void;
@@ -128,6 +128,6 @@ export interface Model {
   send(content: unknown, callbacks?: unknown, buffers?: ArrayBuffer[]): void;
   on(event: string, callback: (...args: any[]) => void): void;
   off(event: string, callback: (...args: any[]) => void): void;
-  /** Where the host is ipywidgets. */
+  /** Present if the host is ipywidgets. */
   widget_manager?: unknown;
 }

@@ -1,13 +1,13 @@
-/** Whether a view is in sight: a notebook that runs all its cells makes many at once. */
+/** Watches whether a view is visible: a notebook that runs all its cells makes many at once. */
 
-const MARGIN = "200px"; // this near to the window counts as in sight
+const MARGIN = "200px"; // within this distance of the window counts as visible
 
 /**
  * @param {HTMLElement} node
  * @param {AbortSignal} signal
- * @param {(inSight: boolean) => void} onChange called first when the browser has laid the page out
+ * @param {(visible: boolean) => void} onChange first called once the page is laid out
  */
-export function watchSight(node, signal, onChange) {
+export function watchVisibility(node, signal, onChange) {
   const observer = new IntersectionObserver(
     (entries) => onChange(entries[entries.length - 1].isIntersecting),
     { rootMargin: MARGIN },

@@ -1,7 +1,7 @@
 /**
- * Starts a widget in a page that holds all of it: the front end and the state lie in the page as
- * text (`sunwidget/widgets/page/html.py`), and no kernel stands behind. The page's still picture stays
- * where the widget cannot run.
+ * Starts a widget in a stand-alone page, which holds the front end and the state as text
+ * (`sunwidget/widgets/page/html.py`) and has no kernel. If the widget cannot run, the page's still
+ * picture stays.
  */
 
 import { errorText } from "../host/error_text.js";
@@ -10,15 +10,15 @@ import { StandaloneModel, stateOf } from "./model.js";
 /** @param {string} id */
 const part = (id) => /** @type {HTMLElement} */ (document.getElementById(id));
 
-/** What this browser lacks, as a sentence; "" when nothing. */
-function missing() {
+/** Return what this browser lacks, as a sentence, or "". */
+function describeMissing() {
   if (document.createElement("canvas").getContext("webgl2")) return "";
-  return "This browser offers no WebGL2. Turn on hardware acceleration to move the sun here.";
+  return "This browser has no WebGL2. Turn on hardware acceleration to move the sun here.";
 }
 
 async function start() {
-  const lack = missing();
-  if (lack) throw new Error(lack);
+  const missing = describeMissing();
+  if (missing) throw new Error(missing);
   const state = stateOf(JSON.parse(part("content").textContent ?? ""));
   const url = URL.createObjectURL(
     new Blob([/** @type {string} */ (state._esm)], { type: "text/javascript" }),
@@ -31,23 +31,23 @@ async function start() {
   part("still").hidden = true;
 }
 
-/** In a frame of another page, which gives it the height that it asks for. */
-function tellHeight() {
+/** In a frame of another page, report the height that this page needs. */
+function reportHeight() {
   if (window === window.parent) return;
-  // The window is as high as what it holds, which so must not follow its height.
+  // The window's height follows its content, so the content must not follow the window's height.
   document.documentElement.classList.add("sw-framed");
-  const tell = () => {
+  const report = () => {
     const { height } = document.body.getBoundingClientRect();
     window.parent.postMessage({ sunwidgetHeight: height }, "*");
   };
-  new ResizeObserver(tell).observe(document.body);
-  window.addEventListener("message", tell);
+  new ResizeObserver(report).observe(document.body);
+  window.addEventListener("message", report);
 }
 
-tellHeight();
+reportHeight();
 start().catch((error) => {
   const problem = part("problem");
   problem.textContent = errorText(error);
   problem.hidden = false;
-  part("notes").hidden = true; // they tell what could be done
+  part("notes").hidden = true; // they describe what the widget can do
 });

@@ -1,8 +1,8 @@
 /**
- * A widget's model in a page of its own: the state that was embedded, and nobody behind it.
+ * A widget's model in a stand-alone page: the embedded state, without a kernel.
  *
- * It behaves as anywidget's model does. What is asked of the kernel is answered at once with an
- * error that says where it can be had.
+ * It behaves like anywidget's model. Requests to the kernel are answered at once with an error that
+ * says what to do.
  */
 
 /**
@@ -37,7 +37,7 @@ export class StandaloneModel {
   }
 
   save_changes() {
-    // Nobody listens: the state is the page's own.
+    // Nothing to save to: the state is the page's own.
   }
 
   /** @param {any} content */
@@ -71,13 +71,13 @@ export class StandaloneModel {
    * @param {unknown[]} args
    */
   fire(event, ...args) {
-    // A copy: a listener may leave, or bring another.
+    // Copy the set: a listener may remove itself or add another.
     for (const callback of [...(this.listeners.get(event) ?? [])]) callback(...args);
   }
 }
 
 /**
- * The traits of an embedded widget, binary ones as anywidget gives them.
+ * Return the traits of an embedded widget, binary ones as anywidget provides them.
  *
  * @param {{ state: Record<string, any>, buffers: { path: (string | number)[], data: string }[] }} content
  *   as `ipywidgets.embed` writes it
@@ -96,5 +96,5 @@ export function stateOf({ state, buffers }) {
 /** @param {string} base64 */
 function bytes(base64) {
   const text = atob(base64);
-  return new DataView(Uint8Array.from(text, (sign) => sign.charCodeAt(0)).buffer);
+  return new DataView(Uint8Array.from(text, (char) => char.charCodeAt(0)).buffer);
 }

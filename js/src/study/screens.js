@@ -23,24 +23,24 @@ export function startScreen({ rater, done, all, ties, onStart }) {
   const begin = element(
     "button",
     { type: "submit", class: "sw-chip sw-primary" },
-    done ? "Go on" : "Start",
+    done ? "Continue" : "Start",
   );
   const form = element("form", { class: "sw-study-form" }, name, begin);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     onStart(name.value.trim());
   });
-  const keys = ties ? " Down arrow: you cannot decide." : "";
+  const keys = ties ? " Press the down arrow if you cannot decide." : "";
   return element(
     "div",
     { class: "sw-study-text" },
     element(
       "p",
       {},
-      `You will see ${pairs(all)} of pictures. Click the one, or press the left or right ` +
-        `arrow key.${keys} Backspace takes the last answer back. There is no wrong answer.`,
+      `You will see ${pairs(all)} of pictures. Click the one you choose, or press the left or ` +
+        `right arrow key.${keys} Backspace undoes the last answer. There is no wrong answer.`,
     ),
-    ...(done ? [element("p", {}, `${done} of ${all} are answered.`)] : []),
+    ...(done ? [element("p", {}, `${done} of ${all} answered.`)] : []),
     form,
   );
 }
@@ -49,14 +49,18 @@ export function startScreen({ rater, done, all, ties, onStart }) {
 export function endScreen({ all, onSave, onNext }) {
   const next = element(
     "button",
-    { type: "button", class: "sw-chip", title: "Somebody else answers; what there is stays" },
+    {
+      type: "button",
+      class: "sw-chip",
+      title: "Hand over to another rater; the answers so far are kept",
+    },
     "Next rater",
   );
   next.addEventListener("click", onNext);
   return element(
     "div",
     { class: "sw-study-text" },
-    element("p", {}, `Thank you. That was all: ${pairs(all)}.`),
+    element("p", {}, `Thank you. You have answered ${all === 1 ? "" : "all "}${pairs(all)}.`),
     element("div", { class: "sw-study-form" }, saveButton(onSave), next),
   );
 }
@@ -76,8 +80,8 @@ export function savedScreen(answers, onSave) {
       {},
       "A saved notebook keeps the answers of a study, not its pictures. " +
         (answers
-          ? "Save them before you run the cell, which begins anew."
-          : "Run the cell to begin."),
+          ? "Save them before you run the cell, which starts over."
+          : "Run the cell to start."),
     ),
     ...(answers ? [element("div", { class: "sw-study-form" }, saveButton(onSave))] : []),
   );
@@ -90,7 +94,7 @@ function saveButton(onSave) {
     {
       type: "button",
       class: "sw-chip sw-primary",
-      title: "All answers of this study as a CSV file",
+      title: "Download all answers of this study as a CSV file",
     },
     "Save answers",
   );

@@ -45,7 +45,7 @@ export class View {
     this.undo = button({
       icon: "undo",
       label: "Undo",
-      title: "Take the last answer back (Backspace)",
+      title: "Undo the last answer (Backspace)",
       caption: true,
       onClick: () => this.takeBack(),
     });

@@ -1,14 +1,14 @@
-/** The clipboard, as far as the page has one. */
+/** Clipboard access, as far as the page allows it. */
 
 import { element } from "./element.js";
 
 /**
- * Put text on the clipboard; returns whether it got there. A page that came without encryption has
- * no clipboard of its own, but may copy what is selected.
+ * Copy text to the clipboard; returns whether that succeeded. A page without encryption has no
+ * clipboard API but may copy the selection.
  *
  * @param {string} text
  */
-export async function copied(text) {
+export async function copyText(text) {
   try {
     await navigator.clipboard.writeText(text);
     return true;
@@ -25,8 +25,8 @@ export async function copied(text) {
   }
 }
 
-/** What is on the clipboard, or null where the page may not look. */
-export async function pasted() {
+/** Return the clipboard's text, or null if the page may not read it. */
+export async function readClipboard() {
   try {
     return await navigator.clipboard.readText();
   } catch {

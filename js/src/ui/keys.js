@@ -43,8 +43,8 @@ export const HISTORY_KEYS = [
 export const zoomKeys = (section, of) => [
   { section, keys: ["+", "="], label: "Zoom in", run: (view) => of(view).step(1) },
   { section, keys: ["-"], label: "Zoom out", run: (view) => of(view).step(-1) },
-  { section, keys: ["0", "Mod+0"], label: "All of the picture", run: (view) => of(view).fit() },
-  { section, keys: ["Z"], label: "100 %, or all of the picture", run: (view) => of(view).toggle() },
+  { section, keys: ["0", "Mod+0"], label: "Whole picture", run: (view) => of(view).fit() },
+  { section, keys: ["Z"], label: "100 %, or whole picture", run: (view) => of(view).toggle() },
 ];
 
 const MOVES = [

@@ -47,7 +47,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
       type: "button",
       class: "sw-back",
       title: automatic
-        ? "Return to what was found in the photo (double-click)"
+        ? "Return to the value found in the photo (double-click)"
         : "Return to the default (double-click)",
       "aria-label": automatic ? `Reset ${p.label} to auto` : `Reset ${p.label}`,
     },
@@ -109,7 +109,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
   const refuse = (text) => {
     clearTimeout(timer);
     setAttributes(field, { "aria-invalid": text ? "true" : null });
-    refused.textContent = text && `“${text}” is no number`;
+    refused.textContent = text && `“${text}” is not a number`;
     if (!text) return refused.remove();
     node.append(refused);
     timer = setTimeout(() => refuse(""), REFUSED_MS);

@@ -40,7 +40,7 @@ export function sureText(share) {
 
 /** Of a sun that is marked on the picture. @param {PhotoSun} sun */
 export function markText({ source, confidence }) {
-  if (source === "told") return "The photo’s sun, as you said";
+  if (source === "told") return "The photo’s sun, set by you";
   return ["The photo’s sun", sureText(confidence)].filter(Boolean).join(", ");
 }
 
@@ -59,16 +59,16 @@ export function assumedText(sun, { inside, live }) {
   // What is measured is how likely the bearing is right; nothing measures the height.
   const stands =
     sun.confidence >= LIKELY && sun.elevation < OVERHEAD
-      ? `likely to stand ${bearingText(sun.azimuth)}, at a guess ${heightText(sun.elevation)}`
-      : `assumed to stand ${whereText(sun)}, but that is a guess`;
-  const ask = live ? ", so say where it is if you know" : "";
-  return `${start} It is ${stands}. Shadows and sky are changed from there${ask}.`;
+      ? `probably ${bearingText(sun.azimuth)}, at a guess ${heightText(sun.elevation)}`
+      : `assumed to be ${whereText(sun)}, but that is a guess`;
+  const ask = live ? ", so mark the sun if you know where it is" : "";
+  return `${start} It is ${stands}. Shadows and sky follow from there${ask}.`;
 }
 
 /** Of a sun that was found and may be none. @param {PhotoSun} sun */
 export const doubtText = ({ confidence }) =>
   `What is marked as the sun may be something else (${sureText(confidence)}). ` +
-  "Shadows and sky are changed from there.";
+  "Shadows and sky follow from there.";
 
 /** Of a place that has just been pointed at. @param {PhotoSun} sun */
 export const pointedText = (sun) =>

@@ -35,8 +35,8 @@ export function zoomButtons(zoom, kind) {
       const text = `${Math.round(100 * zoom.scale)} %`;
       if (percent.textContent !== text) percent.textContent = text;
       setAttributes(percent, {
-        "aria-label": `Zoom: ${text}${zoom.fits ? ", all of the picture" : ""}`,
-        title: zoom.fits ? "Show 100 % (Z)" : "Show all of the picture (0 or Z)",
+        "aria-label": `Zoom: ${text}${zoom.fits ? ", whole picture" : ""}`,
+        title: zoom.fits ? "Show 100 % (Z)" : "Show the whole picture (0 or Z)",
       });
       smaller.disabled = zoom.scale <= least;
       larger.disabled = zoom.scale >= most;

@@ -1,6 +1,6 @@
 /**
- * A recipe against the kernel's table of parameters: what comes from a file, the clipboard or an
- * older version is never taken as it is. The kernel's twin is `Edit.from_dict`.
+ * Checks a recipe against the kernel's parameter table before it is used: it may come from a file,
+ * the clipboard or an older version. The kernel's twin is `Edit.from_dict`.
  */
 
 /**
@@ -12,11 +12,11 @@ export const RECIPE_VERSION = 1; // of sunwidget/edit/table.py
 
 const LABELS = ["sky", "not_sky", "water", "not_water"];
 const STROKE = ["label", "points", "radius"];
-const RADIUS = 0.01; // of a stroke that names none
-const MOST_POINTS = 100_000; // of all strokes: a message of 10 MiB would break the connection
+const RADIUS = 0.01; // default radius of a stroke
+const MOST_POINTS = 100_000; // in all strokes: a message of 10 MiB would break the connection
 
 /**
- * The values that the table takes, and a sentence about each that it does not.
+ * Return the valid values, and a sentence about each invalid one.
  *
  * @param {Parameter[]} parameters
  * @param {unknown} recipe
@@ -26,20 +26,20 @@ export function checkRecipe(parameters, recipe) {
   if (typeof recipe !== "object" || recipe === null || Array.isArray(recipe)) {
     return { values: {}, problems: ["A recipe is a JSON object with names and values."] };
   }
-  const { version = RECIPE_VERSION, ...given } = /** @type {Edit} */ (recipe);
+  const { version = RECIPE_VERSION, ...entries } = /** @type {Edit} */ (recipe);
   if (typeof version !== "number" || !(version >= 1)) {
-    return { values: {}, problems: [`Recipe version ${shown(version)} is not a whole number.`] };
+    return { values: {}, problems: [`Recipe version ${shorten(version)} is not a whole number.`] };
   }
   if (version > RECIPE_VERSION) {
-    const problem = `This recipe has version ${version}, this sunwidget reads up to ${RECIPE_VERSION}. Update sunwidget to open it.`;
+    const problem = `This recipe has version ${version}; this sunwidget reads versions up to ${RECIPE_VERSION}. Update sunwidget to open it.`;
     return { values: {}, problems: [problem] };
   }
   /** @type {Edit} */
   const values = {};
   const problems = [];
-  for (const [name, value] of /** @type {[string, any][]} */ (Object.entries(given))) {
+  for (const [name, value] of /** @type {[string, any][]} */ (Object.entries(entries))) {
     const row = parameters.find((p) => p.name === name);
-    const problem = row ? problemOf(row, value) : `There is no parameter ${shown(name)}.`;
+    const problem = row ? problemOf(row, value) : `There is no parameter ${shorten(name)}.`;
     if (problem) problems.push(problem);
     else if (name === "strokes") values[name] = value.map(withRadius);
     else values[name] = value;
@@ -47,22 +47,22 @@ export function checkRecipe(parameters, recipe) {
   return { values, problems };
 }
 
-/** @param {Parameter} p @param {any} value @returns {string} empty when the row takes the value */
+/** @param {Parameter} p @param {any} value @returns {string} empty if the value is valid */
 function problemOf(p, value) {
   if (value === null && p.default === null) return "";
   if (p.kind === "choice") {
     return p.choices.includes(value)
       ? ""
-      : `${p.name} is one of ${p.choices.join(", ")}, not ${shown(value)}.`;
+      : `${p.name} is one of ${p.choices.join(", ")}, not ${shorten(value)}.`;
   }
   if (p.kind === "number") {
     return isBetween(value, p.minimum, p.maximum)
       ? ""
       : `${p.name} is a number from ${p.minimum} to ${p.maximum} ${p.unit}`.trimEnd() +
-          `, not ${shown(value)}.`;
+          `, not ${shorten(value)}.`;
   }
-  const takes = DATA[/** @type {keyof typeof DATA} */ (p.name)];
-  return takes?.(value) ? "" : `${p.name} cannot be ${shown(value)}.`;
+  const isValid = DATA[/** @type {keyof typeof DATA} */ (p.name)];
+  return isValid?.(value) ? "" : `${p.name} cannot be ${shorten(value)}.`;
 }
 
 const DATA = {
@@ -115,8 +115,8 @@ function isPlace(value) {
   );
 }
 
-/** The start of a value as JSON. @param {unknown} value */
-function shown(value) {
+/** Abbreviate a value's JSON. @param {unknown} value */
+function shorten(value) {
   const text = JSON.stringify(value) ?? String(value);
   return text.length > 60 ? `${text.slice(0, 60)}…` : text;
 }

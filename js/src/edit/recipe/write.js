@@ -1,4 +1,4 @@
-/** A recipe as text: JSON for files, Python for cells. Only what differs from its default. */
+/** Writes a recipe's non-default values as text: JSON for files, Python for cells. */
 
 import { RECIPE_VERSION } from "./check.js";
 
@@ -36,7 +36,7 @@ function python(value) {
 /** @param {any} value */
 const isStroke = (value) => "label" in value && "points" in value && "radius" in value;
 
-/** A text that both languages read alike, in ASCII. @param {string} text */
+/** Quote a text in ASCII, readable as both JSON and Python. @param {string} text */
 const quoted = (text) =>
   JSON.stringify(text).replace(/[^\x20-\x7e]/gu, (character) => {
     const code = character.codePointAt(0) ?? 0;

@@ -1,4 +1,4 @@
-/** The export panel's page for a film: its path, how it is played, and how it is written. */
+/** The export panel's film page: the path, playback and file options. */
 
 import { EASINGS, keyFramePath } from "../../film/film_path.js";
 import { clock as clockText } from "../../geometry/day.js";
@@ -18,7 +18,7 @@ const EASING_NAMES = [
   ["ease_in_out", "Slow at both ends"],
   ["ease_in", "Slow start"],
   ["ease_out", "Slow end"],
-  ["smooth", "Smooth through all"],
+  ["smooth", "Smooth throughout"],
 ];
 
 /**
@@ -32,7 +32,7 @@ export function exportFilm({ clock, kernel, ...needs }, job, signal) {
   const keys = keyFrames(needs);
   /** @type {import("./export_target.js").Choices | null} */
   let choices = null;
-  /** @type {[number, number] | null} first and last hour of the day's film, once set by hand */
+  /** @type {[number, number] | null} first and last hour of a film of the day, once set by hand */
   let hours = null;
 
   const way = selectField("Path", [
@@ -49,7 +49,7 @@ export function exportFilm({ clock, kernel, ...needs }, job, signal) {
     EASING_NAMES.filter(([name]) => name in EASINGS),
   );
   const loop = selectField("Repeat", [
-    ["forever", "For ever"],
+    ["forever", "Forever"],
     ["there_and_back", "There and back"],
     ["once", "Once"],
   ]);
@@ -64,19 +64,19 @@ export function exportFilm({ clock, kernel, ...needs }, job, signal) {
 
   const byDay = () => way.select.value === "day";
   const span = () => hours ?? daylight(clock.path);
-  /** The key frames, or photo and edit at the ends. @returns {import("../../film/film_path.js").KeyFrame[]} */
+  /** The key frames; with fewer than two, the photo or the one key frame, then the edit. @returns {import("../../film/film_path.js").KeyFrame[]} */
   const stations = () => {
     const frames = keys.read();
     if (frames.length > 1) return frames;
     const end = { seconds: Number(length.input.value), recipe: state.recipe() };
     return [{ recipe: frames[0]?.recipe ?? {}, seconds: 0 }, end];
   };
-  /** Why there is no film, or "". */
+  /** Return why no film can be made, or "". */
   const still = () => {
-    if (!picture.scene) return "The photo is not analysed yet.";
+    if (!picture.scene) return "The photo has not been analyzed yet.";
     if (byDay()) {
-      if (!clock.place || !clock.path.length) return "Say where and when first: Time and place.";
-      return clock.place.heading === null ? "Say where the camera looks: Time and place." : "";
+      if (!clock.place || !clock.path.length) return "Set a place and time first: Time and place.";
+      return clock.place.heading === null ? "Set the camera's heading first: Time and place." : "";
     }
     if (keys.read().length > 1) return "";
     const [start, end] = [0, 1].map((share) => JSON.stringify(pathOf(stations())(share)));
@@ -233,14 +233,14 @@ export function exportFilm({ clock, kernel, ...needs }, job, signal) {
   };
 }
 
-/** From civil dawn to civil dusk, as the path counts hours. @param {import("../../geometry/day.js").DayRow[]} path @returns {[number, number]} */
+/** Civil dawn and civil dusk in the path's hours. @param {import("../../geometry/day.js").DayRow[]} path @returns {[number, number]} */
 function daylight(path) {
   const up = path.filter(([, , apparent]) => apparent > TWILIGHT).map(([hour]) => hour);
   if (up.length) return [up[0], up[up.length - 1]];
   return path.length ? [path[0][0], path[path.length - 1][0]] : [0, DAY];
 }
 
-/** A time of the clock as the path counts it; NaN for what is none. @param {import("../../geometry/day.js").DayRow[]} path @param {string} text */
+/** Convert a clock time to the path's hours; NaN if it is not a time. @param {import("../../geometry/day.js").DayRow[]} path @param {string} text */
 function tableHours(path, text) {
   const [, whole, minutes = "0"] = TIME.exec(text) ?? [];
   const at = Number(whole) + Number(minutes) / 60;

@@ -1,4 +1,4 @@
-/** What the export panel has under way, and what came of it: progress, result, a name that is taken. */
+/** Runs the export panel's exports and shows progress, result and name conflicts. */
 
 import { chip } from "../../ui/chips.js";
 import { download } from "../../ui/download.js";
@@ -13,14 +13,20 @@ const SHOWN_BYTES = 20_000_000; // as in sunwidget/widgets/editor/export_files.p
 
 /**
  * @param {import("../types.js").Needs<"channel" | "picture" | "stage" | "state" | "work">} needs
- * @param {() => boolean} isOpen whether the panel is in sight, which then shows the progress
+ * @param {() => boolean} isOpen whether the panel is open and so shows the progress itself
  * @param {AbortSignal} signal
  */
 export function exportJob({ channel, picture, stage, state, work }, isOpen, signal) {
   const bar = element("progress", { max: 1, "aria-label": "Progress of the export" });
-  const said = element("span", { class: "sw-export-said" });
-  const cancel = chip("Cancel", "Stop; nothing of the file is left", () => work.cancel());
-  const running = element("div", { class: "sw-export-running", hidden: true }, bar, said, cancel);
+  const caption = element("span", { class: "sw-export-said" });
+  const cancel = chip("Cancel", "Stop; no partial file is left", () => work.cancel());
+  const running = element(
+    "div",
+    { class: "sw-export-running", hidden: true },
+    bar,
+    caption,
+    cancel,
+  );
   const done = element("div", { class: "sw-export-done", role: "status" });
   let url = "";
   const forget = () => {
@@ -30,10 +36,10 @@ export function exportJob({ channel, picture, stage, state, work }, isOpen, sign
   signal.addEventListener("abort", forget);
 
   /** @param {number} fraction @param {string} text */
-  const tell = (fraction, text) => {
+  const showProgress = (fraction, text) => {
     const open = isOpen();
     bar.value = fraction;
-    said.textContent = text;
+    caption.textContent = text;
     stage.setProgress(open ? null : fraction, open ? "" : text);
   };
 
@@ -59,36 +65,36 @@ export function exportJob({ channel, picture, stage, state, work }, isOpen, sign
         ? element("img", { src: url, alt: "The film" })
         : null;
     if (!node) return [];
-    // A host may forbid it, or the browser lack the codec.
+    // The host may forbid it, or the browser may lack the codec.
     node.addEventListener("error", () => node.remove());
     return [node];
   };
 
   /**
-   * Export once; a name that is taken is said, with one that is free.
+   * Export once. If the name is taken, say so and offer a free one.
    *
    * @param {"still" | "film"} action
    * @param {{ name: string, [option: string]: unknown }} content
-   * @param {(name: string) => void} rename what to do with the free name
+   * @param {(name: string) => void} rename receives the free name
    */
   const run = (action, content, rename) =>
     work.run("The export", async (stop) => {
       done.replaceChildren();
       running.hidden = false;
-      tell(0, "Asking the kernel …");
+      showProgress(0, "Waiting for the kernel …");
       try {
         /** @type {import("../../host/channel.js").OnProgress} */
         const onProgress = (fraction, text) => {
-          if (!stop.aborted) tell(fraction, text);
+          if (!stop.aborted) showProgress(fraction, text);
         };
-        const asked = { ...content, ...picture.asked(), key_frames: state.keyFrames() };
+        const asked = { ...content, ...picture.requestContent(), key_frames: state.keyFrames() };
         const { result, buffers } = await channel.request(action, asked, onProgress, [], stop);
         if (!result.taken) return show(result, buffers, action === "film");
         const other = chip(`Use ${result.free}`, "Export under this name", () => {
           rename(result.free);
           void run(action, { ...content, name: result.free }, rename);
         });
-        const text = `${result.taken} exists already and was left as it is.`;
+        const text = `${result.taken} already exists and was not overwritten.`;
         done.replaceChildren(element("p", {}, text), other);
       } finally {
         running.hidden = true;

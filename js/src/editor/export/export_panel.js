@@ -1,4 +1,4 @@
-/** The export panel under the picture: a still or a film, with all that can be said of it. */
+/** The export panel under the picture: options for a still or a film. */
 
 import { button } from "../../ui/button.js";
 import { element, setAttributes } from "../../ui/element.js";
@@ -8,11 +8,11 @@ import { exportStill } from "./export_still.js";
 
 /**
  * @param {Parameters<typeof exportJob>[0] & Parameters<typeof exportFilm>[0]
- *   & import("../types.js").Needs<"foot" | "toolbar">} needs
+ *   & import("../types.js").Needs<"statusBar" | "toolbar">} needs
  * @param {AbortSignal} signal
  * @returns {import("../part.js").Part}
  */
-export function exportPanel({ foot, toolbar, ...needs }, signal) {
+export function exportPanel({ statusBar, toolbar, ...needs }, signal) {
   const { channel, kernel } = needs;
   const id = `sw-export-${Math.random().toString(36).slice(2)}`;
   const trigger = button({
@@ -27,7 +27,7 @@ export function exportPanel({ foot, toolbar, ...needs }, signal) {
   toolbar.menu.add({
     group: "picture",
     label: "Export …",
-    title: "A still of any format and size, or a film",
+    title: "A still in any format and size, or a film",
     shown: () => kernel.state !== "none",
     run: () => setOpen(true),
   });
@@ -58,7 +58,11 @@ export function exportPanel({ foot, toolbar, ...needs }, signal) {
     choose((chosen + step + pages.length) % pages.length);
     pages[chosen].tab.focus();
   });
-  const close = button({ icon: "close", label: "Close the export", onClick: () => setOpen(false) });
+  const close = button({
+    icon: "close",
+    label: "Close the export panel",
+    onClick: () => setOpen(false),
+  });
   const node = element(
     "section",
     { class: "sw-export", id, "aria-label": "Export", hidden: true },
@@ -67,7 +71,7 @@ export function exportPanel({ foot, toolbar, ...needs }, signal) {
     job.running,
     job.done,
   );
-  foot.node.after(node);
+  statusBar.node.after(node);
   trigger.setAttribute("aria-controls", id);
 
   let chosen = 0;
@@ -95,7 +99,7 @@ export function exportPanel({ foot, toolbar, ...needs }, signal) {
     pages[chosen].tab.focus({ preventScroll: true });
     node.scrollIntoView({ block: "nearest" });
   };
-  /** What the kernel can write, and where. */
+  /** Ask the kernel what it can write, and where. */
   const ask = async () => {
     if (!kernel.answers) return;
     try {

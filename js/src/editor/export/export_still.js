@@ -1,4 +1,4 @@
-/** The export panel's page for a still: format, depth, quality, size, light above white, layers. */
+/** The export panel's still page: format, depth, quality, size, light above white, layers. */
 
 import { element } from "../../ui/element.js";
 import { inputField, selectField } from "../../ui/named_field.js";
@@ -7,7 +7,7 @@ import { exportTarget, formatOptions, lacking } from "./export_target.js";
 
 /** @type {Record<number, string>} */
 const BITS = { 8: "8 bits", 16: "16 bits", 32: "32 bits, linear" };
-const PREVIEW = 2048; // pixels of the longer side, as the browser has it
+const PREVIEW = 2048; // longer side of the browser's preview, pixels
 
 /**
  * @param {import("../types.js").Needs<"kernel" | "picture">} needs
@@ -27,7 +27,7 @@ export function exportStill({ kernel, picture }, job) {
     parameter: {
       name: "",
       label: "Layers",
-      help: "Sky, clouds, land and matte beside the picture, to go on in an image editor",
+      help: "Also write sky, clouds, land and matte as layers for an image editor",
       default: false,
     },
     onChange: (on) => {
@@ -40,7 +40,7 @@ export function exportStill({ kernel, picture }, job) {
     parameter: {
       name: "",
       label: "Light above white",
-      help: "HDR: screens that can show the moved sun and its glitter brighter than white",
+      help: "HDR: screens that can do so show the moved sun and its glitter brighter than white",
       default: false,
     },
     onChange: (on) => {
@@ -79,7 +79,7 @@ export function exportStill({ kernel, picture }, job) {
     target.hint,
   );
 
-  /** With another format: its depths, of which the photo's own suits best. */
+  /** Offer the format's bit depths, the photo's own first if available. */
   const offerBits = () => {
     const depths = chosen()?.bits ?? [];
     bits.setOptions(depths.map((depth) => [String(depth), BITS[depth]]));
@@ -98,7 +98,7 @@ export function exportStill({ kernel, picture }, job) {
   };
   const problem = (/** @type {import("./export_target.js").Format | undefined} */ kind) => {
     if (!kernel.answers) return "Needs the kernel: run the cell again.";
-    if (!picture.scene) return "The photo is not analysed yet.";
+    if (!picture.scene) return "The photo has not been analyzed yet.";
     return lacking(kind);
   };
   format.select.addEventListener("change", () => {

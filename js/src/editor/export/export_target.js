@@ -1,4 +1,4 @@
-/** Under which name an export goes where, and the button that begins it. */
+/** Name and destination of an export, and the button that starts it. */
 
 import { element } from "../../ui/element.js";
 import { inputField, selectField } from "../../ui/named_field.js";
@@ -18,9 +18,9 @@ export function exportTarget(what, onExport) {
   const ending = element("span", { class: "sw-export-ending" });
   name.input.after(ending);
   name.node.classList.add("sw-export-name");
-  const where = selectField("Where to", [
+  const where = selectField("Save to", [
     ["download", "Download"],
-    ["folder", "Notebook's folder"],
+    ["folder", "Notebook folder"],
   ]);
   const go = element("button", { type: "submit", class: "sw-chip sw-primary" }, "Export");
   go.setAttribute("aria-label", `Export the ${what}`); // another button opens the panel
@@ -28,7 +28,7 @@ export function exportTarget(what, onExport) {
   const node = element("form", { class: "sw-export-target" }, name.node, where.node, go);
   let folder = "";
   const showFolder = () => {
-    where.select.title = where.select.value === "folder" ? folder : "Through the browser";
+    where.select.title = where.select.value === "folder" ? folder : "Download in the browser";
   };
   where.select.addEventListener("change", showFolder);
   node.addEventListener("submit", (event) => {
@@ -38,9 +38,9 @@ export function exportTarget(what, onExport) {
   return {
     node,
     hint,
-    /** What the kernel's action is told of it. */
+    /** The fields' part of the request to the kernel. */
     content: () => ({ name: name.input.value, in_folder: where.select.value === "folder" }),
-    /** @param {string} text a file's name, whose ending is the format's */
+    /** @param {string} text a file name with the format's ending */
     rename(text) {
       const end = ending.textContent ?? "";
       name.input.value = end && text.endsWith(end) ? text.slice(0, -end.length) : text;
@@ -51,7 +51,7 @@ export function exportTarget(what, onExport) {
       if (!name.input.value) name.input.value = choices.name;
       showFolder();
     },
-    /** @param {string} suffix @param {string} problem why nothing can be exported now, or "" */
+    /** @param {string} suffix @param {string} problem why nothing can be exported, or "" */
     show(suffix, problem) {
       ending.textContent = suffix;
       go.disabled = problem !== "";
@@ -61,9 +61,9 @@ export function exportTarget(what, onExport) {
   };
 }
 
-/** The formats as options of a list. @param {Format[]} formats @returns {[string, string][]} */
+/** Convert formats to select options. @param {Format[]} formats @returns {[string, string][]} */
 export const formatOptions = (formats) => formats.map(({ suffix, label }) => [suffix, label]);
 
-/** How to get what a format needs, or "". @param {Format | undefined} format */
+/** Return how to install what a format needs, or "". @param {Format | undefined} format */
 export const lacking = (format) =>
   format?.lacks ? `${format.label} needs more: ${format.lacks}, then restart the kernel.` : "";

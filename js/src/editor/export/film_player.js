@@ -1,4 +1,4 @@
-/** Plays a film in the view's own picture: each moment is drawn live, and the edit stays as it is. */
+/** Plays a film in the view's picture: each moment is drawn live, and the edit does not change. */
 
 import { sameRecipe } from "../../edit/equality.js";
 import { element } from "../../ui/element.js";
@@ -12,7 +12,7 @@ import { playButton } from "../../ui/play_button.js";
 /**
  * @param {import("../types.js").Needs<"drawing" | "parts" | "picture" | "stage" | "state">} needs
  * @param {AbortSignal} signal
- * @param {() => Film | null} read the film as it is set now; null when nothing moves
+ * @param {() => Film | null} read returns the film with the current settings; null when nothing moves
  */
 export function filmPlayer({ drawing, parts, picture, stage, state }, signal, read) {
   const range = element("input", {
@@ -22,13 +22,13 @@ export function filmPlayer({ drawing, parts, picture, stage, state }, signal, re
     max: 1,
     step: "any",
     value: 0,
-    "aria-label": "Moment of the film",
+    "aria-label": "Position in the film",
   });
   const time = element("span", { class: "sw-film-time" });
 
   let at = 0; // seconds
   let way = 1;
-  /** @type {import("../../host/types.js").Edit} the edit under which the film is shown */
+  /** @type {import("../../host/types.js").Edit} the edit when playback started */
   let under = {};
 
   /** @param {Film} film */
@@ -38,7 +38,7 @@ export function filmPlayer({ drawing, parts, picture, stage, state }, signal, re
     drawing.loop.request();
     show();
   };
-  /** Back to the edit. */
+  /** Show the edit again. */
   const leave = () => {
     if (!picture.passing) return;
     picture.passing = null;
@@ -48,7 +48,7 @@ export function filmPlayer({ drawing, parts, picture, stage, state }, signal, re
   const play = playButton(
     {
       label: "Play the film",
-      title: "Play the film in the picture; the edit stays as it is",
+      title: "Play the film in the picture; the edit does not change",
       onStart: () => {
         if (at >= (read()?.seconds ?? 0)) at = 0;
         way = 1;
@@ -85,7 +85,7 @@ export function filmPlayer({ drawing, parts, picture, stage, state }, signal, re
     at = Number(range.value) * film.seconds;
     draw(film);
   });
-  // A hand on the picture or a panel's slider means the edit.
+  // A press on the picture or a panel's slider concerns the edit.
   stage.node.addEventListener("pointerdown", stop, { capture: true, signal });
 
   const show = () => {

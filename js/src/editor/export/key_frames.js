@@ -1,4 +1,4 @@
-/** Key frames of a film: edits at seconds, as a strip of small pictures. */
+/** A film's key frames, edits at given seconds, as a strip of thumbnails. */
 
 import { alongEdit, movedOf } from "../../film/film_path.js";
 import { button } from "../../ui/button.js";
@@ -7,15 +7,15 @@ import { element } from "../../ui/element.js";
 
 /** @typedef {import("../../film/film_path.js").KeyFrame} KeyFrame */
 
-// Twins of those in sunwidget/widgets/editor/key_frames.py.
+// The same limits as in sunwidget/widgets/editor/key_frames.py.
 const MOST = 100;
 const LONGEST = 600;
 const CLOSEST = 0.05;
-const APART = 2; // seconds between a new key frame and the last
+const APART = 2; // seconds from the last key frame to a new one
 
 /** @param {import("../types.js").Needs<"notices" | "state" | "thumbnails">} needs */
 export function keyFrames({ notices, state, thumbnails }) {
-  let generation = 0; // of the scene
+  let generation = 0; // incremented with every scene
   /** @type {{ frame: KeyFrame, canvas: HTMLCanvasElement }[]} */
   let cards = [];
 
@@ -23,7 +23,7 @@ export function keyFrames({ notices, state, thumbnails }) {
   /** @param {KeyFrame[]} frames */
   const write = (frames) => {
     const sorted = [...frames].sort((a, b) => a.seconds - b.seconds);
-    // No two stand at one time: the later gives way.
+    // No two share a time: the later one moves.
     let least = 0;
     const apart = sorted.map(({ seconds, recipe }) => {
       const at = round(Math.max(seconds, least));
@@ -37,22 +37,26 @@ export function keyFrames({ notices, state, thumbnails }) {
   const put = (i, frame) => write(read().map((other, at) => (at === i ? frame : other)));
 
   const list = element("ol", { class: "sw-key-frames", "aria-label": "Key frames" });
-  const add = chip("Add key frame", "The edit as it is now, as the film's next key frame", () => {
+  const add = chip("Add key frame", "Add the current edit as the film's next key frame", () => {
     const frames = read();
     const last = frames[frames.length - 1];
     write([...frames, { seconds: last ? last.seconds + APART : 0, recipe: state.recipe() }]);
     list.scrollLeft = list.scrollWidth;
   });
-  const fromVersions = chip("From the versions", "The kept versions, in their order", () => {
+  const fromVersions = chip("From versions", "Use the versions as key frames, in order", () => {
     const before = read();
     write(state.versions().map(({ recipe }, i) => ({ seconds: i * APART, recipe })));
     if (before.length) offer("The key frames were replaced.", before);
   });
-  const clear = chip("Clear", "No key frames: from the photo to the edit as it is", () => {
-    const before = read();
-    write([]);
-    offer("The key frames were removed.", before);
-  });
+  const clear = chip(
+    "Clear",
+    "Remove all key frames: the film goes from the photo to the current edit",
+    () => {
+      const before = read();
+      write([]);
+      offer("The key frames were removed.", before);
+    },
+  );
   /** @param {string} text @param {KeyFrame[]} before */
   const offer = (text, before) =>
     notices.show("key-frame", {
@@ -80,7 +84,7 @@ export function keyFrames({ notices, state, thumbnails }) {
       { type: "button", class: "sw-key-go", "aria-label": `Go to ${name}` },
       canvas,
     );
-    go.title = "Go to this edit, as one step";
+    go.title = "Go to this edit, as one undo step";
     go.addEventListener("click", () => state.replace(whole(frame)));
     const seconds = element("input", {
       type: "number",
@@ -113,20 +117,20 @@ export function keyFrames({ notices, state, thumbnails }) {
     };
     const earlier = button({
       icon: "chevron",
-      label: `Move ${name} forward in the film`,
+      label: `Move ${name} earlier`,
       onClick: () => move(-1),
     });
     earlier.classList.add("sw-backwards");
     earlier.disabled = i === 0;
     const later = button({
       icon: "chevron",
-      label: `Move ${name} back in the film`,
+      label: `Move ${name} later`,
       onClick: () => move(1),
     });
     later.disabled = i === all.length - 1;
     const retake = button({
       icon: "camera",
-      label: `Set ${name} to the edit as it is now`,
+      label: `Set ${name} to the current edit`,
       onClick: () => put(i, { ...frame, recipe: state.recipe() }),
     });
     const remove = button({
@@ -148,7 +152,7 @@ export function keyFrames({ notices, state, thumbnails }) {
       element("div", { class: "sw-key-row" }, earlier, retake, later),
     );
   };
-  /** A key frame's recipe with the present edit's corrections and methods. @param {KeyFrame} frame */
+  /** Complete a key frame's recipe with the current edit's corrections and methods. @param {KeyFrame} frame */
   const whole = (frame) => alongEdit(state.parameters, state.recipe(), frame.recipe);
 
   let drawn = "";
@@ -163,8 +167,8 @@ export function keyFrames({ notices, state, thumbnails }) {
     list.hidden = !frames.length;
     empty.hidden = frames.length > 1;
     empty.textContent = frames.length
-      ? "From this key frame to the edit as it is now. Move the sun and add the next."
-      : "From the photo as it was to the edit as it is now; or along key frames that you add.";
+      ? "The film goes from this key frame to the current edit. Move the sun and add the next."
+      : "The film goes from the photo to the current edit, or through key frames that you add.";
     add.disabled = frames.length >= MOST;
     clear.hidden = !frames.length;
     fromVersions.hidden = state.versions().length < 2;

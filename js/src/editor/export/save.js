@@ -1,16 +1,16 @@
-/** The picture as a file: of full size from the kernel, of preview size where none answers. */
+/** Saves the picture: full size from the kernel, or preview size without one. */
 
 import { download } from "../../ui/download.js";
 
 /**
- * The picture as a file, by the toolbar's button, and the editor itself as one, by the menu.
+ * Add the toolbar's Save button and the menu item that saves the editor as a web page.
  *
  * @type {import("../types.js").MakePart<"channel" | "drawing" | "kernel" | "model" | "picture"
  *   | "stage" | "toolbar" | "work">}
  */
 export function saving({ channel, drawing, kernel, model, picture, stage, toolbar, work }) {
   /**
-   * A file that the kernel makes: the frame at full size, or a page.
+   * Download a file that the kernel makes: the full-size picture, or a page.
    *
    * @param {"save" | "page"} action
    * @param {AbortSignal} signal
@@ -20,14 +20,14 @@ export function saving({ channel, drawing, kernel, model, picture, stage, toolba
     const onProgress = (fraction, text) => {
       if (!signal.aborted) stage.setProgress(fraction, text);
     };
-    onProgress(0, "Asking the kernel …");
-    const asked = picture.asked();
+    onProgress(0, "Waiting for the kernel …");
+    const asked = picture.requestContent();
     const { result, buffers } = await channel.request(action, asked, onProgress, [], signal);
     const bytes = /** @type {BlobPart} */ (buffers[0]);
     download(new Blob([bytes], { type: result.type }), result.name);
   };
 
-  /** The canvas as PNG. */
+  /** Download the canvas as PNG. */
   const preview = async () => {
     drawing.drawFrame(1);
     /** @type {Blob | null} */
@@ -43,7 +43,7 @@ export function saving({ channel, drawing, kernel, model, picture, stage, toolba
   toolbar.menu.add({
     group: "picture",
     label: "Save as a web page",
-    title: "One file in which the sun can be moved, without a notebook and without network",
+    title: "One file in which the sun can be moved, without a notebook or network",
     enabled: () => kernel.answers && picture.scene !== null,
     shown: () => kernel.state !== "none",
     run: () => work.run("Saving the page", (signal) => fromKernel("page", signal)),

@@ -1,6 +1,6 @@
-/** What a person waits for and then keeps, one at a time: a picture, a page, an export. */
+/** Long work that the user waits for, one at a time: saving a picture or page, an export. */
 
-import { Cancelled } from "../../host/channel.js";
+import { Canceled } from "../../host/channel.js";
 
 export class Work {
   /** @param {import("../types.js").Needs<"notices" | "stage" | "state">} needs */
@@ -8,9 +8,9 @@ export class Work {
     this.notices = notices;
     this.stage = stage;
     this.state = state;
-    /** @type {AbortController | null} cancels what is being made */
+    /** @type {AbortController | null} cancels the current work */
     this.controller = null;
-    /** @type {() => void} called when it begins and when it ends */
+    /** @type {() => void} called when work starts and ends */
     this.onChange = () => {};
   }
 
@@ -23,9 +23,9 @@ export class Work {
   }
 
   /**
-   * Make something, unless something else is being made.
+   * Run a piece of work, unless another is running.
    *
-   * @param {string} what as the person calls it
+   * @param {string} what name shown to the user
    * @param {(signal: AbortSignal) => Promise<void>} make
    */
   async run(what, make) {
@@ -39,7 +39,7 @@ export class Work {
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
       this.notices.show("save", {
-        text: error instanceof Cancelled ? `${what} was cancelled.` : `${what} failed: ${why}`,
+        text: error instanceof Canceled ? `${what} was canceled.` : `${what} failed: ${why}`,
         actions: [{ label: "Try again", run: () => this.run(what, make) }],
       });
     } finally {

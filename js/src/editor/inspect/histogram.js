@@ -1,6 +1,6 @@
 /**
- * The histogram of what is on the canvas: red, green, blue and luminance, the photo's own
- * luminance as a line, and a mark at each end where detail is lost.
+ * The canvas's histogram: red, green, blue and luminance, the photo's luminance as a line, and a
+ * clipping mark at each end.
  */
 
 import { Fence } from "../../gl/fence.js";
@@ -11,19 +11,19 @@ import { ceiling, countLevels, hill } from "./levels.js";
 
 /** @typedef {import("./levels.js").Levels} Levels */
 
-const EDGE = 256; // pixels of the longer side that are counted
+const EDGE = 256; // longer side of the copy that is counted, pixels
 const EVERY_MS = 150;
-// Reading the canvas waits for the frame under way. Where that takes long, it is read at rest.
-const DEAR_MS = 6;
-const RESTED_MS = 600;
+// Reading the canvas waits for the current frame. If that is slow, the canvas is read only at rest.
+const SLOW_MS = 6;
+const REST_MS = 600;
 const PAUSE_MS = 60;
-const FORGETS = 0.7; // of the cost, with each reading
+const COST_DECAY = 0.7; // per reading
 const WIDTH = 240;
 const HEIGHT = 56;
 const CHANNELS = /** @type {const} */ (["red", "green", "blue"]);
-// Until there is a picture to count.
+// Shown until there is a picture to count.
 const UNKNOWN = { role: "img", "aria-label": "Not counted yet" };
-const WORTH_SAYING = 0.001; // share of the picture that is clipped
+const CLIPPED_FROM = 0.001; // share of the picture from which clipping is reported
 
 /** @type {import("../types.js").MakePart<"drawing" | "panel" | "stage" | "state">} */
 export function histogram({ drawing, panel, stage, state }, signal) {
@@ -67,9 +67,9 @@ export function histogram({ drawing, panel, stage, state }, signal) {
   const small = document.createElement("canvas");
   const context = small.getContext("2d", { willReadFrequently: true });
   /** @type {Levels | null} */
-  let own = null; // of the photo
-  let counted = 0; // when, ms
-  let cost = 0; // of reading, ms
+  let own = null; // the photo's levels
+  let counted = 0; // time of the last count, ms
+  let cost = 0; // recent time to read the canvas, ms
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
   let forget = () => {};
@@ -85,14 +85,14 @@ export function histogram({ drawing, panel, stage, state }, signal) {
     const scale = Math.min(1, EDGE / Math.max(width, height));
     small.width = Math.max(1, Math.round(width * scale));
     small.height = Math.max(1, Math.round(height * scale));
-    // Averages would hide what is clipped: pixels are picked.
+    // Averaging would hide clipping, so pixels are picked.
     context.imageSmoothingEnabled = false;
     context.drawImage(source, 0, 0, small.width, small.height);
     return countLevels(context.getImageData(0, 0, small.width, small.height).data);
   };
 
   const show = () => {
-    if (state.before !== null && cost > DEAR_MS) return; // its end draws again
+    if (state.before !== null && cost > SLOW_MS) return; // the gesture's end draws again
     if (!fence.passed()) {
       clearTimeout(timer);
       timer = setTimeout(idle, PAUSE_MS);
@@ -100,9 +100,9 @@ export function histogram({ drawing, panel, stage, state }, signal) {
     }
     own ??= read(stage.photo);
     counted = performance.now();
-    // Until there is a frame, the photo stands where it will be.
+    // Until there is a frame, the photo is shown.
     const now = drawing.live ? read(stage.canvas) : own;
-    cost = Math.max(performance.now() - counted, FORGETS * cost);
+    cost = Math.max(performance.now() - counted, COST_DECAY * cost);
     if (!now) return;
     const most = ceiling([now.red, now.green, now.blue, now.luminance]);
     CHANNELS.forEach((name, i) => {
@@ -110,16 +110,16 @@ export function histogram({ drawing, panel, stage, state }, signal) {
     });
     setAttributes(luminance, { d: hill(now.luminance, most, WIDTH, HEIGHT) });
     setAttributes(before, { d: own ? hill(own.luminance, most, WIDTH, HEIGHT) : "" });
-    const said = /** @type {const} */ (["black", "white"]).map((end) => {
+    const texts = /** @type {const} */ (["black", "white"]).map((end) => {
       const share = now.clipped[end];
       const word = end === "black" ? "Blacks" : "Highlights";
       const was = own ? `, in the photo ${percent(own.clipped[end])}` : "";
       const label = `${word} clipped: ${percent(share)}${was}`;
       setAttributes(marks[end], { "aria-label": label, title: label });
-      marks[end].classList.toggle("sw-on", share > WORTH_SAYING);
-      return share > WORTH_SAYING ? `${word} ${percent(share)}` : "";
+      marks[end].classList.toggle("sw-on", share > CLIPPED_FROM);
+      return share > CLIPPED_FROM ? `${word} ${percent(share)}` : "";
     });
-    text.textContent = said.filter(Boolean).join(" · ");
+    text.textContent = texts.filter(Boolean).join(" · ");
     svg.setAttribute("aria-label", `Histogram. ${text.textContent || "Nothing is clipped"}.`);
   };
   const idle = () => {
@@ -128,13 +128,10 @@ export function histogram({ drawing, panel, stage, state }, signal) {
     forget = whenIdle(show);
   };
   const wake = () => {
-    const dear = cost > DEAR_MS;
-    if (body.hidden || signal.aborted || (timer && !dear)) return;
+    const slow = cost > SLOW_MS;
+    if (body.hidden || signal.aborted || (timer && !slow)) return;
     clearTimeout(timer);
-    timer = setTimeout(
-      idle,
-      dear ? RESTED_MS : Math.max(0, counted + EVERY_MS - performance.now()),
-    );
+    timer = setTimeout(idle, slow ? REST_MS : Math.max(0, counted + EVERY_MS - performance.now()));
   };
   signal.addEventListener("abort", () => {
     clearTimeout(timer);

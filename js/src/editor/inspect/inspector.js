@@ -1,6 +1,6 @@
 /**
- * Shows one map of the analysis over the picture, with its legend, how its values are spread, and
- * the value under the pointer. A map travels when it is asked for, once for each scene.
+ * Shows one analysis map over the picture, with a legend, a histogram of its values and the value
+ * under the pointer. A map is fetched on demand, once per scene.
  */
 
 import { decodePicture } from "../../gl/texture.js";
@@ -8,7 +8,7 @@ import { errorText } from "../../host/error_text.js";
 import { button } from "../../ui/button.js";
 import { element, setAttributes, shape } from "../../ui/element.js";
 import { ceiling, hill, spreadOf } from "./levels.js";
-import { colours, gradient, textAt } from "./ramp.js";
+import { gradient, rampColors, textAt } from "./ramp.js";
 
 /**
  * @typedef {import("../../host/types.js").Point} Point
@@ -32,7 +32,7 @@ export class Inspector {
     this.data = null;
     /** @type {unknown} the scene that `data` belongs to */
     this.scene = null;
-    /** @type {Map<string, MapLevels>} by name, of the scene at hand */
+    /** @type {Map<string, MapLevels>} by name, of `knownScene` */
     this.known = new Map();
     /** @type {unknown} */
     this.knownScene = null;
@@ -42,11 +42,11 @@ export class Inspector {
 
     this.choice = element(
       "select",
-      { class: "sw-select sw-show", "aria-label": "Show", title: "Show a map of the analysis (M)" },
+      { class: "sw-select sw-show", "aria-label": "Show", title: "Show an analysis map (M)" },
       element("option", { value: "" }, "Picture"),
       element(
         "optgroup",
-        { label: "What the analysis found" },
+        { label: "Analysis" },
         ...this.maps.map(({ name, title }) => element("option", { value: name }, title)),
       ),
     );
@@ -69,7 +69,7 @@ export class Inspector {
     );
     this.low = element("span");
     this.high = element("span");
-    // Not read out by itself: it changes with every move of the pointer.
+    // Not announced: it changes with every pointer move.
     this.value = element("output", {
       class: "sw-legend-value",
       "aria-label": "Value at pointer",
@@ -82,8 +82,8 @@ export class Inspector {
       max: 1,
       step: 0.05,
       value: 1,
-      "aria-label": "Opacity of the map",
-      title: "Opacity of the map",
+      "aria-label": "Map opacity",
+      title: "Map opacity",
     });
     this.opacity.addEventListener("input", () => this.setOpacity());
     const ramp = element("span", { class: "sw-legend-ramp" }, over, this.bar);
@@ -94,8 +94,8 @@ export class Inspector {
       { class: "sw-legend-steps" },
       button({
         icon: "chevron",
-        label: "Map before",
-        title: "Map before (Shift+M)",
+        label: "Previous map",
+        title: "Previous map (Shift+M)",
         onClick: () => this.step(-1),
       }),
       this.position,
@@ -114,7 +114,7 @@ export class Inspector {
     });
     this.node = element(
       "div",
-      { class: "sw-legend", role: "group", "aria-label": "Map of the analysis", hidden: true },
+      { class: "sw-legend", role: "group", "aria-label": "Analysis map", hidden: true },
       element("span", { class: "sw-legend-name" }, this.title, this.value),
       this.scale,
       this.opacity,
@@ -153,14 +153,14 @@ export class Inspector {
     void this.refresh();
   }
 
-  /** The next map of the table, the picture after the last. @param {1 | -1} way */
-  step(way) {
+  /** Show the next or previous map; the picture follows the last one. @param {1 | -1} direction */
+  step(direction) {
     const names = ["", ...this.maps.map(({ name }) => name)];
     const at = names.indexOf(this.map?.name ?? "");
-    this.choose(names[(at + way + names.length) % names.length]);
+    this.choose(names[(at + direction + names.length) % names.length]);
   }
 
-  /** Ask for the map unless the one at hand is of the present scene. */
+  /** Fetch the map, unless the one shown belongs to the current scene. */
   async refresh() {
     const { map } = this;
     const { scene } = this.picture;
@@ -172,7 +172,7 @@ export class Inspector {
     this.knownScene = scene;
     const known = this.known.get(map.name);
     if (known) {
-      this.node.classList.remove("sw-waiting"); // for another map, given up
+      this.node.classList.remove("sw-waiting"); // a request for another map is abandoned
       return this.paint(map, known);
     }
     this.node.classList.add("sw-waiting");
@@ -187,7 +187,7 @@ export class Inspector {
       if (asked !== this.asked) return;
       this.data = null;
       this.canvas.width = 0;
-      // Most often the photo has no such thing, such as a sun.
+      // Most often the photo has no such map, for instance no sun.
       this.help.textContent = errorText(error);
       this.readValue();
     } finally {
@@ -202,7 +202,7 @@ export class Inspector {
     [canvas.width, canvas.height] = [width, height];
     const image = new ImageData(width, height);
     const pixels = new Uint32Array(image.data.buffer);
-    const table = new Uint32Array(colours(map.ramp).buffer);
+    const table = new Uint32Array(rampColors(map.ramp).buffer);
     for (let i = 0; i < pixels.length; i++) pixels[i] = table[levels[i]];
     canvas.getContext("2d")?.putImageData(image, 0, 0);
     const spread = spreadOf(levels);
@@ -218,13 +218,13 @@ export class Inspector {
     void this.refresh();
   }
 
-  /** The canvas was emptied: paint the map anew. */
+  /** Paint the map again after its canvas was cleared. */
   repaint() {
     this.scene = null;
     void this.refresh();
   }
 
-  /** The pointer is at a place of the picture, or gone. @param {Point | null} place */
+  /** Take the pointer's position on the picture; null when it has left. @param {Point | null} place */
   point(place) {
     this.place = place;
     if (this.map) this.readValue();
@@ -243,7 +243,7 @@ export class Inspector {
   }
 }
 
-/** @param {ImageBitmap} bitmap grey levels @returns {MapLevels | null} */
+/** @param {ImageBitmap} bitmap gray levels @returns {MapLevels | null} */
 function levelsOf(bitmap) {
   const { width, height } = bitmap;
   const canvas = document.createElement("canvas");

@@ -1,4 +1,4 @@
-/** Counts of a picture's levels: red, green, blue and luminance, and what is clipped. */
+/** Counts a picture's levels (red, green, blue, luminance) and its clipped pixels. */
 
 import { encode, LIGHT } from "../../gl/srgb.js";
 
@@ -9,15 +9,15 @@ const PER_BIN = 256 / BINS;
  * @typedef {{
  *   red: number[], green: number[], blue: number[], luminance: number[],
  *   clipped: { black: number, white: number },
- * }} Levels shares of the pixels by bin, dark to light; and of those at the end of a channel
+ * }} Levels shares of the pixels by bin, dark to light, and of the clipped pixels
  */
 
 /** The sRGB level of 4096 steps of linear light. */
 const LEVEL = Uint8Array.from({ length: 4096 }, (_, step) => Math.round(255 * encode(step / 4095)));
 
 /**
- * Count the levels of RGBA bytes in sRGB. Luminance is Rec. 709's, of linear light, and then
- * encoded as the channels are.
+ * Count the levels of RGBA bytes in sRGB. Luminance is Rec. 709's of linear light, encoded like the
+ * channels.
  *
  * @param {Uint8ClampedArray} pixels
  * @returns {Levels}
@@ -35,7 +35,7 @@ export function countLevels(pixels) {
     counts[1][Math.floor(g / PER_BIN)] += 1;
     counts[2][Math.floor(b / PER_BIN)] += 1;
     counts[3][Math.floor(luminance / PER_BIN)] += 1;
-    // Detail is lost at the top where one channel ends, at the bottom where all do.
+    // A pixel clips at the top if any channel does, at the bottom if all do.
     if (r === 255 || g === 255 || b === 255) white += 1;
     if (r === 0 && g === 0 && b === 0) black += 1;
   }
@@ -45,7 +45,7 @@ export function countLevels(pixels) {
 }
 
 /**
- * Shares of single levels, by bin.
+ * Return the share of levels in each bin.
  *
  * @param {Uint8Array} levels
  * @returns {number[]}
@@ -57,8 +57,8 @@ export function spreadOf(levels) {
 }
 
 /**
- * A height that shows nearly all of several histograms: a peak of the sky's flat blue, or of
- * clipped white, would press everything else to the ground.
+ * Return a height that shows nearly all of several histograms: a peak from the sky's flat blue, or
+ * from clipped white, would flatten everything else.
  *
  * @param {number[][]} histograms
  */

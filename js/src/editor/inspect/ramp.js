@@ -1,4 +1,4 @@
-/** Levels, values and colours of an inspected map. The kernel's table is `analysis/maps.py`. */
+/** Levels, values and colors of an inspected map. The kernel's table is `analysis/maps.py`. */
 
 /** @typedef {import("../../host/types.js").SceneMap} SceneMap */
 
@@ -14,7 +14,7 @@ export function valueAt(map, share) {
 }
 
 /**
- * A value as a person reads it; the last level of a logarithmic map stands for infinity.
+ * Format a value for display; the last level of a logarithmic map stands for infinity.
  *
  * @param {SceneMap} map
  * @param {number} share 0–1
@@ -32,11 +32,11 @@ export function textAt(map, share) {
 }
 
 /**
- * The ramp as 256 colours, RGBA in bytes.
+ * The ramp as 256 colors, RGBA in bytes.
  *
  * @param {SceneMap["ramp"]} ramp
  */
-export function colours(ramp) {
+export function rampColors(ramp) {
   const stops = ramp.map(([at, text]) => ({
     at,
     rgba: [1, 3, 5, 7].map((i) => Number.parseInt(text.slice(i, i + 2), 16)),
@@ -46,8 +46,8 @@ export function colours(ramp) {
   for (let level = 0; level < 256; level++) {
     while (next < stops.length - 1 && level / 255 > stops[next].at) next += 1;
     const [a, b] = [stops[next - 1], stops[next]];
-    const way = Math.min(1, Math.max(0, (level / 255 - a.at) / (b.at - a.at)));
-    for (let i = 0; i < 4; i++) table[4 * level + i] = a.rgba[i] + way * (b.rgba[i] - a.rgba[i]);
+    const share = Math.min(1, Math.max(0, (level / 255 - a.at) / (b.at - a.at)));
+    for (let i = 0; i < 4; i++) table[4 * level + i] = a.rgba[i] + share * (b.rgba[i] - a.rgba[i]);
   }
   return table;
 }

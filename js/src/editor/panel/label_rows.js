@@ -1,6 +1,6 @@
 /**
- * Where labels stand that are not to lie on each other: in their order, each at its row or as far
- * below as those above it need.
+ * Place labels without overlap: in order, each at its row or as far below as those above it
+ * require.
  *
  * @param {number[]} rows wanted
  * @param {number} height of a label

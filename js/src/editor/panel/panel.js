@@ -1,7 +1,7 @@
 /**
- * The panel: presets, a filter, and the sliders by section, drawn from the kernel's parameter
- * table. Few sections are open; each says how many of its values are changed. A section that is no
- * row of sliders is a part of its own (`parts.js`).
+ * The panel: presets, a filter, and sliders by section, built from the kernel's parameter table.
+ * Few sections are open; each shows how many of its values have changed. Sections other than
+ * sliders are separate parts (`parts.js`).
  */
 
 import { equal } from "../../edit/equality.js";
@@ -23,7 +23,7 @@ import { Softness } from "./softness.js";
 const OPEN = ["sun", "histogram"];
 
 /**
- * Which sections are open, by model: another view of the editor starts as the last one was left.
+ * Which sections are open, by model: a further view of the editor starts like the last one.
  *
  * @type {WeakMap<object, Record<string, boolean>>}
  */
@@ -51,7 +51,7 @@ export function panel({ inspector, model, picture, state }) {
   /** @param {string} name @param {Parameter[]} parameters @returns {Section} */
   const makeSection = (name, parameters) => {
     const rows = parameters.map((p) => makeRow({ picture, state }, p));
-    // What the kernel has to answer is set once, not played with.
+    // Parameters that need the kernel are set once, not explored.
     const folded = rows.filter(({ parameter: p }) => p.advanced || p.analysis);
     const all = folded.length === rows.length;
     const main = element("div", { class: "sw-section-main" });
@@ -101,13 +101,13 @@ export function panel({ inspector, model, picture, state }) {
   );
   return {
     node,
-    /** Go to the filter. */
+    /** Focus the filter. */
     find: filter.focus,
     /** Above the sections: presets, histogram. */
     top,
     isOpen,
     keepFold,
-    /** Where a part may add its rows: below the section's own, above "More". @param {string} name */
+    /** The node where a part adds its rows: below the section's own, above "More". @param {string} name */
     section(name) {
       const found = sections.find((made) => made.name === name);
       if (!found) throw new Error(`The panel has no section "${name}".`);
@@ -128,7 +128,7 @@ export function panel({ inspector, model, picture, state }) {
   };
 }
 
-/** One control of the table. @param {Pick<Needs, "picture" | "state">} needs @param {Parameter} p @returns {Row} */
+/** Make the control of one parameter. @param {Pick<Needs, "picture" | "state">} needs @param {Parameter} p @returns {Row} */
 function makeRow({ picture, state }, p) {
   if (p.kind === "choice") {
     const control = choice({ parameter: p, onChange: (value) => state.set({ [p.name]: value }) });

@@ -1,4 +1,4 @@
-/** Finds parameters by their words, and shows those that are changed. */
+/** Filters parameters by search words, or to those that have changed. */
 
 import { element } from "../../ui/element.js";
 import { icon } from "../../ui/icons.js";
@@ -16,7 +16,7 @@ import { icon } from "../../ui/icons.js";
  * @param {Pick<import("../../edit/state.js").EditState, "before">} state
  * @param {Section[]} sections
  * @param {{ isChanged: (p: Parameter) => boolean, isOpen: (name: string) => boolean }} options
- *   `isOpen` says how a section is left when nothing is filtered
+ *   `isOpen` says whether a section is open when nothing is filtered
  */
 export function panelFilter(state, sections, { isChanged, isOpen }) {
   const input = element("input", {
@@ -42,13 +42,13 @@ export function panelFilter(state, sections, { isChanged, isOpen }) {
   );
   const none = element("p", { class: "sw-filter-none", role: "status", hidden: true });
   let only = false;
-  let filtered = false; // whether the sections show a selection now
+  let filtered = false; // whether the sections currently show a selection
 
   const words = () => input.value.toLowerCase().split(/\s+/).filter(Boolean);
   const active = () => only || words().length > 0;
 
   /**
-   * Whether something of a section is to be seen; what a part added is found by its text.
+   * Whether a section's child passes the filter; children that a part added match by their text.
    *
    * @param {Element} child
    * @param {Section} section
@@ -56,8 +56,8 @@ export function panelFilter(state, sections, { isChanged, isOpen }) {
   const matches = (child, section) => {
     const row = section.rows.find((one) => one.node === child);
     if (only) {
-      const held = child.contains(child.ownerDocument.activeElement);
-      if (!(row && (held || isChanged(row.parameter)))) return false;
+      const focused = child.contains(child.ownerDocument.activeElement);
+      if (!(row && (focused || isChanged(row.parameter)))) return false;
     }
     const p = row?.parameter;
     const text = p
@@ -75,13 +75,13 @@ export function panelFilter(state, sections, { isChanged, isOpen }) {
       const { main, more } = section;
       const inMore = more ? [...(more.querySelector(".sw-section-body")?.children ?? [])] : [];
       /** @param {Element} child */
-      const see = (child) => {
-        const seen = !on || matches(child, section);
-        child.classList.toggle("sw-filtered", !seen);
-        return seen;
+      const filterChild = (child) => {
+        const passes = !on || matches(child, section);
+        child.classList.toggle("sw-filtered", !passes);
+        return passes;
       };
-      const here = [...main.children].filter(see).length;
-      const there = inMore.filter(see).length;
+      const here = [...main.children].filter(filterChild).length;
+      const there = inMore.filter(filterChild).length;
       if (more) {
         more.classList.toggle("sw-filtered", on && !there);
         if (on !== filtered || on) more.open = on && there > 0;
@@ -92,7 +92,8 @@ export function panelFilter(state, sections, { isChanged, isOpen }) {
     }
     none.hidden = !on || found;
     if (!none.hidden) {
-      none.textContent = only && !words().length ? "Nothing is changed." : "No parameter matches.";
+      none.textContent =
+        only && !words().length ? "No parameter has been changed." : "No parameter matches.";
     }
     node.parentElement?.classList.toggle("sw-finding", on);
     filtered = on;
@@ -124,7 +125,7 @@ export function panelFilter(state, sections, { isChanged, isOpen }) {
     count.textContent = some ? String(some) : "";
     count.hidden = !some;
     changed.disabled = !some && !only;
-    changed.title = only ? "Show all parameters" : "Show only what is changed";
+    changed.title = only ? "Show all parameters" : "Show only changed parameters";
   };
 
   return {
@@ -134,7 +135,7 @@ export function panelFilter(state, sections, { isChanged, isOpen }) {
     focus: () => input.focus(),
     show() {
       showCount();
-      // A row that passes its default on the way stays under the hand.
+      // A row that passes its default during a drag stays visible.
       if (only && state.before === null) apply();
     },
   };

@@ -1,4 +1,4 @@
-/** The presets, each with a small picture of what it makes of this photo. */
+/** The presets, each with a thumbnail of this photo under it. */
 
 import { presetChips } from "../../ui/chips.js";
 import { element } from "../../ui/element.js";
@@ -11,7 +11,7 @@ const PLACES = 6;
 export function presetThumbnails({ panel, picture, state, thumbnails }) {
   /** @type {{ preset: Preset, canvas: HTMLCanvasElement }[]} */
   let all = [];
-  let generation = 0; // of the scene
+  let generation = 0; // incremented with every scene
 
   const chips = presetChips(
     state,
@@ -24,7 +24,7 @@ export function presetThumbnails({ panel, picture, state, thumbnails }) {
       return canvas;
     },
   );
-  // Holds the place until the analysis has found what each preset sets.
+  // Placeholders until the analysis has determined what each preset sets.
   const places = Array.from({ length: PLACES }, () =>
     element("span", { class: "sw-chip" }, "\u00a0"),
   );
@@ -33,7 +33,7 @@ export function presetThumbnails({ panel, picture, state, thumbnails }) {
   waiting.append(...places);
   panel.top.append(chips.node, waiting);
 
-  /** What a thumbnail shows; a sun that is moved by hand changes none. @param {Preset} preset */
+  /** Identify what a thumbnail shows; a sun moved by hand does not change it. @param {Preset} preset */
   const keyOf = (preset) => {
     const numbers = state.parameters.filter(({ kind }) => kind !== "data");
     return JSON.stringify([

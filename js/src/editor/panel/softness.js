@@ -1,8 +1,8 @@
 /**
- * The histogram of the sky's whiteness with m_min and m_max as lines to drag.
+ * The histogram of the sky's whiteness, with m_min and m_max as draggable lines.
  *
- * Between them the softness C^s rises from 0 to 1; they are well chosen when it is spread
- * (thesis 4.2). The kernel counts, by the measure of the method that found the clouds.
+ * Between them the softness C^s rises from 0 to 1; they are well chosen when it is spread out
+ * (thesis 4.2). The kernel counts with the measure of the method that found the clouds.
  */
 
 import { parameterOf } from "../../edit/parameter.js";
@@ -19,7 +19,7 @@ const STEP = 0.01;
 export class Softness {
   /**
    * @param {import("../types.js").Needs<"picture" | "state">} needs
-   * @param {import("../../host/types.js").SceneMap["ramp"]} [ramp] of the softness
+   * @param {import("../../host/types.js").SceneMap["ramp"]} [ramp] colors of the softness map
    */
   constructor({ picture, state }, ramp) {
     this.picture = picture;
@@ -51,7 +51,7 @@ export class Softness {
         "div",
         {
           class: "sw-histogram-title",
-          title: "Red over blue or its like. Drag m_min and m_max so that the softness is spread",
+          title: "Red over blue, or a similar measure. Drag m_min and m_max to spread the softness",
         },
         element("span", {}, "Whiteness of the sky"),
         this.numbers,
@@ -112,7 +112,7 @@ export class Softness {
     return ((event.clientX - box.left) / box.width) * this.measured().reach;
   }
 
-  /** The nearer line is taken. @param {PointerEvent} event */
+  /** Drag the nearer line. @param {PointerEvent} event */
   onDown(event) {
     if (event.button > 0) return;
     event.preventDefault();
@@ -156,12 +156,12 @@ export class Softness {
     this.ramp.style.marginLeft = `${(100 * x0) / WIDTH}%`;
     this.ramp.style.width = `${(100 * (x1 - x0)) / WIDTH}%`;
     const [clear, soft, white] = spread(shares, reach, limits[0], limits[1]);
-    // Un-mixing needs no thresholds; only the thesis' own methods take them all the same.
+    // Un-mixing needs no thresholds; only the thesis's own methods use them anyway.
     const idle = method === "unmix" && this.state.values.method === "ratio";
     this.node.classList.toggle("sw-idle", idle);
     this.text.classList.remove("sw-warn");
     if (idle) {
-      this.text.textContent = "Clouds are un-mixed: no thresholds needed.";
+      this.text.textContent = "Clouds are un-mixed: no thresholds are needed.";
       return;
     }
     if (clear + soft + white === 0) {
@@ -169,7 +169,7 @@ export class Softness {
       return;
     }
     const say = (/** @type {number} */ share) => `${Math.round(100 * share)} %`;
-    const narrow = soft < 0.05 ? " Not spread: move the lines to where the sky is." : "";
+    const narrow = soft < 0.05 ? " Not spread: move the lines to the sky's values." : "";
     this.text.textContent = `Clear ${say(clear)} · soft ${say(soft)} · white ${say(white)}.${narrow}`;
     this.text.classList.toggle("sw-warn", narrow !== "");
   }

@@ -1,22 +1,22 @@
 /**
- * Small pictures of other edits of the photo. They are drawn one by one while the page has nothing
- * else to do and they are in sight, never while a hand is on the picture.
+ * Thumbnails of other edits of the photo. They are drawn one by one while the page is idle and they
+ * are visible, never during a drag.
  */
 
 import { Fence } from "../../gl/fence.js";
 import { Sketch } from "../../gl/sketch.js";
 import { whenIdle } from "../../host/idle.js";
 
-const AREA = 76_000; // pixels of a frame; nine make one of the thumbnail
+const AREA = 76_000; // pixels of a frame; nine are averaged to one of the thumbnail
 const SHRINK = 3;
-const DENSE = 2; // device pixels to a CSS pixel that the thumbnails are made for
+const DENSE = 2; // device pixels per CSS pixel that the thumbnails are made for
 const QUIET_MS = 400; // after the last change
-const PAUSE_MS = 60; // between two of them
-const WIDTH = 150; // of the photo in a thumbnail's place, pixels
+const PAUSE_MS = 60; // between two thumbnails
+const WIDTH = 150; // of the photo shown in place of a thumbnail, pixels
 
 /**
  * @typedef {{ canvas: HTMLCanvasElement, edit: import("../../host/types.js").Edit, key: string }} Wanted
- *   `key` tells what it shows; with another it is drawn again
+ *   `key` identifies what it shows; a new key redraws it
  */
 
 export class Thumbnails {
@@ -33,7 +33,7 @@ export class Thumbnails {
     this.signal = signal;
   }
 
-  /** The photo itself, until the thumbnail is drawn. @param {HTMLCanvasElement} canvas */
+  /** Show the photo until the thumbnail is drawn. @param {HTMLCanvasElement} canvas */
   placePhoto(canvas) {
     const { photo } = this;
     if (!photo.naturalWidth) return;
@@ -43,16 +43,16 @@ export class Thumbnails {
   }
 
   /**
-   * Draw them, and draw them anew when they show something else.
+   * Draw thumbnails, and redraw those whose key changes.
    *
-   * @param {HTMLElement} node drawn is while this is in sight
-   * @param {() => Wanted[]} read what there is to draw now
+   * @param {HTMLElement} node thumbnails are drawn while this is visible
+   * @param {() => Wanted[]} read returns the current thumbnails
    */
   keep(node, read) {
     const { drawing, hand, picture, signal, state } = this;
     const sketch = new Sketch(drawing.frame);
     const fence = new Fence(drawing.frame);
-    /** @type {WeakMap<HTMLCanvasElement, string>} what is drawn */
+    /** @type {WeakMap<HTMLCanvasElement, string>} keys that are drawn */
     const drawn = new WeakMap();
     let inSight = false;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -74,8 +74,8 @@ export class Thumbnails {
     const draw = () => {
       if (busy()) return wake();
       const next = read().find(({ canvas, key }) => drawn.get(canvas) !== key);
-      if (!next) return sketch.rest();
-      // None waits in a row behind others, where the next drag's frames would have to wait, too.
+      if (!next) return sketch.freeTargets();
+      // Queue no more than one: the next drag's frames would wait behind them.
       if (!fence.passed()) return wake(PAUSE_MS);
       const [width, height] = picture.size;
       const scale = Math.min(1, Math.sqrt(AREA / (width * height)));
@@ -89,7 +89,7 @@ export class Thumbnails {
       if (!frame) return;
       canvas.width = Math.ceil((size[0] * DENSE) / SHRINK);
       canvas.height = Math.ceil((size[1] * DENSE) / SHRINK);
-      // Without a context there will be one when the picture is drawn again.
+      // Without a context, wait until the picture is drawn again.
       if (!sketch.draw(frame, canvas)) return;
       drawn.set(canvas, key);
       canvas.classList.add("sw-drawn");
@@ -101,7 +101,7 @@ export class Thumbnails {
       if (inSight) wake();
     });
     observer.observe(node);
-    // A crash of the graphics process empties canvases, too.
+    // A crash of the graphics process also clears canvases.
     const onRestored = (/** @type {Event} */ { target }) => {
       drawn.delete(/** @type {HTMLCanvasElement} */ (target));
       wake();
@@ -111,7 +111,7 @@ export class Thumbnails {
       clearTimeout(timer);
       forget();
       observer.disconnect();
-      sketch.rest();
+      sketch.freeTargets();
     });
     return { wake: () => wake() };
   }

@@ -1,4 +1,4 @@
-/** How white the sky's pixels are: what the histogram of the cloud softness C^s says. */
+/** Statistics of the sky's whiteness for the histogram of the cloud softness C^s. */
 
 /**
  * Shares of the sky that are clear (C^s is 0), soft, and white (C^s is 1).
@@ -27,7 +27,7 @@ export function spread(shares, reach, low, high) {
  * @param {number} height
  */
 export function outline(shares, width, height) {
-  // Few bins often hold most of the sky: the root keeps the others in sight.
+  // A few bins often hold most of the sky: the square root keeps the others visible.
   const most = Math.max(...shares) || 1;
   const step = width / (shares.length || 1);
   const steps = shares.map((share, i) => {

@@ -1,4 +1,4 @@
-/** The day's strip with its clock, playing it, and what is said of the sun at its time. */
+/** The day strip with its clock, playback, and a description of the sun at that time. */
 
 import { clock as clockText, sunAt, turned } from "../../geometry/day.js";
 import { solarTime } from "../../geometry/place.js";
@@ -11,7 +11,7 @@ import { dayStrip } from "./day_strip.js";
 /** @typedef {import("../../geometry/place.js").Place} Place */
 
 const HOURS_A_SECOND = 1; // while the day plays
-const NIGHT = -12; // degrees below which nothing changes any more
+const NIGHT = -12; // degrees below which nothing changes
 
 /**
  * @param {import("../types.js").Needs<"clock" | "hand" | "parts" | "state"> & {
@@ -28,13 +28,13 @@ export function dayControls({ clock, hand, parts, path, state }, signal) {
   const play = playButton(
     {
       label: "Play the day",
-      title: "Play the day, an hour a second; the night is passed over",
+      title: "Play the day, one hour per second; the night is skipped",
       onStep: (seconds) => {
-        // A hand on the picture goes first.
+        // A drag on the picture takes precedence.
         if (hand.pointer !== null) return false;
-        // Another gesture ends a step of the history; the playing goes on in the next.
+        // Another gesture ends this history step; playback continues in the next.
         state.begin();
-        clock.moveTo(awake(clock.hours + seconds * HOURS_A_SECOND));
+        clock.moveTo(skipNight(clock.hours + seconds * HOURS_A_SECOND));
         return true;
       },
       onStop: () => state.commit(),
@@ -53,15 +53,15 @@ export function dayControls({ clock, hand, parts, path, state }, signal) {
     });
   const shown = choice(
     "Path on the picture",
-    "The sun's way over the day, with the hours in UTC. Drag along it to turn the clock.",
+    "The sun's path over the day, with hours in UTC. Drag along it to set the clock.",
     true,
     (on) => {
       path.shown = on;
     },
   );
   const kept = choice(
-    "Keep the sun on it",
-    "Dragging the sun, and its arrow keys, then turn the clock",
+    "Keep the sun on the path",
+    "Dragging the sun, or its arrow keys, then sets the clock",
     false,
     (on) => {
       path.kept = on;
@@ -76,8 +76,8 @@ export function dayControls({ clock, hand, parts, path, state }, signal) {
     kept.node,
   );
 
-  /** The hour itself, or the end of the night that it is in. @param {number} hours */
-  const awake = (hours) => {
+  /** Return the hour, or the end of the night if it falls in one. @param {number} hours */
+  const skipNight = (hours) => {
     const row = clock.path;
     const [first, end] = [row[0][0], row[row.length - 1][0]];
     const at = hours >= end ? first : hours;
@@ -90,15 +90,15 @@ export function dayControls({ clock, hand, parts, path, state }, signal) {
   const describe = (place) => {
     const sun = clock.sun();
     if (!sun) return "";
-    const lifted = `Seen at ${degrees(sun.apparent)}, truly at ${degrees(sun.true)}`;
+    const lifted = `Apparent elevation ${degrees(sun.apparent)}, true ${degrees(sun.true)}`;
     const solar = `Solar time ${clockText(solarTime(place))}`;
     if (place.heading === null) {
-      return `${lifted}. ${solar}. Without a heading the clock moves the elevation alone.`;
+      return `${lifted}. ${solar}. Without a heading, the clock changes only the elevation.`;
     }
     const north = (((sun.azimuth % 360) + 360) % 360).toFixed(1);
     const off = clock.follows()
       ? ""
-      : " The sun was moved elsewhere: turning the clock puts it back on its path.";
+      : " The sun was moved off its path: setting the clock puts it back.";
     return `${lifted}, azimuth ${north}° (${aside(turned(sun.azimuth - place.heading))}). ${solar}.${off}`;
   };
 

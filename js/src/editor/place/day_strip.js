@@ -1,4 +1,4 @@
-/** The day as a strip of its light, from the sun's midnight to its midnight, with the clock on it. */
+/** The day as a strip of sky colors from one solar midnight to the next, with the clock on it. */
 
 import { clock as clockText, sunAt } from "../../geometry/day.js";
 import { element, setAttributes } from "../../ui/element.js";
@@ -6,7 +6,7 @@ import { element, setAttributes } from "../../ui/element.js";
 /** @typedef {import("../../geometry/day.js").DayRow} DayRow */
 
 const STOPS = 48;
-/** Colours by the sun's elevation in degrees. @type {[number, string][]} */
+/** Colors by the sun's elevation in degrees. @type {[number, string][]} */
 const LIGHT = [
   [-14, "--sw-day-night"],
   [-5, "--sw-day-dusk"],
@@ -23,7 +23,7 @@ export function dayStrip({ onBegin, onInput, onCommit }) {
     class: "sw-day-range",
     step: 1 / 60,
     "aria-label": "Time of day, UTC",
-    title: "Time of day: the sun goes along its path",
+    title: "Time of day: moves the sun along its path",
   });
   const node = element("div", { class: "sw-day-strip" }, range);
   range.addEventListener("input", () => {
@@ -32,13 +32,13 @@ export function dayStrip({ onBegin, onInput, onCommit }) {
   });
   range.addEventListener("change", onCommit);
   range.addEventListener("keydown", (event) => {
-    // A minute a key is slow: five, and Shift an hour.
-    const way = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
-    if (!way) return;
+    // One minute per key is too slow: use five, or an hour with Shift.
+    const direction = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+    if (!direction) return;
     event.preventDefault();
     event.stopPropagation();
     onBegin();
-    onInput(Number(range.value) + (way * (event.shiftKey ? 60 : 5)) / 60);
+    onInput(Number(range.value) + (direction * (event.shiftKey ? 60 : 5)) / 60);
   });
   range.addEventListener("keyup", onCommit);
   range.addEventListener("blur", onCommit);

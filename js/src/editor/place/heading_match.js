@@ -1,4 +1,4 @@
-/** The heading by the photo's own sun: a button, what came of it, and the times at which it fits. */
+/** Sets the heading from the photo's sun: a button, its result, and the times that fit. */
 
 import { clock as clockText } from "../../geometry/day.js";
 import { AGREES, hoursOfDay } from "../../geometry/place.js";
@@ -10,16 +10,16 @@ import { element } from "../../ui/element.js";
 /** @param {import("../types.js").Needs<"clock" | "picture" | "state">} needs */
 export function headingMatch({ clock, picture, state }) {
   const button = chip(
-    "By the photo's sun",
-    "Set the heading so that the photo's own sun is where place and time put it; " +
+    "From the photo's sun",
+    "Set the heading so that the photo's sun agrees with place and time; " +
       "set the clock to the photo's time first",
     () => match(),
   );
   const note = element("p", { class: "sw-hint", role: "status", hidden: true });
   const offers = element("div", { class: "sw-chips", hidden: true });
-  let about = ""; // what the note is about: said no longer when that has changed
+  let about = ""; // the place that the note is about: it disappears when that changes
 
-  /** @param {string} text @param {Place[]} [places] times that are offered */
+  /** @param {string} text @param {Place[]} [places] times to offer */
   function say(text, places = []) {
     about = key(clock.place);
     note.textContent = text;
@@ -28,11 +28,11 @@ export function headingMatch({ clock, picture, state }) {
     offers.replaceChildren(...places.map((place, i) => offer(place, i === 0 ? clock.hours : null)));
   }
 
-  /** @param {Place} place @param {number | null} now the clock's hours, for the nearest of them */
+  /** @param {Place} place @param {number | null} now the clock's hours, for the nearest offer */
   const offer = (place, now) =>
     chip(
       `${clockText(place.time)} UTC${now === null ? "" : shift(hoursOfDay(place) - now)}`,
-      "Take this for the photo's time, with its heading",
+      "Use this as the photo's time, with its heading",
       () => {
         state.set({ place });
         say("");
@@ -48,19 +48,19 @@ export function headingMatch({ clock, picture, state }) {
     const apart = Math.abs(mismatch).toFixed(1);
     const guess = scene.sun?.visible
       ? ""
-      : "The photo does not show its sun: where it stood is a guess, and so is the heading. ";
+      : "The photo does not show its sun: its position is a guess, and so is the heading. ";
     if (Math.abs(mismatch) <= AGREES) {
-      return say(`${guess}Time and place agree with the photo's sun to ${apart}°.`);
+      return say(`${guess}Time and place agree with the photo's sun to within ${apart}°.`);
     }
-    const way = mismatch > 0 ? "higher" : "lower";
+    const side = mismatch > 0 ? "higher" : "lower";
     const than = `than at ${clockText(found.place.time)} UTC`;
-    const start = `${guess}The photo's sun stands ${apart}° ${way} ${than}. `;
+    const start = `${guess}The photo's sun is ${apart}° ${side} ${than}. `;
     if (agreeing.length) {
       const question = "Is the clock or its time zone wrong? The elevations agree at:";
       return say(start + question, agreeing);
     }
     const level = scene.automatic.sun_elevation.toFixed(1);
-    say(`${start}On this day it never stands at ${level}°: check date and place.`);
+    say(`${start}On this day the sun is never at ${level}°: check the date and place.`);
   }
 
   return {
@@ -76,13 +76,13 @@ export function headingMatch({ clock, picture, state }) {
   };
 }
 
-/** Whether a difference is one of time zones, which come in whole hours. @param {number} hours */
+/** Describe a difference that looks like a time zone error, a whole number of hours, or "". @param {number} hours */
 function shift(hours) {
   const whole = Math.round(hours);
   if (whole === 0 || Math.abs(hours - whole) > 0.2) return "";
   return `, ${Math.abs(whole)} h ${whole > 0 ? "later" : "earlier"}`;
 }
 
-/** What a place is but for its time. @param {Place | null} place */
+/** Identify a place apart from its time. @param {Place | null} place */
 const key = (place) =>
   JSON.stringify(place && [place.latitude, place.longitude, place.date, place.heading]);

@@ -1,4 +1,4 @@
-/** Latitude, longitude, date, time and heading, as fields to write into. */
+/** Input fields for latitude, longitude, date, time and heading. */
 
 import { clock as clockText } from "../../geometry/day.js";
 import { inputField } from "../../ui/named_field.js";
@@ -22,7 +22,7 @@ export function placeFields({ clock, parts, state }) {
     inputmode: "numeric",
     autocomplete: "off",
     spellcheck: "false",
-    title: "Hours and minutes in UTC, as 17:30",
+    title: "Hours and minutes in UTC, such as 17:30",
   });
   const heading = inputField("Heading", {
     type: "number",
@@ -30,7 +30,7 @@ export function placeFields({ clock, parts, state }) {
     max: 360,
     step: "any",
     placeholder: "unknown",
-    title: "Where the camera looks, degrees clockwise from true north",
+    title: "Direction of the camera, degrees clockwise from true north",
   });
 
   const onCoordinate = () => {
@@ -60,25 +60,25 @@ export function placeFields({ clock, parts, state }) {
 
   return {
     nodes: [...coordinates, date, time, heading].map(({ node }) => node),
-    /** @param {string} asks why the path of another day cannot be had, or "" */
-    show(asks) {
+    /** @param {string} reason why the path of another day is unavailable, or "" */
+    show(reason) {
       const { place } = clock;
       for (const { name, input, title } of coordinates) {
         fill(input, place?.[name]);
-        input.disabled = asks !== "";
-        input.title = asks || title;
+        input.disabled = reason !== "";
+        input.title = reason || title;
       }
       fill(date.input, place?.date);
       fill(time.input, place ? clockText(place.time) : null);
       fill(heading.input, place?.heading == null ? null : Number(place.heading.toFixed(1)));
-      date.input.disabled = !place || asks !== "";
-      date.input.title = asks || "Day in UTC";
+      date.input.disabled = !place || reason !== "";
+      date.input.title = reason || "Day in UTC";
       time.input.disabled = heading.input.disabled = !place;
     },
   };
 }
 
-/** Show a value, except under a hand that writes. @param {HTMLInputElement} input @param {unknown} value */
+/** Show a value, unless the user is typing in the field. @param {HTMLInputElement} input @param {unknown} value */
 function fill(input, value) {
   const text = String(value ?? "");
   const root = /** @type {Document | ShadowRoot} */ (input.getRootNode());

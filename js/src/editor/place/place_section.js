@@ -1,4 +1,4 @@
-/** Time and place, in the section of the sun: the clock, the fields and the photo's own file. */
+/** The "Time and place" part of the sun section: clock, fields and the photo's metadata. */
 
 import { chip } from "../../ui/chips.js";
 import { element } from "../../ui/element.js";
@@ -26,10 +26,10 @@ export function placeSection(
   const heading = headingMatch({ clock, picture, state });
   const fromPhoto = chip("From the photo", "Place, time and heading from the photo's file", () => {
     clock.takeFromFile();
-    heading.say((clock.told.notes ?? []).join(" "));
+    heading.say((clock.photoPlace.notes ?? []).join(" "));
   });
-  const photoTime = chip("Photo's time", "The clock back to when the photo was taken", () => {
-    const { date, time } = clock.told;
+  const photoTime = chip("Photo's time", "Set the clock to when the photo was taken", () => {
+    const { date, time } = clock.photoPlace;
     if (date != null && time != null) clock.moveToMoment(date, time);
   });
   const missing = element("p", { class: "sw-hint", hidden: true });
@@ -43,35 +43,35 @@ export function placeSection(
   );
   panel.section("sun").append(node);
 
-  const arrived = () => parts.show();
-  for (const name of TRAITS) model.on(`change:${name}`, arrived);
+  const onTrait = () => parts.show();
+  for (const name of TRAITS) model.on(`change:${name}`, onTrait);
   signal.addEventListener("abort", () => {
-    for (const name of TRAITS) model.off(`change:${name}`, arrived);
+    for (const name of TRAITS) model.off(`change:${name}`, onTrait);
   });
 
-  /** @param {string} asks @param {boolean} located */
-  const whatIsMissing = (asks, located) => {
+  /** @param {string} reason why the kernel cannot compute a path, or "" @param {boolean} located */
+  const describeMissing = (reason, located) => {
     if (clock.path.length) return "";
-    if (clock.place) return clock.error || asks || "Waiting for the kernel …";
-    if (asks) return asks;
+    if (clock.place) return clock.error || reason || "Waiting for the kernel …";
+    if (reason) return reason;
     return located
-      ? "The photo's file records where it was taken: a clock can move the sun along its true path."
-      : "Say where the photo was taken, and a clock moves the sun along its true path.";
+      ? "The photo's file records where it was taken, so a clock can move the sun along its true path."
+      : "Enter where the photo was taken, and a clock moves the sun along its true path.";
   };
 
   return {
     show() {
-      const { place, told } = clock;
-      const asks = kernel.answers ? "" : "Needs the kernel: a day's path comes from it";
-      const located = told.latitude != null && told.longitude != null;
-      fields.show(asks);
+      const { place, photoPlace } = clock;
+      const reason = kernel.answers ? "" : "Needs the kernel, which computes the day's path";
+      const located = photoPlace.latitude != null && photoPlace.longitude != null;
+      fields.show(reason);
       heading.show();
       day.show();
       fromPhoto.hidden = !located;
-      fromPhoto.disabled = asks !== "";
+      fromPhoto.disabled = reason !== "";
       fromPhoto.classList.toggle("sw-primary", place === null);
-      photoTime.hidden = told.time == null || place === null;
-      missing.textContent = whatIsMissing(asks, located);
+      photoTime.hidden = photoPlace.time == null || place === null;
+      missing.textContent = describeMissing(reason, located);
       missing.hidden = missing.textContent === "";
     },
     draw: () => path.draw(),

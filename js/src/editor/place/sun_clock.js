@@ -1,6 +1,6 @@
 /**
- * The editor's clock: it moves the sun along the path that the kernel computed for the place's day.
- * Without a kernel it goes on with the path that is there.
+ * The editor's clock: moves the sun along the path that the kernel computed for the place's day.
+ * Without a kernel it keeps using the last path.
  */
 
 import { angleBetween, sunAt } from "../../geometry/day.js";
@@ -10,13 +10,13 @@ import { editAt, hoursOfDay, matchHeading, orderly, solarDay } from "../../geome
  * @typedef {import("../../geometry/place.js").Place} Place
  * @typedef {import("../../geometry/day.js").DayRow} DayRow
  * @typedef {{ latitude: number | null, longitude: number | null, heading: number | null,
- *   date: string | null, time: number | null, clock: string | null, notes: string[] }} Told what
- *   the photo's file says
+ *   date: string | null, time: number | null, clock: string | null, notes: string[] }} PhotoPlace
+ *   from the photo's metadata
  */
 
 const HOUR = 3_600_000; // milliseconds
 const DAY = 24 * HOUR;
-const SAME_PLACE = 0.02; // degrees between the sun and its path that count as none
+const SAME_PLACE = 0.02; // degrees within which the sun counts as on its path
 
 export class SunClock {
   /** @param {import("../types.js").Needs<"model" | "picture" | "state">} needs */
@@ -31,8 +31,8 @@ export class SunClock {
     return /** @type {Place | null} */ (this.state.values.place ?? null);
   }
 
-  /** What the photo's file says. @returns {Partial<Told>} */
-  get told() {
+  /** Place and time from the photo's metadata. @returns {Partial<PhotoPlace>} */
+  get photoPlace() {
     return this.model.get("_photo_place") ?? {};
   }
 
@@ -41,12 +41,12 @@ export class SunClock {
     return this.answer().path ?? [];
   }
 
-  /** Why there is no path, in the kernel's words. */
+  /** The kernel's reason why there is no path, or "". */
   get error() {
     return this.answer().error ?? "";
   }
 
-  /** What the kernel sent for this place. @returns {{ path?: DayRow[], error?: string }} */
+  /** The kernel's answer for this place. @returns {{ path?: DayRow[], error?: string }} */
   answer() {
     const { place } = this;
     const day = this.model.get("_day");
@@ -57,17 +57,17 @@ export class SunClock {
     return same ? day : {};
   }
 
-  /** The clock's hours, as the path counts them. */
+  /** The clock's time in the path's hours. */
   get hours() {
     return this.place ? hoursOfDay(this.place) : 0;
   }
 
-  /** Where the sun stands at the clock's time. */
+  /** The sun's position at the clock's time. */
   sun() {
     return this.place ? sunAt(this.path, this.hours) : null;
   }
 
-  /** Whether the drawn sun stands where the clock puts it. */
+  /** Whether the drawn sun is where the clock puts it. */
   follows() {
     const { place, path } = this;
     if (!place || !path.length) return false;
@@ -80,7 +80,7 @@ export class SunClock {
     return apart < SAME_PLACE;
   }
 
-  /** Turn the clock to an hour of the path: the sun follows. @param {number} hours */
+  /** Set the clock to an hour of the path; the sun follows. @param {number} hours */
   moveTo(hours) {
     const { place, path } = this;
     if (!place || !path.length) return;
@@ -90,39 +90,39 @@ export class SunClock {
     this.state.set(editAt(place, path, held));
   }
 
-  /** Say where, when or which way anew, as a step; the sun stays. @param {Partial<Place>} changes */
+  /** Change place, time or heading as one history step; the sun does not move. @param {Partial<Place>} changes */
   setPlace(changes) {
     const { place } = this;
     if (place) this.state.set({ place: orderly({ ...place, ...changes }) });
   }
 
   /**
-   * Take a place for the photo: what is not known comes from its file, or else is today at noon.
+   * Set the photo's place. Unknown fields come from its metadata; without a time it is today at noon.
    *
    * @param {number} latitude
    * @param {number} longitude
    */
   take(latitude, longitude) {
-    const { told } = this;
-    // Without a zone the clock's is guessed by the longitude, as `photo/place.py` does.
+    const { photoPlace: known } = this;
+    // Without a time zone, guess it from the longitude as `photo/place.py` does.
     const zone = HOUR * Math.round(longitude / 15);
     const noon = Math.floor(Date.now() / DAY) * DAY + DAY / 2;
-    const guess = (told.clock ? Date.parse(`${told.clock}Z`) : noon) - zone;
+    const guess = (known.clock ? Date.parse(`${known.clock}Z`) : noon) - zone;
     const moment = new Date(guess).toISOString();
-    const date = told.date ?? moment.slice(0, 10);
-    const time = told.time ?? (guess - Date.parse(date)) / HOUR;
-    const place = { latitude, longitude, date, time, heading: told.heading ?? null };
+    const date = known.date ?? moment.slice(0, 10);
+    const time = known.time ?? (guess - Date.parse(date)) / HOUR;
+    const place = { latitude, longitude, date, time, heading: known.heading ?? null };
     this.state.set({ place: orderly({ ...place, time: Math.round(time * 1e4) / 1e4 }) });
   }
 
-  /** Take place, time and heading from the photo's file, as a step. */
+  /** Take place, time and heading from the photo's metadata, as one history step. */
   takeFromFile() {
-    const { latitude, longitude } = this.told;
+    const { latitude, longitude } = this.photoPlace;
     if (latitude != null && longitude != null) this.take(latitude, longitude);
   }
 
   /**
-   * Turn the clock to a date and time in UTC: the sun follows where the path is known.
+   * Set the clock to a date and time in UTC; the sun follows if the path is known.
    *
    * @param {string} date
    * @param {number} time
@@ -137,7 +137,7 @@ export class SunClock {
     else this.setPlace({ date, time });
   }
 
-  /** The heading by the photo's own sun, taken at the clock's time. */
+  /** Match the heading to the photo's sun at the clock's time. */
   match() {
     const { place, path } = this;
     const { scene } = this.picture;

@@ -1,6 +1,6 @@
 /**
- * The sun's path over the day, on the picture: a line with the hours on it, which can be dragged
- * along. Solid where the sun is up, dashed in twilight; the night is not drawn.
+ * The sun's path over the day, drawn on the picture with the hours; the sun can be dragged along
+ * it. Solid while the sun is up, dashed in twilight; the night is not drawn.
  */
 
 import { clock as clockText, sunAt } from "../../geometry/day.js";
@@ -9,13 +9,13 @@ import { KEY_STEP } from "../../ui/sun_shape.js";
 
 /**
  * @typedef {import("../../host/types.js").Point} Point
- * @typedef {{ x: number, y: number, hours: number, up: number }} Step a point of the path in CSS
- *   pixels on the overlay
+ * @typedef {{ x: number, y: number, hours: number, up: number }} Step a point of the path in the
+ *   overlay's CSS pixels
  */
 
-const REACH = 12; // CSS pixels round the path that take hold of it
+const REACH = 12; // CSS pixels from the path within which a press grabs it
 const TWILIGHT = -6; // degrees of elevation where the line ends
-const FAR = 4; // widths of the picture outside which the path is not drawn
+const FAR = 4; // picture widths beyond which the path is not drawn
 const LABEL_ROOM = 46; // CSS pixels between labels
 const KEY_MINUTES = 5;
 
@@ -29,14 +29,14 @@ export class SunPath {
     this.model = model;
     this.picture = picture;
     this.stage = stage;
-    this.shown = true; // as the person chose
+    this.shown = true; // the user's choice
     this.kept = false; // whether every drag of the sun follows the path
     /** @type {Step[][]} unbroken runs */
     this.runs = [];
     this.key = "";
-    /** @type {import("../../geometry/camera.js").Camera | null} by which they lie there */
+    /** @type {import("../../geometry/camera.js").Camera | null} that the runs were projected with */
     this.camera = null;
-    /** @type {{ run: number, at: number } | null} where on it a drag is: its run and step */
+    /** @type {{ run: number, at: number } | null} the drag's run and step */
     this.grip = null;
     const line = (/** @type {string} */ name) => shape("path", { class: name });
     this.shadow = line("sw-path-shadow");
@@ -63,7 +63,7 @@ export class SunPath {
       this.hit,
       this.ghost,
     );
-    // Under the handles: the sun stays the first thing to take hold of.
+    // Below the handles: a press grabs the sun first.
     stage.overlay.prepend(this.node);
   }
 
@@ -86,17 +86,17 @@ export class SunPath {
       this.lay(box);
     }
     const at = this.placeOf(this.clock.sun(), box);
-    // Under the sun's own handle there is nothing to see.
+    // The sun's handle would cover it.
     const alone = at && !this.clock.follows();
     setAttributes(this.bead, { visibility: alone ? "inherit" : "hidden", cx: at?.x, cy: at?.y });
   }
 
   /**
-   * Where on the overlay the sun stands at a time of the path.
+   * Project a sun position onto the overlay.
    *
    * @param {import("../../geometry/day.js").SunPlace | null} sun
    * @param {import("../../ui/stage.js").Box} box
-   * @returns {{ x: number, y: number } | null} null behind the camera, or far outside
+   * @returns {{ x: number, y: number } | null} null behind the camera or far outside
    */
   placeOf(sun, box) {
     const { camera } = this.picture;
@@ -134,7 +134,7 @@ export class SunPath {
     this.marks.replaceChildren(...this.hourMarks(box));
   }
 
-  /** The full hours on the path, with room between their labels. @param {import("../../ui/stage.js").Box} box */
+  /** Mark the full hours on the path, with room between their labels. @param {import("../../ui/stage.js").Box} box */
   hourMarks(box) {
     const nodes = [];
     const middle = [box.x + box.width / 2, box.y + box.height / 2];
@@ -148,7 +148,7 @@ export class SunPath {
         nodes.push(shape("circle", { class: "sw-path-hour", r: 2.4, cx: at.x, cy: at.y }));
         if (last && Math.hypot(at.x - last.x, at.y - last.y) < LABEL_ROOM) continue;
         last = at;
-        // Beside the line, on its outer side: the arch holds the picture's sky.
+        // On the outer side of the line: the arch encloses the picture's sky.
         const length = Math.hypot(ahead.x - at.x, ahead.y - at.y) || 1;
         let [nx, ny] = [(ahead.y - at.y) / length, -(ahead.x - at.x) / length];
         if (nx * (at.x - middle[0]) + ny * (at.y - middle[1] - box.height) < 0)
@@ -168,7 +168,7 @@ export class SunPath {
   }
 
   /**
-   * The step of the path nearest to a point, in all of it.
+   * Find the step of the whole path nearest to a point.
    *
    * @param {{ x: number, y: number }} point
    */
@@ -193,8 +193,8 @@ export class SunPath {
   }
 
   /**
-   * Go along the path to where it is nearest. From where the drag is, step by step: the nearest of
-   * all would jump where the path comes back on itself.
+   * Move along the path to its nearest point, step by step from the drag's position: the nearest
+   * point overall could jump where the path meets itself.
    *
    * @param {Point} place
    */
@@ -205,8 +205,9 @@ export class SunPath {
     const point = this.onOverlay(place);
     const reach = (/** @type {number} */ at) => project(steps[at], steps[at + 1], point).far;
     let at = Math.min(grip.at, steps.length - 2);
-    for (const way of [-1, 1]) {
-      while (at + way >= 0 && at + way < steps.length - 1 && reach(at + way) < reach(at)) at += way;
+    for (const step of [-1, 1]) {
+      while (at + step >= 0 && at + step < steps.length - 1 && reach(at + step) < reach(at))
+        at += step;
     }
     grip.at = at;
     const [from, to] = [steps[at], steps[at + 1]];
@@ -214,15 +215,15 @@ export class SunPath {
     this.clock.moveTo(from.hours + share * (to.hours - from.hours));
   }
 
-  /** An arrow key, while the sun is kept on its path: five minutes. @param {Point} step */
+  /** Handle an arrow key while the sun is kept on its path: five minutes. @param {Point} step */
   step([across, up]) {
     if (!this.kept || !this.runs.length) return false;
-    // Right and up are later; Shift is ten times as far, as for a free sun.
+    // Right and up are later; Shift moves ten times as far, as for a free sun.
     this.clock.moveTo(this.clock.hours + ((across || up) / KEY_STEP) * (KEY_MINUTES / 60));
     return true;
   }
 
-  /** The time under the pointer, when it is on the path. @param {Point | null} place */
+  /** Show the time under the pointer when it is on the path. @param {Point | null} place */
   point(place) {
     const idle =
       place && this.hand.pointer === null && this.hand.tool === "sun" && this.runs.length;
@@ -240,7 +241,7 @@ export class SunPath {
   }
 }
 
-/** SVG path data through the steps that are wanted, and on to their neighbours. @param {Step[]} run @param {(step: Step) => boolean} wanted */
+/** SVG path data through the wanted steps and on to their neighbors. @param {Step[]} run @param {(step: Step) => boolean} wanted */
 function lineThrough(run, wanted) {
   let text = "";
   let open = false;
@@ -254,7 +255,7 @@ function lineThrough(run, wanted) {
 }
 
 /**
- * The point of a straight piece that is nearest to another.
+ * Project a point onto a line segment.
  *
  * @param {Step} from
  * @param {Step} to

@@ -1,8 +1,8 @@
 /**
- * Nothing that was done is lost. The widget's state holds the edit, its history, versions and key
- * frames, so a page that is loaded again has them from the kernel; for when that is gone the browser
- * keeps them too, by the photo's fingerprint, and offers them the next time the photo is shown.
- * A recipe that is given in code is never replaced unasked.
+ * Keeps edits from being lost. The widget's state holds the edit, its history, versions and key
+ * frames, so a reloaded page gets them from the kernel. In case the kernel is gone, the browser also
+ * stores them under the photo's fingerprint and offers them when the photo is next shown. A recipe
+ * set in code is never replaced without asking.
  */
 
 import { sameRecipe } from "../../edit/equality.js";
@@ -24,12 +24,12 @@ const LEAVING_MS = 1500;
 const SESSIONS = Symbol.for("sunwidget.sessions");
 
 /**
- * Sessions in this page that have a kernel, with how many views each has, also by photo: what
- * they do needs no restoring. Every widget runs a copy of this module of its own, so they meet at the window.
+ * Number of views of each session in this page that has a kernel, also by photo: their edits need
+ * no restoring. Every widget runs its own copy of this module, so the table is on the window.
  *
  * @returns {Map<string, number>}
  */
-function living() {
+function liveSessions() {
   const page = /** @type {any} */ (window);
   page[SESSIONS] ??= new Map();
   return page[SESSIONS];
@@ -41,13 +41,13 @@ function living() {
  */
 export function autosave({ hand, kernel, model, notices, parts, picture, state, toolbar }, signal) {
   const store = new KeptEdits();
-  const alive = living();
+  const alive = liveSessions();
   /** @type {Source | null} */
   let source = null;
-  /** @type {Edit} what this photo began with here */
+  /** @type {Edit} the edit that this photo started with here */
   let start = {};
-  let counted = false; // among the living
-  let restored = false; // this photo's edit: still older ones are offered by the menu alone
+  let counted = false; // whether this view is counted in `alive`
+  let restored = false; // this photo's edit; older ones are then offered only by the menu
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
 
@@ -58,35 +58,35 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
     kernel.check();
     const kept = state.kept();
     const { session, fingerprint } = source;
-    const made = [kept.past, kept.versions, kept.keyFrames].some((some) => some.length > 0);
-    const untouched = sameRecipe(kept.recipe, start) && !made;
+    const hasMore = [kept.past, kept.versions, kept.keyFrames].some((some) => some.length > 0);
+    const untouched = sameRecipe(kept.recipe, start) && !hasMore;
     if (!untouched) store.put(fingerprint, { ...kept, session, saved: Date.now() });
     // Another view of this editor may have restored it.
-    if (notices.has("restore") && !lost()) notices.hide("restore");
+    if (notices.has("restore") && !findLost()) notices.hide("restore");
   };
 
-  /** The newest edit of this photo that cannot be reached from here. @returns {Entry | undefined} */
-  const lost = () => {
+  /** Find the newest edit of this photo that cannot be reached from here. @returns {Entry | undefined} */
+  const findLost = () => {
     if (!source) return undefined;
     const { fingerprint, session } = source;
     const kept = state.kept();
     return store
       .of(fingerprint)
       .filter((entry) => entry.session !== session && !alive.has(entry.session))
-      .map((entry) => readable(state.parameters, entry))
+      .map((entry) => dropInvalid(state.parameters, entry))
       .find((entry) => isLost(entry, kept));
   };
 
   const offer = () => {
-    const entry = restored ? undefined : lost();
+    const entry = restored ? undefined : findLost();
     if (!entry || entry.dismissed) {
       notices.hide("restore");
       return;
     }
-    const given = Object.keys(start).length > 0;
+    const fromCode = Object.keys(start).length > 0;
     notices.show("restore", {
-      text: `Your last edit of this photo (${called(entry)}, ${ago(entry.saved)}) is kept.${
-        given ? " It is another than the one that your code gives." : ""
+      text: `Your last edit of this photo (${describe(entry)}, ${formatAge(entry.saved)}) is kept.${
+        fromCode ? " It differs from the recipe in your code." : ""
       }`,
       actions: [{ label: "Restore", run: restore }],
       onClose: () => source && store.dismiss(source.fingerprint),
@@ -94,7 +94,7 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
   };
 
   /** @param {Entry} entry */
-  const called = (entry) => {
+  const describe = (entry) => {
     const { parameters } = state;
     const edit = lastOf(entry);
     if (!Object.keys(edit).length) return entry.keyFrames.length ? "key frames" : "versions";
@@ -106,8 +106,8 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
   };
 
   const restore = () => {
-    const entry = lost();
-    if (entry) state.takeUp(entry);
+    const entry = findLost();
+    if (entry) state.restore(entry);
     restored = true;
     offer();
   };
@@ -120,14 +120,14 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
 
   /** @param {Source} of @param {number} views */
   const count = (of, views) => {
-    for (const key of [of.session, atWork(of)]) {
+    for (const key of [of.session, liveKey(of)]) {
       const left = (alive.get(key) ?? 0) + views;
       if (left > 0) alive.set(key, left);
       else alive.delete(key);
     }
   };
 
-  /** With another photo, or the first one. */
+  /** Start with the first photo or a new one. */
   const begin = () => {
     clearTimeout(timer);
     timer = undefined;
@@ -135,8 +135,8 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
     source = model.get("_source") ?? null;
     if (!source?.fingerprint) return;
     start = state.recipe();
-    // A further view of an editor at work: what was kept is the first one's to offer.
-    restored = alive.has(atWork(source));
+    // A further view of a live editor: the first view offers the stored edit.
+    restored = alive.has(liveKey(source));
     const { fingerprint, session } = source;
     const own = store.of(fingerprint).find((entry) => entry.session === session);
     const kept = state.kept();
@@ -145,12 +145,12 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
       count(source, 1);
       counted = true;
     }
-    // Another view of it, which is at work, writes this entry.
+    // Another live view of it writes this entry.
     if (!own || !first) offer();
     else if (isLost(own, kept)) store.setAside(fingerprint, session);
     else if (sameRecipe(own.recipe, kept.recipe) && own.past.length > kept.past.length) {
-      // The page was left before the end of a drag had arrived at the kernel.
-      state.takeUpHistory(own);
+      // The page was closed before the end of a drag reached the kernel.
+      state.restoreHistory(own);
     }
     offer();
   };
@@ -183,27 +183,27 @@ export function autosave({ hand, kernel, model, notices, parts, picture, state, 
   toolbar.menu.add({
     group: "photo",
     label: "Restore last edit",
-    title: "What this browser has kept of this photo",
-    shown: () => lost() !== undefined,
+    title: "The last edit of this photo that this browser kept",
+    shown: () => findLost() !== undefined,
     run: restore,
   });
   begin();
   showKernel({ kernel, model, notices });
-  // When a cell runs again, its last editor may go after this one has come.
+  // When a cell runs again, its last editor may close after this one has opened.
   const late = setTimeout(() => notices.has("restore") || offer(), LEAVING_MS);
   signal.addEventListener("abort", () => clearTimeout(late));
   return {};
 }
 
-/** Among the living: an editor with the photo that it shows. @param {Source} source */
-const atWork = ({ session, fingerprint }) => `${session} ${fingerprint}`;
+/** The key in `liveSessions` of an editor with the photo that it shows. @param {Source} source */
+const liveKey = ({ session, fingerprint }) => `${session} ${fingerprint}`;
 
 /** @param {Pick<Parameters<typeof autosave>[0], "kernel" | "model" | "notices">} needs */
 function showKernel({ kernel, model, notices }) {
   if (kernel.state === "live" && kernel.silent) {
     notices.show("kernel", {
       text:
-        "The kernel does not answer. It is busy, or it was restarted: then run the cell again. " +
+        "The kernel is not responding. It is busy, or if it was restarted, run the cell again. " +
         "Your edit is kept.",
     });
     return;
@@ -218,13 +218,13 @@ function showKernel({ kernel, model, notices }) {
   }
   notices.show("kernel", {
     text:
-      "The kernel of this editor is gone. All that is drawn here stays live and your edit is kept; " +
-      "run the cell again for strokes, maps and the full size.",
+      "The editor's kernel is gone. The preview stays live and your edit is kept; run the cell " +
+      "again for strokes, maps and full-size exports.",
   });
 }
 
 /**
- * Whether something of an entry cannot be reached from what is there by undo or by a version.
+ * Whether part of an entry cannot be reached from here by undo or a version.
  *
  * @param {Kept} entry
  * @param {Kept} here
@@ -242,17 +242,17 @@ function isLost(entry, here) {
   );
 }
 
-/** Its edit, or what it was before it was reset. @param {Kept} entry @returns {Edit} */
+/** The entry's edit, or the one before it was reset. @param {Kept} entry @returns {Edit} */
 const lastOf = ({ recipe, past }) => (Object.keys(recipe).length ? recipe : (past.at(-1) ?? {}));
 
 /**
- * An entry without values that the table does not take: another version may have written it.
+ * Drop an entry's values that the table refuses: another version may have written it.
  *
  * @param {import("../../host/types.js").Parameter[]} parameters
  * @param {Entry} entry
  * @returns {Entry}
  */
-function readable(parameters, entry) {
+function dropInvalid(parameters, entry) {
   /** @param {Edit} recipe */
   const values = (recipe) => checkRecipe(parameters, recipe).values;
   return {
@@ -266,7 +266,7 @@ function readable(parameters, entry) {
 }
 
 /** @param {number} time milliseconds since 1970 */
-function ago(time) {
+function formatAge(time) {
   const minutes = Math.round((Date.now() - time) / 60_000);
   const format = new Intl.RelativeTimeFormat("en", { numeric: "auto" });
   if (minutes < 1) return "a moment ago";

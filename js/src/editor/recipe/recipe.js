@@ -1,10 +1,10 @@
-/** The edit as a recipe that leaves the editor and comes back: as a file and by the clipboard. */
+/** Saves and loads the edit as a recipe, by file or clipboard. */
 
 import { checkRecipe } from "../../edit/recipe/check.js";
 import { readRecipe } from "../../edit/recipe/read.js";
 import { toJson, toPython } from "../../edit/recipe/write.js";
 import { errorText } from "../../host/error_text.js";
-import { copied, pasted } from "../../ui/clipboard.js";
+import { copyText, readClipboard } from "../../ui/clipboard.js";
 import { download } from "../../ui/download.js";
 import { pickFile } from "../../ui/pick_file.js";
 
@@ -14,10 +14,10 @@ import { pickFile } from "../../ui/pick_file.js";
  */
 
 const FILES = ".json,.py,.txt,application/json,text/plain";
-const SECONDS = 6; // that good news stays
+const SECONDS = 6; // that a success notice stays
 const NO_KERNEL =
-  "Only a kernel reads Python, and none answers here. Paste the recipe as JSON: “Copy recipe” in " +
-  "an editor's menu, or edit.to_json() in Python, writes it.";
+  "Reading Python needs a kernel, and none is running here. Paste the recipe as JSON instead: from " +
+  "“Copy recipe” in an editor's menu, or from edit.to_json() in Python.";
 
 /**
  * @type {import("../types.js").MakePart<"channel" | "kernel" | "message" | "model" | "notices"
@@ -28,8 +28,8 @@ export function recipe({ model, root, toolbar, ...taker }, signal) {
   const { message, state } = taker;
   /** @type {(text: string, what: string) => Promise<void>} */
   const copy = async (text, what) => {
-    if (await copied(text)) say(taker, `${what} copied.`);
-    else message.show(`The page may not use the clipboard. ${what}:\n${text}`);
+    if (await copyText(text)) say(taker, `${what} copied.`);
+    else message.show(`The page cannot use the clipboard. ${what}:\n${text}`);
   };
   menu.add({
     group: "recipe",
@@ -41,7 +41,7 @@ export function recipe({ model, root, toolbar, ...taker }, signal) {
   menu.add({
     group: "recipe",
     label: "Load recipe …",
-    title: "Set everything as a recipe's file says, as one step",
+    title: "Apply a recipe file, as one undo step",
     run: async () => {
       const file = await pickFile(FILES, signal);
       if (file) await loadRecipe(taker, file);
@@ -62,18 +62,18 @@ export function recipe({ model, root, toolbar, ...taker }, signal) {
   menu.add({
     group: "recipe",
     label: "Paste recipe",
-    title: "JSON or Python that was copied from an editor; it is read, never run",
+    title: "JSON or Python copied from an editor; it is parsed, never run",
     run: async () => {
-      const text = await pasted();
+      const text = await readClipboard();
       if (text !== null) await useRecipe(taker, text);
-      else say(taker, "The page may not look at the clipboard by itself: press Ctrl+V.");
+      else say(taker, "The page cannot read the clipboard by itself: press Ctrl+V.");
     },
   });
   root.addEventListener(
     "paste",
     (event) => {
       const text = event.clipboardData?.getData("text/plain");
-      if (!text || writes(event.target)) return;
+      if (!text || takesText(event.target)) return;
       event.preventDefault();
       useRecipe(taker, text);
     },
@@ -83,7 +83,7 @@ export function recipe({ model, root, toolbar, ...taker }, signal) {
 }
 
 /** @param {EventTarget | null} target */
-const writes = (target) =>
+const takesText = (target) =>
   target instanceof HTMLTextAreaElement ||
   (target instanceof HTMLInputElement && target.type !== "range");
 
@@ -93,7 +93,7 @@ export async function loadRecipe(taker, file) {
 }
 
 /**
- * Take over a recipe from text as one step, or say what is wrong with it.
+ * Apply a recipe from text as one history step, or say what is wrong with it.
  *
  * @param {Taker} taker
  * @param {string} text
@@ -108,9 +108,9 @@ export async function useRecipe(taker, text) {
     state.replace(values);
     message.show("");
     const moved = state.history().past.length !== before;
-    say(taker, moved ? "Recipe taken over." : "This is the recipe already.", moved);
+    say(taker, moved ? "Recipe applied." : "This recipe is already applied.", moved);
   } catch (error) {
-    notices.hide("recipe"); // what it says is of another recipe
+    notices.hide("recipe"); // it is about another recipe
     message.show(`Nothing was changed. ${errorText(error)}`);
   }
 }
@@ -118,15 +118,15 @@ export async function useRecipe(taker, text) {
 /** @param {Taker} taker @param {string} text */
 async function readPython({ channel, kernel, notices }, text) {
   if (!kernel.answers) throw new Error(NO_KERNEL);
-  notices.show("recipe", { text: "The kernel reads this Python …" }); // once its cell has ended
+  notices.show("recipe", { text: "The kernel is reading the Python …" }); // after its current cell
   return (await channel.request("recipe", { text })).result;
 }
 
-/** @param {Taker} taker @param {string} text @param {boolean} [undo] offer to take it back */
+/** @param {Taker} taker @param {string} text @param {boolean} [undo] whether to offer to revert it */
 function say({ notices, state }, text, undo = false) {
   notices.show("recipe", {
     text,
-    actions: undo ? [{ label: "Take it back", run: () => state.undo() }] : [],
+    actions: undo ? [{ label: "Revert", run: () => state.undo() }] : [],
     seconds: SECONDS,
   });
 }

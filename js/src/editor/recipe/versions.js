@@ -1,4 +1,4 @@
-/** Edits kept by name: a list under a button, in which to keep, rename, go to and delete. */
+/** Edits kept by name: a list under a button to keep, rename, apply and delete them. */
 
 import { sameRecipe } from "../../edit/equality.js";
 import { button } from "../../ui/button.js";
@@ -7,7 +7,7 @@ import { popup } from "../../ui/popup.js";
 
 /** @typedef {import("../../edit/state.js").EditState} EditState */
 
-// Twins of those in sunwidget/widgets/editor/history.py.
+// The same limits as in sunwidget/widgets/editor/history.py.
 const MOST = 100;
 const NAME_LENGTH = 80;
 
@@ -32,7 +32,7 @@ export function versions({ notices, state, toolbar }) {
   const empty = element(
     "p",
     { class: "sw-versions-empty" },
-    "Keep the edit as it is now, and come back to it whenever you like.",
+    "Keep the current edit, and come back to it at any time.",
   );
   /** @param {string} text */
   const say = (text) => {
@@ -63,7 +63,7 @@ export function versions({ notices, state, toolbar }) {
     const go = element("button", { type: "button", class: "sw-versions-go" }, version.name);
     const here = sameRecipe(version.recipe, state.recipe());
     go.setAttribute("aria-current", String(here));
-    go.title = here ? "This is how it is now" : `Go to “${version.name}”, as one step`;
+    go.title = here ? "This is the current edit" : `Go to “${version.name}”, as one undo step`;
     go.addEventListener("click", () => state.replace(version.recipe));
     const node = element(
       "li",
@@ -96,13 +96,13 @@ export function versions({ notices, state, toolbar }) {
       let done = false;
       const finish = () => {
         if (done) return;
-        done = true; // before the list is drawn anew, which takes the focus from the field
+        done = true; // before the redraw, which takes the focus from the field
         say(renameVersion(state, version, field.value));
         show();
       };
       field.addEventListener("keydown", (event) => {
         if (event.key !== "Escape" && event.key !== "Enter") return;
-        event.preventDefault(); // neither closes the list nor keeps another version
+        event.preventDefault(); // do not close the list or keep another version
         if (event.key === "Escape") field.value = version.name;
         finish();
         name.focus();
@@ -127,7 +127,7 @@ export function versions({ notices, state, toolbar }) {
   show();
   return {
     show() {
-      // Only what the list says of a recipe: a drag asks many times a second.
+      // Redraw only if the list changes: a drag calls this many times a second.
       if (!box.isOpen || box.node.querySelector("li input")) return;
       const text = JSON.stringify([state.versions(), state.recipe()]);
       if (text !== drawn) show();
@@ -144,16 +144,16 @@ function freeName(state) {
   return `Version ${number}`;
 }
 
-/** What is wrong with a name, or "". @param {EditState} state @param {string} name */
-function wrongName(state, name) {
+/** Return what is wrong with a name, or "". @param {EditState} state @param {string} name */
+function checkName(state, name) {
   if (!name) return "A version needs a name.";
-  if (name.length > NAME_LENGTH) return `A name has at most ${NAME_LENGTH} characters.`;
+  if (name.length > NAME_LENGTH) return `A name can have at most ${NAME_LENGTH} characters.`;
   const taken = state.versions().some((version) => version.name === name);
-  return taken ? `“${name}” is kept already. Choose another name.` : "";
+  return taken ? `“${name}” already exists. Choose another name.` : "";
 }
 
 /**
- * Keep the edit as it is; returns why not, or "".
+ * Keep the current edit; returns why that failed, or "".
  *
  * @param {EditState} state
  * @param {string} text
@@ -161,9 +161,9 @@ function wrongName(state, name) {
 function keepVersion(state, text) {
   const name = text.trim();
   const kept = state.versions();
-  const wrong = wrongName(state, name);
+  const wrong = checkName(state, name);
   if (wrong) return wrong;
-  if (kept.length >= MOST) return `${MOST} versions are kept already. Delete one first.`;
+  if (kept.length >= MOST) return `There are already ${MOST} versions. Delete one first.`;
   state.writeVersions([...kept, { name, recipe: state.recipe() }]);
   return "";
 }
@@ -172,7 +172,7 @@ function keepVersion(state, text) {
 function renameVersion(state, version, text) {
   const name = text.trim();
   if (name === version.name) return "";
-  const wrong = wrongName(state, name);
+  const wrong = checkName(state, name);
   if (wrong) return wrong;
   state.writeVersions(
     state.versions().map((other) => (other.name === version.name ? { ...other, name } : other)),
@@ -181,15 +181,15 @@ function renameVersion(state, version, text) {
 }
 
 /**
- * A deleted version where it was, unless its name has been given again.
+ * Put a deleted version back where it was, unless its name is taken again.
  *
  * @param {EditState} state
  * @param {import("../../host/types.js").Version} version
- * @param {import("../../host/types.js").Version[]} before the list when it was still there
+ * @param {import("../../host/types.js").Version[]} before the list before the deletion
  */
 function bringBack(state, version, before) {
   const kept = state.versions();
-  if (wrongName(state, version.name)) return;
+  if (checkName(state, version.name)) return;
   const at = Math.min(before.indexOf(version), kept.length);
   state.writeVersions([...kept.slice(0, at), version, ...kept.slice(at)]);
 }

@@ -1,12 +1,12 @@
-/** What the kernel holds for sky, or for water, as a tint over the picture while a brush is chosen. */
+/** Tints the sky or water that the kernel found, while a brush is selected. */
 
 import { BRUSHES } from "./strokes.js";
 
 const OPACITY = 0.45;
 
 /**
- * What brushes can speak about: the texture's channel that holds it, and its tint (style.css has
- * the same for strokes).
+ * What brushes can mark: the texture channel that holds it, and its tint (style.css uses the same
+ * for strokes).
  *
  * @type {Record<string, { texture: string, channel: number, tint: [number, number, number] }>}
  */
@@ -34,7 +34,7 @@ function paintBrushMask(canvas, { data, width, height }, subject) {
   context.putImageData(image, 0, 0);
 }
 
-/** The tint, while a brush is chosen. */
+/** The tint shown while a brush is selected. */
 export class BrushMask {
   /** @param {import("../types.js").Needs<"drawing" | "hand" | "message" | "stage">} needs */
   constructor({ drawing, hand, message, stage }) {

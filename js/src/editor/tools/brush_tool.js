@@ -1,7 +1,7 @@
-/** Strokes that say what is sky or water, and what is not: drawn here, sent as polylines, answered by the kernel's new maps. */
+/** Strokes that mark sky or water, or their absence: sent as polylines, answered with new maps by the kernel. */
 
 import { setAttributes, shape } from "../../ui/element.js";
-import { line, meets, setLine, simplify, strokeClass } from "./strokes.js";
+import { line, setLine, simplify, strokeClass, touches } from "./strokes.js";
 
 /**
  * @typedef {import("../../host/types.js").Point} Point
@@ -11,7 +11,7 @@ import { line, meets, setLine, simplify, strokeClass } from "./strokes.js";
 
 const MOST_POINTS = 2000;
 
-/** The ring round the pointer, as large as the brush. */
+/** The ring around the pointer, as large as the brush. */
 class Brush {
   /**
    * @param {Needs} needs
@@ -23,7 +23,7 @@ class Brush {
     this.state = state;
     this.strokes = strokes;
     this.label = label;
-    /** A fast hand is followed point by point. */
+    /** The tool receives every point of a fast drag. */
     this.fine = true;
     /** @type {Point | null} */
     this.at = null;
@@ -58,7 +58,7 @@ export class BrushTool extends Brush {
    */
   constructor(needs, tool) {
     super(needs, tool);
-    /** A key puts it down, and the next press lifts it. */
+    /** One key press puts the brush down, the next lifts it. */
     this.stays = true;
     /** @type {Point[]} */
     this.points = [];
@@ -67,8 +67,8 @@ export class BrushTool extends Brush {
     this.node = shape("g", {}, this.scaled, this.ring);
   }
 
-  /** What a stroke of this brush says. @returns {Stroke["label"]} */
-  says() {
+  /** The label of a stroke of this brush. @returns {Stroke["label"]} */
+  strokeLabel() {
     if (this.hand.subject === "sky") return this.label === "sky" ? "sky" : "not_sky";
     return this.label === "sky" ? "water" : "not_water";
   }
@@ -85,9 +85,9 @@ export class BrushTool extends Brush {
     this.hover(place);
     const box = this.stage.rectangle();
     const [x, y] = this.points[this.points.length - 1];
-    const way = Math.hypot((place[0] - x) * box.width, (place[1] - y) * box.height);
+    const moved = Math.hypot((place[0] - x) * box.width, (place[1] - y) * box.height);
     // Points closer than a quarter of the brush add nothing to its mark.
-    if (way < Math.max(1, this.radius() / 4) || this.points.length >= MOST_POINTS) return;
+    if (moved < Math.max(1, this.radius() / 4) || this.points.length >= MOST_POINTS) return;
     this.points.push(round(place));
     this.draw();
   }
@@ -96,7 +96,7 @@ export class BrushTool extends Brush {
     if (!this.points.length) return;
     /** @type {Stroke} */
     const stroke = {
-      label: this.says(),
+      label: this.strokeLabel(),
       points: simplify(this.points, this.hand.brushRadius / 10, this.stage.rectangle()),
       radius: Math.round(this.hand.brushRadius * 1e5) / 1e5,
     };
@@ -115,62 +115,62 @@ export class BrushTool extends Brush {
     setAttributes(this.node, { visibility: active ? "visible" : "hidden" });
     this.drawRing();
     if (!active) return;
-    setAttributes(this.path, { class: strokeClass(this.says()) });
-    setAttributes(this.ring, { class: `sw-brush sw-stroke-${this.says()}` });
+    setAttributes(this.path, { class: strokeClass(this.strokeLabel()) });
+    setAttributes(this.ring, { class: `sw-brush sw-stroke-${this.strokeLabel()}` });
     setAttributes(this.scaled, { transform: this.strokes.transform() });
     setLine(this.path, this.points, this.hand.brushRadius, this.stage.rectangle());
   }
 }
 
-/** Takes whole strokes away: those that its ring has met, all of one drag in one step. */
+/** Erases whole strokes that its ring touches; one drag is one history step. */
 export class EraseTool extends Brush {
   /** @param {Needs} needs */
   constructor(needs) {
     super(needs, "erase");
     /** @type {Set<number>} */
-    this.met = new Set();
+    this.touched = new Set();
     this.node = shape("g", {}, this.ring);
   }
 
   /** @param {Point} place */
   begin(place) {
-    this.met.clear();
+    this.touched.clear();
     this.move(place);
   }
 
   /** @param {Point} place */
   move(place) {
     this.hover(place);
-    for (const i of this.meeting(place)) this.met.add(i);
-    this.strokes.doom(this.met);
+    for (const i of this.findTouched(place)) this.touched.add(i);
+    this.strokes.fade(this.touched);
   }
 
-  /** Before a drag the strokes under the ring are marked. @param {Point | null} place */
+  /** Before a drag, fade the strokes under the ring. @param {Point | null} place */
   hover(place) {
     super.hover(place);
-    if (this.hand.pointer === null) this.strokes.doom(new Set(place && this.meeting(place)));
+    if (this.hand.pointer === null) this.strokes.fade(new Set(place && this.findTouched(place)));
   }
 
   /** @param {Point} place */
-  meeting(place) {
+  findTouched(place) {
     const box = this.stage.rectangle();
     const strokes = this.strokes.strokes();
     return strokes.flatMap((stroke, i) =>
-      meets(stroke, place, this.hand.brushRadius, box) ? [i] : [],
+      touches(stroke, place, this.hand.brushRadius, box) ? [i] : [],
     );
   }
 
   end() {
-    const { met } = this;
-    this.met = new Set();
-    if (!met.size) return;
+    const { touched } = this;
+    this.touched = new Set();
+    if (!touched.size) return;
     const strokes = this.strokes.strokes();
-    this.state.set({ strokes: strokes.filter((_, i) => !met.has(i)) });
+    this.state.set({ strokes: strokes.filter((_, i) => !touched.has(i)) });
   }
 
   cancel() {
-    this.met.clear();
-    this.strokes.doom(this.met);
+    this.touched.clear();
+    this.strokes.fade(this.touched);
   }
 
   draw() {

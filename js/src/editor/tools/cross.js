@@ -1,9 +1,9 @@
 /**
- * The keyboard's pointer: a cross on the picture while the stage has the focus by the keyboard.
+ * The keyboard's pointer: a cross on the picture while the stage has keyboard focus.
  *
- * Arrow keys move it and the zoomed picture follows, so that they pan, too. Enter and space are the
- * button: pressed they use the tool at the cross, held they drag with the arrow keys. A brush stays
- * down after one press until the next, as few can hold a key and press others.
+ * Arrow keys move it, and a zoomed picture follows, so they also pan. Enter and space act as the
+ * button: a press uses the tool at the cross; held, arrow keys drag. A brush stays down after one
+ * press until the next, since few can hold one key and press others.
  */
 
 import { directionText } from "../../ui/angle_text.js";
@@ -11,9 +11,9 @@ import { setAttributes, shape } from "../../ui/element.js";
 
 /** @typedef {import("../../host/types.js").Point} Point */
 
-const STEP = 16; // CSS pixels; with Shift ten times as many, with Alt one
+const STEP = 16; // CSS pixels; ten times as many with Shift, one with Alt
 /** @type {Record<string, Point>} */
-const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /** @type {import("../types.js").MakePart<"announcer" | "hand" | "parts" | "picture" | "stage">} */
 export function cross({ announcer, hand, parts, picture, stage }, signal) {
@@ -30,18 +30,18 @@ export function cross({ announcer, hand, parts, picture, stage }, signal) {
   let pressed = false;
   let moved = false; // since the press
   const tool = () => hand.tools[hand.tool];
-  // What tools read of a pointer's event.
-  const as = (/** @type {KeyboardEvent} */ event) => /** @type {any} */ (event);
+  // Tools read only the modifier keys of a pointer event.
+  const asPointer = (/** @type {KeyboardEvent} */ event) => /** @type {any} */ (event);
 
-  const come = () => {
-    // Where the eye is: the middle of what is in sight.
+  const appear = () => {
+    // Start in the middle of the visible part.
     if (!shown) place = stage.zoom.placeAt(stage.zoom.middle());
     shown = true;
     stage.node.classList.add("sw-crossing");
     parts.draw();
     parts.point(place);
   };
-  const go = () => {
+  const disappear = () => {
     release();
     if (!shown) return;
     shown = false;
@@ -55,29 +55,32 @@ export function cross({ announcer, hand, parts, picture, stage }, signal) {
     tool().end();
   };
 
-  /** @param {Point} way @param {KeyboardEvent} event */
-  const walk = ([dx, dy], event) => {
-    const step = event.altKey ? 1 : STEP * (event.shiftKey ? 10 : 1);
+  /** @param {Point} direction @param {KeyboardEvent} event */
+  const step = ([dx, dy], event) => {
+    const pixels = event.altKey ? 1 : STEP * (event.shiftKey ? 10 : 1);
     const box = stage.rectangle();
-    const held = (/** @type {number} */ at) => Math.min(1, Math.max(0, at));
-    place = [held(place[0] + (dx * step) / box.width), held(place[1] + (dy * step) / box.height)];
+    const clamp = (/** @type {number} */ at) => Math.min(1, Math.max(0, at));
+    place = [
+      clamp(place[0] + (dx * pixels) / box.width),
+      clamp(place[1] + (dy * pixels) / box.height),
+    ];
     moved = true;
-    if (pressed) tool().move(place, as(event));
+    if (pressed) tool().move(place, asPointer(event));
     else tool().hover?.(place);
     stage.zoom.bring(place);
     parts.draw();
     parts.point(place);
-    tell();
+    announce();
   };
 
-  const tell = () => {
+  const announce = () => {
     const { camera } = picture;
     if (!camera) return;
     const [x, y] = [place[0] * camera.width, place[1] * camera.height];
     announcer.say(`Cross at ${directionText(...camera.angles(x, y))}`, "cross");
   };
 
-  /** Space is the hand of somebody with a mouse, who has no cross. @param {KeyboardEvent} event */
+  /** Whether a key presses the tool. Without a cross, space pans with the mouse. @param {KeyboardEvent} event */
   const isPress = ({ key }) => key === "Enter" || (key === " " && shown);
 
   /** @param {KeyboardEvent} event */
@@ -86,18 +89,18 @@ export function cross({ announcer, hand, parts, picture, stage }, signal) {
     if (!picture.scene || hand.pointer !== null) return;
     pressed = true;
     moved = false;
-    tool().begin(place, as(event));
+    tool().begin(place, asPointer(event));
   };
 
   /** @param {KeyboardEvent} event */
   const onKey = (event) => {
     if (event.target !== stage.node || event.ctrlKey || event.metaKey) return;
-    const way = WAYS[event.key];
-    if (way) {
-      come();
-      walk(way, event);
+    const direction = DIRECTIONS[event.key];
+    if (direction) {
+      appear();
+      step(direction, event);
     } else if (isPress(event)) {
-      come();
+      appear();
       if (!event.repeat) press(event);
     } else if (event.key === "Escape" && pressed) {
       pressed = false;
@@ -113,23 +116,23 @@ export function cross({ announcer, hand, parts, picture, stage }, signal) {
   on("keyup", (event) => {
     if (!pressed || !isPress(event)) return;
     if (moved || !tool().stays) release();
-    else announcer.say("Brush down: arrow keys paint, Enter lifts it", "strokes");
+    else announcer.say("Brush down: arrow keys paint, Enter lifts the brush", "strokes");
   });
   on("focus", () => {
-    if (!stage.focusing) come();
+    if (!stage.focusing) appear();
   });
-  on("blur", go);
-  on("pointerdown", go);
+  on("blur", disappear);
+  on("pointerdown", disappear);
   on("pointermove", (event) => {
-    // A mouse that rests is told of a move, too, when the picture moves under it.
-    if (event.movementX || event.movementY) go();
+    // A resting mouse also receives a move when the picture moves under it.
+    if (event.movementX || event.movementY) disappear();
   });
 
   return {
     draw() {
       const [x, y] = stage.onOverlay(place);
       setAttributes(node, { transform: `translate(${x} ${y})` });
-      // A tool that was chosen in the meantime stands here, too.
+      // A tool selected in the meantime also appears here.
       if (shown && !pressed) tool().hover?.(place);
     },
   };

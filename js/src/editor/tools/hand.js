@@ -1,4 +1,4 @@
-/** What the hand holds: the chosen tool, its brush, and the pointer that drags. */
+/** The selected tool, its brush, and the pointer that drags. */
 
 /**
  * @typedef {import("../../host/types.js").Point} Point
@@ -24,26 +24,26 @@ export class Hand {
     this.tools = {};
     this.tool = "sun";
     this.brushRadius = 0.015;
-    this.subject = "sky"; // what brush strokes are about
+    this.subject = "sky"; // what brush strokes mark
     /** @type {number | null} the pointer that drags */
     this.pointer = null;
-    /** Drops what the pointer has begun, and lets it go. */
+    /** Cancels the pointer's gesture and releases it. */
     this.cancel = () => {};
-    /** @type {() => void} called when a tool was chosen */
+    /** @type {() => void} called when a tool is selected */
     this.onTool = () => {};
-    /** @type {() => void} called when the brush has another size */
+    /** @type {() => void} called when the brush size changes */
     this.onBrush = () => {};
   }
 
   /** @param {string} tool */
   setTool(tool) {
-    if (tool !== "sun" && !this.kernel.answers) return; // all others correct the analysis
+    if (tool !== "sun" && !this.kernel.answers) return; // all other tools correct the analysis
     this.cancel();
     this.tool = tool;
     this.onTool();
   }
 
-  /** What brush strokes are about from now on. @param {string} subject sky or water */
+  /** Choose what brush strokes mark. @param {string} subject sky or water */
   setSubject(subject) {
     this.subject = subject;
     this.setTool(this.tool === "not_sky" ? "not_sky" : "sky");

@@ -1,4 +1,4 @@
-/** Keys that do something as long as they are held: space takes the picture in the hand, B peeks. */
+/** Keys that act while held: space pans the picture, B shows the original. */
 
 import { isTaken } from "../../ui/keys.js";
 

@@ -1,8 +1,8 @@
 /**
- * The horizon's line with a handle at either end: the kernel answers with a new camera.
+ * The horizon line with a handle at either end: the kernel answers with a new camera.
  *
- * It may lie outside the picture; then the handles wait at the stage's edge. Shift keeps the
- * line level, a double click returns to the horizon that was found.
+ * It may lie outside the picture; the handles then wait at the stage's edge. Shift keeps the line
+ * level; a double click returns to the detected horizon.
  */
 
 import { setAttributes, shape } from "../../ui/element.js";
@@ -10,14 +10,14 @@ import { labelRows } from "../panel/label_rows.js";
 
 /** @typedef {import("../../host/types.js").Point} Point */
 
-const ENDS = [0.12, 0.88]; // fractions of the width in sight at which the handles stand
-const GRAB = 40; // CSS pixels round a handle that take hold of it
+const ENDS = [0.12, 0.88]; // positions of the handles, fractions of the visible width
+const GRAB = 40; // CSS pixels from a handle within which a press grabs it
 const EDGE = 16; // CSS pixels from the stage's edge at which an outside handle waits
-const GUESSED = 0.3; // confidence below which the line was not really seen
-const LABEL = 13; // CSS pixels that the name of another line is high
-const UNSURE = 0.5; // and below which it may be that of a roof or hill (analysis/notices.py)
+const GUESSED = 0.3; // confidence below which the horizon is a guess
+const LABEL = 13; // height of another line's label, CSS pixels
+const UNCERTAIN = 0.5; // confidence below which it may be a roof or hill (analysis/notices.py)
 
-/** What the kernel's methods are called here. @type {Record<string, string>} */
+/** Labels of the kernel's methods. @type {Record<string, string>} */
 const OTHERS = { row_argmax: "thesis row", robust_line: "skyline", water_line: "water line" };
 
 export class HorizonTool {
@@ -69,7 +69,7 @@ export class HorizonTool {
     );
   }
 
-  /** Ask what the other methods see, once a scene. */
+  /** Fetch the other methods' horizons, once per scene. */
   async refresh() {
     const { scene } = this.picture;
     if (this.hand.tool !== "horizon" || !scene || scene === this.scene) return;
@@ -79,12 +79,12 @@ export class HorizonTool {
       const { result } = await this.channel.request("horizons");
       if (scene === this.scene) this.rows = result;
     } catch {
-      // They are for comparison only: without a kernel there are none.
+      // They are only for comparison: without a kernel, show none.
     }
     this.parts.draw();
   }
 
-  /** The line now: dragged, given by the person, or found. @returns {[Point, Point] | null} */
+  /** The current line: dragged, set by the user, or detected. @returns {[Point, Point] | null} */
   current() {
     const { camera } = this.picture;
     if (this.line || !camera) return this.line;
@@ -101,7 +101,7 @@ export class HorizonTool {
     );
   }
 
-  /** Where across the picture the handles stand: both are in sight, however it is zoomed. */
+  /** Horizontal positions of the handles, both visible at any zoom. */
   columns() {
     const { x, width, stageWidth } = this.stage.rectangle();
     if (!width) return ENDS;
@@ -123,7 +123,7 @@ export class HorizonTool {
     });
     this.grip = reach[0] < GRAB ? 0 : reach[1] < GRAB ? 1 : "both";
     this.last = place;
-    // What waits at the edge comes to the pointer with the first move.
+    // A handle that waits at the edge jumps to the pointer with the first move.
     const held = this.grip === "both" ? mean(this.line) : this.line[this.grip];
     if (this.onStage(held, box).outside) this.last = [place[0], held[1]];
   }
@@ -154,7 +154,7 @@ export class HorizonTool {
   end() {
     const { line } = this;
     this.line = null;
-    // A click alone says nothing about the horizon.
+    // A click without a move sets nothing.
     if (!line || !this.moved) return;
     this.state.set({ horizon_hint: line.map(([x, y]) => [round(x), round(y)]) });
   }
@@ -168,7 +168,7 @@ export class HorizonTool {
     this.handles[0].focus({ preventScroll: true });
   }
 
-  /** Back to the horizon that the analysis finds. */
+  /** Return to the detected horizon. */
   reset() {
     this.line = null;
     this.state.set({ horizon_hint: null });
@@ -227,7 +227,7 @@ export class HorizonTool {
   }
 
   /**
-   * Where a handle stands: on its end of the line, or at the stage's edge towards it.
+   * Position of a handle: on its end of the line, or at the stage's edge toward it.
    *
    * @param {Point} end
    * @param {{ stageHeight: number }} box
@@ -260,8 +260,8 @@ export class HorizonTool {
     if (this.line) return `${(100 * row).toFixed(1)} % · ${tilt}${out}`;
     if (this.state.values.horizon_hint) return `Set by hand · ${tilt}${out}`;
     const { confidence = 0 } = scene?.horizon ?? {};
-    if (confidence < GUESSED) return `Guessed: drag it to where it is${out}`;
-    return `${confidence < UNSURE ? "Found, unsure" : "Found"} · ${tilt}${out}`;
+    if (confidence < GUESSED) return `Guessed: drag it to the horizon${out}`;
+    return `${confidence < UNCERTAIN ? "Found, uncertain" : "Found"} · ${tilt}${out}`;
   }
 
   /** @param {ReturnType<import("../view/stage.js").Stage["rectangle"]>} box */
@@ -295,7 +295,7 @@ function text(content, x, y) {
   return node;
 }
 
-/** @param {[Point, Point]} hint @param {number[]} columns @returns {[Point, Point]} the same line at other columns */
+/** @param {[Point, Point]} hint @param {number[]} columns @returns {[Point, Point]} the line at other columns */
 function through([a, b], columns) {
   const slope = (b[1] - a[1]) / (b[0] - a[0]);
   return /** @type {[Point, Point]} */ (columns.map((x) => [x, a[1] + slope * (x - a[0])]));

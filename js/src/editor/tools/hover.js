@@ -1,14 +1,14 @@
-/** What is under the pointer or the cross: its direction, and its colour in the photo and now. */
+/** Direction under the pointer or the cross, and its color in the photo and now. */
 
 import { directionText } from "../../ui/angle_text.js";
 import { element } from "../../ui/element.js";
 
 /** @typedef {import("../../host/types.js").Point} Point */
 
-/** @type {import("../types.js").MakePart<"foot" | "hand" | "picture" | "stage">} */
-export function hover({ foot, hand, picture, stage }, signal) {
+/** @type {import("../types.js").MakePart<"statusBar" | "hand" | "picture" | "stage">} */
+export function hover({ statusBar, hand, picture, stage }, signal) {
   const direction = element("span", { class: "sw-hover-direction" });
-  const [before, after] = ["In the photo", "Now"].map(colour);
+  const [before, after] = ["In the photo", "Now"].map(makeSwatch);
   const node = element(
     "div",
     { class: "sw-hover", "aria-hidden": "true" },
@@ -17,8 +17,8 @@ export function hover({ foot, hand, picture, stage }, signal) {
     element("span", { class: "sw-hover-arrow" }, "→"),
     after.node,
   );
-  foot.readout.after(node);
-  // In main memory: a canvas of the graphics card takes the whole photo up there for one pixel.
+  statusBar.readout.after(node);
+  // In main memory: a GPU canvas would upload the whole photo for one pixel.
   const pixel = element("canvas", { width: 1, height: 1 });
   const sample = pixel.getContext("2d", { alpha: false, willReadFrequently: true });
   /** @type {Point | null} */
@@ -60,7 +60,7 @@ export function hover({ foot, hand, picture, stage }, signal) {
 
   return {
     point(at) {
-      // While a drag lasts the frame is the tool's, and nobody reads colours.
+      // During a drag the frame budget belongs to the tool, and nobody reads colors.
       place = hand.pointer === null ? at : null;
       ask();
     },
@@ -70,12 +70,12 @@ export function hover({ foot, hand, picture, stage }, signal) {
   };
 }
 
-/** A swatch with its three levels. @param {string} label */
-function colour(label) {
+/** Make a swatch with its three levels. @param {string} label */
+function makeSwatch(label) {
   const swatch = element("span", { class: "sw-swatch" });
   const levels = element("span", { class: "sw-rgb" });
   return {
-    node: element("span", { class: "sw-hover-colour", title: label }, swatch, levels),
+    node: element("span", { class: "sw-hover-color", title: label }, swatch, levels),
     /** @param {Uint8ClampedArray | null} data RGBA */
     show(data) {
       const rgb = data ? [data[0], data[1], data[2]] : [];

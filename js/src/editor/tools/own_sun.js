@@ -1,22 +1,22 @@
 /**
- * A faint ring where the photo's own sun was found. Whoever points at it, or comes to it by Tab,
- * is told how sure that is, and can say that it is not the sun, or where it is instead.
+ * A faint ring where the photo's sun was found. Pointing at it, or reaching it with Tab, opens a
+ * label with the confidence and actions to reject or move it.
  */
 
 import { equal } from "../../edit/equality.js";
 import { element, setAttributes, shape } from "../../ui/element.js";
 import { markText } from "../../ui/sun_words.js";
-import { sayOutside, take } from "../view/notes.js";
+import { selectTool, setSunOutside } from "../view/notes.js";
 
 /** @typedef {import("../../host/types.js").Point} Point */
 
-const RADIUS = 20; // CSS pixels: round the sun's handle, which stands there until it is moved
-const NEAR = 24; // CSS pixels round its middle that mean it
-const COVERED = 30; // CSS pixels between both within which a press is the handle's
+const RADIUS = 20; // CSS pixels: around the sun's handle, which starts there
+const NEAR = 24; // CSS pixels from its center within which the pointer means it
+const COVERED = 30; // CSS pixels from the handle within which a press belongs to the handle
 const TAP = 5; // CSS pixels that a finger may slip
 const MARGIN = 6; // CSS pixels between the label and the stage's edge
 const OPEN_MS = 350;
-const CLOSE_MS = 400; // the way from the ring to its label
+const CLOSE_MS = 400; // time to move from the ring to its label
 
 /**
  * @type {import("../types.js").MakePart<"hand" | "kernel" | "picture" | "root" | "stage"
@@ -49,16 +49,16 @@ export function ownSun({ hand, kernel, picture, root, stage, state }, signal) {
   const actions = element(
     "span",
     { class: "sw-own-sun-actions" },
-    action("Not the sun", () => sayOutside({ stage, state })),
-    action("Move this mark", (event) => take({ hand, stage }, "pick", event)),
+    action("Not the sun", () => setSunOutside({ stage, state })),
+    action("Move this mark", (event) => selectTool({ hand, stage }, "pick", event)),
   );
   const label = element("div", { class: "sw-own-sun-label", hidden: true }, text, actions);
   const node = element("div", { class: "sw-own-sun", hidden: true }, ring, label);
   stage.overlay.after(node);
 
-  /** @type {unknown} what the edit says of the sun, as the scene follows it */
+  /** @type {unknown} the edit's sun hint that the scene reflects */
   let followed;
-  /** @type {Point | null} where it is on the overlay, in CSS pixels; null while it is not shown */
+  /** @type {Point | null} position on the overlay in CSS pixels; null while hidden */
   let at = null;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
@@ -73,15 +73,15 @@ export function ownSun({ hand, kernel, picture, root, stage, state }, signal) {
     node.classList.toggle("sw-open", open);
     if (open) place();
   };
-  /** Open or close it after a while, unless the pointer comes back meanwhile. @param {boolean} open */
-  const wish = (open) => {
+  /** Open or close it after a delay, unless the pointer returns meanwhile. @param {boolean} open */
+  const setOpenLater = (open) => {
     if (open === !label.hidden) {
       clearTimeout(timer);
       timer = undefined;
     } else timer ??= setTimeout(() => setOpen(open), open ? OPEN_MS : CLOSE_MS);
   };
 
-  /** Put the label beside the ring, where there is room for it. */
+  /** Place the label beside the ring, where there is room. */
   const place = () => {
     if (!at || label.hidden) return;
     const { stageWidth, stageHeight } = stage.rectangle();
@@ -92,7 +92,7 @@ export function ownSun({ hand, kernel, picture, root, stage, state }, signal) {
     const within = (/** @type {number} */ start, /** @type {number} */ room) =>
       Math.max(MARGIN, Math.min(start, room - MARGIN));
     const x = within(left, stageWidth - width);
-    // Where neither side has room, as on a phone, it goes below, or above.
+    // If neither side has room, as on a phone, place it below or above.
     const beside = fits || left >= MARGIN;
     const below = at[1] + RADIUS + MARGIN;
     const aside = below + height <= stageHeight ? below : at[1] - RADIUS - MARGIN - height;
@@ -100,12 +100,12 @@ export function ownSun({ hand, kernel, picture, root, stage, state }, signal) {
     label.style.transform = `translate(${x}px, ${y}px)`;
   };
 
-  /** Where the mark is to be seen now. @returns {Point | null} */
+  /** The mark's current position, or null if it is hidden. @returns {Point | null} */
   const find = () => {
     const sun = picture.scene?.sun;
     const usable = hand.tool === "sun" || hand.tool === "pick";
     const still = state.before === null && hand.pointer === null && picture.passing === null;
-    // What was said in the meantime of the sun goes before what was found.
+    // A newer hint about the sun takes precedence over the detection.
     const current = equal(state.values.sun_hint ?? null, followed);
     if (!sun?.at || !usable || !still || !current) return null;
     const { stageWidth, stageHeight } = stage.rectangle();
@@ -137,8 +137,8 @@ export function ownSun({ hand, kernel, picture, root, stage, state }, signal) {
 
   /** @type {(target: EventTarget, name: string, listener: (event: any) => void) => void} */
   const on = (target, name, listener) => target.addEventListener(name, listener, { signal });
-  on(node, "pointerenter", () => wish(true));
-  on(node, "pointerleave", () => wish(node.contains(focused())));
+  on(node, "pointerenter", () => setOpenLater(true));
+  on(node, "pointerleave", () => setOpenLater(node.contains(focused())));
   on(node, "focusin", () => setOpen(true));
   on(node, "focusout", (event) => {
     if (!node.contains(event.relatedTarget)) setOpen(false);
@@ -150,7 +150,7 @@ export function ownSun({ hand, kernel, picture, root, stage, state }, signal) {
     ring.focus();
     setOpen(false);
   });
-  // A finger does not hover: one that taps the sun and does not drag it asks about it.
+  // Fingers do not hover: a tap on the sun without a drag opens the label.
   /** @type {{ clientX: number, clientY: number }} */
   let down = { clientX: 0, clientY: 0 };
   on(stage.overlay, "pointerdown", (event) => {
@@ -175,7 +175,9 @@ export function ownSun({ hand, kernel, picture, root, stage, state }, signal) {
     draw,
     point(place) {
       if (hand.pointer !== null) return;
-      wish(place !== null && hand.tool === "sun" ? isNear(place) : node.contains(focused()));
+      setOpenLater(
+        place !== null && hand.tool === "sun" ? isNear(place) : node.contains(focused()),
+      );
     },
   };
 }

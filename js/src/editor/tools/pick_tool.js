@@ -1,4 +1,4 @@
-/** A click that says where the photo's own sun is; the kernel answers with a new fit. */
+/** Marks the photo's sun with a click; the kernel answers with a new fit. */
 
 import { shape } from "../../ui/element.js";
 
@@ -28,7 +28,7 @@ export class PickTool {
     if (!this.at) return;
     const hint = this.at.map((value) => Math.round(value * 1e5) / 1e5);
     this.at = null;
-    // The sun starts from the place just given, not from where it was moved before.
+    // The sun restarts from the new mark, not from where it was moved before.
     this.state.set({ sun_hint: hint, sun_azimuth: null, sun_elevation: null });
     this.hand.setTool("sun");
   }

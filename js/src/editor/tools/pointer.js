@@ -5,7 +5,7 @@ import { listenToPointers } from "../../ui/pointers.js";
 /**
  * @param {import("../types.js").Needs<"hand" | "parts" | "picture" | "stage">} needs
  * @param {AbortSignal} signal
- * @returns {() => void} drops what a pointer has begun, and lets it go
+ * @returns {() => void} cancels the pointer's gesture and releases it
  */
 export function listenToPointer({ hand, parts, picture, stage }, signal) {
   const tool = () => hand.tools[hand.tool];
@@ -27,7 +27,7 @@ export function listenToPointer({ hand, parts, picture, stage }, signal) {
     signal,
   );
   stage.overlay.addEventListener("dblclick", () => tool().reset?.(), { signal });
-  // The focus is where a pointer or the tool has put it.
+  // Keep the focus where the pointer or tool has set it.
   stage.overlay.addEventListener("mousedown", (event) => event.preventDefault(), { signal });
   return cancel;
 }

@@ -1,6 +1,6 @@
 /**
- * Every key of the editor, in one table: the key handler runs it and the help shows it. Rows
- * without `run` tell of keys that the part with the focus handles itself.
+ * All keys of the editor in one table, for the key handler and the help. Rows without `run` document
+ * keys that the focused part handles itself.
  */
 
 import { openHelp } from "../../ui/help_dialog.js";
@@ -12,8 +12,8 @@ import { HISTORY_KEYS, runShortcut, zoomKeys } from "../../ui/keys.js";
  *   keys reach
  */
 
-/** Choose a tool and go to its handle, or else to the picture. @type {(tool: string) => (editor: Reach) => void} */
-const take =
+/** Select a tool and focus its handle, or else the picture. @type {(tool: string) => (editor: Reach) => void} */
+const selectTool =
   (tool) =>
   ({ announcer, hand, stage, toolbar }) => {
     const node = toolbar.tools.find(({ value }) => value === tool)?.node;
@@ -26,17 +26,17 @@ const take =
     else stage.node.focus({ preventScroll: true });
   };
 
-/** @param {Reach} editor @param {1 | -1} way */
-function stepMap({ inspector, announcer }, way) {
+/** @param {Reach} editor @param {1 | -1} direction */
+function stepMap({ inspector, announcer }, direction) {
   if (inspector.choice.disabled) announcer.say(inspector.choice.title);
-  else inspector.step(way);
+  else inspector.step(direction);
 }
 
 /** @param {Reach} editor */
 function stepBack({ fullScreen, hand, inspector }) {
   const busy = hand.pointer !== null;
   hand.cancel();
-  // One thing at a time: the gesture, the map, the tool, the full screen.
+  // Leave one thing at a time: the gesture, the map, the tool, full screen.
   if (!busy && inspector.map) inspector.choose("");
   else if (!busy && hand.tool === "sun" && fullScreen.on) fullScreen.leave();
   else hand.setTool("sun");
@@ -44,30 +44,30 @@ function stepBack({ fullScreen, hand, inspector }) {
 
 /** @type {import("../../ui/keys.js").Shortcut<Reach>[]} */
 export const SHORTCUTS = [
-  { section: "Tools", keys: ["1"], label: "Move the sun", run: take("sun") },
-  { section: "Tools", keys: ["2"], label: "Set the horizon", run: take("horizon") },
-  { section: "Tools", keys: ["3"], label: "Point at the photo's own sun", run: take("pick") },
-  { section: "Tools", keys: ["4"], label: "Brush: this is sky", run: take("sky") },
-  { section: "Tools", keys: ["5"], label: "Brush: this is not sky", run: take("not_sky") },
-  { section: "Tools", keys: ["6"], label: "Erase strokes", run: take("erase") },
+  { section: "Tools", keys: ["1"], label: "Move the sun", run: selectTool("sun") },
+  { section: "Tools", keys: ["2"], label: "Set the horizon", run: selectTool("horizon") },
+  { section: "Tools", keys: ["3"], label: "Point at the photo's own sun", run: selectTool("pick") },
+  { section: "Tools", keys: ["4"], label: "Brush: this is sky", run: selectTool("sky") },
+  { section: "Tools", keys: ["5"], label: "Brush: this is not sky", run: selectTool("not_sky") },
+  { section: "Tools", keys: ["6"], label: "Erase strokes", run: selectTool("erase") },
   {
     section: "Tools",
     keys: ["Escape"],
-    label: "Give up what was begun; back to the sun",
+    label: "Cancel; back to the sun tool",
     run: stepBack,
   },
 
   {
     section: "Sun and horizon",
     keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
-    label: "Move the handle that has the focus",
+    label: "Move the focused handle",
   },
   {
     section: "Sun and horizon",
     keys: ["Shift+ArrowLeft", "Shift+ArrowRight"],
     label: "Ten times as far",
   },
-  { section: "Sun and horizon", keys: ["Home"], label: "Back to what was found in the photo" },
+  { section: "Sun and horizon", keys: ["Home"], label: "Back to the value found in the photo" },
 
   {
     section: "Brushes",
@@ -84,7 +84,7 @@ export const SHORTCUTS = [
   {
     section: "Brushes",
     keys: ["W"],
-    label: "Mark water or sky",
+    label: "Brush water or sky",
     run: ({ hand }) => hand.setSubject(hand.subject === "sky" ? "water" : "sky"),
   },
 
@@ -92,7 +92,7 @@ export const SHORTCUTS = [
   {
     section: "View",
     keys: ["B"],
-    label: "The photo as it was: held, or pressed to stay",
+    label: "Original photo: hold to peek, tap to toggle",
   },
   {
     section: "View",
@@ -107,27 +107,27 @@ export const SHORTCUTS = [
     run: ({ fullScreen }) => fullScreen.toggle(),
   },
   ...zoomKeys("View", ({ stage }) => stage.zoom),
-  { section: "View", keys: ["Space"], label: "Held: drag the picture itself" },
+  { section: "View", keys: ["Space"], label: "Hold: drag the picture" },
   {
-    section: "Picture, when it has the focus",
+    section: "Picture, when focused",
     keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"],
     label: "Move the cross; a zoomed picture follows it",
   },
   {
-    section: "Picture, when it has the focus",
+    section: "Picture, when focused",
     keys: ["Enter", "Space"],
     label: "Use the tool at the cross; a brush stays down until the next press",
   },
   {
     section: "View",
     keys: ["M"],
-    label: "Next map of the analysis",
+    label: "Next analysis map",
     run: (editor) => stepMap(editor, 1),
   },
   {
     section: "View",
     keys: ["Shift+M"],
-    label: "Map before",
+    label: "Previous map",
     run: (editor) => stepMap(editor, -1),
   },
 
@@ -135,7 +135,7 @@ export const SHORTCUTS = [
   {
     section: "History",
     keys: ["V"],
-    label: "Versions: keep this edit, go to another",
+    label: "Versions: keep this edit or go to another",
     run: ({ toolbar }) => toolbar.versions?.click(),
   },
   { section: "History", keys: ["Mod+V"], label: "Paste a recipe or a photo" },
@@ -150,7 +150,7 @@ export const SHORTCUTS = [
   {
     section: "Help",
     keys: ["?"],
-    label: "These keys",
+    label: "Show these keys",
     run: showKeys,
   },
 ];
@@ -161,7 +161,7 @@ export function showKeys({ drawing, root }) {
   openHelp(root, "Keys of the sun editor", SHORTCUTS, note);
 }
 
-/** The keys at work. @param {Reach} editor @param {AbortSignal} signal */
+/** Listen to the keys. @param {Reach} editor @param {AbortSignal} signal */
 export function shortcuts(editor, signal) {
   const onKey = (/** @type {KeyboardEvent} */ event) => runShortcut(SHORTCUTS, editor, event);
   editor.root.addEventListener("keydown", onKey, { signal });

@@ -1,4 +1,4 @@
-/** Strokes on the picture: all of them drawn while a brush is chosen, and which ones a place meets. */
+/** Strokes on the picture: drawn while a brush is selected, simplified, and hit-tested. */
 
 import { setAttributes, shape } from "../../ui/element.js";
 
@@ -11,21 +11,21 @@ import { setAttributes, shape } from "../../ui/element.js";
 /** Tools that work on strokes. */
 export const BRUSHES = ["sky", "not_sky", "erase"];
 
-/** A place in units of the picture's longer side, as radii are. @type {(place: Point, size: Size) => Point} */
+/** Convert a place to units of the picture's longer side, the unit of radii. @type {(place: Point, size: Size) => Point} */
 export const inLongSides = ([x, y], { width, height }) => {
   const long = Math.max(width, height);
   return [(x * width) / long, (y * height) / long];
 };
 
 /**
- * Whether a disc meets what a stroke has painted.
+ * Whether a disc touches a stroke's painted area.
  *
  * @param {Stroke} stroke
  * @param {Point} place fractions of width and height
  * @param {number} radius of the disc, in longer sides
  * @param {Size} size
  */
-export function meets(stroke, place, radius, size) {
+export function touches(stroke, place, radius, size) {
   const at = inLongSides(place, size);
   const points = stroke.points.map((point) => inLongSides(point, size));
   return points.some((point, i) => {
@@ -34,8 +34,8 @@ export function meets(stroke, place, radius, size) {
 }
 
 /**
- * Leave out points that lie closer than a tolerance to the line through their neighbours
- * (Douglas and Peucker 1973): the mark is the same, and recipe and history stay small.
+ * Drop points closer than a tolerance to the line through their neighbors (Douglas and Peucker
+ * 1973): the stroke looks the same, and recipe and history stay small.
  *
  * @param {Point[]} points
  * @param {number} tolerance in longer sides
@@ -58,20 +58,20 @@ export function simplify(points, tolerance, size) {
   return [...head.slice(0, -1), ...simplify(points.slice(far), tolerance, size)];
 }
 
-/** From a point to a line between two. @param {Point} point @param {Point[]} line */
+/** Distance from a point to a line segment. @param {Point} point @param {Point[]} line */
 function distance([x, y], [a, b]) {
   const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
   const along = ((x - a[0]) * dx + (y - a[1]) * dy) / (dx * dx + dy * dy || 1);
-  const way = Math.min(1, Math.max(0, along));
-  return Math.hypot(a[0] + way * dx - x, a[1] + way * dy - y);
+  const share = Math.min(1, Math.max(0, along));
+  return Math.hypot(a[0] + share * dx - x, a[1] + share * dy - y);
 }
 
-/** The line that a stroke is drawn with; its parent scales it to the picture. */
+/** Make the polyline of a stroke; its parent scales it to the picture. */
 export function line(/** @type {string} */ label) {
   return shape("polyline", { class: strokeClass(label) });
 }
 
-/** @param {string} label what the stroke says */
+/** @param {string} label of the stroke */
 export const strokeClass = (label) => `sw-stroke sw-stroke-${label}`;
 
 /**
@@ -107,7 +107,7 @@ export class StrokesLayer {
   }
 
   /** Fade the strokes that are about to be erased. @param {Set<number>} doomed */
-  doom(doomed) {
+  fade(doomed) {
     this.lines.forEach((node, i) => {
       node.classList.toggle("sw-doomed", doomed.has(i));
     });
@@ -129,7 +129,7 @@ export class StrokesLayer {
     this.node.replaceChildren(...this.lines);
   }
 
-  /** From longer sides to the overlay's pixels. */
+  /** SVG transform from longer sides to the overlay's pixels. */
   transform() {
     const { x, y, width, height } = this.stage.rectangle();
     return `translate(${x} ${y}) scale(${Math.max(width, height)})`;

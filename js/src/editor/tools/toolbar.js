@@ -14,7 +14,7 @@ const TOOLS = [
     value: "sun",
     icon: "sun",
     label: "Move the sun",
-    title: "Move the sun (1): drag it, also out of the picture",
+    title: "Move the sun (1): drag it, even out of the picture",
   },
   {
     value: "horizon",
@@ -44,11 +44,11 @@ const TOOLS = [
     value: "erase",
     icon: "erase",
     label: "Erase strokes",
-    title: "Take whole strokes away (6)",
+    title: "Erase whole strokes (6)",
   },
 ];
 
-// Their texts name what the brush is about.
+// Their texts name what the brush marks.
 const PAINTS = TOOLS.filter(({ label }) => label.startsWith("Brush"));
 
 /**
@@ -63,11 +63,11 @@ export function toolbar({ hand, inspector, original, picture, state, work }) {
     onChange: (tool) => hand.setTool(tool),
   });
   const presets = () => picture.scene?.presets ?? [];
-  const history = historyButtons(state, "Everything back to the photo", presets);
+  const history = historyButtons(state, "Reset everything to the photo", presets);
   const before = holdButton({
     icon: "before",
     label: "Before",
-    title: "Show the photo as it was: hold, or click to keep (B)",
+    title: "Show the original photo: hold to peek, click to toggle (B)",
     onChange: (on) => original.setBefore(on),
   });
   const saveButton = button({
@@ -95,7 +95,7 @@ export function toolbar({ hand, inspector, original, picture, state, work }) {
   const menu = menuButton({
     icon: "menu",
     label: "Menu",
-    title: "Menu: photos, recipes, and what there is beside",
+    title: "Menu: photos, recipes and more",
     groups: ["photo", "recipe", "picture", "help"],
   });
   const node = element("div", { class: "sw-toolbar", role: "group", "aria-label": "Sun editor" });

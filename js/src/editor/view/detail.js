@@ -1,12 +1,12 @@
 /**
- * What the preview is too small to show: where it is zoomed past its own pixels, the kernel draws
- * the part in sight from the full-size photo, and that lies over the frame while the edit rests.
+ * Detail beyond the preview: when zoomed past the preview's pixels, the kernel renders the visible
+ * part from the full-size photo, and it covers the frame while the edit rests.
  */
 
 import { decodePicture } from "../../gl/texture.js";
 import { element } from "../../ui/element.js";
 
-const REST_MS = 800; // long enough that who goes on dragging shares no processor with it
+const REST_MS = 800; // long enough that a continued drag does not compete for the CPU
 const READY = "ready";
 
 /**
@@ -16,10 +16,10 @@ const READY = "ready";
 export function detail({ channel, hand, kernel, picture, root, stage, state, work }, signal) {
   const canvas = element("canvas", { class: "sw-detail", "aria-hidden": "true", hidden: true });
   stage.canvas.after(canvas);
-  let scenes = 0; // how many have come
-  let shown = ""; // the edit that the canvas is of
-  let asked = ""; // the edit and the part that were asked for last
-  let under = ""; // the edit of these
+  let scenes = 0; // how many have arrived
+  let shown = ""; // the edit that the canvas shows
+  let asked = ""; // the edit and part that were requested last
+  let under = ""; // the edit of that request
   let request = new AbortController();
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
@@ -27,7 +27,7 @@ export function detail({ channel, hand, kernel, picture, root, stage, state, wor
   const helps = () =>
     picture.scene !== null &&
     picture.scene.width > picture.size[0] &&
-    !stage.zoom.fits && // a dense screen shows more than the preview all the time
+    !stage.zoom.fits && // a dense screen always exceeds the preview
     stage.zoom.scale > 1 &&
     kernel.answers &&
     !picture.passing;
@@ -35,7 +35,7 @@ export function detail({ channel, hand, kernel, picture, root, stage, state, wor
     !state.before && hand.pointer === null && !work.busy && root.dataset.stage === READY;
   const edit = () => JSON.stringify([scenes, state.values]);
 
-  /** The part of the bitmap in sight, in fractions, and the screen's pixels that show it. */
+  /** The visible part of the bitmap in fractions, and its size in screen pixels. */
   const part = () => {
     const { x, y, width, height, stageWidth, stageHeight } = stage.rectangle();
     const inside = (/** @type {number} */ at) => Math.min(1, Math.max(0, at));
@@ -62,13 +62,13 @@ export function detail({ channel, hand, kernel, picture, root, stage, state, wor
     request.abort();
     request = new AbortController();
     try {
-      const content = { ...wanted, ...picture.asked() };
+      const content = { ...wanted, ...picture.requestContent() };
       const answer = await channel.request("detail", content, undefined, [], request.signal);
       const bitmap = await decodePicture(answer.buffers[0]);
       if (!signal.aborted && helps() && edit() === of) put(bitmap, answer.result.box, of);
       bitmap.close();
     } catch {
-      // Nobody asked for it, and the frame stands: what keeps the kernel from it is said elsewhere.
+      // The user did not ask for it and the frame remains; kernel failures are reported elsewhere.
     }
   };
 
@@ -100,7 +100,7 @@ export function detail({ channel, hand, kernel, picture, root, stage, state, wor
       const now = helps() ? edit() : "";
       if (now !== shown) canvas.hidden = true;
       if (now !== under) {
-        request.abort(); // the kernel has better things to do
+        request.abort(); // its result is outdated
         asked = under = "";
       }
       if (now) timer = setTimeout(ask, REST_MS);

@@ -1,10 +1,10 @@
-/** Draws the picture's frame on the stage's canvas: when it is due, and as large as can be seen. */
+/** Draws the picture's frame on the stage's canvas when needed, no larger than visible. */
 
 import { Frame } from "../../gl/frame.js";
 import { FrameLoop } from "../../gl/frame_loop.js";
-import { watchSight } from "../../host/visibility.js";
+import { watchVisibility } from "../../host/visibility.js";
 
-const WORTHWHILE = 0.75; // a drag that shows less of the preview's size is drawn smaller
+const WORTHWHILE = 0.75; // share of the preview's size below which a drag draws smaller
 
 export class Drawing {
   /**
@@ -20,15 +20,15 @@ export class Drawing {
     this.stage = stage;
     this.frame = new Frame(stage.canvas, state.parameters);
     this.live = false; // whether the canvas shows the scene
-    this.speed = ""; // how fast the picture is drawn here, and by what (timings.js)
+    this.speed = ""; // drawing speed and graphics card (timings.js)
     this.loop = new FrameLoop(
       (scale) => this.drawFrame(scale),
       () => state.before !== null || picture.passing !== null,
       signal,
     );
     this.loop.limit = () => this.visibleScale();
-    this.loop.setSight(false); // until the page is laid out
-    watchSight(root, signal, (inSight) => this.loop.setSight(inSight));
+    this.loop.setVisible(false); // until the page is laid out
+    watchVisibility(root, signal, (visible) => this.loop.setVisible(visible));
   }
 
   /** @param {import("../../host/types.js").Scene} scene */
@@ -51,7 +51,7 @@ export class Drawing {
     this.root.classList.toggle("sw-live", live);
   }
 
-  /** Share of the preview's size that the screen can show; 1 where less would gain little. */
+  /** Share of the preview's size that the screen can show; 1 if less would gain little. */
   visibleScale() {
     const shown = this.stage.rectangle().width * (window.devicePixelRatio || 1);
     const scale = shown / Math.max(1, this.picture.size[0]);
@@ -71,7 +71,7 @@ export class Drawing {
       this.setLive(true);
       parts.drawn(scale);
     } else if (drawn === false) {
-      this.loop.request(); // the context was lost meanwhile; the next frame makes another
+      this.loop.request(); // the context was lost; the next frame makes a new one
     }
   }
 }

@@ -1,4 +1,4 @@
-/** A photo or a recipe comes into the editor: dropped, pasted or chosen. */
+/** Opens a photo or a recipe that is dropped, pasted or chosen. */
 
 import { errorText } from "../../host/error_text.js";
 import { element } from "../../ui/element.js";
@@ -11,7 +11,7 @@ import { showStatus } from "./status.js";
  *   | "root" | "stage" | "state">} Taker
  */
 
-const CHUNK = 4_000_000; // bytes: a message of 10 MiB breaks the connection
+const CHUNK = 4_000_000; // bytes: a message of 10 MiB would break the connection
 const PHOTOS = "image/*,.tif,.tiff,.heic,.avif";
 const RECIPE = /\.(json|py|txt)$/i;
 
@@ -27,7 +27,7 @@ export function drop({ toolbar, ...taker }, signal) {
     element("span", {}, "Drop a photo or a recipe"),
   );
   root.append(veil);
-  let inside = 0; // a child's enter comes before its parent's leave
+  let inside = 0; // depth: a child's dragenter precedes its parent's dragleave
   /** @param {number} depth */
   const enter = (depth) => {
     inside = depth;
@@ -41,7 +41,7 @@ export function drop({ toolbar, ...taker }, signal) {
     drop: (event) => {
       enter(0);
       event.preventDefault();
-      // Not the notebook's business: JupyterLab would upload it into its folder.
+      // Keep it from JupyterLab, which would upload it into its folder.
       event.stopPropagation();
       const file = event.dataTransfer?.files[0];
       if (file) void take(taker, file);
@@ -71,7 +71,7 @@ export function drop({ toolbar, ...taker }, signal) {
   toolbar.menu.add({
     group: "photo",
     label: "Open photo …",
-    title: "Another photo in this editor; this one's edit is set aside",
+    title: "Open another photo in this editor; the current edit is set aside",
     enabled: () => kernel.answers,
     run: async () => {
       const file = await pickFile(PHOTOS, signal);
@@ -87,12 +87,12 @@ async function take(taker, file) {
     if (RECIPE.test(file.name)) await loadRecipe(taker, file);
     else await upload(taker, file);
   } catch (error) {
-    taker.message.show(`${file.name} was not opened: ${errorText(error)}`);
+    taker.message.show(`${file.name} could not be opened: ${errorText(error)}`);
   }
 }
 
 /**
- * Bring a photo to the kernel in pieces; it then comes back as a preview.
+ * Upload a photo to the kernel in chunks; it returns a preview.
  *
  * @param {Taker} taker
  * @param {File} file
@@ -100,7 +100,7 @@ async function take(taker, file) {
 async function upload(taker, file) {
   const { channel, kernel, message, stage, state } = taker;
   if (!kernel.answers) {
-    throw new Error("the kernel analyses photos, and it is not running. Run the cell again.");
+    throw new Error("this needs the kernel, which is not running. Run the cell again.");
   }
   state.commit();
   message.show("");

@@ -1,6 +1,6 @@
 /**
- * The editor on all of the screen. Where a host forbids that (a frame without the permission, a
- * phone), the editor fills its window instead.
+ * Full screen. Where a host forbids it (a frame without permission, a phone), the editor fills its
+ * window instead.
  */
 
 import { button } from "../../ui/button.js";
@@ -21,7 +21,7 @@ export class FullScreen {
     });
     this.button.setAttribute("aria-pressed", "false");
     toolbar.end.append(this.button);
-    this.root.addEventListener("fullscreenchange", () => this.changed(), { signal });
+    this.root.addEventListener("fullscreenchange", () => this.onBrowserChange(), { signal });
     signal.addEventListener("abort", () => {
       if (this.isFullScreen()) void document.exitFullscreen();
     });
@@ -33,12 +33,12 @@ export class FullScreen {
       await this.root.requestFullscreen();
       this.show(true);
     } catch {
-      this.fill();
+      this.fillWindow();
     }
   }
 
-  /** Over the whole window: in the top layer, whatever the host's boxes clip or move. */
-  fill() {
+  /** Fill the window, in the top layer so that the host's boxes cannot clip it. */
+  fillWindow() {
     if (this.root.showPopover) {
       this.root.popover = "manual";
       this.root.showPopover();
@@ -58,8 +58,8 @@ export class FullScreen {
     return this.root.matches(":fullscreen");
   }
 
-  /** The browser has entered or left; Escape leaves, too. */
-  changed() {
+  /** Follow the browser entering or leaving full screen, also with Escape. */
+  onBrowserChange() {
     this.show(this.isFullScreen());
   }
 

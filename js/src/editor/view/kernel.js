@@ -1,6 +1,6 @@
 /**
- * What stands behind the view: a kernel that answers, one that is lost, or none at all in a
- * stand-alone page. Whatever needs the kernel asks here first.
+ * State of the view's kernel: live, lost, or none in a stand-alone page. Code that needs the kernel
+ * checks here first.
  */
 
 import { ownModel } from "../../host/saved_state.js";
@@ -10,11 +10,11 @@ import { ownModel } from "../../host/saved_state.js";
  * @typedef {"live" | "lost" | "none"} KernelState
  */
 
-// What ipywidgets fires when a model has lost its connection, or got one.
+// Fired by ipywidgets when a model loses or gains its connection.
 const CONNECTION = "comm_live_update";
-const PATIENCE_MS = 15_000; // a kernel that works on something else may take its time
+const PATIENCE_MS = 15_000; // a busy kernel may take this long to answer
 // Only the kernel sets these.
-const SIGNS = ["change:_status", "change:_scene", "msg:custom"];
+const LIFE_SIGNS = ["change:_status", "change:_scene", "msg:custom"];
 
 export class Kernel {
   /**
@@ -25,7 +25,7 @@ export class Kernel {
     this.model = model;
     /** @type {KernelState} */
     this.state = model.get("_standalone") ? "none" : "live";
-    /** Whether it was asked and said nothing: it is busy, or was restarted behind the host's back. */
+    /** Whether it has not answered: it is busy, or was restarted without the host noticing. */
     this.silent = false;
     this.asked = false;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -42,17 +42,17 @@ export class Kernel {
       this.become("live");
     };
     model.on(CONNECTION, onConnection);
-    for (const event of SIGNS) model.on(event, onSign);
+    for (const event of LIFE_SIGNS) model.on(event, onSign);
     if (this.state === "live") this.ask();
     signal.addEventListener("abort", () => {
       model.off(CONNECTION, onConnection);
-      for (const event of SIGNS) model.off(event, onSign);
+      for (const event of LIFE_SIGNS) model.off(event, onSign);
       clearTimeout(this.timer);
       this.listeners.clear();
     });
   }
 
-  /** Whether corrections, maps and full-size exports can be had. */
+  /** Whether corrections, maps and full-size exports are available. */
   get answers() {
     return this.state === "live";
   }
@@ -67,7 +67,7 @@ export class Kernel {
     this.listeners.add(listener);
   }
 
-  /** Ask for a sign of life: a kernel that crashed does not say goodbye. */
+  /** Ask for a sign of life: a kernel does not announce that it crashed. */
   check() {
     if (this.state !== "live" || this.asked) return;
     this.asked = true;
@@ -76,8 +76,8 @@ export class Kernel {
   }
 
   /**
-   * JupyterLab opens a widget's way past busy cells with its first message, which itself has to wait:
-   * sent with the view, so that a person's first stroke need not.
+   * JupyterLab lets a widget bypass busy cells from its second message on; the first one waits. Send
+   * it with the view, so that the user's first stroke does not wait.
    */
   ask() {
     try {
@@ -91,7 +91,7 @@ export class Kernel {
   setSilent(silent) {
     if (silent === this.silent) return;
     this.silent = silent;
-    this.tell();
+    this.notify();
   }
 
   /** @param {KernelState} state */
@@ -100,17 +100,17 @@ export class Kernel {
     this.state = state;
     clearTimeout(this.timer);
     this.asked = false;
-    this.tell();
+    this.notify();
   }
 
-  tell() {
+  notify() {
     for (const listener of this.listeners) listener();
   }
 }
 
 /**
- * Whether a model has a way to a kernel. A page that was saved with its widgets shows them without
- * one. Hosts without ipywidgets do not say, and are believed.
+ * Whether a model is connected to a kernel. A page saved with its widgets shows them without one.
+ * Hosts without ipywidgets do not report it, so they count as connected.
  *
  * @param {Model} model
  */

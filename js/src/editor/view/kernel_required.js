@@ -1,6 +1,6 @@
 /**
- * What only the kernel can do is disabled while none answers, and says why: in a stand-alone page
- * for ever, in a notebook until the kernel is back. What a shader draws stays live.
+ * Disables controls that need the kernel while none answers, and gives the reason as their title:
+ * permanently in a stand-alone page, in a notebook until the kernel is back. Drawing stays live.
  */
 
 /** @typedef {"none" | "lost"} Absence */
@@ -15,9 +15,9 @@ const REASONS = {
  * @type {import("../types.js").MakePart<"hand" | "inspector" | "kernel" | "panel" | "root"
  *   | "state" | "toolbar">}
  */
-export function needsKernel({ hand, inspector, kernel, panel, root, state, toolbar }) {
+export function kernelRequired({ hand, inspector, kernel, panel, root, state, toolbar }) {
   const corrections = state.parameters.filter((p) => p.analysis).map((p) => p.name);
-  /** @type {Map<HTMLElement, string>} titles as they were */
+  /** @type {Map<HTMLElement, string>} original titles */
   const titles = new Map();
 
   /** Controls that ask the kernel. @returns {HTMLElement[]} */
@@ -46,7 +46,7 @@ export function needsKernel({ hand, inspector, kernel, panel, root, state, toolb
       if (reason && hand.tool !== "sun") hand.setTool("sun");
       if (reason && inspector.map) inspector.choose("");
       toolbar.save.title = reason
-        ? "Download the picture at the size it has here"
+        ? "Download the picture at preview size"
         : "Render at full size and download";
     },
   };

@@ -1,4 +1,4 @@
-/** What the kernel sends of a photo: the preview at once, later what the analysis found. */
+/** Loads what the kernel sends of a photo: the preview at once, the analysis later. */
 
 import { Camera } from "../../geometry/camera.js";
 import { MAPS } from "../../gl/frame.js";
@@ -24,12 +24,12 @@ export class Loading {
     this.state = state;
     this.signal = signal;
     this.loads = 0;
-    /** @type {Map<string, unknown>} the bytes of the pictures that the frame has */
+    /** @type {Map<string, unknown>} the bytes of the frame's current pictures */
     this.taken = new Map();
     onTraits(model, ["_photo"], () => void this.photo(), signal);
     onTraits(model, ["_scene"], () => void this.scene(), signal);
     signal.addEventListener("abort", () => {
-      this.loads += 1; // pictures that are being decoded come too late
+      this.loads += 1; // ignore pictures that are still being decoded
     });
   }
 
@@ -40,26 +40,26 @@ export class Loading {
     try {
       await stage.setPhoto(bytes);
     } catch {
-      if (bytes !== model.get("_photo")) return; // another is on its way
+      if (bytes !== model.get("_photo")) return; // another is coming
       this.message.show("The browser cannot decode the preview that the kernel sent.");
       return;
     }
-    // Not before the photo is on the screen: compiling keeps the browser's graphics process busy.
+    // Wait until the photo is on the screen: compiling blocks the browser's graphics process.
     requestAnimationFrame(() => setTimeout(() => this.prepare()));
   }
 
-  /** Begin to compile the shaders while the kernel analyses: some drivers take seconds. */
+  /** Start compiling the shaders during the analysis: some drivers take seconds. */
   prepare() {
     const { frame, loop } = this.drawing;
-    if (this.signal.aborted || this.picture.scene || !loop.inSight) return;
+    if (this.signal.aborted || this.picture.scene || !loop.visible) return;
     try {
       frame.withGraph((graph) => graph.prepare([String(this.state.values.method)]));
     } catch {
-      // The first frame will say what is wrong, when there is something to draw.
+      // The first frame will report the error.
     }
   }
 
-  /** Take over what the analysis found: decode its maps, then swap all at once. */
+  /** Load the analysis: decode its maps, then swap them all at once. */
   async scene() {
     const { drawing, message, model, parts, picture } = this;
     /** @type {Scene | null} */
@@ -70,7 +70,7 @@ export class Loading {
     this.loads += 1;
     const load = this.loads;
     try {
-      // A correction changes some of the maps and never the photo.
+      // A correction changes some maps but never the photo.
       const sent = ["photo", ...MAPS].map((name) => ({ name, bytes: model.get(`_${name}`) }));
       const fresh = sent.filter(({ name, bytes }) => bytes !== this.taken.get(name));
       const bitmaps = await Promise.all(fresh.map(({ bytes }) => decodePicture(bytes)));
@@ -86,7 +86,7 @@ export class Loading {
       });
     } catch (error) {
       if (load !== this.loads) return;
-      message.show(`The maps of the analysis cannot be shown: ${errorText(error)}`);
+      message.show(`The analysis maps cannot be shown: ${errorText(error)}`);
       return;
     }
     const { fov_vertical_deg, pitch, roll } = scene.camera;
@@ -95,7 +95,7 @@ export class Loading {
     parts.loaded(scene);
   }
 
-  /** Another photo is on its way: nothing of the last one is true of it. */
+  /** Another photo is coming: drop everything about the last one. */
   forget() {
     if (!this.picture.scene) return;
     this.loads += 1;

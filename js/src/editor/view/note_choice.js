@@ -1,18 +1,18 @@
-/** Which notes stand under the picture, and what each offers to do. */
+/** Chooses the notes under the picture and their actions. */
 
 import { assumedText, DOUBTED, doubtText } from "../../ui/sun_words.js";
 
 /**
  * @typedef {"pick" | "not_sun" | "take_back" | "moon_is_sun" | "horizon" | "paint" | "leave"} NoteAction
- * @typedef {{ text: string, actions: NoteAction[], stays?: boolean }} Note `stays` cannot be put away
+ * @typedef {{ text: string, actions: NoteAction[], stays?: boolean }} Note `stays`: it cannot be dismissed
  * @typedef {{
  *   live: boolean, inside: boolean, picking: boolean, pending: boolean, hint: unknown,
  * }} Now `live`: a kernel answers; `inside`: the assumed sun lies in the picture; `picking`: the
- *   tool that points at the sun is chosen; `pending`: the scene does not follow yet what was said
- *   of the sun; `hint`: what the edit says of it
+ *   tool that marks the sun is selected; `pending`: the scene does not reflect the edit's sun hint
+ *   yet; `hint`: that hint
  */
 
-/** What can be done about a note of the analysis. @type {Record<string, NoteAction[]>} */
+/** Actions for each note of the analysis. @type {Record<string, NoteAction[]>} */
 const ACTIONS = {
   sky: ["paint"],
   unseen_sun: ["pick"],
@@ -23,11 +23,11 @@ const ACTIONS = {
   sun_mask: ["pick", "not_sun"],
   horizon: ["horizon"],
 };
-const OF_THE_SUN = ["unseen_sun", "told_outside", "doubtful_sun", "moon", "night_sun", "sun_mask"];
+const SUN_NOTES = ["unseen_sun", "told_outside", "doubtful_sun", "moon", "night_sun", "sun_mask"];
 
 /** @type {Note} */
 const PICKING = {
-  text: "Click where the photo’s sun is. It may be hidden, or lie outside the picture.",
+  text: "Click where the photo’s sun is. It may be hidden or outside the picture.",
   actions: ["leave"],
   stays: true,
 };
@@ -42,9 +42,9 @@ export function notesOf({ notes, sun }, now) {
   if (sun.source === "found" && sun.confidence < DOUBTED) {
     rows.unshift({ about: "doubtful_sun", text: doubtText(sun) });
   }
-  // What is being said anew is not worth reading.
-  const said = now.picking || now.pending;
-  const chosen = rows.filter(({ about }) => !said || !OF_THE_SUN.includes(about));
+  // Hide notes about the sun while it is being set again.
+  const outdated = now.picking || now.pending;
+  const chosen = rows.filter(({ about }) => !outdated || !SUN_NOTES.includes(about));
   const shown = chosen.map(({ about, text }) => ({
     text: about === "unseen_sun" || about === "told_outside" ? assumedText(sun, now) : text,
     actions: (now.live ? (ACTIONS[about] ?? []) : []).filter(

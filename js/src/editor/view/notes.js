@@ -1,6 +1,6 @@
 /**
- * What the analysis could not know, under the picture: each note says it in words, offers what can
- * be done about it, and can be put away and brought back.
+ * Notes under the picture about what the analysis could not determine. Each offers actions and can
+ * be dismissed and shown again.
  */
 
 import { equal } from "../../edit/equality.js";
@@ -19,8 +19,8 @@ const PASSING_SECONDS = 8;
 
 /** @type {Record<NoteAction, { label: string, run: (needs: Answering, event: MouseEvent) => void }>} */
 const ACTIONS = {
-  pick: { label: "The sun is here …", run: (needs, event) => take(needs, "pick", event) },
-  not_sun: { label: "Not the sun", run: sayOutside },
+  pick: { label: "The sun is here …", run: (needs, event) => selectTool(needs, "pick", event) },
+  not_sun: { label: "Not the sun", run: setSunOutside },
   take_back: {
     label: "Undo that",
     run: ({ state }) => {
@@ -34,66 +34,66 @@ const ACTIONS = {
     label: "It is the sun",
     run: ({ picture, state }) => state.set({ sun_hint: picture.scene?.sun.moon ?? null }),
   },
-  horizon: { label: "Set the horizon", run: (needs, event) => take(needs, "horizon", event) },
+  horizon: { label: "Set the horizon", run: (needs, event) => selectTool(needs, "horizon", event) },
   paint: {
     label: "Paint the sky",
     run: (needs, event) => {
       needs.hand.setSubject("sky");
-      take(needs, "sky", event);
+      selectTool(needs, "sky", event);
     },
   },
-  leave: { label: "Never mind", run: (needs, event) => take(needs, "sun", event) },
+  leave: { label: "Never mind", run: (needs, event) => selectTool(needs, "sun", event) },
 };
 
-/** Say that nothing in the picture is the sun; a sun that was moved stays where it is. @param {Pick<Answering, "stage" | "state">} needs */
-export function sayOutside({ stage, state }) {
+/** Record that the sun is not in the picture; a moved sun stays where it is. @param {Pick<Answering, "stage" | "state">} needs */
+export function setSunOutside({ stage, state }) {
   state.set({ sun_hint: "outside" });
   stage.focus();
 }
 
-/** Choose a tool and go where it is used. @param {Pick<Answering, "hand" | "stage">} needs @param {string} tool @param {MouseEvent} event */
-export function take({ hand, stage }, tool, event) {
+/** Select a tool and move the focus to where it is used. @param {Pick<Answering, "hand" | "stage">} needs @param {string} tool @param {MouseEvent} event */
+export function selectTool({ hand, stage }, tool, event) {
   hand.setTool(tool);
   stage.node.scrollIntoView({ block: "nearest" });
-  // Who pressed a key has no pointer to go on with, and gets the handle or the cross.
+  // After a key press there is no pointer: focus the handle or the cross.
   if (event.detail > 0) stage.focus();
   else if (hand.tools[tool].focus) hand.tools[tool].focus();
   else stage.node.focus({ preventScroll: true });
 }
 
 /**
- * @type {import("../types.js").MakePart<"announcer" | "foot" | "hand" | "kernel" | "notices"
+ * @type {import("../types.js").MakePart<"announcer" | "statusBar" | "hand" | "kernel" | "notices"
  *   | "picture" | "stage" | "state">}
  */
-export function notes({ announcer, foot, kernel, notices, ...answering }) {
+export function notes({ announcer, statusBar, kernel, notices, ...answering }) {
   const { hand, picture, state } = answering;
   const list = element("div", { class: "sw-notes-list" });
   const back = element("button", { type: "button", class: "sw-notes-back", hidden: true });
-  back.title = "Show the notes of the analysis again";
+  back.title = "Show the dismissed notes again";
   back.addEventListener("click", () => {
-    away.clear();
+    dismissed.clear();
     draw(shown);
   });
-  foot.node.append(element("div", { class: "sw-notes" }, list, back));
-  /** @type {Set<string>} texts that were put away */
-  const away = new Set();
+  statusBar.node.append(element("div", { class: "sw-notes" }, list, back));
+  /** @type {Set<string>} texts of dismissed notes */
+  const dismissed = new Set();
   /** @type {Note[]} */
   let shown = [];
-  /** What the edit says of the sun, as the scene follows it; undefined before there is one. */
+  /** The edit's sun hint that the scene reflects; undefined before there is a scene. */
   let followed = /** @type {unknown} */ (undefined);
 
   /** @param {Note} note */
   const row = ({ text, actions, stays = false }) => {
-    const said = element("div", { class: "sw-note-said" }, element("span", {}, text));
+    const body = element("div", { class: "sw-note-said" }, element("span", {}, text));
     for (const name of actions) {
       const { label, run } = ACTIONS[name];
       const act = element("button", { type: "button", class: "sw-stage-action" }, label);
       act.addEventListener("click", (event) => run(answering, event));
-      said.append(" ", act);
+      body.append(" ", act);
     }
-    const node = element("div", { class: "sw-note" }, said);
+    const node = element("div", { class: "sw-note" }, body);
     const onClick = () => {
-      away.add(text);
+      dismissed.add(text);
       draw(shown);
     };
     if (!stays) node.append(button({ icon: "close", label: "Dismiss this note", onClick }));
@@ -103,7 +103,7 @@ export function notes({ announcer, foot, kernel, notices, ...answering }) {
   /** @param {Note[]} all */
   const draw = (all) => {
     shown = all;
-    const open = all.filter(({ text }) => !away.has(text));
+    const open = all.filter(({ text }) => !dismissed.has(text));
     const hidden = all.length - open.length;
     list.replaceChildren(...open.map(row));
     back.hidden = hidden === 0;
@@ -119,7 +119,7 @@ export function notes({ announcer, foot, kernel, notices, ...answering }) {
     return x >= 0 && x < camera.width && y >= 0 && y < camera.height;
   };
 
-  const look = () => {
+  const update = () => {
     const { scene } = picture;
     if (!scene) followed = undefined;
     const hint = state.values.sun_hint ?? null;
@@ -130,7 +130,7 @@ export function notes({ announcer, foot, kernel, notices, ...answering }) {
       pending: !equal(hint, followed),
       hint,
     };
-    // A page's notes are its maker's: nobody who reads it can answer them.
+    // A stand-alone page shows none: its readers cannot act on them.
     const all = scene && now && kernel.state !== "none" ? notesOf(scene, now) : [];
     if (!equal(all, shown)) draw(all);
     return now;
@@ -140,16 +140,16 @@ export function notes({ announcer, foot, kernel, notices, ...answering }) {
     loaded(scene) {
       const before = followed;
       followed = state.values.sun_hint ?? null;
-      const now = look();
+      const now = update();
       if (before === undefined || equal(before, followed) || !now) return;
-      // What was said of the sun is done: the status says so, to the eye and aloud.
+      // Report that the new sun hint took effect, on screen or to screen readers.
       if (Array.isArray(followed)) {
         notices.show("sun", { text: pointedText(scene.sun), seconds: PASSING_SECONDS });
       } else if (followed) {
         announcer.say(assumedText(scene.sun, now), "sun note");
       }
     },
-    show: () => void look(),
-    draw: () => void look(),
+    show: () => void update(),
+    draw: () => void update(),
   };
 }

@@ -1,12 +1,12 @@
-/** Bars under the toolbar: something to know, and what can be done about it. */
+/** Notice bars under the toolbar, with actions. */
 
 import { button } from "../../ui/button.js";
 import { element } from "../../ui/element.js";
 
 /**
  * @typedef {{ text: string, actions?: { label: string, run: () => void }[], onClose?: () => void,
- *   seconds?: number }} Notice `onClose` when it is put away by its cross; `seconds` after which it
- *   goes by itself
+ *   seconds?: number }} Notice `onClose` is called when the user dismisses it; it
+ *   disappears after `seconds`
  */
 
 const PAUSE_MS = 200;
@@ -14,8 +14,8 @@ const PAUSE_MS = 200;
 export class Notices {
   /**
    * @param {HTMLElement} root of the editor
-   * @param {() => boolean} busy whether the hand is at work: what comes now would move the picture
-   *   under it
+   * @param {() => boolean} busy whether a gesture is in progress: a new notice would move the
+   *   picture under it
    * @param {AbortSignal} signal
    */
   constructor(root, busy, signal) {
@@ -30,7 +30,7 @@ export class Notices {
   }
 
   /**
-   * Show a notice in place of the one of that key, as soon as the hand rests.
+   * Show a notice in place of the one with that key, once no gesture is in progress.
    *
    * @param {string} key
    * @param {Notice} notice
@@ -55,7 +55,7 @@ export class Notices {
     node.append(
       button({
         icon: "close",
-        label: "Put this away",
+        label: "Dismiss this notice",
         onClick: () => {
           this.hide(key);
           onClose?.();
@@ -80,7 +80,7 @@ export class Notices {
     if (!shown?.node) return;
     const focused = shown.node.matches(":focus-within");
     shown.node.remove();
-    // The keys stay in the editor.
+    // Keep the focus, and so the keys, in the editor.
     if (focused) /** @type {HTMLElement | null} */ (this.root.querySelector(".sw-sun"))?.focus();
   }
 }

@@ -1,4 +1,4 @@
-/** The photo as it was, over the frame while "Before" is on, and beside it in a split. */
+/** The original photo, over the frame while "Before" is on, and beside it in a split. */
 
 import { sameRecipe } from "../../edit/equality.js";
 
@@ -33,7 +33,7 @@ export class Original {
     this.root.classList.toggle("sw-split", this.split);
   }
 
-  /** Whether the edit that "Before" hides is another by now. */
+  /** Whether the edit that "Before" hides has changed. */
   isOutdated() {
     return this.before && !sameRecipe(this.hidden, this.state.recipe());
   }

@@ -1,4 +1,4 @@
-/** The picture at hand: what the analysis found in its photo, and the edit that it shows. */
+/** The current picture: the analysis of its photo, and the edit that it shows. */
 
 /**
  * @typedef {import("../../geometry/camera.js").Camera} Camera
@@ -19,9 +19,9 @@ export class Picture {
     this.scene = null;
     /** @type {Camera | null} */
     this.camera = null;
-    /** @type {[number, number]} size of the full preview in pixels */
+    /** @type {[number, number]} size of the preview in pixels */
     this.size = [0, 0];
-    /** @type {Edit | null} what a film shows in place of the edit */
+    /** @type {Edit | null} the film moment shown in place of the edit */
     this.passing = null;
   }
 
@@ -41,16 +41,16 @@ export class Picture {
     return this.passing ?? this.state.values;
   }
 
-  /** The number in effect: the person's, or what the analysis found. @param {string} name */
+  /** A parameter's effective number: the user's, or else from the analysis. @param {string} name */
   value(name) {
     return Number(this.shown[name] ?? this.scene?.automatic[name] ?? 0);
   }
 
   /**
-   * What a request for a picture is about. Hosts hold traits back while the kernel is busy, and not
-   * requests: without it the kernel would answer with an older edit than the person saw.
+   * The recipe and photo of a request for a picture. Hosts delay traits but not requests while the
+   * kernel is busy: without them the kernel could answer with an older edit than the user saw.
    */
-  asked() {
+  requestContent() {
     return { recipe: this.state.recipe(), photo: this.model.get("_source")?.fingerprint };
   }
 }

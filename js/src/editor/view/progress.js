@@ -1,4 +1,4 @@
-/** How far the kernel's work is, what it is doing, and a way to cancel it and to try again. */
+/** Progress of the kernel's work, with buttons to cancel and to try again. */
 
 import { element } from "../../ui/element.js";
 
@@ -10,11 +10,11 @@ export function progress({ channel, kernel, model, notices, picture, stage, work
   const cancel = element("button", { type: "button", class: "sw-progress-cancel" }, "Cancel");
   stage.progress.append(element("div", { class: "sw-progress-line" }, stage.caption, cancel));
 
-  // What goes wrong on the way is said by the part that watches the kernel.
+  // Connection failures are reported by the part that watches the kernel.
   const ask = (/** @type {string} */ action) => channel.request(action).catch(() => kernel.check());
 
   cancel.addEventListener("click", () => {
-    stage.caption.textContent = "Cancelling …";
+    stage.caption.textContent = "Canceling …";
     cancel.disabled = true;
     if (work.busy) work.cancel();
     else void ask("cancel");
@@ -25,9 +25,9 @@ export function progress({ channel, kernel, model, notices, picture, stage, work
   const texts = {
     cancelled: () =>
       picture.scene
-        ? "The correction was cancelled: the picture does not follow it yet."
-        : "The analysis was cancelled. A correction starts it again, too.",
-    error: () => "The analysis went wrong; below the picture is said why.",
+        ? "The correction was canceled: the picture does not show it yet."
+        : "The analysis was canceled. A correction also restarts it.",
+    error: () => "The analysis failed; the reason is below the picture.",
   };
   const show = () => {
     const at = model.get("_status")?.stage;

@@ -1,13 +1,13 @@
-/** A saved notebook keeps the recipe and a small picture of this editor, not its photo and maps. */
+/** Makes a saved notebook keep the recipe and a small picture instead of the photo and maps. */
 
 import { MAPS } from "../../gl/frame.js";
-import { nothing, PHOTO, saveLight, thumbnail } from "../../host/saved_state.js";
+import { noBytes, PHOTO, saveLight, thumbnail } from "../../host/saved_state.js";
 
 const EDGE = 640;
 
-/** Without a view there is no picture either. */
-export const unseen = () => ({
-  ...Object.fromEntries(["photo", ...MAPS].map((name) => [`_${name}`, nothing()])),
+/** What a notebook saves while there is no view, and so no picture. */
+export const savedWithoutView = () => ({
+  ...Object.fromEntries(["photo", ...MAPS].map((name) => [`_${name}`, noBytes()])),
   _scene: {},
 });
 
@@ -16,18 +16,18 @@ export const unseen = () => ({
  *   | "stage">}
  */
 export function saved({ drawing, model, panel, picture, root, stage }, signal) {
-  // Without maps no slider moves the picture.
+  // Without maps the sliders have no effect.
   panel.node.inert = Boolean(model.get("_saved"));
   root.classList.toggle("sw-saved", panel.node.inert);
-  /** @type {Record<string, unknown> | null} of the view that was closed */
+  /** @type {Record<string, unknown> | null} saved state of the closed view */
   let last = null;
   const light = () => {
     const live = picture.scene !== null && drawing.live;
-    if (live) return { ...unseen(), _photo: thumbnail(stage.canvas, EDGE) };
-    const there = stage.photo.naturalWidth > 0;
+    if (live) return { ...savedWithoutView(), _photo: thumbnail(stage.canvas, EDGE) };
+    const hasPhoto = stage.photo.naturalWidth > 0;
     return {
-      ...unseen(),
-      _photo: there ? thumbnail(stage.photo, EDGE) : nothing(),
+      ...savedWithoutView(),
+      _photo: hasPhoto ? thumbnail(stage.photo, EDGE) : noBytes(),
       _saved: PHOTO,
     };
   };

@@ -1,6 +1,6 @@
 /**
- * Before and after side by side: left of a divider the photo as it was, right of it the picture now.
- * The divider stays in sight at every zoom.
+ * Before and after side by side: the original photo left of a divider, the edited picture right of
+ * it. The divider stays visible at every zoom.
  */
 
 import { button } from "../../ui/button.js";

@@ -1,7 +1,7 @@
 /**
- * Where the picture stands: the photo at once, the canvas over it, handles above both.
+ * The picture's stage: the photo, the canvas over it, handles above both.
  *
- * The picture fits the window in its middle until it is zoomed; then it may cover the whole stage.
+ * The picture fits the window in the middle until it is zoomed; then it may cover the whole stage.
  */
 
 import { Zoom } from "../../geometry/zoom.js";
@@ -10,16 +10,16 @@ import { PictureStage } from "../../ui/stage.js";
 
 /** @typedef {import("../../host/types.js").Point} Point */
 
-const STAGE = 0.75; // of the height in sight that the picture and its margin may take
-const MARGIN = 24; // CSS pixels round the picture (stage.css)
+const STAGE = 0.75; // share of the visible height for the picture and its margin
+const MARGIN = 24; // CSS pixels around the picture (stage.css)
 const SMALLEST = 240; // CSS pixels
-const NOTEBOOK = ".jp-WindowedPanel-outer"; // what scrolls in JupyterLab and Notebook 7
-const PIXELS_FROM = 2; // the scale from which the preview's pixels are shown as squares
+const NOTEBOOK = ".jp-WindowedPanel-outer"; // the scrolling element in JupyterLab and Notebook 7
+const PIXELS_FROM = 2; // scale from which the preview's pixels are shown as squares
 
 export class Stage extends PictureStage {
   /** @param {AbortSignal} signal */
   constructor(signal) {
-    const photo = element("img", { class: "sw-photo", alt: "The photo as it was taken" });
+    const photo = element("img", { class: "sw-photo", alt: "The original photo" });
     const original = element("canvas", {
       class: "sw-original",
       width: 0,
@@ -47,24 +47,24 @@ export class Stage extends PictureStage {
     this.mask = mask;
     this.zoom = new Zoom();
     this.zoom.onChange = () => this.layOut();
-    this.focusing = false; // while a pointer gives it the focus
-    this.full = true; // whether the canvas holds the frame at its full size
-    this.url = ""; // of the photo that is shown
-    this.coming = ""; // of the one that is decoded
+    this.focusing = false; // while a pointer sets the focus
+    this.full = true; // whether the canvas holds the frame at full size
+    this.url = ""; // of the photo shown
+    this.coming = ""; // of the photo being decoded
     signal.addEventListener("abort", () => {
       this.coming = "";
       URL.revokeObjectURL(this.url);
     });
     this.watchScreen(signal);
-    this.bound();
-    window.addEventListener("resize", () => this.bound(), { signal });
+    this.limitHeight();
+    window.addEventListener("resize", () => this.limitHeight(), { signal });
   }
 
   /**
-   * How tall the picture may be: with toolbar and foot it is seen at once. In a frame, whose height
-   * may follow its content, the screen tells.
+   * Limit the picture's height so that toolbar and status bar are visible with it. In a frame, whose
+   * height may follow its content, use the screen's height.
    */
-  bound() {
+  limitHeight() {
     const host = this.node.closest(NOTEBOOK)?.clientHeight || Infinity;
     const tallest =
       window === window.top
@@ -74,7 +74,7 @@ export class Stage extends PictureStage {
     this.node.style.setProperty("--sw-tallest", `${height}px`);
   }
 
-  /** The window may come to a screen with denser or coarser pixels. @param {AbortSignal} signal */
+  /** Follow the window to a screen with another pixel density. @param {AbortSignal} signal */
   watchScreen(signal) {
     const same = window.matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
     const changed = () => {
@@ -85,7 +85,7 @@ export class Stage extends PictureStage {
   }
 
   /**
-   * Show the photo as it is.
+   * Show a photo.
    *
    * @param {ArrayBufferView} bytes PNG or JPEG
    */
@@ -97,7 +97,7 @@ export class Stage extends PictureStage {
     try {
       await image.decode();
     } finally {
-      // A small photo that came later may be decoded before a large one.
+      // A small photo that arrived later may be decoded before a large one.
       if (this.coming !== url || !image.naturalWidth) URL.revokeObjectURL(url);
     }
     if (this.coming !== url) return;
@@ -114,7 +114,7 @@ export class Stage extends PictureStage {
     else this.layOut();
   }
 
-  /** The photo is another, or its canvas was emptied. */
+  /** Redraw the original after the photo changed or its canvas was cleared. */
   redrawOriginal() {
     if (!this.original.width) return;
     this.setOriginal(false);
@@ -122,8 +122,8 @@ export class Stage extends PictureStage {
   }
 
   /**
-   * The photo is compared with the frame: it is drawn as that is, on a canvas, since browsers make
-   * images smaller by other means, and the one would look softer than the other.
+   * Show the photo for comparison with the frame, also on a canvas: browsers scale images
+   * differently, so one would look softer than the other.
    *
    * @param {boolean} on
    */
@@ -135,7 +135,7 @@ export class Stage extends PictureStage {
     original.getContext("2d", { alpha: false })?.drawImage(photo, 0, 0);
   }
 
-  /** Keys reach the editor from now on; the keyboard's cross stays away. */
+  /** Focus the stage, so that keys reach the editor, without showing the keyboard's cross. */
   focus() {
     this.focusing = true;
     this.node.focus({ preventScroll: true });
@@ -143,11 +143,11 @@ export class Stage extends PictureStage {
   }
 
   resized() {
-    this.bound();
+    this.limitHeight();
     this.layOut();
   }
 
-  /** A drag may draw smaller: blocks of such a frame are no pixels of the preview. @param {boolean} full */
+  /** A drag may draw smaller frames, whose pixels are not the preview's. @param {boolean} full */
   setFull(full) {
     this.full = full;
     this.showPixels();
@@ -158,7 +158,7 @@ export class Stage extends PictureStage {
     this.node.classList.toggle("sw-pixels", squares);
   }
 
-  /** Put the picture where the zoom says. */
+  /** Place the picture according to the zoom. */
   layOut() {
     const { zoom } = this;
     const stage = this.node.getBoundingClientRect();
@@ -175,8 +175,8 @@ export class Stage extends PictureStage {
     const { style } = this.picture;
     if (zoom.fits) style.width = style.height = style.transform = "";
     else {
-      // Browsers put boxes on whole pixels, of CSS at worst, and leave transforms as they are: one
-      // by whole pixels of the screen keeps 100 % sharp.
+      // Browsers snap boxes to whole pixels, at worst CSS pixels, but not transforms: one by whole
+      // screen pixels keeps 100 % sharp.
       const { x, y, width } = zoom.box();
       const [left, top] = [x, y].map((at) => Math.round(at * pixelRatio) / pixelRatio);
       style.width = `${zoom.size[0]}px`;

@@ -1,4 +1,4 @@
-/** Where the kernel's work stands, on the stage and in the message line. */
+/** Shows the state of the kernel's work on the stage and in the message line. */
 
 /** @param {import("../types.js").Needs<"message" | "model" | "root" | "stage">} needs */
 export function showStatus({ message, model, root, stage }) {

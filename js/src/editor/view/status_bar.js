@@ -1,31 +1,31 @@
-/** The line under the picture: where the sun stands, how sure the fitted sky is. */
+/** The line under the picture: the sun's position and the confidence of the fitted sky. */
 
 import { sunText } from "../../ui/angle_text.js";
 import { element } from "../../ui/element.js";
 
-const SURENESS =
-  "Whether the sky that was fitted to the photo will change with the sun as the real one would";
+const CONFIDENCE = "How likely the fitted sky is to change with the sun as the real one would";
 
-/** Of a probability. A percentage would promise more than it says. @param {number} share */
-const wordOf = (share) => (share >= 0.6 ? "fits well" : share >= 0.3 ? "fits roughly" : "a guess");
+/** Describe a probability; a percentage would suggest more precision. @param {number} share */
+const describeFit = (share) =>
+  share >= 0.6 ? "fits well" : share >= 0.3 ? "fits roughly" : "a guess";
 
-export class Foot {
+export class StatusBar {
   /** @param {import("./picture.js").Picture} picture */
   constructor(picture) {
     this.picture = picture;
     this.readout = element("div", { class: "sw-readout" });
-    this.sureness = element("div", { class: "sw-sureness", title: SURENESS });
-    this.node = element("div", { class: "sw-foot" }, this.readout, this.sureness);
+    this.confidence = element("div", { class: "sw-sureness", title: CONFIDENCE });
+    this.node = element("div", { class: "sw-foot" }, this.readout, this.confidence);
   }
 
-  /** What the analysis says of the photo. @param {import("../../host/types.js").Scene} scene */
+  /** Show the confidence of a new analysis. @param {import("../../host/types.js").Scene} scene */
   loaded({ sureness }) {
-    this.sureness.textContent =
-      typeof sureness === "number" ? `Atmosphere: ${wordOf(sureness)}` : "";
+    this.confidence.textContent =
+      typeof sureness === "number" ? `Atmosphere: ${describeFit(sureness)}` : "";
   }
 
   forget() {
-    this.sureness.textContent = "";
+    this.confidence.textContent = "";
   }
 
   draw() {

@@ -1,6 +1,6 @@
 /**
- * How fast the picture is drawn here: a live row below the picture where the page's address has `?timings`, and
- * a line of the help. So whoever opens it on a machine of their own can tell.
+ * Drawing speed on this machine: a line of the help, and a live row below the picture if the page's
+ * address has `?timings`.
  */
 
 import { cardName, Stopwatch } from "../../gl/stopwatch.js";
@@ -8,9 +8,9 @@ import { element } from "../../ui/element.js";
 
 /** @typedef {import("../../gl/stopwatch.js").Lap} Lap */
 
-const KEPT = 15; // frames whose median is shown: a drag of a second or less
+const KEPT = 15; // frames for the median: a drag of a second or less
 
-/** Of the last frames drawn at one size. */
+/** Timings of the last frames drawn at one size. */
 export class Timings {
   constructor() {
     /** @type {Lap[]} */
@@ -25,7 +25,7 @@ export class Timings {
     this.laps = [...this.laps, lap].slice(-KEPT);
   }
 
-  /** As a person reads it; "" before the first frame was measured. */
+  /** Format the median; "" before the first frame was measured. */
   text() {
     const { laps, size } = this;
     if (laps.length === 0) return "";
@@ -39,12 +39,12 @@ export class Timings {
 /** @param {string} address of a page */
 export const wantsTimings = (address) => new URL(address).searchParams.has("timings");
 
-/** @type {import("../types.js").MakePart<"drawing" | "foot">} */
-export function timings({ drawing, foot }) {
+/** @type {import("../types.js").MakePart<"drawing" | "statusBar">} */
+export function timings({ drawing, statusBar }) {
   const live = wantsTimings(window.location.href);
   const timed = new Timings();
   const row = element("div", { class: "sw-timings" });
-  if (live) foot.node.append(row);
+  if (live) statusBar.node.append(row);
   let card = "";
   const { frame } = drawing;
   frame.stopwatch = new Stopwatch((lap) => {

@@ -1,7 +1,7 @@
 /**
- * One view of a SunEditor: it draws from its own state, and the traits follow.
+ * One view of a SunEditor. It draws from its own state, and the traits follow.
  *
- * The photo is shown as soon as its bytes are there; the composited frame fades in over it
+ * The photo is shown as soon as its bytes arrive; the composited frame fades in over it
  * when the analysis (`_scene`, `_layers`, `_surface`, `_backdrop`, `_clear_sky`, `_relief`, `_transfer`, `_lamps`) has arrived.
  */
 
@@ -34,7 +34,7 @@ import { Original } from "./original.js";
 import { Picture } from "./picture.js";
 import { Stage } from "./stage.js";
 import { showStatus } from "./status.js";
-import { Foot } from "./status_bar.js";
+import { StatusBar } from "./status_bar.js";
 
 /** @typedef {import("../../host/types.js").Model} Model */
 
@@ -75,7 +75,7 @@ export class View {
     this.inspector = new Inspector(this);
     this.panel = panel(this);
     this.toolbar = toolbar(this);
-    this.foot = new Foot(this.picture);
+    this.statusBar = new StatusBar(this.picture);
     this.build();
     this.parts.add(...makeParts(this, signal), this.drawing);
     this.listen(signal);
@@ -87,10 +87,10 @@ export class View {
   }
 
   build() {
-    const { foot, hand, inspector, mask, parts, stage, strokes } = this;
+    const { statusBar, hand, inspector, mask, parts, stage, strokes } = this;
     const { sun, horizon, pick, sky, not_sky, erase } = hand.tools;
     const tools = [horizon, pick, sky, not_sky, erase, sun];
-    parts.add(foot, mask, inspector, hand, strokes, ...tools, this.panel, this.toolbar);
+    parts.add(statusBar, mask, inspector, hand, strokes, ...tools, this.panel, this.toolbar);
     stage.picture.append(inspector.canvas);
     stage.overlay.append(strokes.node, ...tools.map(({ node }) => node));
     const main = element(
@@ -99,7 +99,7 @@ export class View {
       stage.node,
       this.message.node,
       inspector.node,
-      foot.node,
+      statusBar.node,
     );
     const body = element("div", { class: "sw-body" }, main, this.panel.node);
     this.root.append(this.toolbar.node, this.notices.node, body, this.announcer.node);
@@ -112,14 +112,14 @@ export class View {
     const { channel, hand, kernel, model, parts, root, stage, state } = this;
     state.subscribe(() => parts.show());
     stage.onLayout = () => parts.draw();
-    // Said at once: a busy kernel may take its time until it reports itself.
+    // Show progress at once: a busy kernel may report late.
     state.onCorrection = () => {
       root.dataset.stage = "analysing";
       stage.setProgress(0.04, "Waiting for the kernel …");
     };
     onTraits(model, ["_status"], () => showStatus(this), signal);
     onKernelError(model, (text) => this.message.show(text), signal);
-    // A crash of the graphics process has emptied what stands on canvases; their events do not bubble.
+    // A crash of the graphics process clears canvases; their events do not bubble.
     const redraw = () => this.redraw();
     stage.node.addEventListener("contextrestored", redraw, { capture: true, signal });
     hand.cancel = listenToPointer(this, signal);
@@ -129,7 +129,7 @@ export class View {
     };
     this.work.onChange = () => this.toolbar.show();
     kernel.onChange(() => {
-      if (!kernel.answers) channel.lose(GONE);
+      if (!kernel.answers) channel.rejectAll(GONE);
     });
     channel.onGone = () => kernel.become("lost");
     signal.addEventListener("abort", () => {
@@ -137,7 +137,7 @@ export class View {
     });
   }
 
-  /** Another tool was chosen. */
+  /** Update the view after a tool was selected. */
   showTool() {
     const { tool, tools } = this.hand;
     this.root.dataset.tool = tool;
@@ -148,7 +148,7 @@ export class View {
     this.parts.draw();
   }
 
-  /** The picture's canvases are empty. */
+  /** Redraw the picture's canvases after they were cleared. */
   redraw() {
     this.stage.redrawOriginal();
     this.mask.paint();

@@ -1,4 +1,4 @@
-/** How large the picture is shown, in the corner of the stage. */
+/** The zoom buttons in the corner of the stage. */
 
 import { zoomButtons } from "../../ui/zoom_buttons.js";
 

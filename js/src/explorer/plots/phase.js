@@ -14,7 +14,8 @@ export class PhasePlot {
     this.help =
       "How much light one scattering sends in each direction (550 nm), seen from the side: the light " +
       "comes from the left and goes on to the right, 0°. Each ring is a factor of ten, in 1/sr. " +
-      "Haze throws light forward, which is the white ring round the sun; molecules send as much back as on.";
+      "Haze scatters light forward, which makes the white ring around the sun; molecules scatter as much " +
+      "backward as forward.";
     this.passes = ["curve_phase"];
     this.followsHover = true;
     /** @type {[number, number]} decades at the centre and the rim */

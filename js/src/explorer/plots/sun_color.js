@@ -15,16 +15,16 @@ export class SunColorPlot {
    * @param {import("./plots.js").Links} links
    */
   constructor(theme, links) {
-    this.title = "The sun's colour";
+    this.title = "The sun's color";
     this.help =
-      "Colour of the direct sun from the horizon to the zenith, each at full brightness, and its " +
+      "Color of the direct sun from the horizon to the zenith, each at full brightness, and its " +
       "illuminance on a surface that faces it. Drag in the plot to move the sun.";
     this.passes = ["curve_sun"];
     this.elevation = 0;
     this.chart = new Chart({
       theme,
       height: 210,
-      label: "Colour and illuminance of the direct sun by its elevation",
+      label: "Color and illuminance of the direct sun by its elevation",
       lines: [{ label: "illuminance", color: "text", text: illuminance }],
       x: {
         label: "Sun's elevation",

@@ -23,7 +23,7 @@ export class ZenithTrackPlot {
   constructor(theme) {
     this.title = "Zenith in CIE x, y";
     this.help =
-      "Chromaticity of the zenith while the sun goes from −12° to 28°; the dot is now. The dashed line is " +
+      "Chromaticity of the zenith as the sun goes from −12° to 28°; the dot is the current sun. The dashed line is " +
       "daylight from 5000 K to 25000 K. Without ozone the blue hour would stay near it.";
     this.passes = ["curve_zenith"];
     this.elevation = 0;
@@ -133,8 +133,8 @@ export class ZenithElevationPlot {
   constructor(theme, links) {
     this.title = "Zenith through twilight";
     this.help =
-      "The same by the sun's elevation: x and y fall together where the sky is bluest, the blue hour. " +
-      "The strip shows the colour itself. Drag in the plot to move the sun.";
+      "The same by the sun's elevation: x and y dip together where the sky is bluest, the blue hour. " +
+      "The strip shows the color itself. Drag in the plot to move the sun.";
     this.passes = ["curve_zenith"];
     this.elevation = 0;
     this.chart = new Chart({
