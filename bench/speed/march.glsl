@@ -10,7 +10,7 @@ uniform vec3 sun;
 uniform float camera_height;  // m
 out vec4 result;
 
-const int STEPS = 32;
+const int kSteps = 32;
 const int LIGHT_STEPS = 8;
 
 vec4 MarchToSun(mat3x4 extinction, float h, float mu_s) {
@@ -29,7 +29,7 @@ void main() {
   vec3 ray = normalize(vec3(place, 1.0));  // in the camera: right, down, forward
   vec3 view = vec3(dot(ray, camera_right), dot(ray, camera_up), dot(ray, camera_forward));
   float h = camera_height;
-  float r = GROUND_RADIUS + h;
+  float r = kGroundRadius + h;
   float mu = view.y;
   float nu = dot(view, sun);
   bool ground = RayIntersectsGround(h, mu);
@@ -37,12 +37,12 @@ void main() {
   mat3x4 extinction = GetExtinctionCoefficients();
   vec4 transmittance = vec4(1.0);
   vec4 radiance = vec4(0.0);
-  for (int i = 0; i < STEPS; ++i) {
-    float u = (float(i) + 0.5) / float(STEPS);
+  for (int i = 0; i < kSteps; ++i) {
+    float u = (float(i) + 0.5) / float(kSteps);
     float t = d * u * u;
-    float dt = 2.0 * d * u / float(STEPS);
+    float dt = 2.0 * d * u / float(kSteps);
     float h_t = GetAltitudeAlongRay(h, mu, t);
-    float mu_s = clamp((r * sun.y + t * nu) / (GROUND_RADIUS + h_t), -1.0, 1.0);
+    float mu_s = clamp((r * sun.y + t * nu) / (kGroundRadius + h_t), -1.0, 1.0);
     vec3 density = GetDensity(h_t);
     vec4 scattered = extinction[0] * density.x * RayleighPhase(nu)
         + extinction[1] * density.y * aerosol_albedo * MiePhase(aerosol_asymmetry, nu);
@@ -52,9 +52,9 @@ void main() {
     transmittance *= exp(-lost * dt);
   }
   if (ground) {
-    float mu_s = clamp((r * sun.y + d * nu) / GROUND_RADIUS, -1.0, 1.0);
-    radiance += transmittance * ground_albedo / PI * max(mu_s, 0.0)
+    float mu_s = clamp((r * sun.y + d * nu) / kGroundRadius, -1.0, 1.0);
+    radiance += transmittance * ground_albedo / kPi * max(mu_s, 0.0)
         * MarchToSun(extinction, 0.0, mu_s);
   }
-  result = SOLAR_IRRADIANCE * radiance;
+  result = kSolarIrradiance * radiance;
 }
