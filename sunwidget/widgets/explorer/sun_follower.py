@@ -170,5 +170,7 @@ class SunFollower(ExplorerParameters):
             except measurements.MeasurementsError as error:
                 raise traitlets.TraitError(str(error)) from None
             if value >= count:
-                raise traitlets.TraitError(f"scan = {value} must be one of the scans 0 to {count - 1}.")
+                raise traitlets.TraitError(
+                    f"scan = {value} is not one of the scans 0 to {count - 1}."
+                )
         return value
