@@ -27,7 +27,7 @@ KNOWN = 0.3  # of a patch
 
 
 class Patch(NamedTuple):
-    """A piece of a refined mask: what tells of it, its share of the picture, and what it is."""
+    """A piece of a refined mask: its features, its share of the picture, and its true class."""
 
     features: np.ndarray
     area: float

@@ -18,7 +18,8 @@ class Run(Clock):
     """A network that learns for some minutes, also in several goes.
 
     With a checkpoint ``last.pt`` in ``folder`` it goes on from there. ``kept`` of the moving
-    average stays each step; every ``seconds`` a checkpoint is written and ``told`` is called.
+    average stays each step; every ``seconds`` a checkpoint is written and ``on_checkpoint``
+    is called.
     """
 
     def __init__(
@@ -29,11 +30,11 @@ class Run(Clock):
         *,
         kept: float = 0.995,
         seconds: float = 240,
-        told: Callable[[], None] | None = None,
+        on_checkpoint: Callable[[], None] | None = None,
     ) -> None:
         self.network, self.optimise = network, optimiser(network)
         super().__init__(minutes, self.keep, seconds)
-        self.kept, self.told, self.step = kept, told, 0
+        self.kept, self.on_checkpoint, self.step = kept, on_checkpoint, 0
         self.recent: dict[str, list[float]] = defaultdict(list)
         self.checkpoint = folder / "last.pt"
         self.average = Average(network, kept)
@@ -78,16 +79,16 @@ class Run(Clock):
             spent=self.spent,
             step=self.step,
         )
-        if self.told is not None:
-            self.told()
+        if self.on_checkpoint is not None:
+            self.on_checkpoint()
 
 
 def report(run: Run, every: int = 50) -> Iterator[float]:
-    """Yield the share of the time before each step; tell what was counted, and save in the end."""
+    """Yield the share of the time before each step; print the recent means, and save at the end."""
     for share in run.shares():
         yield share
         if run.step % every == 0:
-            told = " ".join(f"{name} {np.mean(n):.4f}" for name, n in run.recent.items())
-            print(f"step {run.step} {run.spent / 60:.1f} min {told}", flush=True)
+            means = " ".join(f"{name} {np.mean(n):.4f}" for name, n in run.recent.items())
+            print(f"step {run.step} {run.spent / 60:.1f} min {means}", flush=True)
             run.recent.clear()
     run.keep()

@@ -3,7 +3,7 @@
 Plain 3x3 convolutions rather than depthwise ones: on CPUs with bfloat16 matrix units they train
 several times faster per parameter, and the size budget (5 MB) is kept by storing the weights as
 float16. Strip pooling (Hou et al. 2020) gives every pixel its whole row and column, which helps to
-tell a wall from a sky of the same colour.
+distinguish a wall from a sky of the same color.
 """
 
 from __future__ import annotations

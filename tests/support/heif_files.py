@@ -1,4 +1,4 @@
-"""HEIC files with auxiliary pictures, which pillow-heif does not write: they are told afterwards.
+"""HEIC files with auxiliary pictures, which pillow-heif does not write: they are marked afterwards.
 
 ISO/IEC 23008-12 (HEIF) and 14496-12: an auxiliary picture is an item with a property ``auxC`` that
 names its kind, and a reference ``auxl`` to the picture that it belongs to.

@@ -45,11 +45,11 @@ class KnownPhoto:
         return np.round(self.code * 255).astype(np.uint8)
 
     def analyze(self, picture=None, **hints):
-        """Analyse it with camera, sun, sky and water told, so that no network runs.
+        """Analyze it with camera, sun, sky and water given, so that no network runs.
 
         An even plain up to a straight horizon would be taken for water.
         """
-        told = {
+        known = {
             "fov": self.camera.fov_vertical_deg,
             "horizon": self.camera.horizon_row(),
             "sun": self.camera.pixel(*self.sun),
@@ -57,7 +57,7 @@ class KnownPhoto:
             "water": "none",
             "refine": "none",
         }
-        return sw.analyze(self.bytes if picture is None else picture, **{**told, **hints})
+        return sw.analyze(self.bytes if picture is None else picture, **{**known, **hints})
 
 
 @functools.cache

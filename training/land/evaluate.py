@@ -86,8 +86,8 @@ def _of_others(transfer: np.ndarray, truth: dict, solid: np.ndarray) -> float:
     for sun, light in zip(truth["suns"], truth["passed"], strict=True):
         if sun[3]:
             parts = sun_basis(torch.from_numpy(sun[:3])).numpy()
-            told = np.clip(np.tensordot(parts, transfer, 1), 0, 1)
-            errors.append(((told - light[0]) ** 2)[solid].mean())
+            predicted = np.clip(np.tensordot(parts, transfer, 1), 0, 1)
+            errors.append(((predicted - light[0]) ** 2)[solid].mean())
     return float(np.mean(errors)) if errors else float("nan")
 
 

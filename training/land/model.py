@@ -101,7 +101,7 @@ class LandMaps(nn.Module):
 
 
 def sun_basis(suns: Tensor) -> Tensor:
-    """Return the functions of directions by which light on land is told, (..., 12).
+    """Return the basis functions of directions that describe the light on land, (..., 12).
 
     ``suns`` (..., 3) are unit vectors to the right, up, and ahead along the camera's heading.
     Linear ones for the cosine, square ones for shadows, and roots, since low suns set fast.
@@ -151,10 +151,10 @@ def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tenso
     passed = 0.0
     for i in range(2):
         direction, known = target["suns"][:, i, :3], target["suns"][:, i, 3]
-        told = torch.einsum("nkhw,nk->nhw", out["transfer"], sun_basis(direction))[:, None]
-        told = F.leaky_relu(told, 0.1)  # less than no light is none
+        predicted = torch.einsum("nkhw,nk->nhw", out["transfer"], sun_basis(direction))[:, None]
+        predicted = F.leaky_relu(predicted, 0.1)  # less than no light is none
         weight = dry * known[:, None, None, None]
-        miss = (told - target["passed"][:, i]) ** 2
+        miss = (predicted - target["passed"][:, i]) ** 2
         passed = passed + (miss * weight).sum() / weight.sum().clamp(min=1)
     open_ = (openness(out["transfer"]) - target["openness"]).abs() * solid
     cosine_ = F.binary_cross_entropy_with_logits(out["facing"], target["facing"], reduction="none")

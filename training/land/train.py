@@ -35,7 +35,7 @@ AREAS_ON = ((0.0, 62_000, 7), (0.5, 92_000, 5))
 """The same of a network that goes on from one that is trained."""
 PEAK_RATE, PEAK_RATE_ON = 1.2e-3, 5e-4
 KEPT, KEPT_ON = 0.997, 0.9993  # of the moving average of the weights, each step
-PHOTOS_EVERY = 3  # steps: worlds have more to tell, and the trunk knows photos
+PHOTOS_EVERY = 3  # steps: worlds have more labels, and the trunk knows photos
 TEACHES_FROM = 250  # steps, from which on the moving average is worth listening to
 MIRRORED = (
     sun_basis(torch.tensor([-0.3, 0.5, 0.8])) * sun_basis(torch.tensor([0.3, 0.5, 0.8]))
@@ -54,12 +54,14 @@ def photo_losses(out: dict[str, Tensor], batch: Batch) -> dict[str, Tensor]:
     clear, rest = matter[:, :1], _log_rest(matter, 0)
     kind = -torch.where(small_sky > 0.5, clear, rest) * sure
     wet = F.max_pool2d(water, 2)
-    told = ((wet == 255) & (-F.max_pool2d(-water, 2) == 255)) | (wet == 0)
-    lake = -torch.where(wet == 255, matter[:, WATER : WATER + 1], _log_rest(matter, WATER)) * told
+    labeled = ((wet == 255) & (-F.max_pool2d(-water, 2) == 255)) | (wet == 0)
+    lake = (
+        -torch.where(wet == 255, matter[:, WATER : WATER + 1], _log_rest(matter, WATER)) * labeled
+    )
     return {
         "sky": (entropy * known).sum() / known.sum().clamp(min=1),
         "matter": 0.5 * kind.sum() / sure.sum().clamp(min=1),
-        "water": 0.7 * lake.sum() / told.sum().clamp(min=1),
+        "water": 0.7 * lake.sum() / labeled.sum().clamp(min=1),
     }
 
 
@@ -93,7 +95,9 @@ class Training:
         on = options.start is not None
         self.areas, self.peak = (AREAS_ON, PEAK_RATE_ON) if on else (AREAS, PEAK_RATE)
         kept = KEPT_ON if on else KEPT
-        self.run = Run(self.network, options.out, options.minutes, kept=kept, told=self._tell)
+        self.run = Run(
+            self.network, options.out, options.minutes, kept=kept, on_checkpoint=self._report
+        )
         self.teacher = LandNet().eval()
         self.sums: dict[str, float] = {}
         if self.run.resumed:
@@ -154,7 +158,7 @@ class Training:
             key = prefix + name
             self.sums[key] = 0.98 * self.sums.get(key, value.item()) + 0.02 * value.item()
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         line = {k: round(v, 3) for k, v in self.sums.items()}
         print(
             f"{self.run.spent / 60:.1f} min, step {self.run.step}: {json.dumps(line)}", flush=True

@@ -28,7 +28,7 @@ WIDTH = 512
 DISTANCES = (0.04, 0.08, 0.14, 0.22, 0.32, 0.45, 0.65)  # in widths of the picture
 HEIGHTS = {0.7: (-0.03, 0.03), 3: (0.03, 0.07), 6: (0.07, 0.13), 10: (0.13, 0.2), 15: (0.2, 0.3)}
 REACH = 0.3  # widths
-FEWEST = 200  # pixels that tell a colour
+FEWEST = 200  # pixels for a color estimate
 SEED = 16
 
 

@@ -82,8 +82,8 @@ def main() -> None:
         real = Facades(options.facades, names(options.facades)[1])
         views["photographed façades"] = photographed(batches, real, options.streets)
     for name, some in views.items():
-        for what, told in zip(("network", "trapezia"), overlaps(some), strict=True):
-            print(f"{name}, {what}: IoU %.3f, precision %.3f, recall %.3f" % tuple(told))
+        for what, scores in zip(("network", "trapezia"), overlaps(some), strict=True):
+            print(f"{name}, {what}: IoU %.3f, precision %.3f, recall %.3f" % tuple(scores))
     lit = np.array([(lamps(look(open_photo(p)))[..., 0] > 0).mean() for p in photos])
     print(
         f"{lit.size} photos of nature: {(lit > 0).sum()} with a lit place, "

@@ -52,10 +52,10 @@ class PaneProbability(nn.Module):
 
 def losses(out: Tensor, known: Tensor) -> dict[str, Tensor]:
     """Losses of logits (N, 2, H, W) against ``draw.LAYERS`` (N, 4, H, W): scalars."""
-    target, told = known[:, :2], 1 - known[:, 2:]
-    plain = F.binary_cross_entropy_with_logits(out, target, reduction="none") * told
-    pane, window = plain.sum((0, 2, 3)) / told.sum((0, 2, 3))
-    p, target = out.sigmoid() * told, target * told
+    target, labeled = known[:, :2], 1 - known[:, 2:]
+    plain = F.binary_cross_entropy_with_logits(out, target, reduction="none") * labeled
+    pane, window = plain.sum((0, 2, 3)) / labeled.sum((0, 2, 3))
+    p, target = out.sigmoid() * labeled, target * labeled
     both = (p * target).sum((2, 3))
     dice = 1 - (2 * both + 30) / (p.sum((2, 3)) + target.sum((2, 3)) + 30)
     return {

@@ -1,4 +1,4 @@
-"""Cycles at work: pictures in linear light, and maps of what no photo tells."""
+"""Cycles at work: pictures in linear light, and maps of labels that photos lack."""
 
 from __future__ import annotations
 
