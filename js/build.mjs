@@ -1,8 +1,8 @@
 /**
  * Build the front end into `sunwidget/static/`. `--watch` rebuilds on change.
  *
- * The shaders and the frame graph are bundled as text, so the page that draws and the kernel
- * that exports hold the same passes.
+ * The shaders and the frame graph are bundled as text, so that the browser's preview and the kernel's
+ * exports use the same passes.
  */
 
 import { readdirSync, readFileSync } from "node:fs";
@@ -13,9 +13,9 @@ import { context } from "esbuild";
 const here = dirname(fileURLToPath(import.meta.url));
 const shaders = join(here, "..", "sunwidget", "shaders");
 const out = join(here, "..", "sunwidget", "static");
-const WATCHES = process.argv.includes("--watch");
+const watching = process.argv.includes("--watch");
 
-/** Text of every shader by its path relative to `shaders/`. */
+/** Read every shader's text, by its path relative to `shaders/`. */
 export function readShaders() {
   /** @type {Record<string, string>} */
   const files = {};
@@ -28,11 +28,11 @@ export function readShaders() {
   return files;
 }
 
-/** Modules of shaders by name, and the graph of each in `shaders/`. */
+/** Shader modules by name, and the graph file of each in `shaders/`. */
 const GRAPHS = { editor: "graph.json", explorer: "explorer.json" };
 
 /**
- * The files that a graph's passes expand to.
+ * Return the files that a graph's passes include.
  *
  * @param {{ passes: import("./src/gl/graph.js").Pass[] }} graph
  * @param {Record<string, string>} files text by path
@@ -43,7 +43,7 @@ export function reachable(graph, files) {
     .flatMap(({ shader, constants, parts, format }) => [
       shader,
       constants,
-      // The browser draws only what goes to its canvas in parts.
+      // The browser draws only the canvas's pass in parts.
       ...(parts && format === "output" ? [parts.by, ...parts.shaders] : []),
     ])
     .flatMap((name) => (name ? [`${name}.glsl`] : []));
@@ -59,8 +59,8 @@ export function reachable(graph, files) {
 }
 
 /**
- * A shader's text without comments, indentation, empty lines and blanks beside signs. Names and
- * lines stay: a driver's error quotes a line, and a person finds it in the file.
+ * Strip comments, indentation, empty lines and spaces around operators from a shader. Names and lines
+ * stay: a driver's error quotes a line, which can be found in the file.
  *
  * @param {string} text
  */
@@ -87,8 +87,8 @@ export const shaderPlugin = {
       const reached = Object.fromEntries(
         reachable(graph, files).map((path) => [path, files[path]]),
       );
-      // Who works on shaders reads them with their comments.
-      const texts = WATCHES
+      // Keep comments while working on shaders.
+      const texts = watching
         ? reached
         : Object.fromEntries(Object.entries(reached).map(([p, text]) => [p, compact(text)]));
       return {
@@ -106,16 +106,16 @@ export const shaderPlugin = {
 };
 
 /**
- * uPlot with its licence as a comment that esbuild keeps.
+ * Add uPlot's license as a comment that esbuild keeps.
  *
  * @type {import("esbuild").Plugin}
  */
-const licencePlugin = {
-  name: "sunwidget-licence",
+const licensePlugin = {
+  name: "sunwidget-license",
   setup(build) {
     build.onLoad({ filter: /uPlot\.esm\.js$/ }, ({ path }) => {
-      const licence = readFileSync(join(dirname(path), "..", "LICENSE"), "utf-8");
-      return { contents: `/*! uPlot\n${licence.trim()}\n*/\n${readFileSync(path, "utf-8")}` };
+      const license = readFileSync(join(dirname(path), "..", "LICENSE"), "utf-8");
+      return { contents: `/*! uPlot\n${license.trim()}\n*/\n${readFileSync(path, "utf-8")}` };
     });
   },
 };
@@ -140,11 +140,11 @@ async function main() {
     target: "es2022",
     logLevel: "info",
     legalComments: "inline",
-    // Beside the bundle and not named in it: a notebook has nowhere to fetch it from.
+    // Beside the bundle but not referenced in it: a notebook cannot fetch it.
     sourcemap: "external",
-    plugins: [shaderPlugin, licencePlugin],
+    plugins: [shaderPlugin, licensePlugin],
   });
-  if (WATCHES) {
+  if (watching) {
     await build.watch();
     return;
   }

@@ -4,12 +4,12 @@ import { notesOf } from "../src/editor/view/note_choice.js";
 import {
   assumedText,
   bearingText,
+  confidenceText,
   heightText,
   LIKELY,
   markText,
   pointedText,
-  sureText,
-  whereText,
+  positionText,
 } from "../src/ui/sun_words.js";
 
 const sun = (changes) => ({
@@ -46,14 +46,14 @@ test("a height is above or below the horizon, and overhead there is no bearing",
   assert.equal(heightText(34.6), "35° high");
   assert.equal(heightText(-2), "2° below the horizon");
   assert.equal(heightText(-0.3), "on the horizon");
-  assert.equal(whereText({ azimuth: 100, elevation: 12 }), "to the right, 12° high");
-  assert.equal(whereText({ azimuth: 100, elevation: 84 }), "almost overhead");
+  assert.equal(positionText({ azimuth: 100, elevation: 12 }), "to the right, 12° high");
+  assert.equal(positionText({ azimuth: 100, elevation: 84 }), "almost overhead");
 });
 
 test("a percentage is shown where one was measured, and never a hundred", () => {
-  assert.equal(sureText(0.934), "93\u00a0% sure");
-  assert.equal(sureText(0.999), "more than 99\u00a0% sure");
-  assert.equal(sureText(1), "");
+  assert.equal(confidenceText(0.934), "93\u00a0% sure");
+  assert.equal(confidenceText(0.999), "more than 99\u00a0% sure");
+  assert.equal(confidenceText(1), "");
   assert.equal(markText(sun({ source: "found", confidence: 1 })), "The photo’s sun");
   assert.equal(
     markText(sun({ source: "found", confidence: 0.93 })),

@@ -1,5 +1,5 @@
 /**
- * How different two colours look: CIEDE2000 (CIE 142-2001; Sharma, Wu and Dalal 2005), of sRGB
+ * The perceived difference of two colors: CIEDE2000 (CIE 142-2001; Sharma, Wu and Dalal 2005), of sRGB
  * pictures under D65.
  */
 
@@ -40,8 +40,8 @@ export function ciede2000([l1, a1, b1], [l2, a2, b2]) {
   const [c1, c2] = [Math.hypot(a1 * (1 + g), b1), Math.hypot(a2 * (1 + g), b2)];
   const h1 = hue(a1 * (1 + g), b1);
   const h2 = hue(a2 * (1 + g), b2);
-  const grey = c1 * c2 === 0;
-  let turn = grey ? 0 : h2 - h1;
+  const gray = c1 * c2 === 0;
+  let turn = gray ? 0 : h2 - h1;
   if (turn > 180) turn -= 360;
   if (turn < -180) turn += 360;
   const dL = l2 - l1;
@@ -49,8 +49,8 @@ export function ciede2000([l1, a1, b1], [l2, a2, b2]) {
   const dH = 2 * Math.sqrt(c1 * c2) * Math.sin((turn / 2) * DEGREE);
   const l = (l1 + l2) / 2;
   const c = (c1 + c2) / 2;
-  let h = grey ? h1 + h2 : (h1 + h2) / 2;
-  if (!grey && Math.abs(h1 - h2) > 180) h += h < 180 ? 180 : -180;
+  let h = gray ? h1 + h2 : (h1 + h2) / 2;
+  if (!gray && Math.abs(h1 - h2) > 180) h += h < 180 ? 180 : -180;
   const t =
     1 -
     0.17 * Math.cos((h - 30) * DEGREE) +

@@ -1,12 +1,12 @@
-/** How many pictures stand beside each other: as many as leave them largest. */
+/** Chooses the number of columns that makes the pictures largest. */
 
 const GAP = 2; // CSS pixels between pictures
-const HOLE = 0.35; // what an empty place in the last row takes from a layout's worth
+const HOLE = 0.35; // penalty of an empty place in the last row
 
 /**
  * @param {number} count pictures
  * @param {number} width of the room in CSS pixels
- * @param {number} tallest that the rows may be together
+ * @param {number} tallest limit of the rows' total height
  * @param {number} aspect width over height of a picture
  * @returns {{ columns: number, width: number }} and how wide a picture is
  */

@@ -1,4 +1,4 @@
-/** What each picture says about its difference from the first, measured on small copies at rest. */
+/** Labels each picture with its difference from the first, measured on small copies at rest. */
 
 import { element } from "../ui/element.js";
 import { pictureDifference } from "./color_difference.js";
@@ -18,7 +18,7 @@ export class Differences {
     view.signal.addEventListener("abort", () => clearTimeout(this.timer));
   }
 
-  /** The pictures stand still now: measure soon, unless they move again. */
+  /** Measure soon, unless the pictures change again. */
   request() {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.measure(), REST_MS);
@@ -41,7 +41,7 @@ export class Differences {
     }
   }
 
-  /** RGBA of a small copy. @param {HTMLCanvasElement} canvas */
+  /** Return the RGBA of a small copy. @param {HTMLCanvasElement} canvas */
   copy(canvas) {
     const scale = Math.min(1, EDGE / Math.max(canvas.width, canvas.height));
     const [width, height] = [canvas.width, canvas.height].map((n) =>

@@ -1,4 +1,4 @@
-/** Where the pictures of a comparison stand, how large, and where the divider between two is. */
+/** Lays out the pictures of a comparison and the divider between two. */
 
 import { columns } from "./columns.js";
 
@@ -6,7 +6,7 @@ import { columns } from "./columns.js";
 
 const TALLEST = 680; // CSS pixels of all pictures together
 
-/** Put every picture where it belongs; false where there is no room yet. @param {View} view */
+/** Place every picture; returns false while there is no room. @param {View} view */
 export function layOut(view) {
   const { grid, zoom, panels, wipes } = view;
   const room = grid.clientWidth;
@@ -41,7 +41,7 @@ export function layOut(view) {
   return true;
 }
 
-/** The picture over the other begins at the divider. @param {View} view */
+/** Place the divider and clip the upper picture to it. @param {View} view */
 export function placeDivider(view) {
   const { divider, panels, wipes } = view;
   for (const { canvas } of panels) canvas.style.clipPath = "";

@@ -11,8 +11,8 @@ import { SunTool } from "../ui/sun_tool.js";
  * @typedef {import("../host/types.js").Point} Point
  * @typedef {import("./view.js").View} View
  * @typedef {{ label: string, recipe?: Edit, scene?: number, photo?: boolean,
- *   picture?: DataView }} Variant as the kernel sends it; the label alone as long as the photo is
- *   not analysed. A saved notebook keeps a picture of it
+ *   picture?: DataView }} Variant as sent by the kernel; only the label until the photo is
+ *   analyzed. A saved notebook keeps its picture
  */
 
 export class Panel extends PictureStage {
@@ -35,8 +35,8 @@ export class Panel extends PictureStage {
     this.difference = element("span", { class: "sw-compare-difference", hidden: true });
     this.plate = element("div", { class: "sw-compare-plate" }, this.label, this.difference);
     this.node.append(this.plate);
-    this.drawn = ""; // what the canvas shows
-    this.filled = false; // with the photo at least
+    this.drawn = ""; // key of the drawn picture
+    this.filled = false; // whether it shows at least the photo
     const panel = this;
     this.sun = new SunTool({
       stage: panel,
@@ -71,21 +71,21 @@ export class Panel extends PictureStage {
     return this.view.scenes.found[this.variant.scene ?? 0] ?? null;
   }
 
-  /** What is drawn: the recipe, under the common sun if there is one. @returns {Edit} */
+  /** The edit to draw: the recipe, under the common sun if there is one. @returns {Edit} */
   edit() {
     const { recipe = {}, photo } = this.variant;
     const { sun_azimuth, sun_elevation, one_sun } = this.view.state.values;
     return one_sun && !photo ? { ...recipe, sun_azimuth, sun_elevation } : recipe;
   }
 
-  /** Where the handle stands: on the photo, too, at the common sun. @param {string} name */
+  /** A value of the handle's sun, on the photo also of the common sun. @param {string} name */
   value(name) {
     const { values } = this.view.state;
     const own = values.one_sun ? values[name] : this.variant.recipe?.[name];
     return Number(own ?? this.scene?.automatic[name] ?? 0);
   }
 
-  /** The photo as it is, until its analysis is there. @param {ImageBitmap} photo */
+  /** Show the photo until its analysis arrives. @param {ImageBitmap} photo */
   showPhoto(photo) {
     this.fit(photo.width, photo.height);
     this.context.drawImage(photo, 0, 0);
@@ -118,7 +118,7 @@ export class Panel extends PictureStage {
     this.canvas.height = height;
   }
 
-  /** Label and handle. */
+  /** Draw label and handle. */
   drawMarks() {
     const { label } = this.variant;
     if (this.label.textContent !== label) {

@@ -1,6 +1,6 @@
 /**
- * What the analysis found, ready to be drawn: a frame for each set of maps. Recipes share theirs
- * unless they have strokes or hints of their own, so there is one as a rule.
+ * The loaded analyses: a frame for each set of maps. Recipes share one unless they have their own
+ * strokes or hints, so there is usually one.
  */
 
 import { Camera } from "../geometry/camera.js";
@@ -13,7 +13,7 @@ import { element } from "../ui/element.js";
 export class Scenes {
   /**
    * @param {import("../host/types.js").Model} model
-   * @param {number} turns how many pictures each frame draws in turn
+   * @param {number} turns number of pictures that each frame draws in turn
    * @param {AbortSignal} signal frees all
    */
   constructor(model, turns, signal) {
@@ -36,17 +36,17 @@ export class Scenes {
    * Decode all maps that the kernel sent, then swap all at once.
    *
    * @returns {Promise<[number, number] | null>} the preview's size in pixels; null while there are
-   *   no maps, and when others came meanwhile
+   *   no maps, or if newer ones arrived meanwhile
    */
   async load() {
     /** @type {Record<string, any>[]} */
-    const given = this.model.get("_scenes");
-    if (!given?.length) return null;
+    const rows = this.model.get("_scenes");
+    if (!rows?.length) return null;
     this.loads += 1;
     const load = this.loads;
     const photo = this.model.get("_photo");
     const bitmaps = await Promise.all(
-      given.map((row) =>
+      rows.map((row) =>
         Promise.all([photo, ...MAPS.map((name) => row[`_${name}`])].map(decodePicture)),
       ),
     );
@@ -54,8 +54,8 @@ export class Scenes {
       for (const bitmap of bitmaps.flat()) bitmap.close();
       return null;
     }
-    for (const frame of this.frames.slice(given.length)) frame.dispose();
-    this.frames = given.map(({ scene }, i) => {
+    for (const frame of this.frames.slice(rows.length)) frame.dispose();
+    this.frames = rows.map(({ scene }, i) => {
       const frame = this.frames[i] ?? new Frame(element("canvas"), this.model.get("_parameters"));
       ["photo", ...MAPS].forEach((name, n) => {
         frame.setPicture(name, bitmaps[i][n]);
@@ -64,7 +64,7 @@ export class Scenes {
       frame.turns = this.turns;
       return frame;
     });
-    this.found = given.map(({ scene }) => scene);
+    this.found = rows.map(({ scene }) => scene);
     this.cameras = this.found.map(({ width, height, camera }) => {
       return new Camera(width, height, camera.fov_vertical_deg, camera.pitch, camera.roll);
     });

@@ -1,4 +1,4 @@
-/** Every key of a comparison; the sun's arrow keys and the divider's belong to these. */
+/** All keys of a comparison, with those that the sun and the divider handle themselves. */
 
 import { openHelp } from "../ui/help_dialog.js";
 import { HISTORY_KEYS, isTaken, runShortcut, zoomKeys } from "../ui/keys.js";

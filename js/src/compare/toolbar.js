@@ -1,4 +1,4 @@
-/** How the pictures stand, the history, and how large they are. */
+/** The toolbar: arrangement, history and zoom. */
 
 import { equal } from "../edit/equality.js";
 import { button, radioButtons } from "../ui/button.js";

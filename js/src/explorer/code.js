@@ -1,6 +1,6 @@
-/** Python that makes this explorer again; the kernel's twin is `SkyExplorer.code()`. */
+/** Python code that recreates this explorer; the kernel's twin is `SkyExplorer.code()`. */
 
-/** A plain value as Python writes it: every number of the table is a float there. @param {unknown} value */
+/** Write a plain value in Python; every number of the table is a float there. @param {unknown} value */
 export function literal(value) {
   if (value === null || value === undefined) return "None";
   if (typeof value === "boolean") return value ? "True" : "False";
@@ -12,8 +12,8 @@ const SUN = ["sun_azimuth", "sun_elevation"];
 
 /**
  * @param {import("../host/types.js").Edit} recipe values that differ from their defaults
- * @param {[number, number] | null} sun azimuth and elevation; null when it is where time, scan
- *   or the table put it
+ * @param {[number, number] | null} sun azimuth and elevation; null if it follows from time, scan
+ *   or defaults
  */
 export function pythonCode(recipe, sun) {
   const named = Object.entries(recipe).filter(([name]) => !SUN.includes(name));

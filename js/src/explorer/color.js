@@ -1,4 +1,4 @@
-/** From radiance at four wavelengths, or one wavelength, to colours on the screen. */
+/** Converts radiance at four wavelengths, or one wavelength, to screen colors. */
 
 import { encode } from "../gl/srgb.js";
 import { SPECTRAL_TO_XYZ, XYZ_TO_REC709 } from "./matrices.js";
@@ -12,7 +12,7 @@ const times = (matrix, vector) =>
   );
 
 /**
- * CIE XYZ of a radiance at 640, 580, 510 and 440 nm in W m⁻² sr⁻¹ nm⁻¹.
+ * Return the CIE XYZ of a radiance at 640, 580, 510 and 440 nm in W m⁻² sr⁻¹ nm⁻¹.
  *
  * @param {ArrayLike<number>} radiance
  * @returns {Triple} in kcd m⁻²: Y is the luminance
@@ -32,11 +32,11 @@ export function chromaticity([X, Y, Z]) {
 }
 
 /**
- * A linear colour as CSS, scaled so that its largest channel is `peak`; what lies outside the
- * gamut is moved towards grey until it fits.
+ * Format a linear color as CSS, scaled so that its largest channel is `peak`; a color outside the
+ * gamut is moved toward gray until it fits.
  *
  * @param {ArrayLike<number>} rgb linear Rec. 709
- * @param {number} [peak] 0–1; 0 leaves the level as it is
+ * @param {number} [peak] 0–1; 0 keeps the level
  */
 export function cssColor(rgb, peak = 1) {
   const [r, g, b] = [rgb[0], rgb[1], rgb[2]];
@@ -48,7 +48,7 @@ export function cssColor(rgb, peak = 1) {
   return `rgb(${bytes.join(" ")})`;
 }
 
-/** A lobe of the fit below, of one width on either side. */
+/** A lobe of the fit below, with a width on each side. */
 const lobe = (
   /** @type {number} */ nm,
   /** @type {number} */ at,
@@ -57,8 +57,8 @@ const lobe = (
 ) => Math.exp(-0.5 * ((nm - at) * (nm < at ? left : right)) ** 2);
 
 /**
- * CIE 1931 colour-matching functions, as fitted by Wyman, Sloan & Shirley, "Simple Analytic
- * Approximations to the CIE XYZ Color Matching Functions", JCGT 2 (2013): within a per cent.
+ * CIE 1931 color-matching functions, as fitted by Wyman, Sloan & Shirley, "Simple Analytic
+ * Approximations to the CIE XYZ Color Matching Functions", JCGT 2 (2013): within one percent.
  *
  * @param {number} nm
  * @returns {Triple}
@@ -71,16 +71,16 @@ export const xyzOfWavelength = (nm) => [
   1.217 * lobe(nm, 437.0, 0.0845, 0.0278) + 0.681 * lobe(nm, 459.0, 0.0385, 0.0725),
 ];
 
-/** The colour of one wavelength, darker towards the ends of what is seen. @param {number} nm */
+/** Return the color of one wavelength, darker toward the ends of the visible range. @param {number} nm */
 export function wavelengthColor(nm) {
-  // No screen shows a pure wavelength: what lies outside its gamut is cut off.
+  // No screen shows a pure wavelength: clip it to the gamut.
   const rgb = rec709OfXyz(xyzOfWavelength(nm)).map((value) => Math.max(0, value));
   const most = Math.max(...rgb, 1e-6);
   return cssColor(rgb, most / (most + 0.12));
 }
 
 /**
- * Chromaticity of daylight of a correlated colour temperature (CIE 15: the D series).
+ * Chromaticity of daylight of a correlated color temperature (CIE 15: the D series).
  *
  * @param {number} kelvin 4000–25000
  * @returns {[number, number]}

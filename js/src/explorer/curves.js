@@ -1,6 +1,6 @@
 /**
- * What the curve passes hold, as arrays that a plot takes. Texel i of each pass stands for the
- * abscissa below; `shaders/explorer.json` has the sizes.
+ * The curve passes' values as arrays for plots. Texel i of each pass belongs to the abscissa below;
+ * `shaders/explorer.json` has the sizes.
  */
 
 /** @typedef {Float32Array | number[]} Numbers */
@@ -28,7 +28,7 @@ export const ZENITH_ELEVATIONS = range(81, (i) => -12 + i / 2);
  * Logarithmic polar coordinates: angle 0 points to the right, the radius grows by 1 a decade.
  *
  * @param {Numbers} values by whole degrees 0–180
- * @param {number} lowest decade at the centre, for instance −3
+ * @param {number} lowest decade at the center, for instance −3
  * @returns {{ x: number[], y: number[] }} both halves, closed
  */
 export function polar(values, lowest) {
@@ -44,7 +44,7 @@ export function polar(values, lowest) {
   return { x, y };
 }
 
-/** Whole decades that hold all positive values. @param {Numbers[]} lists @returns {[number, number]} */
+/** Return the whole decades that contain all positive values. @param {Numbers[]} lists @returns {[number, number]} */
 export function decades(...lists) {
   let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
   for (const value of lists.flatMap((list) => [...list])) {
@@ -57,11 +57,11 @@ export function decades(...lists) {
 }
 
 /**
- * Value of a curve between its abscissae, which rise.
+ * Interpolate a curve at ascending abscissae.
  *
  * @param {Numbers} at
  * @param {Numbers} values
- * @param {number} where held at the ends
+ * @param {number} where clamped to the ends
  */
 export function sample(at, values, where) {
   let high = 1;
@@ -72,7 +72,7 @@ export function sample(at, values, where) {
 }
 
 /**
- * Where a direction lies on the principal plane, when it lies near it.
+ * Project a direction onto the principal plane.
  *
  * @param {number} azimuth degrees from the sun's, −180 to 180
  * @param {number} elevation degrees
@@ -89,7 +89,7 @@ export function onPrincipalPlane(azimuth, elevation) {
 }
 
 /**
- * The direction at an angle along the principal plane.
+ * Return the direction at an angle along the principal plane.
  *
  * @param {number} angle degrees from the horizon below the sun
  * @param {number} sunAzimuth degrees

@@ -35,7 +35,7 @@ export class Guides {
     this.key = "";
   }
 
-  /** Where a plot points at. @param {Point | null} direction */
+  /** Mark the direction that a plot highlights. @param {Point | null} direction */
   point(direction) {
     const place = direction && this.view.placeOf(direction);
     const box = this.view.stage.rectangle();
@@ -81,7 +81,7 @@ export class Guides {
     let last = null;
     for (let i = 0; i <= count; i++) {
       const place = this.view.placeOf(at(i));
-      // Round the edge of a panorama, and from behind the camera, there is no line.
+      // Break the line at the edge of a panorama and behind the camera.
       const joined =
         place && last && Math.hypot(place[0] - last[0], place[1] - last[1]) < width / 2;
       if (place) path += `${joined ? "L" : "M"}${place[0].toFixed(1)} ${place[1].toFixed(1)}`;
@@ -116,7 +116,7 @@ export class Guides {
       node.append(shape("line", { x1: x, x2: x, y1: 0, y2: box.height, class: name }));
     }
     const dome = this.view.state.values.projection === "dome";
-    // Round the dome the corners are free, and its top has a letter and often the sun.
+    // On the dome the corners are free, while its top has a letter and often the sun.
     const y = dome ? 6 : 16;
     const away = dome ? box.width / 2 : 10;
     const write = (/** @type {string} */ model, /** @type {number} */ side) => {

@@ -1,11 +1,11 @@
 /**
- * Two old names for how much haze there is. Both move the aerosol optical depth; the kernel's twins
+ * Two traditional measures of haze. Both set the aerosol optical depth; the kernel's twins
  * are `Atmosphere.turbidity` and `Atmosphere.visibility`.
  */
 
 /**
  * The kernel's constants of clean air (trait `_aliases`): extinction at 550 nm and sea level in 1/m,
- * from which height in metres air thins faster and by how much its column is then less, and
+ * the height in meters above which air thins faster, the share by which its column then shrinks, and
  * Koschmieder's 3.912.
  *
  * @typedef {{ air_extinction_550: number, mesosphere_altitude: number, mesosphere_share: number,
@@ -22,7 +22,7 @@ function molecules(clean, air) {
   return clean.air_extinction_550 * air.air_density * column;
 }
 
-/** Optical depth of air with haze over that of air. @type {(clean: CleanAir, air: Air) => number} */
+/** Optical depth of hazy air over that of clean air. @type {(clean: CleanAir, air: Air) => number} */
 export function turbidity(clean, air) {
   return 1 + air.aerosol_optical_depth / molecules(clean, air);
 }
@@ -32,14 +32,14 @@ export function depthOfTurbidity(clean, air, value) {
   return Math.max(0, (value - 1) * molecules(clean, air));
 }
 
-/** How far one sees at sea level, in metres. @type {(clean: CleanAir, air: Air) => number} */
+/** Visibility at sea level in meters. @type {(clean: CleanAir, air: Air) => number} */
 export function visibility(clean, air) {
   const aerosol = air.aerosol_optical_depth / air.aerosol_scale_height;
   return clean.koschmieder / (clean.air_extinction_550 * air.air_density + aerosol);
 }
 
-/** @type {(clean: CleanAir, air: Air, metres: number) => number} */
-export function depthOfVisibility(clean, air, metres) {
-  const extinction = clean.koschmieder / metres - clean.air_extinction_550 * air.air_density;
+/** @type {(clean: CleanAir, air: Air, meters: number) => number} */
+export function depthOfVisibility(clean, air, meters) {
+  const extinction = clean.koschmieder / meters - clean.air_extinction_550 * air.air_density;
   return Math.max(0, extinction * air.aerosol_scale_height);
 }

@@ -6,5 +6,5 @@ import { SkyFrame } from "./sky_frame.js";
 import { View } from "./view.js";
 
 export default widget("SkyExplorer", "Sky explorer", "sw-explorer", View);
-// For tests and for pages without a kernel.
+// For tests and pages without a kernel.
 export { Projection, SkyFrame };

@@ -1,2 +1,2 @@
-/** Paths a pixel after which the reference rests: a picture as clean as eight bits can show. */
+/** Paths per pixel after which the reference stops: a picture as clean as eight bits can show. */
 export const MOST_SAMPLES = 512;

@@ -1,6 +1,6 @@
 /**
- * Two matrices of `sunwidget/atmosphere/constants.json`, which a test compares: the file as a whole
- * would be ten kilobytes in the bundle.
+ * Two matrices of `sunwidget/atmosphere/constants.json`, compared by a test: the whole file would add
+ * ten kilobytes to the bundle.
  */
 
 /** Radiance at 640, 580, 510, 440 nm in W m⁻² sr⁻¹ nm⁻¹ to CIE XYZ in kcd m⁻². */

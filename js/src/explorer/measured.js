@@ -1,4 +1,4 @@
-/** Measured skies: 81 directions over the dome, coloured by how far the model is from them. */
+/** Measured skies: 81 directions over the dome, colored by the model's error. */
 
 import { errorText } from "../host/error_text.js";
 import { degrees } from "../ui/angle_text.js";
@@ -33,12 +33,12 @@ export class Measured {
     );
     /** @type {number | null} rms of the relative errors */
     this.rms = null;
-    this.key = ""; // what the dots were placed and coloured for
-    /** @type {Scan | null} of the dots there are */
+    this.key = ""; // state that the dots were placed and colored for
+    /** @type {Scan | null} scan of the current dots */
     this.drawn = null;
   }
 
-  /** The scan that is shown. @returns {Scan | null} */
+  /** The scan shown. @returns {Scan | null} */
   scan() {
     const scan = this.view.model.get("_measured");
     return scan?.directions?.length && this.view.state.values.scan !== null ? scan : null;
@@ -94,7 +94,7 @@ export class Measured {
   }
 }
 
-/** The panel's part: choose a scan, ask for scores, or get the data. @param {import("./view.js").View} view */
+/** Make the panel's controls: choose a scan, compute scores, or download the data. @param {import("./view.js").View} view */
 export function measuredControls(view) {
   const select = element("select", { class: "sw-select", "aria-label": "Measured scan" });
   select.addEventListener("change", () => {

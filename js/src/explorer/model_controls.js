@@ -1,11 +1,11 @@
-/** What the models need beyond a choice: Bruneton's table, and patience for the reference. */
+/** Further controls of the models: Bruneton's table and the reference's progress. */
 
 import { errorText } from "../host/error_text.js";
 import { element } from "../ui/element.js";
 import { MOST_SAMPLES } from "./limits.js";
 import { SWITCHED_OFF } from "./values.js";
 
-/** What people read in the choice of models. @type {Record<string, string>} */
+/** Display names of the models. @type {Record<string, string>} */
 export const MODEL_NAMES = {
   none: "nothing",
   multiple: "All orders (Hillaire)",
@@ -22,7 +22,7 @@ export function modelControls(view, signal) {
   const { state } = view;
   const uses = (/** @type {string} */ model) =>
     state.values.model === model || state.values.compare === model;
-  /** What Bruneton's table depends on: the air, the switches over it, and the orders. */
+  /** Parameters that Bruneton's table depends on: air, its switches, and orders. */
   const optical = view.parameters
     .filter(
       ({ name, section }) =>
@@ -32,7 +32,7 @@ export function modelControls(view, signal) {
   const key = () => JSON.stringify(optical.map((name) => state.values[name]));
   let computed = "";
   let busy = false;
-  /** What the kernel says the table takes, and for which air. @type {{ key: string, cached: boolean, seconds: number }} */
+  /** Cost of the table as reported by the kernel, and for which air. @type {{ key: string, cached: boolean, seconds: number }} */
   let cost = { key: "", cached: false, seconds: 40 };
   let asking = "";
   const parameters = () =>
@@ -40,7 +40,7 @@ export function modelControls(view, signal) {
       optical.filter((name) => name in state.values).map((name) => [name, state.values[name]]),
     );
 
-  /** Ask what the table of this air would take; one that lies ready is fetched at once. */
+  /** Ask for the cost of this air's table; fetch a cached one at once. */
   async function askCost() {
     const asked = key();
     if (asking === asked || busy || state.before !== null) return;
@@ -49,7 +49,7 @@ export function modelControls(view, signal) {
       const { result } = await view.channel.request("bruneton_cost", { parameters: parameters() });
       cost = { key: asked, cached: Boolean(result.cached), seconds: Number(result.seconds) };
     } catch {
-      return; // without a kernel the usual cost stands there
+      return; // without a kernel show the default cost
     }
     if (signal.aborted || asked !== key()) return;
     if (cost.cached && computed !== asked) await computeTable();
@@ -77,7 +77,7 @@ export function modelControls(view, signal) {
         (fraction, text) => view.stage.setProgress(fraction, text),
       );
       const { buffer, byteOffset, byteLength } = buffers[0];
-      // A view of floats has to begin at a multiple of four bytes.
+      // A float view must start at a multiple of four bytes.
       const floats = new Float32Array(buffer.slice(byteOffset, byteOffset + byteLength));
       view.frame.setBruneton(floats, result.rows, result.cols);
       view.tables += 1;
@@ -132,7 +132,7 @@ export function modelControls(view, signal) {
   return {
     nodes: [bruneton, reference],
     show,
-    /** What the line under the sky says about it. */
+    /** Text for the line under the sky. */
     note() {
       if (uses("reference")) {
         const samples = Math.min(view.frame.samples, MOST_SAMPLES);

@@ -30,13 +30,13 @@ const AIR = [
   "altitude",
 ];
 const TERMS = ["show_rayleigh", "show_aerosol", "show_ozone", "show_single", "show_multiple"];
-/** Colours that switches and lines of the plots have in common. @type {Record<string, string>} */
+/** Colors shared by switches and the plots' lines. @type {Record<string, string>} */
 const COLORS = {
   show_rayleigh: "var(--sw-rayleigh)",
   show_aerosol: "var(--sw-aerosol)",
   show_ozone: "var(--sw-ozone)",
 };
-/** Hours of light: elevations of the sun. @type {[string, number, string][]} */
+/** Times of day as sun elevations. @type {[string, number, string][]} */
 const HOURS = [
   ["Noon", 60, "Sun at 60°"],
   ["Golden hour", 4, "Sun at 4°"],
@@ -151,7 +151,7 @@ function atmospheres(view) {
   });
 }
 
-/** Turbidity and visibility: two more handles on the optical depth of the haze. @param {View} view */
+/** Make sliders for turbidity and visibility, which also set the haze's optical depth. @param {View} view */
 function aliasSliders(view) {
   const clean = /** @type {import("./haze.js").CleanAir} */ (view.model.get("_aliases"));
   const depth = view.parameter("aerosol_optical_depth");

@@ -1,4 +1,4 @@
-/** Where and when: date, place, and the clock that plays the day. */
+/** Place and time: date, coordinates, and the clock that plays the day. */
 
 import { clock, sunAt } from "../geometry/day.js";
 import { degrees } from "../ui/angle_text.js";
@@ -8,7 +8,7 @@ import { slider } from "../ui/slider.js";
 
 const HOURS_A_SECOND = 1; // while the day plays
 
-/** Places whose days differ. @type {[string, number, number][]} */
+/** Places with different days. @type {[string, number, number][]} */
 const PLACES = [
   ["Quito", -0.18, -78.47],
   ["Prague", 50.09, 14.42],
@@ -25,7 +25,7 @@ export function placeControls(view, signal) {
   const date = element("input", { type: "date", class: "sw-input", "aria-label": "Date" });
   date.addEventListener("change", () => state.set({ date: date.value || null }));
   /**
-   * Move to a place. What is still missing for a day's path is today, and the clock at noon.
+   * Move to a place. A missing date defaults to today, a missing time to noon.
    *
    * @param {Record<string, number | null>} changes
    */
@@ -91,7 +91,7 @@ export function placeControls(view, signal) {
       label: "Play the day",
       title: "Play the day, one hour per second",
       onStep: (seconds) => {
-        // Another gesture ends a step of the history; the playing goes on in the next.
+        // Another gesture ends this history step; playback continues in the next.
         state.begin();
         view.sun.moveTime((view.number("time") + seconds * HOURS_A_SECOND) % 24);
         return true;
@@ -100,11 +100,11 @@ export function placeControls(view, signal) {
     },
     signal,
   );
-  const said = element("p", { class: "sw-hint" });
+  const hint = element("p", { class: "sw-hint" });
   const row = element("div", { class: "sw-time" }, play.node, time.node);
 
   return {
-    nodes: [element("div", { class: "sw-chips" }, ...chips), fields, row, said],
+    nodes: [element("div", { class: "sw-chips" }, ...chips), fields, row, hint],
     show() {
       const { values } = state;
       if (!date.matches(":focus")) date.value = String(values.date ?? "");
@@ -115,13 +115,13 @@ export function placeControls(view, signal) {
       row.hidden = day.length === 0;
       if (!day.length) {
         play.stop();
-        said.textContent = "Set a date and a place, and the clock moves the sun along its path.";
+        hint.textContent = "Set a date and a place, and the clock moves the sun along its path.";
         return;
       }
       const hours = /** @type {number | null} */ (values.time);
       time.show(hours, 12);
       const sun = hours === null ? null : sunAt(day, hours);
-      said.textContent = sun
+      hint.textContent = sun
         ? `${clock(Number(hours))} UTC: sun azimuth ${degrees(sun.azimuth)}, apparent elevation ${degrees(sun.apparent)}, ` +
           `true ${degrees(sun.true)}.`
         : "The clock is paused: the sun was moved by hand. Moving the clock puts it back on its path.";

@@ -1,4 +1,4 @@
-/** The pointer on the sky: it drags the sun, turns the view, and reads what lies under it. */
+/** The pointer on the sky: drags the sun, turns the view, and reads the sky under it. */
 
 import { turned } from "../geometry/day.js";
 import { listenToPointers, wheelZoom } from "../ui/pointers.js";
@@ -9,7 +9,7 @@ import { GRAB } from "../ui/sun_shape.js";
  * @typedef {import("./view.js").View} View
  */
 
-const WHEEL_SHARE = 0.5; // of a picture's zoom: from the widest view to the narrowest it is not far
+const WHEEL_SHARE = 0.5; // of a picture's zoom, since the range of fields of view is small
 
 /**
  * @param {View} view
@@ -18,10 +18,10 @@ const WHEEL_SHARE = 0.5; // of a picture's zoom: from the widest view to the nar
 export function listenToPointer(view, signal) {
   const { stage, state } = view;
   const { overlay } = stage;
-  /** @type {(place: Point) => void} what a move does */
+  /** @type {(place: Point) => void} handles a move */
   let drag = () => {};
 
-  /** A place of the picture in its CSS pixels. @param {Point} place @returns {Point} */
+  /** Convert a place of the picture to its CSS pixels. @param {Point} place @returns {Point} */
   const pixels = ([x, y]) => {
     const { width, height } = stage.rectangle();
     return [x * width, y * height];
@@ -34,7 +34,7 @@ export function listenToPointer(view, signal) {
     const offset = near && sun ? [start[0] - sun[0], start[1] - sun[1]] : [0, 0];
     view.handle.node.focus({ preventScroll: true });
     return (/** @type {Point} */ [x, y]) => {
-      // Losing the focus ends a gesture; a drag that goes on is the next one.
+      // Losing the focus ends a gesture; a drag that continues is a new one.
       state.begin();
       const direction = view.nearestDirection([x - offset[0], y - offset[1]]);
       if (direction) view.sun.moveTo(...direction);
@@ -92,7 +92,7 @@ export function listenToPointer(view, signal) {
     },
     signal,
   );
-  // Plain wheel scrolls the page.
+  // The plain wheel scrolls the page.
   overlay.addEventListener(
     "wheel",
     (event) => {

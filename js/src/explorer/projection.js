@@ -1,8 +1,8 @@
 /**
- * From pixels to directions and back, three ways: the browser's twin of
+ * Three projections between pixels and directions: the browser's twin of
  * `sunwidget/shaders/explorer/projection.glsl` and `sunwidget/explorer/projection.py`.
  *
- * dome: equidistant fisheye, zenith in the middle, `view_azimuth` at the top; one looks up, so
+ * dome: equidistant fisheye, zenith in the middle, `view_azimuth` at the top; seen from below, so
  * east lies to the left of north. panorama: equirectangular, −10 to 90 degrees. camera:
  * perspective. Azimuths and elevations are degrees, azimuths clockwise; pixels have their origin
  * at the top left.
@@ -10,14 +10,14 @@
 
 import { turned } from "../geometry/day.js";
 
-/** Diameter of the dome over the smaller side; the rest is room for names. */
+/** Diameter of the dome over the smaller side; the rest is room for labels. */
 export const DOME_SHARE = 0.94;
 const PANORAMA_BOTTOM = -10;
 const PANORAMA_HEIGHT = 100;
-/** Directions go on this far below the horizon, where a sun can be dragged to. */
+/** Directions continue this far below the horizon, where the sun can be dragged. */
 const LOWEST = -12;
 
-/** Width over height of a picture that each projection fills. @type {Record<string, number>} */
+/** Width over height of each projection's picture. @type {Record<string, number>} */
 export const ASPECTS = { dome: 1, panorama: 360 / PANORAMA_HEIGHT, camera: 1.5 };
 
 const RADIANS = Math.PI / 180;
@@ -41,7 +41,7 @@ export class Projection {
   }
 
   /**
-   * Where a pixel looks. Outside the dome's rim and below the panorama it goes on to −12 degrees.
+   * Return a pixel's direction. Beyond the dome's rim and below the panorama it continues to −12 degrees.
    *
    * @param {number} x
    * @param {number} y
@@ -71,7 +71,7 @@ export class Projection {
     ];
   }
 
-  /** The same, or the nearest direction towards the picture's middle. @param {number} x @param {number} y */
+  /** As `direction`, or else the nearest direction toward the picture's middle. @param {number} x @param {number} y */
   nearest(x, y) {
     const [cx, cy] = this.size.map((side) => side / 2);
     const along = (/** @type {number} */ share) =>
@@ -88,7 +88,7 @@ export class Projection {
   }
 
   /**
-   * Where a direction appears, also outside the picture.
+   * Return a direction's pixel, which may lie outside the picture.
    *
    * @param {number} azimuth
    * @param {number} elevation

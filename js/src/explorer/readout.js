@@ -1,4 +1,4 @@
-/** The line under the sky: the sun's place, and what lies under the pointer. */
+/** The line under the sky: the sun's position, and the sky under the pointer. */
 
 import { trueElevation, turned } from "../geometry/day.js";
 import { degrees } from "../ui/angle_text.js";
@@ -7,7 +7,7 @@ import { cssColor } from "./color.js";
 import { luminanceText } from "./sky_probe.js";
 
 export class Readout {
-  /** @param {(text: string) => void} say tells of a sun that has moved */
+  /** @param {(text: string) => void} say announces a moved sun */
   constructor(say) {
     this.say = say;
     this.sun = element("span", { class: "sw-readout" });
@@ -27,7 +27,7 @@ export class Readout {
     this.sun.textContent = text;
   }
 
-  /** What is being computed, or what to know about it. @param {string} text */
+  /** Show a note on the computation. @param {string} text */
   showNote(text) {
     if (this.note.textContent !== text) this.note.textContent = text;
   }

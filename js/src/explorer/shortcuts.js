@@ -1,4 +1,4 @@
-/** Every key of the explorer, in one table: the key handler runs it and the help shows it. */
+/** All keys of the explorer in one table, for the key handler and the help. */
 
 import { turned } from "../geometry/day.js";
 import { openHelp } from "../ui/help_dialog.js";
@@ -9,7 +9,7 @@ import { HISTORY_KEYS } from "../ui/keys.js";
 const TURN = 15; // degrees
 
 /** @type {(projection: string) => (view: View) => void} */
-const take = (projection) => (view) => view.state.set({ projection });
+const selectProjection = (projection) => (view) => view.state.set({ projection });
 
 /** @type {(degrees: number) => (view: View) => void} */
 const turn = (degrees) => (view) =>
@@ -17,9 +17,9 @@ const turn = (degrees) => (view) =>
 
 /** @type {import("../ui/keys.js").Shortcut<View>[]} */
 export const SHORTCUTS = [
-  { section: "View", keys: ["1"], label: "Dome", run: take("dome") },
-  { section: "View", keys: ["2"], label: "Panorama", run: take("panorama") },
-  { section: "View", keys: ["3"], label: "Camera", run: take("camera") },
+  { section: "View", keys: ["1"], label: "Dome", run: selectProjection("dome") },
+  { section: "View", keys: ["2"], label: "Panorama", run: selectProjection("panorama") },
+  { section: "View", keys: ["3"], label: "Camera", run: selectProjection("camera") },
   { section: "View", keys: ["["], label: "Turn left", run: turn(-TURN) },
   { section: "View", keys: ["]"], label: "Turn right", run: turn(TURN) },
 

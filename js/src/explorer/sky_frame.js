@@ -18,7 +18,7 @@ const HOST = { output_transfer: 1, dither: 0.5 };
 
 export class SkyFrame extends Surface {
   /**
-   * @param {HTMLCanvasElement} canvas the visible canvas; see-through round the dome
+   * @param {HTMLCanvasElement} canvas the visible canvas; transparent around the dome
    * @param {Parameter[]} parameters the kernel's table
    */
   constructor(canvas, parameters) {
@@ -29,9 +29,9 @@ export class SkyFrame extends Surface {
   }
 
   /**
-   * Draw the sky. Where a model is asked for whose table is not here yet, the own model stands in.
-   * Returns false when the context was lost meanwhile: the canvas then keeps its last frame, and
-   * another call draws anew.
+   * Draw the sky. Until a model's table is available, the multiple-scattering model replaces it.
+   * Returns false if the context was lost: the canvas then keeps its last frame, and another call
+   * draws again.
    *
    * @param {Edit} values by name; a missing one is at its default
    * @param {[number, number]} size in pixels
@@ -42,17 +42,17 @@ export class SkyFrame extends Surface {
   }
 
   /**
-   * What one pass draws for the values drawn last, RGBA by texels. For any pass but the picture.
+   * Return one pass's RGBA texels for the last drawn values; any pass except the picture.
    *
    * @param {string} name
-   * @returns {Float32Array} empty when nothing was drawn yet or the context was lost
+   * @returns {Float32Array} empty if nothing was drawn yet or the context was lost
    */
   curve(name) {
     return (this.last && this.read(this.last, name)) ?? new Float32Array(0);
   }
 
   /**
-   * The slice of Bruneton's table for the altitude, as the kernel sends it.
+   * Set the slice of Bruneton's table for the altitude, as sent by the kernel.
    *
    * @param {Float32Array} data four floats a texel
    * @param {number} rows
@@ -62,16 +62,16 @@ export class SkyFrame extends Surface {
     this.setTexture("bruneton", { width: columns, height: rows, data });
   }
 
-  /** The table, or its absence, belongs to other air: the own model stands in. */
+  /** Drop the table, as it belongs to other air: the multiple-scattering model replaces it. */
   forgetBruneton() {
     this.pictures.delete("bruneton");
   }
 
   /**
-   * Radiances at the four wavelengths in some directions, by the model drawn last.
+   * Return radiances at the four wavelengths in the given directions, by the last drawn model.
    *
    * @param {[number, number][]} directions azimuth and elevation in degrees
-   * @returns {Float32Array | null} four numbers each; null when nothing was drawn yet
+   * @returns {Float32Array | null} four numbers each; null if nothing was drawn yet
    */
   radiances(directions) {
     if (!this.last || !directions.length) return null;
@@ -84,7 +84,7 @@ export class SkyFrame extends Surface {
     return this.read(this.last, "curve_directions");
   }
 
-  /** Paths a pixel that the reference has gathered so far; every draw adds one. */
+  /** Paths per pixel that the reference has accumulated; every draw adds one. */
   get samples() {
     const traced = this.last?.methods.includes("reference");
     return traced ? (this.graph?.targets.latest.get("reference")?.samples ?? 0) : 0;

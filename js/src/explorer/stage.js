@@ -1,6 +1,6 @@
 /**
- * Where the sky stands: the canvas in the middle, guides and handles above, room around it to drag
- * the sun below the horizon.
+ * The sky's stage: the canvas in the middle, guides and handles above, room around it to drag the
+ * sun below the horizon.
  */
 
 import { element } from "../ui/element.js";

@@ -1,4 +1,4 @@
-/** Where the explorer's sun stands, and what moves it: a hand, the clock, or a measured scan. */
+/** The explorer's sun, moved by hand, by the clock, or by a measured scan. */
 
 import { sunAt, turned } from "../geometry/day.js";
 
@@ -21,7 +21,7 @@ export class Sun {
   }
 
   /**
-   * Move it by hand: the clock then stands still.
+   * Move it by hand, which pauses the clock.
    *
    * @param {number} azimuth degrees
    * @param {number} elevation degrees
@@ -41,8 +41,8 @@ export class Sun {
     });
   }
 
-  /** Where time, scan or else the table put it. @returns {Point} */
-  followed() {
+  /** Position from time, scan or else the defaults. @returns {Point} */
+  automaticDirection() {
     const { view } = this;
     const hours = view.state.values.time;
     const place = hours === null ? null : sunAt(this.day(), Number(hours));

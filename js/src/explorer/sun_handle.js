@@ -1,9 +1,9 @@
-/** The sun's handle on the sky: drag it, also below the horizon, or move it with the arrow keys. */
+/** The sun's handle on the sky: drag it, even below the horizon, or move it with the arrow keys. */
 
 import { turned } from "../geometry/day.js";
 import { EDGE, keyStep, SunShape, spotOnStage } from "../ui/sun_shape.js";
 
-// Round the dome there is room for all of twilight.
+// Around the dome there is room for all of twilight.
 const DOME_EDGE = 12;
 
 export class SunHandle {
@@ -22,7 +22,7 @@ export class SunHandle {
   onKey(event) {
     const step = keyStep(event);
     if (!step) return;
-    // On a dome that looks up, east is to the left.
+    // On the dome, seen from below, east is to the left.
     const side = this.view.state.values.projection === "dome" ? -1 : 1;
     const [azimuth, elevation] = this.view.sun.direction();
     this.view.state.begin();
@@ -45,7 +45,7 @@ export class SunHandle {
     const place = this.view.placeOf([azimuth, elevation]);
     const [dx, dy] = place
       ? [place[0] - box.width / 2, place[1] - box.height / 2]
-      : // Behind the camera: the side to turn to.
+      : // Behind the camera: the side to turn toward.
         [turned(azimuth - Number(this.view.state.values.view_azimuth)) < 0 ? -1e6 : 1e6, 0];
     const dome = this.view.state.values.projection === "dome";
     return spotOnStage(box, dx, dy, dome ? DOME_EDGE : EDGE);

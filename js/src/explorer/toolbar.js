@@ -1,4 +1,4 @@
-/** How the sky is shown, history, and the way out: code. */
+/** The toolbar: projection, history and code export. */
 
 import { turned } from "../geometry/day.js";
 import { button, radioButtons } from "../ui/button.js";
@@ -30,7 +30,7 @@ const PROJECTIONS = [
   },
 ];
 const SAME_PLACE = 0.01; // degrees, as in the kernel's twin
-const KERNEL_PATIENCE_MS = 1500; // without an answer the code is written here
+const KERNEL_PATIENCE_MS = 1500; // after which the browser writes the code
 
 /** @param {import("./view.js").View} view */
 export function toolbar(view) {
@@ -63,7 +63,7 @@ export function toolbar(view) {
   copy.addEventListener("click", async () => {
     const code = await codeOf(view);
     said.textContent = (await copyText(code)) ? "Copied" : "";
-    // Without a clipboard the person copies by hand.
+    // Without a clipboard, show the code to copy by hand.
     view.message.show(said.textContent ? "" : code);
     clearTimeout(silence);
     silence = setTimeout(() => {
@@ -86,9 +86,9 @@ export function toolbar(view) {
   };
 }
 
-/** The kernel's code, or the browser's when no kernel answers. @param {import("./view.js").View} view */
+/** Return the kernel's code, or the browser's if no kernel answers. @param {import("./view.js").View} view */
 async function codeOf(view) {
-  const [azimuth, elevation] = view.sun.followed();
+  const [azimuth, elevation] = view.sun.automaticDirection();
   const sun = view.sun.direction();
   const follows = Math.hypot(turned(sun[0] - azimuth), sun[1] - elevation) < SAME_PLACE;
   const own = pythonCode(view.state.recipe(), follows ? null : sun);

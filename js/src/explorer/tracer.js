@@ -1,9 +1,9 @@
-/** The path-traced reference: a drawing adds a path to each pixel, so it draws on by itself. */
+/** The path-traced reference: each drawing adds a path per pixel, so it keeps drawing. */
 
 import { Fence } from "../gl/fence.js";
 import { MOST_SAMPLES } from "./limits.js";
 
-const LOOK_MS = 5;
+const POLL_MS = 5;
 
 export class Tracer {
   /**
@@ -19,7 +19,7 @@ export class Tracer {
     signal.addEventListener("abort", () => clearTimeout(this.timer));
   }
 
-  /** Whether the picture is not done yet. */
+  /** Whether the picture is still being traced. */
   get works() {
     const { model, compare } = this.view.state.values;
     const used = model === "reference" || compare === "reference";
@@ -27,15 +27,15 @@ export class Tracer {
   }
 
   /**
-   * Draw the next path once this one is done: a slow machine would else gather frames in a queue,
-   * and everything else would wait behind it.
+   * Draw the next path once this one is done: otherwise a slow machine would queue frames, and
+   * everything else would wait behind them.
    */
-  goOn() {
+  continue() {
     clearTimeout(this.timer);
-    const look = () => {
-      if (!this.fence.passed()) this.timer = setTimeout(look, LOOK_MS);
+    const poll = () => {
+      if (!this.fence.passed()) this.timer = setTimeout(poll, POLL_MS);
       else if (this.works) this.view.requestFrame();
     };
-    look();
+    poll();
   }
 }

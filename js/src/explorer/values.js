@@ -1,8 +1,7 @@
 /**
- * What SkyExplorer's parameters are as uniforms; the kernel's twin is `sunwidget/explorer/values.py`.
+ * SkyExplorer's parameters as uniforms; the kernel's twin is `sunwidget/explorer/values.py`.
  *
- * Switches are applied here, so that a shader knows an atmosphere without haze and not a switch
- * that hides it.
+ * Switches are applied here, so that shaders see an atmosphere without haze rather than a switch.
  */
 
 /**
@@ -10,7 +9,7 @@
  * @typedef {import("../host/types.js").Parameter} Parameter
  */
 
-/** What a switch that is off sets to zero. @type {Record<string, string>} */
+/** The parameter that each switch sets to zero when off. @type {Record<string, string>} */
 export const SWITCHED_OFF = {
   show_rayleigh: "air_density",
   show_aerosol: "aerosol_optical_depth",
@@ -18,13 +17,13 @@ export const SWITCHED_OFF = {
 };
 
 /**
- * The values of every uniform in both states: `edit`, the atmosphere as chosen, and `single`,
- * the same with the first order of scattering alone.
+ * Return every uniform in both states: `edit`, the chosen atmosphere, and `single`, the same with
+ * only the first order of scattering.
  *
  * @param {Parameter[]} parameters rows of the explorer's table
  * @param {Edit} values by name; a missing one is at its default
- * @returns {{ edit: Record<string, number>, single: Record<string, number> }} numbers as they
- *   are, a choice's index, 0 or 1 for a switch; data are no uniforms
+ * @returns {{ edit: Record<string, number>, single: Record<string, number> }} numbers
+ *   unchanged, a choice's index, 0 or 1 for a switch; data are not uniforms
  */
 export function effectiveValues(parameters, values) {
   /** @type {Record<string, number>} */
@@ -37,7 +36,7 @@ export function effectiveValues(parameters, values) {
   for (const [name, silenced] of Object.entries(SWITCHED_OFF)) {
     if (edit[name] === 0) edit[silenced] = 0;
   }
-  // Beside another model, the state "edit" is that model's.
+  // In a comparison, the state "edit" belongs to the other model.
   if (values.model === "single" && ["none", "single"].includes(String(values.compare ?? "none"))) {
     edit.scattering_orders = 1;
   }

@@ -72,7 +72,7 @@ export class View {
     this.pointed = null;
     /** @type {Point | null} direction highlighted by a plot */
     this.plotPoint = null;
-    /** @type {string} what the picture shows */
+    /** @type {string} key of the drawn picture */
     this.drawnKey = "";
     this.tables = 0; // number of tables that the kernel has sent
     this.loop = new FrameLoop(
@@ -231,7 +231,7 @@ export class View {
       this.drawnKey = key;
       this.root.classList.add("sw-live");
       this.plots.request();
-      if (this.tracer.works) this.tracer.goOn();
+      if (this.tracer.works) this.tracer.continue();
     } else if (drawn === false) {
       this.requestFrame(); // the context was lost; the next frame makes a new one
     }

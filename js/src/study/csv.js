@@ -1,4 +1,4 @@
-/** Answers as a CSV file; the kernel's twin is `sunwidget/study/answers.py`. */
+/** Writes answers as a CSV file; the kernel's twin is `sunwidget/study/answers.py`. */
 
 /**
  * @typedef {{ rater: string, trial: number, picture: string, left: string, right: string,

@@ -3,7 +3,7 @@
 import { widget } from "../host/mount.js";
 import { View } from "./view.js";
 
-/** A notebook keeps the answers, not the pictures: they are megabytes each. */
+/** A notebook saves the answers but not the pictures, which are megabytes each. */
 const withoutPictures = () => ({ _pictures: [] });
 
 export default widget("Study", "Study", "sw-study", View, withoutPictures);

@@ -17,7 +17,7 @@ export class Pictures {
   }
 
   /**
-   * A decoded picture. Its file's name, and so what made it, is nowhere in the page.
+   * Load a decoded picture. Its file name, and so its method, appears nowhere in the page.
    *
    * @param {number} index
    * @returns {Promise<HTMLImageElement>}

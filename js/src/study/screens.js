@@ -1,4 +1,4 @@
-/** What a rater sees before the first pair and after the last one. */
+/** The screens before the first pair and after the last one. */
 
 import { element } from "../ui/element.js";
 
@@ -6,7 +6,7 @@ import { element } from "../ui/element.js";
 const pairs = (count) => (count === 1 ? "one pair" : `${count} pairs`);
 
 /**
- * What to do, and who does it.
+ * The start screen: instructions and the rater's name.
  *
  * @param {{ rater: string, done: number, all: number, ties: boolean,
  *   onStart: (rater: string) => void }} options
@@ -66,7 +66,7 @@ export function endScreen({ all, onSave, onNext }) {
 }
 
 /**
- * What a study shows that was opened as a notebook had saved it.
+ * The screen of a study opened from a saved notebook.
  *
  * @param {number} answers of all raters
  * @param {() => void} onSave

@@ -1,6 +1,6 @@
 /**
- * Which pairs a rater sees, in which order and on which sides: by chance, and the same whenever
- * the same rater opens the same study, also without a kernel.
+ * A rater's pairs in random order and sides, the same whenever the same rater opens the same study,
+ * even without a kernel.
  */
 
 /**
@@ -10,7 +10,7 @@
  * @typedef {{ group: string, left: Side, right: Side }} Trial
  */
 
-/** Numbers in [0, 1) from a text: FNV-1a, then mulberry32. @param {string} text */
+/** Pseudo-random numbers in [0, 1) seeded by a text: FNV-1a, then mulberry32. @param {string} text */
 export function chance(text) {
   let state = 0x811c9dc5;
   for (const byte of new TextEncoder().encode(text)) {
@@ -25,8 +25,8 @@ export function chance(text) {
 }
 
 /**
- * Every pair of each group `repeats` times: one round after the other, so that a pair does not
- * come back at once, and with sides swapped from round to round.
+ * Return every pair of each group `repeats` times, in rounds so that a pair does not repeat at once,
+ * with sides swapped from round to round.
  *
  * @param {Group[]} groups
  * @param {{ seed: number, rater: string, repeats: number }} options

@@ -1,6 +1,6 @@
 /**
- * One view of a study: two pictures side by side, which one? The answers lie in the model
- * (`_answers`), so that a reload goes on where the rater was.
+ * One view of a study: the rater chooses between two pictures. The answers are in the model
+ * (`_answers`), so that a reload continues where the rater was.
  */
 
 import { button } from "../ui/button.js";
@@ -16,7 +16,7 @@ import { trials } from "./trials.js";
  * @typedef {import("./trials.js").Trial} Trial
  */
 
-const PAUSE_MS = 250; // of plain grey, so that no pair is compared with the one before
+const PAUSE_MS = 250; // of plain gray, so that no pair is compared with the previous one
 /** @type {Record<string, Answer["choice"]>} */
 const KEYS = { ArrowLeft: "left", f: "left", ArrowRight: "right", j: "right" };
 
@@ -39,7 +39,7 @@ export class View {
     this.shown = null;
     this.since = 0; // when it appeared, ms
     this.loads = 0;
-    this.saved = 0; // how many answers a file holds
+    this.saved = 0; // number of answers saved to a file
 
     this.progress = element("span", { class: "sw-study-progress", role: "status" });
     this.undo = button({
@@ -47,7 +47,7 @@ export class View {
       label: "Undo",
       title: "Undo the last answer (Backspace)",
       caption: true,
-      onClick: () => this.takeBack(),
+      onClick: () => this.undoAnswer(),
     });
     this.bar = element("div", { class: "sw-study-bar" });
     this.stage = element("div", { class: "sw-study-stage" });
@@ -71,7 +71,7 @@ export class View {
       this.running = false;
       this.show();
     };
-    // In a page without a kernel the answers are gone with the window.
+    // Without a kernel the answers are lost when the window closes.
     const onLeave = (/** @type {Event} */ event) => {
       if (model.get("_standalone") && this.answers().length > this.saved) event.preventDefault();
     };
@@ -96,7 +96,7 @@ export class View {
     return this.answers().filter(({ rater }) => rater === this.rater);
   }
 
-  /** This rater's order. */
+  /** This rater's trials in order. */
   trials() {
     return trials(this.model.get("_groups"), {
       seed: this.model.get("_seed"),
@@ -105,7 +105,7 @@ export class View {
     });
   }
 
-  /** Everything that follows from the answers. */
+  /** Update everything from the answers. */
   show() {
     if (this.asSaved) {
       void this.showSaved();
@@ -142,7 +142,7 @@ export class View {
     }
   }
 
-  /** As it was saved: without the pictures of its pairs. */
+  /** Show a saved study, without the pictures of its pairs. */
   async showSaved() {
     this.undo.hidden = true;
     const screen = savedScreen(this.answers().length, () => this.save());
@@ -152,13 +152,13 @@ export class View {
       image.alt = "Two of the pictures";
       screen.prepend(image);
     } catch {
-      // The words alone do as well.
+      // The text alone is enough.
     }
   }
 
   /**
    * @param {Trial} trial
-   * @param {Trial | undefined} next decoded meanwhile
+   * @param {Trial | undefined} next decoded in advance
    */
   async showTrial(trial, next) {
     this.loads += 1;
@@ -238,14 +238,14 @@ export class View {
     ]);
   }
 
-  takeBack() {
+  undoAnswer() {
     const last = this.own().at(-1);
     if (last) this.write(this.answers().filter((answer) => answer !== last));
   }
 
   /** @param {Answer[]} answers */
   write(answers) {
-    // Calls back at once, which shows what follows.
+    // Calls back at once, which updates the view.
     this.model.set("_answers", answers);
     this.model.save_changes();
   }
@@ -257,7 +257,7 @@ export class View {
     const onButton = event.target instanceof HTMLButtonElement;
     const tie = this.ties && (event.key === "ArrowDown" || (event.key === " " && !onButton));
     const choice = tie ? "tie" : KEYS[event.key];
-    if (event.key === "Backspace") this.takeBack();
+    if (event.key === "Backspace") this.undoAnswer();
     else if (choice) this.answer(choice);
     else return;
     event.preventDefault();
@@ -274,7 +274,7 @@ export class View {
     this.root.focus({ preventScroll: true });
   }
 
-  /** Somebody else answers; what there is stays. */
+  /** Hand over to another rater; existing answers are kept. */
   nextRater() {
     this.rater = "";
     this.running = false;

@@ -1,14 +1,14 @@
-/** What a screen reader says of changes that nothing with the focus tells. */
+/** Announces changes to screen readers that the focused control does not report. */
 
 import { element } from "./element.js";
 
-const QUIET_MS = 500; // only what still holds after a pause is said: a drag would be a torrent
+const QUIET_MS = 500; // a pause before announcing, so that a drag does not flood the reader
 
 export class Announcer {
   /** @param {AbortSignal} signal ends it */
   constructor(signal) {
     this.node = element("div", { class: "sw-spoken", role: "status", "aria-live": "polite" });
-    /** @type {Map<string, string>} by what they are about */
+    /** @type {Map<string, string>} texts by topic */
     this.waiting = new Map();
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
@@ -16,8 +16,8 @@ export class Announcer {
   }
 
   /**
-   * Say a text once nothing new has come for a while. Of several texts about one thing the last
-   * is said.
+   * Announce a text once nothing new has arrived for a while. Of several texts on one topic only the
+   * last is announced.
    *
    * @param {string} text
    * @param {string} [about]
@@ -27,7 +27,7 @@ export class Announcer {
     this.waiting.set(about, text);
     clearTimeout(this.timer);
     this.timer = setTimeout(() => {
-      // A child of its own: the same text said again is new, too.
+      // A new child, so that a repeated text is announced again.
       this.node.replaceChildren(element("p", {}, [...this.waiting.values()].join(". ")));
       this.waiting.clear();
     }, QUIET_MS);

@@ -23,7 +23,7 @@ export function button({ icon: name, label, title = label, caption = false, onCl
 }
 
 /**
- * A group of buttons of which one is pressed.
+ * A group of buttons, one of which is selected.
  *
  * @param {{ label: string, choices: { value: string, icon: import("./icons.js").IconName,
  *   label: string, title: string }[], value: string, onChange: (value: string) => void }} options
@@ -105,7 +105,7 @@ export function holdButton({ onChange, ...options }) {
     if (event.detail === 0) show(!on);
   });
   node.setAttribute("aria-pressed", "false");
-  // `press` and `release` are what a key does that is held instead; `letGo` ends what a click keeps.
+  // `press` and `release` are for a held key; `letGo` ends a toggled state.
   const letGo = () => {
     if (on && !pressed) show(false);
   };

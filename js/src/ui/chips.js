@@ -1,4 +1,4 @@
-/** Chips: small buttons in a row, of which each sets some parameters. */
+/** Chips: small buttons in a row, each of which sets some parameters. */
 
 import { equal } from "../edit/equality.js";
 import { element } from "./element.js";
@@ -13,12 +13,12 @@ export function chip(label, title, onClick) {
 }
 
 /**
- * One chip a preset: a step of the history each, and pressed while all its values are set. Values
- * of parameters that the state does not have are passed over.
+ * One chip per preset: a click is one history step, and a chip is pressed while all its values are
+ * set. Parameters that the state lacks are ignored.
  *
  * @param {import("../edit/state.js").EditState} state
- * @param {() => Preset[]} read the presets as they are now
- * @param {(preset: Preset) => Node | string} [lead] what stands before a chip's label
+ * @param {() => Preset[]} read returns the current presets
+ * @param {(preset: Preset) => Node | string} [lead] content before a chip's label
  */
 export function presetChips(state, read, lead = () => "") {
   const node = element("div", {

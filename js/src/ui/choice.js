@@ -1,15 +1,15 @@
-/** A labelled drop-down for one choice of the parameter table. */
+/** A labeled drop-down for one choice of the parameter table. */
 
 import { element } from "./element.js";
 
 /**
  * @param {{ parameter: import("../host/types.js").Parameter, onChange: (value: string) => void,
- *   names?: Record<string, string> }} options `names` are what people read instead of the values
+ *   names?: Record<string, string> }} options `names` are display names of the values
  */
 export function choice({ parameter: p, onChange, names = {} }) {
   const select = element("select", { class: "sw-select", "aria-label": p.label });
   for (const value of p.choices) {
-    select.append(element("option", { value }, names[value] ?? spoken(value)));
+    select.append(element("option", { value }, names[value] ?? displayName(value)));
   }
   select.addEventListener("change", () => onChange(select.value));
   const back = element(
@@ -24,7 +24,7 @@ export function choice({ parameter: p, onChange, names = {} }) {
   );
   const reset = () => onChange(String(p.default));
   back.addEventListener("click", () => {
-    select.focus(); // the button goes with the change, the keyboard stays in the row
+    select.focus(); // the button disappears; keep the focus in the row
     reset();
   });
   const label = element("span", { class: "sw-label" }, p.label);
@@ -52,8 +52,8 @@ export function choice({ parameter: p, onChange, names = {} }) {
   };
 }
 
-/** A value of the table as a person reads it. @param {string} value */
-const spoken = (value) => {
+/** Format a value of the table for display. @param {string} value */
+const displayName = (value) => {
   const text = value.replaceAll("_", " ");
   return text[0].toUpperCase() + text.slice(1);
 };

@@ -1,22 +1,22 @@
 /**
- * A divider between two pictures that lie over each other: dragged, or moved with the arrow keys.
+ * A divider between two overlaid pictures, dragged or moved with the arrow keys.
  * Styles are in `editor/view/split.css`.
  */
 
 import { element, setAttributes } from "./element.js";
 import { icon } from "./icons.js";
 
-const KEY_STEP = 0.02; // of the way; with Shift five times as much
-const ROOM = 70; // CSS pixels that the name of a side needs
+const KEY_STEP = 0.02; // of the width; five times as much with Shift
+const ROOM = 70; // CSS pixels that a side's name needs
 
 export class Divider {
   /**
    * @param {{ label: string, onMove: () => void }} options `onMove` is called after every move
    */
   constructor({ label, onMove }) {
-    this.share = 0.5; // of the way from left to right
-    this.offset = 0; // from the divider to where it was taken hold of, CSS pixels
-    this.reach = [0, 1]; // its left and right end, CSS pixels in its parent
+    this.share = 0.5; // position from left to right
+    this.offset = 0; // from the divider to where it was grabbed, CSS pixels
+    this.reach = [0, 1]; // left and right limits, CSS pixels in its parent
     this.onMove = onMove;
     this.sides = [0, 1].map(() => element("span", { class: "sw-side", "aria-hidden": "true" }));
     this.node = element(
@@ -80,7 +80,7 @@ export class Divider {
   }
 
   /**
-   * Put it where it belongs, and leave of the picture's upper canvas what is right of it.
+   * Place the divider, and clip the upper canvas to the part right of it.
    *
    * @param {import("./stage.js").Box} box the picture in the divider's parent
    * @param {HTMLCanvasElement} upper
@@ -101,7 +101,7 @@ export class Divider {
       "aria-valuenow": percent,
       "aria-valuetext": `${percent} % ${names[0]}`,
     });
-    // A name with no room of its own would lie over the other side.
+    // A name without enough room would cover the other side.
     [x - left, right - x].forEach((room, i) => {
       this.sides[i].textContent = names[i];
       this.sides[i].classList.toggle("sw-tight", room < ROOM);

@@ -1,13 +1,13 @@
-/** Hand a file to the person. */
+/** Downloads a file. */
 
 import { element } from "./element.js";
 
-const KEPT_MS = 60_000; // the browser reads the file while it asks where to put it
+const KEPT_MS = 60_000; // the browser reads the file while it asks where to save it
 
 /** @param {Blob} blob @param {string} name */
 export function download(blob, name) {
   const link = element("a", { href: URL.createObjectURL(blob), download: name });
-  // In the page: VS Code hands on the clicks that reach its document, and no others.
+  // Attach it to the page: VS Code only handles clicks that reach its document.
   link.hidden = true;
   document.body.append(link);
   link.click();

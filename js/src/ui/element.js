@@ -1,4 +1,4 @@
-/** Elements by function call. */
+/** Functions that make elements. */
 
 /**
  * Make an HTML element.

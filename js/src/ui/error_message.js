@@ -1,4 +1,4 @@
-/** The line below a picture that says what went wrong. */
+/** The error line below a picture. */
 
 import { errorText } from "../host/error_text.js";
 import { element } from "./element.js";
@@ -6,21 +6,21 @@ import { element } from "./element.js";
 export class ErrorMessage {
   constructor() {
     this.node = element("div", { class: "sw-message", role: "alert", hidden: true });
-    this.failure = ""; // of the last drawing
+    this.failure = ""; // error of the last drawing
   }
 
-  /** Text is shown as text: a file name may hold HTML. @param {string} text "" hides the line */
+  /** Show a message as plain text, since a file name may hold HTML. @param {string} text "" hides the line */
   show(text) {
     this.node.hidden = !text;
     this.node.textContent = text;
   }
 
   /**
-   * Draw. What goes wrong is said until drawing works again.
+   * Draw. An error stays visible until drawing works again.
    *
    * @template T
    * @param {() => T} draw
-   * @returns {T | null} null when it went wrong
+   * @returns {T | null} null after an error
    */
   attempt(draw) {
     try {

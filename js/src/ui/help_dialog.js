@@ -1,4 +1,4 @@
-/** The overlay that shows a table of shortcuts: a modal dialog, which the browser keeps the focus in. */
+/** A modal dialog with a table of shortcuts. */
 
 import { button } from "./button.js";
 import { element } from "./element.js";
@@ -9,7 +9,7 @@ import { keyNames } from "./keys.js";
  * @param {HTMLElement} root of the widget
  * @param {string} title
  * @param {readonly import("./keys.js").Shortcut<V>[]} shortcuts
- * @param {string} [note] what else there is to know
+ * @param {string} [note] additional text
  */
 export function openHelp(root, title, shortcuts, note = "") {
   const close = button({ icon: "close", label: "Close", onClick: () => dialog.close() });
@@ -19,7 +19,7 @@ export function openHelp(root, title, shortcuts, note = "") {
       "section",
       { class: "sw-keys", "aria-label": name },
       element("h3", {}, name),
-      // No `dl`: notebooks lay that out as they like.
+      // Not `dl`: notebooks style it their own way.
       element(
         "div",
         { role: "list" },
@@ -34,12 +34,12 @@ export function openHelp(root, title, shortcuts, note = "") {
     element("div", { class: "sw-dialog-body", tabindex: 0 }, ...sections),
     ...(note ? [element("p", { class: "sw-dialog-note" }, note)] : []),
   );
-  // Keys belong to the dialog while it is open, and close it as they opened it.
+  // The open dialog handles all keys; the key that opened it also closes it.
   dialog.addEventListener("keydown", (event) => {
     event.stopPropagation();
     if (event.key === "?") dialog.close();
   });
-  // The dialog's own box is covered by its content: what meets it is a click beside.
+  // The content covers the dialog's box, so a click on the dialog itself is outside.
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) dialog.close();
   });

@@ -1,4 +1,4 @@
-/** Undo, redo and back to the start. */
+/** The undo, redo and reset buttons. */
 
 import { stepName } from "../edit/step_names.js";
 import { button } from "./button.js";
@@ -8,8 +8,8 @@ import { element } from "./element.js";
 
 /**
  * @param {import("../edit/state.js").EditState} state
- * @param {string} resets what Reset does
- * @param {() => import("./chips.js").Preset[]} [presets] by which steps are called
+ * @param {string} resets title of Reset
+ * @param {() => import("./chips.js").Preset[]} [presets] presets that name steps
  */
 export function historyButtons(state, resets, presets = () => []) {
   const undo = button({
@@ -38,7 +38,7 @@ export function historyButtons(state, resets, presets = () => []) {
       redo.disabled = future.length === 0;
       const recipe = state.recipe();
       reset.disabled = Object.keys(recipe).length === 0;
-      if (state.before) return; // names are for when the hand rests
+      if (state.before) return; // do not update titles during a gesture
       const known = {
         parameters: state.parameters,
         versions: state.versions(),

@@ -1,4 +1,4 @@
-/** Line icons on a 20 × 20 grid, drawn with the text's colour. */
+/** Line icons on a 20 × 20 grid, drawn in the text color. */
 
 import { shape } from "./element.js";
 

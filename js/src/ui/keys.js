@@ -1,11 +1,9 @@
 /**
- * Keyboard shortcuts of a widget: which row of a table a key press means, and how keys are
- * written for people.
+ * Keyboard shortcuts of a widget: matches key presses to a table's rows and formats key names.
  */
 
 /**
- * One row of a table of shortcuts. A row without `run` only tells of keys that a focused part
- * handles by itself.
+ * One row of a shortcut table. A row without `run` documents keys that a focused part handles itself.
  *
  * @template V the view
  * @typedef {{
@@ -18,7 +16,7 @@
  */
 
 /**
- * The keys of every widget with a history.
+ * Keys of widgets with a history.
  *
  * @type {Shortcut<{ state: import("../edit/state.js").EditState }>[]}
  */
@@ -33,7 +31,7 @@ export const HISTORY_KEYS = [
 ];
 
 /**
- * The keys of every widget with a picture that can be zoomed.
+ * Keys of widgets with a zoomable picture.
  *
  * @template V
  * @param {string} section
@@ -61,7 +59,7 @@ const MOVED =
 const PRESSED = 'button, summary, a, input, [role="button"], [role^="menuitem"], [role="option"]';
 
 /**
- * What follows from a key press.
+ * Run the shortcut of a key press.
  *
  * @template V
  * @param {readonly Shortcut<V>[]} shortcuts
@@ -79,7 +77,7 @@ export function runShortcut(shortcuts, view, event) {
   }
 }
 
-/** Whether the control that has the focus needs the key itself. @param {KeyboardEvent} event */
+/** Whether the focused control needs the key itself. @param {KeyboardEvent} event */
 export function isTaken(event) {
   const target = /** @type {Element} */ (event.target);
   if (target.matches(WRITES)) return true;
@@ -106,7 +104,7 @@ export function matches(shortcut, event) {
   const parts = split(shortcut);
   const key = parts[parts.length - 1];
   if (nameOf(event).toLowerCase() !== key.toLowerCase()) return false;
-  // Signs need Shift or AltGr on one keyboard and none on the next.
+  // Symbols need Shift or AltGr on some keyboards and neither on others.
   const sign = key.length === 1 && !/[a-z0-9]/i.test(key);
   const composed = sign && event.getModifierState("AltGraph");
   const mod = (event.ctrlKey || event.metaKey) && !composed;
@@ -125,7 +123,7 @@ const NAMES = {
 };
 
 /**
- * The keys of a shortcut as they are printed on them.
+ * Return a shortcut's keys as printed on the keyboard.
  *
  * @param {string} shortcut
  * @param {boolean} [apple] whether the keyboard is Apple's

@@ -1,4 +1,4 @@
-/** A button with a menu under it, as the ARIA practices describe it. */
+/** A menu button that follows the ARIA practices. */
 
 import { button } from "./button.js";
 import { element, setAttributes } from "./element.js";
@@ -14,11 +14,11 @@ import { popup } from "./popup.js";
  *   enabled?: () => boolean,
  *   shown?: () => boolean,
  * }} MenuItem `group` is one of the menu's; `keys` names a shortcut; `enabled` and `shown` are
- *   asked whenever the menu opens; a disabled item's `title` should say why
+ *   called whenever the menu opens; a disabled item's `title` should give the reason
  */
 
 /**
- * Entries are added with `add`, also by others; groups are parted by lines, in the order given.
+ * Parts add items with `add`; lines separate the groups, in the given order.
  *
  * @param {{ icon: import("./icons.js").IconName, label: string, title?: string,
  *   groups: string[] }} options
@@ -42,7 +42,7 @@ export function menuButton({ groups, ...options }) {
       }
     },
     onOpened: () => focus(fromEnd ? -1 : 0),
-    // A click elsewhere has put the focus there; Escape leaves it with the menu, which is gone.
+    // A click elsewhere has already moved the focus there.
     onClosed: () => {
       fromEnd = false;
     },

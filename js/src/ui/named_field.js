@@ -1,4 +1,4 @@
-/** Fields with their name above them. */
+/** Input fields with a label above. */
 
 import { element } from "./element.js";
 
@@ -9,14 +9,14 @@ export function inputField(label, attributes) {
   const input = element("input", { class: "sw-input", "aria-label": label, ...attributes });
   input.addEventListener("keydown", (event) => {
     if (event.key === "Enter") input.blur();
-    event.stopPropagation(); // letters are the field's, no shortcuts
+    event.stopPropagation(); // letters are text, not shortcuts
   });
-  return { node: named(label, input), input };
+  return { node: withLabel(label, input), input };
 }
 
 /**
  * @param {string} label
- * @param {[string, string][]} options value and what people read
+ * @param {[string, string][]} options value and displayed text
  */
 export function selectField(label, options = []) {
   const select = element("select", { class: "sw-select", "aria-label": label });
@@ -27,11 +27,11 @@ export function selectField(label, options = []) {
     if (choices.some((choice) => choice[0] === value)) select.value = value;
   };
   setOptions(options);
-  return { node: named(label, select), select, setOptions };
+  return { node: withLabel(label, select), select, setOptions };
 }
 
 /** @param {string} label @param {HTMLElement} control */
-const named = (label, control) =>
+const withLabel = (label, control) =>
   element(
     "label",
     { class: "sw-named-field" },

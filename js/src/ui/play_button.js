@@ -1,9 +1,9 @@
-/** A button that plays something for as long as it is pressed. */
+/** A button that starts and stops an animation. */
 
 import { button } from "./button.js";
 import { icon } from "./icons.js";
 
-const LONGEST = 0.2; // seconds between two steps: after a pause nothing leaps
+const LONGEST = 0.2; // seconds between two steps, so that nothing jumps after a pause
 
 /**
  * @param {{
@@ -12,7 +12,7 @@ const LONGEST = 0.2; // seconds between two steps: after a pause nothing leaps
  *   onStart?: () => void,
  *   onStep: (seconds: number) => boolean,
  *   onStop: () => void,
- * }} options `onStep` moves on by what has passed since the last one; false ends the playing
+ * }} options `onStep` receives the time since the last step; returning false stops playback
  * @param {AbortSignal} signal
  */
 export function playButton({ label, title, onStart, onStep, onStop }, signal) {

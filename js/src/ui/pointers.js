@@ -1,7 +1,6 @@
 /**
- * Pointers on a stage: one drags with a tool. Where the picture can be zoomed, the middle button,
- * or any with the space bar held, shifts it; two fingers shift and zoom it; Ctrl or Cmd and the
- * wheel zoom it.
+ * Pointers on a stage: one drags with a tool. In a zoomable picture the middle button, or any button
+ * with the space bar held, pans; two fingers pan and zoom; Ctrl or Cmd with the wheel zooms.
  */
 
 /**
@@ -13,37 +12,37 @@
  *   end: () => void,
  *   cancel: () => void,
  *   fine?: boolean,
- * }} DragTool what a pointer drags with; a `fine` one is told of every point on the way
+ * }} DragTool what a pointer drags with; a `fine` one receives every intermediate point
  * @typedef {{
  *   tool: () => DragTool,
  *   ready?: () => boolean,
  *   zoom?: import("../geometry/zoom.js").Zoom,
  *   onTake?: (pointer: number | null) => void,
  *   onPoint?: (place: Point | null, free: boolean) => void,
- * }} Options `ready` tells whether the tool can be used yet; `onTake` hears which pointer drags or
- *   shifts the picture, or none; `onPoint` hears where a pointer is, whether it is free or drags
+ * }} Options `ready` returns whether the tool can be used yet; `onTake` receives the pointer that
+ *   drags or pans, or null; `onPoint` receives a pointer's place and whether it is free
  */
 
-const WHEEL = 0.002; // what a CSS pixel of the wheel zooms by, as a logarithm
-const PINCH = 0.01; // and of two fingers on a touchpad, which sends smaller steps
-const WHEEL_NOTCH = 50; // CSS pixels: a wheel sends more at once, two fingers less
+const WHEEL = 0.002; // logarithm of the zoom per CSS pixel of the wheel
+const PINCH = 0.01; // the same for two fingers on a touchpad, which sends smaller steps
+const WHEEL_NOTCH = 50; // CSS pixels: a wheel sends more at once, a touchpad less
 const LARGEST_NOTCH = 200; // CSS pixels
-const LINE = 33; // CSS pixels to a line, which some browsers count in
-const SLOP = 5; // CSS pixels that a finger may move before it means a drag
-const HESITATION = 120; // ms after which a finger that rests means one too
+const LINE = 33; // CSS pixels per line, the unit of some browsers
+const SLOP = 5; // CSS pixels that a finger may move before a drag starts
+const HESITATION = 120; // ms after which a resting finger also starts one
 
 /**
  * @param {import("./stage.js").PictureStage} stage
  * @param {Options} options
  * @param {AbortSignal} signal
- * @returns {() => void} drops what a pointer has begun, and lets it go
+ * @returns {() => void} cancels the pointer's gesture and releases it
  */
 export function listenToPointers(stage, { tool, ready, zoom, onTake, onPoint }, signal) {
   const { overlay } = stage;
-  /** @type {number | null} the pointer that drags or shifts the picture */
+  /** @type {number | null} the pointer that drags or pans */
   let pointer = null;
   let panning = false;
-  /** @type {Spot} where a pointer that shifts the picture was last */
+  /** @type {Spot} last position of a panning pointer */
   let last = { clientX: 0, clientY: 0 };
   /** @type {PointerEvent | null} a finger that may be the first of two */
   let waiting = null;
@@ -52,7 +51,7 @@ export function listenToPointers(stage, { tool, ready, zoom, onTake, onPoint }, 
   /** @type {Map<number, Spot>} */
   const fingers = new Map();
   let pinching = false; // until the last finger is lifted
-  /** @type {{ place: Point, size: number, scale: number }} what the fingers hold */
+  /** @type {{ place: Point, size: number, scale: number }} what two fingers hold */
   let grip = { place: [0, 0], size: 0, scale: 1 };
 
   /** @param {number | null} which */
@@ -61,8 +60,8 @@ export function listenToPointers(stage, { tool, ready, zoom, onTake, onPoint }, 
     onTake?.(which);
   };
 
-  /** No finger is waited for any longer; returns the one that was. */
-  const forget = () => {
+  /** Stop waiting for a second finger; returns the first one. */
+  const stopWaiting = () => {
     clearTimeout(timer);
     const event = waiting;
     waiting = null;
@@ -70,21 +69,21 @@ export function listenToPointers(stage, { tool, ready, zoom, onTake, onPoint }, 
   };
 
   const begin = () => {
-    const event = forget();
+    const event = stopWaiting();
     if (event) tool().begin(stage.placeOf(event), event);
   };
 
   /** @param {Spot | null} spot */
-  const tell = (spot) => onPoint?.(spot && stage.placeOf(spot), pointer === null);
+  const report = (spot) => onPoint?.(spot && stage.placeOf(spot), pointer === null);
 
   const hold = () => {
     const { size, ...middle } = span([...fingers.values()]);
     grip = { place: stage.placeOf(middle), size, scale: zoom?.scale ?? 1 };
   };
 
-  /** A second finger: what the first began was not meant. */
+  /** Handle a second finger: cancel what the first one started. */
   const pinch = () => {
-    if (!forget() && pointer !== null && !panning) tool().cancel();
+    if (!stopWaiting() && pointer !== null && !panning) tool().cancel();
     take(null);
     panning = false;
     pinching = true;
@@ -115,7 +114,7 @@ export function listenToPointers(stage, { tool, ready, zoom, onTake, onPoint }, 
   /** @param {PointerEvent} event */
   const move = (event) => {
     if (pinching) return stretch(event);
-    tell(event);
+    report(event);
     if (event.pointerId !== pointer) return;
     if (panning) {
       zoom?.pan(event.clientX - last.clientX, event.clientY - last.clientY);
@@ -139,7 +138,7 @@ export function listenToPointers(stage, { tool, ready, zoom, onTake, onPoint }, 
     zoom?.hold(grip.place, stage.pointOf(middle), scale);
   };
 
-  // The end of capture is the one end of a drag, whatever ended it.
+  // Every drag ends with lostpointercapture, whatever its cause.
   /** @param {PointerEvent} event */
   const lost = (event) => {
     fingers.delete(event.pointerId);
@@ -154,9 +153,9 @@ export function listenToPointers(stage, { tool, ready, zoom, onTake, onPoint }, 
 
   const cancel = () => {
     const begun = pointer;
-    forget();
+    stopWaiting();
     panning = false;
-    take(null); // so that the end of its capture ends nothing of the next tool's
+    take(null); // so that lostpointercapture does not end the next tool's gesture
     tool().cancel();
     if (begun !== null && overlay.hasPointerCapture(begun)) overlay.releasePointerCapture(begun);
   };
@@ -165,15 +164,15 @@ export function listenToPointers(stage, { tool, ready, zoom, onTake, onPoint }, 
   overlay.addEventListener("pointermove", move, { signal });
   overlay.addEventListener("lostpointercapture", lost, { signal });
   overlay.addEventListener("pointercancel", cancel, { signal });
-  overlay.addEventListener("pointerleave", () => tell(null), { signal });
+  overlay.addEventListener("pointerleave", () => report(null), { signal });
   signal.addEventListener("abort", () => clearTimeout(timer));
   if (zoom) listenToWheel(stage, zoom, signal);
   return cancel;
 }
 
 /**
- * Plain wheel scrolls the page; with Ctrl or Cmd it zooms about the pointer, and so it does where
- * nothing else can be meant: in full screen, and while the keyboard's cross is on the picture.
+ * The plain wheel scrolls the page; with Ctrl or Cmd it zooms about the pointer. In full screen and
+ * while the keyboard's cross is shown, it always zooms.
  *
  * @param {import("./stage.js").PictureStage} stage
  * @param {import("../geometry/zoom.js").Zoom} zoom
@@ -189,7 +188,7 @@ function listenToWheel(stage, zoom, signal) {
   stage.node.addEventListener("wheel", wheel, { passive: false, signal });
 }
 
-/** What a wheel, or two fingers on a touchpad, zoom by, as a logarithm. @param {WheelEvent} event */
+/** Return the logarithm of the zoom by a wheel or touchpad. @param {WheelEvent} event */
 export function wheelZoom({ deltaY, deltaMode, ctrlKey }) {
   const pixels = deltaY * (deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : LINE);
   const pinch = ctrlKey && Math.abs(pixels) < WHEEL_NOTCH;
@@ -202,7 +201,7 @@ const spotOf = ({ clientX, clientY }) => ({ clientX, clientY });
 /** @param {Spot} a @param {Spot} b */
 const apart = (a, b) => Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
 
-/** The middle of one or two fingers, and how far apart these are. @param {Spot[]} fingers */
+/** Return the middle of one or two fingers, and their distance. @param {Spot[]} fingers */
 const span = ([a, b = a]) => ({
   clientX: (a.clientX + b.clientX) / 2,
   clientY: (a.clientY + b.clientY) / 2,

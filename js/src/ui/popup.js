@@ -1,17 +1,17 @@
-/** A box that opens under a button, in the page's top layer, so that nothing cuts it off. */
+/** A box that opens under a button, in the page's top layer so that nothing clips it. */
 
 import { element } from "./element.js";
 
 const MARGIN = 8; // CSS pixels to the edge of the window
-const ENOUGH = 260; // height below which the box goes up where there is more room
+const ENOUGH = 260; // room below under which the box opens upward if there is more room
 
 /**
- * The button opens and closes it; so do Escape and a click elsewhere. While it is open its keys
- * are its own.
+ * The button opens and closes it; Escape and a click elsewhere close it. While open, it handles its
+ * own keys.
  *
  * @param {{ anchor: HTMLButtonElement, attributes: Record<string, string>, onOpen?: () => void,
- *   onOpened?: () => void, onClosed?: () => void }} options `onOpen` before it is shown, `onOpened`
- *   when it is, to put the focus somewhere
+ *   onOpened?: () => void, onClosed?: () => void }} options `onOpen` runs before it is shown, `onOpened`
+ *   after, for instance to set the focus
  */
 export function popup({ anchor, attributes, onOpen, onOpened, onClosed }) {
   const node = element("div", { ...attributes, popover: "auto" });
@@ -36,9 +36,9 @@ export function popup({ anchor, attributes, onOpen, onOpened, onClosed }) {
   });
   const open = () => {
     node.showPopover();
-    onOpened?.(); // at once, not with the event: the next key may be pressed already
+    onOpened?.(); // at once, not on the event: the next key may come before it
   };
-  // That the button belongs to the box keeps a click on it from closing the box beforehand.
+  // As the popover's target, a click on the button does not close the box first.
   anchor.addEventListener("click", (event) => {
     event.preventDefault();
     if (node.matches(":popover-open")) node.hidePopover();

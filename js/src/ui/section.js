@@ -1,4 +1,4 @@
-/** Sections of a panel that fold. */
+/** Collapsible sections of a panel. */
 
 import { button } from "./button.js";
 import { element, setAttributes } from "./element.js";
@@ -15,8 +15,8 @@ export function section({ title, open = true, className = "sw-section" }, ...chi
 }
 
 /**
- * A section that says how many of its values are changed, and resets them. Not `details`: a
- * button inside its summary is hidden from assistive technology.
+ * A section that counts its changed values and resets them. Not `details`: a button inside its
+ * summary is hidden from assistive technology.
  *
  * @param {{ title: string, open: boolean, onFold: (open: boolean) => void,
  *   onReset?: () => void }} options
@@ -53,7 +53,7 @@ export function countedSection({ title, open, onFold, onReset }, ...children) {
     fold.setAttribute("aria-expanded", String(on));
     body.hidden = !on;
   };
-  let said = "";
+  let shown = "";
   setOpen(open);
   fold.addEventListener("click", () => {
     const on = body.hidden !== false;
@@ -68,8 +68,8 @@ export function countedSection({ title, open, onFold, onReset }, ...children) {
     /** @param {string[]} labels of the values that are changed */
     setChanged(labels) {
       const text = labels.join(", ");
-      if (text === said) return;
-      said = text;
+      if (text === shown) return;
+      shown = text;
       const some = labels.length > 0;
       count.hidden = reset.hidden = !some;
       if (!some) return;

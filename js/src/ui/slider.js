@@ -1,4 +1,4 @@
-/** A labelled slider with a value field, for one number of the parameter table. */
+/** A labeled slider with a value field, for one number of the parameter table. */
 
 import { element, setAttributes } from "./element.js";
 import { typedNumber } from "./typed_number.js";
@@ -18,7 +18,7 @@ const REFUSED_MS = 4000;
  *   onBegin: () => void,
  *   onInput: (value: number | null) => void,
  *   onCommit: () => void,
- * }} options `onInput(null)` returns an automatic parameter to what the analysis found
+ * }} options `onInput(null)` returns an automatic parameter to the analysis's value
  * @returns {Slider}
  */
 export function slider({ parameter: p, onBegin, onInput, onCommit }) {
@@ -27,7 +27,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
   const range = element("input", {
     ...bounds,
     type: "range",
-    // Steps are for keys and the field; a pointer is as fine as the screen.
+    // Steps apply to keys and the field; a pointer is as fine as the screen.
     "aria-label": p.unit ? `${p.label} in ${p.unit}` : p.label,
     class: "sw-range",
   });
@@ -64,7 +64,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
   );
 
   let shown = "";
-  /** @type {unknown[]} what the row was drawn for: a drag shows the whole panel at each step */
+  /** @type {unknown[]} state of the drawn row: a drag updates the whole panel at each step */
   let drawn = [];
   const reset = () => {
     onBegin();
@@ -72,7 +72,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
     onCommit();
   };
   back.addEventListener("click", () => {
-    range.focus(); // the button goes with the change, the keyboard stays in the row
+    range.focus(); // the button disappears; keep the focus in the row
     reset();
   });
   node.addEventListener("dblclick", (event) => {
@@ -105,7 +105,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
   const refused = element("span", { class: "sw-refused", role: "alert" });
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
-  /** Say for a while that something was no number. @param {string} text "" takes it back */
+  /** Show for a while that a text is not a number. @param {string} text "" clears it */
   const refuse = (text) => {
     clearTimeout(timer);
     setAttributes(field, { "aria-invalid": text ? "true" : null });
@@ -125,12 +125,12 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
     onBegin();
     onInput(value);
     onCommit();
-    field.value = shown; // also where a value out of range has changed nothing
+    field.value = shown; // even if an out-of-range value changed nothing
   }
 
-  /** Where a value stands on the track, 0–1. @param {number} value */
+  /** Return a value's position on the track, 0–1. @param {number} value */
   const share = (value) => Math.min(1, Math.max(0, (value - p.minimum) / (p.maximum - p.minimum)));
-  // What has two signs is filled from its zero.
+  // A signed range is filled from its zero.
   const signed = p.minimum < 0 && p.maximum > 0;
 
   return {
@@ -157,7 +157,7 @@ export function slider({ parameter: p, onBegin, onInput, onCommit }) {
       const home = /** @type {number | undefined} */ (p.default ?? foundValue);
       const zero = signed ? share(0) : 0;
       range.style.setProperty("--sw-share", String(Math.max(zero, at)));
-      // Below the track's own start, so that no gap is left there.
+      // Before the track's start, so that no gap remains.
       range.style.setProperty("--sw-low", signed ? String(Math.min(zero, at)) : "-1");
       range.style.setProperty("--sw-home", String(share(home ?? effective)));
       range.classList.toggle("sw-has-home", !isDefault && home !== undefined);

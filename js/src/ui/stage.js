@@ -1,9 +1,9 @@
 /**
- * What the stages of all widgets share: the picture in the middle, handles above, room around it
- * for a sun outside the picture, and the progress line at the foot.
+ * The base of all widgets' stages: the picture in the middle, handles above, room around it for a
+ * sun outside the picture, and the progress line at the bottom.
  *
- * Places on the picture are fractions of its width and height, (0, 0) at the top left corner and
- * also outside 0–1. The overlay lies over the whole stage, in CSS pixels.
+ * Places on the picture are fractions of its width and height, (0, 0) at the top left corner, and may
+ * lie outside 0–1. The overlay covers the whole stage, in CSS pixels.
  */
 
 import { element, shape } from "./element.js";
@@ -19,7 +19,7 @@ export class PictureStage {
   /**
    * @param {HTMLElement} picture
    * @param {{ content?: HTMLElement, className?: string, signal: AbortSignal }} options `content`
-   *   holds the picture where it is not the picture itself
+   *   holds the picture; default the picture itself
    */
   constructor(picture, { content = picture, className = "", signal }) {
     this.picture = picture;
@@ -42,7 +42,7 @@ export class PictureStage {
     signal.addEventListener("abort", () => observer.disconnect());
   }
 
-  /** The stage or the picture has another size. */
+  /** Update after the stage or the picture was resized. */
   resized() {
     this.onLayout();
   }
@@ -61,26 +61,26 @@ export class PictureStage {
     };
   }
 
-  /** The place on the picture of a pointer. @param {Spot} spot @returns {Point} */
+  /** Return a pointer's place on the picture. @param {Spot} spot @returns {Point} */
   placeOf({ clientX, clientY }) {
     const box = this.picture.getBoundingClientRect();
     return [(clientX - box.left) / box.width, (clientY - box.top) / box.height];
   }
 
-  /** A pointer's point on the overlay. @param {Spot} spot @returns {Point} */
+  /** Return a pointer's point on the overlay. @param {Spot} spot @returns {Point} */
   pointOf({ clientX, clientY }) {
     const { left, top } = this.node.getBoundingClientRect();
     return [clientX - left, clientY - top];
   }
 
-  /** Where on the overlay a place of the picture is. @param {Point} place @returns {Point} */
+  /** Return the overlay's point at a place of the picture. @param {Point} place @returns {Point} */
   onOverlay([x, y]) {
     const box = this.rectangle();
     return [box.x + x * box.width, box.y + y * box.height];
   }
 
   /**
-   * The line at the foot of the stage: `null` hides it.
+   * Show the progress line at the bottom of the stage; `null` hides it.
    *
    * @param {number | null} fraction
    * @param {string} message

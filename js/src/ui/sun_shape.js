@@ -1,17 +1,17 @@
-/** The sun's handle as both widgets draw it: rings, an arrow when it waits at the edge, and keys. */
+/** The sun's handle in both widgets: rings, an arrow at the stage's edge, and key steps. */
 
 import { setAttributes, shape } from "./element.js";
 
 /** @typedef {{ x: number, y: number, outside: boolean, angle: number }} Spot */
 
-export const GRAB = 26; // CSS pixels round the sun that take hold of it without a jump
+export const GRAB = 26; // CSS pixels from the sun within which a press grabs it without a jump
 export const EDGE = 26; // CSS pixels from the stage's edge at which an outside sun's handle waits
 export const KEY_STEP = 0.5; // degrees
 /** @type {Record<string, import("../host/types.js").Point>} */
-const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 export class SunShape {
-  /** @param {SVGElement[]} marks what stands in its middle */
+  /** @param {SVGElement[]} marks shapes in its middle */
   constructor(...marks) {
     const ring = (/** @type {string} */ name, /** @type {number} */ r) =>
       shape("circle", { class: name, r });
@@ -47,7 +47,7 @@ export class SunShape {
 }
 
 /**
- * Where the handle stands on the stage: at the sun, or at the stage's edge towards it.
+ * Return the handle's position on the stage: at the sun, or at the stage's edge toward it.
  *
  * @param {import("./stage.js").Box} box
  * @param {number} dx CSS pixels from the picture's middle to the sun
@@ -56,7 +56,7 @@ export class SunShape {
  * @returns {Spot}
  */
 export function spotOnStage(box, dx, dy, edge = EDGE) {
-  // Towards the sun from the stage's middle: that of a zoomed picture may be out of sight.
+  // Toward the sun from the stage's middle: a zoomed picture's middle may not be visible.
   const [cx, cy] = [box.stageWidth / 2, box.stageHeight / 2];
   const [x, y] = [box.x + box.width / 2 + dx - cx, box.y + box.height / 2 + dy - cy];
   const share = Math.min(1, (cx - edge) / Math.abs(x || 1e-9), (cy - edge) / Math.abs(y || 1e-9));
@@ -69,16 +69,16 @@ export function spotOnStage(box, dx, dy, edge = EDGE) {
 }
 
 /**
- * What an arrow key moves the sun by, in degrees; null for any other key, which goes on its way.
+ * Return an arrow key's step of the sun in degrees; null for any other key, which is not handled.
  *
  * @param {KeyboardEvent} event
  * @returns {import("../host/types.js").Point | null}
  */
 export function keyStep(event) {
-  const way = WAYS[event.key];
-  if (!way || event.ctrlKey || event.metaKey) return null;
+  const direction = DIRECTIONS[event.key];
+  if (!direction || event.ctrlKey || event.metaKey) return null;
   event.preventDefault();
   event.stopPropagation();
   const step = KEY_STEP * (event.shiftKey ? 10 : event.altKey ? 0.2 : 1);
-  return [way[0] * step, way[1] * step];
+  return [direction[0] * step, direction[1] * step];
 }

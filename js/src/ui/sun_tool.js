@@ -1,7 +1,7 @@
 /**
- * The sun's handle: drag it anywhere, also out of the picture, or move it with the arrow keys.
+ * The sun's handle: drag it anywhere, even out of the picture, or move it with the arrow keys.
  *
- * Outside the stage the handle waits at the edge with an arrow towards the sun.
+ * Outside the stage the handle waits at the edge with an arrow toward the sun.
  */
 
 import { parameterOf } from "../edit/parameter.js";
@@ -24,7 +24,7 @@ import { GRAB, keyStep, SunShape, spotOnStage } from "./sun_shape.js";
  *   takes: (place: Point, onSun: boolean) => boolean,
  *   follow: (place: Point) => void,
  *   step: (step: Point) => boolean,
- * }} SunTrack a path that a drag follows where it `takes` it; `step` answers an arrow key
+ * }} SunTrack a path that a drag follows if `takes` accepts it; `step` handles an arrow key
  */
 
 export class SunTool {
@@ -67,7 +67,7 @@ export class SunTool {
     }
     this.tracked = this.track?.takes(place, near) ?? false;
     this.focus();
-    // A press on the sun takes hold of it, and by itself moves nothing.
+    // A press on the sun grabs it without moving it.
     if (!near) this.move(place, event);
   }
 
@@ -75,7 +75,7 @@ export class SunTool {
   move(place, _event) {
     const { camera } = this.picture;
     if (!camera) return;
-    // Losing the focus ends a gesture; a drag that goes on is the next one.
+    // Losing the focus ends a gesture; a drag that continues is a new one.
     this.state.begin();
     if (this.tracked) {
       this.track?.follow([place[0] - this.offset[0], place[1] - this.offset[1]]);
@@ -108,7 +108,7 @@ export class SunTool {
     this.state.set(this.edit(azimuth, elevation));
   }
 
-  /** A direction as the edit holds it. @param {number} azimuth @param {number} elevation */
+  /** Return the edit's values for a direction. @param {number} azimuth @param {number} elevation */
   edit(azimuth, elevation) {
     const round = (/** @type {string} */ name, /** @type {number} */ value) => {
       const p = parameterOf(this.state.parameters, name);
@@ -133,16 +133,16 @@ export class SunTool {
     if (this.track?.step(step)) return;
     const [azimuth, elevation] = this.direction();
     const { sun_azimuth, sun_elevation } = this.edit(azimuth + step[0], elevation + step[1]);
-    // What it does not move stays the photo's own.
+    // The coordinate that it does not move stays automatic.
     this.state.set(step[0] ? { sun_azimuth } : { sun_elevation });
   }
 
-  /** Where the sun stands: azimuth and elevation in degrees. @returns {Point} */
+  /** The sun's azimuth and elevation in degrees. @returns {Point} */
   direction() {
     return [this.picture.value("sun_azimuth"), this.picture.value("sun_elevation")];
   }
 
-  /** Where the sun is on the picture, or null behind the camera. @returns {Point | null} */
+  /** The sun's place on the picture, or null behind the camera. @returns {Point | null} */
   place() {
     return this.placeOf(...this.direction());
   }
@@ -158,7 +158,7 @@ export class SunTool {
     return camera && pixel ? [pixel[0] / camera.width, pixel[1] / camera.height] : null;
   }
 
-  /** Where the handle stands on the stage. */
+  /** The handle's position on the stage. */
   spot() {
     const [azimuth, elevation] = this.direction();
     return this.onStage(azimuth, elevation, this.stage.rectangle());
@@ -187,7 +187,7 @@ export class SunTool {
   }
 
   /**
-   * Where the handle stands on the stage: at the sun, or at the edge towards it.
+   * Return the handle's position on the stage: at the sun, or at the edge toward it.
    *
    * @param {number} azimuth
    * @param {number} elevation

@@ -1,22 +1,22 @@
 /**
- * Colours of the style sheet as a canvas needs them. Style sheets follow the host's theme by
- * themselves (`color-scheme` in style.css); what is drawn has to be drawn anew.
+ * Reads the style sheet's colors for canvases. Style sheets follow the host's theme themselves
+ * (`color-scheme` in style.css); canvases must be redrawn.
  */
 
 /** @typedef {Record<string, string>} Theme */
 
 /**
- * Read colours, and say whether any is another.
+ * Read the colors; returns whether any changed.
  *
  * @param {HTMLElement} root of the widget, in the page
  * @param {readonly string[]} names of custom properties without `--sw-`
- * @param {Theme} theme takes them, as `rgb(…)`
+ * @param {Theme} theme receives them as `rgb(…)`
  */
 export function readTheme(root, names, theme) {
-  // A custom property reads as it was written; only a property that uses it has the colour.
+  // A custom property reads back as written; only a property that uses it resolves the color.
   const probe = root.ownerDocument.createElement("span");
   probe.hidden = true;
-  // Lines that differ by their colour alone keep it under the system's few.
+  // Lines that differ only by color keep it in forced-colors mode.
   probe.style.setProperty("forced-color-adjust", "none");
   root.append(probe);
   const style = getComputedStyle(probe);
@@ -34,18 +34,18 @@ export function readTheme(root, names, theme) {
 /**
  * @param {HTMLElement} root
  * @param {readonly string[]} names
- * @param {() => void} onChange the page's theme changed; the theme has the new colours
+ * @param {() => void} onChange called after a theme change, with the new colors in the theme
  * @param {AbortSignal} signal
- * @returns {Theme} empty before the widget is put into the page, as no style applies outside:
- *   whoever draws reads it first
+ * @returns {Theme} empty until the widget is in the page, as no style applies outside it:
+ *   read it before drawing
  */
 export function followTheme(root, names, onChange, signal) {
   /** @type {Theme} */
   const theme = {};
-  const look = () => {
+  const update = () => {
     if (readTheme(root, names, theme)) onChange();
   };
-  const observer = new MutationObserver(look);
+  const observer = new MutationObserver(update);
   for (const node of [document.documentElement, document.body]) {
     observer.observe(node, {
       attributes: true,
@@ -53,7 +53,7 @@ export function followTheme(root, names, onChange, signal) {
     });
   }
   for (const query of ["(prefers-color-scheme: dark)", "(forced-colors: active)"]) {
-    matchMedia(query).addEventListener("change", look, { signal });
+    matchMedia(query).addEventListener("change", update, { signal });
   }
   signal.addEventListener("abort", () => observer.disconnect());
   return theme;

@@ -1,11 +1,11 @@
-/** A labelled switch for one parameter that is on or off. */
+/** A labeled switch for one on/off parameter. */
 
 import { element } from "./element.js";
 
 /**
  * @param {{ parameter: Pick<import("../host/types.js").Parameter, "name" | "label" | "help" | "default">,
- *   onChange: (on: boolean) => void, color?: string }} options `color` is a CSS colour that ties the
- *   switch to a line of a plot
+ *   onChange: (on: boolean) => void, color?: string }} options `color` is a CSS color that matches the
+ *   switch to a plot's line
  */
 export function toggle({ parameter: p, onChange, color }) {
   let on = true;

@@ -1,10 +1,10 @@
 /**
- * A number as a person types it: with a comma or a point, a proper minus, its unit or a degree sign.
- * One out of range goes to its end, or once more round where the range is a full circle.
+ * Parse a typed number: with a comma or a point, a proper minus, its unit or a degree sign. A value
+ * out of range is clamped, or wrapped if the range is a full circle.
  *
  * @param {string} text
  * @param {Pick<import("../host/types.js").Parameter, "minimum" | "maximum" | "unit">} parameter
- * @returns {number | null} null for what is no number
+ * @returns {number | null} null if it is not a number
  */
 export function typedNumber(text, { minimum, maximum, unit }) {
   let bare = text.trim().toLowerCase();

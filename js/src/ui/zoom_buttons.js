@@ -1,4 +1,4 @@
-/** How large a picture is shown, and buttons for it. */
+/** Zoom buttons with the current scale. */
 
 import { button } from "./button.js";
 import { element, setAttributes } from "./element.js";

@@ -1,4 +1,4 @@
-/** One plot: uPlot in the widget's dress, with a legend of HTML that tells values too. */
+/** One plot: uPlot in the widget's style, with an HTML legend that also shows values. */
 
 import uPlot from "uplot";
 import { element } from "../../ui/element.js";
@@ -25,7 +25,7 @@ export class Chart {
    *   theme: Theme, height: number, lines: Line[], x: Axis, y: Axis, xScale?: Scale, yScale?: Scale,
    *   free?: boolean, under?: (chart: Chart) => void, over?: (chart: Chart) => void,
    *   onHover?: (x: number | null) => void, label: string,
-   * }} options `free`: every line has abscissae of its own, in any order; `under` and `over` draw on
+   * }} options `free`: every line has its own abscissae, in any order; `under` and `over` draw on
    *   the canvas before and after the lines
    */
   constructor(options) {
@@ -65,10 +65,10 @@ export class Chart {
     this.data = data;
     if (this.plot) this.plot.setData(data);
     else if (this.width) this.make(this.width);
-    this.tell();
+    this.showValues();
   }
 
-  /** Draw again with new colours or marks. */
+  /** Redraw with new colors or marks. */
   redraw() {
     this.plot?.redraw(true);
   }
@@ -92,7 +92,7 @@ export class Chart {
       stroke: () => theme.quiet,
       grid: { stroke: () => theme.line, width: 1 },
       ticks: { show: false },
-      // uPlot would thin out labels of any scale that is not linear as on a logarithmic one.
+      // uPlot would thin out the labels of any nonlinear scale as on a logarithmic one.
       ...(a.splits
         ? {
             splits: () => a.splits,
@@ -144,14 +144,14 @@ export class Chart {
   }
 
   hovered() {
-    this.tell();
+    this.showValues();
     const { left } = this.plot?.cursor ?? {};
     const over = left !== undefined && left !== null && left >= 0;
     this.options.onHover?.(over && this.plot ? this.plot.posToVal(left, "x") : null);
   }
 
-  /** Values at the cursor, in the legend. */
-  tell() {
+  /** Show the values at the cursor in the legend. */
+  showValues() {
     if (this.options.free) return;
     const index = this.plot?.cursor.idx;
     this.options.lines.forEach((line, i) => {
@@ -161,7 +161,7 @@ export class Chart {
     });
   }
 
-  /** Canvas coordinates of a point. @type {(x: number, y: number) => [number, number]} */
+  /** Return the canvas coordinates of a point. @type {(x: number, y: number) => [number, number]} */
   at(x, y) {
     if (!this.plot) return [0, 0];
     return [this.plot.valToPos(x, "x", true), this.plot.valToPos(y, "y", true)];

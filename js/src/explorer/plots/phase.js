@@ -1,4 +1,4 @@
-/** Where one scattering sends the light: phase functions in polar form, radius by decades. */
+/** Phase functions in polar form, the radius in decades. */
 
 import { channel, decades, polar } from "../curves.js";
 import { Chart } from "./chart.js";
@@ -18,7 +18,7 @@ export class PhasePlot {
       "backward as forward.";
     this.passes = ["curve_phase"];
     this.followsHover = true;
-    /** @type {[number, number]} decades at the centre and the rim */
+    /** @type {[number, number]} decades at the center and the rim */
     this.span = [-3, 1];
     /** @type {number | null} */
     this.angle = null;
@@ -138,7 +138,7 @@ export class PhasePlot {
     });
   }
 
-  tell() {
+  summary() {
     return this.angle === null ? "" : `${this.angle.toFixed(0)}° from the sun`;
   }
 }

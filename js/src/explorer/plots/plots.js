@@ -1,8 +1,8 @@
 /**
- * The plots beside the sky, drawn from the curves that the graph computes for the present state.
+ * The plots beside the sky, drawn from the curves that the graph computes for the current state.
  *
- * They follow the picture at a distance: after a frame, at most ten times a second while
- * something is dragged, and always once more at the end.
+ * They follow the picture with a delay: after a frame, at most ten times a second during a drag, and
+ * always once more at the end.
  */
 
 import { element } from "../../ui/element.js";
@@ -24,15 +24,15 @@ const COLORS = [
  * @typedef {{
  *   curve: (pass: string) => Float32Array, sun: [number, number], scatteringAngle: number | null,
  *   altitude: number, measured: import("../measured.js").Scan | null,
- * }} Context what a plot is drawn from; the sun as azimuth and apparent elevation
+ * }} Context inputs of a plot; the sun as azimuth and apparent elevation
  * @typedef {{
  *   moveSun: (chart: import("./chart.js").Chart) => void,
  *   point: (direction: [number, number] | null) => void,
- * }} Links what a plot does to the sky
+ * }} Links a plot's actions on the sky
  * @typedef {{
  *   title: string, help: string, passes: string[], node: HTMLElement,
  *   chart: import("./chart.js").Chart, update: (context: Context) => void,
- *   extra?: HTMLElement, hover?: (angle: number | null) => void, tell?: () => string,
+ *   extra?: HTMLElement, hover?: (angle: number | null) => void, summary?: () => string,
  * }} Plot
  */
 
@@ -82,7 +82,7 @@ export class Plots {
 
   /** @param {Plot} plot */
   card(plot) {
-    const told = element("span", { class: "sw-card-value" });
+    const value = element("span", { class: "sw-card-value" });
     const help = element("p", { class: "sw-hint", hidden: true }, plot.help);
     const ask = element(
       "button",
@@ -110,7 +110,7 @@ export class Plots {
       "div",
       { class: "sw-card-head" },
       fold,
-      told,
+      value,
       ...(plot.extra ? [plot.extra] : []),
       ask,
     );
@@ -127,15 +127,15 @@ export class Plots {
       fold.setAttribute("aria-expanded", String(!body.hidden));
       this.request();
     });
-    return { plot, node, body, told };
+    return { plot, node, body, value };
   }
 
-  /** Draw soon: what is asked for while a drawing waits is drawn with it. */
+  /** Draw soon; requests made while a drawing is pending are merged. */
   request() {
     if (this.timer !== undefined || !this.node.open) return;
     this.node.setAttribute("aria-busy", "true");
     const since = performance.now() - this.last;
-    // A slow machine draws them seldom, so that the drag itself stays fluent.
+    // A slow machine draws them less often, so that the drag stays fluid.
     const pause = Math.max(PAUSE_MS, 3 * this.cost);
     this.timer = setTimeout(
       () => {
@@ -166,24 +166,24 @@ export class Plots {
       scatteringAngle: this.angle,
     };
     this.view.message.attempt(() => {
-      for (const { plot, body, told } of this.cards) {
+      for (const { plot, body, value } of this.cards) {
         if (body.hidden) continue;
         plot.update(context);
-        told.textContent = plot.tell?.() ?? "";
+        value.textContent = plot.summary?.() ?? "";
       }
     });
     this.last = performance.now();
     this.cost = this.last - begin;
   }
 
-  /** The angle from the sun under the pointer. @param {number | null} angle degrees */
+  /** Show the angle between the sun and the pointer. @param {number | null} angle degrees */
   hover(angle) {
     if (angle === this.angle) return;
     this.angle = angle;
-    for (const { plot, body, told } of this.cards) {
+    for (const { plot, body, value } of this.cards) {
       if (!plot.hover || body.hidden) continue;
       plot.hover(angle);
-      told.textContent = plot.tell?.() ?? "";
+      value.textContent = plot.summary?.() ?? "";
     }
   }
 

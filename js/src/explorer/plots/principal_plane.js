@@ -57,7 +57,7 @@ export class PrincipalPlanePlot {
   /** @returns {import("./chart.js").Scale} */
   scale() {
     if (this.log) {
-      // Not more than four decades: what is darker is night.
+      // At most four decades: anything darker is night.
       return {
         distr: 3,
         log: 10,

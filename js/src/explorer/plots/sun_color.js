@@ -1,4 +1,4 @@
-/** Colour and strength of the direct sun by its elevation. */
+/** Color and illuminance of the direct sun by its elevation. */
 
 import { cssColor } from "../color.js";
 import { channel, SUN_ELEVATIONS, sample } from "../curves.js";
@@ -32,7 +32,7 @@ export class SunColorPlot {
         splits: [0, 2, 5, 10, 20, 40, 60, 90],
       },
       y: { label: "Illuminance", unit: "klx" },
-      // As the table: dense at the horizon, where the colour changes.
+      // Like the table: dense at the horizon, where the color changes.
       xScale: {
         range: () => [-1, 90],
         distr: 100,
@@ -64,7 +64,7 @@ export class SunColorPlot {
   /** @param {number} i texel */
   color(i) {
     const rgb = (this.texels ?? []).slice(4 * i, 4 * i + 3);
-    // A sun that has set sends nothing; its colour just before does not matter.
+    // A sun that has set sends no light; its last color does not matter.
     return Math.max(...rgb, 0) > 1e-9 ? cssColor(rgb) : "#000";
   }
 
@@ -88,7 +88,7 @@ export class SunColorPlot {
     chart.mark(this.elevation, [klx]);
   }
 
-  tell() {
+  summary() {
     if (!this.texels || this.elevation < -1) return "sun below −1°";
     return illuminance(sample(SUN_ELEVATIONS, channel(this.texels, 3), this.elevation));
   }

@@ -1,4 +1,4 @@
-/** What is left of the sun's light, by wavelength, and who took the rest. */
+/** Transmittance of direct sunlight by wavelength, in total and by absorber. */
 
 import { horizonElevation } from "../../geometry/day.js";
 import { degrees } from "../../ui/angle_text.js";
@@ -53,7 +53,7 @@ export class TransmittancePlot {
     this.chart.set([WAVELENGTHS, ...[0, 1, 2, 3].map((c) => channel(texels, c))]);
   }
 
-  /** The colours of the wavelengths: faint below the curve of all, plain in a strip. @param {Chart} chart */
+  /** Draw the wavelengths' colors: faint below the total curve, plain in a strip. @param {Chart} chart */
   drawSpectrum(chart) {
     const [x, all] = chart.data ?? [];
     if (!x) return;
@@ -75,7 +75,7 @@ export class TransmittancePlot {
     });
   }
 
-  tell() {
+  summary() {
     return this.elevation < this.horizon ? "the sun is down" : `sun at ${degrees(this.elevation)}`;
   }
 }

@@ -1,4 +1,4 @@
-/** Colour of the zenith from twilight into day: in the chromaticity diagram, and by elevation. */
+/** Color of the zenith from twilight into day: in the chromaticity diagram, and by elevation. */
 
 import { cssColor, daylight, rec709OfXyz, xyzOfChromaticity } from "../color.js";
 import { channel, sample, ZENITH_ELEVATIONS } from "../curves.js";
@@ -40,7 +40,7 @@ export class ZenithTrackPlot {
       y: { label: "y", splits: [0.2, 0.25, 0.3, 0.35], values: (v) => v.toFixed(2) },
       xScale: { range: () => X },
       yScale: { range: () => Y },
-      under: (chart) => this.drawColours(chart),
+      under: (chart) => this.drawColors(chart),
       over: (chart) => this.drawNow(chart),
     });
     this.node = this.chart.node;
@@ -58,8 +58,8 @@ export class ZenithTrackPlot {
     this.chart.set([null, this.track, this.daylight]);
   }
 
-  /** The colours of the diagram, once: a quiet background. @param {Chart} chart */
-  drawColours(chart) {
+  /** Draw the diagram's colors as a quiet background. @param {Chart} chart */
+  drawColors(chart) {
     this.picture ??= paintDiagram();
     chart.paint((context, box) => {
       context.globalAlpha = 0.55;
@@ -101,7 +101,7 @@ export class ZenithTrackPlot {
     });
   }
 
-  tell() {
+  summary() {
     if (!this.track) return "";
     const [x, y] = this.track.map((list) => sample(ZENITH_ELEVATIONS, list, this.elevation));
     return `x ${digits(x)}  y ${digits(y)}`;
