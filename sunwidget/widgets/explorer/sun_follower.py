@@ -171,6 +171,6 @@ class SunFollower(ExplorerParameters):
                 raise traitlets.TraitError(str(error)) from None
             if value >= count:
                 raise traitlets.TraitError(
-                    f"scan = {value} must be one of the scans 0 to {count - 1}."
+                    f"scan = {value} is not one of the scans 0 to {count - 1}."
                 )
         return value
