@@ -140,7 +140,7 @@ def test_place_and_heading_come_from_the_photo(page, widget, state):
     # What the kernel answers to it.
     widget.place = place_of(page)
     page.evaluate("(day) => model.receive({ _day: day })", widget._day)
-    page.get_by_role("button", name="From the photo's sun").click()
+    page.get_by_role("button", name="Match the photo's sun").click()
     found = widget.heading_by_sun()
     assert trait(page, "place")["heading"] == pytest.approx(found.place.heading, abs=1e-3)
     # An hour's error of the clock: the browser says what the kernel says, and offers its times.

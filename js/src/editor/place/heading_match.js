@@ -10,7 +10,7 @@ import { element } from "../../ui/element.js";
 /** @param {import("../types.js").Needs<"clock" | "picture" | "state">} needs */
 export function headingMatch({ clock, picture, state }) {
   const button = chip(
-    "From the photo's sun",
+    "Match the photo's sun",
     "Set the heading so that the photo's sun agrees with place and time; " +
       "set the clock to the photo's time first",
     () => match(),
