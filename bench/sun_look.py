@@ -9,7 +9,7 @@ bright core in percent of the width (10th percentile, median, 90th). Below it st
 display-linear luminance above the sun, so many percent of the width from its core, beside those of
 94 photos that show their sun; 0.14 % of their frames are burnt (75th percentile 0.6, 90th 3.4).
 
-`--density` is a table of real skies' CIELAB colours (`density`, `lo`, `hi`, `threshold`): `odd` is
+`--density` is a table of real skies' CIELAB colors (`density`, `lo`, `hi`, `threshold`): `odd` is
 then the share of pictures in which more than 1 % of the sky has none of them.
 """
 

@@ -31,7 +31,7 @@ from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.horizon import horizon as horizon_stage
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.land import look_at_land
-from sunwidget.analysis.pipeline import FIT_SIDE, clouds_by_colour
+from sunwidget.analysis.pipeline import FIT_SIDE, clouds_by_color
 from sunwidget.analysis.segmentation import coarse_sky
 from sunwidget.geometry.camera import Camera
 from sunwidget.photo.photo import open_photo
@@ -163,7 +163,7 @@ def search(case: Case) -> fit.SkyFit:
     sky = (sky > 0.5).astype(np.float32)
     small = working.shrunk(FIT_SIDE)
     hints = Hints(methods=(("clouds", "unmix"),))
-    cover = clouds_by_colour(working, sky, hints, None)[0].opacity
+    cover = clouds_by_color(working, sky, hints, None)[0].opacity
     size = small.width, small.height
     expected = look_at_land(working).sun
     return fit.fit_sky(small, resize(sky, *size), resize(cover, *size), case.camera, None, expected)

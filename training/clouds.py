@@ -49,11 +49,11 @@ def veiled_sky(random: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     white = cloud_white(SkyFit(atmosphere, response, tuple(gain), (0.0, 3.0, 2.0), sun))
     opacity = np.clip(random.uniform(-2, 3, _PIXELS), 0, 1)
     shade = np.clip(random.normal(0.65, 0.25, _PIXELS), 0.15, 1.2)
-    # Cloud colours vary: bases see the ground, edges the sky around them.
+    # Cloud colors vary: bases see the ground, edges the sky around them.
     tint = np.exp(random.normal(0, 0.03, (_PIXELS, 3)))
     light = (1 - opacity[:, None]) * clear * gain
     light += (opacity * shade)[:, None] * white * tint
-    # Cameras make colours stronger than they are.
+    # Cameras make colors stronger than they are.
     grey = (light @ LUMINANCE)[:, None]
     light = np.maximum(grey + random.uniform(1.0, 1.5) * (light - grey), 0)
     display = np.clip(response.display_light(light), 0, 1)

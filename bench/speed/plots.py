@@ -40,10 +40,10 @@ def against_pixels(rows: list[Row], path: Path) -> bool:
     mpl.rcParams["svg.hashsalt"] = "sunwidget"
     figure = Figure(figsize=(9, 3.6), layout="constrained")
     time, memory = figure.subplots(1, 2)
-    colours = dict(zip(NAMES, ("#4477aa", "#228833", "#cc6633", "#aa3377"), strict=True))
+    colors = dict(zip(NAMES, ("#4477aa", "#228833", "#cc6633", "#aa3377"), strict=True))
     for name, points in found.items():
         axes = memory if name == "peak memory" else time
-        axes.plot(*zip(*points, strict=True), "o-", color=colours[name], label=NAMES[name])
+        axes.plot(*zip(*points, strict=True), "o-", color=colors[name], label=NAMES[name])
     guide = found.get("kernel frame")
     if guide:
         ends = guide[0][0], guide[-1][0]

@@ -153,7 +153,7 @@ def shares_of(scene: Scene, entry: SceneMap, size: tuple[int, int]) -> np.ndarra
     return np.asarray(cv2.resize(shares, size, interpolation=method))
 
 
-def ramp_colours(ramp: Ramp, count: int = 256) -> np.ndarray:
+def ramp_colors(ramp: Ramp, count: int = 256) -> np.ndarray:
     """Return a ramp as a table of colors, (count, 4) float32 in [0, 1], alpha last."""
     at = np.linspace(0, 1, count)
     positions = [position for position, _ in ramp]

@@ -157,7 +157,7 @@ def complete(
     erased = erased_for(working, maps, sky, light, sun_mask)
 
     step("clouds", 0.81, "Finding clouds")
-    covers = clouds_by_colour(erased.working, sky, hints, sun_mask and sun_mask.mask)
+    covers = clouds_by_color(erased.working, sky, hints, sun_mask and sun_mask.mask)
 
     step("fit", 0.82, "Fitting the atmosphere")
     small_horizon = horizon.scaled(1 / zoom_x, 1 / zoom_y)
@@ -285,7 +285,7 @@ def _water(
     return np.asarray(found, np.float32)
 
 
-def clouds_by_colour(
+def clouds_by_color(
     working: Working, sky: np.ndarray, hints: Hints, sun_mask: np.ndarray | None
 ) -> tuple[Clouds, Clouds]:
     """Return the clouds of the sky, and of the whole picture as if it were sky, without the sun."""
@@ -361,7 +361,7 @@ def find_clouds_again(base: Scene, method: str, ratios: tuple[float, float]) -> 
     methods = dict(base.hints.methods) | {"clouds": method}
     hints = dataclasses.replace(base.hints, methods=tuple(methods.items()), cloud_ratios=ratios)
     mask = None if sun is None else resize(sun.blot, working.width, working.height)
-    covers = clouds_by_colour(working, sky, hints, mask)
+    covers = clouds_by_color(working, sky, hints, mask)
     if method == "unmix" and base.fitted is not None:
         seen = sun is not None and sun.visible
         covers = unmix_clouds(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sunwidget.analysis.maps import MAPS, SceneMap, ramp_colours, shares_of
+from sunwidget.analysis.maps import MAPS, SceneMap, ramp_colors, shares_of
 from sunwidget.analysis.notices import UNSURE
 from sunwidget.export import lettering
 
@@ -123,7 +123,7 @@ def tint_map(photo: np.ndarray, shares: np.ndarray, entry: SceneMap) -> Image.Im
     from PIL import Image
 
     gray = photo.astype(np.float32).mean(-1, keepdims=True) * np.float32(0.75) + 10
-    color = ramp_colours(entry.ramp)[np.round(shares * 255).astype(np.uint8)]
+    color = ramp_colors(entry.ramp)[np.round(shares * 255).astype(np.uint8)]
     alpha = color[..., 3:]
     mixed = gray * (1 - alpha) + 255 * color[..., :3] * alpha
     return Image.fromarray(np.round(mixed).astype(np.uint8))
@@ -156,7 +156,7 @@ def _legend(sheet: Image.Image, at: tuple[int, int], width: int, entry: SceneMap
     """Draw the color ramp between its lowest and highest value."""
     from PIL import Image, ImageDraw
 
-    colors = ramp_colours(entry.ramp, 160)
+    colors = ramp_colors(entry.ramp, 160)
     mixed = 60 * (1 - colors[:, 3:]) + 255 * colors[:, :3] * colors[:, 3:]
     bar = np.repeat(np.round(mixed).astype(np.uint8)[None], 10, axis=0)
     draw = ImageDraw.Draw(sheet)

@@ -57,14 +57,14 @@ def write_gif(
         else:
             palette.follow(frame)
         indices = palette.dither(frame)
-        new = palette.colours[indices]
+        new = palette.colors[indices]
         if shown is not None:
             kept = ((new - shown) ** 2).sum(axis=-1) < _UNSEEN**2
             indices[kept] = _KEPT
             new[kept] = shown[kept]
         shown = new
         picture = Image.fromarray(indices)
-        picture.putpalette(palette.colours.astype(np.uint8).tobytes() + bytes(3))
+        picture.putpalette(palette.colors.astype(np.uint8).tobytes() + bytes(3))
         blocks = getdata(
             picture,
             transparency=_KEPT,
@@ -87,7 +87,7 @@ class _Palette:
         rgb = np.array(cut, np.uint8).reshape(-1, 3)[:_COLOURS]
         # With few colors in the picture, ``_move`` places the remaining entries.
         rgb = np.pad(rgb, ((0, _COLOURS - len(rgb)), (0, 0)), mode="edge")
-        self.colours = rgb.astype(np.float32)
+        self.colors = rgb.astype(np.float32)
         self._move(sample, rounds=6)
 
     def follow(self, frame: NDArray[np.uint8]) -> None:
@@ -115,9 +115,9 @@ class _Palette:
         """Return, for each color, the two entries that mix to it and the share of the second."""
         from scipy.spatial import cKDTree
 
-        _, near = cKDTree(self.colours).query(rgb, k=_NEAREST)
-        first = self.colours[near[:, :1]]
-        step = self.colours[near[:, 1:]] - first
+        _, near = cKDTree(self.colors).query(rgb, k=_NEAREST)
+        first = self.colors[near[:, :1]]
+        step = self.colors[near[:, 1:]] - first
         length = (step**2).sum(axis=-1)
         share = ((rgb[:, None] - first) * step).sum(axis=-1) / np.maximum(length, 1e-6)
         share = np.clip(share, 0, 1)
@@ -135,19 +135,19 @@ class _Palette:
         """Run Lloyd's iterations; unused entries move to the pixels with the largest error."""
         from scipy.spatial import cKDTree
 
-        colours = self.colours
+        colors = self.colors
         for _ in range(rounds):
-            miss, nearest = cKDTree(colours).query(sample)
+            miss, nearest = cKDTree(colors).query(sample)
             count = np.bincount(nearest, minlength=_COLOURS)
             sums = [np.bincount(nearest, sample[:, c], _COLOURS) for c in range(3)]
             moved = np.stack(sums, axis=-1) / np.maximum(count, 1)[:, None]
             idle = np.flatnonzero(count == 0)
             worst = np.argsort(-miss, kind="stable")[: 4 * len(idle) : 4]
-            moved[idle] = colours[idle]
+            moved[idle] = colors[idle]
             moved[idle[: len(worst)]] = sample[worst]
-            colours = moved.astype(np.float32)
+            colors = moved.astype(np.float32)
         # Round to whole levels, as the file stores them, so that mixtures match the display.
-        self.colours = np.rint(colours)
+        self.colors = np.rint(colors)
 
 
 def _sample(frame: NDArray[np.uint8]) -> NDArray[np.uint8]:

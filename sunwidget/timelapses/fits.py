@@ -18,7 +18,7 @@ from sunwidget.analysis.clouds.clouds import ratio_index
 from sunwidget.analysis.fit.fit import Response, SkyFit, fit_without_sky, model_sky, view_angles
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.sun import look_for_sun
-from sunwidget.analysis.pipeline import Steps, clouds_by_colour, erased_for, fit_atmosphere
+from sunwidget.analysis.pipeline import Steps, clouds_by_color, erased_for, fit_atmosphere
 from sunwidget.analysis.scene import Scene
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.formats.color import LUMINANCE
@@ -58,7 +58,7 @@ def fit_key(sample: Sample, shared: Scene, sun: Direction, source: str) -> Key:
     seen = observation(sun, working, sky, shared.camera, shared.hints, source)
     erased = erased_for(working, look_for_sun(working), sky, seen)
     mask = seen.blot if seen.visible else None
-    covers = clouds_by_colour(erased.working, sky, shared.hints, mask)
+    covers = clouds_by_color(erased.working, sky, shared.hints, mask)
     fit, _, _ = fit_atmosphere(
         working, erased, sky, covers, shared.camera, seen, shared.hints, Steps(None)
     )

@@ -10,7 +10,7 @@ import numpy as np
 from sunwidget.analysis.fit.fit import fit_sky
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.land import look_at_land
-from sunwidget.analysis.pipeline import clouds_by_colour
+from sunwidget.analysis.pipeline import clouds_by_color
 from sunwidget.errors import PhotoError
 from sunwidget.geometry.place import Place
 from sunwidget.photo.photo import Photo
@@ -88,7 +88,7 @@ def track_and_film(
         for s in lit[:: max(1, len(lit) // 4)]:
             small = s.working.shrunk(_SEARCH_SIDE)
             size = small.width, small.height
-            cover = resize(clouds_by_colour(s.working, sky, shared.hints, None)[0].opacity, *size)
+            cover = resize(clouds_by_color(s.working, sky, shared.hints, None)[0].opacity, *size)
             expected = look_at_land(s.working).sun
             searched.append(
                 fit_sky(small, resize(sky, *size), cover, shared.camera, None, expected)

@@ -21,7 +21,7 @@ from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.networks.sun import look_for_sun
-from sunwidget.analysis.pipeline import clouds_by_colour, erased_for
+from sunwidget.analysis.pipeline import clouds_by_color, erased_for
 from sunwidget.analysis.scene import Scene
 from sunwidget.edit.table import Edit
 from sunwidget.errors import PhotoError
@@ -251,7 +251,7 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
     seen = observation(fit.sun, working, sky, shared.camera, shared.hints, source)
     erased = erased_for(working, look_for_sun(working), sky, seen)
     mask = seen.blot if seen.visible else None
-    covers = clouds_by_colour(erased.working, sky, shared.hints, mask)
+    covers = clouds_by_color(erased.working, sky, shared.hints, mask)
     behind = behind_sun(erased, sky, shared.camera, fit)
     if shared.hints.method("clouds") == "unmix":
         covers = unmix_clouds(erased, sky, shared.camera, fit, covers, sun_seen=seen.visible)

@@ -9,7 +9,7 @@ from chromium import connect
 from PIL import Image
 
 import sunwidget as sw
-from sunwidget.analysis.maps import MAPS, ramp_colours, scene_map, shares_of
+from sunwidget.analysis.maps import MAPS, ramp_colors, scene_map, shares_of
 from sunwidget.widgets import SunEditor
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
@@ -44,12 +44,12 @@ def test_every_map_of_the_table_is_offered_and_drawn_in_its_colours(editor, coas
     for name in ("sky", "depth"):
         show(editor, name)
         assert editor.locator(".sw-legend b").text_content() == scene_map(name).title
-        colours = painted(editor)
+        colors = painted(editor)
         shares = shares_of(coast, scene_map(name), coast.photo.size)
-        wanted = 255 * ramp_colours(scene_map(name).ramp)[np.round(shares * 255).astype(int)]
-        opaque = wanted[..., 3] > 60  # a canvas keeps colours times alpha
-        assert np.abs(colours[..., 3].astype(float) - wanted[..., 3]).max() <= 1.5
-        assert np.abs(colours[opaque] - wanted[opaque]).max() <= 6
+        wanted = 255 * ramp_colors(scene_map(name).ramp)[np.round(shares * 255).astype(int)]
+        opaque = wanted[..., 3] > 60  # a canvas keeps colors times alpha
+        assert np.abs(colors[..., 3].astype(float) - wanted[..., 3]).max() <= 1.5
+        assert np.abs(colors[opaque] - wanted[opaque]).max() <= 6
 
 
 def test_the_value_under_the_pointer_is_read_with_its_unit(editor, coast):

@@ -181,7 +181,7 @@ def test_no_sun_breaks_the_picture(coast, elevation, azimuth):
     edit = sw.Edit(sun_elevation=elevation, sun_azimuth=azimuth)
     out = sw.render(coast, edit, size=SMALL, dtype="float32")
     assert np.isfinite(out).all()
-    # A hundredth below black: colours outside Rec. 709, cut off when the picture is encoded.
+    # A hundredth below black: colors outside Rec. 709, cut off when the picture is encoded.
     assert out.min() >= -1e-2
 
 

@@ -188,7 +188,7 @@ def test_a_sheet_shows_all_pictures_under_their_labels(methods):
 def test_viewers_without_widgets_see_the_sheet(methods):
     data, _ = methods._repr_mimebundle_()
     seen = sw.open(base64.b64decode(data["image/png"])).encoded.astype(float)
-    # In 256 colours: what stands beside it in the notebook is kept for ever.
+    # In 256 colors: what stands beside it in the notebook is kept for ever.
     assert np.abs(seen - np.asarray(methods.sheet(480))).mean() < 4
 
 

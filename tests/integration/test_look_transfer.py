@@ -22,7 +22,7 @@ def pictures():
 
 
 def warmer(picture):
-    """A change that is one affine of the encoded colours everywhere."""
+    """A change that is one affine of the encoded colors everywhere."""
     x = picture / 255
     return np.clip(np.round(255 * (x * [0.85, 0.7, 0.5] + [0.08, 0.03, 0.01])), 0, 255).astype(
         np.uint8

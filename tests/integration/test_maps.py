@@ -9,7 +9,7 @@ from PIL import Image
 
 import sunwidget as sw
 from sunwidget.analysis import frame_inputs
-from sunwidget.analysis.maps import MAPS, levels, ramp_colours, scene_map, shares_of
+from sunwidget.analysis.maps import MAPS, levels, ramp_colors, scene_map, shares_of
 from sunwidget.export.maps import save_maps
 
 
@@ -43,9 +43,9 @@ def test_a_ramp_runs_from_0_to_1(entry):
     positions = [position for position, _ in entry.ramp]
     assert positions == sorted(positions)
     assert (positions[0], positions[-1]) == (0, 1)
-    colours = ramp_colours(entry.ramp)
-    assert colours.shape == (256, 4)
-    assert np.ptp(colours, axis=0).max() > 0.1
+    colors = ramp_colors(entry.ramp)
+    assert colors.shape == (256, 4)
+    assert np.ptp(colors, axis=0).max() > 0.1
 
 
 def test_every_map_is_written_at_the_photos_size(scene, folder):
@@ -90,7 +90,7 @@ def test_the_overview_shows_every_map(scene, folder):
     sheet = np.asarray(Image.open(folder / "overview.png"))
     rows = -(-(1 + len([e for e in MAPS if e.read(scene) is not None])) // 4)
     assert sheet.shape[0] > rows * 170
-    # The photo itself stands at the upper left, and colours tell maps from grey.
+    # The photo itself stands at the upper left, and colors tell maps from grey.
     assert np.ptp(sheet, axis=-1).mean() > 5
 
 

@@ -71,7 +71,7 @@ CODES = st.integers(0, 255)
 
 @st.composite
 def tiny_pictures(draw):
-    """Arrays of 1 to 9 pixels a side, any type that is a picture, in few or many colours."""
+    """Arrays of 1 to 9 pixels a side, any type that is a picture, in few or many colors."""
     shape = (draw(st.integers(1, 9)), draw(st.integers(1, 9)), draw(st.integers(1, 4)))
     kind, values = draw(st.sampled_from([("u1", CODES), ("u2", CODES), ("f4", LIGHT)]))
     return draw(arrays.arrays(kind, shape, elements=values))

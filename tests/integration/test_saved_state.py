@@ -87,7 +87,7 @@ def test_a_picture_that_every_notebook_keeps_is_small_and_looks_the_same():
     assert len(small) < 0.5 * len(encode_png(photo))
     seen = open_photo(small).encoded
     assert seen.shape == photo.shape
-    assert np.abs(seen.astype(float) - photo).mean() < 4  # 256 colours, dithered
+    assert np.abs(seen.astype(float) - photo).mean() < 4  # 256 colors, dithered
     # Averages over 8 × 8 pixels, as seen from further away, are those of the photo.
     means = [np.asarray(Image.fromarray(each).reduce(8), float) for each in (seen, photo)]
     assert np.abs(means[0] - means[1]).mean() < 1.5

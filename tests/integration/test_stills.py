@@ -351,7 +351,7 @@ def test_the_recipe_travels_with_the_picture(tmp_path, renderer, ending):
 def test_the_edit_is_told_in_exif_and_xmp_beside_what_was_there(tmp_path, renderer, ending):
     edit = Edit(sun_elevation=3.5)
     pair, paths = (FakeScene(rich_photo()), edit), [tmp_path / f"{n}{ending}" for n in "ab"]
-    if ending == ".hdr":  # the photo's colours are wider than it holds
+    if ending == ".hdr":  # the photo's colors are wider than it holds
         with pytest.warns(PhotoWarning, match="outside Rec. 709"):
             save(pair, paths[0])
         again = open_photo(paths[0])

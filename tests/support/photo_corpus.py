@@ -349,7 +349,7 @@ def readable():
         "exr": Readable(exr_file(light), light),
         "exr_half_alpha": Readable(
             exr_file(np.dstack([light, np.full_like(light[..., 0], 0.5)]), np.float16),
-            light * 2,  # OpenEXR's colours are multiplied by alpha
+            light * 2,  # OpenEXR's colors are multiplied by alpha
             light.max() / 512,
             alpha=np.full(light.shape[:2], 0.5),
         ),

@@ -64,7 +64,7 @@ def thesis_frame(scene, edit, *, literal=None, sky="model"):
 
     states = ((source, "source"), (now, "edit"))
 
-    # 3.2.3: the model's sky, developed like a photo, given the photo's sky colours.
+    # 3.2.3: the model's sky, developed like a photo, given the photo's sky colors.
     plain = [rendered_sky(scene, values, sky, state) for values, state in states]
     own = weighted_statistics(response.display_light(plain[0]), matte)
     target = Statistics(known["photo_sky_mean"], known["photo_sky_deviation"])

@@ -4,7 +4,7 @@
 
 compares photos of the training half whose sun is seen, by its height over the skyline, with
 edits of photos without a sun in which ours stands as high. What is left between their median
-colours by distance from the sun, in stops of linear light, is printed for each height, and a fit
+colors by distance from the sun, in stops of linear light, is printed for each height, and a fit
 ``far + (near - far) exp(-(distance / reach)²)`` of it: what the shader's numbers, as they are,
 still lack.
 """

@@ -55,12 +55,12 @@ def encode_picture(image: NDArray[np.uint8]) -> bytes:
     data = encode_png(image)
     if len(data) <= _LOSSLESS_BYTES:
         return data
-    full_colour = int(cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444)
+    full_color = int(cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444)
     options = [
         cv2.IMWRITE_JPEG_QUALITY,
         _JPEG_QUALITY,
         cv2.IMWRITE_JPEG_SAMPLING_FACTOR,
-        full_colour,
+        full_color,
     ]
     return bytes(cv2.imencode(".jpg", image[..., ::-1], options)[1])
 

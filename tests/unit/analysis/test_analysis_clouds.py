@@ -12,10 +12,10 @@ SKY = np.ones((40, 60), np.float32)
 METHODS = tuple(clouds.INDICES)
 
 
-def sky_of(*colours) -> Working:
+def sky_of(*colors) -> Working:
     """Upright stripes of equal width, one a colour."""
     picture = np.zeros((40, 60, 3), np.uint8)
-    for stripe, colour in zip(np.array_split(np.arange(60), len(colours)), colours, strict=True):
+    for stripe, colour in zip(np.array_split(np.arange(60), len(colors)), colors, strict=True):
         picture[:, stripe] = colour
     return Working.of(open_photo(picture))
 
@@ -65,7 +65,7 @@ def test_saturation_does_not_call_a_red_sunset_cloud_as_the_ratio_does():
 
 
 def test_opacity_follows_the_pictures_edge_where_it_is_softer():
-    # JPEG stores colours at half the size: opacity is told by them, and the edge by the light.
+    # JPEG stores colors at half the size: opacity is told by them, and the edge by the light.
     columns = np.arange(120)[None] + 0.0 * np.arange(80)[:, None]
     edge = (columns >= 60).astype(np.float32)
     picture = np.float32([0.2, 0.4, 0.8]) + edge[..., None] * np.float32([0.7, 0.5, 0.1])

@@ -40,7 +40,7 @@ def with_profile(codes, icc):
 
 
 def all_levels():
-    """Every 8-bit level in each channel against far corners, and 20,000 random colours."""
+    """Every 8-bit level in each channel against far corners, and 20,000 random colors."""
     levels = np.arange(256)
     parts = [np.stack([levels, levels, levels], -1)]
     for channel in range(3):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from training.worlds.mesh import Random
 
 DETAIL = 3  # 3: sills and hoods, 2: frames, 1: glazing bars, 0: glass only
-WALLS, ROOFS = 6, 3  # colours of each
+WALLS, ROOFS = 6, 3  # colors of each
 
 
 @dataclass(frozen=True)
