@@ -190,18 +190,32 @@ def test_rooms_of_the_front_end_import_only_rooms_above_them(front_end):
     assert wrong_way(edges, FRONT_END) == []
 
 
-def test_parts_of_the_editor_know_what_they_need_and_not_its_view(root, front_end):
-    knowing = {name for name, targets in front_end.items() if "editor/view/view.js" in targets}
-    assert knowing == {"editor/index.js", "editor/parts.js"}
-    names = (root / "js" / "src" / "editor" / "types.d.ts").read_text("utf-8")
-    assert "view/view.js" not in names
+# A list says what each of a widget's parts takes of the view. No other part names the view.
+PART_LISTS = {"editor": {"editor/parts.js"}, "explorer": set()}
+FEWEST_FILES = {"editor": 60, "explorer": 25}
 
 
-def test_no_file_of_the_editor_imports_itself_in_a_circle(front_end):
-    # The view hangs its parts on itself, and their list says what each takes of it.
-    graph = {name: targets for name, targets in front_end.items() if name.startswith("editor/")}
-    graph["editor/parts.js"] = graph["editor/parts.js"] - {"editor/view/view.js"}
-    assert len(graph) > 60
+def view_of(room, front_end):
+    (view,) = [name for name in front_end if re.fullmatch(rf"{room}/(.+/)?view\.js", name)]
+    return view
+
+
+@pytest.mark.parametrize("room", PART_LISTS)
+def test_parts_of_a_widget_know_what_they_need_and_not_its_view(root, front_end, room):
+    view = view_of(room, front_end)
+    knowing = {name for name, targets in front_end.items() if view in targets}
+    assert knowing == {f"{room}/index.js"} | PART_LISTS[room]
+    types = [path.read_text("utf-8") for path in (root / "js" / "src" / room).rglob("*.d.ts")]
+    assert types
+    assert not any("/view.js" in text for text in types)
+
+
+@pytest.mark.parametrize("room", PART_LISTS)
+def test_no_file_of_a_widget_imports_itself_in_a_circle(front_end, room):
+    graph = {name: targets for name, targets in front_end.items() if name.startswith(f"{room}/")}
+    for name in PART_LISTS[room]:
+        graph[name] = graph[name] - {view_of(room, front_end)}
+    assert len(graph) > FEWEST_FILES[room]
     assert list(graphlib.TopologicalSorter(graph).static_order())
 
 

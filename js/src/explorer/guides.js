@@ -2,10 +2,7 @@
 
 import { setAttributes, shape } from "../ui/element.js";
 
-/**
- * @typedef {import("./view.js").View} View
- * @typedef {import("../host/types.js").Point} Point
- */
+/** @typedef {import("../host/types.js").Point} Point */
 
 const COMPASS = [
   ["N", 0],
@@ -25,7 +22,7 @@ export const MODEL_LABELS = {
 };
 
 export class Guides {
-  /** @param {View} view */
+  /** @param {import("./types.js").Needs<"id" | "placeOf" | "stage" | "state" | "tables">} view */
   constructor(view) {
     this.view = view;
     this.node = shape("g", { class: "sw-guides", "aria-hidden": "true" });

@@ -16,7 +16,10 @@ import { ERROR_GRADIENT, errorColor, relativeError } from "./sky_probe.js";
 const RADIUS = 5.5; // CSS pixels
 
 export class Measured {
-  /** @param {import("./view.js").View} view */
+  /**
+   * @param {import("./types.js").Needs<"drawnKey" | "model" | "placeOf" | "radiances" | "stage"
+   *   | "state">} view
+   */
   constructor(view) {
     this.view = view;
     this.dots = shape("g", { class: "sw-measured" });
@@ -94,7 +97,11 @@ export class Measured {
   }
 }
 
-/** Make the panel's controls: choose a scan, compute scores, or download the data. @param {import("./view.js").View} view */
+/**
+ * Make the panel's controls: choose a scan, compute scores, or download the data.
+ *
+ * @param {import("./types.js").Needs<"channel" | "model" | "state">} view
+ */
 export function measuredControls(view) {
   const select = element("select", { class: "sw-select", "aria-label": "Measured scan" });
   select.addEventListener("change", () => {

@@ -15,7 +15,8 @@ export const MODEL_NAMES = {
 };
 
 /**
- * @param {import("./view.js").View} view
+ * @param {import("./types.js").Needs<"channel" | "frame" | "message" | "parameters" | "show" | "stage"
+ *   | "state" | "tables" | "tracer">} view
  * @param {AbortSignal} signal
  */
 export function modelControls(view, signal) {

@@ -11,10 +11,7 @@ import { measuredControls } from "./measured.js";
 import { MODEL_NAMES, modelControls } from "./model_controls.js";
 import { placeControls } from "./place.js";
 
-/**
- * @typedef {import("../host/types.js").Parameter} Parameter
- * @typedef {import("./view.js").View} View
- */
+/** @typedef {import("../host/types.js").Parameter} Parameter */
 
 const AIR = [
   "aerosol_optical_depth",
@@ -45,7 +42,8 @@ const HOURS = [
 ];
 
 /**
- * @param {View} view
+ * @param {import("./types.js").Needs<"channel" | "clamp" | "frame" | "message" | "model" | "number"
+ *   | "parameter" | "parameters" | "show" | "stage" | "state" | "sun" | "tables" | "tracer">} view
  * @param {AbortSignal} signal
  */
 export function panel(view, signal) {
@@ -133,7 +131,7 @@ export function panel(view, signal) {
   };
 }
 
-/** @param {View} view */
+/** @param {import("./types.js").Needs<"sun">} view */
 function hours(view) {
   const chips = HOURS.map(([label, elevation, title]) =>
     chip(label, title, () => view.sun.moveTo(view.sun.direction()[0], elevation)),
@@ -141,7 +139,7 @@ function hours(view) {
   return element("div", { class: "sw-chips" }, ...chips);
 }
 
-/** Atmospheres by name. @param {View} view */
+/** Atmospheres by name. @param {import("./types.js").Needs<"model">} view */
 function atmospheres(view) {
   /** @type {Record<string, Record<string, number>>} */
   const presets = view.model.get("_presets") ?? {};
@@ -151,7 +149,11 @@ function atmospheres(view) {
   });
 }
 
-/** Make sliders for turbidity and visibility, which also set the haze's optical depth. @param {View} view */
+/**
+ * Make sliders for turbidity and visibility, which also set the haze's optical depth.
+ *
+ * @param {import("./types.js").Needs<"clamp" | "model" | "parameter" | "parameters" | "state">} view
+ */
 function aliasSliders(view) {
   const clean = /** @type {import("./haze.js").CleanAir} */ (view.model.get("_aliases"));
   const depth = view.parameter("aerosol_optical_depth");

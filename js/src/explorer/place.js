@@ -17,7 +17,7 @@ const PLACES = [
 ];
 
 /**
- * @param {import("./view.js").View} view
+ * @param {import("./types.js").Needs<"clamp" | "number" | "parameter" | "state" | "sun">} view
  * @param {AbortSignal} signal
  */
 export function placeControls(view, signal) {

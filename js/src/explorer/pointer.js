@@ -4,15 +4,13 @@ import { turned } from "../geometry/day.js";
 import { listenToPointers, wheelZoom } from "../ui/pointers.js";
 import { GRAB } from "../ui/sun_shape.js";
 
-/**
- * @typedef {import("../host/types.js").Point} Point
- * @typedef {import("./view.js").View} View
- */
+/** @typedef {import("../host/types.js").Point} Point */
 
 const WHEEL_SHARE = 0.5; // of a picture's zoom, since the range of fields of view is small
 
 /**
- * @param {View} view
+ * @param {import("./types.js").Needs<"clamp" | "degreesPerPixel" | "directionOf" | "handle" | "hover"
+ *   | "nearestDirection" | "placeOf" | "stage" | "state" | "sun">} view
  * @param {AbortSignal} signal
  */
 export function listenToPointer(view, signal) {

@@ -4,18 +4,18 @@ import { turned } from "../geometry/day.js";
 import { openHelp } from "../ui/help_dialog.js";
 import { HISTORY_KEYS } from "../ui/keys.js";
 
-/** @typedef {import("./view.js").View} View */
+/** @typedef {import("./types.js").Needs<"number" | "root" | "state">} Reach what the keys reach */
 
 const TURN = 15; // degrees
 
-/** @type {(projection: string) => (view: View) => void} */
+/** @type {(projection: string) => (view: Reach) => void} */
 const selectProjection = (projection) => (view) => view.state.set({ projection });
 
-/** @type {(degrees: number) => (view: View) => void} */
+/** @type {(degrees: number) => (view: Reach) => void} */
 const turn = (degrees) => (view) =>
   view.state.set({ view_azimuth: turned(view.number("view_azimuth") + degrees) });
 
-/** @type {import("../ui/keys.js").Shortcut<View>[]} */
+/** @type {import("../ui/keys.js").Shortcut<Reach>[]} */
 export const SHORTCUTS = [
   { section: "View", keys: ["1"], label: "Dome", run: selectProjection("dome") },
   { section: "View", keys: ["2"], label: "Panorama", run: selectProjection("panorama") },
@@ -44,5 +44,5 @@ export const SHORTCUTS = [
   },
 ];
 
-/** @param {View} view */
+/** @param {import("./types.js").Needs<"root">} view */
 export const showKeys = (view) => openHelp(view.root, "Keys of the sky explorer", SHORTCUTS);

@@ -5,7 +5,10 @@ import { sunAt, turned } from "../geometry/day.js";
 /** @typedef {import("../host/types.js").Point} Point azimuth and apparent elevation in degrees */
 
 export class Sun {
-  /** @param {import("./view.js").View} view */
+  /**
+   * @param {import("./types.js").Needs<"clamp" | "measured" | "model" | "number" | "parameter"
+   *   | "state">} view
+   */
   constructor(view) {
     this.view = view;
   }

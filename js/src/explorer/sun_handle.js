@@ -7,7 +7,7 @@ import { EDGE, keyStep, SunShape, spotOnStage } from "../ui/sun_shape.js";
 const DOME_EDGE = 12;
 
 export class SunHandle {
-  /** @param {import("./view.js").View} view */
+  /** @param {import("./types.js").Needs<"parameter" | "placeOf" | "stage" | "state" | "sun">} view */
   constructor(view) {
     this.view = view;
     this.shape = new SunShape();

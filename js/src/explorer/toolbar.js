@@ -32,7 +32,7 @@ const PROJECTIONS = [
 const SAME_PLACE = 0.01; // degrees, as in the kernel's twin
 const KERNEL_PATIENCE_MS = 1500; // after which the browser writes the code
 
-/** @param {import("./view.js").View} view */
+/** @param {import("./types.js").Needs<"channel" | "message" | "root" | "state" | "sun">} view */
 export function toolbar(view) {
   const { state } = view;
   const projections = radioButtons({
@@ -86,7 +86,11 @@ export function toolbar(view) {
   };
 }
 
-/** Return the kernel's code, or the browser's if no kernel answers. @param {import("./view.js").View} view */
+/**
+ * Return the kernel's code, or the browser's if no kernel answers.
+ *
+ * @param {import("./types.js").Needs<"channel" | "state" | "sun">} view
+ */
 async function codeOf(view) {
   const [azimuth, elevation] = view.sun.automaticDirection();
   const sun = view.sun.direction();

@@ -7,7 +7,7 @@ const POLL_MS = 5;
 
 export class Tracer {
   /**
-   * @param {import("./view.js").View} view
+   * @param {import("./types.js").Needs<"frame" | "requestFrame" | "state">} view
    * @param {AbortSignal} signal
    */
   constructor(view, signal) {

@@ -5,7 +5,7 @@ import { Chart } from "./chart.js";
 
 const CIRCLE = 2 * Math.PI;
 
-/** @typedef {import("./plots.js").Context} Context */
+/** @typedef {import("./types.js").Context} Context */
 
 export class PhasePlot {
   /** @param {import("../../ui/theme.js").Theme} theme */

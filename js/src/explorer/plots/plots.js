@@ -21,24 +21,15 @@ const COLORS = [
 ];
 
 /**
- * @typedef {{
- *   curve: (pass: string) => Float32Array, sun: [number, number], scatteringAngle: number | null,
- *   altitude: number, measured: import("../measured.js").Scan | null,
- * }} Context inputs of a plot; the sun as azimuth and apparent elevation
- * @typedef {{
- *   moveSun: (chart: import("./chart.js").Chart) => void,
- *   point: (direction: [number, number] | null) => void,
- * }} Links a plot's actions on the sky
- * @typedef {{
- *   title: string, help: string, passes: string[], node: HTMLElement,
- *   chart: import("./chart.js").Chart, update: (context: Context) => void,
- *   extra?: HTMLElement, hover?: (angle: number | null) => void, summary?: () => string,
- * }} Plot
+ * @typedef {import("./types.js").Context} Context
+ * @typedef {import("./types.js").Links} Links
+ * @typedef {import("./types.js").Plot} Plot
  */
 
 export class Plots {
   /**
-   * @param {import("../view.js").View} view
+   * @param {import("../types.js").Needs<"frame" | "measured" | "message" | "number" | "point" | "root"
+   *   | "state" | "sun">} view
    * @param {AbortSignal} signal
    */
   constructor(view, signal) {

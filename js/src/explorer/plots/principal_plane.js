@@ -11,7 +11,7 @@ const NEAR = 8; // degrees from the plane at which a measured direction is shown
 export class PrincipalPlanePlot {
   /**
    * @param {import("../../ui/theme.js").Theme} theme
-   * @param {import("./plots.js").Links} links
+   * @param {import("./types.js").Links} links
    */
   constructor(theme, links) {
     this.title = "Along the principal plane";
@@ -85,7 +85,7 @@ export class PrincipalPlanePlot {
     if (this.chart.width) this.chart.make(this.chart.width);
   }
 
-  /** @param {import("./plots.js").Context} context */
+  /** @param {import("./types.js").Context} context */
   update({ curve, sun, measured }) {
     const texels = curve("curve_principal_plane");
     this.sun = sun;

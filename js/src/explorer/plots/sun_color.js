@@ -12,7 +12,7 @@ const illuminance = (klx) => (klx < 1 ? `${short(1000 * klx)} lx` : `${short(klx
 export class SunColorPlot {
   /**
    * @param {import("../../ui/theme.js").Theme} theme
-   * @param {import("./plots.js").Links} links
+   * @param {import("./types.js").Links} links
    */
   constructor(theme, links) {
     this.title = "The sun's color";
@@ -54,7 +54,7 @@ export class SunColorPlot {
     links.moveSun(this.chart);
   }
 
-  /** @param {import("./plots.js").Context} context */
+  /** @param {import("./types.js").Context} context */
   update({ curve, sun }) {
     this.texels = curve("curve_sun");
     this.elevation = sun[1];

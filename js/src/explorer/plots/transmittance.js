@@ -45,7 +45,7 @@ export class TransmittancePlot {
     this.node = this.chart.node;
   }
 
-  /** @param {import("./plots.js").Context} context */
+  /** @param {import("./types.js").Context} context */
   update({ curve, sun, altitude }) {
     this.elevation = sun[1];
     this.horizon = horizonElevation(altitude) - SUN_RADIUS;

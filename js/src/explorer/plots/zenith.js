@@ -50,7 +50,7 @@ export class ZenithTrackPlot {
     this.daylight = [curve.map((p) => p[0]), curve.map((p) => p[1])];
   }
 
-  /** @param {import("./plots.js").Context} context */
+  /** @param {import("./types.js").Context} context */
   update({ curve, sun }) {
     const texels = curve("curve_zenith");
     this.elevation = sun[1];
@@ -128,7 +128,7 @@ function paintDiagram() {
 export class ZenithElevationPlot {
   /**
    * @param {import("../../ui/theme.js").Theme} theme
-   * @param {import("./plots.js").Links} links
+   * @param {import("./types.js").Links} links
    */
   constructor(theme, links) {
     this.title = "Zenith through twilight";
@@ -158,7 +158,7 @@ export class ZenithElevationPlot {
     links.moveSun(this.chart);
   }
 
-  /** @param {import("./plots.js").Context} context */
+  /** @param {import("./types.js").Context} context */
   update({ curve, sun }) {
     const texels = curve("curve_zenith");
     this.elevation = sun[1];
