@@ -7,7 +7,7 @@ const EDGE = 160; // longer side of a copy, pixels
 const REST_MS = 120; // after the last full frame
 
 export class Differences {
-  /** @param {import("./view.js").View} view */
+  /** @param {import("./types.js").Needs<"model" | "panels" | "shown" | "signal" | "state">} view */
   constructor(view) {
     this.view = view;
     /** @type {ReturnType<typeof setTimeout> | undefined} */

@@ -2,11 +2,14 @@
 
 import { columns } from "./columns.js";
 
-/** @typedef {import("./view.js").View} View */
-
 const TALLEST = 680; // CSS pixels of all pictures together
 
-/** Place every picture; returns false while there is no room. @param {View} view */
+/**
+ * Place every picture; returns false while there is no room.
+ *
+ * @param {import("./types.js").Needs<"divider" | "grid" | "panels" | "root" | "shown" | "wipes"
+ *   | "zoom">} view
+ */
 export function layOut(view) {
   const { grid, zoom, panels, wipes } = view;
   const room = grid.clientWidth;
@@ -41,7 +44,11 @@ export function layOut(view) {
   return true;
 }
 
-/** Place the divider and clip the upper picture to it. @param {View} view */
+/**
+ * Place the divider and clip the upper picture to it.
+ *
+ * @param {import("./types.js").Needs<"divider" | "panels" | "shown" | "wipes">} view
+ */
 export function placeDivider(view) {
   const { divider, panels, wipes } = view;
   for (const { canvas } of panels) canvas.style.clipPath = "";

@@ -9,7 +9,6 @@ import { SunTool } from "../ui/sun_tool.js";
 /**
  * @typedef {import("../host/types.js").Edit} Edit
  * @typedef {import("../host/types.js").Point} Point
- * @typedef {import("./view.js").View} View
  * @typedef {{ label: string, recipe?: Edit, scene?: number, photo?: boolean,
  *   picture?: DataView }} Variant as sent by the kernel; only the label until the photo is
  *   analyzed. A saved notebook keeps its picture
@@ -17,7 +16,7 @@ import { SunTool } from "../ui/sun_tool.js";
 
 export class Panel extends PictureStage {
   /**
-   * @param {View} view
+   * @param {import("./types.js").Needs<"scenes" | "state" | "variants" | "zoom">} view
    * @param {number} index of its variant
    * @param {AbortSignal} signal
    */

@@ -7,9 +7,11 @@ const EDGE = 960; // for all pictures together: more pictures are smaller
 /** What a notebook saves while there is no view, and so no picture. */
 export const savedWithoutView = () => ({ _photo: noBytes(), _scenes: [] });
 
-/** @param {import("./view.js").View} view @param {AbortSignal} signal */
-export function saved(view, signal) {
-  const { model, panels } = view;
+/**
+ * @param {import("./types.js").Needs<"model" | "panels">} needs
+ * @param {AbortSignal} signal
+ */
+export function saved({ model, panels }, signal) {
   /** @type {Record<string, unknown> | null} saved state of the closed view */
   let last = null;
   const light = () => {

@@ -3,9 +3,12 @@
 import { openHelp } from "../ui/help_dialog.js";
 import { HISTORY_KEYS, isTaken, runShortcut, zoomKeys } from "../ui/keys.js";
 
-/** @typedef {import("./view.js").View} View */
+/**
+ * @typedef {import("./types.js").Needs<"model" | "root" | "setArrangement" | "setDifference"
+ *   | "state" | "wipes" | "zoom">} Reach what the keys reach
+ */
 
-/** @type {import("../ui/keys.js").Shortcut<View>[]} */
+/** @type {import("../ui/keys.js").Shortcut<Reach>[]} */
 const SHORTCUTS = [
   {
     section: "Pictures",
@@ -42,7 +45,7 @@ const SHORTCUTS = [
 ];
 
 /**
- * @param {View} view
+ * @param {Reach} view
  * @param {AbortSignal} signal
  */
 export function listenToKeys(view, signal) {

@@ -6,9 +6,10 @@ import { element } from "../ui/element.js";
 import { historyButtons } from "../ui/history_buttons.js";
 import { zoomButtons } from "../ui/zoom_buttons.js";
 
-/** @typedef {import("./view.js").View} View */
-
-/** @param {View} view */
+/**
+ * @param {import("./types.js").Needs<"hasOwnSuns" | "model" | "pair" | "setArrangement"
+ *   | "setDifference" | "setPair" | "state" | "variants" | "wipes" | "zoom">} view
+ */
 export function toolbar(view) {
   const arrangement = radioButtons({
     label: "Arrangement",
