@@ -9,7 +9,7 @@ from sunwidget.atmosphere.constants import (
     LUMINOUS_EFFICACY,
     SPECTRAL_TO_REC709,
     SPECTRAL_TO_XYZ,
-    color_matching,
+    colour_matching,
 )
 
 Array = NDArray[np.float64]
@@ -35,7 +35,7 @@ def spectrum_to_xyz(wavelengths: ArrayLike, radiance: ArrayLike) -> Array:
     Uses the trapezoidal rule; the wavelengths should cover 380-780 nm in steps of 10 or less.
     """
     nm = np.asarray(wavelengths, float)
-    weights = color_matching(nm) * np.gradient(nm)[:, None]
+    weights = colour_matching(nm) * np.gradient(nm)[:, None]
     weights[[0, -1]] /= 1.0 if len(nm) < 2 else 2.0
     return np.asarray(radiance, float) @ weights * (LUMINOUS_EFFICACY / 1000)
 

@@ -59,7 +59,7 @@ def solar_irradiance(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:
     )
 
 
-def color_matching(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:
+def colour_matching(wavelength_nm: ArrayLike = WAVELENGTHS) -> Array:
     """Return the CIE 1931 2° color-matching functions, shape (..., 3)."""
     nm = np.asarray(wavelength_nm, float)
     table = _TABLE["cie_1931_xyz"]

@@ -85,7 +85,7 @@ def ozone_cross_section(at: Array) -> Array:
     return per_atm_cm / (1000 * MOLECULES_PER_DOBSON)
 
 
-def color_matching(at: Array) -> Array:
+def colour_matching(at: Array) -> Array:
     """Return the CIE 1931 2° color-matching functions, (n, 3)."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -129,7 +129,7 @@ def spectral_to_xyz(solar: Array) -> Array:
     and dark skies have the same weight.
     """
     nm = np.arange(360.0, 831.0, 1.0)
-    weights = solar_irradiance_1nm(nm)[:, None] * color_matching(nm)
+    weights = solar_irradiance_1nm(nm)[:, None] * colour_matching(nm)
     spectra = training_spectra(nm)
     xyz = spectra @ weights * (LUMINOUS_EFFICACY / 1000)
     samples = np.stack([np.interp(WAVELENGTHS, nm, row) for row in spectra]) * solar
@@ -154,7 +154,7 @@ def constants() -> dict[str, Any]:
         "wavelength_nm": TABLE,
         "solar_W_m2_nm": solar_irradiance(TABLE),
         "ozone_m2": ozone_cross_section(TABLE),
-        "cie_1931_xyz": color_matching(TABLE),
+        "cie_1931_xyz": colour_matching(TABLE),
     }
     return {
         "ground_radius_m": GROUND_RADIUS,
