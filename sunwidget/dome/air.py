@@ -18,6 +18,7 @@ from sunwidget.atmosphere.optics import direct_irradiance
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.dome.sphere import distance, sample
 from sunwidget.formats.color import LUMINANCE
+from sunwidget.geometry.place import wrap_angle
 
 Floats = NDArray[np.float32]
 
@@ -180,7 +181,7 @@ def hidden_sun(
     shown, _, usable = _samples(light, sky, None, azimuth, elevation)
     where = azimuth[usable], elevation[usable]
     best, sure, spread = search_sun(shown[usable], where, expected, nowhere, lambda _share: None)
-    aside = abs((best[0] - at[0] + 180) % 360 - 180)
+    aside = abs(wrap_angle(best[0] - at[0]))
     return (float(at[0]) if aside < _ASIDE else best[0], best[1]), sure, spread
 
 

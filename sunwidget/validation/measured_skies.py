@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from sunwidget.atmosphere.color import spectral_to_rec709
 from sunwidget.atmosphere.constants import WAVELENGTHS
+from sunwidget.geometry.place import wrap_angle
 from sunwidget.validation.download import FILE_NAME, MeasurementsError, default_path, read_raw_scans
 
 Array = NDArray[np.float64]
@@ -115,7 +116,7 @@ class Measurements:
         return {
             "time": self.times[index].isoformat(),
             "sun_elevation": round(float(self.sun_elevation[index]), 3),
-            "sun_azimuth": round(float(_center(self.sun_azimuth[index])), 3),
+            "sun_azimuth": round(float(wrap_angle(self.sun_azimuth[index])), 3),
             "directions": np.stack([azimuth, self.elevation], axis=1).round(4).tolist(),
             "radiance": four.tolist(),
             "rgb": spectral_to_rec709(four).tolist(),
@@ -272,7 +273,3 @@ def _sun_elevation(time: dt.datetime) -> float:
     from sunwidget.geometry.solar import solar_position
 
     return float(solar_position(time, LATITUDE, LONGITUDE).true_elevation)
-
-
-def _center(azimuth: float) -> float:
-    return (azimuth + 180) % 360 - 180

@@ -16,6 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sunwidget.geometry.place import wrap_angle
+
 GOOD_FIT = 0.3
 """Largest mean error, in stops, of the sky's change under other suns for a good fit."""
 
@@ -195,7 +197,7 @@ def _angles(azimuth: np.ndarray, elevation: np.ndarray, sun: tuple[float, float]
 
 
 def _turn(one: float, other: float) -> float:
-    return abs((one - other + 180) % 360 - 180)
+    return abs(wrap_angle(one - other))
 
 
 def probability(weights: tuple[float, ...], features: np.ndarray) -> float:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import threading
 from collections.abc import Iterator
 from typing import Any
 
@@ -19,7 +18,7 @@ from sunwidget.edit.recipe import edit_of
 from sunwidget.edit.table import PARAMETERS, Edit
 from sunwidget.errors import EditError
 from sunwidget.messages import did_you_mean
-from sunwidget.widgets.kernel.edit_traits import AnswersRefusals, edit_traits
+from sunwidget.widgets.kernel.edit_traits import ChangedByBrowser, edit_traits
 
 NAMES = tuple(p.name for p in PARAMETERS)
 HISTORY_LENGTH = 100
@@ -31,7 +30,7 @@ NAME_LENGTH = 80
 Recipe = dict[str, Any]
 
 
-class EditHistory(AnswersRefusals):
+class EditHistory(ChangedByBrowser):
     """A widget whose traits are the parameters of an ``Edit``.
 
     Parameters
@@ -51,8 +50,6 @@ class EditHistory(AnswersRefusals):
     locals().update(edit_traits())
 
     def __init__(self, start: Edit, **state: Any) -> None:
-        self._lock = threading.RLock()
-        self._browser_thread: int | None = None
         self._applying = False
         self._committed = start
         values = {name: getattr(start, name) for name in NAMES}
@@ -169,11 +166,9 @@ class EditHistory(AnswersRefusals):
     def set_state(self, sync_data: dict[str, Any]) -> None:
         """Apply state from the browser; report a rejected value instead of raising."""
         with self._lock:
-            self._browser_thread = threading.get_ident()
             try:
                 super().set_state(sync_data)
             finally:
-                self._browser_thread = None
                 self._committed = self.edit
 
     @traitlets.validate("_history")
@@ -217,7 +212,7 @@ class EditHistory(AnswersRefusals):
             self._applying = False
 
     def _on_edit(self, _change: Any) -> None:
-        if self._applying or self._browser_thread == threading.get_ident():
+        if self._applying or self._from_browser():
             return
         with self._lock:
             edit = self.edit

@@ -9,13 +9,13 @@ import traitlets
 from sunwidget.explorer import table
 from sunwidget.explorer.table import EXPLORER_PARAMETERS
 from sunwidget.explorer.values import effective_values
-from sunwidget.widgets.kernel.edit_traits import AnswersRefusals, edit_traits
+from sunwidget.widgets.kernel.edit_traits import ChangedByBrowser, edit_traits
 from sunwidget.widgets.kernel.payload import parameter_json
 
 NAMES = tuple(p.name for p in EXPLORER_PARAMETERS)
 
 
-class ExplorerParameters(AnswersRefusals):
+class ExplorerParameters(ChangedByBrowser):
     """A widget with one trait for each row of the explorer's table."""
 
     _parameters: traitlets.List = traitlets.List(read_only=True).tag(sync=True)

@@ -1,7 +1,6 @@
 """The sun of SkyExplorer: placed by the user, by a place's time, or by a measured sky.
 
 The browser moves the sun along the path in ``_day``, which the kernel computes.
-Handlers may run on any thread: JupyterLab sends messages to kernel subshells.
 """
 
 from __future__ import annotations
@@ -9,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import datetime as dt
 import math
-import threading
 from collections.abc import Iterator
 from typing import Any
 
@@ -18,6 +16,7 @@ import traitlets
 
 from sunwidget.explorer import table
 from sunwidget.geometry import solar
+from sunwidget.geometry.place import wrap_angle
 from sunwidget.validation import measurements
 from sunwidget.widgets.explorer.answers import scans
 from sunwidget.widgets.explorer.parameters import ExplorerParameters
@@ -37,8 +36,6 @@ class SunFollower(ExplorerParameters):
     _scans: traitlets.List = traitlets.List().tag(sync=True, echo_update=False)
 
     def __init__(self, **parameters: Any) -> None:
-        self._lock = threading.RLock()
-        self._browser_thread: int | None = None
         self._moving = False
         super().__init__(_scans=scans(), **parameters)
         self._refresh_day()
@@ -76,15 +73,6 @@ class SunFollower(ExplorerParameters):
         """Search this machine for measured skies again, after ``measurements.download()``."""
         self._scans = scans()
 
-    def set_state(self, sync_data: dict[str, Any]) -> None:
-        """Take over the browser's traits; an invalid value is answered, not raised."""
-        with self._lock:
-            self._browser_thread = threading.get_ident()
-            try:
-                super().set_state(sync_data)
-            finally:
-                self._browser_thread = None
-
     @contextlib.contextmanager
     def _moving_the_sun(self) -> Iterator[None]:
         """Mark that the time or the scan moves the sun meanwhile, not the user."""
@@ -120,7 +108,7 @@ class SunFollower(ExplorerParameters):
     def _sun_follows(self) -> bool:
         """Return whether the sun is where the time, the scan or else the table puts it."""
         azimuth, elevation = self._followed_sun()
-        turn = (self.sun_azimuth - azimuth + 180) % 360 - 180
+        turn = wrap_angle(self.sun_azimuth - azimuth)
         return math.hypot(turn, self.sun_elevation - elevation) < _SAME_PLACE
 
     def _follow_time(self) -> None:
@@ -134,13 +122,13 @@ class SunFollower(ExplorerParameters):
             self._follow_time()
 
     def _on_time(self, _change: Any) -> None:
-        if self._browser_thread != threading.get_ident():  # the browser has already moved the sun
+        if not self._from_browser():  # the browser has already moved the sun
             with self._lock:
                 self._follow_time()
 
     def _on_sun(self, _change: Any) -> None:
         # The user moved the sun off its path; the browser does the same.
-        if self._moving or self._browser_thread == threading.get_ident():
+        if self._moving or self._from_browser():
             return
         if self._day and not self._sun_follows():
             self.time = None

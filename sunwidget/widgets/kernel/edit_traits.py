@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -58,6 +59,31 @@ class AnswersRefusals(anywidget.AnyWidget):
         except self._refusals as error:
             self.send({"type": "error", "error": str(error)})
             self.send_state([name for name in sync_data if name in self.keys])
+
+
+class ChangedByBrowser(AnswersRefusals):
+    """A widget that knows whether the browser changes its traits, or Python.
+
+    Handlers may run on any thread: JupyterLab sends messages to kernel subshells.
+    """
+
+    def __init__(self, **traits: Any) -> None:
+        self._lock = threading.RLock()
+        self._browser_thread: int | None = None
+        super().__init__(**traits)
+
+    def set_state(self, sync_data: dict[str, Any]) -> None:
+        """Apply state from the browser; report a rejected value instead of raising."""
+        with self._lock:
+            self._browser_thread = threading.get_ident()
+            try:
+                super().set_state(sync_data)
+            finally:
+                self._browser_thread = None
+
+    def _from_browser(self) -> bool:
+        """Return whether this thread is applying state from the browser."""
+        return self._browser_thread == threading.get_ident()
 
 
 def edit_traits(

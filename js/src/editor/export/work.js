@@ -1,6 +1,7 @@
 /** Long work that the user waits for, one at a time: saving a picture or page, an export. */
 
 import { Canceled } from "../../host/channel.js";
+import { errorText } from "../../host/error_text.js";
 
 export class Work {
   /** @param {import("../types.js").Needs<"notices" | "stage" | "state">} needs */
@@ -37,9 +38,11 @@ export class Work {
       await make(this.controller.signal);
       this.notices.hide("save");
     } catch (error) {
-      const why = error instanceof Error ? error.message : String(error);
       this.notices.show("save", {
-        text: error instanceof Canceled ? `${what} was canceled.` : `${what} failed: ${why}`,
+        text:
+          error instanceof Canceled
+            ? `${what} was canceled.`
+            : `${what} failed: ${errorText(error)}`,
         actions: [{ label: "Try again", run: () => this.run(what, make) }],
       });
     } finally {
