@@ -218,3 +218,17 @@ def test_land_that_glowed_before_a_low_sun_is_not_burnt_by_day():
     day = render(known.analyze(picture), noon, dtype="float32")[land]
     assert 0.8 < day.mean() < 0.95
     assert day.max() < 0.99
+
+
+def test_no_dark_line_is_left_along_bright_land_before_the_old_sun():
+    photo = known_photo(sun=(8.0, 3.0), clouds=False, size=(240, 160))
+    picture = photo.linear.copy()
+    picture[photo.sky == 0] = (0.6, 0.45, 0.3)
+    matte = cv2.GaussianBlur((photo.sky > 0).astype(np.float32), (0, 0), 1.2)
+    code = np.uint8(np.clip(255 * picture ** (1 / 2.2), 0, 255))
+    scene = photo.analyze(code, sky=np.uint8(np.round(255 * matte)))
+    frame = render(scene, Edit(sun_azimuth=70, sun_elevation=35), dtype="float32") @ LUMINANCE
+    column = round(photo.camera.pixel(*photo.sun)[0])
+    skyline = int(np.argmax(photo.sky[:, column] == 0))
+    near = frame[skyline - 6 : skyline + 7, column - 5 : column + 5]
+    assert (near.min(0) > 0.9 * np.minimum(near[0], near[-1])).all()

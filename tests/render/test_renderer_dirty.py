@@ -132,7 +132,7 @@ def test_a_new_texture_is_drawn(passes_run_by):
         on_gl_thread(lambda _: graph.set_texture("photo", textures["photo"] * np.float32(0.5)))
         assert passes_run_by(edit) == {
             *("soft_sky", "retouched", "sky_behind", "water_level", "water_behind"),
-            *("scene_light", "frame"),
+            *("scene_light", "own_sky", "frame"),
         }
         assert module.render(scene, edit).mean() < 0.9 * first.mean()
     finally:

@@ -167,3 +167,11 @@ def test_land_that_darkens_does_not_drown_in_black():
     scene = known_scene()
     land = (scene.sky < 0.02) & (render(scene)[..., :3].max(-1) > 15)
     assert render(scene, Edit(sun_elevation=-4, exposure=-4))[..., :3].max(-1)[land].min() >= 8
+
+
+def test_dusk_without_a_sky_is_dark():
+    photo = known_photo()
+    scene = photo.analyze(sky=np.zeros_like(photo.sky), sun=None)
+    before = rendered(scene, Edit()).mean()
+    assert 0.15 < rendered(scene, DUSK).mean() / before < 0.6
+    assert rendered(scene, Edit(sun_elevation=8)).mean() / before > 0.6

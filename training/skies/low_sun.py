@@ -38,8 +38,14 @@ def small(picture: np.ndarray) -> np.ndarray:
     return cv2.resize(picture, (WIDTH, height), interpolation=cv2.INTER_AREA)
 
 
-def profile(picture: np.ndarray, sky: np.ndarray, x: float, y: float) -> np.ndarray:
-    """Median code values (6, 3) of the sky by distance from a place; NaN where there is none.
+def profile(
+    picture: np.ndarray,
+    sky: np.ndarray,
+    x: float,
+    y: float,
+    distances: tuple[float, ...] = DISTANCES,
+) -> np.ndarray:
+    """Median code values (n - 1, 3) of the sky between n distances; NaN where there is none.
 
     ``sky`` is a matte, 0 to 255; ``x`` and ``y`` are fractions of width and height.
     """
@@ -47,8 +53,8 @@ def profile(picture: np.ndarray, sky: np.ndarray, x: float, y: float) -> np.ndar
     inside = cv2.erode((sky > 247).astype(np.uint8), np.ones((7, 7)), borderValue=1) > 0
     rows, columns = np.mgrid[: len(picture), :WIDTH] + 0.5
     away = np.hypot(columns / WIDTH - x, (rows - y * len(picture)) / WIDTH)
-    found = np.full((len(DISTANCES) - 1, 3), np.nan)
-    for i, (near, far) in enumerate(pairwise(DISTANCES)):
+    found = np.full((len(distances) - 1, 3), np.nan)
+    for i, (near, far) in enumerate(pairwise(distances)):
         here = inside & (away >= near) & (away < far)
         if here.sum() >= FEWEST:
             found[i] = np.median(picture[here], 0)

@@ -19,13 +19,11 @@ uniform sampler2D visibility_edit;
 uniform sampler2D meter_source;
 uniform sampler2D meter_edit;
 uniform float sun_azimuth;
-uniform float sun_elevation;
 uniform float sun_size;
 uniform float sun_visibility;
 uniform float source_sun_visibility;
 uniform float altitude;
 uniform float source_sun_azimuth;
-uniform float source_sun_elevation;
 uniform float land_facing;
 uniform float source_land_facing;
 uniform float colourfulness;
@@ -49,6 +47,9 @@ const float kGlareFade = 4.0;
 // beyond what `auto_exposure` already leaves out; a smaller amount keeps the land readable.
 const float kNightKey = 1.6;
 const vec2 kNightBegins = vec2(5.9, -5.06);
+
+// The amount (EV) by which dusk is darker than a meter makes it where no sky is visible.
+const float kDuskStops = 1.4;
 
 // If a visible sun would clip the sky, a camera exposes for the sky: it reduces the exposure by kProtection
 // of the amount by which the sky's mean exceeds kBrightSky (display-linear).
@@ -119,7 +120,9 @@ float GetSkyLift() {
 
 float GetStops() {
   float night = GetNightStops(GetMeter(meter_edit).r) - GetNightStops(GetMeter(meter_source).r);
-  return exposure + GetRestraint() * auto_exposure * (GetDayStops() - night) + GetSkyLift();
+  // A meter that sees no bright sky restores the land's daylight, but dusk must look like dusk.
+  float dusk = kDuskStops * (1.0 - GetSkySeen()) * (GetDusk(sun_elevation) - GetDusk(source_sun_elevation));
+  return exposure + auto_exposure * (GetRestraint(sun_elevation) * (GetDayStops() - night) - dusk) + GetSkyLift();
 }
 
 // The glare of a sun in a picture that is exposed for it, scaled with any other exposure.
@@ -151,7 +154,7 @@ float GetLandExcess(float level) {
 float GetLift() {
   vec4 share = texelFetch(land_terms, ivec2(16, 0), 0);
   float stops = auto_exposure * GetDayStops() + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
-  stops *= GetRestraint();
+  stops *= GetRestraint(sun_elevation);
   float lift = kLift * (GetExcess(kDark - stops) - GetExcess(kDark));
   float level = log2(max(GetLuminance(photo_land_linear_mean), 1e-4));
   return auto_exposure * (lift - kBrightLandReduction * (GetLandExcess(level + stops) - GetLandExcess(level)))

@@ -52,6 +52,9 @@ void main() {
   vec4 behind_texel = texelFetch(sky_behind, texel, 0);
   vec3 sky_marks = UnpackLevels(behind_texel.a);
   vec3 clean = behind_texel.rgb;
+#ifndef LAND_ALONE
+  vec3 own = ReadBilinear(own_sky, place).rgb;
+#endif
 #ifdef SKY_ALONE
   // Three powers cost less than reading a map that nothing else here needs.
   vec3 scene = GetSceneLight(display);
@@ -68,11 +71,13 @@ void main() {
   vec3 behind = scene;
 #elif defined(LAND_ALONE)
   const float matte = 0.0;
+  const float nearby = 0.0;
   float glare = sky_marks.b;
   vec3 front = scene;
 #else
   float matte = sky_marks.r;
   float glare = sky_marks.b;
+  float nearby = own.b * step(1e-3, matte);
   vec3 share = GetSkyShare(matte, scene, clean, glare, GetIrradianceBefore(GetUprightness(view)));
   vec3 behind = scene * share / max(matte, 1e-4);
   vec3 front = scene * (1.0 - share) / max(1.0 - matte, 1e-4);
@@ -86,7 +91,7 @@ void main() {
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   vec3 disc = GetDisc(view, GetDescribedSun());
   change += matte
-      * GetSkyChange(behind, clean, opacity, glare, ReadBilinear(own_sky, place).rg, sky_before, sky_now, view, disc);
+      * GetSkyChange(behind, clean, opacity, glare, own.rg, sky_before, sky_now, view, disc);
 #endif
 
 #ifndef SKY_ALONE
@@ -95,7 +100,7 @@ void main() {
   float upright = GetUprightness(view);
   vec3 lit_before = GetIrradianceBefore(upright);
   float removed = glare * GetMoved() * (1.0 - wet);
-  vec3 land = RemoveGlare(front, removed, lit_before);
+  vec3 land = RemoveGlare(front, removed, lit_before, nearby);
   removed = min(removed, max(1.0 - GetLuminance(land) / max(GetLuminance(front), 1e-6), 0.0));
   float shine = GetSkySeen() * (1.0 - upright / kMostUpright) * GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);

@@ -133,6 +133,6 @@ LandLight GetLandLight(float lit) {
   vec3 plain_now = GetIrradiance(8, land, 1.0, 0.0, 0.5, land_facing, down, all_now);
   // Without a sky all land changes alike.
   vec3 common_ratio = GetRatio(plain_now, plain_before);
-  common_ratio = mix(pow(common_ratio, vec3(kRestraint)), vec3(1.0), equal(common_ratio, vec3(1.0)));
+  common_ratio = mix(pow(common_ratio, vec3(GetRestraint(degrees(asin(GetTerm(15).y))))), vec3(1.0), equal(common_ratio, vec3(1.0)));
   return LandLight(before, common_ratio + GetSkySeen() * (ratio - common_ratio), level);
 }

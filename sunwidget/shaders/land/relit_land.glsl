@@ -11,6 +11,8 @@
 const float kDarkLand = 0.15;
 // Albedo of dark land.
 const float kDarkAlbedo = 0.2;
+// Least luminance of land at the skyline relative to the land nearby.
+const float kNearby = 0.5;
 // Share of the light's color in land whose light has changed color.
 const float kLitColor = 0.35;
 // Share of the photo's balance that this light has lost.
@@ -28,9 +30,11 @@ uniform float exposure;
 uniform int colour_loss;  // 0 preserves luminance, 1 follows eq. 3.8 of the thesis
 
 // Removes the old sun's glare in front of the land, but leaves at least dark land in its light, or land as
-// dark as this landscape's: along the skyline `share` is the sky's, and would leave a black line.
-vec3 RemoveGlare(vec3 light, float share, vec3 lit_before) {
+// dark as this landscape's. Along the skyline `share` is the sky's and would leave a black line: there the land is not
+// much darker than the land nearby (luminance `nearby`, 0 elsewhere).
+vec3 RemoveGlare(vec3 light, float share, vec3 lit_before, float nearby) {
   vec3 least = min(kDarkAlbedo / 3.14159265 * lit_before, GetSceneLight(photo_land_linear_mean));
+  least = max(least, kNearby * nearby / max(GetLuminance(light), 1e-6) * light);
   return max(light * (1.0 - share), min(light, least));
 }
 

@@ -1,5 +1,6 @@
 // r: how much brighter the photo's sky without its sun is than the model with clouds, slowly varying (log of
-// luminance). g: how far that exceeds the rest of the sky, away from the sun. Drawn once per photo.
+// luminance). g: how far that exceeds the rest of the sky, away from the sun. b: luminance of the land nearby, almost 0
+// where there is none. Drawn once per photo.
 
 #define PHOTOS_OWN_LIGHT
 #include "frame/picture.glsl"
@@ -10,12 +11,12 @@
 #include "sky/nearness.glsl"
 #include "camera/response.glsl"
 
+uniform sampler2D photo;
 uniform sampler2D layers;
 uniform sampler2D backdrop;
 uniform sampler2D sky_view;
 uniform sampler2D light_before;
 uniform float source_sun_azimuth;
-uniform float source_sun_elevation;
 uniform vec2 pass_size;
 
 out vec4 result;
@@ -35,10 +36,13 @@ vec3 GetModel(vec2 place, vec3 light, float opacity, vec3 ambient, vec3 direct) 
   return mix(sky, GetCloud(ambient, direct, share, sky, sun, view, opacity), opacity);
 }
 
+float GetInside(vec2 tap) {
+  return step(0.0, tap.x) * step(tap.x, 1.0) * step(0.0, tap.y) * step(tap.y, 1.0);
+}
+
 float GetWeight(vec2 tap) {
-  float inside = step(0.0, tap.x) * step(tap.x, 1.0) * step(0.0, tap.y) * step(tap.y, 1.0);
   float matte = ReadPicture(layers, tap).r;
-  return inside * matte * matte;
+  return GetInside(tap) * matte * matte;
 }
 
 // Log of the photo's luminance over the model's.
@@ -59,9 +63,13 @@ void main() {
   vec2 pace = kReach / float(kTaps) * max(frame_size.x, frame_size.y) / frame_size;
   float sum = 0.0;
   float total = 1e-6;
+  // Of the land nearby a geometric mean: dark twigs count as much as what lies behind them.
+  vec2 land = vec2(-0.01, 1e-3);
   for (int i = -kTaps; i <= kTaps; ++i) {
     for (int j = -kTaps; j <= kTaps; ++j) {
       vec2 tap = place + vec2(i, j) * pace;
+      float near = GetInside(tap) * step(ReadPicture(layers, tap).r, 0.02) * exp(-float(i * i + j * j));
+      land += near * vec2(log(max(GetLuminance(GetSceneLight(ReadPicture(photo, tap).rgb)), 1e-4)), 1.0);
       float weight = GetWeight(tap) * exp(-2.0 * float(i * i + j * j) / float(kTaps * kTaps));
       if (weight < 1e-4) continue;
       sum += weight * GetLogExcess(tap, ambient, direct);
@@ -84,5 +92,5 @@ void main() {
   }
   elsewhere /= max(known, 1e-4);
   float more = known / (known + kFewest) * (own - elsewhere);
-  result = vec4(own, more, 0.0, 0.0);
+  result = vec4(own, more, exp(land.x / land.y), 0.0);
 }
