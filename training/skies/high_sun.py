@@ -1,4 +1,4 @@
-"""Compare blue skies around high suns in photos and in edits (camera/white_balance.glsl).
+"""Compare blue skies around high suns in photos and in edits (sky/day_color.glsl).
 
     python -m training.skies.high_sun DATA [--photos 100]
 
@@ -18,12 +18,11 @@ import numpy as np
 
 import sunwidget as sw
 from sunwidget.formats.color import LUMINANCE, srgb_to_linear
-from training.skies.low_sun import WIDTH, photos, profile
+from training.skies.low_sun import LEAST_SKY, edit_profile, photos, profile, seen_suns
 
 DISTANCES = (0.03, 0.06, 0.1, 0.14, 0.2, 0.28, 0.38, 0.5, 0.65)  # in widths of the picture
 HIGH = 0.3  # widths above the skyline: a sun by day
 BLUE = 20  # code values of blue over red, far from the sun or as the sky's median
-LEAST_SKY = 0.2
 HEIGHTS = (12, 20)  # degrees
 AZIMUTH = -20
 
@@ -36,15 +35,10 @@ def is_blue(color: np.ndarray) -> bool:
 def real(data: Path) -> list[np.ndarray]:
     """Profiles of photos of a high sun in a blue sky."""
     found = []
-    for photo, path in photos(data, True):
-        picture = cv2.imread(str(path))
-        sky = cv2.imread(str(path.parents[1] / "masks" / f"{path.stem}.png"), 0)
-        if picture is None or sky is None or (sky > 247).mean() < LEAST_SKY:
+    for height, picture, sky, photo in seen_suns(data):
+        if height < HIGH:
             continue
-        skyline = np.median([np.flatnonzero(c > 247)[-1] for c in sky.T if (c > 247).any()])
-        if (skyline / len(sky) - photo.y) * len(picture) / picture.shape[1] < HIGH:
-            continue
-        colors = profile(picture[..., ::-1], sky, photo.x, photo.y, DISTANCES)
+        colors = profile(picture, sky, photo.x, photo.y, DISTANCES)
         known = colors[np.isfinite(colors).all(1)]
         if len(known) and is_blue(known[-1]):
             found.append(colors)
@@ -57,17 +51,12 @@ def ours(data: Path, most: int) -> dict[int, list[np.ndarray]]:
     for _, path in photos(data, False, most):
         scene = sw.analyze(sw.open(path))
         sky = np.uint8(255 * np.asarray(scene.sky))
-        size = (WIDTH, round(WIDTH * scene.camera.height / scene.camera.width))
-        before = sw.render(scene, sw.Edit(), size=size)[..., :3]
-        inside = cv2.resize(sky, size) > 247
+        before = sw.render(scene, sw.Edit())[..., :3]
+        inside = cv2.resize(sky, before.shape[1::-1]) > 247
         if inside.mean() < LEAST_SKY or not is_blue(np.median(before[inside], 0)):
             continue
         for height in HEIGHTS:
-            edit = sw.Edit(sun_azimuth=AZIMUTH, sun_elevation=height)
-            frame = np.ascontiguousarray(sw.render(scene, edit, size=size)[..., :3])
-            x, y = scene.camera.pixel(AZIMUTH, height)
-            place = (x / scene.camera.width, y / scene.camera.height)
-            found[height].append(profile(frame, cv2.resize(sky, size), *place, DISTANCES))
+            found[height].append(edit_profile(scene, sky, (AZIMUTH, height), DISTANCES))
     return found
 
 

@@ -29,6 +29,7 @@ DISTANCES = (0.04, 0.08, 0.14, 0.22, 0.32, 0.45, 0.65)  # in widths of the pictu
 HEIGHTS = {0.7: (-0.03, 0.03), 3: (0.03, 0.07), 6: (0.07, 0.13), 10: (0.13, 0.2), 15: (0.2, 0.3)}
 REACH = 0.3  # widths
 FEWEST = 200  # pixels for a color estimate
+LEAST_SKY = 0.2  # of the picture
 SEED = 16
 
 
@@ -70,21 +71,41 @@ def photos(data: Path, suns: bool, most: int = 10**6) -> Iterator[tuple[Photo, P
         yield photo, data / "train" / folder / "images" / name
 
 
-def real(data: Path) -> dict[float, list[np.ndarray]]:
-    """Profiles of photos by the sun's height."""
-    found: dict[float, list[np.ndarray]] = {height: [] for height in HEIGHTS}
+def seen_suns(data: Path) -> Iterator[tuple[float, np.ndarray, np.ndarray, Photo]]:
+    """Yield the sun's height over the skyline (widths), RGB picture, matte and label of photos."""
     for photo, path in photos(data, True):
         picture = cv2.imread(str(path))
         sky = cv2.imread(str(path.parents[1] / "masks" / f"{path.stem}.png"), 0)
-        if picture is None or sky is None or (sky > 247).mean() < 0.2:
+        if picture is None or sky is None or (sky > 247).mean() < LEAST_SKY:
             continue
         rows = [np.flatnonzero(column > 247) for column in sky.T]
         skyline = np.median([row[-1] for row in rows if row.size]) / len(sky)
         height = (skyline - photo.y) * len(picture) / picture.shape[1]
+        yield height, picture[..., ::-1], sky, photo
+
+
+def real(data: Path) -> dict[float, list[np.ndarray]]:
+    """Profiles of photos by the sun's height."""
+    found: dict[float, list[np.ndarray]] = {height: [] for height in HEIGHTS}
+    for height, picture, sky, photo in seen_suns(data):
         for name, (low, high) in HEIGHTS.items():
             if low <= height < high:
-                found[name].append(profile(picture[..., ::-1], sky, photo.x, photo.y))
+                found[name].append(profile(picture, sky, photo.x, photo.y))
     return found
+
+
+def edit_profile(
+    scene: sw.Scene,
+    sky: np.ndarray,
+    sun: tuple[float, float],
+    distances: tuple[float, ...] = DISTANCES,
+) -> np.ndarray:
+    """``profile`` of the edit with its sun at an azimuth and elevation, degrees."""
+    edit = sw.Edit(sun_azimuth=sun[0], sun_elevation=sun[1])
+    frame = np.ascontiguousarray(sw.render(scene, edit)[..., :3])
+    x, y = scene.camera.pixel(*sun)
+    place = (x / scene.camera.width, y / scene.camera.height)
+    return profile(frame, cv2.resize(sky, frame.shape[1::-1]), *place, distances)
 
 
 def ours(data: Path, most: int) -> dict[float, list[np.ndarray]]:
@@ -93,15 +114,10 @@ def ours(data: Path, most: int) -> dict[float, list[np.ndarray]]:
     for _, path in photos(data, False, most):
         scene = sw.analyze(sw.open(path))
         sky = np.uint8(255 * np.asarray(scene.sky))
-        if (sky > 247).mean() < 0.2:
+        if (sky > 247).mean() < LEAST_SKY:
             continue
         for height in HEIGHTS:
-            frame = np.ascontiguousarray(
-                sw.render(scene, sw.Edit(sun_azimuth=8, sun_elevation=height))[..., :3]
-            )
-            x, y = scene.camera.pixel(8, height)
-            place = (x / scene.camera.width, y / scene.camera.height)
-            found[height].append(profile(frame, cv2.resize(sky, frame.shape[1::-1]), *place))
+            found[height].append(edit_profile(scene, sky, (8, height)))
     return found
 
 
