@@ -47,7 +47,7 @@ class Shaders:
     def __init__(self, context):
         self.context = context
         self.graph = FrameGraph(Programs(context), {})
-        text = EGL_HEADER + resolve_includes("atmosphere/read_sky_view.glsl") + PROBE
+        text = EGL_HEADER + resolve_includes("atmosphere/sun_disc_radiance.glsl") + PROBE
         self.probe = context.program(vertex_shader=FULL_SCREEN_TRIANGLE, fragment_shader=text)
         self.triangle = context.vertex_array(self.probe, [])
 

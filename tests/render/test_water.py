@@ -293,6 +293,36 @@ def test_posts_beside_the_old_glints_neither_repeat_in_their_place_nor_darken_it
     assert posted.mean((0, 2)).std() < plain.mean((0, 2)).std() + 1
 
 
+def test_water_under_a_wide_column_is_as_bright_as_beside_it():
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
+    waves = cv2.GaussianBlur(
+        np.random.default_rng(8).standard_normal(rows.shape), (0, 0), 3.0, sigmaY=0.7
+    )
+    away = np.hypot(columns - 150, rows - 75)
+    picture = shore().astype(np.float64)
+    picture[:ROW] += 150 * np.exp(-away / 25)[:ROW, :, None]
+    path = np.exp(-0.5 * ((columns - 150) / 25) ** 2) * (rows > ROW)
+    picture += (200 * path * (0.8 + 0.2 * waves / waves.std()))[..., None]
+    picture[away < 4] = 255
+    picture = np.round(np.clip(picture, 0, 255)).astype(np.uint8)
+    told = {"sky": SKY, "water": 1 - SKY, "refine": "none", "horizon": float(ROW), "fov": 60.0}
+    scene = sw.analyze(picture, sun=(150, 75), **told)
+    moved = sw.render(scene, sw.Edit(sun_azimuth=90, sun_elevation=35))[ROW + 4 : ROW + 34]
+    beside = (moved[:, 100:120].mean() + moved[:, 180:200].mean()) / 2
+    # Its aureole leaves the mirrored sky once, not twice.
+    assert moved[:, 140:160].mean() > 0.96 * beside
+
+
+def test_a_dark_post_in_the_old_glints_stays_dark():
+    post = glittering().copy()
+    post[ROW + 20 : ROW + 50, 146:153] = 8
+    told = {"sky": SKY, "water": 1 - SKY, "refine": "none", "horizon": float(ROW), "fov": 40.0}
+    moved = sw.render(
+        sw.analyze(post, sun=(150, 40), **told), sw.Edit(sun_azimuth=90, sun_elevation=35)
+    )[ROW + 25 : ROW + 45]
+    assert moved[:, 148:151].mean() < 0.4 * moved[:, 120:140].mean()
+
+
 def test_glints_fade_as_the_sun_sets_and_follow_their_slider():
     scene = sunny()
     azimuth, _ = scene.camera.angles(60, ROW)

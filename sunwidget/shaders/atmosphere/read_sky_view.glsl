@@ -1,4 +1,4 @@
-// Look-ups of the sky view and of the sun's disc.
+// Look-ups of the sky view.
 //
 // The sky view holds radiance divided by an approximation, the guess, so that the interpolated values
 // are smooth even inside the aureole of a haze with g = 0.95. Its last row describes it (sun, haze,
@@ -100,29 +100,6 @@ RadianceSpectrum GetSkyRadiance(sampler2D sky_view, SkyView view, ivec2 origin, 
 
 RadianceSpectrum GetSkyRadiance(sampler2D sky_view, vec3 direction) {
   return GetSkyRadiance(sky_view, ReadSkyView(sky_view), ivec2(0), textureSize(sky_view, 0), direction);
-}
-
-// Radiance of the disc, zero outside it. `size` is its diameter in units of the true 0.533
-// degrees (the radiance does not change), `softness` the angle of one pixel. Each direction is
-// reddened by its own path; the part below the horizon is dark.
-RadianceSpectrum GetSunDiscRadiance(sampler2D columns, vec3 direction, vec3 sun, Length altitude,
-                                    Number size, Angle softness) {
-  float radius = kSunAngularRadius * size;
-  // The chord is precise where acos(dot) is not.
-  float angle = 2.0 * asin(min(0.5 * length(direction - sun), 1.0));
-  float coverage = clamp((radius - angle) / max(softness, 1e-6) + 0.5, 0.0, 1.0);
-  if (size <= 0.0 || coverage <= 0.0) {
-    return vec4(0.0);
-  }
-  float x = min(angle / radius, 1.0);
-  float mu = sqrt(max(1.0 - x * x, 1e-4));
-  // mu^a averages 2 / (a + 2) over the disc, so this profile averages one.
-  vec4 profile = pow(vec4(mu), kLimbDarkening) * (0.5 * kLimbDarkening + 1.0);
-  vec4 radiance = kSolarIrradiance / (kPi * kSunAngularRadius * kSunAngularRadius);
-  float above = direction.y - GetCosineOfHorizon(altitude);
-  float risen = clamp(above / max(softness, 1e-6) + 0.5, 0.0, 1.0);
-  return coverage * risen * profile * radiance
-      * GetTransmittanceToTop(columns, altitude, direction.y);
 }
 
 // Linear Rec. 709 in kcd m^-2; outside the gamut a channel is negative.

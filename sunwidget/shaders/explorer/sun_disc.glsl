@@ -2,7 +2,7 @@
 // air, and cut by the horizon. See explorer/read_sun_disc.glsl.
 
 #include "explorer/projection.glsl"
-#include "atmosphere/read_sky_view.glsl"
+#include "atmosphere/sun_disc_radiance.glsl"
 #include "explorer/read_sun_disc.glsl"
 
 uniform vec2 pass_size;

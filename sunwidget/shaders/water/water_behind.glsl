@@ -16,8 +16,9 @@ uniform vec2 tile_origin;
 out vec4 result;
 
 const int kPlaces = 6;
-const float kHighestWave = 0.35;  // natural logarithm of brightness
-const float kRock = 0.2;  // the same; a deviation from the water's light that gets half the weight
+const float kHighestWave = 0.35;  // natural logarithm of brightness, in new glints
+const float kRock = 1.5;  // in heights of the waves: a deviation from the water's light that gets half the weight
+const float kNone = 0.02;  // as the lowest wave of water_level.glsl
 
 // Inside the picture, mirrored at its sides.
 float Reflect(float x) {
@@ -29,6 +30,7 @@ float GetBrightness(vec3 light, vec3 level) {
 }
 
 float GetSparkle(vec2 place, float wave) {
+  wave *= inversesqrt(1.0 + wave * wave / (kHighestWave * kHighestWave));
   return EncodeSparkle(GetLogSparkle(GetViewDirection(place), 0.5 + 0.5 * wave / kHighestWave));
 }
 
@@ -36,7 +38,7 @@ void main() {
   vec2 place = (gl_FragCoord.xy + tile_origin) / frame_size;
   vec4 level = ReadBilinear(water_level, place);
   vec3 own = GetSceneLight(ReadPixel(photo, place).rgb);
-  float seen = clamp(GetBrightness(own, level.rgb), -kHighestWave, kHighestWave);
+  float seen = GetBrightness(own, level.rgb);
 #ifdef NO_GLINTS
   result = vec4(own, GetSparkle(place, seen));
 #else
@@ -51,14 +53,17 @@ void main() {
     float weight = smoothstep(0.5, 1.0, marks.x) * (1.0 - marks.y) * (1.0 - marks.y);
     float wave = GetBrightness(GetSceneLight(ReadPixel(photo, at).rgb), ReadBilinear(water_level, at).rgb);
     // Rocks that the mask includes as water stand out more than waves.
-    weight /= 1.0 + wave * wave * wave * wave / (kRock * kRock * kRock * kRock);
-    sum += weight * clamp(wave, -kHighestWave, kHighestWave);
+    float rock = wave / (kRock * max(level.a, kNone));
+    weight /= 1.0 + rock * rock * rock * rock;
+    sum += weight * wave;
     squares += weight * weight;
   }
   // Waves summed over several places, scaled to the height of one place's.
   float wave = sum * inversesqrt(squares);
+  // What is darker than any wave does not glint: boats and stumps keep their brightness.
+  float dark = smoothstep(2.0, 4.0, -seen / (kRock * max(level.a, kNone)));
   // Without water free of glints, the pixel's own light is the best estimate.
-  vec3 water = mix(own, level.rgb * exp(wave), smoothstep(0.0, 0.01, level.a));
+  vec3 water = mix(own, level.rgb * exp(mix(wave, seen, dark)), smoothstep(0.0, kNone, level.a));
   wave = mix(seen, wave, ReadPixel(surface, place).b);
   result = vec4(water, GetSparkle(place, wave));
 #endif

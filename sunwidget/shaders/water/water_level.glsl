@@ -1,12 +1,14 @@
 // The slowly varying light of the water without the old sun's glints: the mean logarithm of
-// the water at a similar distance, that is in the same rows, where the photo does not glitter. The map has one size
-// for all pictures, so that a large one has the preview's water. Drawn once per photo.
+// the water at a similar distance, that is in the same rows, where the photo does not glitter, relative to the sky
+// that it mirrors. Alpha: the height of its waves, natural logarithm, 0 without such water. The map has one size for
+// all pictures, so that a large one has the preview's water. Drawn once per photo.
 
 #include "frame/picture.glsl"
 #include "camera/response.glsl"
 
 uniform sampler2D photo;
 uniform sampler2D surface;
+uniform sampler2D mirror_source;
 uniform vec2 pass_size;
 
 out vec4 result;
@@ -14,10 +16,17 @@ out vec4 result;
 const int kAcross = 65;  // columns read, the same for all places: otherwise a narrow dark object repeats as a comb
 const int kRows = 5;
 const float kOutlier = 0.4;  // natural logarithm: stumps, rocks and boats that the mask includes as water
+const float kLowestWave = 0.02;
 
-// Weighted sum of light and, in alpha, of weights. If `level` is `known` (1, else 0) the sum is of logarithms, and
-// outliers from the level count little.
-vec4 GetWater(vec2 place, vec3 level, float known) {
+// Log of the sky that the water mirrors by the model, brighter under the sun.
+vec3 GetMirrored(vec2 place) {
+  return log(max(ReadBilinear(mirror_source, place).rgb, vec3(1e-6)));
+}
+
+// Mean light relative to the mirrored sky, and in alpha the weight. If `level` (log) is `known` (1, else 0) it is the
+// mean log, and outliers from the level count little; `waves` is the mean deviation from it.
+vec4 GetWater(vec2 place, vec3 level, float known, out float waves) {
+  waves = 0.0;
   vec4 sum = vec4(0.0);
   for (int row = 0; row < kRows; ++row) {
     // Farther rows stand in where all nearer ones glitter.
@@ -31,18 +40,22 @@ vec4 GetWater(vec2 place, vec3 level, float known) {
       vec2 marks = ReadPicture(surface, at).gb;
       float weight = inside * row_weight * marks.x * (1.0 - marks.y) * (1.0 - marks.y);
       weight *= exp(-across * across / 0.05) + 1e-3;
-      vec3 light = max(GetSceneLight(ReadPicture(photo, at).rgb), vec3(1e-5));
-      float deviation = known * length(log(light / level)) / kOutlier;
-      weight /= 1.0 + deviation * deviation * deviation * deviation;
-      sum += weight * vec4(mix(light, log(light), known), 1.0);
+      vec3 light = log(max(GetSceneLight(ReadPicture(photo, at).rgb), vec3(1e-5))) - GetMirrored(at);
+      float deviation = known * length(light - level);
+      weight /= 1.0 + pow(deviation / kOutlier, 4.0);
+      waves += weight * deviation;
+      sum += weight * vec4(mix(exp(light), light, known), 1.0);
     }
   }
-  return sum;
+  float total = max(sum.a, 1e-6);
+  waves /= total;
+  return vec4(sum.rgb / total, sum.a);
 }
 
 void main() {
   vec2 place = gl_FragCoord.xy / pass_size;
-  vec4 all = GetWater(place, vec3(1.0), 0.0);
-  vec4 typical = GetWater(place, max(all.rgb / max(all.a, 1e-6), vec3(1e-5)), 1.0);
-  result = vec4(exp(typical.rgb / max(typical.a, 1e-6)), min(all.a, 1.0));
+  float waves;
+  vec4 all = GetWater(place, vec3(0.0), 0.0, waves);
+  vec4 typical = GetWater(place, log(max(all.rgb, vec3(1e-5))), 1.0, waves);
+  result = vec4(exp(typical.rgb + GetMirrored(place)), smoothstep(0.0, 0.01, all.a) * max(waves, kLowestWave));
 }
