@@ -14,7 +14,7 @@ import numpy as np
 from sunwidget.analysis.backdrop.erase import Erased
 from sunwidget.analysis.backdrop.sky_detail import DETAILED
 from sunwidget.analysis.fit.fit import SkyFit, view_angles
-from sunwidget.analysis.images.fill import fill_by_pyramid
+from sunwidget.analysis.images.fill import fill_by_layers
 from sunwidget.analysis.images.working_copy import resize, smoothstep
 from sunwidget.formats.pixels import size_within
 from sunwidget.geometry.camera import Camera
@@ -96,7 +96,7 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     known = 1 - np.asarray(resize(erased.hidden, *size), np.float32)
     weight = np.asarray((matte > 0.98) * (1 - clipped) * known, np.float32)
     detail = resize(erased.detail, *size)
-    filled = fill_by_pyramid(log_residual - detail, weight) + detail
+    filled = fill_by_layers(log_residual - detail, weight) + detail
     beyond = model * np.exp(filled)
     sky_light = beyond + weight[..., None] * (seen - beyond)
     # A pixel of the skyline also shows sky, and has one mark for both.

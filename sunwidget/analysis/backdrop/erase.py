@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sunwidget.analysis.backdrop.sky_detail import sky_detail
-from sunwidget.analysis.images.fill import fill_by_pyramid
+from sunwidget.analysis.images.fill import fill_by_layers, fill_by_pyramid
 from sunwidget.analysis.images.working_copy import Working, encode, resize, smoothstep
 from sunwidget.analysis.networks.sun import LIGHT_FLOOR, SunMaps
 from sunwidget.analysis.sun.sun import SunObservation
@@ -90,7 +90,7 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     white = resize((working.encoded.min(-1) > _WHITE).astype(np.float32), columns, rows)
     felt = np.maximum(felt, _round_about(sun_mask * white, _LARGEST_RIM))
     known = (1 - smoothstep(*_COLOURS, felt)) * smoothstep(0.8, 1.0, small_sky)
-    behind = _continued(seen - glare, known.astype(np.float32))
+    behind = fill_by_layers(seen - glare, known.astype(np.float32))
     clouds = (seen - glare - behind) @ LUMINANCE * (1 - smoothstep(*_HIDES, felt))
     behind = behind + clouds[..., None]
 
@@ -125,7 +125,7 @@ def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservati
     """
     near, beyond = _parts(light, sky)
     glare = np.maximum(fill_by_pyramid(maps.clean, beyond) - maps.clean, 0) * near[..., None]
-    brighter = np.maximum((seen - _continued(seen, beyond)) @ LUMINANCE, 0)
+    brighter = np.maximum((seen - fill_by_layers(seen, beyond)) @ LUMINANCE, 0)
     share = np.minimum(brighter / np.maximum(glare @ LUMINANCE, 1e-6), 1)
     return glare * share[..., None]
 
@@ -152,7 +152,7 @@ def find_glare_on_land(
     land = smoothstep(0.9, 1.0, 1 - resize(sky, columns, rows))  # no skyline, which holds sky
     small = resize(working.linear, columns, rows)
     near, beyond = _parts(light, land)
-    plain = np.maximum(_continued(small, beyond), 0)
+    plain = np.maximum(fill_by_layers(small, beyond), 0)
     brighter = np.log(small + LIGHT_FLOOR) - np.log(plain + LIGHT_FLOOR)
     # An evening's glare is red: it shows in the channel with most of it.
     glare = np.maximum(np.minimum(-maps.clean * near[..., None], brighter), 0).max(-1)
@@ -185,21 +185,6 @@ def _distance(light: SunObservation, shape: tuple[int, ...]) -> tuple[np.ndarray
         ((np.arange(rows)[:, None] + 0.5) / rows - light.y / height) * height / width,
     )
     return away, _REACH + _REACH_OF_DISC * light.radius_px / width
-
-
-def _continued(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Continue a sky (h, w, 3) over unknown pixels, row by row first, since skies are layered."""
-    import cv2
-
-    known = weight.sum(1)
-    rows = np.flatnonzero(known > 0.02 * weight.shape[1])
-    if not rows.size:
-        return fill_by_pyramid(values.astype(np.float32), weight)
-    means = (values * weight[..., None]).sum(1)[rows] / known[rows, None]
-    every = np.arange(len(known))
-    means = cv2.GaussianBlur(means, (0, 0), sigmaX=1e-3, sigmaY=2.0) if len(rows) > 1 else means
-    layers = np.stack([np.interp(every, rows, mean) for mean in means.T], -1)[:, None]
-    return layers + fill_by_pyramid((values - layers).astype(np.float32), weight)
 
 
 def _round_about(sun_mask: np.ndarray, largest: float = 1.0) -> np.ndarray:

@@ -9,6 +9,7 @@ import numpy as np
 
 from sunwidget.analysis.images.working_copy import resize, smoothstep
 
+_FLAT = 6  # a sky's layers are that many times as wide as high
 _LAYERED = 0.25  # correlation of left and right at which the whole texture continues; at 0 none
 _SEARCHED = 160  # pixels of the copy on which a match for a gap's surroundings is searched
 _SURROUNDINGS = 0.04  # of its longer side: width of the compared ring around a gap
@@ -46,6 +47,32 @@ def fill_by_pyramid(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
     below = cv2.GaussianBlur(below, (0, 0), 1.0).reshape(values.shape)
     share = weight[..., None]
     return (share * values + (1 - share) * below).astype(np.float32)
+
+
+def fill_by_layers(values: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Continue a sky along its rows first, since skies are layered.
+
+    Rows that are known somewhere have their mean, gaps what lies left and right of them; only then
+    is the rest continued alike in all directions. Parameters and result are those of
+    ``fill_by_pyramid``.
+    """
+    import cv2
+
+    height, width = weight.shape
+    values = values.astype(np.float32)
+    known = weight.sum(1)
+    rows = np.flatnonzero(known > 0.02 * width)
+    if not rows.size:
+        return fill_by_pyramid(values, weight)
+    means = (values * weight[..., None]).sum(1)[rows] / known[rows, None]
+    means = cv2.GaussianBlur(means, (0, 0), sigmaX=1e-3, sigmaY=2.0) if len(rows) > 1 else means
+    layers = np.stack([np.interp(np.arange(height), rows, mean) for mean in means.T], -1)[:, None]
+    apart = (values - layers).astype(np.float32)
+    narrow = resize(np.dstack([apart * weight[..., None], weight]), max(width // _FLAT, 2), height)
+    sums, share = narrow[..., :-1], narrow[..., -1]
+    along = fill_by_pyramid(sums / np.maximum(share, 1e-6)[..., None], np.clip(share, 0, 1))
+    layers = layers + cv2.resize(along, (width, height)).reshape(values.shape)
+    return np.asarray(layers + fill_by_pyramid((values - layers).astype(np.float32), weight))
 
 
 def mirror_texture(values: np.ndarray, beside: np.ndarray, known: np.ndarray) -> np.ndarray:

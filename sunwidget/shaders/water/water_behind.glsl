@@ -60,8 +60,8 @@ void main() {
   }
   // Waves summed over several places, scaled to the height of one place's.
   float wave = sum * inversesqrt(squares);
-  // What is darker than any wave does not glint: boats and stumps keep their brightness.
-  float dark = smoothstep(2.0, 4.0, -seen / (kRock * max(level.a, kNone)));
+  // What is far darker than the waves does not glint: boats and branches keep their brightness.
+  float dark = smoothstep(1.0, 2.0, -seen - 5.0 * level.a);
   // Without water free of glints, the pixel's own light is the best estimate.
   vec3 water = mix(own, level.rgb * exp(mix(wave, seen, dark)), smoothstep(0.0, kNone, level.a));
   wave = mix(seen, wave, ReadPixel(surface, place).b);

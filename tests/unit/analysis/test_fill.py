@@ -4,7 +4,12 @@ import cv2
 import numpy as np
 import pytest
 
-from sunwidget.analysis.images.fill import fill_by_pyramid, mirror_texture, transplant_texture
+from sunwidget.analysis.images.fill import (
+    fill_by_layers,
+    fill_by_pyramid,
+    mirror_texture,
+    transplant_texture,
+)
 
 ROWS, COLUMNS = np.mgrid[:60, :90]
 
@@ -45,6 +50,20 @@ def test_a_constant_stays_constant_under_any_weight():
 def test_no_weight_at_all_gives_zeros_not_nan(shape):
     filled = fill_by_pyramid(np.ones((*shape, 3), np.float32), np.zeros(shape, np.float32))
     assert np.array_equal(filled, np.zeros((*shape, 3), np.float32))
+
+
+def test_a_gap_above_the_ground_has_the_layers_beside_it():
+    # A sky that darkens towards the ground and towards the right, with a gap that reaches the ground.
+    down, right = ROWS / 60, COLUMNS / 90
+    sky = np.repeat((-3 * down**4 - right * (1 + down))[..., None], 3, -1).astype(np.float32)
+    known = hole(18) * (ROWS < 45)
+    broken = np.where(known[..., None] > 0, sky, 9).astype(np.float32)
+    gap = (hole(18) == 0) & (ROWS < 45)
+    layered, alike = (
+        np.abs(fill(broken, known) - sky)[gap].max() for fill in (fill_by_layers, fill_by_pyramid)
+    )
+    assert 2 * layered < alike
+    assert np.abs(fill_by_layers(broken, known) - sky)[known > 0].max() < 1e-5
 
 
 def bands():
