@@ -18,6 +18,7 @@ out vec4 result;
 const int kPlaces = 6;
 const float kHighestWave = 0.35;  // natural logarithm of brightness, in new glints
 const float kRock = 1.5;  // in heights of the waves: a deviation from the water's light that gets half the weight
+const vec3 kDark = vec3(1.5, 2.5, 7.0);  // darker than the water by 7 heights of waves and 1.5 to 2.5 more
 const float kNone = 0.02;  // as the lowest wave of water_level.glsl
 
 // Inside the picture, mirrored at its sides.
@@ -61,7 +62,7 @@ void main() {
   // Waves summed over several places, scaled to the height of one place's.
   float wave = sum * inversesqrt(squares);
   // What is far darker than the waves does not glint: boats and branches keep their brightness.
-  float dark = smoothstep(1.0, 2.0, -seen - 5.0 * level.a);
+  float dark = smoothstep(kDark.x, kDark.y, -seen - kDark.z * level.a);
   // Without water free of glints, the pixel's own light is the best estimate.
   vec3 water = mix(own, level.rgb * exp(mix(wave, seen, dark)), smoothstep(0.0, kNone, level.a));
   wave = mix(seen, wave, ReadPixel(surface, place).b);

@@ -53,7 +53,7 @@ def test_no_weight_at_all_gives_zeros_not_nan(shape):
 
 
 def test_a_gap_above_the_ground_has_the_layers_beside_it():
-    # A sky that darkens towards the ground and towards the right, with a gap that reaches the ground.
+    # A sky that darkens towards the ground and the right, with a gap that reaches the ground.
     down, right = ROWS / 60, COLUMNS / 90
     sky = np.repeat((-3 * down**4 - right * (1 + down))[..., None], 3, -1).astype(np.float32)
     known = hole(18) * (ROWS < 45)
