@@ -106,6 +106,15 @@ def test_a_wide_column_is_water_below_a_sun_only(sea):
     assert found(sea, sun_column=2)[middle].max() < 0.3
 
 
+def test_doubtful_ground_is_water_where_it_looks_like_the_water_beside_it(sea):
+    sea[ROW // 4 :, :20] = 0.3  # a third of the width, to the edge
+    part = slice(ROW + 10, -10), slice(8, 64)
+    assert found(sea)[part].mean() > 0.9
+    beach = shore().copy()
+    beach[ROW:, :80] = shore("sand")[ROW:, :80]
+    assert found(sea, beach)[part].mean() < 0.1
+
+
 def test_the_last_of_the_water_reaches_the_sky_and_a_dark_shore_does_not(sea):
     sea[: ROW // 4 + 2] = 0.05
     assert found(sea)[ROW + 1 : ROW + 5].mean() > 0.7
