@@ -332,7 +332,7 @@ def fit_atmosphere(
         )
     if visible:
         fitted = _glare_of(fitted, working, erased, sky, camera)
-    behind = behind_sun(erased, sky, camera, fitted)
+    behind = behind_sun(working, erased, sky, camera, fitted)
     step.within(0.92)
     if unmixed:
         covers = unmix_clouds(erased, sky, camera, fitted, covers, sun_seen=visible)

@@ -252,7 +252,7 @@ def scene_of_frame(photo: Photo, shared: Scene, fit: SkyFit, source: str) -> Sce
     erased = erased_for(working, look_for_sun(working), sky, seen)
     mask = seen.blot if seen.visible else None
     covers = clouds_by_color(erased.working, sky, shared.hints, mask)
-    behind = behind_sun(erased, sky, shared.camera, fit)
+    behind = behind_sun(working, erased, sky, shared.camera, fit)
     if shared.hints.method("clouds") == "unmix":
         covers = unmix_clouds(erased, sky, shared.camera, fit, covers, sun_seen=seen.visible)
     cover, everywhere = covers

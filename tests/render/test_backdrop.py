@@ -23,7 +23,7 @@ from sunwidget.renderer import render, render_pass
 def behind(photo, mark=None):
     working = Working.of(open_photo(photo.bytes))
     erased = erase_nothing(working) if mark is None else erase_nothing(working)._replace(mark=mark)
-    return behind_sun(erased, photo.sky, photo.camera, exact_fit(photo))
+    return behind_sun(working, erased, photo.sky, photo.camera, exact_fit(photo))
 
 
 def log_of(photo, backdrop):
@@ -54,12 +54,29 @@ def test_what_was_found_behind_the_sun_counts_although_it_is_bright():
     bright[10:20, 10:30] = 255  # clipped: not believed
     white = Working.of(open_photo(bright))
     fit = exact_fit(photo)
-    plain = behind_sun(erase_nothing(white), photo.sky, photo.camera, fit)
+    plain = behind_sun(white, erase_nothing(white), photo.sky, photo.camera, fit)
     mark = np.zeros(bright.shape[:2], np.float32)
     mark[8:22, 8:32] = 1
-    found = behind_sun(erase_nothing(white)._replace(mark=mark), photo.sky, photo.camera, fit)
+    erased = erase_nothing(white)._replace(mark=mark)
+    found = behind_sun(white, erased, photo.sky, photo.camera, fit)
     assert found.field[15, 20].mean() > plain.field[15, 20].mean() + 0.02
     assert found.glare[15, 20] == pytest.approx(1)
+
+
+def test_beside_the_glare_the_photos_own_light_counts():
+    photo = known_photo(clouds=False)
+    working = Working.of(open_photo(photo.bytes))
+    rows, columns = np.mgrid[: working.height, : working.width]
+    x, y = photo.camera.pixel(*photo.sun)
+    away = np.hypot(columns - x, rows - y)
+    hidden = np.clip((20 - away) / 5, 0, 1).astype(np.float32)
+    # What was erased is darker by a tenth up to where the glare ends.
+    darker = (working.linear * np.where(away < 20, 0.9, 1)[..., None]).astype(np.float32)
+    erased = erase_nothing(dataclasses.replace(working, linear=darker))
+    erased = erased._replace(mark=hidden, hidden=hidden)
+    field = behind_sun(working, erased, photo.sky, photo.camera, exact_fit(photo))
+    ring = (away > 17) & (away < 21) & (photo.sky > 0) & (rows < 40)
+    assert abs(np.median(log_of(photo, field)[ring])) < 0.05
 
 
 def test_dither_is_the_same_each_time_and_half_a_level_wide():

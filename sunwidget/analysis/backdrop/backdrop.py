@@ -15,7 +15,7 @@ from sunwidget.analysis.backdrop.erase import Erased
 from sunwidget.analysis.backdrop.sky_detail import DETAILED
 from sunwidget.analysis.fit.fit import SkyFit, view_angles
 from sunwidget.analysis.images.fill import fill_by_layers
-from sunwidget.analysis.images.working_copy import resize, smoothstep
+from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
 from sunwidget.formats.pixels import size_within
 from sunwidget.geometry.camera import Camera
 
@@ -60,13 +60,18 @@ LONG_SIDE = 256
 _MODEL_SIDE = 80
 
 
-def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> Backdrop:
+def behind_sun(
+    working: Working, erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit
+) -> Backdrop:
     """Return the photo without its sun, with the sky continued over everything else.
 
     Parameters
     ----------
+    working : Working
+        The small photo. Beside the glare its own light counts: the frame removes the bright air
+        there, and light erased as well would be missing in a ring.
     erased : Erased
-        The small photo without its sun.
+        The same without its sun: where that is a guess, and its clouds.
     sky : (h, w) float32
         Sky matte at its size.
     camera : Camera
@@ -78,7 +83,6 @@ def behind_sun(erased: Erased, sky: np.ndarray, camera: Camera, fit: SkyFit) -> 
     Backdrop
         At most ``LONG_SIDE`` pixels long, twice that if the photo shows a sun.
     """
-    working = erased.working
     size = size_within(
         (working.width, working.height), DETAILED if erased.mark.any() else LONG_SIDE
     )

@@ -132,7 +132,7 @@ def _retouch(
     step("fit", 0.8, "Looking behind the sun")
     sun, fitted = source.sun, source.fitted
     assert fitted is not None
-    behind = behind_sun(source.without_sun, sky, source.camera, fitted)
+    behind = behind_sun(working, source.without_sun, sky, source.camera, fitted)
 
     hints = dataclasses.replace(source.hints, strokes=strokes)
     scene = dataclasses.replace(
