@@ -28,6 +28,7 @@ _COLUMN = 0.08  # of the width: half of the widest column of glints that hides t
 _SUN = 0.3  # probability of a sun from which its column may be twice as wide
 _ROW = 0.4  # of a row's possible water: the least that tells how the rest looks
 _ALIKE = (0.1, 2.0)  # encoded color, and deviations of the row's water from its mean
+_DARKER = 0.7  # share of that water's luminance below which a pixel is unlike it
 _CLIPPED = 0.8  # linear light of the darkest channel, below a sun
 _GAP = 0.02  # of the width: half of the gap between water and sky
 _STRIP = 0.005  # of the width: half of the gap above the horizon
@@ -188,7 +189,7 @@ def _along_rows(
     apart = np.linalg.norm(color - mean[:, None], axis=-1)
     spread = np.sqrt((apart**2 * wet).sum(1) / np.maximum(count, 1))
     alike = apart < np.maximum(_ALIKE[0], _ALIKE[1] * spread)[:, None]
-    alike &= color @ LUMINANCE > 0.7 * (mean @ LUMINANCE)[:, None]
+    alike &= color @ LUMINANCE > _DARKER * (mean @ LUMINANCE)[:, None]
     alike |= _below_sun(maps, water.shape[1]) & (working.linear.min(-1) > _CLIPPED)
     alike &= land & told[:, None]
     _, labels = cv2.connectedComponents((alike | wet).astype(np.uint8), connectivity=4)

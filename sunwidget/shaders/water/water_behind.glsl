@@ -19,7 +19,6 @@ const int kPlaces = 6;
 const float kHighestWave = 0.35;  // natural logarithm of brightness, in new glints
 const float kRock = 1.5;  // in heights of the waves: a deviation from the water's light that gets half the weight
 const vec3 kDark = vec3(1.5, 2.5, 7.0);  // darker than the water by 7 heights of waves and 1.5 to 2.5 more
-const float kNone = 0.02;  // as the lowest wave of water_level.glsl
 
 // Inside the picture, mirrored at its sides.
 float Reflect(float x) {
@@ -54,7 +53,7 @@ void main() {
     float weight = smoothstep(0.5, 1.0, marks.x) * (1.0 - marks.y) * (1.0 - marks.y);
     float wave = GetBrightness(GetSceneLight(ReadPixel(photo, at).rgb), ReadBilinear(water_level, at).rgb);
     // Rocks that the mask includes as water stand out more than waves.
-    float rock = wave / (kRock * max(level.a, kNone));
+    float rock = wave / (kRock * max(level.a, kLowestWave));
     weight /= 1.0 + rock * rock * rock * rock;
     sum += weight * wave;
     squares += weight * weight;
@@ -64,7 +63,7 @@ void main() {
   // What is far darker than the waves does not glint: boats and branches keep their brightness.
   float dark = smoothstep(kDark.x, kDark.y, -seen - kDark.z * level.a);
   // Without water free of glints, the pixel's own light is the best estimate.
-  vec3 water = mix(own, level.rgb * exp(mix(wave, seen, dark)), smoothstep(0.0, kNone, level.a));
+  vec3 water = mix(own, level.rgb * exp(mix(wave, seen, dark)), smoothstep(0.0, kLowestWave, level.a));
   wave = mix(seen, wave, ReadPixel(surface, place).b);
   result = vec4(water, GetSparkle(place, wave));
 #endif

@@ -5,6 +5,7 @@
 
 #include "frame/picture.glsl"
 #include "camera/response.glsl"
+#include "water/waves.glsl"
 
 uniform sampler2D photo;
 uniform sampler2D surface;
@@ -16,7 +17,6 @@ out vec4 result;
 const int kAcross = 65;  // columns read, the same for all places: otherwise a narrow dark object repeats as a comb
 const int kRows = 5;
 const float kOutlier = 0.4;  // natural logarithm: stumps, rocks and boats that the mask includes as water
-const float kLowestWave = 0.02;
 
 // Log of the sky that the water mirrors by the model, brighter under the sun.
 vec3 GetMirrored(vec2 place) {

@@ -8,6 +8,8 @@
 const float kFarWave = 0.0011;
 const float kNearWave = 0.035;
 const float kWaveWidth = 5.0;
+// Least height of waves in brightness, natural logarithm (water/water_level.glsl).
+const float kLowestWave = 0.02;
 
 float GetWave(int row, float column) {
   float cell = floor(column);
