@@ -93,3 +93,12 @@ def test_a_small_move_keeps_bright_clouds_as_bright():
     moved = Edit(sun_azimuth=own["sun_azimuth"] + 0.5, sun_elevation=own["sun_elevation"])
     after = render(scene, moved).astype(int)
     assert np.abs(after - scene.photo.encoded)[scene.sky == 1].max() <= 6
+
+
+@pytest.mark.parametrize("elevation", [3, 12])
+def test_a_violet_photo_stays_violet_around_the_new_sun(elevation):
+    scene = scene_without_sun(tint=(0.6, 0.3, 1.4))
+    light, away = seen(scene, Edit(sun_azimuth=-8, sun_elevation=elevation))
+    near = (scene.sky == 1) & (away < 25) & (light.max(-1) < 0.9)
+    red, green = light[near, 0], light[near, 1]
+    assert np.quantile(green / red, 0.98) < 0.8

@@ -46,9 +46,11 @@ vec3 RemoveBalance(vec3 light, float share) {
   return share > 0.0 ? light * pow(GetLuminance(sky_gain) / sky_gain, vec3(share)) : light;
 }
 
-// Keeps the brightness of `sky_now`.
+// Keeps the brightness of `sky_now`, and violet that no air has: a filter or a balance for other light puts it into the
+// whole picture, and without it the new sun's surroundings would be green against the rest.
 vec3 RemoveLostTint(vec3 sky_before, vec3 sky_now) {
-  vec3 color = RemoveBalance(sky_now, GetLostTint(sky_before, sky_now));
+  vec3 tint = vec3(sky_gain.r, max(sky_gain.g, exp2(kGreens.x) * sqrt(sky_gain.r * sky_gain.b)), sky_gain.b);
+  vec3 color = sky_now * pow(tint, vec3(-GetLostTint(sky_before, sky_now)));
   return color * (GetLuminance(sky_now) / GetLuminance(color));
 }
 
