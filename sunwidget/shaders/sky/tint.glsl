@@ -74,6 +74,13 @@ float GetVividness() {
   return smoothstep(kBluest, kBluest + 1.0, log2(sky_gain.b / sky_gain.r));
 }
 
+// How much warmer a light is than `model`, [0, 1], its violet included: colors bluer than that and no less green were not
+// the evening's, violet was its shade.
+float GetWarmth(vec3 light, vec3 model) {
+  vec3 redder = log(max(light.r * model, vec3(1e-12)) / max(light * model.r, vec3(1e-12)));
+  return smoothstep(0.0, 0.5, max(max(redder.g, redder.b), redder.g - 0.5 * redder.b));
+}
+
 // How a ratio turns a color at constant luminance: log of its channels.
 vec3 GetTurn(vec3 ratio, vec3 color) {
   return log(ratio * (GetLuminance(color) / GetLuminance(color * ratio)));
@@ -101,10 +108,7 @@ vec3 ShiftToModelColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opac
   vec3 day = RemoveBalance(now, max((1.0 - lost) * risen * GetEveningBalance(), cloud * GetVividness()));
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
-  // Colors bluer than that and no less green were not the evening's; violet was the evening's shade.
-  vec3 redder = log(max(relit.r * model, vec3(1e-12)) / max(relit * model.r, vec3(1e-12)));
-  float warmer = smoothstep(0.0, 0.5, max(max(redder.g, redder.b), redder.g - 0.5 * redder.b));
-  faded = max(faded, risen * warmer);
+  faded = max(faded, risen * GetWarmth(relit, model));
   vec3 turned = relit + faded * (model - relit);
   // A sky never turns greener than it was.
   float greenest = max(sky.g / max(max(sky.r, sky.b), 1e-6), 1.0);

@@ -1,0 +1,222 @@
+"""How water is relit: what it mirrors, its glints, its color."""
+
+import dataclasses
+import functools
+
+import cv2
+import numpy as np
+import pytest
+from relight_scenes import known_photo, sample_scene
+from water_scenes import ROW, SIZE, TOLD, shore
+
+import sunwidget as sw
+from sunwidget.analysis import frame_inputs
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.networks.sun import SunMaps
+from sunwidget.analysis.water import water
+from sunwidget.formats.color import srgb_to_linear
+from sunwidget.geometry.camera import Camera
+from sunwidget.photo.photo import open_photo
+
+MOVES = [(25, 10), (8, 2), (-20, 30)]
+
+
+@functools.cache
+def glittering():
+    """A sea with the sun over it and its glints, as ``shore`` else; the sun is told."""
+    picture = shore().astype(np.float32)
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
+    random = np.random.default_rng(8)
+    waves = cv2.GaussianBlur(
+        random.standard_normal(rows.shape).astype(np.float32), (0, 0), 3.0, sigmaY=0.7
+    )
+    path = np.exp(-0.5 * ((columns - 150) / 10.0) ** 2) * (rows > ROW)
+    picture += (260 * path * (0.8 + waves / waves.std() * 0.2))[..., None]
+    picture[np.hypot(rows - 40, columns - 150) < 4] = 255
+    return np.round(np.clip(picture, 0, 255)).astype(np.uint8)
+
+
+@functools.cache
+def sunny():
+    """``glittering``, analysed with sky, water, horizon and sun told."""
+    return sw.analyze(glittering(), sun=(150, 40), **TOLD)
+
+
+def column_light(picture, left, right):
+    """Mean code value of the water between two columns."""
+    return float(picture[ROW + 10 :, left:right].mean())
+
+
+def test_an_unmoved_sun_leaves_water_to_the_bit():
+    assert sunny().water.mean() > 0.3
+    assert np.array_equal(sw.render(sunny()), glittering())
+
+
+@pytest.mark.parametrize("move", MOVES)
+def test_water_strength_zero_leaves_out_what_water_does(move):
+    scene = sunny()
+    edit = sw.Edit(sun_azimuth=move[0], sun_elevation=move[1], water_strength=0)
+    off = sw.render(scene, edit)
+    # The zone of glints is wider where water is known, and is read at a quarter of the size.
+    dry = dataclasses.replace(scene, water_map=np.zeros_like(scene.water))
+    other = frame_inputs.surface(scene)[..., 2] != frame_inputs.surface(dry)[..., 2]
+    still = cv2.dilate(other.astype(np.uint8), np.ones((17, 17), np.uint8)) == 0
+    assert still[ROW:].mean() > 0.3
+    rough = sw.render(scene, edit.replace(glitter=3, wind_speed=9))
+    assert np.array_equal(off[still], rough[still])
+    on = sw.render(scene, edit.replace(water_strength=1)).astype(int)
+    wet = cv2.resize(scene.water, off.shape[1::-1]) > 0.9
+    assert np.abs(on - off)[wet].mean() > 2
+    # As land: with the light that falls on it, and no picture of the sky.
+    above = np.log2((sw.render(scene)[wet].mean(0) + 1) / (off[wet].mean(0) + 1))
+    assert np.ptp(above) < 1
+
+
+def test_the_old_glints_go_and_new_ones_come():
+    scene = sunny()
+    old = column_light(glittering(), 140, 160)
+    azimuth, _ = scene.camera.angles(60, ROW)
+    moved = sw.render(scene, sw.Edit(sun_azimuth=azimuth, auto_exposure=0))
+    beside = column_light(moved, 190, 220)
+    assert abs(column_light(moved, 140, 160) - beside) < 0.2 * (old - beside)
+    assert column_light(moved, 50, 70) > beside + 40
+
+
+def test_posts_beside_the_old_glints_neither_repeat_in_their_place_nor_darken_it():
+    posts = glittering().copy()
+    for left in (12, 33, 52, 71, 214, 229):
+        posts[ROW + 6 :, left : left + 3] = 8
+    away = sw.Edit(sun_azimuth=90, sun_elevation=35)
+    plain, posted = (
+        sw.render(each, away)[ROW + 12 :, 135:165].astype(float)
+        for each in (sunny(), sw.analyze(posts, sun=(150, 40), **TOLD))
+    )
+    assert abs(posted.mean() - plain.mean()) < 3  # levels of 255
+    assert posted.mean((0, 2)).std() < plain.mean((0, 2)).std() + 1
+
+
+def test_water_under_a_wide_column_is_as_bright_as_beside_it():
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
+    waves = cv2.GaussianBlur(
+        np.random.default_rng(8).standard_normal(rows.shape), (0, 0), 3.0, sigmaY=0.7
+    )
+    away = np.hypot(columns - 150, rows - 75)
+    picture = shore().astype(np.float64)
+    picture[:ROW] += 150 * np.exp(-away / 25)[:ROW, :, None]
+    path = np.exp(-0.5 * ((columns - 150) / 25) ** 2) * (rows > ROW)
+    picture += (200 * path * (0.8 + 0.2 * waves / waves.std()))[..., None]
+    picture[away < 4] = 255
+    picture = np.round(np.clip(picture, 0, 255)).astype(np.uint8)
+    scene = sw.analyze(picture, sun=(150, 75), **TOLD | {"fov": 60.0})
+    moved = sw.render(scene, sw.Edit(sun_azimuth=90, sun_elevation=35))[ROW + 4 : ROW + 34]
+    beside = (moved[:, 100:120].mean() + moved[:, 180:200].mean()) / 2
+    # Its aureole leaves the mirrored sky once, not twice.
+    assert moved[:, 140:160].mean() > 0.96 * beside
+
+
+def test_a_dark_post_in_the_old_glints_stays_dark():
+    post = glittering().copy()
+    post[ROW + 20 : ROW + 50, 146:153] = 8
+    moved = sw.render(
+        sw.analyze(post, sun=(150, 40), **TOLD), sw.Edit(sun_azimuth=90, sun_elevation=35)
+    )[ROW + 25 : ROW + 45]
+    assert moved[:, 148:151].mean() < 0.4 * moved[:, 120:140].mean()
+
+
+def test_glints_fade_as_the_sun_sets_and_follow_their_slider():
+    scene = sunny()
+    azimuth, _ = scene.camera.angles(60, ROW)
+    light = [
+        column_light(sw.render(scene, sw.Edit(sun_azimuth=azimuth, **change)), 50, 70)
+        for change in (
+            {"glitter": 0, "sun_elevation": 6},
+            {"glitter": 1, "sun_elevation": 6},
+            {"glitter": 3, "sun_elevation": 6},
+        )
+    ]
+    assert light[0] + 20 < light[1] <= light[2]
+    night = sw.Edit(sun_azimuth=azimuth, sun_elevation=-3)
+    without = sw.render(scene, night.replace(glitter=0))
+    assert np.array_equal(sw.render(scene, night), without)
+
+
+def test_wind_widens_the_glints():
+    scene = sunny()
+    azimuth, _ = scene.camera.angles(60, ROW)
+    edit = sw.Edit(sun_azimuth=azimuth, sun_elevation=10, auto_exposure=0)
+    breadth = []
+    for speed in (1, 15):
+        bright = sw.render(scene, edit.replace(wind_speed=speed))[ROW + 10 :, :130].mean(
+            axis=(0, 2)
+        )
+        breadth.append(int((bright > np.median(bright) + 25).sum()))
+    assert breadth[0] > 3
+    assert breadth[1] > 1.3 * breadth[0]
+
+
+def test_glints_move_no_faster_than_the_sun():
+    scene = sunny()
+    # A tenth of a pixel here is a pixel of a photo ten times as wide.
+    step = 0.1 * (scene.camera.angles(101, 60)[0] - scene.camera.angles(100, 60)[0])
+    suns = [sw.Edit(sun_azimuth=-6 + k * step, sun_elevation=9) for k in (0, 1, 2)]
+    codes = [np.clip(sw.render(scene, edit, dtype="float32"), 0, 1) ** (1 / 2.2) for edit in suns]
+    steps = [np.abs(codes[k + 1] - codes[k])[ROW + 2 :] for k in (0, 1)]
+    assert 0 < max(step.max() for step in steps) < 0.1
+    assert max(step.mean() for step in steps) < 0.003
+
+
+def test_water_is_rougher_where_it_glitters_wider():
+    from sunwidget.analysis.water.glitter import roughness
+
+    rough = []
+    for width in (3.0, 12.0):
+        linear = np.full((160, 240, 3), 0.05, np.float32)
+        columns = np.arange(240)
+        linear[90:] += np.exp(-0.5 * ((columns - 120) / width) ** 2)[:, None] * 30
+        working = Working(np.minimum(linear, 1), linear, linear, (1, 1))
+        water = (np.arange(160)[:, None] >= 90) * np.ones(240, np.float32)
+        camera = Camera.from_horizon(240, 160, 40.0, 90.0)
+        rough.append(roughness(working, water.astype(np.float32), camera, (0.0, 12.0)))
+    assert rough[0] < 0.5 * rough[1]
+    flat = Working(np.full((160, 240, 3), 0.2, np.float32), linear, linear, (1, 1))
+    assert roughness(flat, water.astype(np.float32), camera, (0.0, 12.0)) == 1
+
+
+def test_a_large_picture_has_the_water_of_its_preview():
+    coast = sample_scene("coast")
+    edit = sw.Edit(sun_azimuth=20, sun_elevation=25)
+    small, large = (
+        sw.render(coast, edit, size=size, dtype="float32") for size in ((300, 200), (1200, 800))
+    )
+    large = cv2.resize(large, (300, 200), interpolation=cv2.INTER_AREA)
+    water = cv2.resize(coast.water.astype(np.float32), (300, 200)) > 0.9
+    codes = [255 * np.clip(light[water], 0, 1) ** (1 / 2.2) for light in (small, large)]
+    assert np.abs(codes[1] - codes[0]).mean() < 2.8  # of 255; the frayed rims of a column sparkle
+
+
+def test_water_that_is_black_is_finite():
+    picture = np.full((24, 32, 3), 120, np.uint8)
+    picture[12:] = 0  # as bright as nothing: a share of it was once no number
+    working = Working.of(open_photo(picture))
+    sky, ground, wet = (np.zeros((24, 32), np.float32) for _ in range(3))
+    sky[:12], ground[12:], wet[12:, 4:28] = 1, 1, 1
+    empty = np.zeros((6, 8), np.float32)
+    empty[2, 4] = 0.9
+    shown = dict.fromkeys(SunMaps._fields, empty) | {"clean": np.zeros((6, 8, 3), np.float32)}
+    with np.errstate(all="raise"):
+        found = water._with_glints(working, sky, ground, wet, SunMaps(**shown))
+    assert np.isfinite(found).all()
+    np.testing.assert_array_equal(found[12:, 4:28], 1)
+
+
+@pytest.mark.parametrize("elevation", [20, 35])
+def test_red_water_of_an_evening_is_no_redder_than_the_sky_of_the_day(elevation):
+    evening = known_photo(sun=(8.0, 2.0), tint=(1.8, 0.9, 0.5), clouds=False)
+    evening.linear[evening.sky == 0] = (0.3, 0.02, 0.03)
+    scene = evening.analyze(water=1 - evening.sky)
+    edit = sw.Edit(sun_azimuth=-60, sun_elevation=elevation)
+    light = srgb_to_linear(sw.render(scene, edit) / 255)
+    low = evening.camera.horizon_row()
+    sky, sea = (light[round(low) + a : round(low) + b].mean((0, 1)) for a, b in ((-8, -3), (5, 20)))
+    assert sea[0] / sea[1] < 1.3 * sky[0] / sky[1]
+    assert sea[0] / sea[2] < 1.3 * sky[0] / sky[2]
