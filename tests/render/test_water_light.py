@@ -95,6 +95,21 @@ def test_posts_beside_the_old_glints_neither_repeat_in_their_place_nor_darken_it
     assert posted.mean((0, 2)).std() < plain.mean((0, 2)).std() + 1
 
 
+def test_the_outline_of_a_rock_beside_the_old_glints_does_not_repeat_in_their_place():
+    calm = glittering().astype(np.float32)
+    calm[ROW + 1 :] = cv2.GaussianBlur(calm[ROW + 1 :], (0, 0), 6)
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
+    distance = np.hypot((rows - ROW - 40) / 6, (columns - 45) / 12)  # 1 on the outline
+    rock = (1 / (1 + np.exp(np.clip(25 * (distance - 1), -50, 50))))[..., None]
+    away = sw.Edit(sun_azimuth=90, sun_elevation=35)
+    plain, with_rock = (
+        sw.render(sw.analyze(np.round(picture).astype(np.uint8), sun=(150, 40), **TOLD), away)
+        for picture in (calm, calm + rock * (12 - calm))
+    )
+    apart = (with_rock.astype(float) - plain)[ROW + 12 :, 130:170].mean(-1)  # levels of 255
+    assert (apart - cv2.GaussianBlur(apart, (0, 0), 5)).min() > -1
+
+
 def test_water_under_a_wide_column_is_as_bright_as_beside_it():
     rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
     waves = cv2.GaussianBlur(

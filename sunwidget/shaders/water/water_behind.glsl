@@ -17,7 +17,8 @@ out vec4 result;
 
 const int kPlaces = 6;
 const float kHighestWave = 0.35;  // natural logarithm of brightness, in new glints
-const float kRock = 1.5;  // in heights of the waves: a deviation from the water's light that gets half the weight
+const float kRock = 2.0;  // in heights of the waves: a deviation from the water's light that gets half the weight
+const vec2 kBeside[3] = vec2[3](vec2(0.0, -0.006), vec2(0.005, 0.003), vec2(-0.005, 0.003));  // longer sides
 const vec3 kDark = vec3(1.5, 2.5, 7.0);  // darker than the water by 7 heights of waves and 1.5 to 2.5 more
 
 // Inside the picture, mirrored at its sides.
@@ -52,8 +53,15 @@ void main() {
     vec2 marks = ReadPixel(surface, at).gb;
     float weight = smoothstep(0.5, 1.0, marks.x) * (1.0 - marks.y) * (1.0 - marks.y);
     float wave = GetBrightness(GetSceneLight(ReadPixel(photo, at).rgb), ReadBilinear(water_level, at).rgb);
-    // Rocks that the mask includes as water stand out more than waves.
-    float rock = wave / (kRock * max(level.a, kLowestWave));
+    // Rocks that the mask includes as water stand out more than waves. Pixels near them count as little, or their
+    // outlines would be waves.
+    float most = abs(wave);
+    for (int j = 0; j < 3; ++j) {
+      vec2 beside = at + kBeside[j] * max(frame_size.x, frame_size.y) / frame_size;
+      vec3 light = GetSceneLight(ReadPixel(photo, beside).rgb);
+      most = max(most, abs(GetBrightness(light, ReadBilinear(water_level, beside).rgb)));
+    }
+    float rock = most / (kRock * max(level.a, kLowestWave));
     weight /= 1.0 + rock * rock * rock * rock;
     sum += weight * wave;
     squares += weight * weight;
