@@ -224,14 +224,25 @@ def test_water_that_is_black_is_finite():
     np.testing.assert_array_equal(found[12:, 4:28], 1)
 
 
+def sky_and_sea(photo, color, azimuth, elevation, **hints):
+    """Return the mean light above and below the horizon after a move; the sea is ``color``."""
+    photo.linear[photo.sky == 0] = color
+    scene = photo.analyze(water=1 - photo.sky, **hints)
+    moved = sw.render(scene, sw.Edit(sun_azimuth=azimuth, sun_elevation=elevation))
+    row = round(photo.camera.horizon_row())
+    light = srgb_to_linear(moved / 255)
+    return light[row - 8 : row - 3].mean((0, 1)), light[row + 5 : row + 20].mean((0, 1))
+
+
 @pytest.mark.parametrize("elevation", [20, 35])
 def test_red_water_of_an_evening_is_no_redder_than_the_sky_of_the_day(elevation):
     evening = known_photo(sun=(8.0, 2.0), tint=(1.8, 0.9, 0.5), clouds=False)
-    evening.linear[evening.sky == 0] = (0.3, 0.02, 0.03)
-    scene = evening.analyze(water=1 - evening.sky)
-    edit = sw.Edit(sun_azimuth=-60, sun_elevation=elevation)
-    light = srgb_to_linear(sw.render(scene, edit) / 255)
-    low = evening.camera.horizon_row()
-    sky, sea = (light[round(low) + a : round(low) + b].mean((0, 1)) for a, b in ((-8, -3), (5, 20)))
+    sky, sea = sky_and_sea(evening, (0.3, 0.02, 0.03), -60, elevation)
     assert sea[0] / sea[1] < 1.3 * sky[0] / sky[1]
     assert sea[0] / sea[2] < 1.3 * sky[0] / sky[2]
+
+
+def test_water_under_a_sky_bluer_than_any_air_is_not_green_in_the_evening():
+    day = known_photo(sun=(150.0, 40.0), tint=(0.1, 1.3, 1.9), clouds=False)
+    sky, sea = sky_and_sea(day, (0.03, 0.12, 0.2), -15, 4, sun=None)
+    assert sea[1] / sea[0] < 1.1 * sky[1] / sky[0]

@@ -106,9 +106,10 @@ void main() {
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
   vec3 lifted = GetLandGain() * land_ratio;
-  vec3 air = GetAirChange(place, land_marks.b, land, lifted + water * (mirror.rgb - lifted));
+  int column = GetAirColumn(place);
+  vec3 horizon = GetHorizon(column);
+  vec3 air = GetAirChange(column, horizon, land_marks.b, land, lifted + water * (mirror.rgb - lifted));
   vec3 land_change = GetLandChange(front, land, land_ratio, GetIrradianceNow(upright), shine, mirror.rgb, air, removed);
-  vec3 horizon = texelFetch(air_edit, ivec2(GetAirColumn(place), 0), 0).rgb;
   vec3 water_change = GetWaterChange(front, clean, land_marks.g, glare, mirror, air, horizon);
   land_change += water * (water_change - land_change);
   land_change += GetExposureGain()

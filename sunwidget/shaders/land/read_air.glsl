@@ -19,25 +19,28 @@ int GetAirColumn(vec2 place) {
   return clamp(int(place.x * float(columns)), 0, columns - 1);
 }
 
+// The new sky at the horizon, in the photo's colors.
+vec3 GetHorizon(int column) {
+  return RemoveLostTint(texelFetch(air_source, ivec2(column, 0), 0).rgb, texelFetch(air_edit, ivec2(column, 0), 0).rgb);
+}
+
 // Light that the air adds to relit land when sun or haze change. `light` is the pixel's light, `gain` the
-// land's own ratio. Koschmieder 1924: I = J t + A (1 - t) with t = exp(-extinction * distance). The
-// land without its air, I - A (1 - t), takes the ratio, and the new air is added:
-// I gain - A (1 - t) gain + A' (1 - t'). Nothing is divided by t.
-vec3 GetAirChange(vec2 place, float log_depth, vec3 light, vec3 gain) {
+// land's own ratio, `horizon` the new sky there. Koschmieder 1924: I = J t + A (1 - t) with
+// t = exp(-extinction * distance). The land without its air, I - A (1 - t), takes the ratio, and the new air is
+// added: I gain - A (1 - t) gain + A' (1 - t'). Nothing is divided by t.
+vec3 GetAirChange(int column, vec3 horizon, float log_depth, vec3 light, vec3 gain) {
   float distance = exp2(16.0 * log_depth);
   distance = distance * kFarthestAir / (distance + kFarthestAir);
-  int column = GetAirColumn(place);
   vec3 share_before = 1.0 - exp(-distance * GetExtinction(source_air_density, source_aerosol_optical_depth,
       source_aerosol_scale_height, source_angstrom_exponent));
   vec3 share_now = 1.0 - exp(-distance * GetExtinction(air_density, aerosol_optical_depth,
       aerosol_scale_height, angstrom_exponent));
   vec3 air_before = texelFetch(air_source, ivec2(column, 0), 0).rgb;
-  vec3 air_now = texelFetch(air_edit, ivec2(column, 0), 0).rgb;
   vec3 before = share_before * air_before;
   float believed = min(kLargestShare * GetLuminance(light) / max(GetLuminance(before), 1e-12), 1.0);
   // If the photo's air has another color than the model's, only as much is removed as the pixel holds.
   vec3 held = min(believed * before, kLargestShare * light);
-  vec3 change = share_now * RemoveLostTint(air_before, air_now) / max(before, vec3(1e-12));
+  vec3 change = share_now * horizon / max(before, vec3(1e-12));
   vec3 added = held * change + (believed * before - held) * max(change - 1.0, 0.0);
   vec3 removed = gain * held;
   return GetSkySeen() * aerial_perspective * mix(added - removed, vec3(0.0), equal(added, removed));
