@@ -19,9 +19,13 @@ int GetAirColumn(vec2 place) {
   return clamp(int(place.x * float(columns)), 0, columns - 1);
 }
 
-// The new sky at the horizon, in the photo's colors.
+// The new sky at the horizon, without the tint that it loses and, by day, without the evening's balance.
 vec3 GetHorizon(int column) {
-  return RemoveLostTint(texelFetch(air_source, ivec2(column, 0), 0).rgb, texelFetch(air_edit, ivec2(column, 0), 0).rgb);
+  vec3 before = texelFetch(air_source, ivec2(column, 0), 0).rgb;
+  vec3 now = texelFetch(air_edit, ivec2(column, 0), 0).rgb;
+  float evening = GetRisen(GetSunBefore(), GetDescribedSun()) * GetEveningBalance();
+  vec3 sky = RemoveEvening(RemoveLostTint(before, now), GetLostTint(before, now), evening);
+  return sky * (GetLuminance(now) / GetLuminance(sky));
 }
 
 // Light that the air adds to relit land when sun or haze change. `light` is the pixel's light, `gain` the

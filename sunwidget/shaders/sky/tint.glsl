@@ -46,12 +46,23 @@ vec3 RemoveBalance(vec3 light, float share) {
   return share > 0.0 ? light * pow(GetLuminance(sky_gain) / sky_gain, vec3(share)) : light;
 }
 
-// Keeps the brightness of `sky_now`, and violet that no air has: a filter or a balance for other light puts it into the
-// whole picture, and without it the new sun's surroundings would be green against the rest.
+// Green over red and blue, relative to the most violet of daytime photos, at most 1. Violet beyond that is a filter's, or
+// a balance's for other light: it colors the whole picture, and without it a new sun's surroundings would be green. But
+// an evening's violet leaves with the evening.
+float GetViolet() {
+  return min(sky_gain.g * exp2(-kGreens.x) * inversesqrt(sky_gain.r * sky_gain.b), 1.0);
+}
+
+// Keeps the brightness of `sky_now` and its violet.
 vec3 RemoveLostTint(vec3 sky_before, vec3 sky_now) {
-  vec3 tint = vec3(sky_gain.r, max(sky_gain.g, exp2(kGreens.x) * sqrt(sky_gain.r * sky_gain.b)), sky_gain.b);
+  vec3 tint = vec3(sky_gain.r, sky_gain.g / GetViolet(), sky_gain.b);
   vec3 color = sky_now * pow(tint, vec3(-GetLostTint(sky_before, sky_now)));
   return color * (GetLuminance(sky_now) / GetLuminance(color));
+}
+
+// Removes `evening` of the balance from light that has `lost` a share of its tint already.
+vec3 RemoveEvening(vec3 light, float lost, float evening) {
+  return RemoveBalance(light, (1.0 - lost) * evening) * vec3(1.0, pow(GetViolet(), -lost * evening), 1.0);
 }
 
 // How far a low sun, or one below the horizon, has risen; otherwise 0.
@@ -102,10 +113,10 @@ vec3 ShiftToModelColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opac
   float along = dot(own - dot(own, vec3(1.0 / 3.0)), turn) / max(length(turn), 1e-3);
   float faded = GetTurned(ratio, before) * mix(1.0, kFadedAhead, smoothstep(0.0, 1.0, along));
   float lost = (1.0 - opacity) * GetLostTint(sky_before, sky_now);
+  float evening = risen * GetEveningBalance();
   faded = max(faded, lost);
   now += (1.0 - opacity) * (RemoveLostTint(sky_before, sky_now) * (GetLuminance(now) / GetLuminance(sky_now)) - now);
-  // The lost tint has already removed some of the balance.
-  vec3 day = RemoveBalance(now, max((1.0 - lost) * risen * GetEveningBalance(), cloud * GetVividness()));
+  vec3 day = RemoveBalance(RemoveEvening(now, lost, evening), max(cloud * GetVividness() - (1.0 - lost) * evening, 0.0));
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
   faded = max(faded, risen * GetWarmth(relit, model));

@@ -38,7 +38,6 @@ vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirr
   vec3 glints = changed * shown / (1.0 + shown / kBrightest) * sun;
   vec3 relit = max(calm * mirror.rgb + air, vec3(0.0));
   float risen = GetRisen(GetSunBefore(), GetDescribedSun());
-  sky = RemoveBalance(sky, risen * GetEveningBalance());
   // As in the sky (sky/tint.glsl), the water's excess color over the model fades.
   float faded = max(kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))), risen * GetWarmth(relit, sky));
   relit += faded * (sky * (GetLuminance(relit) / GetLuminance(sky)) - relit);
