@@ -246,3 +246,9 @@ def test_water_under_a_sky_bluer_than_any_air_is_not_green_in_the_evening():
     day = known_photo(sun=(150.0, 40.0), tint=(0.1, 1.3, 1.9), clouds=False)
     sky, sea = sky_and_sea(day, (0.03, 0.12, 0.2), -15, 4, sun=None)
     assert sea[1] / sea[0] < 1.1 * sky[1] / sky[0]
+
+
+def test_blue_water_of_an_evening_stays_blue_by_day():
+    evening = known_photo(sun=(8.0, 2.0), tint=(1.8, 0.9, 0.5), clouds=False)
+    _, sea = sky_and_sea(evening, (0.002, 0.001, 0.12), -60, 35)
+    assert sea[2] > 3 * sea[0]

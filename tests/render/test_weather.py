@@ -112,6 +112,15 @@ def test_leaves_that_glowed_before_a_low_sun_are_not_red_by_day():
     assert red / green < 3.5
 
 
+def test_orange_land_of_an_evening_is_paler_by_day_than_orange_land_of_a_day():
+    def redness(tint):
+        photo = known_photo(sun=(8.0, 4.0), tint=tint, clouds=False)
+        photo.linear[photo.sky == 0] = (0.3, 0.12, 0.03)
+        return balance(rendered(photo.analyze(), HIGH)[photo.sky == 0])[0]
+
+    assert redness((6.0, 1.0, 0.05)) < redness((1.0, 1.0, 1.0)) - 0.1
+
+
 def test_round_a_seen_low_sun_clouds_change_as_the_sky_does_and_by_day_as_clouds():
     def turned_by_clouds(height):
         scene = known_photo(sun=(8.0, height)).analyze()

@@ -23,6 +23,8 @@ const vec2 kWhitePaint = vec2(0.5, 0.9);
 // Largest redness of land relative to its light: log of red over green, and over blue. Three in four warm land pixels
 // of daytime photos are below it.
 const vec2 kReddestLand = vec2(0.77, 1.6);
+// Share of that redness that leaves with an evening whose light itself was redder than daytime balances are.
+const float kEveningsRed = 0.6;
 
 uniform vec3 photo_land_linear_mean;
 uniform float land_strength;
@@ -39,10 +41,10 @@ vec3 RemoveGlare(vec3 light, float share, vec3 lit_before, float nearby) {
 }
 
 // Limits the redness of leaves and mist that a low sun shone through: no land is as red under another light.
-vec3 RemoveGlow(vec3 land, vec3 lit) {
+vec3 RemoveGlow(vec3 land, vec3 lit, vec2 reddest) {
   vec3 own = log(max(land, vec3(1e-6)) / max(lit, vec3(1e-6)));
   vec2 red = max(own.r - own.gb, vec2(0.0));
-  own.gb += red - red * inversesqrt(1.0 + red * red / (kReddestLand * kReddestLand));
+  own.gb += red - red * inversesqrt(1.0 + red * red / (reddest * reddest));
   vec3 color = lit * exp(own);
   return color * (GetLuminance(land) / max(GetLuminance(color), 1e-9));
 }
@@ -57,10 +59,11 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
   // Without a sky the light on the land is unknown.
   float turned = GetSkySeen() * GetTurned(ratio, before);
   float risen = GetSkySeen() * GetRisen(GetSunBefore(), GetDescribedSun());
+  float evening = risen * GetEveningBalance();
   float changed = max(turned, risen);  // how far the light has become another
   float guessed = max(kLitColor * changed, dark * lift * lift / (lift * lift + 4.0));
   // A balance that the photo's light has shifted does not apply to another light.
-  vec3 color = RemoveBalance(lit, max(max(kBalanceLost * turned, risen * GetEveningBalance()), GetVividness()));
+  vec3 color = RemoveBalance(lit, max(max(kBalanceLost * turned, evening), GetVividness()));
   land += guessed * (color * (level / GetLuminance(color)) - land);
   vec3 mean = GetSceneLight(photo_land_linear_mean);
   vec3 usual = mix(color / GetLuminance(color), mean * ratio / max(GetLuminance(mean * ratio), 1e-9),
@@ -68,7 +71,7 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
   // As the light changes, its own color replaces the average: that of an evening's land was the evening's.
   usual = mix(usual / GetLuminance(usual), color / GetLuminance(color), changed);
   land += glare * (usual * level - land);
-  land = mix(land, RemoveGlow(land, color), changed);
+  land = mix(land, RemoveGlow(land, color, kReddestLand * (1.0 - kEveningsRed * evening)), changed);
   float albedo = 3.14159265 * level / max(GetLuminance(lit), 1e-9);
   float beyond = max(albedo - kWhitePaint.x, 0.0) / (kWhitePaint.y - kWhitePaint.x);
   float most = kWhitePaint.x + (kWhitePaint.y - kWhitePaint.x) * beyond / (1.0 + beyond);

@@ -7,6 +7,7 @@
 
 // Share of the color of the sky at the horizon in water whose color has changed.
 const float kMirroredColor = 0.7;
+const vec2 kBlueWater = vec2(-1.5, -0.5);  // log of red over blue, relative to the sky
 
 uniform float water_strength;
 uniform float glitter;
@@ -37,9 +38,11 @@ vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirr
   vec3 sun = texelFetch(composite_constants, ivec2(kWaterSunNow, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
   vec3 glints = changed * shown / (1.0 + shown / kBrightest) * sun;
   vec3 relit = max(calm * mirror.rgb + air, vec3(0.0));
-  float risen = GetRisen(GetSunBefore(), GetDescribedSun());
-  // As in the sky (sky/tint.glsl), the water's excess color over the model fades.
-  float faded = max(kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))), risen * GetWarmth(relit, sky));
+  // As in the sky (sky/tint.glsl), the water's excess color over the model fades. Blue is the water's own.
+  float redder = log(max(relit.r * sky.b, 1e-9) / max(relit.b * sky.r, 1e-9));
+  float warmer = GetWarmth(relit, sky) * smoothstep(kBlueWater.x, kBlueWater.y, redder);
+  float faded = max(kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))),
+                    GetRisen(GetSunBefore(), GetDescribedSun()) * warmer);
   relit += faded * (sky * (GetLuminance(relit) / GetLuminance(sky)) - relit);
   relit += glints;
   return land_strength * (GetExposureGain() * relit - light);
