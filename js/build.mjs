@@ -69,7 +69,11 @@ export function compact(text) {
     .replace(/\/\*[\s\S]*?\*\/|\/\/.*/g, " ")
     .replace(/\s*\n\s*/g, "\n")
     .trim()
-    .replace(/^[^#].*/gm, (line) => line.replace(/ *([*/=<>(){}[\],;?:&|!]) */g, "$1"));
+    .replace(/^[^#].*/gm, (line) =>
+      line
+        .replace(/ *([*/=<>(){}[\],;?:&|!]) */g, "$1")
+        .replace(/(?<![+-]) ([+-]) (?![+-])/g, "$1"),
+    );
 }
 
 /** @type {import("esbuild").Plugin} */

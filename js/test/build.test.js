@@ -28,7 +28,7 @@ test("a shader loses comments and blanks; what it says, and each line of the pre
     compact(text),
     `#define TWICE(x) (2.0 * x)
 vec3 a=vec3(1.0,-2.0,3.0)/b;
-return a - -b + c;
+return a - -b+c;
 #include "lib/c.glsl"`,
   );
 });
