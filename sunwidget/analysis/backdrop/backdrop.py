@@ -6,6 +6,7 @@ model continues it: the logarithm of photo over model is a slow field.
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -58,6 +59,9 @@ def to_light(code: np.ndarray) -> np.ndarray:
 
 LONG_SIDE = 256
 _MODEL_SIDE = 80
+_TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # in spreads of the sun
+_WIDEST = 90.0  # degrees
+_NEAR = 0.75  # of a side, from the picture's middle: a sun farther away has no glow in it
 
 
 def behind_sun(
@@ -114,14 +118,35 @@ def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarra
 
     It is marched on a coarser grid, since without the disc the sky's logarithm is smooth.
     """
+    return _enlarged(_coarse_logs(fit, camera, size_within(size, _MODEL_SIDE)), size)
+
+
+def expected_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+    """Return ``matched_sky`` without the glow of a sun that is only assumed in the picture.
+
+    The photo does not show it. This is the geometric mean over where that sun may be
+    (``fit.sun_spread``).
+    """
+    x, y = camera.pixel(*fit.sun)
+    # Behind the camera there is no pixel (NaN).
+    near = max(abs(x / camera.width - 0.5), abs(y / camera.height - 0.5)) <= _NEAR
+    if fit.sun_spread == 0 or not near:
+        return matched_sky(fit, camera, size)
+    turns = np.array(_TURNS) * min(fit.sun_spread, _WIDEST)
+    suns = [(fit.sun[0] + float(turn), fit.sun[1]) for turn in turns]
+    coarse = size_within(size, _MODEL_SIDE // 2)
+    logs = [_coarse_logs(dataclasses.replace(fit, sun=sun), camera, coarse) for sun in suns]
+    return _enlarged(np.mean(logs, axis=0), size)
+
+
+def _enlarged(logs: np.ndarray, size: tuple[int, int]) -> np.ndarray:
     import cv2
 
-    logs = _coarse_logs(fit, camera, size_within(size, _MODEL_SIDE))
     model = np.exp(cv2.resize(logs, size, interpolation=cv2.INTER_LINEAR))
     return np.asarray(model.reshape(size[1], size[0], 3), np.float32)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def _coarse_logs(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
     """March the model once per fit."""
     azimuth, elevation = view_angles(camera, *size)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.backdrop.backdrop import matched_sky
+from sunwidget.analysis.backdrop.backdrop import expected_sky
 from sunwidget.analysis.clouds.unmix import cloud_white, unmix
 from sunwidget.analysis.depth.field import guided
 from sunwidget.analysis.fit.fit import SkyFit
@@ -177,7 +177,7 @@ def veil(
         )
 
     blue = fit if sun_seen else limit_balance(fit, working, sky)
-    clear = matched_sky(blue, camera, (working.width, working.height))
+    clear = expected_sky(blue, camera, (working.width, working.height))
     light = fit.response.scene_light(working.linear)
     everywhere, shade = unmix(light, clear, cloud_white(blue), np.ones_like(sky))
     if not sun_seen:

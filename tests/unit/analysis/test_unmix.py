@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo, known_scene
 
+import sunwidget as sw
 from sunwidget.analysis.clouds.unmix import cloud_white, unmix
 
 CLEAR = np.array([0.25, 0.42, 0.8], np.float32)
@@ -103,3 +104,26 @@ def test_the_drawn_clouds_are_found_and_little_else():
         ]
         > 0.8
     )
+
+
+def test_layers_of_an_evening_are_layers_of_cloud_though_the_model_has_a_glow_ahead():
+    height, width, horizon = 160, 240, 100
+    rows = np.linspace(0, 1, horizon)
+    colors = [(70, 45, 130), (110, 60, 120), (230, 90, 60), (250, 130, 50), (255, 190, 110)]
+    picture = np.full((height, width, 3), 12.0)
+    for channel, values in enumerate(np.transpose(colors)):
+        picture[:horizon, :, channel] = np.interp(rows, (0, 0.35, 0.5, 0.8, 1), values)[:, None]
+    picture += np.random.default_rng(1).normal(0, 1.5, picture.shape)
+    sky = (np.arange(height)[:, None] < horizon) * np.ones(width, np.float32)
+    scene = sw.analyze(
+        np.uint8(np.clip(picture, 0, 255)),
+        sky=sky,
+        water="none",
+        refine="none",
+        horizon=float(horizon),
+        fov=45.0,
+        sun=None,
+    )
+    assert scene.automatic["sun_azimuth"] == 0
+    assert scene.clouds[:horizon].max() > 0.5
+    assert scene.clouds[5 : horizon - 8, 10:-10].std(1).max() < 0.25
