@@ -124,8 +124,7 @@ def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarra
 def expected_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
     """Return ``matched_sky`` without the glow of a sun that is only assumed in the picture.
 
-    The photo does not show it. This is the geometric mean over where that sun may be
-    (``fit.sun_spread``).
+    This is the geometric mean over where that sun may be (``fit.sun_spread``).
     """
     x, y = camera.pixel(*fit.sun)
     # Behind the camera there is no pixel (NaN).

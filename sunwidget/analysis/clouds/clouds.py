@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.backdrop.backdrop import expected_sky
+from sunwidget.analysis.backdrop.backdrop import expected_sky, matched_sky
 from sunwidget.analysis.clouds.unmix import cloud_white, unmix
 from sunwidget.analysis.depth.field import guided
 from sunwidget.analysis.fit.fit import SkyFit
@@ -22,6 +22,7 @@ from sunwidget.analysis.fit.overcast import limit_balance, overcast
 from sunwidget.analysis.images.working_copy import LONG_SIDE, Working, saturation
 from sunwidget.edit.table import parameter
 from sunwidget.errors import AnalysisError
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 MINIMUM: float = parameter("cloud_ratio_min").default
@@ -33,6 +34,7 @@ _DIFFERENCE_SCALE = 30 / 255 / (1 - MINIMUM)
 _REACH, _REACH_OF_SHADE = 0.015, 0.004  # longer sides: files store color more coarsely than light
 LARGEST_RADIUS = round(_REACH * LONG_SIDE)
 """Largest result of ``smoothing_radius``."""
+_SHOWS_GLOW = 1.5  # how much worse a sky without an assumed sun's glow fits a photo that shows it
 _NO_EDGE = 1e-3  # squared contrast of the encoded picture
 
 # Logistic regression on (red / blue, (B - R) / (B + R), saturation, blue), encoded values: bias
@@ -177,8 +179,11 @@ def veil(
         )
 
     blue = fit if sun_seen else limit_balance(fit, working, sky)
-    clear = expected_sky(blue, camera, (working.width, working.height))
+    size = (working.width, working.height)
+    clear, expected = matched_sky(blue, camera, size), expected_sky(blue, camera, size)
     light = fit.response.scene_light(working.linear)
+    if _misfit(light, expected, sky) < _SHOWS_GLOW * _misfit(light, clear, sky):
+        clear = expected
     everywhere, shade = unmix(light, clear, cloud_white(blue), np.ones_like(sky))
     if not sun_seen:
         everywhere = np.maximum(everywhere, overcast(working, sky))
@@ -193,6 +198,12 @@ def veil(
         Clouds((smooth * sky).astype(np.float32), none, level / weight),
         Clouds(everywhere, none, shade),
     )
+
+
+def _misfit(light: np.ndarray, model: np.ndarray, sky: np.ndarray) -> float:
+    """Return the deviation of the log of luminance between photo and model in the sky."""
+    apart = np.log(np.maximum(light @ LUMINANCE, 1e-4) / np.maximum(model @ LUMINANCE, 1e-6))
+    return float(apart[sky > 0.98].std()) if (sky > 0.98).any() else 0.0
 
 
 def smoothing_radius(working: Working) -> int:
