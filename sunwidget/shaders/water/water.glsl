@@ -7,7 +7,7 @@
 
 // Share of the color of the sky at the horizon in water whose color has changed.
 const float kMirroredColor = 0.7;
-const vec2 kBlueWater = vec2(-1.5, -0.5);  // log of red over blue, relative to the sky
+const vec2 kBlueWater = vec2(-2.5, -1.2);  // log of red over blue, relative to the sky
 
 uniform float water_strength;
 uniform float glitter;

@@ -18,7 +18,7 @@ out vec4 result;
 const int kPlaces = 6;
 const float kHighestWave = 0.35;  // natural logarithm of brightness, in new glints
 const float kRock = 2.0;  // in heights of the waves: a deviation from the water's light that gets half the weight
-const vec2 kBeside[3] = vec2[3](vec2(0.0, -0.006), vec2(0.005, 0.003), vec2(-0.005, 0.003));  // longer sides
+const float kBeside = 0.006;  // longer sides; in the same row, since a strip of a large picture has no other
 const vec3 kDark = vec3(1.5, 2.5, 7.0);  // darker than the water by 7 heights of waves and 1.5 to 2.5 more
 
 // Inside the picture, mirrored at its sides.
@@ -56,8 +56,8 @@ void main() {
     // Rocks that the mask includes as water stand out more than waves. Pixels near them count as little, or their
     // outlines would be waves.
     float most = abs(wave);
-    for (int j = 0; j < 3; ++j) {
-      vec2 beside = at + kBeside[j] * max(frame_size.x, frame_size.y) / frame_size;
+    for (int side = -1; side <= 1; side += 2) {
+      vec2 beside = at + vec2(float(side) * kBeside * max(1.0, frame_size.y / frame_size.x), 0.0);
       vec3 light = GetSceneLight(ReadPixel(photo, beside).rgb);
       most = max(most, abs(GetBrightness(light, ReadBilinear(water_level, beside).rgb)));
     }
