@@ -61,7 +61,6 @@ LONG_SIDE = 256
 _MODEL_SIDE = 80
 _TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # in spreads of the sun
 _WIDEST = 90.0  # degrees
-_NEAR = 0.75  # of a side, from the picture's middle: a sun farther away has no glow in it
 
 
 def behind_sun(
@@ -126,10 +125,9 @@ def expected_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarr
 
     This is the geometric mean over where that sun may be (``fit.sun_spread``).
     """
-    x, y = camera.pixel(*fit.sun)
-    # Behind the camera there is no pixel (NaN).
-    near = max(abs(x / camera.width - 0.5), abs(y / camera.height - 0.5)) <= _NEAR
-    if fit.sun_spread == 0 or not near:
+    x, y = camera.pixel(*fit.sun)  # NaN behind the camera
+    inside = 0 <= x <= camera.width and 0 <= y <= camera.height
+    if fit.sun_spread == 0 or not inside:
         return matched_sky(fit, camera, size)
     turns = np.array(_TURNS) * min(fit.sun_spread, _WIDEST)
     suns = [(fit.sun[0] + float(turn), fit.sun[1]) for turn in turns]
