@@ -120,15 +120,16 @@ def matched_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarra
     return _enlarged(_coarse_logs(fit, camera, size_within(size, _MODEL_SIDE)), size)
 
 
-def expected_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+def expected_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarray | None:
     """Return ``matched_sky`` without the glow of a sun that is only assumed in the picture.
 
-    This is the geometric mean over where that sun may be (``fit.sun_spread``).
+    This is the geometric mean over where that sun may be (``fit.sun_spread``); ``None`` if no
+    sun is assumed there.
     """
     x, y = camera.pixel(*fit.sun)  # NaN behind the camera
     inside = 0 <= x <= camera.width and 0 <= y <= camera.height
     if fit.sun_spread == 0 or not inside:
-        return matched_sky(fit, camera, size)
+        return None
     turns = np.array(_TURNS) * min(fit.sun_spread, _WIDEST)
     suns = [(fit.sun[0] + float(turn), fit.sun[1]) for turn in turns]
     coarse = size_within(size, _MODEL_SIDE // 2)

@@ -182,8 +182,9 @@ def veil(
     size = (working.width, working.height)
     clear, expected = matched_sky(blue, camera, size), expected_sky(blue, camera, size)
     light = fit.response.scene_light(working.linear)
-    if _misfit(light, expected, sky) < _SHOWS_GLOW * _misfit(light, clear, sky):
-        clear = expected
+    if expected is not None:
+        shown = _misfit(light, expected, sky) >= _SHOWS_GLOW * _misfit(light, clear, sky)
+        clear = clear if shown else expected
     everywhere, shade = unmix(light, clear, cloud_white(blue), np.ones_like(sky))
     if not sun_seen:
         everywhere = np.maximum(everywhere, overcast(working, sky))

@@ -23,8 +23,9 @@ int GetAirColumn(vec2 place) {
 vec3 GetHorizon(int column) {
   vec3 before = texelFetch(air_source, ivec2(column, 0), 0).rgb;
   vec3 now = texelFetch(air_edit, ivec2(column, 0), 0).rgb;
+  float lost = GetLostTint(before, now);
   float evening = GetRisen(GetSunBefore(), GetDescribedSun()) * GetEveningBalance();
-  vec3 sky = RemoveEvening(RemoveLostTint(before, now), GetLostTint(before, now), evening);
+  vec3 sky = RemoveEvening(RemoveLostTint(now, lost), lost, evening);
   return sky * (GetLuminance(now) / GetLuminance(sky));
 }
 

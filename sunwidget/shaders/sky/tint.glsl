@@ -53,11 +53,11 @@ float GetViolet() {
   return min(sky_gain.g * exp2(-kGreens.x) * inversesqrt(sky_gain.r * sky_gain.b), 1.0);
 }
 
-// Keeps the brightness of `sky_now` and its violet.
-vec3 RemoveLostTint(vec3 sky_before, vec3 sky_now) {
+// Removes the share `lost` of the tint, but neither brightness nor violet.
+vec3 RemoveLostTint(vec3 sky, float lost) {
   vec3 tint = vec3(sky_gain.r, sky_gain.g / GetViolet(), sky_gain.b);
-  vec3 color = sky_now * pow(tint, vec3(-GetLostTint(sky_before, sky_now)));
-  return color * (GetLuminance(sky_now) / GetLuminance(color));
+  vec3 color = sky * pow(tint, vec3(-lost));
+  return color * (GetLuminance(sky) / GetLuminance(color));
 }
 
 // Removes `evening` of the balance from light that has `lost` a share of its tint already.
@@ -112,10 +112,11 @@ vec3 ShiftToModelColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opac
   // Color in the direction of the turn may stay: blue in the red sky of a sunset, when the sun sets.
   float along = dot(own - dot(own, vec3(1.0 / 3.0)), turn) / max(length(turn), 1e-3);
   float faded = GetTurned(ratio, before) * mix(1.0, kFadedAhead, smoothstep(0.0, 1.0, along));
-  float lost = (1.0 - opacity) * GetLostTint(sky_before, sky_now);
+  float clear_lost = GetLostTint(sky_before, sky_now);
+  float lost = (1.0 - opacity) * clear_lost;
   float evening = risen * GetEveningBalance();
   faded = max(faded, lost);
-  now += (1.0 - opacity) * (RemoveLostTint(sky_before, sky_now) * (GetLuminance(now) / GetLuminance(sky_now)) - now);
+  now += (1.0 - opacity) * (RemoveLostTint(sky_now, clear_lost) * (GetLuminance(now) / GetLuminance(sky_now)) - now);
   vec3 day = RemoveBalance(RemoveEvening(now, lost, evening), max(cloud * GetVividness() - (1.0 - lost) * evening, 0.0));
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
