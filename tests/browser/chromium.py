@@ -126,24 +126,29 @@ def drag_sun(page, i=0, by=(-60, 20)):
     editor = page.locator(".sunwidget").nth(i)
     ring = editor.locator(".sw-sun-ring")
     canvas = editor.locator(".sw-canvas")
+    readout = editor.locator(".sw-readout")
     ring.scroll_into_view_if_needed()
-    # What loads last, notes and pictures, moves the page.
+    before = canvas.evaluate("canvas => canvas.toDataURL()")
+    said = readout.text_content()
+    # What loads last, notes and pictures, moves the page: nothing else comes before the press.
     box = None
     while box != (box := ring.bounding_box()):
         page.wait_for_timeout(60)
-    before = canvas.evaluate("canvas => canvas.toDataURL()")
-    said = editor.locator(".sw-readout").text_content()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + by[0], y + by[1], steps=3)
     page.mouse.up()
-    assert editor.locator(".sw-readout").text_content() != said, "the drag missed the sun"
     for _ in range(PATIENCE // 100):
-        if canvas.evaluate("canvas => canvas.toDataURL()") != before:
+        # The next frame writes the one and draws the other.
+        if readout.text_content() != said and canvas.evaluate("c => c.toDataURL()") != before:
             return
         page.wait_for_timeout(100)
-    raise AssertionError("the picture did not follow the sun")
+    there = page.evaluate("at => document.elementFromPoint(...at)?.outerHTML", [x, y])
+    raise AssertionError(
+        f"pressed at {(x, y)} on {there!r:.200}; the ring was at {box}, "
+        f"is at {ring.bounding_box()}; read out was {said!r}, is {readout.text_content()!r}"
+    )
 
 
 def widget_state(widget):
