@@ -20,6 +20,7 @@ from sunwidget.analysis.images.enlarge import resize_rows
 from sunwidget.analysis.images.noise import noise_level
 from sunwidget.analysis.images.working_copy import resize
 from sunwidget.analysis.scene import Scene
+from sunwidget.analysis.segmentation.feather import softening
 from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
 from sunwidget.analysis.water.glitter import azimuth_column, glitter, roughness
 from sunwidget.analysis.windows import panes
@@ -28,6 +29,7 @@ T = TypeVar("T")
 Size = tuple[int, int]
 Map = NDArray[np.float32]
 
+_SAME = 1 / 255  # a change of the matte below its 8-bit levels
 _SHADOW = 2.0**-7  # display-linear luminance at which a picture's key stops falling
 
 
@@ -99,11 +101,34 @@ def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float
 def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -> np.ndarray:
     """Return sky matte, cloud opacity, cloud softness: (H, W, 3) float32 in [0, 1].
 
+    Matte and opacity are softened where the photo shows no edge (segmentation/feather.py).
     ``size`` (width, height) selects another size than the photo's, ``rows`` only some rows.
     """
     width, height = size or (scene.width, scene.height)
     maps = (scene.sky, scene.cloud_map, scene.softness_map)
-    return np.stack([resize_rows(image, width, height, rows) for image in maps], axis=-1)
+    found = np.stack([resize_rows(image, width, height, rows) for image in maps], axis=-1)
+    added = _softening(scene)
+    if added is not None:
+        found[..., :2] += resize_rows(added, width, height, rows)
+        np.clip(found[..., :2], 0, 1, out=found[..., :2])
+    return found
+
+
+@_cache_per_scene
+def _softening(scene: Scene) -> np.ndarray | None:
+    # A given matte is not softened, and neither is what strokes changed.
+    base = scene.unstroked
+    if base is None:
+        if scene.decision.final:
+            return None
+        found = softening(scene.working, scene.small_sky, scene.cloud_map, scene.glare)
+        return found if found.any() else None
+    added = _softening(base)
+    if added is None:
+        return None
+    painted = np.abs(scene.small_sky - base.small_sky)
+    height, width = added.shape[:2]
+    return added * (resize(painted, width, height) < _SAME)[..., None]
 
 
 def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -> np.ndarray:

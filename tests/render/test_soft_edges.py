@@ -7,6 +7,7 @@ import pytest
 from relight_scenes import known_photo
 
 import sunwidget as sw
+from sunwidget.renderer import render_pass
 
 MAST = 0.012  # linear light of a dark mast
 
@@ -45,3 +46,25 @@ def test_an_unmoved_sun_leaves_soft_edges_alone(mast):
     picture = mast.bytes
     scene = mast.analyze(picture)
     assert np.array_equal(sw.render(scene, sw.Edit()), picture)
+
+
+def test_a_sun_behind_the_haze_before_land_shows_no_disc():
+    photo = known_photo(sun=(60.0, 14.0), noise=0.0, clouds=False)
+    column = photo.camera.pixel(0.0, 4.0)
+    hazy = np.where(np.arange(80)[:, None] > column[1] - 12, np.float32(0.15), photo.sky)
+    scene = photo.analyze(sky=np.where(photo.sky > 0.5, hazy, 0).astype(np.float32))
+    edit = sw.Edit(sun_azimuth=0.0, sun_elevation=4.0)
+    with_disc, without = (sw.render(scene, edit.replace(sun_size=size)).mean(-1) for size in (1, 0))
+    row, x = int(column[1]), int(column[0])
+    assert scene.sky[row, x] == np.float32(0.15)
+    near = slice(row - 3, row + 4), slice(x - 3, x + 4)
+    assert np.abs(with_disc[near] - without[near]).max() <= 1
+
+
+@pytest.mark.parametrize("elevation", [14.0, -2.0])
+def test_air_in_front_of_land_has_the_light_of_the_horizon(elevation):
+    scene = known_photo(sun=(60.0, 14.0), noise=0.0, clouds=False).analyze()
+    sky = render_pass(scene, sw.Edit(sun_azimuth=20.0, sun_elevation=elevation), "sky_edit")
+    horizon = int(scene.horizon.row)
+    below = sky[horizon + 2 :, :, :3]
+    assert below == pytest.approx(np.broadcast_to(sky[horizon - 1, :, :3], below.shape), rel=0.4)

@@ -60,7 +60,7 @@ def thesis_frame(scene, edit, *, literal=None, sky="model"):
     known = frame_inputs.uniforms(scene)
     response = Response(known["response_shoulder"], known["response_contrast"])
     photo = scene.photo.pixels.astype(np.float64)
-    matte, opacity = (quantised(m) for m in (scene.sky, scene.clouds))
+    matte, opacity, _ = np.moveaxis(quantised(frame_inputs.layers(scene)), -1, 0)
 
     states = ((source, "source"), (now, "edit"))
 
@@ -178,8 +178,10 @@ def rendered_sky(scene, values, origin, state):
     """Return the model's sky times its gain, (H, W, 3) scene-linear, without disc and glare."""
     width, height = scene.width, scene.height
     azimuth, elevation = view_angles(scene.camera, width, height)
+    view = render_pass_of(scene, values, f"sky_view_{state}")
+    elevation = np.maximum(elevation, np.degrees(view[-1, 3, 0] + 1e-3))  # no ground
     if origin == "passes":
-        spectral = look_up(render_pass_of(scene, values, f"sky_view_{state}"), azimuth, elevation)
+        spectral = look_up(view, azimuth, elevation)
     else:
         table = SkyTable(Atmosphere(**{name: values[name] for name in _AIR}))
         spectral = table.radiance(

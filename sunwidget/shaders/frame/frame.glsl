@@ -89,7 +89,8 @@ void main() {
   // An unchanged sky stays the same to the bit, even if two programs round the same formula differently.
   vec3 sky_now = mix(GetDescribedSky(view), sky_before, bvec3(IsSkyUnchanged()));
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
-  vec3 disc = GetDisc(view, GetDescribedSun());
+  // A border in haze is wide; land hides the disc all the same.
+  vec3 disc = smoothstep(0.2, 0.8, matte) * GetDisc(view, GetDescribedSun());
   change += matte
       * GetSkyChange(behind, clean, opacity, glare, own.rg, sky_before, sky_now, view, disc);
 #endif

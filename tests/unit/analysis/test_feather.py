@@ -1,0 +1,125 @@
+"""The sky's border is as soft as the photo: spread in fog, sharp at an edge, given masks kept."""
+
+import dataclasses
+from types import SimpleNamespace
+
+import cv2
+import numpy as np
+import pytest
+from relight_scenes import known_photo
+
+import sunwidget as sw
+from sunwidget.analysis import correct, frame_inputs
+from sunwidget.analysis.segmentation.feather import softening
+
+HEIGHT, WIDTH, ROW = 180, 240, 100
+
+
+def picture(top, bottom, blur=0.0):
+    """Two grays, or with blur a ramp between them, with a little grain."""
+    gray = np.full((HEIGHT, WIDTH, 3), top, np.float32)
+    gray[ROW:] = bottom
+    if blur:
+        gray = cv2.GaussianBlur(gray, (0, 0), blur)
+    gray += np.random.default_rng(3).normal(0, 0.004, gray.shape).astype(np.float32)
+    return SimpleNamespace(encoded=gray)
+
+
+def mask(row=ROW):
+    return (np.arange(HEIGHT)[:, None].repeat(WIDTH, axis=1) < row).astype(np.float32)
+
+
+NOTHING = np.zeros((HEIGHT, WIDTH), np.float32)
+
+
+def test_a_border_in_fog_spreads_without_a_step():
+    sky = mask()
+    added = softening(picture(0.8, 0.76, blur=40), sky, NOTHING, NOTHING)
+    profile = (sky + added[..., 0]).mean(1)
+    assert np.abs(np.diff(profile)).max() < 0.1
+    assert ((profile > 0.05) & (profile < 0.95)).sum() > 20
+    assert profile[:40].min() > 0.99
+    assert profile[-40:].max() < 0.01
+
+
+@pytest.mark.parametrize("blur", [0, 1.5])
+@pytest.mark.parametrize("shift", [-1, 0, 1])
+def test_an_edge_of_the_photo_keeps_the_border(blur, shift):
+    # Ramps of two pixels, and a mask that misses the edge by a pixel.
+    sky = mask(ROW + shift)
+    added = softening(picture(0.8, 0.3, blur), sky, NOTHING, NOTHING)
+    far = np.abs(np.arange(HEIGHT) - ROW) > 5
+    assert np.abs(added[far]).max() < 0.06
+
+
+def test_clouds_keep_their_share_of_the_sky():
+    sky = mask()
+    clouds = 0.6 * sky
+    added = softening(picture(0.8, 0.76, blur=40), sky, clouds, NOTHING)
+    soft = sky + added[..., 0]
+    shown = soft > 0.1
+    assert shown[ROW:].any()
+    share = (clouds + added[..., 1])[shown] / soft[shown]
+    assert share == pytest.approx(0.6, abs=0.02)
+
+
+def test_nothing_is_softened_where_the_old_sun_outshines_the_edges():
+    glare = NOTHING.copy()
+    glare[ROW - 20 : ROW + 20, :60] = 1
+    added = softening(picture(0.8, 0.76, blur=40), mask(), NOTHING, glare)
+    assert np.abs(added[ROW - 20 : ROW + 20, :60]).max() < 1e-6
+    assert np.abs(added[:, 120:]).max() > 0.2
+
+
+def test_maps_of_other_sizes_and_large_photos_give_at_most_256_pixels():
+    big = cv2.resize(picture(0.8, 0.76, blur=40).encoded, (480, 360))
+    small = np.zeros((20, 30), np.float32)
+    added = softening(SimpleNamespace(encoded=big), mask(), small, small)
+    assert added.shape == (192, 256, 2)
+
+
+@pytest.fixture(scope="module")
+def foggy():
+    """A scene with ground of nearly the sky's light, whose mask was not given."""
+    plain = known_photo(sun=(60.0, 14.0), noise=0.0, clouds=False)
+    fog = cv2.GaussianBlur(plain.linear[:52].mean((0, 1)) + 0 * plain.linear, (0, 0), 3)
+    fog[60:] *= 0.7
+    fog = cv2.GaussianBlur(fog.astype(np.float32), (0, 0), 9)
+    scene = dataclasses.replace(plain, linear=fog).analyze()
+    return dataclasses.replace(scene, decision=scene.decision._replace(final=False))
+
+
+def test_the_frames_matte_is_soft_and_the_scenes_mask_is_not(foggy):
+    matte = frame_inputs.layers(foggy)[..., 0]
+    assert set(np.unique(foggy.sky)) == {0, 1}
+    assert ((matte > 0.1) & (matte < 0.9)).mean() > 0.05
+    assert 0 <= matte.min() <= matte.max() <= 1
+
+
+def test_a_given_mask_is_kept(foggy):
+    given = dataclasses.replace(foggy, decision=foggy.decision._replace(final=True))
+    assert np.array_equal(frame_inputs.layers(given)[..., 0], given.sky)
+
+
+def test_what_a_stroke_changed_is_kept_and_the_rest_stays_soft(foggy):
+    stroke = sw.Stroke("not_sky", ((0.1, 0.6), (0.2, 0.6)), 0.03)
+    brushed = correct.corrected(foggy, sw.Edit(strokes=(stroke,)))
+    changed = np.abs(brushed.sky - foggy.sky) > 0.01
+    assert changed.any()
+    matte, before = (frame_inputs.layers(scene)[..., 0] for scene in (brushed, foggy))
+    assert np.array_equal(matte[changed], brushed.sky[changed])
+    near = cv2.dilate(changed.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+    kept = ~near & (before != foggy.sky)
+    assert kept.any()
+    assert np.array_equal(matte[kept], before[kept])
+
+
+def test_a_moved_sun_draws_no_line_in_fog(foggy):
+    edit = sw.Edit(sun_elevation=2.0)
+    hard = dataclasses.replace(foggy, decision=foggy.decision._replace(final=True))
+    soft, line = (
+        np.abs(np.diff(sw.render(scene, edit).astype(float).mean((1, 2))))[40:70].max()
+        for scene in (foggy, hard)
+    )
+    assert soft < 0.5 * line
+    assert np.array_equal(sw.render(foggy, sw.Edit()), foggy.photo.encoded)
