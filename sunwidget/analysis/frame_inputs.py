@@ -107,9 +107,11 @@ def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) ->
     width, height = size or (scene.width, scene.height)
     maps = (scene.sky, scene.cloud_map, scene.softness_map)
     found = np.stack([resize_rows(image, width, height, rows) for image in maps], axis=-1)
-    added = _softening(scene)
-    if added is not None:
-        found[..., :2] += resize_rows(added, width, height, rows)
+    softer = _softening(scene)
+    if softer is not None:
+        change = resize_rows(softer, width, height, rows)
+        found[..., :2] *= change[..., 2:]
+        found[..., :2] += change[..., :2]
         np.clip(found[..., :2], 0, 1, out=found[..., :2])
     return found
 
@@ -121,14 +123,15 @@ def _softening(scene: Scene) -> np.ndarray | None:
     if base is None:
         if scene.decision.final:
             return None
-        found = softening(scene.working, scene.small_sky, scene.cloud_map, scene.glare)
-        return found if found.any() else None
-    added = _softening(base)
-    if added is None:
+        softer = softening(scene.working, scene.small_sky, scene.cloud_map, scene.glare)
+        return softer if softer[..., :2].any() else None
+    found = _softening(base)
+    if found is None:
         return None
     painted = np.abs(scene.small_sky - base.small_sky)
-    height, width = added.shape[:2]
-    return added * (resize(painted, width, height) < _SAME)[..., None]
+    height, width = found.shape[:2]
+    kept = resize(painted, width, height) >= _SAME
+    return np.where(kept[..., None], np.array([0, 0, 1], np.float32), found)
 
 
 def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -> np.ndarray:

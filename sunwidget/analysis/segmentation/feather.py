@@ -9,19 +9,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import Working, resize, shrink
+from sunwidget.analysis.images.working_copy import Working, resize, shrink, smoothstep
 
 # Chosen by eye on a few pictures.
 _LONG_SIDE = 256  # pixels: in a larger copy, blurred edges are ramps that do not stop the smoother
 _REACH = 0.06  # of the longer side: how far a border spreads where the photo is uniform
 _EDGE = 4.0  # code values between neighbors, at which e times less spreads
+_FOG = (0.1, 0.4)  # change of the matte at which the border is no edge of the photo at all
 _LEAST = 0.01  # subtracted from any change, so that most pixels stay sky or land alone
 
 
 def softening(
     working: Working, sky: np.ndarray, clouds: np.ndarray, glare: np.ndarray
 ) -> np.ndarray:
-    """Return what softening adds to a matte and to the opacity of its clouds.
+    """Return how a matte and the opacity of its clouds are softened: factor · map + addend.
 
     Parameters
     ----------
@@ -33,9 +34,13 @@ def softening(
 
     Returns
     -------
-    (h, w, 2) float32
-        Differences in [-1, 1], at most 256 pixels wide and high; 0 where the border is kept.
+    (h, w, 3) float32
+        Addends of matte and opacity, and the factor of both, at most 256 pixels wide and high;
+        0, 0 and 1 where the border is kept. In fog the factor is 0: not even the fine line of the
+        border is left.
     """
+    import cv2
+
     guide = shrink(working.encoded, _LONG_SIDE)
     height, width = guide.shape[:2]
     levels = np.clip(guide * 255 + 0.5, 0, 255).astype(np.uint8)
@@ -47,7 +52,8 @@ def softening(
     here = clouds / np.maximum(sky, _LEAST)
     beside = _smooth(levels, clouds) / np.maximum(spread, _LEAST)
     cloudy = change * np.clip(np.where(change > 0, beside, here), 0, 1)
-    return np.stack([change, cloudy], axis=-1).astype(np.float32)
+    fog = smoothstep(*_FOG, cv2.dilate(np.abs(change), np.ones((5, 5), np.uint8)))
+    return np.stack([change + fog * sky, cloudy + fog * clouds, 1 - fog], -1).astype(np.float32)
 
 
 def _smooth(levels: np.ndarray, image: np.ndarray) -> np.ndarray:

@@ -32,9 +32,16 @@ def mask(row=ROW):
 NOTHING = np.zeros((HEIGHT, WIDTH), np.float32)
 
 
+def change(photo, sky, clouds, glare):
+    """What softening changes in matte and opacity, at its own size."""
+    how = softening(photo, sky, clouds, glare)
+    maps = np.stack([cv2.resize(m, how.shape[1::-1]) for m in (sky, clouds)], -1)
+    return how[..., :2] + (how[..., 2:] - 1) * maps
+
+
 def test_a_border_in_fog_spreads_without_a_step():
     sky = mask()
-    added = softening(picture(0.8, 0.76, blur=40), sky, NOTHING, NOTHING)
+    added = change(picture(0.8, 0.76, blur=40), sky, NOTHING, NOTHING)
     profile = (sky + added[..., 0]).mean(1)
     assert np.abs(np.diff(profile)).max() < 0.1
     assert ((profile > 0.05) & (profile < 0.95)).sum() > 20
@@ -47,7 +54,7 @@ def test_a_border_in_fog_spreads_without_a_step():
 def test_an_edge_of_the_photo_keeps_the_border(blur, shift):
     # Ramps of two pixels, and a mask that misses the edge by a pixel.
     sky = mask(ROW + shift)
-    added = softening(picture(0.8, 0.3, blur), sky, NOTHING, NOTHING)
+    added = change(picture(0.8, 0.3, blur), sky, NOTHING, NOTHING)
     far = np.abs(np.arange(HEIGHT) - ROW) > 5
     assert np.abs(added[far]).max() < 0.06
 
@@ -55,7 +62,7 @@ def test_an_edge_of_the_photo_keeps_the_border(blur, shift):
 def test_clouds_keep_their_share_of_the_sky():
     sky = mask()
     clouds = 0.6 * sky
-    added = softening(picture(0.8, 0.76, blur=40), sky, clouds, NOTHING)
+    added = change(picture(0.8, 0.76, blur=40), sky, clouds, NOTHING)
     soft = sky + added[..., 0]
     shown = soft > 0.1
     assert shown[ROW:].any()
@@ -66,7 +73,7 @@ def test_clouds_keep_their_share_of_the_sky():
 def test_nothing_is_softened_where_the_old_sun_outshines_the_edges():
     glare = NOTHING.copy()
     glare[ROW - 20 : ROW + 20, :60] = 1
-    added = softening(picture(0.8, 0.76, blur=40), mask(), NOTHING, glare)
+    added = change(picture(0.8, 0.76, blur=40), mask(), NOTHING, glare)
     assert np.abs(added[ROW - 20 : ROW + 20, :60]).max() < 1e-6
     assert np.abs(added[:, 120:]).max() > 0.2
 
@@ -75,7 +82,18 @@ def test_maps_of_other_sizes_and_large_photos_give_at_most_256_pixels():
     big = cv2.resize(picture(0.8, 0.76, blur=40).encoded, (480, 360))
     small = np.zeros((20, 30), np.float32)
     added = softening(SimpleNamespace(encoded=big), mask(), small, small)
-    assert added.shape == (192, 256, 2)
+    assert added.shape == (192, 256, 3)
+
+
+def test_not_even_a_fine_line_of_the_border_is_left_in_fog():
+    # The softening is a quarter as large as the map: the map's own border would remain.
+    how = softening(picture(0.8, 0.76, blur=40), mask(), NOTHING, NOTHING)
+    border = slice(ROW - 1, ROW + 1)
+    assert how[border, :, 2].max() < 0.05
+    large = cv2.resize(how, (4 * WIDTH, 4 * HEIGHT))
+    sharp = np.repeat(np.repeat(mask(), 4, axis=0), 4, axis=1)
+    profile = (sharp * large[..., 2] + large[..., 0]).mean(1)
+    assert np.abs(np.diff(profile)).max() < 0.03
 
 
 @pytest.fixture(scope="module")
