@@ -6,6 +6,7 @@ docs/developer/frame-graph.md describes their names and contents.
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable
 from typing import Any, TypeVar
 from weakref import WeakKeyDictionary
@@ -109,11 +110,23 @@ def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) ->
     found = np.stack([resize_rows(image, width, height, rows) for image in maps], axis=-1)
     softer = _softening(scene)
     if softer is not None:
-        change = resize_rows(softer, width, height, rows)
-        found[..., :2] *= change[..., 2:]
-        found[..., :2] += change[..., :2]
-        np.clip(found[..., :2], 0, 1, out=found[..., :2])
+        first, last = _touched_rows(softer, height, rows)
+        change = resize_rows(softer, width, height, slice(first, last))
+        part = found[first - (rows.start or 0) : last - (rows.start or 0), :, :2]
+        part *= change[..., 2:]
+        part += change[..., :2]
+        np.clip(part, 0, 1, out=part)
     return found
+
+
+def _touched_rows(softer: np.ndarray, height: int, rows: slice) -> tuple[int, int]:
+    """Return the first and the end of those ``rows`` of ``height`` that are softened."""
+    touched = np.flatnonzero((softer != (0, 0, 1)).any(axis=(1, 2)))
+    first, end, _ = rows.indices(height)
+    # Interpolation spreads the values by a row.
+    scale = height / softer.shape[0]
+    top = min(max(first, int((touched[0] - 1) * scale)), end - 1)
+    return top, max(min(end, math.ceil((touched[-1] + 2) * scale)), top + 1)
 
 
 @_cache_per_scene
