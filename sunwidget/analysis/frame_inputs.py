@@ -110,17 +110,18 @@ def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) ->
     found = np.stack([resize_rows(image, width, height, rows) for image in maps], axis=-1)
     softer = _softening(scene)
     if softer is not None:
-        first, last = _touched_rows(softer, height, rows)
-        change = resize_rows(softer, width, height, slice(first, last))
-        part = found[first - (rows.start or 0) : last - (rows.start or 0), :, :2]
+        first, end = _softened_rows(softer, height, rows)
+        change = resize_rows(softer, width, height, slice(first, end))
+        top = rows.indices(height)[0]
+        part = found[first - top : end - top, :, :2]
         part *= change[..., 2:]
         part += change[..., :2]
         np.clip(part, 0, 1, out=part)
     return found
 
 
-def _touched_rows(softer: np.ndarray, height: int, rows: slice) -> tuple[int, int]:
-    """Return the first and the end of those ``rows`` of ``height`` that are softened."""
+def _softened_rows(softer: np.ndarray, height: int, rows: slice) -> tuple[int, int]:
+    """Return first and end of those ``rows`` that are softened; at least one row, if none is."""
     touched = np.flatnonzero((softer != (0, 0, 1)).any(axis=(1, 2)))
     first, end, _ = rows.indices(height)
     # Interpolation spreads the values by a row.

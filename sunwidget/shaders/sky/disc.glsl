@@ -17,8 +17,7 @@ vec3 GetDisc(vec3 view, vec3 sun) {
   float softness = 1.0 / (camera_focal * frame_size.y);
   float chord = length(view - sun);
   float coverage = step(1e-9, radius) * clamp((radius - chord) / softness + 0.5, 0.0, 1.0);
-  float horizon = described[3].x;
-  float risen = clamp((view.y - horizon * (1.0 - horizon * horizon / 6.0)) / softness + 0.5, 0.0, 1.0);
+  float risen = clamp((view.y - GetSineOfHorizon(described[3].x)) / softness + 0.5, 0.0, 1.0);
   float x = min(chord / max(radius, 1e-9), 1.0);
   float moon = GetMoon();
   float limb = 0.5 * log2(max(1.0 - x * x, 1e-4));

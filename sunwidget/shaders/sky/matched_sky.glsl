@@ -5,10 +5,14 @@
 
 uniform vec3 sky_gain;
 
+float GetSineOfHorizon(float horizon) {
+  return horizon * (1.0 - horizon * horizon / 6.0);
+}
+
 // The horizon of a photo without visible sea is uncertain: air that a soft matte shows in front of land has the
 // color of the air at the horizon, not of the model's ground.
 vec3 RaiseToHorizon(vec3 direction, float horizon) {
-  float least = horizon * (1.0 - horizon * horizon / 6.0) + 1e-3;
+  float least = GetSineOfHorizon(horizon) + 1e-3;
   return direction.y < least ? normalize(vec3(direction.x, least, direction.z)) : direction;
 }
 
