@@ -35,7 +35,7 @@ from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import matting, refine
 from sunwidget.analysis.sun import sun as sun_stage
 from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
-from sunwidget.analysis.sun.search import Peak
+from sunwidget.analysis.sun.search import Peak, radius_at
 from sunwidget.analysis.sun.sun import SunMask, SunObservation
 from sunwidget.analysis.water import water as water_stage
 from sunwidget.errors import AnalysisError
@@ -120,6 +120,8 @@ def complete(
     searched = seed is None and not hints.sun_outside
     peak = sun_stage.find(working, maps, sky) if searched else None
     sun_mask = grow_sun_mask(working, sky, seed or peak, camera.focal / zoom_y, hints.method("sun"))
+    if sun_mask is not None and seed is not None and hints.method("sun") != "flood_fill":
+        sun_mask = sun_stage.limit_to_core(sun_mask, seed, radius_at(maps, working, *seed))
     if sun_mask is not None and ours:
         # Network and GrabCut reject a clipped disc as sky, yet the sun is in the sky.
         least = 0.6 if peak is None else 0.25

@@ -32,6 +32,7 @@ __all__ = [
     "find_moon",
     "flood_fill",
     "in_sky",
+    "limit_to_core",
     "limit_to_peak",
     "observe",
 ]
@@ -40,6 +41,7 @@ _SHARP = 0.6  # sharpness by the network, from which a core is a disc with a lim
 _EVEN = 0.3  # rise over run up to which the skyline beside a low sun continues behind it
 _LIMB_STEP = 0.15  # least difference of encoded luminance across a limb
 _LEAST_LIMB = 6.0  # radius in working pixels
+_RAYS = 4.0  # largest area of a core with rays, in areas of the largest circle inside it
 TOLERANCE = 0.03  # M of Algorithm 1: deviation of encoded luminance from the seed's
 
 
@@ -167,9 +169,24 @@ def limit_to_peak(sun_mask: SunMask, peak: Peak) -> SunMask:
     near = math.hypot(sun_mask.x - peak.x, sun_mask.y - peak.y) < max(0.7 * peak.radius, 3)
     if near and 0.5 * peak.radius < sun_mask.radius < 1.6 * peak.radius:
         return sun_mask
-    away = away_from(sun_mask.mask.shape, peak.x, peak.y)
-    disc = np.clip(peak.radius + 0.5 - away, 0, 1).astype(np.float32)
-    return SunMask(peak.x, peak.y, peak.radius, disc)
+    return _plain_disc(sun_mask.mask.shape, peak.x, peak.y, peak.radius)
+
+
+def _plain_disc(shape: tuple[int, ...], x: float, y: float, radius: float) -> SunMask:
+    disc = np.clip(radius + 0.5 - away_from(shape, x, y), 0, 1).astype(np.float32)
+    return SunMask(x, y, radius, disc)
+
+
+def limit_to_core(sun_mask: SunMask, place: tuple[float, float], radius: float) -> SunMask:
+    """Return a mask grown from a hint, or a plain disc if it grew into clouds.
+
+    A core with its rays covers little more than the largest circle inside it; clouds as white as
+    the sun cover many times that. The disc has the ``radius`` that the network reads there, at most
+    that of the circle.
+    """
+    if float(sun_mask.mask.sum()) < _RAYS * math.pi * sun_mask.radius**2:
+        return sun_mask
+    return _plain_disc(sun_mask.mask.shape, *place, min(radius, sun_mask.radius))
 
 
 def field_of_view_of(
