@@ -89,9 +89,10 @@ def starburst(dx: np.ndarray, dy: np.ndarray, d: np.ndarray, random: Random) -> 
     if random.random() < 0.5:  # rays of uneven length
         wave = wave * (0.75 + 0.25 * np.cos(turn * random.integers(1, 4) + random.uniform(0, 6)))
     length = log_uniform(random, 0.02, 0.25)
-    # A ray keeps its width on the way out: its angle narrows.
+    # A ray keeps its width on the way out: its angle narrows. Some end in a point, others fade.
     sharp = sharpness * np.maximum(d / length, 0.15)
-    return log_uniform(random, 0.15, 3) * wave**sharp * np.exp(-d / length)
+    fade = np.exp(-((d / length) ** random.uniform(0.8, 2.5)))
+    return log_uniform(random, 0.15, 3) * wave**sharp * fade
 
 
 def ghosts(x: float, y: float, columns: np.ndarray, rows: np.ndarray, random: Random) -> np.ndarray:
@@ -335,6 +336,44 @@ def night_lights(scene: np.ndarray, sky: np.ndarray, random: Random) -> np.ndarr
     return scene
 
 
+def lightning(scene: np.ndarray, sky: np.ndarray, random: Random) -> np.ndarray:
+    """Draw bolts into a dark sky, with the cloud lit where they begin: no suns."""
+    height, width = sky.shape
+    inside = np.argwhere(sky > 0.5)
+    if not len(inside):
+        return scene
+    scene = scene * 2.0 ** random.uniform(-4, -1)
+    columns = np.arange(width, dtype=np.float32)[None] + 0.5
+    rows = np.arange(height, dtype=np.float32)[:, None] + 0.5
+    color = np.array([random.uniform(0.6, 1), random.uniform(0.6, 0.95), 1], np.float32)
+    for _ in range(int(random.integers(1, 4))):
+        row, column = inside[random.integers(len(inside))]
+        bolt = np.zeros((height, width), np.uint8)
+        down = np.pi / 2 + random.normal(0, 0.3)
+        tips = [(np.array([column, row], float), down, log_uniform(random, 0.2, 1.0) * height, 2)]
+        while tips:
+            place, turn, left, thick = tips.pop()
+            while left > 0:
+                step = log_uniform(random, 0.01, 0.06) * height
+                angle = turn + random.normal(0, 0.6)
+                end = place + step * np.array([np.cos(angle), np.sin(angle)])
+                ends = [(int(p[0]), int(p[1])) for p in (place, end)]
+                cv2.line(bolt, *ends, 255, thick, cv2.LINE_AA)
+                if thick > 1 and random.random() < 0.2:
+                    tips.append((end, turn + random.normal(0, 0.8), 0.4 * left, 1))
+                place, left = end, left - step
+        line = bolt.astype(np.float32) / 255
+        spread = cv2.GaussianBlur(line, (0, 0), log_uniform(random, 0.01, 0.05) * width)
+        light = log_uniform(random, 1, 20) * line + log_uniform(random, 0.5, 6) * spread
+        wide = log_uniform(random, 0.01, 0.15)
+        d = np.hypot(columns - column, (rows - row) * random.uniform(1, 2)) / width
+        clouds = (scene @ LUMINANCE) / max(float(np.median(scene @ LUMINANCE)), 1e-4)
+        flash = log_uniform(random, 0.1, 6) * (1 + (d / wide) ** 2) ** -random.uniform(0.8, 2)
+        light = light + flash * np.clip(clouds, 0.3, 2)
+        scene = scene + (light * sky)[..., None] * color
+    return scene.astype(np.float32)
+
+
 def camera(scene: np.ndarray, clean: np.ndarray, random: Random) -> tuple[np.ndarray, np.ndarray]:
     """One exposure, white balance and curve for both; sRGB."""
     burnt = log_uniform(random, 4e-4, 0.06)  # share of the picture that may burn
@@ -397,7 +436,8 @@ def compose(rgb: np.ndarray, sky: np.ndarray, random: Random) -> Drawn:
     scene = (scene * 2.0 ** random.normal(-0.4, 0.6)).astype(np.float32)
     night = random.random() < 0.1
     if night:
-        scene = night_lights(scene, sky, random)
+        lights = lightning if random.random() < 0.3 else night_lights
+        scene = lights(scene, sky, random)
     elif random.random() < 0.12:
         scene = pale_shapes(scene, sky, random)
     if not night and random.random() < 0.1:

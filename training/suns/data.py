@@ -43,7 +43,9 @@ def split(root: Path) -> Split:
         for path in sorted((root / folder / "images").glob("*.jpg")):
             photo = known.get(f"{folder}/{path.name}")
             unlabelled = photo is None and not path.name.startswith(("sunrise", "shine"))
-            if unlabelled or (photo is not None and photo.kind == "none" and not photo.test):
+            if unlabelled or (
+                photo is not None and photo.kind in ("none", "bait") and not photo.test
+            ):
                 sunless.append(f"{folder}/{path.name}")
     trained = [p for p in known.values() if not p.test and p.kind != "drop"]
     textures = [f"{TEXTURES}/{p.name}" for p in sorted((root / TEXTURES).glob("*.jpg"))]
@@ -230,23 +232,26 @@ class Batches(IterableDataset):
         random = np.random.default_rng((self.seed, worker.id if worker else 0))
         photos = split(self.root)
         suns = [p for p in photos.labelled if p.is_sun]
-        others = [p for p in photos.labelled if not p.is_sun]
+        baits = [p for p in photos.labelled if p.kind == "bait"]
+        others = [p for p in photos.labelled if not p.is_sun and p.kind != "bait"]
         by_file = {p.file: p for p in photos.labelled}
         dry = sorted(set(photos.dry) & set(photos.skies))
 
         def one(size: tuple[int, int]) -> dict[str, np.ndarray]:
             draw = random.random()
-            if draw < 0.36:
+            if draw < 0.44:
                 kind = random.random()
                 skies = dry if kind < 0.4 else photos.skies  # a sun on dry land, too
                 file = str(random.choice(photos.textures if kind < 0.12 else skies))
                 return drawn(read(self.root, file), size, random)
-            if draw < 0.7 and photos.watery:
-                file = str(random.choice(photos.watery if draw < 0.52 else photos.dry))
+            if draw < 0.72 and photos.watery:
+                file = str(random.choice(photos.watery if draw < 0.58 else photos.dry))
                 return real(read(self.root, file), by_file.get(file), size, random)
-            if draw < 0.84 and suns:
+            if draw < 0.83 and suns:
                 label = suns[int(random.integers(len(suns)))]
-            elif draw < 0.91 and others:
+            elif draw < 0.88 and baits:
+                label = baits[int(random.integers(len(baits)))]
+            elif draw < 0.93 and others:
                 label = others[int(random.integers(len(others)))]
             else:
                 file = str(random.choice(photos.sunless))

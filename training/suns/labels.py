@@ -2,7 +2,8 @@
 
 Labels are ``labels.csv`` beside this file: file, kind, x, y, r, group. ``x`` and ``y`` are the
 centre in fractions of width and height, ``r`` the radius of the bright core in widths. Kinds: disc,
-glow (the place is clear, no disc is seen), moon, art (a pasted or painted sun), none, drop. Photos
+glow (the place is clear, no disc is seen), moon, art (a pasted or painted sun), none, bait (none,
+but what a network took for one: lightning, a lamp, wet sand, a flower), drop. Photos
 of a group show the same and share their fate; those of the group "photos" are also in the set on
 which pictures are judged. The photos are not in this repository.
 """
@@ -39,7 +40,7 @@ class Photo:
         if self.group == "photos":
             return True
         draw = hashlib.sha256(f"sun/{self.group or self.file}".encode()).digest()[0]
-        return draw % (8 if self.kind == "none" and "landscape" in self.file else 2) == 0
+        return draw % (8 if self.kind in ("none", "bait") and "landscape" in self.file else 2) == 0
 
 
 def labels(path: Path = LABELS) -> list[Photo]:

@@ -2,8 +2,9 @@
 
 ``python -m training.suns.train --data ../shared/data/train --minutes 60 --out build/suns``
 
-Running it again with the same ``--out`` resumes; ``--start`` goes on from another checkpoint with a
-schedule of its own. What is exported is an exponential moving average of the weights.
+Running it again with the same ``--out`` resumes; ``--start`` goes on from another checkpoint, or
+from ``sunwidget/analysis/models/suns.onnx``, with a schedule of its own. What is exported is an
+exponential moving average of the weights.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ from pathlib import Path
 import torch
 
 from training.loop import Run, report
-from training.suns.data import Batches
+from training.restore import restore
+from training.suns.data import Batches, typical
 from training.suns.model import SunNet, losses
 from training.train import batches, prepare, rate
 
@@ -27,7 +29,7 @@ def main() -> None:
     )
     parser.add_argument("--data", type=Path, default=Path("../shared/data/train"))
     parser.add_argument("--out", type=Path, default=Path("build/suns"))
-    parser.add_argument("--start", type=Path, help="checkpoint to go on from")
+    parser.add_argument("--start", type=Path, help="checkpoint or shipped file to go on from")
     parser.add_argument("--minutes", type=float, default=60)
     parser.add_argument("--batch", type=int, default=16)
     parser.add_argument("--rate", type=float, default=PEAK_RATE)
@@ -39,7 +41,10 @@ def main() -> None:
     torch.manual_seed(options.seed)
     network = SunNet().to(memory_format=torch.channels_last)
     run = Run(network, options.out, options.minutes)
-    if options.start and not run.resumed:
+    if options.start and options.start.suffix == ".onnx" and not run.resumed:
+        restore(network, options.start, [(image,) for image in typical(options.data, 24)])
+        run.afresh()
+    elif options.start and not run.resumed:
         state = torch.load(options.start, weights_only=True)
         for key in ("network", "average"):  # outputs that it did not have start afresh
             state[key] = network.state_dict() | state[key]
