@@ -15,8 +15,8 @@ from sunwidget.formats.color import LUMINANCE
 LEAST_CONFIDENCE = 0.45  # from which a peak counts as the sun
 SURE = 0.7  # the same in a sky as dark as at night
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate
-WEIGHTS = (3.518, 3.275, -0.557, -0.496, 1.646, -1.772)
-RADIUS_SCALE = 0.716  # from the network's radius to the radius that people draw
+WEIGHTS = (4.325, 3.654, -0.778, 0.098, 1.988, -1.354)
+RADIUS_SCALE = 0.775  # from the network's radius to the radius that people draw
 _NIGHT = 0.5  # encoded luminance of the sky's brightest tenth: with a sun above, with a moon below
 
 

@@ -20,7 +20,7 @@ from sunwidget.geometry.camera import Camera
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is partly water
 _POSSIBLE = 0.2  # probability below which looks do not make a pixel water
 _BELIEF = 0.6  # mean probability from which a patch is water
-WEIGHTS = (0.06, 0.55, 0.44)  # bias; weights of the log odds of the sun's and the land's network
+WEIGHTS = (0.06, 0.68, 0.44)  # bias; weights of the log odds of the sun's and the land's network
 _REDDER = 0.4  # log of red over blue by which water may be redder than its sky
 _DARK = 0.004  # linear light that counts as noise
 _BURNT = 0.9  # linear light from which a pixel has lost its color
