@@ -15,10 +15,8 @@ import torch
 from onnx import numpy_helper
 from torch import Tensor, nn
 
-from training.model import SkyNet
 
-
-def restore(network: SkyNet, path: Path, photos: list[tuple[Tensor, ...]]) -> None:
+def restore(network: nn.Module, path: Path, photos: list[tuple[Tensor, ...]]) -> None:
     """Fills ``network`` in place.
 
     ``photos`` are batches whose first item is uint8 ``(N, 3, S, S)``.

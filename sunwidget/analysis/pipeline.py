@@ -35,7 +35,7 @@ from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import matting, refine
 from sunwidget.analysis.sun import sun as sun_stage
 from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
-from sunwidget.analysis.sun.search import Peak, radius_at
+from sunwidget.analysis.sun.search import Peak
 from sunwidget.analysis.sun.sun import SunMask, SunObservation
 from sunwidget.analysis.water import water as water_stage
 from sunwidget.errors import AnalysisError
@@ -120,8 +120,6 @@ def complete(
     searched = seed is None and not hints.sun_outside
     peak = sun_stage.find(working, maps, sky) if searched else None
     sun_mask = grow_sun_mask(working, sky, seed or peak, camera.focal / zoom_y, hints.method("sun"))
-    if sun_mask is not None and seed is not None and hints.method("sun") != "flood_fill":
-        sun_mask = sun_stage.limit_to_core(sun_mask, seed, radius_at(maps, working, *seed))
     if sun_mask is not None and ours:
         # Network and GrabCut reject a clipped disc as sky, yet the sun is in the sky.
         least = 0.6 if peak is None else 0.25
@@ -220,9 +218,11 @@ def grow_sun_mask(
     if seed is None or not (0 <= seed[0] < working.width and 0 <= seed[1] < working.height):
         return None
     sun_mask = sun_stage.METHODS[method](working, sky, seed[0], seed[1], focal)
-    if isinstance(seed, Peak) and method != "flood_fill":  # the thesis method stays unchanged
+    if method == "flood_fill":  # the thesis method stays unchanged
+        return sun_mask
+    if isinstance(seed, Peak):
         return sun_stage.limit_to_peak(sun_mask, seed)
-    return sun_mask
+    return sun_stage.limit_to_core(sun_mask, seed)
 
 
 def _lens_unknown(photo: Photo, hints: Hints) -> bool:

@@ -12,8 +12,9 @@ import torch
 from torch.utils.data import IterableDataset, get_worker_info
 
 from training.data import read_pair
-from training.suns.compose import LUMINANCE, compose, spoil, to_linear
+from training.suns.compose import compose, spoil
 from training.suns.labels import Photo, labels
+from training.suns.light import LUMINANCE, to_linear
 from training.suns.model import LIGHT_FLOOR, QUARTER
 from training.suns.water import UNKNOWN, outlines, water_map
 
@@ -43,9 +44,7 @@ def split(root: Path) -> Split:
         for path in sorted((root / folder / "images").glob("*.jpg")):
             photo = known.get(f"{folder}/{path.name}")
             unlabelled = photo is None and not path.name.startswith(("sunrise", "shine"))
-            if unlabelled or (
-                photo is not None and photo.kind in ("none", "bait") and not photo.test
-            ):
+            if unlabelled or (photo is not None and photo.is_sunless and not photo.test):
                 sunless.append(f"{folder}/{path.name}")
     trained = [p for p in known.values() if not p.test and p.kind != "drop"]
     textures = [f"{TEXTURES}/{p.name}" for p in sorted((root / TEXTURES).glob("*.jpg"))]

@@ -35,12 +35,17 @@ class Photo:
         return self.kind in ("disc", "art")
 
     @property
+    def is_sunless(self) -> bool:
+        """Whether there is neither sun, glow nor moon, be there what resembles one."""
+        return self.kind in ("none", "bait")
+
+    @property
     def test(self) -> bool:
         """Whether it only judges: half of those with a sun or moon, an eighth of the others."""
         if self.group == "photos":
             return True
         draw = hashlib.sha256(f"sun/{self.group or self.file}".encode()).digest()[0]
-        return draw % (8 if self.kind in ("none", "bait") and "landscape" in self.file else 2) == 0
+        return draw % (8 if self.is_sunless and "landscape" in self.file else 2) == 0
 
 
 def labels(path: Path = LABELS) -> list[Photo]:

@@ -76,10 +76,25 @@ class SunMaps(nn.Module):
         return sun, out[:, 3:6], out[:, 6:].sigmoid()
 
 
-def _pair(x: Tensor, axis: int, apart: int) -> tuple[Tensor, Tensor]:
-    """Pixels and those so many farther along an axis."""
-    size = x.shape[axis] - apart
-    return x.narrow(axis, apart, size), x.narrow(axis, 0, size)
+def _mean(error: Tensor, weight: Tensor) -> Tensor:
+    """Weighted mean of an error (N, 3, h, w); weight (N, 1, h, w)."""
+    return (error.abs() * weight).sum() / (3 * weight.sum()).clamp(min=1)
+
+
+def _edges(error: Tensor, weight: Tensor) -> Tensor:
+    """Weighted mean differences of an error (N, 3, h, w) between pixels, summed over distances.
+
+    How bright a wide halo is cannot be known; where it ends can.
+    """
+    parts = []
+    for apart in (1, 2, 4, 8):
+        for axis in (2, 3):
+            size = error.shape[axis] - apart
+            (here, there), (weighs_here, weighs_there) = (
+                (x.narrow(axis, 0, size), x.narrow(axis, apart, size)) for x in (error, weight)
+            )
+            parts.append(_mean(there - here, torch.minimum(weighs_here, weighs_there)))
+    return torch.stack(parts).sum()
 
 
 def losses(out: Tensor, target: dict[str, Tensor]) -> dict[str, Tensor]:
@@ -111,19 +126,13 @@ def losses(out: Tensor, target: dict[str, Tensor]) -> dict[str, Tensor]:
         out[:, 2:3], torch.nan_to_num(sharp).expand_as(heat), reduction="none"
     )
     wrong = out[:, 3:6] - target["clean"]
-    weight, edges = target["clean_weight"], out.new_zeros(())
-    for apart in (1, 2, 4, 8):  # how bright a wide halo is cannot be known, where it ends can
-        for axis in (2, 3):
-            both = torch.minimum(*_pair(weight, axis, apart))
-            far, near_by = _pair(wrong, axis, apart)
-            edges = edges + ((far - near_by).abs() * both).sum() / (3 * both.sum()).clamp(min=1)
     wet = F.binary_cross_entropy_with_logits(out[:, 6:], target["water"], reduction="none")
     return {
         "centre": (hit.sum() + miss.sum()) / count,
         "radius": (off * known_radius).sum() / known_radius.sum().clamp(min=1),
         "sharp": 0.3 * (limb * known_sharp).sum() / known_sharp.sum().clamp(min=1),
-        "clean": 6 * (wrong.abs() * weight).sum() / (3 * weight.sum()).clamp(min=1),
-        "edges": 3 * edges,
+        "clean": 6 * _mean(wrong, target["clean_weight"]),
+        "edges": 3 * _edges(wrong, target["clean_weight"]),
         "water": 2
         * (wet * target["water_weight"]).sum()
         / target["water_weight"].sum().clamp(min=1),

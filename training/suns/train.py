@@ -41,14 +41,15 @@ def main() -> None:
     torch.manual_seed(options.seed)
     network = SunNet().to(memory_format=torch.channels_last)
     run = Run(network, options.out, options.minutes)
-    if options.start and options.start.suffix == ".onnx" and not run.resumed:
-        restore(network, options.start, [(image,) for image in typical(options.data, 24)])
-        run.afresh()
-    elif options.start and not run.resumed:
-        state = torch.load(options.start, weights_only=True)
-        for key in ("network", "average"):  # outputs that it did not have start afresh
-            state[key] = network.state_dict() | state[key]
-        run.begin(state)
+    if options.start and not run.resumed:
+        if options.start.suffix == ".onnx":
+            restore(network, options.start, [(image,) for image in typical(options.data, 24)])
+            run.afresh()
+        else:
+            state = torch.load(options.start, weights_only=True)
+            for key in ("network", "average"):  # outputs that it did not have start afresh
+                state[key] = network.state_dict() | state[key]
+            run.begin(state)
     photos = batches(Batches(options.data, options.batch, options.seed + run.step))
     for share in report(run):
         batch = next(photos)

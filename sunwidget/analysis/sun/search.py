@@ -86,13 +86,6 @@ def peak_of(maps: SunMaps, working: Working) -> Peak:
     )
 
 
-def radius_at(maps: SunMaps, working: Working, x: float, y: float) -> float:
-    """Return the radius of a sun at a place inside the picture, all in working pixels."""
-    height, width = maps.radius.shape
-    row, column = int(y / working.height * height), int(x / working.width * width)
-    return RADIUS_SCALE * float(maps.radius[row, column]) * working.width
-
-
 def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:
     """Return the sun that the photo shows, or None; a disc in a dark sky is likely the moon."""
     peak = peak_of(maps, working)

@@ -177,16 +177,15 @@ def _plain_disc(shape: tuple[int, ...], x: float, y: float, radius: float) -> Su
     return SunMask(x, y, radius, disc)
 
 
-def limit_to_core(sun_mask: SunMask, place: tuple[float, float], radius: float) -> SunMask:
-    """Return a mask grown from a hint, or a plain disc if it grew into clouds.
+def limit_to_core(sun_mask: SunMask, place: Point) -> SunMask:
+    """Return a mask grown from a known place, or a plain disc there if it grew into clouds.
 
     A core with its rays covers little more than the largest circle inside it; clouds as white as
-    the sun cover many times that. The disc has the ``radius`` that the network reads there, at most
-    that of the circle.
+    the sun cover many times that.
     """
     if float(sun_mask.mask.sum()) < _RAYS * math.pi * sun_mask.radius**2:
         return sun_mask
-    return _plain_disc(sun_mask.mask.shape, *place, min(radius, sun_mask.radius))
+    return _plain_disc(sun_mask.mask.shape, *place, sun_mask.radius)
 
 
 def field_of_view_of(

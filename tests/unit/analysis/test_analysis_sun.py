@@ -93,7 +93,7 @@ def test_where_a_blot_grew_into_the_glow_the_networks_disc_stands():
 def test_a_hinted_sun_leaves_the_white_clouds_that_it_touches():
     picture = evening(disc=(90.5, 60.5)).bytes.copy()
     whole = sun.disc_fit(Working.of(open_photo(picture)), SKY, 90.5, 60.5, CAMERA.focal)
-    assert sun.limit_to_core(whole, (90.5, 60.5), 4.0) is whole
+    assert sun.limit_to_core(whole, (90.5, 60.5)) is whole
     cv2.rectangle(picture, (20, 60), (300, 80), (255, 255, 255), -1)
     shown = sw.analyze(picture, sun=(90.5, 60.5)).sun
     assert shown.visible

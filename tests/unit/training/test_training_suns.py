@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from training.suns.compose import lightning
+from training.suns.decoys import lightning
 from training.suns.labels import labels
 
 KINDS = {"disc", "glow", "moon", "art", "none", "bait", "drop"}
@@ -22,7 +22,7 @@ def test_every_label_has_the_place_that_its_kind_needs():
 def test_photos_of_a_group_share_their_fate_and_baits_are_on_both_sides():
     fates = {}
     for photo in labels():
-        if photo.group and photo.kind not in ("none", "bait"):
+        if photo.group and not photo.is_sunless:
             fates.setdefault(photo.group, set()).add(photo.test)
     assert all(len(fate) == 1 for fate in fates.values())
     assert {photo.test for photo in labels() if photo.kind == "bait"} == {True, False}
