@@ -20,7 +20,7 @@ from sunwidget.errors import AnalysisError, PhotoError
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.photo.photo import open_photo
 
-_LANDS_SHARE = 0.35  # weight of the land network in the mean of log odds, by day
+_LANDS_SHARE = 0.25  # weight of the land network in the mean of log odds, by day
 _DAY = 0.45, 0.65  # encoded brightness of a sky, from night to day
 
 
