@@ -19,6 +19,7 @@ from torch.utils.data import IterableDataset, get_worker_info
 
 from training.augment import Sample, augment, crop
 from training.rooms import Rooms
+from training.sky_corrections import corrected, corrections
 
 FOLDERS = {
     "landscape-pseudo": 1.0,
@@ -29,9 +30,13 @@ FOLDERS = {
 }
 """Folder of pairs -> how often one of its photos is drawn, relative to the first."""
 TEXTURES = "opensky"
+CORRECTED = 3.0
+"""How often a photo with corrections by hand is drawn, relative to others of its folder."""
 NON_COMMERCIAL = re.compile(r"\bNC\b|non-?commercial", re.IGNORECASE)
 HELD_OUT = 16
 """One photo in this many (by a hash of its name) is kept for choosing between checkpoints."""
+HELD_OUT_CORRECTED = 4
+"""The same of those with corrections by hand, which are the hardest."""
 
 
 def barred(folder: Path) -> set[str]:
@@ -50,7 +55,8 @@ def barred(folder: Path) -> set[str]:
 def held_out(folder: str, name: str) -> bool:
     """Whether a photo belongs to the validation split; neighbouring frames share their fate."""
     key = name[:-7] if folder == "camvid" else name
-    return hashlib.sha256(f"{folder}/{key}".encode()).digest()[0] % HELD_OUT == 0
+    one_in = HELD_OUT_CORRECTED if f"{folder}/{name}.jpg" in corrections() else HELD_OUT
+    return hashlib.sha256(f"{folder}/{key}".encode()).digest()[0] % one_in == 0
 
 
 def read_pair(image: Path, mask: Path | None) -> np.ndarray:
@@ -76,12 +82,13 @@ class Pack:
         with np.load(index) as table:
             self.offset, self.shape = table["offset"], table["shape"]
             self.folder, self.held_out = table["folder"], table["held_out"]
+            self.by_hand = table["by_hand"]
         self.bytes = np.memmap(cache / "pixels.bin", np.uint8, "r")
 
     @staticmethod
     def _build(root: Path, cache: Path, index: Path) -> None:
         cache.mkdir(parents=True, exist_ok=True)
-        offset, shape, folders, held = [], [], [], []
+        offset, shape, folders, held, by_hand = [], [], [], [], []
         position = 0
         with (cache / "pixels.bin").open("wb") as out:
             for folder in (*FOLDERS, TEXTURES):
@@ -95,13 +102,16 @@ class Pack:
                     photo = read_pair(
                         path, root / folder / "masks" / f"{path.stem}.png" if pairs else None
                     )
+                    file = f"{folder}/{path.name}"
+                    photo[..., 3] = corrected(file, photo[..., 3])
                     out.write(photo.tobytes())
                     offset.append(position)
                     shape.append(photo.shape[:2])
                     folders.append(folder)
                     held.append(held_out(folder, path.stem))
+                    by_hand.append(file in corrections())
                     position += photo.size
-        np.savez(index, offset=offset, shape=shape, folder=folders, held_out=held)
+        np.savez(index, offset=offset, shape=shape, folder=folders, held_out=held, by_hand=by_hand)
 
     def __getitem__(self, i: int) -> np.ndarray:
         height, width = self.shape[i]
@@ -137,6 +147,7 @@ class Batches(IterableDataset):
         pack, rooms = Pack(self.root, self.cache), Rooms(self.rooms)
         pairs, textures = pack.select(training=True), pack.textures()
         weight = np.array([FOLDERS[str(f)] for f in pack.folder[pairs]])
+        weight *= np.where(pack.by_hand[pairs], CORRECTED, 1.0)
         weight /= weight.sum()
 
         def sky() -> np.ndarray:

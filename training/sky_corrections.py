@@ -1,0 +1,57 @@
+"""Corrections by hand of the masks of sky: where networks disagree, or are all wrong.
+
+The masks of most training photos are votes of public networks, unknown where these disagree: on
+just the far mountains, snow, sea and fog that are hard to tell from sky. ``sky_corrections.csv``
+beside this file has a line for each corrected photo: file, and regions that are sky, land (anything
+else) or unknown. Regions are parted by ``;``; each is an outline of corners ``x,y`` in per cent of
+width and height, and its holes, if any, after ``|``. The photos are not in this repository.
+"""
+
+from __future__ import annotations
+
+import csv
+from functools import cache
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+CORRECTIONS = Path(__file__).with_name("sky_corrections.csv")
+LEVELS = {"sky": 255, "land": 0, "unknown": 128}
+
+Region = list[np.ndarray]
+"""Rings (n, 2) in fractions of width and height: the outline, then its holes."""
+
+
+@cache
+def corrections(path: Path = CORRECTIONS) -> dict[str, list[tuple[int, Region]]]:
+    """Level of the mask and region of every correction, by file as ``folder/name.jpg``."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return {
+            row["file"]: [
+                (level, region) for name, level in LEVELS.items() for region in _regions(row[name])
+            ]
+            for row in csv.DictReader(file)
+        }
+
+
+def corrected(file: str, mask: np.ndarray) -> np.ndarray:
+    """A photo's mask (h, w) uint8 with its corrections: 255 sky, 0 land, 128 unknown."""
+    if file not in corrections():
+        return mask
+    mask, size = mask.copy(), mask.shape[::-1]
+    for level, region in corrections()[file]:
+        # Rings within another are holes.
+        cv2.fillPoly(mask, [np.round(ring * size).astype(np.int32) for ring in region], level)
+    return mask
+
+
+def _regions(text: str) -> list[Region]:
+    return [
+        [
+            np.array([[float(v) / 100 for v in corner.split(",")] for corner in ring.split()])
+            for ring in region.split("|")
+        ]
+        for region in text.split(";")
+        if region.strip()
+    ]
