@@ -45,7 +45,7 @@ def test_other_photos_keep_their_masks(by_hand):
 
 def test_the_shipped_corrections_are_regions_within_their_photos():
     found = sky_corrections.corrections(CORRECTIONS)
-    assert len(found) > 200
+    assert len(found) > 400
     for regions in found.values():
         assert regions
         for level, region in regions:
