@@ -19,7 +19,7 @@ from torch.utils.data import IterableDataset, get_worker_info
 
 from training.augment import Sample, augment, crop
 from training.rooms import Rooms
-from training.sky_corrections import corrected, corrections
+from training.sky_corrections import corrected, corrections, judges
 
 FOLDERS = {
     "landscape-pseudo": 1.0,
@@ -35,8 +35,6 @@ CORRECTED = 3.0
 NON_COMMERCIAL = re.compile(r"\bNC\b|non-?commercial", re.IGNORECASE)
 HELD_OUT = 16
 """One photo in this many (by a hash of its name) is kept for choosing between checkpoints."""
-HELD_OUT_CORRECTED = 4
-"""The same of those with corrections by hand, which are the hardest."""
 
 
 def barred(folder: Path) -> set[str]:
@@ -55,8 +53,7 @@ def barred(folder: Path) -> set[str]:
 def held_out(folder: str, name: str) -> bool:
     """Whether a photo belongs to the validation split; neighbouring frames share their fate."""
     key = name[:-7] if folder == "camvid" else name
-    one_in = HELD_OUT_CORRECTED if f"{folder}/{name}.jpg" in corrections() else HELD_OUT
-    return hashlib.sha256(f"{folder}/{key}".encode()).digest()[0] % one_in == 0
+    return hashlib.sha256(f"{folder}/{key}".encode()).digest()[0] % HELD_OUT == 0
 
 
 def read_pair(image: Path, mask: Path | None) -> np.ndarray:
@@ -108,7 +105,7 @@ class Pack:
                     offset.append(position)
                     shape.append(photo.shape[:2])
                     folders.append(folder)
-                    held.append(held_out(folder, path.stem))
+                    held.append(held_out(folder, path.stem) or judges(file))
                     by_hand.append(file in corrections())
                     position += photo.size
         np.savez(index, offset=offset, shape=shape, folder=folders, held_out=held, by_hand=by_hand)

@@ -10,14 +10,19 @@ width and height, and its holes, if any, after ``|``. The photos are not in this
 from __future__ import annotations
 
 import csv
+import hashlib
 from functools import cache
 from pathlib import Path
 
 import cv2
 import numpy as np
 
+from training.outlines import outlines_of
+
 CORRECTIONS = Path(__file__).with_name("sky_corrections.csv")
 LEVELS = {"sky": 255, "land": 0, "unknown": 128}
+JUDGES = 4
+"""One corrected photo in this many (by a hash of its name) trains no sky network: it judges."""
 
 Region = list[np.ndarray]
 """Rings (n, 2) in fractions of width and height: the outline, then its holes."""
@@ -46,12 +51,11 @@ def corrected(file: str, mask: np.ndarray) -> np.ndarray:
     return mask
 
 
+def judges(file: str) -> bool:
+    """Whether a photo, ``folder/name.jpg``, is corrected and kept for judging."""
+    key = file.removesuffix(".jpg").encode()
+    return file in corrections() and hashlib.sha256(key).digest()[0] % JUDGES == 0
+
+
 def _regions(text: str) -> list[Region]:
-    return [
-        [
-            np.array([[float(v) / 100 for v in corner.split(",")] for corner in ring.split()])
-            for ring in region.split("|")
-        ]
-        for region in text.split(";")
-        if region.strip()
-    ]
+    return [outlines_of(region, "|") for region in text.split(";") if region.strip()]

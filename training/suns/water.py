@@ -14,6 +14,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from training.outlines import outlines_of
+
 LABELS = Path(__file__).with_name("water.csv")
 UNKNOWN = 128
 _BLUR = 0.015  # of the longer side: how exactly outlines were drawn
@@ -24,7 +26,7 @@ def outlines(path: Path = LABELS) -> dict[str, tuple[list[np.ndarray], list[np.n
     """Water and what stands in it, by file: polygons (n, 2) in fractions of width and height."""
     with path.open(encoding="utf-8", newline="") as file:
         return {
-            r["file"]: (_polygons(r["water"]), _polygons(r["without"]))
+            r["file"]: (outlines_of(r["water"]), outlines_of(r["without"]))
             for r in csv.DictReader(file)
         }
 
@@ -48,11 +50,3 @@ def water_map(file: str, sky: np.ndarray) -> np.ndarray:
     unsure = cv2.dilate(drawn, kernel) != cv2.erode(drawn, kernel)
     found = np.where(unsure, UNKNOWN, drawn)
     return np.where(sky > 191, 0, found).astype(np.uint8)
-
-
-def _polygons(text: str) -> list[np.ndarray]:
-    return [
-        np.array([[float(v) / 100 for v in corner.split(",")] for corner in part.split()])
-        for part in text.split(";")
-        if part.strip()
-    ]

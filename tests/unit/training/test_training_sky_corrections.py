@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from training import sky_corrections
-from training.sky_corrections import CORRECTIONS, corrected
+from training.sky_corrections import CORRECTIONS, corrected, judges
 
 FJORD = "landscape-pseudo/fjord.jpg"
 
@@ -41,6 +41,13 @@ def test_a_hole_in_a_region_keeps_its_mask(by_hand):
 def test_other_photos_keep_their_masks(by_hand):
     mask = np.arange(12, dtype=np.uint8).reshape(3, 4)
     assert corrected("landscape-pseudo/other.jpg", mask) is mask
+
+
+def test_a_quarter_of_the_corrected_photos_judges_and_no_other_does():
+    found = sky_corrections.corrections(CORRECTIONS)
+    assert 0.2 < sum(map(judges, found)) / len(found) < 0.3
+    others = [f"landscape-pseudo/other-{i}.jpg" for i in range(100)]
+    assert not any(map(judges, others))
 
 
 def test_the_shipped_corrections_are_regions_within_their_photos():
