@@ -1,13 +1,13 @@
 """What a training photo goes through: cropping, new skies, drawn things, light and camera.
 
 Images are ``(S, S, 3)`` uint8 sRGB; targets ``(S, S)`` uint8, 255 = sky, soft at edges; validity
-255 or 0.
+255 or 0; water 255, 0 or 128, which is unknown.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -18,6 +18,8 @@ from training.synthetic import draw_thin_things, gradient_sky, room
 
 Random = np.random.Generator
 Source = Callable[[], np.ndarray]
+ROOMS, STREETS = 0.09, 0.10
+"""Shares of the samples that are rooms and streets."""
 
 
 @dataclass
@@ -27,10 +29,11 @@ class Sample:
     image: np.ndarray
     target: np.ndarray
     valid: np.ndarray
+    water: np.ndarray
 
 
 def crop(photo: np.ndarray, box: tuple[int, int, int, int], size: int) -> Sample:
-    """The ``box`` (top, left, height, width) of an ``(H, W, 4)`` photo, squeezed to a square."""
+    """The ``box`` (top, left, height, width) of an ``(H, W, 5)`` photo, squeezed to a square."""
     top, left, height, width = box
     part = np.ascontiguousarray(photo[top : top + height, left : left + width])
     shrinks = height * width > size * size
@@ -47,7 +50,9 @@ def crop(photo: np.ndarray, box: tuple[int, int, int, int], size: int) -> Sample
     target = np.where(
         known == 255, sky, np.minimum(255.0 * sky / np.maximum(known, 1.0), 255)
     ).astype(np.uint8)
-    return Sample(rgb, target, np.where(known > 150, 255, 0).astype(np.uint8))
+    valid = np.where(known > 150, 255, 0).astype(np.uint8)
+    water = cv2.resize(part[..., 4], (size, size), interpolation=cv2.INTER_NEAREST)
+    return Sample(rgb, target, valid, water)
 
 
 def random_box(photo: np.ndarray, random: Random) -> tuple[int, int, int, int]:
@@ -80,9 +85,11 @@ def rotate(sample: Sample, random: Random) -> Sample:
             map_, turn, (size, size), flags=interpolation, borderMode=cv2.BORDER_REFLECT_101
         )
 
-    valid = warp(sample.valid, cv2.INTER_NEAREST)
     return Sample(
-        warp(sample.image, cv2.INTER_LINEAR), warp(sample.target, cv2.INTER_LINEAR), valid
+        warp(sample.image, cv2.INTER_LINEAR),
+        warp(sample.target, cv2.INTER_LINEAR),
+        warp(sample.valid, cv2.INTER_NEAREST),
+        warp(sample.water, cv2.INTER_NEAREST),
     )
 
 
@@ -113,11 +120,8 @@ def replace_sky(sample: Sample, random: Random, sky: Source, photo: Source) -> S
     old_mean = (image * alpha).sum((0, 1)) / max(alpha.sum(), 1.0)
     ratio = (new.mean((0, 1)) + 8.0) / (old_mean + 8.0)
     image *= np.clip(ratio, 0.15, 1.8) ** random.uniform(0.0, 1.0)
-    return Sample(
-        np.clip(image * (1 - alpha) + new * alpha, 0, 255).astype(np.uint8),
-        sample.target,
-        sample.valid,
-    )
+    mixed = np.clip(image * (1 - alpha) + new * alpha, 0, 255).astype(np.uint8)
+    return replace(sample, image=mixed)
 
 
 def relight(image: np.ndarray, target: np.ndarray, random: Random) -> np.ndarray:
@@ -209,30 +213,57 @@ def photometric(image: np.ndarray, target: np.ndarray, random: Random) -> np.nda
     return out
 
 
-def augment(
-    photo: np.ndarray, size: int, random: Random, sky: Source, other: Source, rooms: Rooms
-) -> Sample:
-    """One ``(H, W, 4)`` uint8 photo -> one square training sample."""
-    draw = random.random()
-    if draw < 0.19:
-        if draw < 0.09:
-            real = rooms and random.random() < 0.75
-            image = rooms.view(size, random) if real else room(size, random, other)
-            target = np.zeros((size, size), np.uint8)
-        else:
-            image, target = street(other_sky(size, random, sky, other), random, other)
-        return Sample(photometric(image, target, random), target, np.full_like(target, 255))
-    sample = crop(photo, random_box(photo, random), size)
-    if random.random() < 0.5:
-        sample = Sample(
-            *(np.ascontiguousarray(m[:, ::-1]) for m in (sample.image, sample.target, sample.valid))
-        )
-    if random.random() < 0.25:
-        sample = rotate(sample, random)
-    share = cv2.mean(sample.target)[0] / 255.0
-    if share > 0.03 and random.random() < 0.25:
-        sample = replace_sky(sample, random, sky, other)
-    if share > 0.1 and random.random() < 0.15:
-        sample.image, sample.target = draw_thin_things(sample.image, sample.target, random)
-    sample.image = photometric(sample.image, sample.target, random)
-    return sample
+class Drawn:
+    """Drawn pictures, ``(image, target)``, each used several times: drawing one is slow."""
+
+    def __init__(self, draw: Callable[[], tuple[np.ndarray, np.ndarray]], uses: int = 4) -> None:
+        self.draw, self.uses = draw, uses
+        self.kept: list[tuple[np.ndarray, np.ndarray]] = []
+
+    def take(self, random: Random) -> tuple[np.ndarray, np.ndarray]:
+        """A new one or one of the last 32, mirrored by half."""
+        if len(self.kept) < 2 or random.random() < 1 / self.uses:
+            self.kept = [*self.kept[-31:], self.draw()]
+        image, target = self.kept[int(random.integers(len(self.kept)))]
+        return (image[:, ::-1], target[:, ::-1]) if random.random() < 0.5 else (image, target)
+
+
+class Augment:
+    """Turns photos ``(H, W, 5)`` uint8 into square training samples of one size.
+
+    ``sky`` and ``photo`` return another photo's sky, and another photo.
+    """
+
+    def __init__(self, size: int, random: Random, sky: Source, photo: Source, rooms: Rooms) -> None:
+        self.size, self.random, self.sky, self.photo, self.rooms = size, random, sky, photo, rooms
+        dark = np.zeros((size, size), np.uint8)
+        self.drawn_rooms = Drawn(lambda: (room(size, random, photo), dark))
+        self.streets = Drawn(lambda: street(other_sky(size, random, sky, photo), random, photo))
+
+    def __call__(self, photo: np.ndarray) -> Sample:
+        """One sample: of this photo, or of a room or a street."""
+        draw, random = self.random.random(), self.random
+        if draw < ROOMS + STREETS:
+            if draw > ROOMS:
+                image, target = self.streets.take(random)
+            elif self.rooms and random.random() < 0.75:
+                image = self.rooms.view(self.size, random)
+                target = np.zeros(image.shape[:2], np.uint8)
+            else:
+                image, target = self.drawn_rooms.take(random)
+            image = photometric(np.ascontiguousarray(image), target, random)
+            known = np.full_like(target, 255)
+            return Sample(image, np.ascontiguousarray(target), known, np.zeros_like(target))
+        sample = crop(photo, random_box(photo, random), self.size)
+        if random.random() < 0.5:
+            maps = sample.image, sample.target, sample.valid, sample.water
+            sample = Sample(*(np.ascontiguousarray(m[:, ::-1]) for m in maps))
+        if random.random() < 0.25:
+            sample = rotate(sample, random)
+        share = cv2.mean(sample.target)[0] / 255.0
+        if share > 0.03 and random.random() < 0.25:
+            sample = replace_sky(sample, random, self.sky, self.photo)
+        if share > 0.1 and random.random() < 0.15:
+            sample.image, sample.target = draw_thin_things(sample.image, sample.target, random)
+        sample.image = photometric(sample.image, sample.target, random)
+        return sample

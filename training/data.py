@@ -1,7 +1,7 @@
 """Training photos: read once, packed into one memory-mapped file, served as augmented batches.
 
-Masks on disk: 255 sky, 0 not sky, 128 ignore. In the pack every photo is ``(H, W, 4)`` uint8: sRGB
-and its mask.
+Masks on disk: 255 sky, 0 not sky, 128 ignore. In the pack every photo is ``(H, W, 5)`` uint8: sRGB,
+its mask, and where its water is (``suns/water.py``; unknown in photos that judge water).
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import cv2
@@ -17,9 +17,11 @@ import numpy as np
 import torch
 from torch.utils.data import IterableDataset, get_worker_info
 
-from training.augment import Sample, augment, crop
+from training.augment import Augment, Random, Sample, crop
 from training.rooms import Rooms
 from training.sky_corrections import corrected, corrections, judges
+from training.suns.labels import labels
+from training.suns.water import UNKNOWN, water_map
 
 FOLDERS = {
     "landscape-pseudo": 1.0,
@@ -30,6 +32,8 @@ FOLDERS = {
 }
 """Folder of pairs -> how often one of its photos is drawn, relative to the first."""
 TEXTURES = "opensky"
+WORLDS = 0.35
+"""How much of the samples are rendered worlds, where these are used."""
 CORRECTED = 3.0
 """How often a photo with corrections by hand is drawn, relative to others of its folder."""
 NON_COMMERCIAL = re.compile(r"\bNC\b|non-?commercial", re.IGNORECASE)
@@ -87,6 +91,7 @@ class Pack:
         cache.mkdir(parents=True, exist_ok=True)
         offset, shape, folders, held, by_hand = [], [], [], [], []
         position = 0
+        judged = {p.file for p in labels() if p.test}
         with (cache / "pixels.bin").open("wb") as out:
             for folder in (*FOLDERS, TEXTURES):
                 pairs = folder != TEXTURES
@@ -101,6 +106,10 @@ class Pack:
                     )
                     file = f"{folder}/{path.name}"
                     photo[..., 3] = corrected(file, photo[..., 3])
+                    water = water_map(file, photo[..., 3])
+                    if file in judged:
+                        water[:] = UNKNOWN
+                    photo = np.dstack([photo, water])
                     out.write(photo.tobytes())
                     offset.append(position)
                     shape.append(photo.shape[:2])
@@ -113,7 +122,7 @@ class Pack:
     def __getitem__(self, i: int) -> np.ndarray:
         height, width = self.shape[i]
         start = int(self.offset[i])
-        return np.asarray(self.bytes[start : start + height * width * 4]).reshape(height, width, 4)
+        return np.asarray(self.bytes[start : start + height * width * 5]).reshape(height, width, 5)
 
     def select(self, *, training: bool) -> np.ndarray:
         """Indices of the pairs of one split."""
@@ -127,16 +136,23 @@ class Pack:
 class Batches(IterableDataset):
     """Endless augmented batches, all uint8.
 
-    Image ``(N, 3, S, S)``, target and loss weight ``(N, 1, S, S)``.
+    Image ``(N, 3, S, S)``; sky, its weight in the loss, and water ``(N, 1, S, S)``.
     """
 
     def __init__(
-        self, root: Path, cache: Path, rooms: Path | None, size: int, batch: int, seed: int
+        self,
+        root: Path,
+        cache: Path,
+        rooms: Path | None,
+        size: int,
+        batch: int,
+        seed: int,
+        worlds: Callable[[Random], Sample] | None = None,
     ) -> None:
         self.root, self.cache, self.rooms = root, cache, rooms
-        self.size, self.batch, self.seed = size, batch, seed
+        self.size, self.batch, self.seed, self.worlds = size, batch, seed, worlds
 
-    def __iter__(self) -> Iterator[tuple[torch.Tensor, torch.Tensor, torch.Tensor]]:
+    def __iter__(self) -> Iterator[tuple[torch.Tensor, ...]]:
         cv2.setNumThreads(0)
         torch.set_num_threads(1)
         worker = get_worker_info()
@@ -153,18 +169,24 @@ class Batches(IterableDataset):
         def photo() -> np.ndarray:
             return pack[random.choice(pairs, p=weight)]
 
+        augment = Augment(self.size, random, sky, photo, rooms)
+
+        def sample() -> Sample:
+            if self.worlds is not None and random.random() < WORLDS:
+                return self.worlds(random)
+            return augment(photo())
+
         while True:
-            yield stack(
-                [augment(photo(), self.size, random, sky, photo, rooms) for _ in range(self.batch)]
-            )
+            yield stack([sample() for _ in range(self.batch)])
 
 
-def stack(samples: list[Sample]) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
+def stack(samples: list[Sample]) -> tuple[torch.Tensor, ...]:
     """Samples -> uint8 tensors, channels last in memory."""
     image = torch.from_numpy(np.stack([s.image for s in samples])).permute(0, 3, 1, 2)
     target = torch.from_numpy(np.stack([s.target for s in samples]))[:, None]
     weight = torch.from_numpy(np.stack([edge_weight(s) for s in samples]))[:, None]
-    return image, target, weight
+    water = torch.from_numpy(np.stack([s.water for s in samples]))[:, None]
+    return image, target, weight, water
 
 
 def edge_weight(sample: Sample) -> np.ndarray:

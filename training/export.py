@@ -2,8 +2,8 @@
 
 ``python -m training.export --checkpoint build/sky/last.pt``
 
-Contract: ``image`` float32 ``(1, 3, H, W)``, RGB, sRGB-encoded in [0, 1] -> ``sky`` float32
-``(1, 1, H, W)`` in [0, 1].
+Contract: ``image`` float32 ``(1, 3, H, W)``, RGB, sRGB-encoded in [0, 1] -> ``sky`` and ``water``
+float32 ``(1, 1, H, W)`` in [0, 1].
 Made for 384 x 384; other multiples of 32 work. Weights are stored as float16 and cast when the
 session is created.
 """
@@ -21,7 +21,7 @@ from onnx import helper, numpy_helper
 from torch import nn
 from torch.nn.utils.fusion import fuse_conv_bn_eval
 
-from training.model import STRIDE, SkyNet, SkyProbability
+from training.model import STRIDE, SkyMaps, SkyNet
 
 SIZE = 384
 LIMIT = 5_000_000
@@ -46,7 +46,7 @@ def load(checkpoints: list[Path], shares: list[float]) -> SkyNet:
     """The averaged network of a checkpoint, or the mean of several of one run, for inference.
 
     Weights of one run lie close enough together to be averaged (Wortsman et al. 2022, "Model
-    soups"): an early checkpoint knows unusual photos better, a late one fine structures.
+    soups").
     """
     states = [torch.load(c, weights_only=True)["average"] for c in checkpoints]
     mean = {
@@ -119,8 +119,9 @@ def to_onnx(network: nn.Module, image: torch.Tensor, outputs: list[str], about: 
 
 def export(checkpoints: list[Path], shares: list[float], out: Path) -> None:
     """Exports, and refuses a file that is too large."""
-    network = SkyProbability(load(checkpoints, shares)).eval()
-    data = to_onnx(network, torch.rand(1, 3, SIZE, SIZE), ["sky"], "Sky probability")
+    network = SkyMaps(load(checkpoints, shares)).eval()
+    about = "Probability of sky and of water"
+    data = to_onnx(network, torch.rand(1, 3, SIZE, SIZE), list(SkyMaps.OUTPUTS), about)
     if len(data) > LIMIT:
         raise SystemExit(f"{len(data)} bytes (limit {LIMIT}): not written")
     out.parent.mkdir(parents=True, exist_ok=True)

@@ -5,13 +5,84 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
 from torch import Tensor, nn
+from torch.utils.data import DataLoader, IterableDataset
 
 from training.clock import Clock
-from training.train import Average, optimiser, save
+
+WARM_UP = 0.02
+ENCODER_SHARE = 0.35
+
+
+class Average:
+    """Exponential moving average of weights and batch statistics."""
+
+    def __init__(self, network: nn.Module, decay: float = 0.995) -> None:
+        self.decay, self.steps = decay, 0
+        self.state = {k: v.detach().clone() for k, v in network.state_dict().items()}
+
+    @torch.no_grad()
+    def update(self, network: nn.Module) -> None:
+        self.steps += 1
+        decay = min(self.decay, (1 + self.steps) / (10 + self.steps))
+        for key, value in network.state_dict().items():
+            if value.dtype.is_floating_point:
+                self.state[key].lerp_(value, 1 - decay)
+            else:
+                self.state[key].copy_(value)
+
+
+def rate(share: float, peak: float) -> float:
+    """Learning rate at a share of the time in [0, 1]: linear warm-up, then linearly down to 1 %."""
+    if share < WARM_UP:
+        return peak * max(share / WARM_UP, 0.02)
+    return peak * max(0.01, (1 - share) / (1 - WARM_UP))
+
+
+def prepare(image: Tensor) -> Tensor:
+    """uint8 -> float32 in [0, 1], channels last in memory."""
+    return image.float().div_(255).contiguous(memory_format=torch.channels_last)
+
+
+def batches(dataset: IterableDataset, ahead: int = 4, workers: int = 1) -> Iterator[Any]:
+    """Return batches that other processes make, each so many ahead."""
+    return iter(
+        DataLoader(
+            dataset,
+            batch_size=None,
+            num_workers=workers,
+            prefetch_factor=ahead,
+            multiprocessing_context="spawn",  # OpenCV's threads do not survive a fork
+        )
+    )
+
+
+def optimiser(network: nn.Module) -> torch.optim.AdamW:
+    """AdamW; weight decay on convolution kernels only, a share of the rate for the encoder."""
+    groups: dict[tuple[bool, bool], list[nn.Parameter]] = defaultdict(list)
+    for name, weights in network.named_parameters():
+        groups[name.startswith("encoder."), weights.ndim > 1].append(weights)
+    return torch.optim.AdamW(
+        [
+            {
+                "params": weights,
+                "weight_decay": 0.02 if kernels else 0.0,
+                "share": ENCODER_SHARE if learned else 1.0,
+            }
+            for (learned, kernels), weights in groups.items()
+        ],
+        betas=(0.9, 0.99),
+    )
+
+
+def save(path: Path, **state: object) -> None:
+    """Writes a checkpoint whole or not at all."""
+    torch.save(state, path.with_suffix(".part"))
+    path.with_suffix(".part").replace(path)
 
 
 class Run(Clock):
@@ -19,7 +90,7 @@ class Run(Clock):
 
     With a checkpoint ``last.pt`` in ``folder`` it goes on from there. ``kept`` of the moving
     average stays each step; every ``seconds`` a checkpoint is written and ``on_checkpoint``
-    is called.
+    is called. The weights in ``encoder``, if any, were learned before and get a share of the rate.
     """
 
     def __init__(
@@ -57,7 +128,7 @@ class Run(Clock):
     def learn(self, speed: float, steepest: float) -> None:
         """Make a step along the gradients that are there, no longer than ``steepest``."""
         for group in self.optimise.param_groups:
-            group["lr"] = speed
+            group["lr"] = speed * group["share"]
         nn.utils.clip_grad_norm_(self.network.parameters(), steepest)
         self.optimise.step()
         self.optimise.zero_grad(set_to_none=True)

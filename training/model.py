@@ -1,9 +1,8 @@
-"""SkyNet: a small residual encoder-decoder that says how much of every pixel is sky.
+"""SkyNet: how much of every pixel is sky, and how much is water.
 
-Plain 3x3 convolutions rather than depthwise ones: on CPUs with bfloat16 matrix units they train
-several times faster per parameter, and the size budget (5 MB) is kept by storing the weights as
-float16. Strip pooling (Hou et al. 2020) gives every pixel its whole row and column, which helps to
-distinguish a wall from a sky of the same color.
+EfficientNet-Lite's first stages (``encoder.py``) know the world from ImageNet; strip pooling (Hou
+et al. 2020) gives every pixel its whole row and column; a decoder of plain 3x3 convolutions brings
+the result back to full resolution. The size budget (5 MB) is kept by storing weights as float16.
 """
 
 from __future__ import annotations
@@ -11,6 +10,8 @@ from __future__ import annotations
 import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
+
+from training.encoder import LITE_2, Encoder, Plan
 
 STRIDE = 32
 """Height and width of the input must be multiples of this (pixels)."""
@@ -78,33 +79,25 @@ class Merge(nn.Module):
 
 
 class SkyNet(nn.Module):
-    """``(N, 3, H, W)`` sRGB in [0, 1] -> ``(N, 1, H, W)`` logits of sky; H, W multiples of 32."""
+    """``(N, 3, H, W)`` sRGB in [0, 1] -> ``(N, 2, H, W)`` logits; H, W multiples of 32."""
 
-    def __init__(self) -> None:
+    def __init__(self, plan: Plan = LITE_2) -> None:
         super().__init__()
-        self.stem = conv(3, 32, 3, 2)
-        self.quarter = nn.Sequential(conv(32, 64, 3, 2), Residual(64, 64))
-        self.eighth = nn.Sequential(conv(64, 96, 3, 2), Residual(96, 96))
-        self.sixteenth = nn.Sequential(
-            conv(96, 160, 3, 2), Residual(160, 80), StripContext(160, 64), Residual(160, 80)
-        )
-        self.deep = nn.Sequential(
-            conv(160, 224, 3, 2), Residual(224, 88), StripContext(224, 96), Residual(224, 88)
-        )
-        self.to_sixteenth = Merge(224, 160, 96)
-        self.to_eighth = Merge(96, 96, 64)
-        self.to_quarter = Merge(64, 64, 64)
-        self.to_half = Merge(64, 32, 32)
-        self.head = nn.Conv2d(32, 4, 3, padding=1)  # four sub-pixels, shuffled to full resolution
-        self.coarse_head = nn.Conv2d(64, 1, 1)  # deep supervision while training only
+        self.encoder = Encoder(plan)
+        half, quarter, eighth, sixteenth, deep = plan.levels
+        self.context = StripContext(deep, 96)
+        self.to_sixteenth = Merge(deep, sixteenth, 96)
+        self.wide = StripContext(96, 48)
+        self.to_eighth = Merge(96, eighth, 64)
+        self.to_quarter = Merge(64, quarter, 48)
+        self.to_half = Merge(48, half, 32)
+        self.head = nn.Sequential(conv(32, 32), nn.Conv2d(32, 8, 3, padding=1))
+        self.coarse_head = nn.Conv2d(64, 2, 1)  # deep supervision while training only
 
     def features(self, image: Tensor) -> tuple[Tensor, Tensor]:
         """Logits at full resolution and at 1/8 of it."""
-        half = self.stem(image * 4.0 - 2.0)
-        quarter = self.quarter(half)
-        eighth = self.eighth(quarter)
-        sixteenth = self.sixteenth(eighth)
-        x = self.to_sixteenth(self.deep(sixteenth), sixteenth)
+        half, quarter, eighth, sixteenth, deep = self.encoder(image)
+        x = self.wide(self.to_sixteenth(self.context(deep), sixteenth))
         x = self.to_eighth(x, eighth)
         coarse = self.coarse_head(x)
         x = self.to_half(self.to_quarter(x, quarter), half)
@@ -114,12 +107,15 @@ class SkyNet(nn.Module):
         return self.features(image)[0]
 
 
-class SkyProbability(nn.Module):
-    """The shipped graph: ``image`` in, sigmoid of the logits out, ``(N, 1, H, W)`` in [0, 1]."""
+class SkyMaps(nn.Module):
+    """The shipped graph: ``image`` in, probabilities of sky and water out, (N, 1, H, W) each."""
+
+    OUTPUTS = ("sky", "water")
 
     def __init__(self, network: SkyNet) -> None:
         super().__init__()
         self.network = network
 
-    def forward(self, image: Tensor) -> Tensor:
-        return torch.sigmoid(self.network(image))
+    def forward(self, image: Tensor) -> tuple[Tensor, Tensor]:
+        sky, water = torch.sigmoid(self.network(image)).split(1, 1)
+        return sky, water

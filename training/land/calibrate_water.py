@@ -1,10 +1,14 @@
-"""Fits ``WEIGHTS`` of sunwidget/analysis/water/water.py, and prints them and what they are worth.
+"""Fits weights of networks for water, and prints them and what ``WEIGHTS`` are worth.
+
+``WEIGHTS`` is in sunwidget/analysis/water/water.py.
 
 ``python -m training.land.calibrate_water --data ../shared/data/train --worlds build/valid``
 
-On outlined photos that one of the two networks never saw, half of them by name; the rest judges.
+On outlined photos whose water the sky network never saw, half of them by name; the rest judges.
 Worlds that trained nothing have a say, or plain ground such as no photo shows would be taken for
-water. Water that fills less than ``LEAST`` of a photo counts as none.
+water. ``WEIGHTS`` give the land network more than the fit does: renders of other make than our
+worlds need it, and photos lose next to nothing. Water that fills less than ``LEAST`` of a photo
+counts as none.
 """
 
 from __future__ import annotations
@@ -21,6 +25,7 @@ import numpy as np
 import sunwidget as sw
 from sunwidget.analysis.images.working_copy import Working, log_odds, resize
 from sunwidget.analysis.networks.land import look_at_land
+from sunwidget.analysis.networks.sky import look_at_sky
 from sunwidget.analysis.networks.sun import look_for_sun
 from sunwidget.analysis.water import water
 from sunwidget.photo.photo import open_photo
@@ -36,10 +41,9 @@ WORLDS_PIXELS = 60  # of a picture of a world
 
 
 class Known(NamedTuple):
-    """What the networks say of a picture, and what is known of it, all (h, w)."""
+    """What the networks say of a picture (3, h, w), and what is known of it (h, w)."""
 
     seen: np.ndarray
-    land: np.ndarray
     truth: np.ndarray
 
 
@@ -55,19 +59,25 @@ def judges(file: str) -> bool:
     return hashlib.sha256(f"water {file}".encode()).digest()[0] % 2 == 1
 
 
-def case(file: str, path: Path) -> Case:
-    scene = sw.analyze(path)
-    working: Working = scene.working
+def look(working: Working) -> np.ndarray:
+    """Return the water of the networks of suns, sky and land, at the size of the first."""
     seen = look_for_sun(working).water
     size = seen.shape[1], seen.shape[0]
+    others = (resize(find(working).water, *size) for find in (look_at_sky, look_at_land))
+    return np.stack([seen, *others])
+
+
+def case(file: str, path: Path) -> Case:
+    scene = sw.analyze(path)
+    seen = look(scene.working)
+    size = seen.shape[2], seen.shape[1]
     truth = water_map(file, np.rint(scene.small_sky * 255).astype(np.uint8))
     known = cv2.resize(truth, size, interpolation=cv2.INTER_NEAREST)
     known[resize(scene.small_sky, *size) > 0.5] = UNKNOWN
-    land = resize(look_at_land(working).water, *size)
     found = resize(scene.water, *truth.shape[::-1]) > 0.5
     used = truth != UNKNOWN
     masks = np.stack([found & used, (truth == 255) & used])
-    return Case(Known(seen, land, known), masks, judges(file))
+    return Case(Known(seen, known), masks, judges(file))
 
 
 def of_worlds(folder: Path) -> Iterator[Known]:
@@ -80,13 +90,12 @@ def of_worlds(folder: Path) -> Iterator[Known]:
             rows, columns = (2 * side // 32 * 32 for side in world["depth"].shape)
             picture = sample(world, rows, columns, random)
             image = np.ascontiguousarray(picture["image"].transpose(1, 2, 0))
-            working = Working.of(open_photo(image))
-            seen = look_for_sun(working).water
-            size = seen.shape[1], seen.shape[0]
+            seen = look(Working.of(open_photo(image)))
+            size = seen.shape[2], seen.shape[1]
             matter = picture["matter"].astype(np.uint8)
             matter = cv2.resize(matter, size, interpolation=cv2.INTER_NEAREST)
             truth = np.where(matter == WATER, 255, np.where(matter == 0, UNKNOWN, 0))
-            yield Known(seen, resize(look_at_land(working).water, *size), truth.astype(np.uint8))
+            yield Known(seen, truth.astype(np.uint8))
 
 
 def pixels(
@@ -98,7 +107,7 @@ def pixels(
         known = np.flatnonzero(one.truth != UNKNOWN)
         if known.size:
             at = random.choice(known, count)
-            features.append(log_odds(np.array([one.seen.flat[at], one.land.flat[at]])).T)
+            features.append(log_odds(one.seen.reshape(3, -1)[:, at]).T)
             truth.append(one.truth.flat[at] == 255)
     return features, truth
 

@@ -16,7 +16,7 @@ import torch
 from training.export import to_onnx
 from training.land.data import PhotoBatches, WorldBatches
 from training.land.model import LandMaps, LandNet
-from training.train import prepare
+from training.loop import prepare
 
 OUT = Path("sunwidget/analysis/models/land.onnx")
 AREA = 92_000

@@ -1,7 +1,8 @@
 """LandNet: how the land lies, what it is made of, and what light falls on it.
 
-The sky network's encoder and decoder, begun from its weights, under heads for everything that a
-relit picture needs. Any size of multiples of 32, proportions kept.
+A residual encoder to 1/32 and a decoder with skips up to 1/2 under heads for everything that a
+relit picture needs. Its trunk began as the first sky network's. Any size of multiples of 32,
+proportions kept.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from training.model import SkyNet, conv
+from training.model import Merge, Residual, StripContext, conv
 from training.worlds import CLASSES
 
 STRIDE = 32
@@ -27,7 +28,7 @@ sunwidget/analysis/fit/confidence.py."""
 SUNS = len(SUN_TURNS) * len(SUN_HEIGHTS)
 
 
-class LandNet(SkyNet):
+class LandNet(nn.Module):
     """``(N, 3, H, W)`` sRGB in [0, 1] -> a dict of maps and of what is one number a picture.
 
     ``sky``, ``sunlit`` (N, 1, H, W) logits; at half the size ``normal`` (N, 3, h, w) unit vectors
@@ -42,6 +43,20 @@ class LandNet(SkyNet):
 
     def __init__(self) -> None:
         super().__init__()
+        self.stem = conv(3, 32, 3, 2)
+        self.quarter = nn.Sequential(conv(32, 64, 3, 2), Residual(64, 64))
+        self.eighth = nn.Sequential(conv(64, 96, 3, 2), Residual(96, 96))
+        self.sixteenth = nn.Sequential(
+            conv(96, 160, 3, 2), Residual(160, 80), StripContext(160, 64), Residual(160, 80)
+        )
+        self.deep = nn.Sequential(
+            conv(160, 224, 3, 2), Residual(224, 88), StripContext(224, 96), Residual(224, 88)
+        )
+        self.to_sixteenth = Merge(224, 160, 96)
+        self.to_eighth = Merge(96, 96, 64)
+        self.to_quarter = Merge(64, 64, 64)
+        self.to_half = Merge(64, 32, 32)
+        self.head = nn.Conv2d(32, 4, 3, padding=1)  # four sub-pixels, shuffled to full resolution
         self.shape = nn.Sequential(conv(64, 64), nn.Conv2d(64, 4 * 4, 3, padding=1))
         self.kind = nn.Sequential(conv(64, 48), nn.Conv2d(48, 4 * MATTER, 3, padding=1))
         self.transfer = nn.Sequential(conv(64, 64), nn.Conv2d(64, 4 * TRANSFER, 3, padding=1))

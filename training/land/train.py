@@ -3,8 +3,8 @@
 ``python -m training.land.train --worlds build/worlds --data ../shared/data/train --minutes 60
 --out build/land``
 
-Begins from the shipped sky network (or, with ``--start``, a checkpoint or ``land.onnx`` itself);
-running it again with the same ``--out`` resumes. The learning rate follows elapsed time. Worlds
+Goes on from the shipped ``land.onnx`` (or, with ``--start``, from a checkpoint); running it again
+with the same ``--out`` resumes. The learning rate follows elapsed time. Worlds
 that are made meanwhile are learned from as they come. What is exported is a moving average of the
 weights.
 """
@@ -23,18 +23,14 @@ from torch import Tensor
 from training.data import typical
 from training.land.data import UNKNOWN, WATER, Batch, PhotoBatches, WorldBatches
 from training.land.model import LandNet, losses, sun_basis
-from training.loop import Run
-from training.model import SkyNet
+from training.loop import Run, batches, prepare, rate
 from training.restore import restore
-from training.train import batches, prepare, rate
 
-SKY = Path("sunwidget/analysis/models/sky.onnx")
-AREAS = ((0.0, 40_000, 10), (0.55, 62_000, 7), (0.85, 92_000, 5))
+SHIPPED = Path("sunwidget/analysis/models/land.onnx")
+AREAS = ((0.0, 62_000, 7), (0.5, 92_000, 5))
 """From which share of the time on: pixels of a picture, pictures of a batch of either kind."""
-AREAS_ON = ((0.0, 62_000, 7), (0.5, 92_000, 5))
-"""The same of a network that goes on from one that is trained."""
-PEAK_RATE, PEAK_RATE_ON = 1.2e-3, 5e-4
-KEPT, KEPT_ON = 0.997, 0.9993  # of the moving average of the weights, each step
+PEAK_RATE = 5e-4
+KEPT = 0.9993  # of the moving average of the weights, each step
 PHOTOS_EVERY = 3  # steps: worlds have more labels, and the trunk knows photos
 TEACHES_FROM = 250  # steps, from which on the moving average is worth listening to
 MIRRORED = (
@@ -92,21 +88,14 @@ class Training:
     def __init__(self, options: argparse.Namespace) -> None:
         self.options = options
         self.network = LandNet().to(memory_format=torch.channels_last)
-        on = options.start is not None
-        self.areas, self.peak = (AREAS_ON, PEAK_RATE_ON) if on else (AREAS, PEAK_RATE)
-        kept = KEPT_ON if on else KEPT
         self.run = Run(
-            self.network, options.out, options.minutes, kept=kept, on_checkpoint=self._report
+            self.network, options.out, options.minutes, kept=KEPT, on_checkpoint=self._report
         )
         self.teacher = LandNet().eval()
         self.sums: dict[str, float] = {}
         if self.run.resumed:
             return
-        if options.start is None:
-            trunk = SkyNet()
-            restore(trunk, SKY, typical(options.data, options.cache, 192, 96))
-            self.network.load_state_dict(trunk.state_dict(), strict=False)
-        elif options.start.suffix == ".onnx":
+        if options.start.suffix == ".onnx":
             restore(self.network, options.start, typical(options.data, options.cache, 192, 96))
         else:
             state = torch.load(options.start, weights_only=True)["average"]
@@ -115,8 +104,8 @@ class Training:
 
     def train(self) -> None:
         """Learn in stages until the time is spent."""
-        for i, (_, area, count) in enumerate(self.areas):
-            end = self.areas[i + 1][0] if i + 1 < len(self.areas) else 1.0
+        for i, (_, area, count) in enumerate(AREAS):
+            end = AREAS[i + 1][0] if i + 1 < len(AREAS) else 1.0
             if self.run.spent < end * self.run.limit:
                 self._stage(area, count, end)
         self.run.keep()
@@ -126,7 +115,7 @@ class Training:
         worlds = batches(WorldBatches(self.options.worlds, area, count, seed))
         photos = batches(PhotoBatches(self.options.data, area, count, seed))
         for share in self.run.shares(end):
-            self._learn(next(worlds), photos, rate(share, self.peak))
+            self._learn(next(worlds), photos, rate(share, PEAK_RATE))
 
     def _learn(self, world: Batch, photos: Iterator[Batch], speed: float) -> None:
         self.network.train()
@@ -172,7 +161,7 @@ def main() -> None:
     parser.add_argument("--cache", type=Path, default=Path("build/pack"))
     parser.add_argument("--minutes", type=float, default=60)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--start", type=Path)
+    parser.add_argument("--start", type=Path, default=SHIPPED)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument(
         "--bfloat16", action="store_true", help="twice as fast on CPUs that have it"

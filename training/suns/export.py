@@ -15,9 +15,9 @@ from pathlib import Path
 import torch
 
 from training.export import to_onnx
+from training.loop import prepare
 from training.suns.data import typical
 from training.suns.model import SunMaps, SunNet
-from training.train import prepare
 
 OUT = Path("sunwidget/analysis/models/suns.onnx")
 

