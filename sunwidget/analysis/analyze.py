@@ -5,8 +5,6 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-import numpy as np
-
 from sunwidget.analysis.depth import depth as depth_stage
 from sunwidget.analysis.hints import (
     Hints,
@@ -19,8 +17,7 @@ from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.pipeline import METHODS, Steps, check_method, complete
 from sunwidget.analysis.scene import Scene, Segmentation
-from sunwidget.analysis.segmentation import coarse_sky, patches
-from sunwidget.analysis.segmentation.plausible import plausible
+from sunwidget.analysis.segmentation import coarse_sky
 from sunwidget.analysis.strokes.apply import apply_strokes
 from sunwidget.edit.table import Stroke, SunHint
 from sunwidget.errors import AnalysisError
@@ -61,7 +58,7 @@ def analyze(
         Vertical field of view in degrees.
     sky : array, path, SkyNetwork or str, optional
         A mask, an ONNX network or its path, or a name of ``sky.METHODS``. Default: the bundled
-        network, whose sky is rejected where its own confidence is low (plausible.py).
+        network.
     sky_label : int or str, optional
         The class "sky" of an ONNX network: index from 0, or name (``SkyNetwork.label``).
     refine, clouds, horizon_method, sun_method : str
@@ -122,11 +119,5 @@ def analyze(
         coarse = coarse_sky.coarse(working, sky, photo.size, sky_label)
         step("refine", 0.4, "Following the skyline")
         decision = METHODS["refine"][refine](working, coarse)
-    rejected_share = 0.0
-    if sky is None:  # a sky that the caller chose is never rejected
-        believed = np.float32(plausible(decision.sky, coarse, working))
-        kept = believed * patches.settle(decision.sky, coarse, working)
-        rejected_share = float(np.mean((decision.sky > 0.5) & (kept <= 0.5)))
-        decision = decision._replace(sky=kept)
-    segmentation = Segmentation(photo, working, coarse, decision, rejected_share)
+    segmentation = Segmentation(photo, working, coarse, decision)
     return apply_strokes(complete(segmentation, hints, step), strokes)

@@ -57,19 +57,17 @@ def notices(
     horizon: Horizon,
     camera: Camera,
     hints: Hints,
-    rejected_share: float = 0.0,
     moon: Point | None = None,
     fit: SkyFit | None = None,
 ) -> tuple[Notice, ...]:
     """Return a notice for each uncertain result.
 
-    ``sky`` is the matte at working size, ``rejected_share`` the share of the picture that was
-    rejected as sky (plausible.py), ``moon`` the position of a detected moon in fractions of the
-    picture, ``fit`` the fit to the sky.
+    ``sky`` is the matte at working size, ``moon`` the position of a detected moon in fractions of
+    the picture, ``fit`` the fit to the sky.
     """
     share = float(np.mean(sky > 0.5))
     notes = [
-        _about_sky(photo, share, rejected_share),
+        _about_sky(photo, share),
         _about_sun(photo, sun, camera, hints, moon, fit),
         _about_air(photo, share, sun, fit),
         _about_horizon(photo, sky, horizon, camera),
@@ -91,27 +89,7 @@ def notices(
     return tuple(note for note in notes if note is not None)
 
 
-def _about_sky(photo: Photo, share: float, rejected_share: float) -> Notice | None:
-    if share < NO_SKY and rejected_share > NO_SKY:
-        return _notice(
-            f"No sky found in {photo.name}: an area that looks slightly like sky "
-            f"({100 * rejected_share:.0f} % of pixels) is more likely a wall or ceiling.",
-            "If it is sky, draw a sky stroke or pass sky='network', which skips this check.",
-            "sky",
-            "No sky was found: an area that looks slightly like sky is more likely a wall or "
-            "ceiling. If it is sky, paint over it.",
-            "If it is sky, pass --sky network, which skips this check, or a mask: --sky MASK.png.",
-        )
-    if rejected_share > NO_SKY:
-        return _notice(
-            f"A patch of {photo.name} ({100 * rejected_share:.1f} % of pixels) looks like sky but "
-            "was rejected as unlikely.",
-            "If it is sky, draw a sky stroke over it.",
-            "sky",
-            f"A patch ({100 * rejected_share:.1f} % of the picture) looks like sky but was "
-            "rejected as unlikely. If it is sky, paint over it.",
-            "If it is sky, pass --sky network, which skips this check, or a mask: --sky MASK.png.",
-        )
+def _about_sky(photo: Photo, share: float) -> Notice | None:
     if share < NO_SKY:
         return _notice(
             f"No sky found in {photo.name} ({100 * share:.1f} % of pixels): its light is "

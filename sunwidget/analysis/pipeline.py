@@ -29,6 +29,7 @@ from sunwidget.analysis.images.enlarge import raise_to, take_from
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.networks.land import look_at_land
+from sunwidget.analysis.networks.sky import look_at_sky
 from sunwidget.analysis.networks.sun import SunMaps, look_for_sun
 from sunwidget.analysis.notices import notices
 from sunwidget.analysis.scene import Scene, Segmentation
@@ -135,7 +136,7 @@ def complete(
         camera = Camera(*photo.size, lens or camera.fov_vertical_deg)
 
     step("horizon", 0.8, "Fitting the horizon")
-    horizon = _horizon(working, sky, maps, hints, photo.width, seed, sun_mask)
+    horizon = _horizon(working, sky, hints, photo.width, seed, sun_mask)
     camera = Camera.from_horizon(
         *photo.size, camera.fov_vertical_deg, horizon.row, roll=horizon.roll
     )
@@ -190,7 +191,7 @@ def complete(
             "cloud_gain": cloud_gain(fitted),
             "glare_profile": fitted.glare,
         },
-        warnings=notices(photo, sky, sun, horizon, camera, hints, base.doubted, moon, fitted),
+        warnings=notices(photo, sky, sun, horizon, camera, hints, moon, fitted),
         hints=hints,
         timings=step.timings,
         backdrop=behind.field,
@@ -252,7 +253,6 @@ def erased_for(
 def _horizon(
     working: Working,
     sky: np.ndarray,
-    maps: SunMaps,
     hints: Hints,
     width: int,
     seed: Point | None,
@@ -265,7 +265,7 @@ def _horizon(
     if hints.horizon is not None:
         return horizon_stage.from_hint(hints.horizon, width)
     find = horizon_stage.METHODS[hints.method("horizon")]
-    water = resize(maps.water, working.width, working.height)
+    water = resize(look_at_sky(working).water, working.width, working.height)
     found: Horizon = find(sky, working.encoded, water)
     if found.source == "assumed":
         row = look_at_land(working).horizon * working.height

@@ -49,8 +49,6 @@ class Segmentation(NamedTuple):
         The sky before refinement.
     decision : Decision
         Sky or land at working size.
-    doubted : float
-        Share of the picture that was rejected as sky.
     known_depth, known_land : DepthField, LandMaps or None
         Depth and relief of the view, if known from other pictures of it.
     """
@@ -59,7 +57,6 @@ class Segmentation(NamedTuple):
     working: Working
     coarse_map: np.ndarray
     decision: refine.Decision
-    doubted: float = 0.0
     known_depth: DepthField | None = None
     known_land: LandMaps | None = None
 
@@ -96,8 +93,6 @@ class Scene:
         Hints of the analysis.
     timings : dict
         Seconds of each stage.
-    doubted : float
-        Share of the picture that was rejected as sky.
     moon : (x, y) or None
         Position of a disc in a night sky that was detected as the moon, in fractions of the
         picture; it lights the picture instead of the sun (``Edit.light_source``).
@@ -132,7 +127,6 @@ class Scene:
     timings: dict[str, float]
     working: Working
     decision: refine.Decision
-    doubted: float = 0.0
     moon: Point | None = None
     shade: np.ndarray | None = None
     fitted: SkyFit | None = None

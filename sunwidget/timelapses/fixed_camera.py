@@ -22,8 +22,7 @@ from sunwidget.analysis.images.noise import noise_level
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.memory import Memory
 from sunwidget.analysis.scene import Scene
-from sunwidget.analysis.segmentation import coarse_sky, patches, refine
-from sunwidget.analysis.segmentation.plausible import plausible
+from sunwidget.analysis.segmentation import coarse_sky
 from sunwidget.edit.table import CORRECTIONS, Edit
 from sunwidget.formats.color import LUMINANCE, SRGB, strips
 from sunwidget.photo.photo import Photo
@@ -97,11 +96,7 @@ class FixedCamera:
         plate = _median_picture(bright or kept)
         hints = dict(hints)
         if hints.get("sky") is None:
-            hints["sky"] = _common_sky(
-                [w for w, ok in zip(small, lit, strict=True) if ok],
-                Working.of(plate, max(small[0].width, small[0].height)),
-                hints.get("refine", "grabcut_mask"),
-            )
+            hints["sky"] = _common_sky([w for w, ok in zip(small, lit, strict=True) if ok])
         scene = analyze(plate, **hints, progress=progress)
         scene = corrected(
             scene, Edit().replace(**{name: getattr(corrections, name) for name in CORRECTIONS})
@@ -170,15 +165,10 @@ def _median_picture(photos: Sequence[Photo]) -> Photo:
     )
 
 
-def _common_sky(small: list[Working], plate: Working, method: str) -> np.ndarray:
-    """Return the sky's probability in the median picture, (h, w) float32."""
+def _common_sky(small: list[Working]) -> np.ndarray:
+    """Return the sky's probability in the median of the frames' maps, (h, w) float32."""
     coarse = np.median(np.stack([coarse_sky.network(w) for w in small]), axis=0)
-    coarse = resize(np.asarray(coarse, np.float32), plate.width, plate.height)
-    decision = refine.METHODS[method](plate, coarse)
-    believed = np.float32(plausible(decision.sky, coarse, plate))
-    sky = believed * patches.settle(decision.sky, coarse, plate)
-    kept = ((sky > 0.5) | (decision.sky <= 0.5)).astype(np.float32)
-    return np.asarray(coarse * resize(kept, plate.width, plate.height), np.float32)
+    return resize(np.asarray(coarse, np.float32), small[0].width, small[0].height)
 
 
 def _depth_as_it_is(scene: Scene) -> DepthField:

@@ -13,31 +13,16 @@ from typing import Any
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import Working, log_odds, resize, smoothstep
-from sunwidget.analysis.networks.land import look_at_land
-from sunwidget.analysis.segmentation.sky_network import SkyNetwork, bundled_network
+from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.analysis.networks.sky import look_at_sky
+from sunwidget.analysis.segmentation.sky_network import SkyNetwork
 from sunwidget.errors import AnalysisError, PhotoError
-from sunwidget.formats.color import LUMINANCE
 from sunwidget.photo.photo import open_photo
-
-_LANDS_SHARE = 0.25  # weight of the land network in the mean of log odds, by day
-_DAY = 0.45, 0.65  # encoded brightness of a sky, from night to day
 
 
 def network(working: Working) -> np.ndarray:
-    """Average the log odds of two bundled networks, at 384 × 384 (models/MODEL_CARD.md).
-
-    The land network, which knows roofs, snow and walls, counts by day only.
-    """
-    seen = bundled_network()(working)
-    height, width = seen.shape
-    luminance = resize(working.encoded, width, height) @ LUMINANCE
-    among = luminance[seen > 0.5] if (seen > 0.5).any() else luminance
-    day = smoothstep(*_DAY, float(np.quantile(among, 0.9)))
-    land = resize(look_at_land(working).sky, width, height)
-    share = _LANDS_SHARE * day
-    odds = log_odds(seen) + share * (log_odds(land) - log_odds(seen))
-    return np.asarray(1 / (1 + np.exp(-odds)), np.float32)
+    """Ask the bundled network, at 384 × 384 (models/MODEL_CARD.md)."""
+    return look_at_sky(working).sky
 
 
 def skyline(working: Working) -> np.ndarray:

@@ -17,8 +17,6 @@ from sunwidget.analysis.networks.onnx_file import Opened
 from sunwidget.analysis.networks.segmentation_output import label_of, sky_of
 from sunwidget.errors import AnalysisError
 
-BUNDLED = Path(__file__).parents[1] / "models" / "sky.onnx"
-
 
 @dataclass(frozen=True)
 class SkyNetwork:
@@ -118,11 +116,6 @@ class SkyNetwork:
     def arrange(self, picture: np.ndarray) -> np.ndarray:
         """Return ``picture`` (h, w, 3) with its channels in the network's order."""
         return picture if self.channels == "rgb" else picture[..., ::-1]
-
-
-def bundled_network() -> SkyNetwork:
-    """Return the network that is bundled with the package."""
-    return SkyNetwork(BUNDLED)
 
 
 def _numbers(value: Any, counts: tuple[int, ...], lowest: float) -> bool:

@@ -147,7 +147,7 @@ def _retouch(
         decision=decision,
         hints=hints,
         warnings=notices(
-            photo, sky, sun, source.horizon, source.camera, hints, base.doubted, source.moon, fitted
+            photo, sky, sun, source.horizon, source.camera, hints, source.moon, fitted
         ),
         unstroked=base,
         memory=Memory(),

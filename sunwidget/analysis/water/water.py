@@ -13,23 +13,16 @@ import numpy as np
 from sunwidget.analysis.horizon.horizon import Horizon, above
 from sunwidget.analysis.images.working_copy import Working, log_odds, resize, smoothstep
 from sunwidget.analysis.networks.land import look_at_land
+from sunwidget.analysis.networks.sky import look_at_sky
 from sunwidget.analysis.networks.sun import SunMaps
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is partly water
-_POSSIBLE = 0.2  # probability below which looks do not make a pixel water
-_BELIEF = 0.6  # mean probability from which a patch is water
-WEIGHTS = (0.06, 0.68, 0.44)  # bias; weights of the log odds of the sun's and the land's network
-_REDDER = 0.4  # log of red over blue by which water may be redder than its sky
-_DARK = 0.004  # linear light that counts as noise
+WEIGHTS = (0.3, 0.5, 0.3)  # of the log odds of the networks of suns, sky and land
 _BURNT = 0.9  # linear light from which a pixel has lost its color
 _COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
 _SUN = 0.3  # probability of a sun from which its column may be twice as wide
-_ROW = 0.4  # of a row's possible water: the least that tells how the rest looks
-_ALIKE = (0.1, 2.0)  # encoded color, and deviations of the row's water from its mean
-_DARKER = 0.7  # share of that water's luminance below which a pixel is unlike it
-_CLIPPED = 0.8  # linear light of the darkest channel, below a sun
 _GAP = 0.02  # of the width: half of the gap between water and sky
 _STRIP = 0.005  # of the width: half of the gap above the horizon
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
@@ -45,7 +38,7 @@ def none(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) -> 
 
 
 def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) -> np.ndarray:
-    """Find water with the networks of suns and of land.
+    """Find water with the networks of suns, sky and land.
 
     Parameters
     ----------
@@ -66,17 +59,15 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     height, width = sky.shape
     camera = Camera.from_horizon(width, height, 50.0, horizon.row, roll=horizon.roll)
     ground = (1 - sky) * (1 - above(camera, width, height))
-    land = look_at_land(working).water
     small = (maps.water.shape[1], maps.water.shape[0])
-    likely = water_odds(maps.water * resize(1 - sky, *small), resize(land, *small))
-    possible = (resize(likely, width, height) > _POSSIBLE) * ground
-    likely = _believed(likely, resize(working.linear, *small), resize(sky, *small))
+    others = (resize(look(working).water, *small) for look in (look_at_sky, look_at_land))
+    likely = water_odds(maps.water, *others)
+    likely *= resize(1 - sky, *small)
     water = smoothstep(*_EDGE, resize(likely, width, height)) * ground
     if water.mean() < _LEAST:
         return np.zeros_like(sky)
     water = _to_the_shore(working, sky, water)
-    water = _with_glints(working, sky, ground, water, maps)
-    return soft_edged(working, sky, _along_rows(working, possible, water, maps))
+    return soft_edged(working, sky, _with_glints(working, sky, ground, water, maps))
 
 
 METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]] = {
@@ -85,32 +76,13 @@ METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]
 }
 
 
-def _believed(likely: np.ndarray, light: np.ndarray, sky: np.ndarray) -> np.ndarray:
-    """Return the probability (h, w) in patches that are water as a whole.
+def water_odds(*seen: np.ndarray) -> np.ndarray:
+    """Return the probability (h, w) of water from three networks' outputs, each (h, w) in [0, 1].
 
-    Patches redder than all of the sky that they might reflect are rejected, such as a bare plain.
+    The order is that of ``WEIGHTS``. On photos the land network adds nothing, but without it plain
+    ground of rendered pictures would be water (``training/land/calibrate_water.py``).
     """
-    import cv2
-
-    redness = np.log((light[..., 0] + _DARK) / (light[..., 2] + _DARK))
-    above = sky > 0.5
-    reddest = float(np.quantile(redness[above], 0.95)) if above.any() else np.inf
-    count, labels = cv2.connectedComponents((likely > _EDGE[0]).astype(np.uint8), connectivity=4)
-    kept = np.zeros(count, bool)
-    for patch in range(1, count):
-        inside = labels == patch
-        colored = inside & (light.max(-1) < _BURNT)
-        own = float(np.median(redness[colored if colored.any() else inside]))
-        kept[patch] = likely[inside].mean() > _BELIEF and own < reddest + _REDDER
-    return np.where(kept[labels], likely, 0).astype(np.float32)
-
-
-def water_odds(seen: np.ndarray, land: np.ndarray) -> np.ndarray:
-    """Return the probability (h, w) of water from two networks' outputs, each (h, w) in [0, 1].
-
-    A logistic regression on their logits, fitted by ``training/land/calibrate_water.py``.
-    """
-    score = WEIGHTS[0] + WEIGHTS[1] * log_odds(seen) + WEIGHTS[2] * log_odds(land)
+    score = sum(weight * log_odds(one) for weight, one in zip(WEIGHTS, seen, strict=True))
     return np.asarray(1 / (1 + np.exp(-score)), np.float32)
 
 
@@ -171,30 +143,6 @@ def _with_glints(
     # The horizon is known to a few rows; gaps between sky and sky are not water.
     strip = closed(np.maximum(found, sky), 0, _STRIP) - closed(sky, 0, _STRIP)
     return np.asarray(np.maximum(found, np.maximum(strip, 0) * as_bright), np.float32)
-
-
-def _along_rows(
-    working: Working, possible: np.ndarray, water: np.ndarray, maps: SunMaps
-) -> np.ndarray:
-    """Add possible water that looks like the water in its rows, as far away, and touches it.
-
-    Below a sun it may be clipped.
-    """
-    import cv2
-
-    color, land, wet = working.encoded, possible > 0.5, water > 0.5
-    count = wet.sum(1)
-    told = (count > _ROW * land.sum(1)) & (count > 0)
-    mean = (color * wet[..., None]).sum(1) / np.maximum(count, 1)[:, None]
-    apart = np.linalg.norm(color - mean[:, None], axis=-1)
-    spread = np.sqrt((apart**2 * wet).sum(1) / np.maximum(count, 1))
-    alike = apart < np.maximum(_ALIKE[0], _ALIKE[1] * spread)[:, None]
-    alike &= color @ LUMINANCE > _DARKER * (mean @ LUMINANCE)[:, None]
-    alike |= _below_sun(maps, water.shape[1]) & (working.linear.min(-1) > _CLIPPED)
-    alike &= land & told[:, None]
-    _, labels = cv2.connectedComponents((alike | wet).astype(np.uint8), connectivity=4)
-    added = alike & np.isin(labels, np.unique(labels[wet]))
-    return np.asarray(np.maximum(water, added * possible), np.float32)
 
 
 def _below_sun(maps: SunMaps, width: int) -> np.ndarray:

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import contextlib
 
-from sunwidget.analysis.networks import land, sun
+from sunwidget.analysis.networks import land, sky, sun
 from sunwidget.analysis.networks.onnx_file import bundled_session
 from sunwidget.analysis.scene import Scene
-from sunwidget.analysis.segmentation import sky_network
 from sunwidget.analysis.windows import panes
 from sunwidget.photo.photo import Photo
 from sunwidget.widgets.kernel import background
 
-_NETWORKS = ((sky_network.BUNDLED, "sky"), (sun.BUNDLED, "sun"), (land.BUNDLED, "land"))
+_NETWORKS = ((sky.BUNDLED, "sky"), (sun.BUNDLED, "sun"), (land.BUNDLED, "land"))
 
 
 def preload(source: Photo | Scene) -> None:

@@ -7,8 +7,9 @@ import pytest
 import sunwidget as sw
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.segmentation_output import map_of, sky_of
+from sunwidget.analysis.networks.sky import BUNDLED
 from sunwidget.analysis.segmentation import coarse_sky
-from sunwidget.analysis.segmentation.sky_network import BUNDLED, SkyNetwork, bundled_network
+from sunwidget.analysis.segmentation.sky_network import SkyNetwork
 from sunwidget.errors import AnalysisError
 from sunwidget.photo.photo import open_photo
 
@@ -178,7 +179,7 @@ def test_a_network_gets_the_scale_that_is_told(tmp_path, scale, told):
     path = onnx.wrap(BUNDLED, tmp_path / "ours.onnx", nodes, constants, entries, metadata)
     network = SkyNetwork(path, **({} if metadata else fields))
     working = Working.of(sw.sample("harbour"))
-    assert np.allclose(network(working), bundled_network()(working), atol=2e-3)
+    assert np.allclose(network(working), SkyNetwork(BUNDLED)(working), atol=2e-3)
 
 
 def test_the_scale_is_the_given_one_the_metadata_s_or_0_to_1(tmp_path):
@@ -375,13 +376,3 @@ def test_analyze_and_the_editor_take_a_network_and_its_label(tmp_path):
     assert np.array_equal(editor.scene.sky_coarse, scene.sky_coarse)
     with pytest.raises(AnalysisError, match="sky_label must be"):
         sw.analyze(picture(), sky=path, sky_label=-7)
-
-
-def test_the_land_network_has_a_say_by_day_and_none_by_night():
-    day = Working.of(sw.sample("harbour"))
-    night = Working.of(open_photo((sw.sample("harbour").encoded * 0.25).astype(np.uint8)))
-    alone = [bundled_network()(working) for working in (day, night)]
-    both = [coarse_sky.network(working) for working in (day, night)]
-    assert np.abs(both[0] - alone[0]).max() > 0.05
-    assert ((both[0] > 0.5) == (alone[0] > 0.5)).mean() > 0.98  # of the sample they know the same
-    assert np.allclose(both[1], alone[1], atol=1e-3)
