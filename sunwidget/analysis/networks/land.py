@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from threading import Lock
 from typing import NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from sunwidget.analysis.fit.confidence import HEIGHTS, TURNS
-from sunwidget.analysis.images.working_copy import Working, resize
-from sunwidget.analysis.networks.onnx_file import bundled_session
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.networks.bundled import once, run, strided
 
 BUNDLED = Path(__file__).parents[1] / "models" / "land.onnx"
 AREA = 92_000  # pixels of the network's input
-_STRIDE = 32
 _WATER = 1  # index of water in the output ``matter``
 
 
@@ -83,31 +80,23 @@ def sun_basis(direction: np.ndarray) -> np.ndarray:
     )
 
 
+@once
 def look_at_land(working: Working) -> LandMaps:
     """Run the network on a photo's small copy, once per copy; 0.1 s on two cores.
+
+    Strokes and hints create new scenes of the same copy.
 
     Raises
     ------
     AnalysisError
         If onnxruntime is missing.
     """
-    with _lock:  # a second caller waits for the first one's result
-        if working not in _results:
-            _results[working] = _look(working)
-        return _results[working]
-
-
-def _look(working: Working) -> LandMaps:
+    size = working.width, working.height
     scale = (AREA / (working.width * working.height)) ** 0.5
-    width, height = (
-        max(2, round(side * scale / _STRIDE)) * _STRIDE for side in (working.width, working.height)
+    outputs = ["sky", "sunlit", "depth", "normal", "facing", "transfer", "matter", "view", "sun"]
+    sky, sunlit, octaves, normal, facing, transfer, matter, view, sun = run(
+        BUNDLED, "land", outputs, working.encoded, strided(*size, scale)
     )
-    image = np.clip(resize(working.encoded, width, height), 0, 1).transpose(2, 0, 1)[None]
-    found = bundled_session(BUNDLED, "land").run(
-        ["sky", "sunlit", "depth", "normal", "facing", "transfer", "matter", "view", "sun"],
-        {"image": np.ascontiguousarray(image, np.float32)},
-    )
-    sky, sunlit, octaves, normal, facing, transfer, matter, view, sun = (o[0] for o in found)
     return LandMaps(
         sky[0],
         sunlit[0],
@@ -119,8 +108,3 @@ def _look(working: Working) -> LandMaps:
         0.5 + float(view[0]),
         sun.reshape(HEIGHTS.size, TURNS.size),
     )
-
-
-# Strokes and hints create new scenes of the same small copy.
-_results: WeakKeyDictionary[Working, LandMaps] = WeakKeyDictionary()
-_lock = Lock()

@@ -7,13 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import Working, resize
-from sunwidget.analysis.networks.onnx_file import bundled_session
+from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.networks.bundled import run, strided
 
 BUNDLED = Path(__file__).parents[1] / "models" / "suns.onnx"
 LONG_SIDE = 320  # of the network's input
 LIGHT_FLOOR = 0.01  # added to display-linear light before its logarithm (training/suns/model.py)
-_STRIDE = 32
 
 
 class SunMaps(NamedTuple):
@@ -49,14 +48,14 @@ def look_for_sun(working: Working) -> SunMaps:
     AnalysisError
         If onnxruntime is missing.
     """
-    scale = LONG_SIDE / max(working.width, working.height)
-    width, height = (
-        max(2, round(side * scale / _STRIDE)) * _STRIDE for side in (working.width, working.height)
+    size = working.width, working.height
+    found, clean, water = run(
+        BUNDLED,
+        "sun",
+        ["sun", "clean", "water"],
+        working.encoded,
+        strided(*size, LONG_SIDE / max(size)),
     )
-    image = np.clip(resize(working.encoded, width, height), 0, 1).transpose(2, 0, 1)[None]
-    found, clean, water = bundled_session(BUNDLED, "sun").run(
-        None, {"image": np.ascontiguousarray(image, np.float32)}
-    )
-    probability, radius, sharpness = found[0]
-    log_ratio = np.minimum(clean[0], 0).transpose(1, 2, 0)
-    return SunMaps(probability, radius, sharpness, log_ratio, water[0, 0])
+    probability, radius, sharpness = found
+    log_ratio = np.minimum(clean, 0).transpose(1, 2, 0)
+    return SunMaps(probability, radius, sharpness, log_ratio, water[0])

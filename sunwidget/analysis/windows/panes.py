@@ -9,14 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from threading import Lock
 from typing import TYPE_CHECKING, NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from sunwidget.analysis.images.working_copy import resize
-from sunwidget.analysis.networks.onnx_file import bundled_session
+from sunwidget.analysis.networks.bundled import STRIDE, once, run
 from sunwidget.analysis.windows import shapes
 from sunwidget.analysis.windows.shapes import FOOT, TALL, TOP, WIDE, X, Y
 
@@ -26,7 +24,6 @@ if TYPE_CHECKING:
 BUNDLED = Path(__file__).parents[1] / "models" / "panes.onnx"
 SIDE = 1024  # longer side of the network's input in pixels
 BRIGHTEST = 3.0  # times the median lamp; a level of 1 in the texture
-_STRIDE = 32
 _DARK_ROOMS = 0.4
 _SPREAD = 0.6  # standard deviation of ln brightness of lamps
 _AT_TOP, _AT_FOOT = 1.2, 0.65  # of a window's light: lamps hang from ceilings
@@ -52,6 +49,7 @@ class View(NamedTuple):
     pane: np.ndarray
 
 
+@once
 def look(photo: Photo) -> tuple[View, ...]:
     """Return the network's output for a photo at two sizes; cached per photo.
 
@@ -63,22 +61,16 @@ def look(photo: Photo) -> tuple[View, ...]:
     AnalysisError
         If onnxruntime is missing.
     """
-    with _looking:  # concurrent callers wait for the first one's result
-        if photo not in _seen:
-            picture = photo.preview(SIDE).astype(np.float32) / 255
-            scale = min(2.0, SIDE / max(picture.shape))
-            _seen[photo] = _look(picture, scale), _look(picture, 0.5 * scale)
-        return _seen[photo]
+    picture = photo.preview(SIDE).astype(np.float32) / 255
+    scale = min(2.0, SIDE / max(picture.shape))
+    return _look(picture, scale), _look(picture, 0.5 * scale)
 
 
 def _look(picture: np.ndarray, scale: float) -> View:
     height, width = (max(1, round(scale * n)) for n in picture.shape[:2])
-    columns, rows = (max(1, round(n / _STRIDE)) * _STRIDE for n in (width, height))
-    image = resize(picture, columns, rows).transpose(2, 0, 1)[None]
-    found = bundled_session(BUNDLED, "windows").run(
-        ["window", "pane"], {"image": np.ascontiguousarray(image)}
-    )
-    return View(*(resize(image[0, 0], width, height) for image in found))
+    columns, rows = (max(1, round(n / STRIDE)) * STRIDE for n in (width, height))
+    found = run(BUNDLED, "windows", ["window", "pane"], picture, (columns, rows))
+    return View(*(resize(image[0], width, height) for image in found))
 
 
 def probability(views: Sequence[View]) -> np.ndarray:
@@ -252,7 +244,3 @@ def _light_wall(wall: shapes.Wall, light: np.ndarray, warmth: np.ndarray) -> Non
     new = inside * lit[at] * np.minimum(level[at] / BRIGHTEST, 1) * slab * post
     warmth[:, columns] = np.where(new > 0, warm[at[0]], warmth[:, columns])
     light[:, columns] = np.maximum(light[:, columns], new)
-
-
-_seen: WeakKeyDictionary[Photo, tuple[View, ...]] = WeakKeyDictionary()
-_looking = Lock()
