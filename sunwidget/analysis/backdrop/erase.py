@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sunwidget.analysis.backdrop.rays import find_rays
 from sunwidget.analysis.backdrop.sky_detail import sky_detail
 from sunwidget.analysis.images.fill import fill_by_layers, fill_by_pyramid
 from sunwidget.analysis.images.working_copy import Working, encode, resize, smoothstep
@@ -27,6 +28,7 @@ _HIDES = (0.3, 0.9)  # less keeps the sky's clouds, more hides them
 _GAP = 0.03  # in longer sides: half of the widest gap in the glare
 _WHITE, _LARGEST_RIM = 0.97, 0.03  # encoded; longer sides
 _REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow belongs to the sky
+_NEAREST = 0.25  # of the reach: how far beyond it the glow is compared
 
 
 class Erased(NamedTuple):
@@ -79,7 +81,9 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     size = working.width, working.height
     rows, columns = maps.clean.shape[:2]
     small_sky = resize(sky, columns, rows)
-    seen = np.log(resize(working.linear, columns, rows) + LIGHT_FLOOR)
+    rays = find_rays(working, sky, light)
+    there = np.log(working.linear + LIGHT_FLOOR) - rays
+    seen = np.log(resize(np.exp(there), columns, rows))
     glare = _risen(maps, seen, small_sky, light)
     felt = _without_gaps(glare.max(-1))
     sun_mask = resize(light.blot, columns, rows)
@@ -100,10 +104,10 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     # A rim is steeper than the network's map, so it is replaced by the sky behind, too.
     wide = cv2.dilate(felt.astype(np.float32), np.ones((3, 3), np.uint8))
     keep = enlarged(1 - smoothstep(*_HIDES, wide))[..., None]
-    there = np.log(working.linear + LIGHT_FLOOR)
     clean = np.exp(enlarged(behind) + keep * (there - enlarged(seen))) - LIGHT_FLOOR
     near_sky = cv2.dilate(small_sky, np.ones((3, 3), np.uint8))
     mark = enlarged(smoothstep(*_FELT, felt) * smoothstep(0.0, 0.5, near_sky))
+    mark = np.maximum(mark, smoothstep(*_FELT, rays.max(-1)))
     linear = np.maximum(working.linear + mark[..., None] * (clean - working.linear), 0)
     linear = linear.astype(np.float32)
     copy = dataclasses.replace(working, linear=linear, encoded=encode(linear))
@@ -173,6 +177,7 @@ def _parts(light: SunObservation, part: np.ndarray) -> tuple[np.ndarray, np.ndar
     """Return weights (h, w) of pixels that the glare reaches, and of ``part`` beyond it."""
     away, reach = _distance(light, part.shape)
     beyond = smoothstep(0.7 * reach, reach, away) * np.maximum(part, 1e-3)
+    beyond = beyond * np.exp(-np.maximum(away / reach - 1, 0) / _NEAREST)  # no step at the border
     return 1 - smoothstep(0.8 * reach, reach, away), beyond.astype(np.float32)
 
 
