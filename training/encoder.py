@@ -46,14 +46,19 @@ class Block(nn.Module):
 
 
 class Encoder(nn.Module):
-    """``(N, 3, H, W)`` sRGB in [0, 1] -> features at 1/2 to 1/32, of ``LEVELS`` channels."""
+    """``(N, 3, H, W)`` sRGB in [0, 1] -> features at 1/2 to 1/32, of ``LEVELS`` channels.
 
-    def __init__(self) -> None:
+    With fewer ``levels`` the deepest are left out.
+    """
+
+    def __init__(self, levels: int = len(LEVELS)) -> None:
         super().__init__()
         self.stem = nn.Sequential(*normed(3, 32, 3, 2), nn.ReLU6(inplace=True))
         self.blocks, self.ends = nn.ModuleList(), []
         inputs = 32
         for size, stride, outputs, repeats in zip(KERNELS, STRIDES, CHANNELS, REPEATS, strict=True):
+            if stride == 2 and len(self.ends) == levels - 1:
+                break
             if stride == 2:
                 self.ends.append(len(self.blocks))
             for i in range(repeats):

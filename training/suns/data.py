@@ -15,12 +15,12 @@ from training.data import read_pair
 from training.suns.compose import compose, spoil
 from training.suns.labels import Photo, labels
 from training.suns.light import LUMINANCE, to_linear
-from training.suns.model import LIGHT_FLOOR, QUARTER
+from training.suns.model import HALF, LIGHT_FLOOR, QUARTER
 from training.suns.water import UNKNOWN, outlines, water_map
 
 FOLDERS = ("landscape-pseudo", "weather-pseudo", "camvid", "sea-sky", "skyreplace-example")
 TEXTURES = "opensky"
-SIZES = ((192, 256), (224, 224), (256, 192), (160, 288), (256, 256))
+SIZES = ((224, 320), (256, 256), (320, 224), (192, 352), (288, 288))
 """(height, width) of the pictures of a batch, in pixels: every shape of photo in turn."""
 
 
@@ -101,10 +101,10 @@ def tone(rgb: np.ndarray, random: np.random.Generator) -> np.ndarray:
 
 
 def small_log(encoded: np.ndarray) -> np.ndarray:
-    """log(display-linear light + floor) at a quarter of the size, (h/4, w/4, 3)."""
+    """log(display-linear light + floor) at half of the size, (h/2, w/2, 3)."""
     height, width = encoded.shape[:2]
     light = cv2.resize(
-        to_linear(encoded), (width // QUARTER, height // QUARTER), interpolation=cv2.INTER_AREA
+        to_linear(encoded), (width // HALF, height // HALF), interpolation=cv2.INTER_AREA
     )
     return np.log(light + LIGHT_FLOOR)
 
@@ -137,10 +137,12 @@ def example(
             weight = (heat < 0.02).astype(np.float32)
             heat *= 0
     if clean is None:
-        target, clean_weight = np.zeros((height, width, 3), np.float32), 0 * weight
+        target = np.zeros((image.shape[0] // HALF, image.shape[1] // HALF, 3), np.float32)
+        clean_weight = target[..., 0]
     else:
         target = small_log(clean) - small_log(image.astype(np.float32) / 255)
-        small = cv2.resize(sky.astype(np.float32), (width, height), interpolation=cv2.INTER_AREA)
+        size = target.shape[1::-1]
+        small = cv2.resize(sky.astype(np.float32), size, interpolation=cv2.INTER_AREA)
         clean_weight = (0.15 + 0.85 * small) * (1 + 2 * np.minimum(np.abs(target).mean(-1), 1))
     water = np.full(sky.shape, UNKNOWN, np.uint8) if water is None else water
     wet, dry = (
@@ -238,19 +240,19 @@ class Batches(IterableDataset):
 
         def one(size: tuple[int, int]) -> dict[str, np.ndarray]:
             draw = random.random()
-            if draw < 0.44:
+            if draw < 0.62:
                 kind = random.random()
                 skies = dry if kind < 0.4 else photos.skies  # a sun on dry land, too
                 file = str(random.choice(photos.textures if kind < 0.12 else skies))
                 return drawn(read(self.root, file), size, random)
-            if draw < 0.72 and photos.watery:
-                file = str(random.choice(photos.watery if draw < 0.58 else photos.dry))
+            if draw < 0.77 and photos.watery:
+                file = str(random.choice(photos.watery if draw < 0.7 else photos.dry))
                 return real(read(self.root, file), by_file.get(file), size, random)
-            if draw < 0.83 and suns:
+            if draw < 0.86 and suns:
                 label = suns[int(random.integers(len(suns)))]
-            elif draw < 0.88 and baits:
+            elif draw < 0.9 and baits:
                 label = baits[int(random.integers(len(baits)))]
-            elif draw < 0.93 and others:
+            elif draw < 0.94 and others:
                 label = others[int(random.integers(len(others)))]
             else:
                 file = str(random.choice(photos.sunless))

@@ -15,25 +15,15 @@ from pathlib import Path
 import torch
 
 from training.export import to_onnx
-from training.loop import prepare
-from training.suns.data import typical
 from training.suns.model import SunMaps, SunNet
 
 OUT = Path("sunwidget/analysis/models/suns.onnx")
 
 
-def load(checkpoint: Path, data: Path) -> SunNet:
-    """The averaged network of a checkpoint, its batch statistics measured afresh."""
+def load(checkpoint: Path) -> SunNet:
+    """The averaged network of a checkpoint, for inference."""
     network = SunNet()
     network.load_state_dict(torch.load(checkpoint, weights_only=True)["average"])
-    layers = [m for m in network.modules() if isinstance(m, torch.nn.BatchNorm2d)]
-    for layer in layers:
-        layer.reset_running_stats()
-        layer.momentum = None  # plain mean over the batches
-    network.train()
-    with torch.no_grad():
-        for image in typical(data, 24):
-            network(prepare(image))
     return network.eval()
 
 
@@ -42,11 +32,10 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--checkpoint", type=Path, default=Path("build/suns/last.pt"))
-    parser.add_argument("--data", type=Path, default=Path("../shared/data/train"))
     parser.add_argument("--out", type=Path, default=OUT)
     options = parser.parse_args()
     torch.set_num_threads(1)
-    network = SunMaps(load(options.checkpoint, options.data)).eval()
+    network = SunMaps(load(options.checkpoint)).eval()
     picture = torch.rand(1, 3, 224, 320)
     names = ["sun", "clean", "water"]
     options.out.write_bytes(to_onnx(network, picture, names, "Suns, clean skies and water"))

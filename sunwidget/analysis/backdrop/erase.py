@@ -27,7 +27,8 @@ _WHITENS = (0.15, 0.6)  # less keeps clouds distinguishable from the sky, more d
 _HIDES = (0.3, 0.9)  # less keeps the sky's clouds, more hides them
 _GAP = 0.03  # in longer sides: half of the widest gap in the glare
 _WHITE, _LARGEST_RIM = 0.97, 0.03  # encoded; longer sides
-_REACH, _REACH_OF_DISC = 0.13, 3.0  # widths, and radii: farther out the glow belongs to the sky
+_REACH, _REACH_OF_DISC = 0.2, 4.5  # widths, and radii: farther out the glow belongs to the sky
+_RINGS, _FEWEST = 16, 12  # around the sun up to the reach; pixels of sky in one
 _NEAREST = 0.25  # of the reach: how far beyond it the glow is compared
 
 
@@ -128,10 +129,28 @@ def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservati
     The glare is limited to the picture's own excess (``seen``, log of light) over farther out.
     """
     near, beyond = _parts(light, sky)
-    glare = np.maximum(fill_by_pyramid(maps.clean, beyond) - maps.clean, 0) * near[..., None]
-    brighter = np.maximum((seen - fill_by_layers(seen, beyond)) @ LUMINANCE, 0)
+    glare = np.maximum(fill_by_pyramid(maps.clean, beyond) - maps.clean, 0)
+    excess = np.maximum(seen - fill_by_layers(seen, beyond), 0)
+    brighter = excess @ LUMINANCE
     share = np.minimum(brighter / np.maximum(glare @ LUMINANCE, 1e-6), 1)
-    return glare * share[..., None]
+    halo = _all_round(excess, sky, light)
+    return np.asarray(np.maximum(glare * share[..., None], halo) * near[..., None])
+
+
+def _all_round(excess: np.ndarray, sky: np.ndarray, light: SunObservation) -> np.ndarray:
+    """Return the part of an excess (h, w, 3) that is alike all round the sun: its halo.
+
+    That is what two in three pixels of the sky at the same distance exceed; clouds are brighter.
+    """
+    away, reach = _distance(light, sky.shape)
+    ring = (_RINGS * away / reach).astype(int)
+    profile = np.zeros((_RINGS, 3))
+    for i in range(_RINGS):
+        inside = excess[(ring == i) & (sky > 0.95)]
+        if len(inside) >= _FEWEST:
+            profile[i] = np.quantile(inside, 1 / 3, axis=0)
+    middles = (np.arange(_RINGS) + 0.5) * reach / _RINGS
+    return np.stack([np.interp(away, middles, channel) for channel in profile.T], -1)
 
 
 def _without_gaps(felt: np.ndarray) -> np.ndarray:
@@ -176,9 +195,10 @@ def find_glare_on_land(
 def _parts(light: SunObservation, part: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return weights (h, w) of pixels that the glare reaches, and of ``part`` beyond it."""
     away, reach = _distance(light, part.shape)
-    beyond = smoothstep(0.7 * reach, reach, away) * np.maximum(part, 1e-3)
-    beyond = beyond * np.exp(-np.maximum(away / reach - 1, 0) / _NEAREST)  # no step at the border
-    return 1 - smoothstep(0.8 * reach, reach, away), beyond.astype(np.float32)
+    beyond = smoothstep(0.6 * reach, reach, away) * np.maximum(part, 1e-3)
+    beyond = beyond * np.exp(-np.maximum(away / reach - 1, 0) / _NEAREST)
+    # The end is soft, or a glow that reaches farther would leave a ring.
+    return 1 - smoothstep(0.4 * reach, reach, away), beyond.astype(np.float32)
 
 
 def _distance(light: SunObservation, shape: tuple[int, ...]) -> tuple[np.ndarray, float]:

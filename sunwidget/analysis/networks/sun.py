@@ -11,12 +11,12 @@ from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.bundled import run, strided
 
 BUNDLED = Path(__file__).parents[1] / "models" / "suns.onnx"
-LONG_SIDE = 320  # of the network's input
+LONG_SIDE = 384  # of the network's input
 LIGHT_FLOOR = 0.01  # added to display-linear light before its logarithm (training/suns/model.py)
 
 
 class SunMaps(NamedTuple):
-    """The network's outputs, at a quarter of the size of its input.
+    """The network's outputs, at a quarter of the size of its input; ``clean`` at half.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ class SunMaps(NamedTuple):
         Radius of the disc or clipped core centered there, in widths of the picture.
     sharpness : (h, w) float32
         Probability that it has a limb and is not a bloomed core.
-    clean : (h, w, 3) float32
+    clean : (2 h, 2 w, 3) float32
         log(c + LIGHT_FLOOR) - log(x + LIGHT_FLOOR), x the photo in display-linear light and c the
         same without the sun, its halo and its lens artifacts; at most 0.
     water : (h, w) float32

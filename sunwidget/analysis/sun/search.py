@@ -8,15 +8,15 @@ from typing import NamedTuple
 import numpy as np
 
 from sunwidget.analysis.fit.confidence import probability
-from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.sun import SunMaps
 from sunwidget.formats.color import LUMINANCE
 
 LEAST_CONFIDENCE = 0.45  # from which a peak counts as the sun
 SURE = 0.7  # the same in a sky as dark as at night
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate
-WEIGHTS = (4.325, 3.654, -0.778, 0.098, 1.988, -1.354)
-RADIUS_SCALE = 0.775  # from the network's radius to the radius that people draw
+WEIGHTS = (-1.529, 2.733, -0.246, -0.938, 1.532, 5.234)
+RADIUS_SCALE = 0.741  # from the network's radius to the radius that people draw
 _NIGHT = 0.5  # encoded luminance of the sky's brightest tenth: with a sun above, with a moon below
 
 
@@ -58,7 +58,7 @@ def features_of(maps: SunMaps, working: Working) -> np.ndarray:
     glints = (rows > 0) & (np.abs(columns) < 0.12 * width)
     elsewhere = maps.probability[(away > max(0.08, 2 * radius)) & ~glints]
     p = np.clip([maps.probability[row, column], elsewhere.max(initial=0.0)], 1e-6, 1 - 1e-6)
-    erased = maps.clean.mean(-1)
+    erased = resize(maps.clean.mean(-1), width, height)
     core = float(erased[away <= max(0.012, 0.7 * radius)].min())
     ring = erased[(away > radius + 0.08) & (away < radius + 0.16)]
     around = float(np.median(ring)) if ring.size else 0.0
