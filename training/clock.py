@@ -22,7 +22,7 @@ class Clock:
         while self.spent < until * self.limit:
             yield self.spent / self.limit
             now = time.monotonic()
-            self.spent, clock = self.spent + min(now - clock, 15.0), now
+            self.spent, clock = self.spent + now - clock, now
             if now - saved > self.every:
                 self.save()
                 saved = now

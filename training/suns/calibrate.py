@@ -66,7 +66,7 @@ def main() -> None:
         off = miss(photo, peak.x, peak.y, working)
         if photo.kind == "glow" and off <= 0.06:
             continue
-        features.append(features_of(maps, working))
+        features.append(features_of(maps))
         truth.append(near(photo, off))
         if truth[-1]:
             row, column = np.unravel_index(int(maps.probability.argmax()), maps.probability.shape)

@@ -15,7 +15,7 @@ from sunwidget.formats.color import LUMINANCE
 LEAST_CONFIDENCE = 0.45  # from which a peak counts as the sun
 SURE = 0.7  # the same in a sky as dark as at night
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate
-WEIGHTS = (-1.529, 2.733, -0.246, -0.938, 1.532, 5.234)
+WEIGHTS = (-1.86, 2.525, -0.4, -1.394)
 RADIUS_SCALE = 0.741  # from the network's radius to the radius that people draw
 _NIGHT = 0.5  # encoded luminance of the sky's brightest tenth: with a sun above, with a moon below
 
@@ -43,11 +43,11 @@ class Peak(NamedTuple):
     sharpness: float
 
 
-def features_of(maps: SunMaps, working: Working) -> np.ndarray:
-    """Return the features that decide whether the likeliest place has a sun, (5,).
+def features_of(maps: SunMaps) -> np.ndarray:
+    """Return the features that decide whether the likeliest place has a sun, (3,).
 
-    They are the log odds there and at the best place elsewhere, the excess of light to be erased
-    over the surroundings, the log of the radius in widths, and the brightest channel's level.
+    They are the log odds there and at the best place elsewhere, and the excess of light to be
+    erased over the surroundings.
     """
     height, width = maps.probability.shape
     row, column = np.unravel_index(int(maps.probability.argmax()), (height, width))
@@ -62,11 +62,7 @@ def features_of(maps: SunMaps, working: Working) -> np.ndarray:
     core = float(erased[away <= max(0.012, 0.7 * radius)].min())
     ring = erased[(away > radius + 0.08) & (away < radius + 0.16)]
     around = float(np.median(ring)) if ring.size else 0.0
-    y, x = int((row + 0.5) * working.height / height), int((column + 0.5) * working.width / width)
-    reach = max(1, round(1.5 * working.width / width))
-    part = working.encoded[max(y - reach, 0) : y + reach + 1, max(x - reach, 0) : x + reach + 1]
-    odds = np.log(p / (1 - p))
-    return np.array([*odds, core - around, np.log(max(radius, 1e-3)), float(part.max())])
+    return np.array([*np.log(p / (1 - p)), core - around])
 
 
 def peak_of(maps: SunMaps, working: Working) -> Peak:
@@ -81,7 +77,7 @@ def peak_of(maps: SunMaps, working: Working) -> Peak:
         float(((x[rows, columns] + 0.5) * weight).sum()) / total * working.width / width,
         float(((y[rows, columns] + 0.5) * weight).sum()) / total * working.height / height,
         RADIUS_SCALE * float(maps.radius[row, column]) * working.width,
-        probability(WEIGHTS, features_of(maps, working)),
+        probability(WEIGHTS, features_of(maps)),
         float(maps.sharpness[row, column]),
     )
 
