@@ -113,7 +113,7 @@ def erase(working: Working, maps: SunMaps, sky: np.ndarray, light: SunObservatio
     linear = linear.astype(np.float32)
     copy = dataclasses.replace(working, linear=linear, encoded=encode(linear))
     away, reach = _distance(light, small_sky.shape)
-    near = 1 - smoothstep(1.5 * reach, 2.5 * reach, away)
+    near = 1 - smoothstep(reach, 1.65 * reach, away)
     glow = near * smoothstep(*_WHITENS, np.maximum(felt, -maps.clean.min(-1)))
     hidden, whitened = enlarged(smoothstep(*_FELT, felt)), enlarged(glow)
     detail = sky_detail(there, sky, hidden, keep[..., 0])
