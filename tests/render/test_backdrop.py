@@ -137,7 +137,7 @@ def test_a_glow_round_the_photos_sun_leaves_with_it():
     rows, columns = np.mgrid[: scene.backdrop.shape[0], : scene.backdrop.shape[1]]
     zoom = scene.backdrop.shape[1] / scene.photo.width
     near = np.exp(
-        -np.square(np.hypot(columns - x * zoom, rows - y * zoom) / (0.08 * rows.shape[1]))
+        -np.square(np.hypot(columns - x * zoom, rows - y * zoom) / (0.16 * rows.shape[1]))
     )
     other = with_light(scene, 1 + 1.5 * near[..., None])
     one, more = (render_pass(s, Edit(), "own_sky")[:28, :, 1] for s in (scene, other))

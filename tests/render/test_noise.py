@@ -65,12 +65,14 @@ MOVED = Edit(sun_azimuth=-15, sun_elevation=12, auto_exposure=0)
 
 
 def filled(scene):
+    """Where the glare hides the photo's own noise: nearer to the sun than the rest of its halo."""
     angle = angle_to_sun(
         scene.camera,
         (scene.width, scene.height),
         (scene.automatic["sun_azimuth"], scene.automatic["sun_elevation"]),
     )
-    return (frame_inputs.surface(scene)[..., 0] > 0.98) & (angle > 0.5) & (scene.sky == 1)
+    near = (angle > 0.5) & (angle < 6)
+    return (frame_inputs.surface(scene)[..., 0] > 0.98) & near & (scene.sky == 1)
 
 
 def test_what_was_filled_is_as_rough_as_the_photos_sky(noisy):
