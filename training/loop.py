@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -46,6 +47,21 @@ def rate(share: float, peak: float) -> float:
 def prepare(image: Tensor) -> Tensor:
     """uint8 -> float32 in [0, 1], channels last in memory."""
     return image.float().div_(255).contiguous(memory_format=torch.channels_last)
+
+
+def device_options(parser: argparse.ArgumentParser, batch: int) -> None:
+    """Add what says where a training runs, and how much at once."""
+    add = parser.add_argument
+    add("--device", default="cuda" if torch.cuda.is_available() else "cpu")
+    add("--workers", type=int, default=1, help="processes that make batches")
+    add("--batch", type=int, default=batch)
+    add("--threads", type=int, default=1)
+    add("--bfloat16", action="store_true", help="for graphics cards, and CPUs with matrix units")
+
+
+def put(batch: dict[str, Tensor], device: str) -> dict[str, Tensor]:
+    """Return a batch with its tensors on the device."""
+    return {name: tensor.to(device, non_blocking=True) for name, tensor in batch.items()}
 
 
 def batches(dataset: IterableDataset, ahead: int = 4, workers: int = 1) -> Iterator[Any]:
@@ -111,7 +127,7 @@ class Run(Clock):
         self.average = Average(network, kept)
         self.resumed = self.checkpoint.exists()
         if self.resumed:
-            state = torch.load(self.checkpoint, weights_only=True)
+            state = torch.load(self.checkpoint, weights_only=True, map_location="cpu")
             self.begin(state)
             self.optimise.load_state_dict(state["optimiser"])
             self.spent, self.step = state["spent"], state["step"]
@@ -119,7 +135,9 @@ class Run(Clock):
     def begin(self, state: dict[str, object]) -> None:
         """Take weights and their average over from a checkpoint, and nothing else."""
         self.network.load_state_dict(state["network"])
-        self.average.state, self.average.steps = state["average"], state["step"]
+        for key, value in state["average"].items():
+            self.average.state[key].copy_(value)
+        self.average.steps = state["step"]
 
     def afresh(self) -> None:
         """Let the moving average begin with the weights as they are now."""

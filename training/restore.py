@@ -21,7 +21,8 @@ def restore(network: nn.Module, path: Path, photos: list[tuple[Tensor, ...]]) ->
 
     ``photos`` are batches whose first item is uint8 ``(N, 3, S, S)``.
 
-    What is not in the file, as the head of the deep supervision, keeps its random start.
+    What is not in the file, as the head of the deep supervision, keeps its random start, and so
+    do layers of another shape: a network may begin from the file of another one.
     """
     values = {
         i.name.removesuffix("_half").removeprefix("network."): torch.tensor(
@@ -38,7 +39,7 @@ def restore(network: nn.Module, path: Path, photos: list[tuple[Tensor, ...]]) ->
         if isinstance(layer, nn.Sequential)
         for i in range(len(layer) - 1)
         if isinstance(layer[i], nn.Conv2d) and isinstance(layer[i + 1], nn.BatchNorm2d)
-        if f"{name}.{i}.bias" in values
+        if f"{name}.{i}.bias" in values and f"{name}.{i}.weight" in known
     ]
     network.eval()
     with torch.no_grad():

@@ -36,7 +36,7 @@ from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import matting, refine
 from sunwidget.analysis.sun import sun as sun_stage
 from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
-from sunwidget.analysis.sun.search import Peak
+from sunwidget.analysis.sun.search import Glow, Peak
 from sunwidget.analysis.sun.sun import SunMask, SunObservation
 from sunwidget.analysis.water import water as water_stage
 from sunwidget.errors import AnalysisError
@@ -46,6 +46,7 @@ from sunwidget.photo.photo import Photo
 from sunwidget.progress import Progress
 
 FIT_SIDE = 384
+GLOW_SPREAD = 8.0  # degrees: how exactly a glow tells where the sun is
 SURE_HORIZON = 0.68  # least confidence at which nothing below the horizon can be sky
 
 METHODS: dict[str, dict[str, Callable[..., Any]]] = {
@@ -156,6 +157,7 @@ def complete(
         light = sun_stage.observe(seed, sun_mask, sky, camera, working)
 
     erased = erased_for(working, maps, sky, light, sun_mask)
+    glow = sun_stage.find_glow(working, maps) if searched and light is None else None
 
     step("clouds", 0.81, "Finding clouds")
     covers = clouds_by_color(erased.working, sky, hints, sun_mask and sun_mask.mask)
@@ -165,7 +167,7 @@ def complete(
     with ThreadPoolExecutor(1) as pool:  # the two are independent
         water_search = pool.submit(_water, working, sky, small_horizon, maps, hints)
         fitted, behind, (cover, everywhere) = fit_atmosphere(
-            working, erased, sky, covers, camera, light, hints, step
+            working, erased, sky, covers, camera, light or glow, hints, step
         )
         step("water", 0.95, "Looking for water")
         water = water_search.result()
@@ -304,7 +306,7 @@ def fit_atmosphere(
     sky: np.ndarray,
     covers: tuple[Clouds, Clouds],
     camera: Camera,
-    sun: SunObservation | None,
+    sun: SunObservation | Glow | None,
     hints: Hints,
     step: Steps,
 ) -> tuple[SkyFit, Backdrop, tuple[Clouds, Clouds]]:
@@ -312,8 +314,8 @@ def fit_atmosphere(
 
     The clouds are returned twice: for the sky, and for the whole picture as if it were sky.
     """
-    sun_angles = None if sun is None else (sun.azimuth, sun.elevation)
-    visible = sun is not None and sun.visible
+    at, sure = _direction(sun, working, camera)
+    visible = isinstance(sun, SunObservation) and sun.visible
     unmixed = hints.method("clouds") == "unmix"
     # The fit uses a few hundred pixels, which are less noisy on a small copy.
     small = erased.working.shrunk(FIT_SIDE)
@@ -321,7 +323,10 @@ def fit_atmosphere(
     opacity = resize(covers[0].opacity, small.width, small.height)
     expected = look_at_land(working).sun if sun is None else None
     fitted = fit_sky(
-        small, small_sky, opacity, camera, sun_angles, expected, step.between(0.82, 0.87)
+        *(small, small_sky, opacity, camera, at, expected),
+        done=step.between(0.82, 0.87),
+        sure_of_sun=sure,
+        spread=GLOW_SPREAD * isinstance(sun, Glow),
     )
     if unmixed:
         # The clear sky's color reveals the clouds; without them the fit is more accurate.
@@ -339,6 +344,16 @@ def fit_atmosphere(
     if unmixed:
         covers = unmix_clouds(erased, sky, camera, fitted, covers, sun_seen=visible)
     return fitted, behind, covers
+
+
+def _direction(
+    sun: SunObservation | Glow | None, working: Working, camera: Camera
+) -> tuple[tuple[float, float] | None, float]:
+    """Return the direction of the sun if it is known, in degrees, and how sure that is."""
+    if isinstance(sun, Glow):
+        zoom_x, zoom_y = working.zoom
+        return camera.angles(sun.x * zoom_x, sun.y * zoom_y), sun.confidence
+    return (None if sun is None else (sun.azimuth, sun.elevation)), 1.0
 
 
 def _glare_of(

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from relight_scenes import exact_fit, known_photo
 
+import sunwidget as sw
+from sunwidget.analysis import pipeline
 from sunwidget.analysis.backdrop.backdrop import (
     LONG_SIDE,
     behind_sun,
@@ -15,6 +17,7 @@ from sunwidget.analysis.backdrop.backdrop import (
 )
 from sunwidget.analysis.backdrop.erase import erase_nothing
 from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.sun.search import Glow
 from sunwidget.edit.table import Edit
 from sunwidget.photo.photo import open_photo
 from sunwidget.renderer import render, render_pass
@@ -184,3 +187,19 @@ def test_land_that_loses_no_light_with_the_glare_keeps_its_colour():
     edit = Edit(sun_azimuth=photo.sun[0] + 12)
     with_mark, without = (render(s, edit, dtype="float32")[62:72, 45:75] for s in (marked, scene))
     assert (with_mark <= 1.1 * without + 1e-3).all()
+
+
+def test_a_sky_without_a_glow_does_not_darken_where_its_sun_was_assumed(monkeypatch):
+    code = np.linspace((0.35, 0.5, 0.72), (0.6, 0.7, 0.8), 220)[:, None].repeat(320, 1)
+    code[160:] = 0.12
+    picture = np.round(255 * code).astype(np.uint8)
+    monkeypatch.setattr(
+        pipeline.sun_stage, "find_glow", lambda w, _: Glow(0.5 * w.width, 0.45 * w.height, 0.9)
+    )
+    scene = sw.analyze(picture)
+    assert scene.sun is None
+    azimuth, elevation = scene.assumed_sun
+    for away in (12, 16, 20, 30):
+        edit = sw.Edit(sun_azimuth=azimuth + away, sun_elevation=elevation)
+        level = sw.render(scene, edit)[90:110, 155:165, :3].mean()
+        assert level > picture[90:110, 155:165].mean() - 1, away

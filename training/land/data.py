@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import cv2
 import numpy as np
 import torch
 from torch import Tensor
-from torch.utils.data import IterableDataset
+from torch.utils.data import IterableDataset, get_worker_info
 
 from training.augment import relight
 from training.data import FOLDERS, barred, held_out, read_pair
 from training.land import photograph
 from training.land.model import SUN_HEIGHTS, SUN_TURNS
+from training.sky_corrections import corrected, judges
+from training.suns.labels import labels
 from training.suns.water import UNKNOWN, water_map
 from training.worlds import CLASSES
 
@@ -184,7 +187,7 @@ class WorldBatches(IterableDataset):
 
     def __iter__(self) -> Iterator[Batch]:
         cv2.setNumThreads(1)
-        random, worlds = np.random.default_rng(self._seed), Worlds(self._folder)
+        random, worlds = _random(self._seed), Worlds(self._folder)
         for number in range(10**9):
             if number % 20 == 0:
                 worlds.look()
@@ -192,6 +195,12 @@ class WorldBatches(IterableDataset):
             picked = random.integers(len(worlds), size=self._count)
             items = [sample(worlds[i], rows, columns, random) for i in picked]
             yield stack(items)
+
+
+def _random(seed: int) -> Random:
+    """Return random numbers of one of several processes."""
+    worker = get_worker_info()
+    return np.random.default_rng((seed, worker.id if worker else 0))
 
 
 def stack(items: list[dict]) -> Batch:
@@ -212,7 +221,7 @@ class PhotoBatches(IterableDataset):
 
     def __iter__(self) -> Iterator[Batch]:
         cv2.setNumThreads(1)
-        random = np.random.default_rng(self._seed)
+        random = _random(self._seed)
         pairs = photos(self._root)
         weights = np.array([FOLDERS[folder] for folder, *_ in pairs])
         weights /= weights.sum()
@@ -223,24 +232,34 @@ class PhotoBatches(IterableDataset):
 
 
 def photos(root: Path, *, held: bool = False) -> list[tuple[str, Path, Path]]:
-    """Return folder, picture and mask of all photos to learn from (or of the held-out ones)."""
+    """Return folder, picture and mask of all photos to learn from (or of those that judge)."""
     found = []
     for folder in FOLDERS:
         names = barred(root / folder)
         for image in sorted((root / folder / "images").glob("*.jpg")):
             mask = root / folder / "masks" / f"{image.stem}.png"
-            if image.name not in names and mask.exists() and held_out(folder, image.stem) == held:
+            if image.name in names or not mask.exists():
+                continue
+            if (held_out(folder, image.stem) or judges(f"{folder}/{image.name}")) == held:
                 found.append((folder, image, mask))
     return found
+
+
+@cache
+def _judging() -> set[str]:
+    """Return the photos whose labels of suns and of water only judge."""
+    return {photo.file for photo in labels() if photo.test}
 
 
 def _photo(
     folder: str, image: Path, mask: Path, rows: int, columns: int, random: Random
 ) -> dict[str, np.ndarray]:
-    pair = read_pair(image, mask)
+    pair, file = read_pair(image, mask), f"{folder}/{image.name}"
     box = photograph.box(random, pair.shape[:2], rows, columns)
-    sky = pair[..., 3]
-    water = water_map(f"{folder}/{image.name}", sky)
+    sky = corrected(file, pair[..., 3])
+    water = water_map(file, sky)
+    if file in _judging():
+        water[:] = UNKNOWN
     picture = box.of(pair[..., :3], cv2.INTER_AREA)
     if random.random() < 0.5:
         gain = np.exp(random.normal(0, 0.12, 3) + random.normal(0, 0.25))

@@ -1,8 +1,7 @@
 """LandNet: how the land lies, what it is made of, and what light falls on it.
 
-A residual encoder to 1/32 and a decoder with skips up to 1/2 under heads for everything that a
-relit picture needs. Its trunk began as the first sky network's. Any size of multiples of 32,
-proportions kept.
+The sky network's encoder, with what it knows of the world, and a decoder with skips up to 1/2 under
+heads for everything that a relit picture needs. Any size of multiples of 32, proportions kept.
 """
 
 from __future__ import annotations
@@ -11,6 +10,7 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
+from training.encoder import LEVELS, Encoder
 from training.model import Merge, Residual, StripContext, conv
 from training.worlds import CLASSES
 
@@ -43,40 +43,42 @@ class LandNet(nn.Module):
 
     def __init__(self) -> None:
         super().__init__()
-        self.stem = conv(3, 32, 3, 2)
-        self.quarter = nn.Sequential(conv(32, 64, 3, 2), Residual(64, 64))
-        self.eighth = nn.Sequential(conv(64, 96, 3, 2), Residual(96, 96))
-        self.sixteenth = nn.Sequential(
-            conv(96, 160, 3, 2), Residual(160, 80), StripContext(160, 64), Residual(160, 80)
-        )
-        self.deep = nn.Sequential(
-            conv(160, 224, 3, 2), Residual(224, 88), StripContext(224, 96), Residual(224, 88)
-        )
-        self.to_sixteenth = Merge(224, 160, 96)
-        self.to_eighth = Merge(96, 96, 64)
-        self.to_quarter = Merge(64, 64, 64)
-        self.to_half = Merge(64, 32, 32)
+        self.encoder = Encoder()
+        half, quarter, eighth, sixteenth, deep = LEVELS
+        self.context = StripContext(deep, 96)
+        self.to_sixteenth = Merge(deep, sixteenth, 96)
+        self.wide = nn.Sequential(StripContext(96, 64), Residual(96, 64), StripContext(96, 64))
+        self.to_eighth = Merge(96, eighth, 64)
+        self.to_quarter = Merge(64, quarter, 64)
+        self.to_half = Merge(64, half, 32)
         self.head = nn.Conv2d(32, 4, 3, padding=1)  # four sub-pixels, shuffled to full resolution
         self.shape = nn.Sequential(conv(64, 64), nn.Conv2d(64, 4 * 4, 3, padding=1))
         self.kind = nn.Sequential(conv(64, 48), nn.Conv2d(48, 4 * MATTER, 3, padding=1))
         self.transfer = nn.Sequential(conv(64, 64), nn.Conv2d(64, 4 * TRANSFER, 3, padding=1))
         self.lit = nn.Sequential(conv(32, 32), nn.Conv2d(32, 4, 3, padding=1))
         self.facing = nn.Sequential(conv(64, 32), nn.Conv2d(32, 4, 3, padding=1))
-        self.view = nn.Sequential(nn.Linear(224 + 96, 128), nn.ReLU(), nn.Linear(128, 4))
-        self.sun = nn.Sequential(nn.Linear(224 + 96, 160), nn.ReLU(), nn.Linear(160, SUNS))
+        self.view = nn.Sequential(
+            nn.Linear(4 * 96 + 2 * deep, 192), nn.ReLU(), nn.Dropout(0.5), nn.Linear(192, 4)
+        )
+        self.sun = nn.Sequential(nn.Linear(deep + 96, 160), nn.ReLU(), nn.Linear(160, SUNS))
+
+    def features(self, image: Tensor) -> tuple[Tensor, ...]:
+        """Return the features at 1/2, 1/4, 1/8, 1/16 and 1/32; the last two know the picture."""
+        half, quarter, eighth, sixteenth, deep = self.encoder(image)
+        deep = self.context(deep)
+        return half, quarter, eighth, self.wide(self.to_sixteenth(deep, sixteenth)), deep
+
+    def seen(self, image: Tensor) -> Tensor:
+        """Return what the head of the horizon sees, (N, 800)."""
+        *_, x16, deep = self.features(image)
+        return moments(x16, deep)
 
     def maps(self, image: Tensor) -> dict[str, Tensor]:
-        half = self.stem(image * 4.0 - 2.0)
-        quarter = self.quarter(half)
-        eighth = self.eighth(quarter)
-        sixteenth = self.sixteenth(eighth)
-        deep = self.deep(sixteenth)
-        x16 = self.to_sixteenth(deep, sixteenth)
+        half, quarter, eighth, x16, deep = self.features(image)
         x4 = self.to_quarter(self.to_eighth(x16, eighth), quarter)
         x2 = self.to_half(x4, half)
         shape = F.pixel_shuffle(self.shape(x4), 2).float()
         rows = x16.shape[2]
-        # Where in the picture something is matters for the horizon: means of upper and lower part.
         up, down = x16[:, :, : rows // 2].mean((2, 3)), x16[:, :, rows // 2 :].mean((2, 3))
         seen = torch.cat([deep.mean((2, 3)), 0.5 * (up - down)], 1)
         return {
@@ -87,12 +89,29 @@ class LandNet(nn.Module):
             "transfer": F.pixel_shuffle(self.transfer(x4), 2),
             "facing": F.pixel_shuffle(self.facing(x4), 2),
             "matter": F.pixel_shuffle(self.kind(x4), 2),
-            "view": self.view(seen),
+            "view": self.view(moments(x16, deep)),
             "sun": self.sun(seen),
         }
 
     def forward(self, image: Tensor) -> Tensor:
         return self.maps(image)["sky"]
+
+
+def _rows(x: Tensor) -> Tensor:
+    """Return the rows' places from -1 on top to 1, (1, 1, H, 1); also in a graph of any size."""
+    number = torch.ones_like(x[:1, :1, :, :1]).cumsum(2) - 1
+    return 2 * number / number[:, :, -1:] - 1
+
+
+def moments(x16: Tensor, deep: Tensor) -> Tensor:
+    """Return what a picture holds, and how high up: (N, 4 * 96 + 2 * 208).
+
+    Means of the features at 1/16 and 1/32, weighed with Legendre polynomials of the row.
+    """
+    y, y_deep = _rows(x16), _rows(deep)
+    weights = (torch.ones_like(y), y, 1.5 * y * y - 0.5, 2.5 * y**3 - 1.5 * y)
+    parts = [(x16 * weight).mean((2, 3)) for weight in weights]
+    return torch.cat([*parts, deep.mean((2, 3)), (deep * y_deep).mean((2, 3))], 1)
 
 
 class LandMaps(nn.Module):

@@ -1,12 +1,12 @@
-"""Trains LandNet for a given wall-clock time on a CPU, on worlds and real photos together.
+"""Trains LandNet for a given wall-clock time, on worlds and real photos together.
 
 ``python -m training.land.train --worlds build/worlds --data ../shared/data/train --minutes 60
 --out build/land``
 
-Goes on from the shipped ``land.onnx`` (or, with ``--start``, from a checkpoint); running it again
-with the same ``--out`` resumes. The learning rate follows elapsed time. Worlds
-that are made meanwhile are learned from as they come. What is exported is a moving average of the
-weights.
+Begins with what ``--start`` knows: the trunk of ``sky.onnx``, all of ``land.onnx``, or a
+checkpoint; running it again with the same ``--out`` resumes. The learning rate follows elapsed
+time. Worlds that are made meanwhile are learned from as they come. What is exported is a moving
+average of the weights.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from torch import Tensor
 from training.data import typical
 from training.land.data import UNKNOWN, WATER, Batch, PhotoBatches, WorldBatches
 from training.land.model import LandNet, losses, sun_basis
-from training.loop import Run, batches, prepare, rate
+from training.loop import Run, batches, device_options, prepare, put, rate
 from training.restore import restore
 
-SHIPPED = Path("sunwidget/analysis/models/land.onnx")
-AREAS = ((0.0, 62_000, 7), (0.5, 92_000, 5))
-"""From which share of the time on: pixels of a picture, pictures of a batch of either kind."""
-PEAK_RATE = 5e-4
-KEPT = 0.9993  # of the moving average of the weights, each step
+TRUNK = Path("sunwidget/analysis/models/sky.onnx")
+AREAS = ((0.0, 62_000), (0.5, 92_000))
+"""From which share of the time on: pixels of a picture."""
+PEAK_RATE = 1e-3
+KEPT = 0.9985  # of the moving average of the weights, each step
 PHOTOS_EVERY = 3  # steps: worlds have more labels, and the trunk knows photos
 TEACHES_FROM = 250  # steps, from which on the moving average is worth listening to
 MIRRORED = (
@@ -70,7 +70,7 @@ def _log_rest(matter: Tensor, index: int) -> Tensor:
 def consistency(student: dict[str, Tensor], teacher: dict[str, Tensor]) -> Tensor:
     """Return how unlike two views of the same photos are; ``teacher`` saw them mirrored."""
     back = {k: v.flip(3) for k, v in teacher.items() if v.ndim == 4}
-    back["normal"] = back["normal"] * torch.tensor([-1.0, 1, 1]).view(1, 3, 1, 1)
+    back["normal"] = torch.cat([-back["normal"][:, :1], back["normal"][:, 1:]], 1)
     solid = 1 - back["matter"].softmax(1)[:, :1]
     level = (student["depth"] - back["depth"]) * solid
     level = level - level.sum((1, 2, 3), keepdim=True) / solid.sum((1, 2, 3), keepdim=True).clamp(
@@ -78,7 +78,8 @@ def consistency(student: dict[str, Tensor], teacher: dict[str, Tensor]) -> Tenso
     )
     lit = F.binary_cross_entropy_with_logits(student["sunlit"], back["sunlit"].sigmoid())
     normal = (1 - (student["normal"] * back["normal"]).sum(1, keepdim=True)) * solid
-    share = (student["transfer"] - back["transfer"] * MIRRORED.view(1, -1, 1, 1)).abs() * solid
+    turned = back["transfer"] * MIRRORED.to(solid.device).view(1, -1, 1, 1)
+    share = (student["transfer"] - turned).abs() * solid
     return lit + normal.mean() + 0.2 * (level.abs() * solid).mean() + share.mean()
 
 
@@ -87,35 +88,34 @@ class Training:
 
     def __init__(self, options: argparse.Namespace) -> None:
         self.options = options
-        self.network = LandNet().to(memory_format=torch.channels_last)
-        self.run = Run(
-            self.network, options.out, options.minutes, kept=KEPT, on_checkpoint=self._report
-        )
-        self.teacher = LandNet().eval()
-        self.sums: dict[str, float] = {}
-        if self.run.resumed:
-            return
+        self.network = LandNet()
         if options.start.suffix == ".onnx":
             restore(self.network, options.start, typical(options.data, options.cache, 192, 96))
         else:
-            state = torch.load(options.start, weights_only=True)["average"]
+            state = torch.load(options.start, weights_only=True, map_location="cpu")["average"]
             self.network.load_state_dict(state, strict=False)  # heads that it lacks begin anew
-        self.run.afresh()
+        self.network.to(options.device, memory_format=torch.channels_last)
+        self.run = Run(
+            self.network, options.out, options.minutes, kept=KEPT, on_checkpoint=self._report
+        )
+        self.teacher = LandNet().to(options.device).eval()
+        self.kind = torch.device(options.device).type
+        self.sums: dict[str, Tensor] = {}
 
     def train(self) -> None:
         """Learn in stages until the time is spent."""
-        for i, (_, area, count) in enumerate(AREAS):
+        for i, (_, area) in enumerate(AREAS):
             end = AREAS[i + 1][0] if i + 1 < len(AREAS) else 1.0
             if self.run.spent < end * self.run.limit:
-                self._stage(area, count, end)
+                self._stage(area, end)
         self.run.keep()
 
-    def _stage(self, area: int, count: int, end: float) -> None:
-        seed = self.run.step + 1
-        worlds = batches(WorldBatches(self.options.worlds, area, count, seed))
-        photos = batches(PhotoBatches(self.options.data, area, count, seed))
+    def _stage(self, area: int, end: float) -> None:
+        o, seed = self.options, self.run.step + 1
+        worlds = batches(WorldBatches(o.worlds, area, o.batch, seed), workers=o.workers)
+        photos = batches(PhotoBatches(o.data, area, o.batch, seed), workers=-(-o.workers // 4))
         for share in self.run.shares(end):
-            self._learn(next(worlds), photos, rate(share, PEAK_RATE))
+            self._learn(put(next(worlds), o.device), photos, rate(share, o.rate))
 
     def _learn(self, world: Batch, photos: Iterator[Batch], speed: float) -> None:
         self.network.train()
@@ -123,11 +123,11 @@ class Training:
         sum(found.values()).backward()
         self._count("", found)
         if self.run.step % PHOTOS_EVERY == 0:
-            self._learn_from_photos(next(photos))
+            self._learn_from_photos(put(next(photos), self.options.device))
         self.run.learn(speed, 5.0)
 
     def _maps(self, network: LandNet, image: Tensor) -> dict[str, Tensor]:
-        with torch.autocast("cpu", torch.bfloat16, enabled=self.options.bfloat16):
+        with torch.autocast(self.kind, torch.bfloat16, enabled=self.options.bfloat16):
             return {name: value.float() for name, value in network.maps(image).items()}
 
     def _learn_from_photos(self, photo: Batch) -> None:
@@ -144,11 +144,11 @@ class Training:
 
     def _count(self, prefix: str, found: dict[str, Tensor]) -> None:
         for name, value in found.items():
-            key = prefix + name
-            self.sums[key] = 0.98 * self.sums.get(key, value.item()) + 0.02 * value.item()
+            key, value = prefix + name, value.detach()
+            self.sums[key] = 0.98 * self.sums.get(key, value) + 0.02 * value
 
     def _report(self) -> None:
-        line = {k: round(v, 3) for k, v in self.sums.items()}
+        line = {k: round(v.item(), 3) for k, v in self.sums.items()}
         print(
             f"{self.run.spent / 60:.1f} min, step {self.run.step}: {json.dumps(line)}", flush=True
         )
@@ -161,11 +161,9 @@ def main() -> None:
     parser.add_argument("--cache", type=Path, default=Path("build/pack"))
     parser.add_argument("--minutes", type=float, default=60)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--start", type=Path, default=SHIPPED)
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument(
-        "--bfloat16", action="store_true", help="twice as fast on CPUs that have it"
-    )
+    parser.add_argument("--start", type=Path, default=TRUNK)
+    parser.add_argument("--rate", type=float, default=PEAK_RATE)
+    device_options(parser, batch=6)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     options.cache.mkdir(parents=True, exist_ok=True)

@@ -1,14 +1,15 @@
-"""Fits ``WEIGHTS`` and ``RADIUS_SCALE`` of sunwidget/analysis/sun/search.py, and prints them.
+"""Fits ``WEIGHTS``, ``GLOW_WEIGHTS`` and ``RADIUS_SCALE`` of sunwidget/analysis/sun/search.py.
 
-``python -m training.suns.calibrate --data ../shared/data/train``
-
-On the labelled photos that were trained on; those that only judge are not looked at. A glow is left
-out unless the likeliest place is off it, when there is no sun.
+``python -m training.suns.calibrate --data ../shared/data/train`` fits them on every second of the
+labelled photos that only judge, and measures them on the others: a network is too sure of photos
+that it was trained on. A sun's glow is left out unless the likeliest place is off it, when there is
+no sun.
 """
 
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 from pathlib import Path
 
 import cv2
@@ -16,12 +17,19 @@ import numpy as np
 
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import look_for_sun
-from sunwidget.analysis.sun.search import features_of, peak_of
+from sunwidget.analysis.sun.search import (
+    LEAST_CONFIDENCE,
+    LEAST_GLOW,
+    features_of,
+    features_of_glow,
+    glow_of,
+    peak_of,
+)
 from sunwidget.photo.photo import open_photo
 from training.suns.labels import Photo, labels
 
 RIDGE = 0.01
-EVERY_NONE = 2  # of the many photos without a sun
+PARTS = {"fitted on": slice(0, None, 2), "judging": slice(1, None, 2)}
 
 
 def miss(photo: Photo, x: float, y: float, working: Working) -> float:
@@ -48,6 +56,79 @@ def fit(features: np.ndarray, truth: np.ndarray) -> np.ndarray:
     return np.array([w[0] - slopes @ mean, *slopes])
 
 
+NEAR_GLOW = 0.1  # widths
+
+
+@dataclass
+class Seen:
+    """What the network says of one photo: features, and whether the likeliest place is right."""
+
+    photo: Photo
+    sun: np.ndarray
+    near_sun: bool
+    near_glow: bool  # of a glow, the likeliest sun
+    size: float  # the label's radius over the network's
+    glow: np.ndarray
+    at_glow: bool
+
+
+def look(photo: Photo, data: Path) -> Seen:
+    """Look at one labelled photo."""
+    folder, name = photo.file.split("/")
+    working = Working.of(open_photo(data / folder / "images" / name))
+    maps = look_for_sun(working)
+    peak, glow = peak_of(maps, working), glow_of(maps, working)
+    off = miss(photo, peak.x, peak.y, working)
+    is_glow = photo.kind == "glow"
+    return Seen(
+        photo,
+        features_of(maps),
+        near(photo, off),
+        is_glow and off <= 0.06,
+        photo.r / float(maps.radius.flat[maps.probability.argmax()]),
+        features_of_glow(maps),
+        is_glow and miss(photo, glow.x, glow.y, working) <= NEAR_GLOW,
+    )
+
+
+def odds(weights: np.ndarray, features: np.ndarray) -> np.ndarray:
+    """Log odds by the weights of a logistic regression."""
+    return np.asarray(weights[0] + features @ weights[1:])
+
+
+def fit_suns(photos: list[Seen]) -> None:
+    """Print the weights of a sun's confidence and the scale of its radius, and what they find."""
+    x, truth = np.array([p.sun for p in photos]), np.array([p.near_sun for p in photos])
+    glow = np.array([p.near_glow for p in photos])
+    disc = np.array([p.photo.kind == "disc" for p in photos])
+    weights = fit(x[::2][~glow[::2]], truth[::2][~glow[::2]].astype(float))
+    print("WEIGHTS =", tuple(float(w) for w in weights.round(3)))
+    sizes = [p.size for p in photos[::2] if p.near_sun]
+    print("RADIUS_SCALE =", round(float(np.median(sizes)), 3))
+    for least in (0.3, LEAST_CONFIDENCE, 0.6):
+        found = odds(weights, x) > np.log(least / (1 - least))
+        for name, part in PARTS.items():
+            said, right = found[part], (truth | glow)[part]
+            recall = (said & truth[part])[disc[part]].mean()
+            print(f"{least}, {name}: recall {recall:.3f}, precision {right[said].mean():.3f}")
+
+
+def fit_glows(photos: list[Seen]) -> None:
+    """Print the weights of a hidden sun's confidence, and what they find."""
+    photos = [p for p in photos if p.photo.kind in ("glow", "none", "bait")]
+    x, right = np.array([p.glow for p in photos]), np.array([p.at_glow for p in photos])
+    weights = fit(x[::2], right[::2].astype(float))
+    print("GLOW_WEIGHTS =", tuple(float(w) for w in weights.round(3)))
+    found = odds(weights, x) > np.log(LEAST_GLOW / (1 - LEAST_GLOW))
+    glow = np.array([p.photo.kind == "glow" for p in photos])
+    for name, part in PARTS.items():
+        print(
+            f"{name}: likeliest place at {right[part].sum() / glow[part].sum():.2f} of the glows, "
+            f"found {(found & right)[part].sum() / glow[part].sum():.2f}, "
+            f"precision {right[part][found[part]].mean():.2f}"
+        )
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -55,25 +136,9 @@ def main() -> None:
     parser.add_argument("--data", type=Path, default=Path("../shared/data/train"))
     options = parser.parse_args()
     cv2.setNumThreads(1)
-    trained = [p for p in labels() if not p.test and p.kind != "drop"]
-    nones = [p for p in trained if p.kind == "none"][::EVERY_NONE]
-    features, truth, sizes = [], [], []
-    for photo in [p for p in trained if p.kind != "none"] + nones:
-        folder, name = photo.file.split("/")
-        working = Working.of(open_photo(options.data / folder / "images" / name))
-        maps = look_for_sun(working)
-        peak = peak_of(maps, working)
-        off = miss(photo, peak.x, peak.y, working)
-        if photo.kind == "glow" and off <= 0.06:
-            continue
-        features.append(features_of(maps))
-        truth.append(near(photo, off))
-        if truth[-1]:
-            row, column = np.unravel_index(int(maps.probability.argmax()), maps.probability.shape)
-            sizes.append(photo.r / maps.radius[row, column])
-    weights = fit(np.array(features), np.array(truth, float))
-    print("WEIGHTS =", tuple(float(w) for w in weights.round(3)))
-    print("RADIUS_SCALE =", round(float(np.median(sizes)), 3))
+    photos = [look(p, options.data) for p in labels() if p.test and p.kind != "drop"]
+    fit_suns(photos)
+    fit_glows(photos)
 
 
 if __name__ == "__main__":

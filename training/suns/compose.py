@@ -171,7 +171,9 @@ def add_sun(scene: np.ndarray, sky: np.ndarray, random: Random, water: int | Non
     d = np.hypot(dx, dy).astype(np.float32)
     around = scene[max(int(y) - 6, 0) : int(y) + 7, max(int(x) - 6, 0) : int(x) + 7].mean((0, 1))
     color = sun_color(random, around)
-    kind = random.choice(["burnt", "limb", "veiled", "small"], p=[0.45, 0.22, 0.13, 0.2])
+    kind = random.choice(
+        ["burnt", "limb", "veiled", "small", "hidden"], p=[0.41, 0.2, 0.12, 0.17, 0.1]
+    )
     glare = np.zeros_like(d)
     disc = np.zeros((height, width, 3), np.float32)
     if kind == "small":  # a clear day's sun before a good lens, with hardly any glare
@@ -180,6 +182,12 @@ def add_sun(scene: np.ndarray, sky: np.ndarray, random: Random, water: int | Non
         rim = np.minimum((d - radius) / (0.3 * softness), 50)
         glare += log_uniform(random, 1.2, 12) / (1 + np.exp(rim))
         glare += log_uniform(random, 0.03, 0.6) * (1 + (d / (3 * radius)) ** 2) ** -1.5
+    elif kind == "hidden":  # behind clouds: no more than a wide glow, mostly in them
+        radius, sharp = log_uniform(random, 0.02, 0.1), 0.0
+        flat = random.uniform(0.25, 1.0)
+        spread = log_uniform(random, 0.05, 0.25)
+        glow = (1 + (np.hypot(dx, dy / flat) / spread) ** 2) ** -random.uniform(0.8, 2)
+        glare += log_uniform(random, 0.2, 2.5) * glow
     elif kind == "burnt":
         radius, sharp = log_uniform(random, 0.006, 0.085), 0.0
         b, c = log_uniform(random, 0.004, 0.06), random.uniform(0.7, 2.2)
@@ -206,10 +214,10 @@ def add_sun(scene: np.ndarray, sky: np.ndarray, random: Random, water: int | Non
     outside = np.maximum(d - radius, 0)
     glare += (
         random.beta(1.3, 1.3)
-        * (0.3 if kind == "small" else 1.0)
+        * (0.3 if kind in ("small", "hidden") else 1.0)
         * (1 + (outside / log_uniform(random, 0.03, 0.3)) ** 2) ** -random.uniform(0.5, 1.6)
     )
-    if random.random() < 0.3:
+    if kind != "hidden" and random.random() < 0.3:
         glare += starburst(dx, dy, d, random)
     tint = 1 - (1 - color) * random.uniform(0.4, 1.0)
     light = glare[..., None] * tint
@@ -218,8 +226,10 @@ def add_sun(scene: np.ndarray, sky: np.ndarray, random: Random, water: int | Non
     slow = cv2.GaussianBlur(luminance, (0, 0), 0.03 * width)
     detail = np.clip(luminance / np.maximum(slow, 1e-4), 0.25, 3)
     share = random.uniform(0, 1.0) if random.random() < 0.7 else 0.0
+    if kind == "hidden":
+        share, detail = random.uniform(0.6, 1.0), np.minimum(detail ** random.uniform(1, 4), 8)
     light *= (1 - share + share * detail)[..., None]
-    if random.random() < 0.18:
+    if kind != "hidden" and random.random() < 0.18:
         light += ghosts(x, y, columns, rows, random)
     # Land hides the disc and keeps a part of the glare, which is made in the lens.
     veil = random.uniform(0.15, 0.7)
@@ -227,6 +237,7 @@ def add_sun(scene: np.ndarray, sky: np.ndarray, random: Random, water: int | Non
     core = d < radius
     seen = float(sky[core].mean()) if core.any() else float(sky[int(y), int(x)])
     area = np.pi * (radius * width) ** 2
+    seen *= kind != "hidden"
     seen *= min(1.0, float(core.sum()) / max(area, 1.0)) if area > 12 else 1.0
     if water is not None:
         glints = column_on_water(x, water, height, width, random)

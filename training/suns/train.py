@@ -1,4 +1,4 @@
-"""Trains SunNet for a given wall-clock time on a CPU.
+"""Trains SunNet for a given wall-clock time.
 
 ``python -m training.suns.train --data ../shared/data/train --minutes 60 --out build/suns``
 
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import torch
 
-from training.loop import Run, batches, prepare, rate, report
+from training.loop import Run, batches, device_options, prepare, put, rate, report
 from training.restore import restore
 from training.suns.data import Batches, typical
 from training.suns.model import SunNet, losses
@@ -30,30 +30,32 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("build/suns"))
     parser.add_argument("--start", type=Path, help="checkpoint or shipped file to go on from")
     parser.add_argument("--minutes", type=float, default=60)
-    parser.add_argument("--batch", type=int, default=16)
     parser.add_argument("--rate", type=float, default=PEAK_RATE)
-    parser.add_argument("--threads", type=int, default=1)
+    device_options(parser, batch=16)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     torch.set_num_threads(options.threads)
     torch.manual_seed(options.seed)
-    network = SunNet().to(memory_format=torch.channels_last)
+    network = SunNet()
+    if options.start and options.start.suffix == ".onnx":
+        restore(network, options.start, [(image,) for image in typical(options.data, 24)])
+    network.to(options.device, memory_format=torch.channels_last)
     run = Run(network, options.out, options.minutes)
-    if options.start and not run.resumed:
-        if options.start.suffix == ".onnx":
-            restore(network, options.start, [(image,) for image in typical(options.data, 24)])
-            run.afresh()
-        else:
-            state = torch.load(options.start, weights_only=True)
-            for key in ("network", "average"):  # outputs that it did not have start afresh
-                state[key] = network.state_dict() | state[key]
-            run.begin(state)
-    photos = batches(Batches(options.data, options.batch, options.seed + run.step))
+    if options.start and options.start.suffix == ".pt" and not run.resumed:
+        state = torch.load(options.start, weights_only=True, map_location="cpu")
+        for key in ("network", "average"):  # outputs that it did not have start afresh
+            state[key] = network.state_dict() | state[key]
+        run.begin(state)
+    data = Batches(options.data, options.batch, options.seed + run.step)
+    photos = batches(data, workers=options.workers)
+    kind = torch.device(options.device).type
     for share in report(run):
-        batch = next(photos)
+        batch = put(next(photos), options.device)
         network.train()
-        parts = losses(network(prepare(batch.pop("image"))), batch)
+        with torch.autocast(kind, torch.bfloat16, enabled=options.bfloat16):
+            maps = network(prepare(batch.pop("image")))
+        parts = losses(tuple(each.float() for each in maps), batch)
         sum(parts.values()).backward()
         run.learn(rate(share, options.rate), 2.0)
         run.count(parts)

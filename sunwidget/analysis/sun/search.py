@@ -15,8 +15,12 @@ from sunwidget.formats.color import LUMINANCE
 LEAST_CONFIDENCE = 0.45  # from which a peak counts as the sun
 SURE = 0.7  # the same in a sky as dark as at night
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate
-WEIGHTS = (-1.86, 2.525, -0.4, -1.394)
-RADIUS_SCALE = 0.741  # from the network's radius to the radius that people draw
+WEIGHTS = (-2.251, 1.846, -0.495, -0.611)
+RADIUS_SCALE = 0.766  # from the network's radius to the radius that people draw
+LEAST_GLOW = 0.3  # confidence from which a glow tells where the sun is
+# Bias, then the weights of ``features_of_glow``: python -m training.suns.calibrate
+GLOW_WEIGHTS = (-0.476, 1.222, -0.109)
+_APART = 0.15  # of the width: beyond it a glow is another one
 _NIGHT = 0.5  # encoded luminance of the sky's brightest tenth: with a sun above, with a moon below
 
 
@@ -41,6 +45,22 @@ class Peak(NamedTuple):
     radius: float
     confidence: float
     sharpness: float
+
+
+class Glow(NamedTuple):
+    """The light around a sun that clouds or land hide, in working pixels.
+
+    Parameters
+    ----------
+    x, y : float
+        Where the sun is.
+    confidence : float
+        Probability that it is near there, [0, 1], fitted as that of ``Peak``.
+    """
+
+    x: float
+    y: float
+    confidence: float
 
 
 def features_of(maps: SunMaps) -> np.ndarray:
@@ -80,6 +100,33 @@ def peak_of(maps: SunMaps, working: Working) -> Peak:
         probability(WEIGHTS, features_of(maps)),
         float(maps.sharpness[row, column]),
     )
+
+
+def features_of_glow(maps: SunMaps) -> np.ndarray:
+    """Return the log odds of a hidden sun at the likeliest place and the best elsewhere, (2,)."""
+    height, width = maps.glow.shape
+    row, column = np.unravel_index(int(maps.glow.argmax()), (height, width))
+    away = np.hypot(np.arange(width) - column, np.arange(height)[:, None] - row) / width
+    best = maps.glow[row, column], maps.glow[away > _APART].max(initial=0.0)
+    p = np.clip(best, 1e-6, 1 - 1e-6)
+    return np.asarray(np.log(p / (1 - p)))
+
+
+def glow_of(maps: SunMaps, working: Working) -> Glow:
+    """Return the likeliest place of a sun that may be hidden, even if it is unlikely."""
+    height, width = maps.glow.shape
+    row, column = np.unravel_index(int(maps.glow.argmax()), (height, width))
+    return Glow(
+        (column + 0.5) * working.width / width,
+        (row + 0.5) * working.height / height,
+        probability(GLOW_WEIGHTS, features_of_glow(maps)),
+    )
+
+
+def find_glow(working: Working, maps: SunMaps) -> Glow | None:
+    """Return where a sun that the photo does not show must be, by its glow, or None."""
+    glow = glow_of(maps, working)
+    return glow if glow.confidence >= LEAST_GLOW else None
 
 
 def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:

@@ -21,7 +21,7 @@ from sunwidget.geometry.camera import Camera
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is partly water
 _POSSIBLE = 0.2  # probability below which looks do not make a pixel water
 _BELIEF = 0.6  # mean probability from which a patch is water
-WEIGHTS = (0.3, 0.5, 0.3)  # of the log odds of the networks of suns, sky and land
+WEIGHTS = (0.35, 0.55, 0.1)  # of the log odds of the networks of suns, sky and land
 _BURNT = 0.9  # linear light from which a pixel has lost its color
 _COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
 _SUN = 0.3  # probability of a sun from which its column may be twice as wide

@@ -301,3 +301,36 @@ def test_a_setting_sun_on_the_skyline_is_found_in_its_orange_sky():
     found = find(working)
     assert found is not None
     assert math.dist(found[:2], (180.5, 146.5)) < 3
+
+
+def dusk(column: float) -> Working:
+    """A sunset whose sun is behind the land; its glow is at ``column``."""
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    glow = np.exp(-np.hypot(columns - column, 1.6 * (rows - 148)) / 35)[..., None]
+    code = (1 - glow) * np.array([70, 80, 120]) / 255 + glow * np.array([255, 215, 120]) / 255
+    code = np.where(SKY[..., None] > 0, code, 0.04)
+    return Working.of(open_photo(np.round(code * 255).astype(np.uint8)))
+
+
+@pytest.mark.parametrize("column", [80, 230])
+def test_a_glow_tells_where_a_hidden_sun_is(column):
+    working = dusk(column)
+    assert find(working) is None
+    glow = sun.find_glow(working, look_for_sun(working))
+    assert glow is not None
+    assert abs(glow.x - column) < 0.06 * SIZE[0]
+
+
+def test_an_even_blue_sky_has_no_glow():
+    working = evening()
+    assert sun.find_glow(working, look_for_sun(working)) is None
+
+
+def test_the_sky_is_fitted_with_the_sun_where_its_glow_is():
+    scene = sw.analyze(dusk(230).bytes)
+    assert scene.sun is None  # no sun is seen
+    azimuth, _ = scene.camera.angles(230, 148)
+    assert abs(scene.assumed_sun[0] - azimuth) < 4
+    assert 0 < scene.sun_spread < 20
+    elsewhere = sw.analyze(dusk(230).bytes, sun="outside")
+    assert elsewhere.sun_spread != scene.sun_spread  # the user's word counts more
