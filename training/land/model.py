@@ -58,7 +58,7 @@ class LandNet(nn.Module):
         self.lit = nn.Sequential(conv(32, 32), nn.Conv2d(32, 4, 3, padding=1))
         self.facing = nn.Sequential(conv(64, 32), nn.Conv2d(32, 4, 3, padding=1))
         self.view = nn.Sequential(
-            nn.Linear(4 * 96 + 2 * deep, 192), nn.ReLU(), nn.Dropout(0.5), nn.Linear(192, 4)
+            nn.Linear(4 * 96 + 2 * deep, 64), nn.ReLU(), nn.Dropout(0.5), nn.Linear(64, 4)
         )
         self.sun = nn.Sequential(nn.Linear(deep + 96, 160), nn.ReLU(), nn.Linear(160, SUNS))
 

@@ -18,6 +18,7 @@ from training.export import to_onnx
 from training.suns.model import SunMaps, SunNet
 
 OUT = Path("sunwidget/analysis/models/suns.onnx")
+BITS = 10  # of the weights: the wheel is smaller, and what the network says stays the same
 
 
 def load(checkpoint: Path) -> SunNet:
@@ -38,7 +39,8 @@ def main() -> None:
     network = SunMaps(load(options.checkpoint)).eval()
     picture = torch.rand(1, 3, 224, 320)
     names = ["sun", "clean", "water", "glow"]
-    options.out.write_bytes(to_onnx(network, picture, names, "Suns, clean skies and water"))
+    about = "Suns, clean skies and water"
+    options.out.write_bytes(to_onnx(network, picture, names, about, BITS))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import { PictureStage } from "../../ui/stage.js";
 
 /** @typedef {import("../../host/types.js").Point} Point */
 
-const STAGE = 0.75; // share of the visible height for the picture and its margin
+const STAGE = 0.74; // share of the visible height for the picture and its margin
 const MARGIN = 24; // CSS pixels around the picture (stage.css)
 const SMALLEST = 240; // CSS pixels
 const NOTEBOOK = ".jp-WindowedPanel-outer"; // the scrolling element in JupyterLab and Notebook 7
