@@ -61,7 +61,7 @@ def load(checkpoints: list[Path], shares: list[float]) -> SkyNet:
 
 
 def rounded(values: np.ndarray, bits: int) -> np.ndarray:
-    """Numbers with so many significant bits: float16 has 11, and fewer take less room in a wheel."""
+    """Numbers with so many significant bits: float16 has 11; fewer need less room in a wheel."""
     fraction, power = np.frexp(values)
     return np.asarray(np.ldexp(np.round(fraction * 2.0**bits) / 2.0**bits, power), values.dtype)
 
@@ -74,7 +74,9 @@ def halve(model: onnx.ModelProto, bits: int = 11) -> None:
         if weight.data_type != onnx.TensorProto.FLOAT or np.prod(weight.dims) < 64:
             continue
         name, values = weight.name, numpy_helper.to_array(weight)
-        weight.CopyFrom(numpy_helper.from_array(rounded(values, bits).astype(np.float16), f"{name}_half"))
+        weight.CopyFrom(
+            numpy_helper.from_array(rounded(values, bits).astype(np.float16), f"{name}_half")
+        )
         casts.append(helper.make_node("Cast", [f"{name}_half"], [name], to=onnx.TensorProto.FLOAT))
     for cast in reversed(casts):
         graph.node.insert(0, cast)
