@@ -15,12 +15,13 @@ from pathlib import Path
 import cv2
 import numpy as np
 import torch
-from torch.utils.data import IterableDataset, get_worker_info
+from torch.utils.data import IterableDataset
 
 from training.augment import Augment, Random, Sample, crop
+from training.loop import numbers
 from training.rooms import Rooms
 from training.sky_corrections import corrected, corrections, judges
-from training.suns.labels import labels
+from training.suns.labels import judging
 from training.suns.water import UNKNOWN, water_map
 
 FOLDERS = {
@@ -91,7 +92,6 @@ class Pack:
         cache.mkdir(parents=True, exist_ok=True)
         offset, shape, folders, held, by_hand = [], [], [], [], []
         position = 0
-        judged = {p.file for p in labels() if p.test}
         with (cache / "pixels.bin").open("wb") as out:
             for folder in (*FOLDERS, TEXTURES):
                 pairs = folder != TEXTURES
@@ -107,7 +107,7 @@ class Pack:
                     file = f"{folder}/{path.name}"
                     photo[..., 3] = corrected(file, photo[..., 3])
                     water = water_map(file, photo[..., 3])
-                    if file in judged:
+                    if file in judging():
                         water[:] = UNKNOWN
                     photo = np.dstack([photo, water])
                     out.write(photo.tobytes())
@@ -155,8 +155,7 @@ class Batches(IterableDataset):
     def __iter__(self) -> Iterator[tuple[torch.Tensor, ...]]:
         cv2.setNumThreads(0)
         torch.set_num_threads(1)
-        worker = get_worker_info()
-        random = np.random.default_rng((self.seed, self.size, worker.id if worker else 0))
+        random = numbers(self.seed, self.size)
         pack, rooms = Pack(self.root, self.cache), Rooms(self.rooms)
         pairs, textures = pack.select(training=True), pack.textures()
         weight = np.array([FOLDERS[str(f)] for f in pack.folder[pairs]])

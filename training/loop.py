@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 import torch
 from torch import Tensor, nn
-from torch.utils.data import DataLoader, IterableDataset
+from torch.utils.data import DataLoader, IterableDataset, get_worker_info
 
 from training.clock import Clock
 
 WARM_UP = 0.02
 ENCODER_SHARE = 0.35
+CHECKPOINT = "last.pt"
 
 
 class Average:
@@ -49,19 +50,24 @@ def prepare(image: Tensor) -> Tensor:
     return image.float().div_(255).contiguous(memory_format=torch.channels_last)
 
 
-def device_options(parser: argparse.ArgumentParser, batch: int) -> None:
+def device_options(parser: argparse.ArgumentParser, batch: int, workers: int = 1) -> None:
     """Add what says where a training runs, and how much at once."""
     add = parser.add_argument
     add("--device", default="cuda" if torch.cuda.is_available() else "cpu")
-    add("--workers", type=int, default=1, help="processes that make batches")
+    add("--workers", type=int, default=workers, help="processes that make batches")
     add("--batch", type=int, default=batch)
-    add("--threads", type=int, default=1)
     add("--bfloat16", action="store_true", help="for graphics cards, and CPUs with matrix units")
 
 
 def put(batch: dict[str, Tensor], device: str) -> dict[str, Tensor]:
     """Return a batch with its tensors on the device."""
     return {name: tensor.to(device, non_blocking=True) for name, tensor in batch.items()}
+
+
+def numbers(*seeds: int) -> np.random.Generator:
+    """Return random numbers that differ in each of the processes that make batches."""
+    worker = get_worker_info()
+    return np.random.default_rng((*seeds, worker.id if worker else 0))
 
 
 def batches(dataset: IterableDataset, ahead: int = 4, workers: int = 1) -> Iterator[Any]:
@@ -101,10 +107,15 @@ def save(path: Path, **state: object) -> None:
     path.with_suffix(".part").replace(path)
 
 
+def begun(folder: Path) -> bool:
+    """Whether a training in this folder has a checkpoint to go on from."""
+    return (folder / CHECKPOINT).exists()
+
+
 class Run(Clock):
     """A network that learns for some minutes, also in several goes.
 
-    With a checkpoint ``last.pt`` in ``folder`` it goes on from there. ``kept`` of the moving
+    With a checkpoint in ``folder`` it goes on from there. ``kept`` of the moving
     average stays each step; every ``seconds`` a checkpoint is written and ``on_checkpoint``
     is called. The weights in ``encoder``, if any, were learned before and get a share of the rate.
     """
@@ -123,9 +134,9 @@ class Run(Clock):
         super().__init__(minutes, self.keep, seconds)
         self.kept, self.on_checkpoint, self.step = kept, on_checkpoint, 0
         self.recent: dict[str, list[float]] = defaultdict(list)
-        self.checkpoint = folder / "last.pt"
+        self.checkpoint = folder / CHECKPOINT
         self.average = Average(network, kept)
-        self.resumed = self.checkpoint.exists()
+        self.resumed = begun(folder)
         if self.resumed:
             state = torch.load(self.checkpoint, weights_only=True, map_location="cpu")
             self.begin(state)

@@ -22,7 +22,7 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from training.data import Batches, Pack, validation
-from training.loop import Run, batches, prepare, rate, save
+from training.loop import Run, batches, device_options, prepare, rate, save
 from training.model import SkyNet
 from training.suns.water import UNKNOWN
 from training.world_samples import WorldSamples
@@ -180,10 +180,7 @@ def main() -> None:
     add("--rooms", type=Path, help="folder of interior panoramas (*.hdr, see rooms.py)")
     add("--worlds", type=Path, help="folder of rendered worlds (*.npz, see worlds/make.py)")
     add("--minutes", type=float, default=9)
-    add("--batch", type=int, default=64)
-    add("--workers", type=int, default=15, help="processes that make batches")
-    add("--device", default="cuda" if torch.cuda.is_available() else "cpu")
-    add("--bfloat16", action="store_true", help="for graphics cards, and CPUs with matrix units")
+    device_options(parser, batch=64, workers=15)
     add("--seed", type=int, default=1)
     options = parser.parse_args()
     options.cache = options.cache or options.out / "cache"

@@ -323,7 +323,12 @@ def fit_atmosphere(
     opacity = resize(covers[0].opacity, small.width, small.height)
     expected = look_at_land(working).sun if sun is None else None
     fitted = fit_sky(
-        *(small, small_sky, opacity, camera, at, expected),
+        small,
+        small_sky,
+        opacity,
+        camera,
+        at,
+        expected,
         done=step.between(0.82, 0.87),
         sure_of_sun=sure,
         spread=GLOW_SPREAD * isinstance(sun, Glow),

@@ -32,7 +32,7 @@ from sunwidget.photo.photo import open_photo
 from training.data import held_out
 from training.land.data import WATER, sample
 from training.suns.calibrate import fit
-from training.suns.labels import labels
+from training.suns.labels import judging
 from training.suns.water import UNKNOWN, outlines, water_map
 
 LEAST = 0.01
@@ -119,12 +119,11 @@ def main() -> None:
     parser.add_argument("--data", type=Path, default=Path("../shared/data/train"))
     parser.add_argument("--worlds", type=Path, required=True)
     options = parser.parse_args()
-    tests = {photo.file for photo in labels() if photo.test}
     cases = []
     for file in sorted(outlines()):
         folder, name = file.split("/")
         path = options.data / folder / "images" / name
-        if path.exists() and (file in tests or held_out(folder, path.stem)):
+        if path.exists() and (file in judging() or held_out(folder, path.stem)):
             cases.append(case(file, path))
     random = np.random.default_rng(1)
     fitted = pixels((c.known for c in cases if not c.judges), PIXELS, random)

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 
 import cv2
 import numpy as np
 import torch
 from torch import Tensor
-from torch.utils.data import IterableDataset, get_worker_info
+from torch.utils.data import IterableDataset
 
 from training.augment import relight
 from training.data import FOLDERS, barred, held_out, read_pair
 from training.land import photograph
 from training.land.model import SUN_HEIGHTS, SUN_TURNS
+from training.loop import numbers
 from training.sky_corrections import corrected, judges
-from training.suns.labels import labels
+from training.suns.labels import judging
 from training.suns.water import UNKNOWN, water_map
 from training.worlds import CLASSES
 
@@ -36,6 +36,13 @@ def sizes(area: int) -> list[tuple[int, int]]:
         side = np.sqrt(area / (high * wide))
         found.append((32 * max(3, round(high * side / 32)), 32 * max(3, round(wide * side / 32))))
     return found
+
+
+def size_of(shape: tuple[int, int], area: int) -> tuple[int, int]:
+    """Return rows and columns of a shape, multiples of 32, of about ``area`` pixels."""
+    scale = (area / (shape[0] * shape[1])) ** 0.5
+    rows, columns = (max(2, round(side * scale / 32)) * 32 for side in shape)
+    return rows, columns
 
 
 class Worlds:
@@ -187,7 +194,7 @@ class WorldBatches(IterableDataset):
 
     def __iter__(self) -> Iterator[Batch]:
         cv2.setNumThreads(1)
-        random, worlds = _random(self._seed), Worlds(self._folder)
+        random, worlds = numbers(self._seed), Worlds(self._folder)
         for number in range(10**9):
             if number % 20 == 0:
                 worlds.look()
@@ -195,12 +202,6 @@ class WorldBatches(IterableDataset):
             picked = random.integers(len(worlds), size=self._count)
             items = [sample(worlds[i], rows, columns, random) for i in picked]
             yield stack(items)
-
-
-def _random(seed: int) -> Random:
-    """Return random numbers of one of several processes."""
-    worker = get_worker_info()
-    return np.random.default_rng((seed, worker.id if worker else 0))
 
 
 def stack(items: list[dict]) -> Batch:
@@ -221,7 +222,7 @@ class PhotoBatches(IterableDataset):
 
     def __iter__(self) -> Iterator[Batch]:
         cv2.setNumThreads(1)
-        random = _random(self._seed)
+        random = numbers(self._seed)
         pairs = photos(self._root)
         weights = np.array([FOLDERS[folder] for folder, *_ in pairs])
         weights /= weights.sum()
@@ -245,12 +246,6 @@ def photos(root: Path, *, held: bool = False) -> list[tuple[str, Path, Path]]:
     return found
 
 
-@cache
-def _judging() -> set[str]:
-    """Return the photos whose labels of suns and of water only judge."""
-    return {photo.file for photo in labels() if photo.test}
-
-
 def _photo(
     folder: str, image: Path, mask: Path, rows: int, columns: int, random: Random
 ) -> dict[str, np.ndarray]:
@@ -258,7 +253,7 @@ def _photo(
     box = photograph.box(random, pair.shape[:2], rows, columns)
     sky = corrected(file, pair[..., 3])
     water = water_map(file, sky)
-    if file in _judging():
+    if file in judging():
         water[:] = UNKNOWN
     picture = box.of(pair[..., :3], cv2.INTER_AREA)
     if random.random() < 0.5:

@@ -13,15 +13,9 @@ import numpy as np
 import onnxruntime
 import torch
 
-from training.land.data import WATER, Worlds, sample
+from training.land.data import WATER, Worlds, sample, size_of
 from training.land.export import AREA, OUT
 from training.land.model import SUN_HEIGHTS, SUN_TURNS, openness, sun_basis
-
-
-def _size(shape: tuple[int, int], area: int) -> tuple[int, int]:
-    scale = (area / (shape[0] * shape[1])) ** 0.5
-    rows, columns = (max(2, round(side * scale / 32)) * 32 for side in shape)
-    return rows, columns
 
 
 def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) -> dict[str, float]:
@@ -31,7 +25,7 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
     lit, wet, sky = np.zeros(2), np.zeros(2), np.zeros(2)
     rows: dict[str, list[float]] = {}
     for world in (worlds[i] for i in range(len(worlds)) for _ in range(2)):
-        truth = sample(world, *_size(world["depth"].shape, area), random)
+        truth = sample(world, *size_of(world["depth"].shape, area), random)
         image = (truth["image"][None] / 255).astype(np.float32)
         found = dict(zip(names, (x[0] for x in session.run(None, {"image": image})), strict=True))
         land = truth["land"][0] > 0.5

@@ -14,9 +14,7 @@ from pathlib import Path
 import torch
 
 from training.export import to_onnx
-from training.land.data import PhotoBatches, WorldBatches
 from training.land.model import LandMaps, LandNet
-from training.loop import prepare
 
 OUT = Path("sunwidget/analysis/models/land.onnx")
 AREA = 92_000
@@ -30,37 +28,15 @@ def load(checkpoint: Path) -> LandNet:
     return network.eval()
 
 
-def recalibrate(network: LandNet, worlds: Path, data: Path, batches: int = 12) -> None:
-    """Measure the batch statistics afresh, half on worlds, half on photos, at the size of use."""
-    layers = [m for m in network.modules() if isinstance(m, torch.nn.BatchNorm2d)]
-    for layer in layers:
-        layer.reset_running_stats()
-        layer.momentum = None  # plain mean over the batches
-    network.train()
-    sources = [
-        iter(kind(path, AREA, 8, 5))
-        for kind, path in ((WorldBatches, worlds), (PhotoBatches, data))
-    ]
-    with torch.no_grad():
-        for _ in range(batches):
-            for source in sources:
-                network.maps(prepare(next(source)["image"]))
-    network.eval()
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--checkpoint", type=Path, default=Path("build/land/last.pt"))
-    parser.add_argument("--worlds", type=Path, help="measure batch statistics afresh on these")
-    parser.add_argument("--data", type=Path, default=Path("../shared/data/train"))
     parser.add_argument("--out", type=Path, default=OUT)
     options = parser.parse_args()
     torch.set_num_threads(1)
     network = load(options.checkpoint)
-    if options.worlds is not None:
-        recalibrate(network, options.worlds, options.data)
     picture = torch.rand(1, 3, 256, 352)
     maps = LandMaps(network).eval()
     about = "How land lies, what it is made of, and what light falls on it"

@@ -23,7 +23,7 @@ from torch import Tensor
 from training.data import typical
 from training.land.data import UNKNOWN, WATER, Batch, PhotoBatches, WorldBatches
 from training.land.model import LandNet, losses, sun_basis
-from training.loop import Run, batches, device_options, prepare, put, rate
+from training.loop import Run, batches, begun, device_options, prepare, put, rate
 from training.restore import restore
 
 TRUNK = Path("sunwidget/analysis/models/sky.onnx")
@@ -89,11 +89,8 @@ class Training:
     def __init__(self, options: argparse.Namespace) -> None:
         self.options = options
         self.network = LandNet()
-        if options.start.suffix == ".onnx":
-            restore(self.network, options.start, typical(options.data, options.cache, 192, 96))
-        else:
-            state = torch.load(options.start, weights_only=True, map_location="cpu")["average"]
-            self.network.load_state_dict(state, strict=False)  # heads that it lacks begin anew
+        if not begun(options.out):
+            self._begin(options.start)
         self.network.to(options.device, memory_format=torch.channels_last)
         self.run = Run(
             self.network, options.out, options.minutes, kept=KEPT, on_checkpoint=self._report
@@ -101,6 +98,15 @@ class Training:
         self.teacher = LandNet().to(options.device).eval()
         self.kind = torch.device(options.device).type
         self.sums: dict[str, Tensor] = {}
+
+    def _begin(self, start: Path) -> None:
+        """Take over what a shipped file or a checkpoint knows; heads that it lacks begin anew."""
+        if start.suffix == ".onnx":
+            photos = typical(self.options.data, self.options.cache, 192, 96)
+            restore(self.network, start, photos)
+        else:
+            state = torch.load(start, weights_only=True, map_location="cpu")["average"]
+            self.network.load_state_dict(state, strict=False)
 
     def train(self) -> None:
         """Learn in stages until the time is spent."""
@@ -163,6 +169,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--start", type=Path, default=TRUNK)
     parser.add_argument("--rate", type=float, default=PEAK_RATE)
+    parser.add_argument("--threads", type=int, default=1)
     device_options(parser, batch=6)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)

@@ -23,7 +23,7 @@ from torch import Tensor, nn
 
 from sunwidget.analysis.horizon.horizon import robust_line
 from training.data import read_pair
-from training.land.data import SHAPES, Random, Worlds, photos, sample, sizes
+from training.land.data import SHAPES, Random, Worlds, photos, sample, size_of, sizes
 from training.land.model import LandNet
 from training.land.photograph import Box
 from training.loop import save
@@ -70,26 +70,18 @@ def of_photos(network: LandNet, data: Path, teacher: Path, random: Random) -> Ta
     rows = []
     for number, (folder, image, mask) in enumerate(photos(data)):
         pair = read_pair(image, mask)
-        picture, sky = (
-            np.ascontiguousarray(pair[..., :3]),
-            corrected(f"{folder}/{image.name}", pair[..., 3]),
-        )
+        picture = np.ascontiguousarray(pair[..., :3])
+        sky = corrected(f"{folder}/{image.name}", pair[..., 3])
         height, width = sky.shape
         line = robust_line((sky > 191).astype(np.float32))
         sure = line.confidence >= SURE
-        whole = Box(0, 0, height, width, *_size(height, width, AREAS[number % 2]), bool(number % 2))
+        whole = Box(0, 0, height, width, *size_of(sky.shape, AREAS[number % 2]), bool(number % 2))
         row = line.row / height - 0.5 if sure else _taught(session, picture)
         for box in (whole, _part(height, width, random)):
             seen = features_of(network, box.of(picture, cv2.INTER_AREA).transpose(2, 0, 1))
             there = ((row + 0.5) * height - box.top) / box.height - 0.5
             rows.append((seen, torch.tensor(there), torch.tensor(KNOWN_COUNTS if sure else 1.0)))
     return Table(*(torch.stack(part).float() for part in zip(*rows, strict=True)))
-
-
-def _size(height: int, width: int, area: int) -> tuple[int, int]:
-    scale = (area / (height * width)) ** 0.5
-    rows, columns = (32 * max(3, round(side * scale / 32)) for side in (height, width))
-    return rows, columns
 
 
 def _part(height: int, width: int, random: Random) -> Box:
@@ -102,7 +94,7 @@ def _part(height: int, width: int, random: Random) -> Box:
 
 def _taught(session: onnxruntime.InferenceSession, picture: np.ndarray) -> float:
     """Return the row of the horizon from the middle down, in heights, by another network."""
-    rows, columns = _size(*picture.shape[:2], AREAS[-1])
+    rows, columns = size_of(picture.shape[:2], AREAS[-1])
     image = cv2.resize(picture, (columns, rows), interpolation=cv2.INTER_AREA)
     image = image.transpose(2, 0, 1)[None].astype(np.float32) / 255
     return float(session.run(["view"], {"image": image})[0][0, 0])

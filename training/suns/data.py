@@ -9,9 +9,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 import torch
-from torch.utils.data import IterableDataset, get_worker_info
+from torch.utils.data import IterableDataset
 
 from training.data import read_pair
+from training.loop import numbers
 from training.suns.compose import compose, spoil
 from training.suns.labels import Photo, labels
 from training.suns.light import LUMINANCE, to_linear
@@ -244,8 +245,7 @@ class Batches(IterableDataset):
     def __iter__(self) -> Iterator[dict[str, torch.Tensor]]:
         cv2.setNumThreads(0)
         torch.set_num_threads(1)
-        worker = get_worker_info()
-        random = np.random.default_rng((self.seed, worker.id if worker else 0))
+        random = numbers(self.seed)
         photos = split(self.root)
         suns = [p for p in photos.labelled if p.is_sun]
         baits, glows = ([p for p in photos.labelled if p.kind == k] for k in ("bait", "glow"))

@@ -13,6 +13,7 @@ from __future__ import annotations
 import csv
 import hashlib
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 LABELS = Path(__file__).with_name("labels.csv")
@@ -46,6 +47,12 @@ class Photo:
             return True
         draw = hashlib.sha256(f"sun/{self.group or self.file}".encode()).digest()[0]
         return draw % (8 if self.is_sunless and "landscape" in self.file else 2) == 0
+
+
+@cache
+def judging() -> frozenset[str]:
+    """Files whose labels, of suns and of water, only judge."""
+    return frozenset(photo.file for photo in labels() if photo.test)
 
 
 def labels(path: Path = LABELS) -> list[Photo]:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import torch
 
-from training.loop import Run, batches, device_options, prepare, put, rate, report
+from training.loop import Run, batches, begun, device_options, prepare, put, rate, report
 from training.restore import restore
 from training.suns.data import Batches, typical
 from training.suns.model import SunNet, losses
@@ -31,6 +31,7 @@ def main() -> None:
     parser.add_argument("--start", type=Path, help="checkpoint or shipped file to go on from")
     parser.add_argument("--minutes", type=float, default=60)
     parser.add_argument("--rate", type=float, default=PEAK_RATE)
+    parser.add_argument("--threads", type=int, default=1)
     device_options(parser, batch=16)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
@@ -38,12 +39,13 @@ def main() -> None:
     torch.set_num_threads(options.threads)
     torch.manual_seed(options.seed)
     network = SunNet()
-    if options.start and options.start.suffix == ".onnx":
-        restore(network, options.start, [(image,) for image in typical(options.data, 24)])
+    start = None if begun(options.out) else options.start
+    if start and start.suffix == ".onnx":
+        restore(network, start, [(image,) for image in typical(options.data, 24)])
     network.to(options.device, memory_format=torch.channels_last)
     run = Run(network, options.out, options.minutes)
-    if options.start and options.start.suffix == ".pt" and not run.resumed:
-        state = torch.load(options.start, weights_only=True, map_location="cpu")
+    if start and start.suffix == ".pt":
+        state = torch.load(start, weights_only=True, map_location="cpu")
         for key in ("network", "average"):  # outputs that it did not have start afresh
             state[key] = network.state_dict() | state[key]
         run.begin(state)

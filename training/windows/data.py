@@ -10,9 +10,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 import torch
-from torch.utils.data import IterableDataset, get_worker_info
+from torch.utils.data import IterableDataset
 
 from training.augment import photometric
+from training.loop import numbers
 from training.windows.draw import street
 from training.windows.facades import Facades
 
@@ -46,8 +47,7 @@ class Batches(IterableDataset):
 
     def __iter__(self) -> Iterator[dict[str, torch.Tensor]]:
         cv2.setNumThreads(1)
-        worker = get_worker_info()
-        random = np.random.default_rng([self.seed, worker.id if worker else 0])
+        random = numbers(self.seed)
         recent: deque[tuple[np.ndarray, np.ndarray]] = deque(maxlen=RECENT)
         while True:
             pairs = [self.again(recent, random) for _ in range(self.batch)]

@@ -63,6 +63,18 @@ class Glow(NamedTuple):
     confidence: float
 
 
+def _likeliest(probability: np.ndarray) -> tuple[int, int]:
+    """Return row and column of a map's greatest value."""
+    row, column = np.unravel_index(int(probability.argmax()), probability.shape)
+    return int(row), int(column)
+
+
+def _log_odds(*probabilities: float) -> np.ndarray:
+    """Return ln(p / (1 - p)), limited to that of one in a million."""
+    p = np.clip(probabilities, 1e-6, 1 - 1e-6)
+    return np.asarray(np.log(p / (1 - p)))
+
+
 def features_of(maps: SunMaps) -> np.ndarray:
     """Return the features that decide whether the likeliest place has a sun, (3,).
 
@@ -70,25 +82,25 @@ def features_of(maps: SunMaps) -> np.ndarray:
     erased over the surroundings.
     """
     height, width = maps.probability.shape
-    row, column = np.unravel_index(int(maps.probability.argmax()), (height, width))
+    row, column = _likeliest(maps.probability)
     radius = float(maps.radius[row, column])
     columns, rows = np.arange(width) - column, np.arange(height)[:, None] - row
     away = np.hypot(columns, rows) / width
     # Glints on water below it are evidence for the sun, not for another place.
     glints = (rows > 0) & (np.abs(columns) < 0.12 * width)
     elsewhere = maps.probability[(away > max(0.08, 2 * radius)) & ~glints]
-    p = np.clip([maps.probability[row, column], elsewhere.max(initial=0.0)], 1e-6, 1 - 1e-6)
+    odds = _log_odds(maps.probability[row, column], elsewhere.max(initial=0.0))
     erased = resize(maps.clean.mean(-1), width, height)
     core = float(erased[away <= max(0.012, 0.7 * radius)].min())
     ring = erased[(away > radius + 0.08) & (away < radius + 0.16)]
     around = float(np.median(ring)) if ring.size else 0.0
-    return np.array([*np.log(p / (1 - p)), core - around])
+    return np.array([*odds, core - around])
 
 
 def peak_of(maps: SunMaps, working: Working) -> Peak:
     """Return the likeliest sun, even if it is unlikely."""
     height, width = maps.probability.shape
-    row, column = np.unravel_index(int(maps.probability.argmax()), (height, width))
+    row, column = _likeliest(maps.probability)
     rows, columns = slice(max(row - 1, 0), row + 2), slice(max(column - 1, 0), column + 2)
     weight = maps.probability[rows, columns].astype(np.float64) ** 2
     y, x = np.mgrid[:height, :width]
@@ -105,17 +117,15 @@ def peak_of(maps: SunMaps, working: Working) -> Peak:
 def features_of_glow(maps: SunMaps) -> np.ndarray:
     """Return the log odds of a hidden sun at the likeliest place and the best elsewhere, (2,)."""
     height, width = maps.glow.shape
-    row, column = np.unravel_index(int(maps.glow.argmax()), (height, width))
+    row, column = _likeliest(maps.glow)
     away = np.hypot(np.arange(width) - column, np.arange(height)[:, None] - row) / width
-    best = maps.glow[row, column], maps.glow[away > _APART].max(initial=0.0)
-    p = np.clip(best, 1e-6, 1 - 1e-6)
-    return np.asarray(np.log(p / (1 - p)))
+    return _log_odds(maps.glow[row, column], maps.glow[away > _APART].max(initial=0.0))
 
 
 def glow_of(maps: SunMaps, working: Working) -> Glow:
     """Return the likeliest place of a sun that may be hidden, even if it is unlikely."""
     height, width = maps.glow.shape
-    row, column = np.unravel_index(int(maps.glow.argmax()), (height, width))
+    row, column = _likeliest(maps.glow)
     return Glow(
         (column + 0.5) * working.width / width,
         (row + 0.5) * working.height / height,
