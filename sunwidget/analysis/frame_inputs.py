@@ -174,16 +174,20 @@ def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -
 def _log_depth(scene: Scene, width: int, height: int, rows: slice) -> np.ndarray:
     """Return ln(metres), limited by the haze: (height, width) float32, or ``rows`` of it."""
     log_depth = scene.log_depth(width, height, rows)
-    limit = _haze_limit(scene)
+    limit = haze_limit_of(scene)
     if limit is None:
         return log_depth
     return np.minimum(log_depth, resize_rows(limit, width, height, rows))
 
 
 @_cache_per_scene
-def _haze_limit(scene: Scene) -> np.ndarray | None:
-    # A given depth is never limited.
-    if scene.hints.depth is not None or scene.fitted is None:
+def haze_limit_of(scene: Scene) -> np.ndarray | None:
+    """Return ln(metres) of the greatest distance by the haze, (h, w) float32, or None.
+
+    A given or known depth is never limited.
+    """
+    known = scene.hints.depth is not None or scene.known_depth is not None
+    if known or scene.fitted is None:
         return None
     land = scene.small_sky < 0.5
     return haze_limit.log_limit(scene.without_sun.working, land, scene.camera, scene.fitted)

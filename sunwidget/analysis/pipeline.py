@@ -314,7 +314,11 @@ def fit_atmosphere(
 
     The clouds are returned twice: for the sky, and for the whole picture as if it were sky.
     """
-    at, sure = _direction(sun, working, camera)
+    at, sure, spread = None, 1.0, 0.0
+    if isinstance(sun, Glow):
+        at, sure, spread = sun.direction(working, camera), sun.confidence, GLOW_SPREAD
+    elif sun is not None:
+        at = sun.azimuth, sun.elevation
     visible = isinstance(sun, SunObservation) and sun.visible
     unmixed = hints.method("clouds") == "unmix"
     # The fit uses a few hundred pixels, which are less noisy on a small copy.
@@ -331,7 +335,7 @@ def fit_atmosphere(
         expected,
         done=step.between(0.82, 0.87),
         sure_of_sun=sure,
-        spread=GLOW_SPREAD * isinstance(sun, Glow),
+        spread=spread,
     )
     if unmixed:
         # The clear sky's color reveals the clouds; without them the fit is more accurate.
@@ -349,16 +353,6 @@ def fit_atmosphere(
     if unmixed:
         covers = unmix_clouds(erased, sky, camera, fitted, covers, sun_seen=visible)
     return fitted, behind, covers
-
-
-def _direction(
-    sun: SunObservation | Glow | None, working: Working, camera: Camera
-) -> tuple[tuple[float, float] | None, float]:
-    """Return the direction of the sun if it is known, in degrees, and how sure that is."""
-    if isinstance(sun, Glow):
-        zoom_x, zoom_y = working.zoom
-        return camera.angles(sun.x * zoom_x, sun.y * zoom_y), sun.confidence
-    return (None if sun is None else (sun.azimuth, sun.elevation)), 1.0
 
 
 def _glare_of(

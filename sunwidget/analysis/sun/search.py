@@ -11,6 +11,7 @@ from sunwidget.analysis.fit.confidence import probability
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.sun import SunMaps
 from sunwidget.formats.color import LUMINANCE
+from sunwidget.geometry.camera import Camera
 
 LEAST_CONFIDENCE = 0.45  # from which a peak counts as the sun
 SURE = 0.7  # the same in a sky as dark as at night
@@ -61,6 +62,11 @@ class Glow(NamedTuple):
     x: float
     y: float
     confidence: float
+
+    def direction(self, working: Working, camera: Camera) -> tuple[float, float]:
+        """Return azimuth and elevation in degrees, by the photo's camera."""
+        zoom_x, zoom_y = working.zoom
+        return camera.angles(self.x * zoom_x, self.y * zoom_y)
 
 
 def _likeliest(probability: np.ndarray) -> tuple[int, int]:
