@@ -3,13 +3,13 @@
     PYTHONPATH=. python bench/unseen_sun.py DIR [--photos DIR] [--webcam DIR] [--limit N] [--fit]
 
 DIR holds truth/ and samples/, rendered scenes; the photos are those of ``training/suns/labels.csv``
-in whose sky a disc was marked. Frames that show their sun are seen again by a camera that turned
-away from it (a rotation of the picture, so that angles stay exact). A render is judged twice: as a
-stranger's picture, and with its field of view and horizon told. A photo's field of view is the
+in whose sky a disc was marked and that train nothing. Frames that show their sun are seen again by
+a camera that turned away from it (training/suns/away.py). A render is judged twice: as a stranger's
+picture, and with its field of view and horizon told. A photo's field of view is the
 assumed one for truth and analysis alike, and its horizon is the whole photo's: the table of photos
 is that of the search alone. Their suns all stand near the picture, as they were seen; those of the
 fixed camera stand anywhere, but its heading is known within 20° only. ``--fit`` fits the
-posterior's odds on the half of the photos that does not judge (``Photo.test``).
+posterior's odds on every second of the photos; the others judge.
 """
 
 from __future__ import annotations
@@ -26,30 +26,18 @@ import numpy as np
 from timelapse import PLACES, sun_of
 
 import sunwidget as sw
-from sunwidget.analysis.fit import confidence, fit
+from sunwidget.analysis.fit import fit
 from sunwidget.analysis.hints import Hints
-from sunwidget.analysis.horizon import horizon as horizon_stage
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.pipeline import FIT_SIDE, clouds_by_color
 from sunwidget.analysis.segmentation import coarse_sky
 from sunwidget.geometry.camera import Camera
 from sunwidget.photo.photo import open_photo
+from training.suns.away import Case, Direction, read, turned, turned_away
 from training.suns.labels import labels
 
-Direction = tuple[float, float]
-SIDE = 512
-MARGIN = 0.06  # of the view's width between its edge and the sun
-LEAST_SKY = 0.05
-
-
-class Case(NamedTuple):
-    """A picture without its sun, and what is known of it."""
-
-    name: str
-    picture: np.ndarray
-    camera: Camera
-    sun: Direction
+FITTING, JUDGING = slice(0, None, 2), slice(1, None, 2)
 
 
 class Answer(NamedTuple):
@@ -58,54 +46,6 @@ class Answer(NamedTuple):
     sun: Direction
     found: Direction
     spread: float
-
-
-def turned_away(
-    name: str, picture: np.ndarray, sky: np.ndarray, camera: Camera, sun: Direction
-) -> Case | None:
-    """Return what a camera sees that turned until the sun left its picture; one of many at random.
-
-    ``sky`` is the sky of ``picture``, of which the view must hold a little.
-    """
-    seed = int.from_bytes(hashlib.sha256(name.encode()).digest()[:4], "big")
-    random = np.random.default_rng(seed)
-    best = None
-    for _ in range(400):
-        share, aspect = random.uniform(0.4, 0.8), random.choice([0.75, 1.0, 1.4])
-        x, y = random.uniform(0, camera.width), random.uniform(0, camera.height)
-        heading, pitch = camera.angles(x, y)
-        height = round(share * camera.height)
-        field = 2 * np.degrees(np.arctan(height / 2 / camera.focal))
-        view = Camera(max(32, round(height * aspect)), height, field, pitch)
-        turned = ((sun[0] - heading + 180) % 360 - 180, sun[1])
-        at = np.array(view.pixel(*turned)) / (view.width, view.height)
-        border = MARGIN * np.array([1, view.width / view.height])
-        if np.all((at > -border) & (at < 1 + border)):
-            continue
-        azimuth, elevation = fit.view_angles(view, view.width, view.height)
-        columns, rows = camera.pixel(azimuth + heading, elevation)
-        edge = columns[[0, 0, -1, -1], [0, -1, 0, -1]], rows[[0, 0, -1, -1], [0, -1, 0, -1]]
-        if not all(
-            np.all((part >= 0.5) & (part <= limit - 0.5))
-            for part, limit in zip(edge, (camera.width, camera.height), strict=True)
-        ):
-            continue
-        maps = (columns - 0.5).astype(np.float32), (rows - 0.5).astype(np.float32)
-        held = float(cv2.remap(sky, *maps, cv2.INTER_LINEAR).mean())
-        if held < LEAST_SKY or (best is not None and view.width * height <= best[0]):
-            continue
-        seen = cv2.remap(picture, *maps, cv2.INTER_CUBIC)
-        best = view.width * height, Case(name, seen, view, turned)
-        if best[0] > 0.35 * camera.width * camera.height:
-            break
-    return best and best[1]
-
-
-def read(path: Path) -> np.ndarray:
-    """Return a picture of at most ``SIDE`` pixels, RGB."""
-    picture = cv2.cvtColor(cv2.imread(str(path)), cv2.COLOR_BGR2RGB)
-    scale = min(1.0, SIDE / max(picture.shape))
-    return cv2.resize(picture, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
 
 
 def rendered(folder: Path) -> Iterator[Case]:
@@ -130,30 +70,12 @@ def rendered(folder: Path) -> Iterator[Case]:
                 yield case
 
 
-def photos(folder: Path, test: bool, limit: int | None) -> Iterator[Case]:
-    """Yield the photos with a marked disc, turned away from it: those that judge, or the others."""
-    known = [p for p in labels() if p.kind == "disc" and p.test == test]
+def photos(folder: Path, half: slice, limit: int | None) -> Iterator[Case]:
+    """Yield half of the photos with a marked disc that train nothing, turned away from it."""
+    known = [p for p in labels() if p.kind == "disc" and p.test]
     known.sort(key=lambda p: hashlib.sha256(p.file.encode()).digest())
-    for photo in known[:limit]:
-        part, name = photo.file.split("/")
-        path = folder / part / "images" / name
-        if not path.exists():
-            continue
-        picture = read(path)
-        height, width = picture.shape[:2]
-        opened = open_photo(picture)
-        working = Working.of(opened)
-        sky = resize(coarse_sky.coarse(working), width, height)
-        horizon = horizon_stage.water_line(sky, working.encoded)
-        camera = Camera.from_horizon(
-            width, height, opened.field_of_view.vertical, horizon.row, horizon.roll
-        )
-        sun = camera.angles(photo.x * width, photo.y * height)
-        if sun[1] < -1:
-            continue  # the horizon is wrong
-        case = turned_away(photo.file, picture, sky.astype(np.float32), camera, sun)
-        if case is not None:
-            yield case
+    for _, case in turned(folder, known[half][:limit]):
+        yield case
 
 
 def search(case: Case) -> fit.SkyFit:
@@ -202,12 +124,12 @@ def stranger(case: Case) -> Answer:
 
 def learn(cases: Iterator[Case]) -> float:
     """Return the steepest odds under which at least four of five suns lie within the spread."""
-    searches: list[tuple[Direction, Any, np.ndarray]] = []
+    searches: list[tuple[Direction, Any]] = []
     likeliest, sun = fit.likeliest_sun, (0.0, 0.0)
 
-    def note(errors: Any, expected: np.ndarray) -> tuple[Direction, float]:
-        searches.append((sun, errors, expected))
-        return likeliest(errors, expected)
+    def note(*evidence: Any) -> tuple[Direction, float]:
+        searches.append((sun, evidence))
+        return likeliest(*evidence)
 
     fit.likeliest_sun = note
     for case in cases:
@@ -215,11 +137,10 @@ def learn(cases: Iterator[Case]) -> float:
         search(case)
     fit.likeliest_sun = likeliest
     for odds in np.arange(8.0, 0.0, -0.5):
-        confidence.SUN_ODDS = float(odds)
-        found = [(s, likeliest(errors, expected)) for s, errors, expected in searches]
+        found = [(s, likeliest(*evidence[:3], float(odds))) for s, evidence in searches]
         if np.mean([apart(s, best) <= spread for s, (best, spread) in found]) >= 0.8:
             break
-    return float(confidence.SUN_ODDS)
+    return float(odds)
 
 
 def webcam(folder: Path, count: int) -> Iterator[Case]:
@@ -246,8 +167,8 @@ def main() -> None:
     parser.add_argument("--fit", action="store_true", help="fit the odds first")
     options = parser.parse_args()
     if options.fit:
-        confidence.SUN_ODDS = learn(photos(options.photos, False, options.limit))
-        print("SUN_ODDS =", confidence.SUN_ODDS)
+        fit.SUN_ODDS_BESIDE = learn(photos(options.photos, FITTING, options.limit))
+        print("SUN_ODDS_BESIDE =", fit.SUN_ODDS_BESIDE)
     print(
         "| suns | n | angle | azimuth | elevation | < 22° | < 45° | elevation < 7° | < 15° "
         "| within the spread | spread |\n" + "|---" * 11 + "|"
@@ -255,8 +176,8 @@ def main() -> None:
     report("renders, nothing told", [stranger(case) for case in rendered(options.folder)])
     groups = {"renders, camera told": rendered(options.folder)}
     if options.photos:
-        groups["photos that fitted it"] = photos(options.photos, False, options.limit)
-        groups["photos"] = photos(options.photos, True, options.limit)
+        groups["photos that fitted it"] = photos(options.photos, FITTING, options.limit)
+        groups["photos"] = photos(options.photos, JUDGING, options.limit)
     if options.webcam:
         groups["fixed camera"] = webcam(options.webcam, 60)
     for name, cases in groups.items():

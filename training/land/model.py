@@ -60,7 +60,9 @@ class LandNet(nn.Module):
         self.view = nn.Sequential(
             nn.Linear(4 * 96 + 2 * deep, 64), nn.ReLU(), nn.Dropout(0.5), nn.Linear(64, 4)
         )
-        self.sun = nn.Sequential(nn.Linear(deep + 96, 160), nn.ReLU(), nn.Linear(160, SUNS))
+        self.sun = nn.Sequential(
+            nn.Linear(4 * 96 + 3 * deep, 64), nn.ReLU(), nn.Dropout(0.5), nn.Linear(64, SUNS)
+        )
 
     def features(self, image: Tensor) -> tuple[Tensor, ...]:
         """Return the features at 1/2, 1/4, 1/8, 1/16 and 1/32; the last two know the picture."""
@@ -68,19 +70,16 @@ class LandNet(nn.Module):
         deep = self.context(deep)
         return half, quarter, eighth, self.wide(self.to_sixteenth(deep, sixteenth)), deep
 
-    def seen(self, image: Tensor) -> Tensor:
-        """Return what the head of the horizon sees, (N, 800)."""
+    def seen(self, image: Tensor) -> tuple[Tensor, Tensor]:
+        """Return what the heads of the horizon and of the sun see, (N, 800) and (N, 1008)."""
         *_, x16, deep = self.features(image)
-        return moments(x16, deep)
+        return moments(x16, deep), sides(x16, deep)
 
     def maps(self, image: Tensor) -> dict[str, Tensor]:
         half, quarter, eighth, x16, deep = self.features(image)
         x4 = self.to_quarter(self.to_eighth(x16, eighth), quarter)
         x2 = self.to_half(x4, half)
         shape = F.pixel_shuffle(self.shape(x4), 2).float()
-        rows = x16.shape[2]
-        up, down = x16[:, :, : rows // 2].mean((2, 3)), x16[:, :, rows // 2 :].mean((2, 3))
-        seen = torch.cat([deep.mean((2, 3)), 0.5 * (up - down)], 1)
         return {
             "sky": F.pixel_shuffle(self.head(x2), 2),
             "sunlit": F.pixel_shuffle(self.lit(x2), 2),
@@ -90,7 +89,7 @@ class LandNet(nn.Module):
             "facing": F.pixel_shuffle(self.facing(x4), 2),
             "matter": F.pixel_shuffle(self.kind(x4), 2),
             "view": self.view(moments(x16, deep)),
-            "sun": self.sun(seen),
+            "sun": self.sun(sides(x16, deep)),
         }
 
     def forward(self, image: Tensor) -> Tensor:
@@ -103,6 +102,11 @@ def _rows(x: Tensor) -> Tensor:
     return 2 * number / number[:, :, -1:] - 1
 
 
+def _columns(x: Tensor) -> Tensor:
+    """Return the columns' places from -1 on the left to 1, (1, 1, 1, W)."""
+    return _rows(x.transpose(2, 3)).transpose(2, 3)
+
+
 def moments(x16: Tensor, deep: Tensor) -> Tensor:
     """Return what a picture holds, and how high up: (N, 4 * 96 + 2 * 208).
 
@@ -112,6 +116,15 @@ def moments(x16: Tensor, deep: Tensor) -> Tensor:
     weights = (torch.ones_like(y), y, 1.5 * y * y - 0.5, 2.5 * y**3 - 1.5 * y)
     parts = [(x16 * weight).mean((2, 3)) for weight in weights]
     return torch.cat([*parts, deep.mean((2, 3)), (deep * y_deep).mean((2, 3))], 1)
+
+
+def sides(x16: Tensor, deep: Tensor) -> Tensor:
+    """Return what a picture holds, how high up and how far aside: (N, 4 * 96 + 3 * 208)."""
+    y, x = _rows(x16), _columns(x16)
+    parts = [(x16 * weight).mean((2, 3)) for weight in (torch.ones_like(y), y, x, y * x)]
+    y, x = _rows(deep), _columns(deep)
+    parts += [(deep * weight).mean((2, 3)) for weight in (torch.ones_like(y), y, x)]
+    return torch.cat(parts, 1)
 
 
 class LandMaps(nn.Module):

@@ -27,8 +27,10 @@ GOOD_SUN = 35.0
 # Bias, then the weights of ``features_of_fit`` and of ``features_of_sun``.
 FIT_WEIGHTS = (-0.78, -1.73, 0.49, -0.19, -0.33, 3.26)
 SUN_WEIGHTS = (1.07, 2.26, 0.34, 0.05)
-# E-folds by which a direction's odds fall per misfit of 0.01.
+# E-folds by which a direction's odds fall per misfit of 0.01: where the sky is all that tells, and
+# beside the land network, which knows the sky, too.
 SUN_ODDS = 2.0
+SUN_ODDS_BESIDE = 1.0
 # Share of suns in directions that nothing in the picture suggests.
 _ANYWHERE = 0.1
 # Factor for a sun in plain view, which thick cloud may still hide.
@@ -142,7 +144,10 @@ def nowhere(azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
 
 
 def posterior_of_sun(
-    errors: dict[tuple[float, float], float], expected: np.ndarray, seen: Seen = nowhere
+    errors: dict[tuple[float, float], float],
+    expected: np.ndarray,
+    seen: Seen = nowhere,
+    odds: float = SUN_ODDS,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return azimuths, elevations and probabilities (n,) of an unseen sun.
 
@@ -155,12 +160,14 @@ def posterior_of_sun(
     seen : callable, optional
         Takes azimuths and elevations (n,) and returns where a sun would be visible, which
         excludes it there.
+    odds : float
+        E-folds by which a direction's odds fall per misfit of 0.01.
     """
     misfits = np.array([[errors[a, h] for a in TURNS] for h in HEIGHTS])
     before = (1 - _ANYWHERE) * expected / expected.sum() + _ANYWHERE / expected.size
-    odds = _finer(np.log(before) - SUN_ODDS * (misfits - misfits.min()) / 0.01)
+    logs = _finer(np.log(before) - odds * (misfits - misfits.min()) / 0.01)
     azimuth, elevation = (part.ravel() for part in np.meshgrid(_FINE_TURNS, _FINE_HEIGHTS))
-    likely = np.exp(odds - odds.max()).ravel() * np.where(seen(azimuth, elevation), _OVERLOOKED, 1)
+    likely = np.exp(logs - logs.max()).ravel() * np.where(seen(azimuth, elevation), _OVERLOOKED, 1)
     return azimuth, elevation, likely / likely.sum()
 
 
@@ -171,20 +178,30 @@ def _finer(grid: np.ndarray) -> np.ndarray:
 
 
 def likeliest_sun(
-    errors: dict[tuple[float, float], float], expected: np.ndarray, seen: Seen = nowhere
+    errors: dict[tuple[float, float], float],
+    expected: np.ndarray,
+    seen: Seen = nowhere,
+    odds: float = SUN_ODDS,
 ) -> tuple[tuple[float, float], float]:
     """Return the likeliest direction of an unseen sun, and its error at 80 % probability.
 
     Its height is the posterior's median, which has the least error in any measure that grows with
-    height, as light does; its azimuth is the likeliest near that height. Parameters as for
-    ``posterior_of_sun``.
+    height, as light does; its azimuth is the mean within a step of ``TURNS`` around the likeliest
+    near that height. If the picture shows that it is not there, it is the likeliest direction of
+    all. Parameters as for ``posterior_of_sun``.
     """
-    azimuth, elevation, likely = posterior_of_sun(errors, expected, seen)
+    azimuth, elevation, likely = posterior_of_sun(errors, expected, seen, odds)
     of_heights = likely.reshape(_FINE_HEIGHTS.size, -1).sum(1)
     height = float(np.interp(0.5, np.cumsum(of_heights) - of_heights / 2, _FINE_HEIGHTS))
     near = likely * np.exp(-np.square((elevation - height) / _NEAR))
-    turn = near.reshape(_FINE_HEIGHTS.size, -1).sum(0).argmax()
-    best = float(_FINE_TURNS[turn]), height
+    of_turns = near.reshape(_FINE_HEIGHTS.size, -1).sum(0)
+    middle = float(_FINE_TURNS[of_turns.argmax()])
+    apart = np.array([wrap_angle(turn - middle) for turn in _FINE_TURNS])
+    beside = of_turns * (np.abs(apart) <= TURNS[1] - TURNS[0])
+    best = float(wrap_angle(middle + beside @ apart / beside.sum())), height
+    if seen(*np.array(best)[:, None])[0]:  # between likely places is one where it is not
+        likeliest = likely.argmax()
+        best = float(azimuth[likeliest]), float(elevation[likeliest])
     angle = _angles(azimuth, elevation, best)
     order = np.argsort(angle)
     return best, float(np.interp(0.8, np.cumsum(likely[order]), angle[order]))

@@ -19,6 +19,8 @@ import numpy as np
 
 from sunwidget.analysis.fit.confidence import (
     HEIGHTS,
+    SUN_ODDS,
+    SUN_ODDS_BESIDE,
     TURNS,
     Evidence,
     Seen,
@@ -50,7 +52,6 @@ ANYWHERE = np.ones((HEIGHTS.size, TURNS.size))
 """Uniform prior ``expected`` of an unseen sun."""
 _GREY = 0.05  # median HSI saturation below which a sky is overcast (overcast.py)
 _NIGHT = 0.02  # median display light below which a sky's colors are noise and lamps
-_BRIGHTEST = 0.9  # quantile of the sky's light above which it may contain an overlooked sun
 _HIDES = 10.0  # degrees: clouds may hide a lower sun
 DEFAULT_SHOULDER = 0.9
 
@@ -178,6 +179,7 @@ def fit_sky(
     """
     azimuth, elevation = view_angles(camera, working.width, working.height)
     light = working.linear
+    odds = SUN_ODDS if expected is None else SUN_ODDS_BESIDE
     expected = ANYWHERE if expected is None else expected
     usable = (sky > 0.98) & (light.max(-1) < 0.95) & (elevation > 0.3)
     clear = usable & (clouds < 0.2)
@@ -192,14 +194,13 @@ def fit_sky(
     searched = 0.0
     if sun is None:
         searched = 0.5
-        bright = light @ LUMINANCE
-        dim = sky * (bright < np.quantile(bright[chosen], _BRIGHTEST))
         sun, sure_of_sun, spread = search_sun(
             display,
             where,
             expected,
-            lambda *direction: would_be_seen(camera, dim, *direction),
+            lambda *direction: would_be_seen(camera, sky, *direction),
             lambda share: done(searched * share),
+            odds,
         )
         dark = np.median(display @ LUMINANCE) < _NIGHT
         if dark or np.median(saturation(encode(display))) < _GREY:
@@ -288,8 +289,7 @@ def would_be_seen(
 ) -> np.ndarray:
     """Return whether a sun in each of these directions, (n,) degrees, would be in plain view.
 
-    A bank of cloud may hide a low one. ``sky`` is the matte (h, w) without its brightest part,
-    which may contain an overlooked disc.
+    A bank of cloud may hide a low one. ``sky`` is the matte (h, w).
     """
     height, width = sky.shape
     x, y = camera.pixel(azimuth, elevation)
@@ -316,6 +316,7 @@ def search_sun(
     expected: np.ndarray,
     seen: Seen,
     done: Done,
+    odds: float = SUN_ODDS,
 ) -> tuple[tuple[float, float], float, float]:
     """Return the direction of an unseen sun, its confidence, and its spread."""
     step = max(1, display.shape[0] // 120)
@@ -343,7 +344,7 @@ def search_sun(
         for azimuth, sky in zip(TURNS.tolist(), skies, strict=True):
             error, _ = compare(display, sky, response)
             errors[azimuth, height] = min(error, errors.get((azimuth, height), np.inf))
-    best, spread = likeliest_sun(errors, expected, seen)
+    best, spread = likeliest_sun(errors, expected, seen, odds)
     return best, confidence_of_sun(best, errors), spread
 
 

@@ -56,6 +56,11 @@ const float kDuskStops = 1.4;
 const float kBrightSky = 0.35;
 const float kProtection = 0.9;
 
+// A picture that shows a sun of 10 to 20 degrees is exposed by this much (EV) less than the same one without: so the
+// skies and lands of 45 photos of such suns compare with pictures whose sun was moved there. A sun that leaves the
+// picture does not brighten it: most photos that show one are dark for other reasons.
+const float kSunInView = 1.1;
+
 // A photo is dark because of a low sun in it or the evening. Once the sun has risen, the picture is exposed like half
 // of the daytime photos (mean log2 of display-linear luminance). It is raised by at most kMaxDayLift stops, because a
 // dark photo holds no more light.
@@ -104,12 +109,20 @@ float GetRisen() {
                   GetSunDirection(sun_azimuth, sun_elevation));
 }
 
+// Stops by which a sun in the picture lowers the exposure.
+float GetSunStops(sampler2D visibility, float height) {
+  return kSunInView * texelFetch(visibility, ivec2(0), 0).b
+      * smoothstep(0.0, 10.0, height) * smoothstep(-35.0, -20.0, -height);
+}
+
 // Stops of a fully automatic exposure by day: it follows the mean, less the reduction for a bright sky.
 float GetDayStops() {
   vec2 before = GetMeter(meter_source);
   vec2 now = GetMeter(meter_edit);
   float stops = before.r - now.r + GetRisen() * clamp(kDayKey - photo_key, 0.0, kMaxDayLift);
-  return stops - (GetSkyExcess(now.g + stops) - GetSkyExcess(before.g));
+  stops -= GetSkyExcess(now.g + stops) - GetSkyExcess(before.g);
+  float sun = GetSunStops(visibility_edit, sun_elevation) - GetSunStops(visibility_source, source_sun_elevation);
+  return stops - max(sun, 0.0);
 }
 
 // Stops by which the sky, and what mirrors it, is lifted more than the land.

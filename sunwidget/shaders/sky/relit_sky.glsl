@@ -33,8 +33,8 @@ const float kMostGone = 1.2;  // log of light
 const float kShaded = 0.2;
 const float kShadesColor = 0.7;
 const float kFarthest = 1.8;  // stops
-const float kBrightAir = 0.4;  // scene-linear
-const float kAirRange = 0.5;
+const float kBrightAir = 0.3;  // scene-linear
+const float kAirRange = 0.3;
 const float kKnownAirRange = 0.9;
 
 float GetBounded(float log_light, float most) {

@@ -3,7 +3,8 @@
 // Land hides the sun (sky matte), clouds veil it (opacity); light.glsl handles the horizon itself,
 // so only the part of the disc above it is counted here. A sun that the photo shows (its glare, in
 // `surface`) is not behind the thick cloud that its whiteness suggests. Outside the picture the
-// edge's value fades to "visible" over a tenth of the picture. `sun_visibility` veils all of it.
+// edge's value fades to "visible" over a tenth of the picture. `sun_visibility` veils all of it. b is g in the picture,
+// and fades to 0 within half of it outside.
 
 #include "frame/picture.glsl"
 #include "clouds/cloud_cover.glsl"
@@ -27,13 +28,17 @@ const float kCloudShade = 0.65;
 const float kCloudPenumbra = 10.0;  // in disc radii
 const float kAureole = 4.0;         // in disc radii
 
+// Distance outside the picture, in widths and heights; negative inside.
+float GetOutside(vec3 at) {
+  vec2 past = max(-at.xy, at.xy - 1.0);
+  return at.z > 0.0 ? max(past.x, past.y) : 1.0;
+}
+
 float GetOpening(vec3 direction) {
   vec3 at = GetPlaceOfDirection(direction);
-  if (at.z <= 0.0) return 1.0;
   vec4 layer = ReadBilinear(layers, at.xy);
-  vec2 outside = max(max(-at.xy, at.xy - 1.0), 0.0);
   float cloud = GetOwnOpacity(layers, at.xy) * (1.0 - 0.8 * ReadBilinear(surface, at.xy).r);
-  return mix(layer.r * (1.0 - cloud), 1.0, smoothstep(0.0, 0.1, max(outside.x, outside.y)));
+  return mix(layer.r * (1.0 - cloud), 1.0, smoothstep(0.0, 0.1, GetOutside(at)));
 }
 
 void main() {
@@ -56,5 +61,7 @@ void main() {
     }
   }
   float added = 1.0 - kCloudShade * shaded / float(kRings * kSpokes);
-  result = vec4(sun_visibility * added * open / above, 0.0, 1.0);
+  vec2 visible = sun_visibility * added * open / above;
+  vec3 at = GetPlaceOfDirection(GetSunDirection(sun_azimuth, sun_elevation));
+  result = vec4(visible, visible.g * smoothstep(-0.5, 0.1, -GetOutside(at)), 1.0);
 }

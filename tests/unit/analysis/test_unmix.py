@@ -124,6 +124,6 @@ def test_layers_of_an_evening_are_layers_of_cloud_though_the_model_has_a_glow_ah
         fov=45.0,
         sun=None,
     )
-    assert scene.automatic["sun_azimuth"] == 0
+    assert abs(scene.automatic["sun_azimuth"]) < 3
     assert scene.clouds[:horizon].max() > 0.5
     assert scene.clouds[5 : horizon - 8, 10:-10].std(1).max() < 0.25
