@@ -59,8 +59,8 @@ export function reachable(graph, files) {
 }
 
 /**
- * Strip comments, indentation, empty lines and spaces around operators from a shader. Names and lines
- * stay: a driver's error quotes a line, which can be found in the file.
+ * Strip comments, indentation, empty lines, spaces around operators and zeros beside a decimal point from a
+ * shader. Names and lines stay: a driver's error quotes a line, which can be found in the file.
  *
  * @param {string} text
  */
@@ -72,7 +72,9 @@ export function compact(text) {
     .replace(/^[^#].*/gm, (line) =>
       line
         .replace(/ *([*/=<>(){}[\],;?:&|!]) */g, "$1")
-        .replace(/(?<![+-]) ([+-]) (?![+-])/g, "$1"),
+        .replace(/(?<![+-]) ([+-]) (?![+-])/g, "$1")
+        .replace(/(?<![\w.])0(?=\.\d)/g, "") // 0.5 is .5, and 1.0 is 1.
+        .replace(/(?<=(?<![\w.])\d+\.)0(?!\d)/g, ""),
     );
 }
 

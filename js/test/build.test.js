@@ -15,20 +15,20 @@ test("a bundle holds what its graph reaches, libraries of libraries too, and no 
   assert.throws(() => reachable({ passes: [{ shader: "gone" }] }, files), /gone\.glsl/);
 });
 
-test("a shader loses comments and blanks; what it says, and each line of the preprocessor, stays", () => {
+test("a shader loses comments, blanks and zeros at the point; what it says, and each line of the preprocessor, stays", () => {
   const text = `// one
 #define TWICE(x) (2.0 * x) // two
 
   /* three
      lines */ vec3 a = vec3(1.0, -2.0,  3.0) / b;
-    return a - -b + c;  // four
+    return a - -b + 0.50 * c10.0 + 20.05;  // four
 #include "lib/c.glsl"
 `;
   assert.equal(
     compact(text),
     `#define TWICE(x) (2.0 * x)
-vec3 a=vec3(1.0,-2.0,3.0)/b;
-return a - -b+c;
+vec3 a=vec3(1.,-2.,3.)/b;
+return a - -b+.50*c10.0+20.05;
 #include "lib/c.glsl"`,
   );
 });

@@ -60,7 +60,7 @@ def to_light(code: np.ndarray) -> np.ndarray:
 LONG_SIDE = 256
 _MODEL_SIDE = 80
 _TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # in spreads of the sun
-_WIDEST = 90.0  # degrees
+_NARROWEST, _WIDEST = 40.0, 90.0  # degrees: clouds that hide a sun scatter its glow
 
 
 def behind_sun(
@@ -130,7 +130,7 @@ def expected_sky(fit: SkyFit, camera: Camera, size: tuple[int, int]) -> np.ndarr
     inside = 0 <= x <= camera.width and 0 <= y <= camera.height
     if fit.sun_spread == 0 or not inside:
         return None
-    turns = np.array(_TURNS) * min(fit.sun_spread, _WIDEST)
+    turns = np.array(_TURNS) * np.clip(fit.sun_spread, _NARROWEST, _WIDEST)
     suns = [(fit.sun[0] + float(turn), fit.sun[1]) for turn in turns]
     coarse = size_within(size, _MODEL_SIDE // 2)
     logs = [_coarse_logs(dataclasses.replace(fit, sun=sun), camera, coarse) for sun in suns]

@@ -15,6 +15,8 @@ const float kDarkAlbedo = 0.2;
 const float kNearby = 0.5;
 // Share of the light's color in land whose light has changed color.
 const float kLitColor = 0.35;
+// By day the land's own color is better known than in the evening.
+const float kDayKnows = 0.6;
 // Share of the photo's balance that this light has lost.
 const float kBalanceLost = 0.6;
 // Albedo from which land is compressed when its light changes, and the largest: anything brighter in the photo glowed,
@@ -61,7 +63,9 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
   float risen = GetSkySeen() * GetRisen(GetSunBefore(), GetDescribedSun());
   float evening = risen * GetEveningBalance();
   float changed = max(turned, risen);  // how far the light has become another
-  float guessed = max(kLitColor * changed, dark * lift * lift / (lift * lift + 4.0));
+  float day = smoothstep(kRises.x, kRises.y, GetSunBefore().y);
+  float unknown = max(turned - kDayKnows * day * turned, risen);
+  float guessed = max(kLitColor * unknown, dark * lift * lift / (lift * lift + 4.0));
   // A balance that the photo's light has shifted does not apply to another light.
   vec3 color = RemoveBalance(lit, max(max(kBalanceLost * turned, evening), GetVividness()));
   land += guessed * (color * (level / GetLuminance(color)) - land);
@@ -71,11 +75,11 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
   // As the light changes, its own color replaces the average: that of an evening's land was the evening's.
   usual = mix(usual / GetLuminance(usual), color / GetLuminance(color), changed);
   land += glare * (usual * level - land);
-  land = mix(land, RemoveGlow(land, color, kReddestLand * (1.0 - kEveningsRed * evening)), changed);
+  land = mix(land, RemoveGlow(land, color, kReddestLand * (1.0 - kEveningsRed * evening)), unknown);
   float albedo = 3.14159265 * level / max(GetLuminance(lit), 1e-9);
   float beyond = max(albedo - kWhitePaint.x, 0.0) / (kWhitePaint.y - kWhitePaint.x);
   float most = kWhitePaint.x + (kWhitePaint.y - kWhitePaint.x) * beyond / (1.0 + beyond);
-  land *= mix(1.0, min(most / max(albedo, 1e-6), 1.0), changed);
+  land *= mix(1.0, min(most / max(albedo, 1e-6), 1.0), max(turned - day * turned, risen));
   return land * exp2(-dark * lift * lift / (lift + 3.0));
 }
 
