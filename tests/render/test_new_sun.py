@@ -77,6 +77,16 @@ def test_exposure_is_smooth_along_a_drag():
     assert np.abs(np.diff(stops, 2)).max() < 0.1
 
 
+def test_only_a_sun_in_the_picture_lowers_the_exposure():
+    scene = scene_without_sun()
+    inside, behind = (
+        render_pass(scene, Edit(sun_azimuth=azimuth, sun_elevation=12), "visibility_edit")[0, 0, 2]
+        for azimuth in (-8, 170)
+    )
+    assert inside > 0.9
+    assert behind == 0
+
+
 @pytest.mark.parametrize("elevation", [6, 12, 18, 24])
 def test_land_against_the_sun_or_under_a_cloud_is_dark_but_not_black(elevation):
     scene = scene_without_sun(clouds=True)

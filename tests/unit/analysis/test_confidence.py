@@ -87,6 +87,35 @@ def test_the_spread_grows_as_the_misfits_level_out_and_at_last_the_photo_does_no
     assert spreads[0] < UNKNOWN <= spreads[2]
 
 
+def test_between_two_steps_the_azimuth_is_their_mean():
+    expected = 1e-6 * ALIKE
+    expected[HEIGHTS == 18, (TURNS == 30) | (TURNS == 60)] = 1
+    (azimuth, elevation), _ = likeliest_sun(misfits(), expected)
+    assert azimuth == pytest.approx(45, abs=5)
+    assert elevation == pytest.approx(18, abs=3)
+
+
+def test_a_sun_between_likely_places_is_not_put_where_the_picture_shows_none():
+    expected = 1e-6 * ALIKE
+    expected[HEIGHTS == 2, TURNS == 0] = 1
+    expected[HEIGHTS == 60, TURNS == 0] = 1
+
+    def seen(azimuth, elevation):
+        return (np.abs(azimuth) < 50) & (elevation > 10) & (elevation < 50)
+
+    (azimuth, elevation), _ = likeliest_sun(misfits(), expected, seen)
+    assert not seen(azimuth, elevation)
+
+
+def test_beside_a_network_the_colors_count_less():
+    expected = ALIKE.copy()
+    expected[HEIGHTS == 18, TURNS == -90] = 20
+    colors = misfits((90.0, 18.0), 0.005)
+    alone, beside = (likeliest_sun(colors, expected, odds=odds)[0][0] for odds in (2.0, 0.5))
+    assert alone == pytest.approx(90, abs=10)
+    assert beside == pytest.approx(-90, abs=10)
+
+
 def fitted(photo, *, told):
     working = Working.of(open_photo(photo.bytes))
     sun = photo.sun if told else None
