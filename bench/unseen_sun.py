@@ -34,7 +34,7 @@ from sunwidget.analysis.pipeline import FIT_SIDE, clouds_by_color
 from sunwidget.analysis.segmentation import coarse_sky
 from sunwidget.geometry.camera import Camera
 from sunwidget.photo.photo import open_photo
-from training.suns.away import Case, Direction, read, turned, turned_away
+from training.suns.away import Case, Direction, read, turned_away, without_suns
 from training.suns.labels import labels
 
 FITTING, JUDGING = slice(0, None, 2), slice(1, None, 2)
@@ -71,11 +71,10 @@ def rendered(folder: Path) -> Iterator[Case]:
 
 
 def photos(folder: Path, half: slice, limit: int | None) -> Iterator[Case]:
-    """Yield half of the photos with a marked disc that train nothing, turned away from it."""
+    """Return half of the photos with a marked disc that train nothing, turned away from it."""
     known = [p for p in labels() if p.kind == "disc" and p.test]
     known.sort(key=lambda p: hashlib.sha256(p.file.encode()).digest())
-    for _, case in turned(folder, known[half][:limit]):
-        yield case
+    return without_suns(folder, known[half][:limit])
 
 
 def search(case: Case) -> fit.SkyFit:

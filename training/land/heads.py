@@ -30,7 +30,7 @@ from training.land.model import SUN_HEIGHTS, SUN_TURNS, LandNet
 from training.land.photograph import Box
 from training.loop import save
 from training.sky_corrections import corrected
-from training.suns.away import turned
+from training.suns.away import without_suns
 from training.suns.labels import judging, labels
 
 AREAS = (62_000, 92_000)  # pixels of a picture, in turn
@@ -57,6 +57,10 @@ class Table:
     def of(cls, rows: list[tuple[Tensor, Tensor, float]]) -> Table:
         features, truth, weight = zip(*rows, strict=True)
         return cls(torch.stack(features), torch.stack(truth).float(), torch.tensor(weight))
+
+    def draw(self, count: int) -> Tensor:
+        """Return rows by chance, in proportion to their weights, (count,)."""
+        return torch.multinomial(self.weight, count, replacement=True)
 
 
 class Eyes:
@@ -134,7 +138,7 @@ def of_suns(eyes: Eyes, data: Path) -> Table:
     """Return the suns of labelled photos, seen by cameras that turned away from them."""
     known = [p for p in labels() if p.kind in ("disc", "glow") and not p.test]
     rows = []
-    for number, (_, case) in enumerate(turned(data, known, VIEWS)):
+    for number, case in enumerate(without_suns(data, known, VIEWS)):
         mirrored = bool(number % 2)
         picture = case.picture[:, ::-1] if mirrored else case.picture
         high, wide = size_of(picture.shape[:2], AREAS[-1])
@@ -156,11 +160,11 @@ def fit_horizon(head: nn.Sequential, worlds: Table, real: Table) -> None:
     """Train the head of the horizon anew, in place."""
 
     def loss(seen: Callable[[Table, Tensor], Tensor]) -> Tensor:
-        rows = torch.randint(len(worlds.truth), (BATCH,))
+        rows = worlds.draw(BATCH)
         view, truth = seen(worlds, rows), worlds.truth[rows]
         found = F.smooth_l1_loss(view[:, :3], truth[:, :3], beta=BETA)
         found = found + 0.1 * F.binary_cross_entropy_with_logits(view[:, 3], truth[:, 3])
-        rows = torch.multinomial(real.weight, 2 * BATCH, replacement=True)
+        rows = real.draw(2 * BATCH)
         row = seen(real, rows)[:, 0]
         return found + PHOTOS_COUNT * F.smooth_l1_loss(row, real.truth[rows], beta=BETA)
 
@@ -173,7 +177,7 @@ def fit_sun(head: nn.Sequential, worlds: Table, guesses: Table, known: Table) ->
     def loss(seen: Callable[[Table, Tensor], Tensor]) -> Tensor:
         found = torch.zeros(())
         for table, share in ((worlds, 1.0), (guesses, 1.0), (known, SUNS_COUNT)):
-            rows = torch.randint(len(table.truth), (BATCH // 2,))
+            rows = table.draw(BATCH // 2)
             odds = seen(table, rows).log_softmax(1)
             found = found - share * (table.truth[rows] * odds).sum(1).mean()
         return found

@@ -18,6 +18,7 @@ from sunwidget.analysis.horizon import horizon as horizon_stage
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.segmentation import coarse_sky
 from sunwidget.geometry.camera import Camera
+from sunwidget.geometry.place import wrap_angle
 from sunwidget.photo.photo import open_photo
 from training.suns.labels import Photo
 
@@ -53,7 +54,7 @@ def turned_away(
         height = round(share * camera.height)
         field = 2 * np.degrees(np.arctan(height / 2 / camera.focal))
         view = Camera(max(32, round(height * aspect)), height, field, pitch)
-        turned = ((sun[0] - heading + 180) % 360 - 180, sun[1])
+        turned = wrap_angle(sun[0] - heading), sun[1]
         at = np.array(view.pixel(*turned)) / (view.width, view.height)
         border = MARGIN * np.array([1, view.width / view.height])
         if np.all((at > -border) & (at < 1 + border)):
@@ -84,7 +85,7 @@ def read(path: Path) -> np.ndarray:
     return cv2.resize(picture, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
 
 
-def turned(folder: Path, known: Iterable[Photo], views: int = 1) -> Iterator[tuple[Photo, Case]]:
+def without_suns(folder: Path, known: Iterable[Photo], views: int = 1) -> Iterator[Case]:
     """Yield up to so many views of each photo without its sun; ``folder`` holds their folders.
 
     The field of view is the assumed one, the horizon the whole photo's.
@@ -110,4 +111,4 @@ def turned(folder: Path, known: Iterable[Photo], views: int = 1) -> Iterator[tup
             name = photo.file + (f"#{number}" if number else "")
             case = turned_away(name, picture, sky.astype(np.float32), camera, sun)
             if case is not None:
-                yield photo, case
+                yield case
