@@ -129,3 +129,29 @@ def test_it_holds_for_the_thesis_too(visibility):
     seen = render(scene, edit, dtype="float32")[y, x].max()
     veiled = render(scene, edit.replace(sun_visibility=visibility), dtype="float32")[y, x].max()
     assert veiled < seen - 0.02
+
+
+def test_the_glow_of_a_sun_behind_clouds_shines_through_bright_ones_only():
+    scene = known_scene()
+    edit = Edit(sun_azimuth=-12, sun_elevation=15)
+    overcast = dataclasses.replace(scene, cloud_map=np.ones_like(scene.cloud_map))
+    dark = dataclasses.replace(overcast, backdrop=0.4 * overcast.backdrop)
+    bright = dataclasses.replace(overcast, backdrop=np.ones_like(overcast.backdrop))
+    clear, through, hidden = (
+        render_pass(s, edit, "visibility_edit")[0, 0] for s in (scene, bright, dark)
+    )
+    assert clear[0] > 0.9
+    assert through[0] == hidden[0] == 0
+    assert 0.2 < through[1] < 0.5
+    assert hidden[1] < 0.05
+
+
+def test_water_mirrors_the_glow_of_a_hidden_sun_and_more_of_a_sun_that_is_seen():
+    scene = known_scene()
+    edit = Edit(sun_azimuth=-12, sun_elevation=15)
+    overcast = dataclasses.replace(scene, cloud_map=np.ones_like(scene.cloud_map))
+    bright = dataclasses.replace(overcast, backdrop=np.ones_like(overcast.backdrop))
+    seen, mirrored = (
+        render_pass(s, edit, "composite_constants")[0, 12, :3].sum() for s in (scene, bright)
+    )
+    assert 0.05 * seen < mirrored < 0.5 * seen

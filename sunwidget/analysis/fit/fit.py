@@ -139,6 +139,11 @@ def model_sky(
 _table = lru_cache(maxsize=64)(SkyTable)
 
 
+def prepare() -> None:
+    """Compute what fits of all photos share, 0.3 s; the first fit does it otherwise."""
+    model_sky(airs_to_try()[0], np.zeros(1), np.full(1, 10.0), (0.0, 10.0))
+
+
 def fit_sky(
     working: Working,
     sky: np.ndarray,

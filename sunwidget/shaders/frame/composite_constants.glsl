@@ -59,7 +59,10 @@ const float kProtection = 0.9;
 // A picture that shows a sun of 10 to 20 degrees is exposed by this much (EV) less than the same one without: so the
 // skies and lands of 45 photos of such suns compare with pictures whose sun was moved there. A sun that leaves the
 // picture does not brighten it: most photos that show one are dark for other reasons.
-const float kSunInView = 1.1;
+const float kSunInView = 1.05;
+
+// Light in the mirrored glow of a hidden sun, as a share of that in the mirrored sun.
+const float kMirroredGlow = 0.5;
 
 // A photo is dark because of a low sun in it or the evening. Once the sun has risen, the picture is exposed like half
 // of the daytime photos (mean log2 of display-linear luminance). It is raised by at most kMaxDayLift stops, because a
@@ -113,6 +116,12 @@ float GetRisen() {
 float GetSunStops(sampler2D visibility, float height) {
   return kSunInView * texelFetch(visibility, ivec2(0), 0).b
       * smoothstep(0.0, 10.0, height) * smoothstep(-35.0, -20.0, -height);
+}
+
+// The share of the sun's light that water mirrors: a sun behind clouds leaves its glow, in the same place.
+float GetMirroredShare(sampler2D visibility) {
+  vec2 visible = texelFetch(visibility, ivec2(0), 0).rg;
+  return max(visible.r, kMirroredGlow * visible.g);
 }
 
 // Stops of a fully automatic exposure by day: it follows the mean, less the reduction for a bright sky.
@@ -255,8 +264,8 @@ void main() {
         : index == kCloudNow ? GetCloudRadiance(light_edit, 0.0)
         : index == kCloudLobeNow ? GetForwardLight(light_edit)
         : index == kGlare ? GetGlare()
-        : index == kWaterSunBefore ? visible_before * GetLightTexel(light_before, 1)
-        : visible_now * GetLightTexel(light_edit, 1);
+        : index == kWaterSunBefore ? GetMirroredShare(visibility_source) * GetLightTexel(light_before, 1)
+        : GetMirroredShare(visibility_edit) * GetLightTexel(light_edit, 1);
     // Without a moon a surface receives only the night sky's light, from half the sphere.
     float moon = index == kLevelLandNow || index == kUprightLandNow || index == kCloudNow || index == kCloudLobeNow
         || index == kWaterSunNow ? GetMoon() : photo_light;

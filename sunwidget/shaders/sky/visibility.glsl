@@ -1,5 +1,6 @@
 // The visible share of the sun's disc in the picture: one pixel, r in [0, 1]; g the same for the
-// bright sky around it, kAureole wide, for the glow, which appears before the disc and outlasts it.
+// bright sky around it, kAureole wide, for the glow, which appears before the disc and outlasts it, and shines
+// through clouds.
 // Land hides the sun (sky matte), clouds veil it (opacity); light.glsl handles the horizon itself,
 // so only the part of the disc above it is counted here. A sun that the photo shows (its glare, in
 // `surface`) is not behind the thick cloud that its whiteness suggests. Outside the picture the
@@ -9,9 +10,12 @@
 #include "frame/picture.glsl"
 #include "clouds/cloud_cover.glsl"
 #include "atmosphere/read_sky_view.glsl"
+#include "camera/response.glsl"
 
 uniform sampler2D layers;
 uniform sampler2D surface;
+uniform sampler2D backdrop;
+uniform vec3 photo_sky_linear_mean;
 uniform float sun_azimuth;
 uniform float sun_elevation;
 uniform float sun_visibility;
@@ -27,6 +31,10 @@ const int kSpokes = 12;
 const float kCloudShade = 0.65;
 const float kCloudPenumbra = 10.0;  // in disc radii
 const float kAureole = 4.0;         // in disc radii
+// The share of the glow that bright clouds take. Many times less light passes them, but a camera exposes for it.
+const float kGlowTaken = 0.65;
+// Luminance of clouds, relative to the sky's mean, that take all of it, and of those that do not.
+const vec2 kBrightCloud = vec2(0.6, 1.2);
 
 // Distance outside the picture, in widths and heights; negative inside.
 float GetOutside(vec3 at) {
@@ -34,11 +42,16 @@ float GetOutside(vec3 at) {
   return at.z > 0.0 ? max(past.x, past.y) : 1.0;
 }
 
-float GetOpening(vec3 direction) {
+// The visible share in one direction, and that of the glow.
+vec2 GetOpening(vec3 direction) {
   vec3 at = GetPlaceOfDirection(direction);
   vec4 layer = ReadBilinear(layers, at.xy);
   float cloud = GetOwnOpacity(layers, at.xy) * (1.0 - 0.8 * ReadBilinear(surface, at.xy).r);
-  return mix(layer.r * (1.0 - cloud), 1.0, smoothstep(0.0, 0.1, GetOutside(at)));
+  float light = GetLuminance(GetBackdropLight(ReadBilinear(backdrop, at.xy).rgb))
+      / max(GetLuminance(GetSceneLight(photo_sky_linear_mean)), 1e-4);
+  float taken = mix(1.0, kGlowTaken, smoothstep(kBrightCloud.x, kBrightCloud.y, light));
+  vec2 open = layer.r * (1.0 - vec2(1.0, taken) * cloud);
+  return mix(open, vec2(1.0), smoothstep(0.0, 0.1, GetOutside(at)));
 }
 
 void main() {
@@ -53,8 +66,8 @@ void main() {
       vec2 aside = radius * vec2(cos(turn), sin(turn));
       vec2 elevation = sun_elevation + vec2(1.0, kAureole) * aside.y;
       vec2 weight = smoothstep(-0.05, 0.05, elevation) + 1e-4;
-      open += weight * vec2(GetOpening(GetSunDirection(sun_azimuth + aside.x, elevation.x)),
-                            GetOpening(GetSunDirection(sun_azimuth + kAureole * aside.x, elevation.y)));
+      open += weight * vec2(GetOpening(GetSunDirection(sun_azimuth + aside.x, elevation.x)).x,
+                            GetOpening(GetSunDirection(sun_azimuth + kAureole * aside.x, elevation.y)).y);
       above += weight;
       vec2 wide = kCloudPenumbra * aside;
       shaded += GetAddedCover(GetSunDirection(sun_azimuth + wide.x, sun_elevation + wide.y));

@@ -7,13 +7,17 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 from sunwidget.analysis.analyze import analyze
 from sunwidget.analysis.correct import corrected
+from sunwidget.analysis.fit import fit
 from sunwidget.analysis.scene import Scene
+from sunwidget.analysis.windows import panes
 from sunwidget.edit.table import Edit
 from sunwidget.errors import AnalysisError
+from sunwidget.photo.photo import Photo
 from sunwidget.widgets.kernel import background
 from sunwidget.widgets.kernel.known_scenes import remember
 
@@ -141,6 +145,7 @@ class Analyst:
 
         if self._base is None:
             progress(0.0, "Analysing the photo")
+            background.start(_work_ahead, self._photo, name="sunwidget-ahead")
             self._base = analyze(self._photo, progress=progress, **self._options)
             remember(self._base, self._options)
         else:
@@ -157,3 +162,10 @@ class Analyst:
                 self._deliver(scene)
                 self._delivered = scene
             self._report("ready", 1.0, "")
+
+
+def _work_ahead(photo: Photo) -> None:
+    """Begin what needs no result of the analysis, which leaves a processor idle at times."""
+    with suppress(AnalysisError):  # the analysis reports it
+        fit.prepare()
+        panes.look(photo)

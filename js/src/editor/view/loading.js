@@ -45,23 +45,44 @@ export class Loading {
       return;
     }
     // Wait until the photo is on the screen: compiling blocks the browser's graphics process.
-    requestAnimationFrame(() => setTimeout(() => this.prepare()));
+    requestAnimationFrame(() => setTimeout(() => void this.prepare(bytes)));
   }
 
-  /** Start compiling the shaders during the analysis: some drivers take seconds. */
-  prepare() {
-    const { frame, loop } = this.drawing;
-    if (this.signal.aborted || this.picture.scene || !loop.visible) return;
+  /**
+   * During the analysis start compiling the shaders, since some drivers take seconds, and hand them the photo.
+   *
+   * @param {ArrayBufferView} bytes of the photo
+   */
+  async prepare(bytes) {
+    const { drawing, picture, signal, state } = this;
+    const { frame, loop } = drawing;
+    const stale = () => signal.aborted || picture.scene || bytes !== this.model.get("_photo");
+    if (stale() || !loop.visible) return;
     try {
-      frame.withGraph((graph) => graph.prepare([String(this.state.values.method)]));
+      frame.withGraph((graph) => graph.prepare([String(state.values.method)]));
+      const bitmap = await decodePicture(bytes);
+      if (stale() || this.taken.get("photo") === bytes) bitmap.close();
+      else this.take("photo", bytes, bitmap);
     } catch {
       // The first frame will report the error.
     }
   }
 
+  /**
+   * @param {string} name
+   * @param {unknown} bytes
+   * @param {ImageBitmap} bitmap
+   */
+  take(name, bytes, bitmap) {
+    const { width, height } = bitmap;
+    this.drawing.frame.setPicture(name, bitmap);
+    this.taken.set(name, bytes);
+    if (name === "photo") this.picture.size = [width, height];
+  }
+
   /** Load the analysis: decode its maps, then swap them all at once. */
   async scene() {
-    const { drawing, message, model, parts, picture } = this;
+    const { message, model, parts, picture } = this;
     /** @type {Scene | null} */
     const scene = model.get("_scene");
     const photo = model.get("_photo");
@@ -79,10 +100,7 @@ export class Loading {
         return;
       }
       fresh.forEach(({ name, bytes }, i) => {
-        const { width, height } = bitmaps[i];
-        drawing.frame.setPicture(name, bitmaps[i]);
-        this.taken.set(name, bytes);
-        if (name === "photo") picture.size = [width, height];
+        this.take(name, bytes, bitmaps[i]);
       });
     } catch (error) {
       if (load !== this.loads) return;
