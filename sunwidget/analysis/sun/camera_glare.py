@@ -31,7 +31,7 @@ from sunwidget.geometry.camera import Camera
 Profile = tuple[float, float, float]
 
 # Glare of unknown cameras, in units of a picture's width and of the light of its middle gray: with
-# the highlights of frame/frame_output.glsl it falls off as in photos that show their sun (193, by angle, 3 and 12 degrees high).
+# the highlights of frame/frame_output.glsl it falls off as in 193 photos that show their sun.
 _CORE, _LEVEL, _POWER = 0.02, 23.0, 1.4
 _LEAST, _MOST = 0.1, 3.0  # limits of a measured glare relative to that
 _BURNT = (0.6, 0.9)  # display-linear light of the least channel: a colored disc, a white one
