@@ -23,6 +23,7 @@ from sunwidget.analysis.images.working_copy import resize
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.segmentation.feather import softening
 from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
+from sunwidget.analysis.sun.search import GLOW_SPREAD
 from sunwidget.analysis.water.glitter import azimuth_column, glitter, roughness
 from sunwidget.analysis.windows import panes
 
@@ -61,6 +62,7 @@ def uniforms(scene: Scene) -> dict[str, Any]:
         "camera_forward": scene.camera.forward,
         "camera_focal": scene.camera.focal / scene.camera.height,
         "sun_visible": float(scene.sun is not None and scene.sun.visible),
+        "sun_located": float(_sun_located(scene)),
         "depth_told": float(scene.hints.depth is not None),
         "photo_light": float(scene.lit_by_moon),
         "water_roughness": _water_roughness(scene),
@@ -84,6 +86,13 @@ def uniforms(scene: Scene) -> dict[str, Any]:
     if scene.fitted is not None:
         found["glare_profile"] = glare_profile(scene.fitted, scene.camera)
     return found
+
+
+def _sun_located(scene: Scene) -> bool:
+    """Return whether the photo shows its sun, or a glow that tells where it is."""
+    if scene.sun is None:
+        return scene.sun_spread <= GLOW_SPREAD
+    return scene.sun.visible
 
 
 def _water_roughness(scene: Scene) -> float:

@@ -36,7 +36,7 @@ from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import matting, refine
 from sunwidget.analysis.sun import sun as sun_stage
 from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
-from sunwidget.analysis.sun.search import Glow, Peak
+from sunwidget.analysis.sun.search import GLOW_SPREAD, Glow, Peak
 from sunwidget.analysis.sun.sun import SunMask, SunObservation
 from sunwidget.analysis.water import water as water_stage
 from sunwidget.errors import AnalysisError
@@ -46,7 +46,6 @@ from sunwidget.photo.photo import Photo
 from sunwidget.progress import Progress
 
 FIT_SIDE = 384
-GLOW_SPREAD = 8.0  # degrees: how exactly a glow tells where the sun is
 SURE_HORIZON = 0.68  # least confidence at which nothing below the horizon can be sky
 
 METHODS: dict[str, dict[str, Callable[..., Any]]] = {

@@ -19,6 +19,7 @@ SURE = 0.7  # the same in a sky as dark as at night
 WEIGHTS = (-2.251, 1.846, -0.495, -0.611)
 RADIUS_SCALE = 0.766  # from the network's radius to the radius that people draw
 LEAST_GLOW = 0.3  # confidence from which a glow tells where the sun is
+GLOW_SPREAD = 8.0  # degrees: how exactly it does
 # Bias, then the weights of ``features_of_glow``: python -m training.suns.calibrate
 GLOW_WEIGHTS = (-0.476, 1.222, -0.109)
 _APART = 0.15  # of the width: beyond it a glow is another one

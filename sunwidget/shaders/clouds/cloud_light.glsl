@@ -13,6 +13,7 @@ const float kLowCloudsLit = -0.004;
 const vec2 kCloudsSeparable = vec2(0.1, 0.25);
 // Share of the sun's light that remains, scattered, on low clouds that have lost the sun.
 const float kAfterglow = 0.4;
+const float kMostBehind = 2.0;  // luminance relative to the clouds' skylight
 
 // The trusted part of a cloud's opacity in relighting. Around a low sun colors do not separate cloud from clear air,
 // and the whole sky changes as its air does.
@@ -30,6 +31,12 @@ float GetSunlitShare(vec3 sky, vec3 sky_before, vec3 ambient, vec3 direct, float
   float share = (cloud - GetLuminance(ambient)) / max(GetLuminance(direct), 1e-9);
   float known = smoothstep(0.3, 0.9, opacity) * smoothstep(0.1, 0.5, GetLuminance(direct) / GetLuminance(ambient));
   return mix(1.0, 0.6 + 0.4 * clamp(share, 0.0, 1.0), known);
+}
+
+// The sky's light by the model without the peak around a sun that clouds hide, by the share `hidden`.
+vec3 GetSkyBehindClouds(vec3 sky, vec3 ambient, float hidden) {
+  float most = kMostBehind * GetLuminance(ambient) / max(GetLuminance(sky), 1e-9);
+  return sky * mix(1.0, min(most, 1.0), hidden);
 }
 
 // Light of a cloud of this opacity: the sky's and its share of the sun's, the forward scattering of a thin

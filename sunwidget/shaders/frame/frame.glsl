@@ -53,7 +53,7 @@ void main() {
   vec3 sky_marks = UnpackLevels(behind_texel.a);
   vec3 clean = behind_texel.rgb;
 #ifndef LAND_ALONE
-  vec3 own = ReadBilinear(own_sky, place).rgb;
+  vec4 own = ReadBilinear(own_sky, place);
 #endif
 #ifdef SKY_ALONE
   // Three powers cost less than reading a map that nothing else here needs.
@@ -92,7 +92,7 @@ void main() {
   // A border in haze is wide; land hides the disc all the same.
   vec3 disc = smoothstep(0.2, 0.8, matte) * GetDisc(view, GetDescribedSun());
   change += matte
-      * GetSkyChange(behind, clean, opacity, glare, own.rg, sky_before, sky_now, view, disc);
+      * GetSkyChange(behind, clean, opacity, glare, own, sky_before, sky_now, view, disc);
 #endif
 
 #ifndef SKY_ALONE

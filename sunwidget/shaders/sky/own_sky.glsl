@@ -1,6 +1,7 @@
 // r: how much brighter the photo's sky without its sun is than the model with clouds, slowly varying (log of
 // luminance). g: how far that exceeds the rest of the sky, away from the sun. b: luminance of the land nearby, almost 0
-// where there is none. Drawn once per photo.
+// where there is none. a: what r and g change by if the model's clouds show the peak around a sun that they hide.
+// Drawn once per photo.
 
 #define PHOTOS_OWN_LIGHT
 #include "frame/picture.glsl"
@@ -26,16 +27,6 @@ const int kTaps = 6;       // on each side
 const int kElsewhere = 12;  // columns and rows of taps over the whole picture
 const float kFewest = 1.0;  // total weight of taps elsewhere at which g has half its size
 
-// The model's light where `opacity` of a pixel is cloud, lit by the sky (`ambient`) and the sun (`direct`).
-vec3 GetModel(vec2 place, vec3 light, float opacity, vec3 ambient, vec3 direct) {
-  vec3 view = GetViewDirection(place);
-  vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
-  vec3 sky = GetMatchedSky(sky_view, view);
-  opacity = GetKnownOpacity(opacity, sun);
-  float share = GetSunlitShare(light, sky, ambient, direct, opacity);
-  return mix(sky, GetCloud(ambient, direct, share, sky, sun, view, opacity), opacity);
-}
-
 float GetInside(vec2 tap) {
   return step(0.0, tap.x) * step(tap.x, 1.0) * step(0.0, tap.y) * step(tap.y, 1.0);
 }
@@ -45,11 +36,16 @@ float GetWeight(vec2 tap) {
   return GetInside(tap) * matte * matte;
 }
 
-// Log of the photo's luminance over the model's.
-float GetLogExcess(vec2 tap, vec3 ambient, vec3 direct) {
+// Log of the photo's luminance over the model's, whose clouds hide the sun by the share `hidden`.
+float GetLogExcess(vec2 tap, vec3 ambient, vec3 direct, float hidden) {
   vec4 layer = ReadPicture(layers, tap);
   vec3 light = GetBackdropLight(ReadBilinear(backdrop, tap).rgb);
-  vec3 model = GetModel(tap, light, min(layer.g / layer.r, 1.0), ambient, direct);
+  vec3 view = GetViewDirection(tap);
+  vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
+  float opacity = GetKnownOpacity(min(layer.g / layer.r, 1.0), sun);
+  vec3 sky = GetSkyBehindClouds(GetMatchedSky(sky_view, view), ambient, opacity * hidden);
+  float share = GetSunlitShare(light, sky, ambient, direct, opacity);
+  vec3 model = mix(sky, GetCloud(ambient, direct, share, sky, sun, view, opacity), opacity);
   return log(max(GetLuminance(light), 1e-6) / max(GetLuminance(model), 1e-6));
 }
 
@@ -61,7 +57,8 @@ void main() {
   vec3 ambient = white - direct;
   vec2 place = gl_FragCoord.xy / pass_size;
   vec2 pace = kReach / float(kTaps) * max(frame_size.x, frame_size.y) / frame_size;
-  float sum = 0.0;
+  float hidden = 1.0 - sun_visible;
+  vec2 sum = vec2(0.0);
   float total = 1e-6;
   // Of the land nearby a geometric mean: dark twigs count as much as what lies behind them.
   vec2 land = vec2(-0.01, 1e-3);
@@ -72,11 +69,11 @@ void main() {
       land += near * vec2(log(max(GetLuminance(GetSceneLight(ReadPicture(photo, tap).rgb)), 1e-4)), 1.0);
       float weight = GetWeight(tap) * exp(-2.0 * float(i * i + j * j) / float(kTaps * kTaps));
       if (weight < 1e-4) continue;
-      sum += weight * GetLogExcess(tap, ambient, direct);
+      sum += weight * vec2(GetLogExcess(tap, ambient, direct, hidden), GetLogExcess(tap, ambient, direct, 0.0));
       total += weight;
     }
   }
-  float own = sum / total;
+  vec2 own = sum / total;
 
   float elsewhere = 0.0;
   float known = 0.0;
@@ -86,11 +83,11 @@ void main() {
       float far = 1.0 - GetNearness(dot(GetViewDirection(tap), sun));
       float weight = GetWeight(tap) * far * far;
       if (weight < 1e-4) continue;
-      elsewhere += weight * GetLogExcess(tap, ambient, direct);
+      elsewhere += weight * GetLogExcess(tap, ambient, direct, hidden);
       known += weight;
     }
   }
   elsewhere /= max(known, 1e-4);
-  float more = known / (known + kFewest) * (own - elsewhere);
-  result = vec4(own, more, exp(land.x / land.y), 0.0);
+  float more = known / (known + kFewest) * (own.x - elsewhere);
+  result = vec4(own.x, more, exp(land.x / land.y), own.y - own.x);
 }

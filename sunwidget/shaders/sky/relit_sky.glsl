@@ -10,6 +10,7 @@
 uniform float sky_strength;
 uniform float cloud_strength;
 uniform float added_clouds;
+uniform float sun_located;  // whether the photo shows its sun or the glow of a hidden one, 0 or 1
 
 // Sine of the sun's elevation below which it lights clouds from below.
 const float kGrazing = 0.05;
@@ -50,7 +51,7 @@ float GetBounded(float log_light, float most) {
 float GetFadedLight(vec2 own, float local, float change, vec3 view, vec3 sun_before, vec3 sun_now) {
   float share = change * change / (change * change + kLightFades * kLightFades);
   float away = 1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now));
-  float gone = sun_visible * max(away - share, 0.0) * GetBounded(own.g, kMostGone);
+  float gone = sun_located * max(away - share, 0.0) * GetBounded(own.g, kMostGone);
   float lacking = (1.0 - sun_visible) * GetNearness(dot(view, sun_before)) * min(own.g, 0.0);
   float fades = GetBounded(own.r - lacking, kMostFaded) + (local > 0.0 ? kRimsFade : kShadeFades) * GetBounded(local, 1.0);
   float left = 1.0 - smoothstep(kLeft, kNotLeft, dot(sun_before, sun_now));
@@ -60,7 +61,7 @@ float GetFadedLight(vec2 own, float local, float change, vec3 view, vec3 sun_bef
 // The change from `light` of the photo's sky to its light under the new sun. `clean` is the sky without
 // the old sun (sky_behind.glsl), `mark` the old sun's glare, `own` the sky's excess over the model
 // (own_sky.glsl), `disc` the new disc.
-vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec3 sky_before, vec3 sky_now,
+vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec3 sky_before, vec3 sky_now,
                   vec3 view, vec3 disc) {
   float gain = GetExposureGain();
   float moved = GetMoved();
@@ -71,6 +72,12 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec
   vec3 sun_now = GetDescribedSun();
   // Clouds that the user added are certain.
   float opacity = mix(GetKnownOpacity(cover, sun_before), cover, smoothstep(0.0, 0.05, added_clouds));
+  // Where clouds hide the photo's sun there is no peak that could leave with it. At dusk it goes with the daylight.
+  float day = smoothstep(-0.05, 0.05, sun_now.y);
+  float hidden = opacity * (1.0 - sun_visible) * day;
+  sky_before = GetSkyBehindClouds(sky_before, ambient, hidden);
+  sky_now = GetSkyBehindClouds(sky_now, GetCloudAmbientNow(), hidden * (1.0 - moved));
+  own.rg += (1.0 - day) * own.a;
   float share = GetSunlitShare(clean, sky_before, ambient, GetCloudLobeBefore(), opacity);
   // A sun at the horizon lights, from below, parts that were in shade.
   float grazing = smoothstep(0.0, kGrazing, sun_before.y) - smoothstep(0.0, kGrazing, sun_now.y);
@@ -100,7 +107,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec2 own, vec
   vec3 whole = mix(sky_before, cloud_before, opacity);
   float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
   local *= min(cloud_strength, 1.0);
-  relit *= GetFadedLight(own, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
+  relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
   // Air brightened by the new sun is compressed to a camera's range, from a bright sky on, but less so
   // where the photo shows its own sun or moon, and so how bright that air is.

@@ -54,15 +54,14 @@ export class Loading {
    * @param {ArrayBufferView} bytes of the photo
    */
   async prepare(bytes) {
-    const { drawing, picture, signal, state } = this;
-    const { frame, loop } = drawing;
-    const stale = () => signal.aborted || picture.scene || bytes !== this.model.get("_photo");
-    if (stale() || !loop.visible) return;
+    const { frame, loop } = this.drawing;
+    if (this.signal.aborted || this.picture.scene || !loop.visible) return;
+    const load = this.loads;
     try {
-      frame.withGraph((graph) => graph.prepare([String(state.values.method)]));
+      frame.withGraph((graph) => graph.prepare([String(this.state.values.method)]));
       const bitmap = await decodePicture(bytes);
-      if (stale() || this.taken.get("photo") === bytes) bitmap.close();
-      else this.take("photo", bytes, bitmap);
+      if (load === this.loads) this.take("photo", bytes, bitmap);
+      else bitmap.close();
     } catch {
       // The first frame will report the error.
     }
