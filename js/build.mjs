@@ -60,7 +60,8 @@ export function reachable(graph, files) {
 
 /**
  * Strip comments, indentation, empty lines, spaces around operators and zeros beside a decimal point from a
- * shader. Names and lines stay: a driver's error quotes a line, which can be found in the file.
+ * shader. Names and lines stay: a driver's error quotes a line, which can be found in the file. (Constants that are
+ * used once become numbers: `inlined`.)
  *
  * @param {string} text
  */
@@ -76,6 +77,35 @@ export function compact(text) {
         .replace(/(?<![\w.])0(?=\.\d)/g, "") // 0.5 is .5, and 1.0 is 1.
         .replace(/(?<=(?<![\w.])\d+\.)0(?!\d)/g, ""),
     );
+}
+
+const CONSTANT = /^const (?:float|int) (\w+)=([\d.e]+);\n/gm;
+
+/**
+ * Put the numbers of constants that are used only once in their place.
+ *
+ * @param {Record<string, string>} texts compact shaders by path
+ */
+export function inlined(texts) {
+  /** @type {Map<string, number>} */
+  const uses = new Map();
+  for (const text of Object.values(texts)) {
+    for (const [name] of text.matchAll(/\b[a-zA-Z_]\w*/g))
+      uses.set(name, (uses.get(name) ?? 0) + 1);
+  }
+  return Object.fromEntries(
+    Object.entries(texts).map(([path, text]) => {
+      /** @type {Map<string, string>} */
+      const values = new Map();
+      const rest = text.replace(CONSTANT, (line, name, value) => {
+        const own = text.match(new RegExp(`\\b${name}\\b`, "g"))?.length;
+        if (uses.get(name) !== 2 || own !== 2) return line;
+        values.set(name, value);
+        return "";
+      });
+      return [path, rest.replace(/\bk[A-Z]\w*/g, (name) => values.get(name) ?? name)];
+    }),
+  );
 }
 
 /** @type {import("esbuild").Plugin} */
@@ -96,7 +126,9 @@ export const shaderPlugin = {
       // Keep comments while working on shaders.
       const texts = watching
         ? reached
-        : Object.fromEntries(Object.entries(reached).map(([p, text]) => [p, compact(text)]));
+        : inlined(
+            Object.fromEntries(Object.entries(reached).map(([p, text]) => [p, compact(text)])),
+          );
       return {
         contents:
           `export const files = ${JSON.stringify(texts)};\n` +

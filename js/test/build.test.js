@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { compact, reachable } from "../build.mjs";
+import { compact, inlined, reachable } from "../build.mjs";
 
 test("a bundle holds what its graph reaches, libraries of libraries too, and no more", () => {
   const files = {
@@ -31,4 +31,17 @@ vec3 a=vec3(1.,-2.,3.)/b;
 return a - -b+.50*c10.0+20.05;
 #include "lib/c.glsl"`,
   );
+});
+
+test("a constant used once becomes its number; one used twice, elsewhere or negative stays", () => {
+  const texts = {
+    "a.glsl":
+      "const float kOnce=.5;\nconst float kTwice=2.;\nconst float kElsewhere=3.;\nconst float kNegative=-1.;\nfloat f(float x){return x-kOnce*kTwice+kTwice*kNegative;}",
+    "b.glsl": "float g(){return kElsewhere;}",
+  };
+  assert.deepEqual(inlined(texts), {
+    "a.glsl":
+      "const float kTwice=2.;\nconst float kElsewhere=3.;\nconst float kNegative=-1.;\nfloat f(float x){return x-.5*kTwice+kTwice*kNegative;}",
+    "b.glsl": "float g(){return kElsewhere;}",
+  });
 });

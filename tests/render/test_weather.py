@@ -151,6 +151,24 @@ def test_clouds_in_a_deep_blue_sky_are_grey_at_dusk():
     assert -1.4 < balance(rendered(scene, DUSK)[cloud])[0] < -0.3
 
 
+def test_dusk_is_orange_below_and_violet_above_towards_the_sun_only():
+    photo = known_photo(sun=(8.0, 14.0), clouds=False, size=(240, 160))
+    scene = photo.analyze()
+    columns, rows = np.meshgrid(np.arange(240) + 0.5, np.arange(160) + 0.5)
+    height = scene.camera.angles(columns, rows)[1]
+    low, high = ((photo.sky > 0) & (height > a) & (height < b) for a, b in ((1, 6), (20, 90)))
+    dusk = rendered(scene, DUSK)
+    (red_low, _), (red_high, green_high) = balance(dusk[low]), balance(dusk[high])
+    assert 1 < red_low < 2.2
+    assert red_high < -0.6
+    assert -0.6 < green_high < -0.2
+    light = dusk @ np.array([0.2126, 0.7152, 0.0722])
+    assert 0.6 < np.log2(light[low].mean() / light[high].mean()) < 1.6
+    behind = rendered(scene, DUSK.replace(sun_azimuth=-172))
+    assert balance(behind[low])[0] < -1
+    assert abs(balance(behind[low])[1]) < 0.15
+
+
 def test_a_clouds_shade_has_the_skys_colour():
     photo = known_photo(sun=(8.0, 40.0), size=(240, 160))
     picture = photo.linear.copy()

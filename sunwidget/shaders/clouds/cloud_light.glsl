@@ -13,7 +13,7 @@ const float kLowCloudsLit = -0.004;
 const vec2 kCloudsSeparable = vec2(0.1, 0.25);
 // Share of the sun's light that remains, scattered, on low clouds that have lost the sun.
 const float kAfterglow = 0.4;
-const float kMostBehind = 2.0;  // luminance relative to the clouds' skylight
+const float kMostBehind = 3.0;  // luminance relative to the clouds' skylight
 
 // The trusted part of a cloud's opacity in relighting. Around a low sun colors do not separate cloud from clear air,
 // and the whole sky changes as its air does.

@@ -30,3 +30,32 @@ vec3 GetLowSunChange(float lit, vec3 view, vec3 sun_before, vec3 sun_now) {
   vec3 change = GetLowSunLight(now, dot(view, sun_now)) - GetLowSunLight(min(before, now), dot(view, sun_before));
   return exp2(mix(kFinest, kFinestClouds, lit) * change);
 }
+
+// How photos of dusk look towards a sun of about 4 degrees below the horizon: log2 of red and of blue over green, near
+// the horizon and high above it; their luminance (log2) falls by kDuskFall. Medians of 96 photos (training/skies/dusk.py).
+const vec2 kDuskBelow = vec2(1.5, -1.15);
+const vec2 kDuskAbove = vec2(0.25, 1.2);
+const float kDuskFall = 1.4;
+const float kDuskMean = 0.8;
+const float kDuskShare = 0.5;  // of the way to them
+const float kDuskHeight = 19.0;  // of the sky near the horizon: half at 11 degrees
+const float kDuskFade = 4.1;  // of the luminance
+
+float GetDuskness(vec3 sun) {
+  return (1.0 - smoothstep(-0.06, 0.01, sun.y)) * smoothstep(-0.17, -0.08, sun.y);
+}
+
+// Draws the sky's `light` towards that of such photos as the sun sets.
+vec3 GetDusk(vec3 light, vec3 view, vec3 sun_before, vec3 sun_now) {
+  float share = kDuskShare * max(GetDuskness(sun_now) - GetDuskness(sun_before), 0.0);
+  share *= (1.0 - GetMoon()) * (1.0 - photo_light);
+  float lengths = dot(view.xz, view.xz) * dot(sun_now.xz, sun_now.xz);
+  share *= smoothstep(-0.2, 0.8, dot(view.xz, sun_now.xz) * inversesqrt(max(lengths, 1e-9)));
+  float height = max(view.y, 0.0);
+  vec2 wanted = mix(kDuskAbove, kDuskBelow, exp(-kDuskHeight * height * height));
+  vec2 color = log2(max(light.rb, vec2(1e-9)) / max(light.g, 1e-9));
+  vec2 turn = exp2(share * (wanted - color));
+  vec3 turned = light * vec3(turn.x, 1.0, turn.y);
+  turned *= GetLuminance(light) / max(GetLuminance(turned), 1e-9);
+  return turned * exp2(share * (kDuskFall * exp(-kDuskFade * height) - kDuskMean));
+}

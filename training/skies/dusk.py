@@ -1,0 +1,83 @@
+"""Measure the sky of photos of dusk, by height above the horizon (sky/low_sun.glsl, `GetDusk`).
+
+    python -m training.skies.dusk DATA [--edits 100]
+
+prints log2 of luminance, of red over green and of blue over green: medians of the photos that
+``dusk.txt`` lists (a reader without knowledge of the code chose them: the sun is a few degrees
+below the horizon), and of edits of other photos whose sun is moved to 4 degrees below it.
+"""
+
+from __future__ import annotations
+
+import argparse
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+import sunwidget as sw
+from sunwidget.analysis.fit.fit import view_angles
+from sunwidget.formats.color import LUMINANCE, srgb_to_linear
+from sunwidget.photo.photo import open_photo
+from training.skies.low_sun import photos
+
+PHOTOS = Path(__file__).with_name("dusk.txt")
+HEIGHTS = (0, 3, 6, 10, 15, 22, 30, 45)  # degrees
+SIDE = 384
+FEWEST = 60  # pixels of a height
+FLOOR = 1e-3
+AHEAD = 45  # degrees between the sun's azimuth and the camera's of an edit
+
+
+def profile(picture: np.ndarray, scene: sw.Scene) -> np.ndarray:
+    """Return luminance, red and blue over green (log2) by height, (heights, 3), NaN without sky."""
+    elevation = view_angles(scene.camera, scene.width, scene.height)[1]
+    sky = np.asarray(scene.sky) > 0.95
+    found = np.full((len(HEIGHTS) - 1, 3), np.nan)
+    for i, (low, high) in enumerate(pairwise(HEIGHTS)):
+        here = sky & (elevation >= low) & (elevation < high)
+        if here.sum() >= FEWEST:
+            light = srgb_to_linear(np.median(picture[here], 0) / 255) + FLOOR
+            found[i] = np.log2([light @ LUMINANCE, light[0] / light[1], light[2] / light[1]])
+    return found
+
+
+def analyzed(path: Path) -> sw.Scene:
+    """Return the scene of a photo's small copy."""
+    return sw.analyze(open_photo(sw.open(path).preview(SIDE)))
+
+
+def show(name: str, profiles: list[np.ndarray]) -> None:
+    """Print the medians."""
+    print(f"{name}, {len(profiles)}")
+    for label, values in zip(
+        ("luminance", "red/green", "blue/green"), np.nanmedian(profiles, 0).T, strict=True
+    ):
+        print(f"  {label:10}", np.round(values, 2))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("data", type=Path)
+    parser.add_argument(
+        "--edits", type=int, default=100, metavar="N", help="photos that are edited"
+    )
+    options = parser.parse_args()
+    real = []
+    for name in PHOTOS.read_text("utf-8").split():
+        folder, file = name.split("/")
+        scene = analyzed(options.data / "train" / folder / "images" / file)
+        real.append(profile(sw.render(scene, sw.Edit())[..., :3], scene))
+    show("photos of dusk", real)
+    ours = []
+    for _, path in photos(options.data, False, options.edits):
+        scene = analyzed(path)
+        if abs(scene.automatic["sun_azimuth"]) < AHEAD:
+            ours.append(profile(sw.render(scene, sw.Edit(sun_elevation=-4))[..., :3], scene))
+    show("edits", ours)
+
+
+if __name__ == "__main__":
+    main()
