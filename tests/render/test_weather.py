@@ -151,6 +151,25 @@ def test_clouds_in_a_deep_blue_sky_are_grey_at_dusk():
     assert -1.4 < balance(rendered(scene, DUSK)[cloud])[0] < -0.3
 
 
+def test_a_gray_evening_turns_blue_by_day_but_a_blue_sky_no_bluer():
+    gray = known_photo(sun=(8.0, 4.0), tint=(2.0, 1.0, 0.5), clouds=False, size=(240, 160))
+    blue = known_photo(sun=(8.0, 4.0), tint=(0.7, 1.0, 2.0), clouds=False, size=(240, 160))
+    colors = []
+    for photo in (gray, blue):
+        scene = photo.analyze()
+        sky = photo.sky > 0
+        colors.append(
+            [
+                balance(rendered(scene, edit)[sky])[0]
+                for edit in (HIGH, HIGH.replace(sun_elevation=11))
+            ]
+        )
+    (gray_high, gray_low), (blue_high, blue_low) = colors
+    assert gray_low > -0.1
+    assert gray_high < -0.5
+    assert abs(blue_high - blue_low) < 0.1
+
+
 def test_dusk_is_orange_below_and_violet_above_towards_the_sun_only():
     photo = known_photo(sun=(8.0, 14.0), clouds=False, size=(240, 160))
     scene = photo.analyze()
