@@ -4,6 +4,7 @@
 #include "water/waves.glsl"
 #include "land/relit_land.glsl"
 #include "sky/tint.glsl"
+#include "sky/low_sun.glsl"
 
 // Share of the color of the sky at the horizon in water whose color has changed.
 const float kMirroredColor = 0.7;
@@ -41,9 +42,11 @@ vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirr
   // As in the sky (sky/tint.glsl), the water's excess color over the model fades. Blue is the water's own.
   float redder = log(max(relit.r * sky.b, 1e-9) / max(relit.b * sky.r, 1e-9));
   float warmer = GetWarmth(relit, sky) * smoothstep(kBlueWater.x, kBlueWater.y, redder);
+  float risen = GetRisen(GetSunBefore(), GetDescribedSun());
   float faded = max(kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))),
-                    GetRisen(GetSunBefore(), GetDescribedSun()) * warmer);
+                    risen * warmer);
   relit += faded * (sky * (GetLuminance(relit) / GetLuminance(sky)) - relit);
+  relit = GetBlueDay(relit, vec3(0.0), GetDescribedSun(), risen);  // it mirrors the sky near the horizon
   relit += glints;
   return land_strength * (GetExposureGain() * relit - light);
 }
