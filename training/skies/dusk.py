@@ -1,10 +1,11 @@
-"""Measure the sky of photos of dusk, by height above the horizon (sky/low_sun.glsl, `GetDusk`).
+"""Measure the skies of dusk and of day, by height above the horizon (sky/low_sun.glsl).
 
-    python -m training.skies.dusk DATA [--edits 100]
+    python -m training.skies.dusk DATA [--photos 100]
 
 prints log2 of luminance, of red over green and of blue over green: medians of the photos that
 ``dusk.txt`` lists (a reader without knowledge of the code chose them: the sun is a few degrees
-below the horizon), and of edits of other photos whose sun is moved to 4 degrees below it.
+below the horizon), of edits of other photos whose sun is moved to 4 degrees below it, and of those
+of the other photos whose unseen sun is assumed to be high.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ HEIGHTS = (0, 3, 6, 10, 15, 22, 30, 45)  # degrees
 SIDE = 384
 FEWEST = 60  # pixels of a height
 FLOOR = 1e-3
+HIGH = 15  # degrees: a sun by day
 AHEAD = 45  # degrees between the sun's azimuth and the camera's of an edit
 
 
@@ -61,9 +63,7 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("data", type=Path)
-    parser.add_argument(
-        "--edits", type=int, default=100, metavar="N", help="photos that are edited"
-    )
+    parser.add_argument("--photos", type=int, default=100, metavar="N", help="other photos")
     options = parser.parse_args()
     real = []
     for name in PHOTOS.read_text("utf-8").split():
@@ -71,12 +71,15 @@ def main() -> None:
         scene = analyzed(options.data / "train" / folder / "images" / file)
         real.append(profile(sw.render(scene, sw.Edit())[..., :3], scene))
     show("photos of dusk", real)
-    ours = []
-    for _, path in photos(options.data, False, options.edits):
+    ours, day = [], []
+    for _, path in photos(options.data, False, options.photos):
         scene = analyzed(path)
         if abs(scene.automatic["sun_azimuth"]) < AHEAD:
             ours.append(profile(sw.render(scene, sw.Edit(sun_elevation=-4))[..., :3], scene))
+        if scene.automatic["sun_elevation"] > HIGH:
+            day.append(profile(sw.render(scene, sw.Edit())[..., :3], scene))
     show("edits", ours)
+    show("photos of day", day)
 
 
 if __name__ == "__main__":

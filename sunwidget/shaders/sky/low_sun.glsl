@@ -31,8 +31,19 @@ vec3 GetLowSunChange(float lit, vec3 view, vec3 sun_before, vec3 sun_now) {
   return exp2(mix(kFinest, kFinestClouds, lit) * change);
 }
 
-// How photos of dusk look towards a sun of about 4 degrees below the horizon: log2 of red and of blue over green, near
-// the horizon and high above it; their luminance (log2) falls by kDuskFall. Medians of 96 photos (training/skies/dusk.py).
+// Log2 of red and of blue over green.
+vec2 GetLogColor(vec3 light) {
+  return log2(max(light.rb, vec2(1e-9)) / max(light.g, 1e-9));
+}
+
+// Turns the color of `light` by `turn.xy`, logs as of `GetLogColor`, and its luminance by `turn.z`.
+vec3 TurnColor(vec3 light, vec3 turn) {
+  vec3 turned = light * exp2(vec3(turn.x, 0.0, turn.y));
+  return turned * (GetLuminance(light) / max(GetLuminance(turned), 1e-9)) * exp2(turn.z);
+}
+
+// How photos of dusk look towards a sun of about 4 degrees below the horizon, near the horizon and high above it; their
+// luminance (log2) falls by kDuskFall. Medians of 96 photos (training/skies/dusk.py).
 const vec2 kDuskBelow = vec2(1.5, -1.15);
 const vec2 kDuskAbove = vec2(0.25, 1.2);
 const float kDuskFall = 1.4;
@@ -45,34 +56,27 @@ float GetDuskness(vec3 sun) {
   return (1.0 - smoothstep(-0.06, 0.01, sun.y)) * smoothstep(-0.17, -0.08, sun.y);
 }
 
-// Draws the sky's `light` towards that of such photos as the sun sets.
-vec3 GetDusk(vec3 light, vec3 view, vec3 sun_before, vec3 sun_now) {
+// The turn of a sky's `color` towards that of such photos as the sun sets.
+vec3 GetDuskTurn(vec2 color, vec3 view, vec3 sun_before, vec3 sun_now) {
   float share = kDuskShare * max(GetDuskness(sun_now) - GetDuskness(sun_before), 0.0);
   share *= (1.0 - GetMoon()) * (1.0 - photo_light);
   float lengths = dot(view.xz, view.xz) * dot(sun_now.xz, sun_now.xz);
   share *= smoothstep(-0.2, 0.8, dot(view.xz, sun_now.xz) * inversesqrt(max(lengths, 1e-9)));
   float height = max(view.y, 0.0);
   vec2 wanted = mix(kDuskAbove, kDuskBelow, exp(-kDuskHeight * height * height));
-  vec2 color = log2(max(light.rb, vec2(1e-9)) / max(light.g, 1e-9));
-  vec2 turn = exp2(share * (wanted - color));
-  vec3 turned = light * vec3(turn.x, 1.0, turn.y);
-  turned *= GetLuminance(light) / max(GetLuminance(turned), 1e-9);
-  return turned * exp2(share * (kDuskFall * exp(-kDuskFade * height) - kDuskMean));
+  return share * vec3(wanted - color, kDuskFall * exp(-kDuskFade * height) - kDuskMean);
 }
 
-// By day skies are at least this blue (log2 of red and of blue over green), near the horizon and high above it: medians of
-// 1070 photos whose sun is assumed above 15 degrees.
+// By day skies are at least this blue, near the horizon and high above it: medians of 1070 photos whose sun is assumed
+// above 15 degrees (training/skies/dusk.py).
 const vec2 kDayBelow = vec2(-0.38, 0.32);
 const vec2 kDayAbove = vec2(-0.7, 0.7);
 const vec2 kDayBegins = vec2(0.2, 0.4);  // sine of the sun's height
 const float kDayShare = 0.45;  // of the way to them
 
-// Draws the sky's `light` towards that of such photos as a low sun has `risen`.
-vec3 GetBlueDay(vec3 light, vec3 view, vec3 sun_now, float risen) {
+// The turn of a sky's `color` in the height `view_y` towards that of such photos as a low sun has `risen`.
+vec3 GetBlueDayTurn(vec2 color, float view_y, vec3 sun_now, float risen) {
   float share = kDayShare * risen * smoothstep(kDayBegins.x, kDayBegins.y, sun_now.y);
-  vec2 wanted = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view.y));
-  vec2 color = log2(max(light.rb, vec2(1e-9)) / max(light.g, 1e-9));
-  vec2 turn = exp2(share * vec2(min(wanted.x - color.x, 0.0), max(wanted.y - color.y, 0.0)));
-  vec3 turned = light * vec3(turn.x, 1.0, turn.y);
-  return turned * (GetLuminance(light) / max(GetLuminance(turned), 1e-9));
+  vec2 turn = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y)) - color;
+  return share * vec3(min(turn.x, 0.0), max(turn.y, 0.0), 0.0);
 }

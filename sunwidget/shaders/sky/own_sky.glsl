@@ -36,17 +36,21 @@ float GetWeight(vec2 tap) {
   return GetInside(tap) * matte * matte;
 }
 
-// Log of the photo's luminance over the model's, whose clouds hide the sun by the share `hidden`.
-float GetLogExcess(vec2 tap, vec3 ambient, vec3 direct, float hidden) {
+// Log of the photo's luminance over the model's: of x the clouds hide the sun, unless the photo shows it; of y they do not.
+vec2 GetLogExcess(vec2 tap, vec3 ambient, vec3 direct) {
   vec4 layer = ReadPicture(layers, tap);
   vec3 light = GetBackdropLight(ReadBilinear(backdrop, tap).rgb);
   vec3 view = GetViewDirection(tap);
   vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   float opacity = GetKnownOpacity(min(layer.g / layer.r, 1.0), sun);
-  vec3 sky = GetSkyBehindClouds(GetMatchedSky(sky_view, view), ambient, opacity * hidden);
-  float share = GetSunlitShare(light, sky, ambient, direct, opacity);
-  vec3 model = mix(sky, GetCloud(ambient, direct, share, sky, sun, view, opacity), opacity);
-  return log(max(GetLuminance(light), 1e-6) / max(GetLuminance(model), 1e-6));
+  vec3 clear = GetMatchedSky(sky_view, view);
+  vec2 model;
+  for (int i = 0; i < 2; ++i) {
+    vec3 sky = i == 0 ? GetSkyBehindClouds(clear, ambient, opacity * (1.0 - sun_visible)) : clear;
+    float share = GetSunlitShare(light, sky, ambient, direct, opacity);
+    model[i] = GetLuminance(mix(sky, GetCloud(ambient, direct, share, sky, sun, view, opacity), opacity));
+  }
+  return log(max(GetLuminance(light), 1e-6) / max(model, vec2(1e-6)));
 }
 
 void main() {
@@ -57,7 +61,6 @@ void main() {
   vec3 ambient = white - direct;
   vec2 place = gl_FragCoord.xy / pass_size;
   vec2 pace = kReach / float(kTaps) * max(frame_size.x, frame_size.y) / frame_size;
-  float hidden = 1.0 - sun_visible;
   vec2 sum = vec2(0.0);
   float total = 1e-6;
   // Of the land nearby a geometric mean: dark twigs count as much as what lies behind them.
@@ -69,7 +72,7 @@ void main() {
       land += near * vec2(log(max(GetLuminance(GetSceneLight(ReadPicture(photo, tap).rgb)), 1e-4)), 1.0);
       float weight = GetWeight(tap) * exp(-2.0 * float(i * i + j * j) / float(kTaps * kTaps));
       if (weight < 1e-4) continue;
-      sum += weight * vec2(GetLogExcess(tap, ambient, direct, hidden), GetLogExcess(tap, ambient, direct, 0.0));
+      sum += weight * GetLogExcess(tap, ambient, direct);
       total += weight;
     }
   }
@@ -83,7 +86,7 @@ void main() {
       float far = 1.0 - GetNearness(dot(GetViewDirection(tap), sun));
       float weight = GetWeight(tap) * far * far;
       if (weight < 1e-4) continue;
-      elsewhere += weight * GetLogExcess(tap, ambient, direct, hidden);
+      elsewhere += weight * GetLogExcess(tap, ambient, direct).x;
       known += weight;
     }
   }

@@ -43,10 +43,10 @@ vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirr
   float redder = log(max(relit.r * sky.b, 1e-9) / max(relit.b * sky.r, 1e-9));
   float warmer = GetWarmth(relit, sky) * smoothstep(kBlueWater.x, kBlueWater.y, redder);
   float risen = GetRisen(GetSunBefore(), GetDescribedSun());
-  float faded = max(kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))),
-                    risen * warmer);
+  float faded = max(kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))), risen * warmer);
   relit += faded * (sky * (GetLuminance(relit) / GetLuminance(sky)) - relit);
-  relit = GetBlueDay(relit, vec3(0.0), GetDescribedSun(), risen);  // it mirrors the sky near the horizon
+  // It mirrors the sky near the horizon.
+  relit = TurnColor(relit, GetBlueDayTurn(GetLogColor(relit), 0.0, GetDescribedSun(), risen));
   relit += glints;
   return land_strength * (GetExposureGain() * relit - light);
 }
