@@ -188,6 +188,33 @@ def test_dusk_is_orange_below_and_violet_above_towards_the_sun_only():
     assert abs(balance(behind[low])[1]) < 0.15
 
 
+def test_land_at_dusk_is_darker_towards_the_sun_and_less_blue_on_all_sides():
+    photo = known_photo(sun=(8.0, 14.0), clouds=False, size=(240, 160))
+    scene = photo.analyze()
+    land = photo.sky == 0
+    towards, away = (rendered(scene, DUSK.replace(sun_azimuth=az)) for az in (8, -172))
+    for frame in (towards, away):
+        assert balance(frame[land])[0] > -0.6
+    level = [np.log2(frame[land].mean() / frame[photo.sky > 0].mean()) for frame in (towards, away)]
+    assert level[0] < level[1] - 1.6
+
+
+def test_blue_far_land_is_hardly_blue_when_its_light_has_changed_and_stays_as_long_as_it_has_not():
+    photo = known_photo(sun=(8.0, 30.0), clouds=False, size=(240, 160))
+    picture = photo.linear.copy()
+    land = photo.sky == 0
+    picture[land] *= (0.5, 1.0, 6.0)
+    scene = photo.analyze(np.uint8(255 * np.clip(picture, 0, 1) ** (1 / 2.2)))
+
+    def blueness(edit):
+        red, green, blue = rendered(scene, edit)[land].mean(0)
+        return np.log2(blue / max(red, green))
+
+    assert blueness(Edit()) > 1.8
+    assert blueness(DUSK) < 1.7
+    assert blueness(Edit(sun_azimuth=8, sun_elevation=28)) > 1.7
+
+
 def test_a_clouds_shade_has_the_skys_colour():
     photo = known_photo(sun=(8.0, 40.0), size=(240, 160))
     picture = photo.linear.copy()

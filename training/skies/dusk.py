@@ -1,11 +1,12 @@
-"""Measure the skies of dusk and of day, by height above the horizon (sky/low_sun.glsl).
+"""Measure skies and land of dusk, and skies of day (sky/low_sun.glsl).
 
     python -m training.skies.dusk DATA [--photos 100]
 
 prints log2 of luminance, of red over green and of blue over green: medians of the photos that
 ``dusk.txt`` lists (a reader without knowledge of the code chose them: the sun is a few degrees
 below the horizon), of edits of other photos whose sun is moved to 4 degrees below it, and of those
-of the other photos whose unseen sun is assumed to be high.
+of the other photos whose unseen sun is assumed to be high; the same of the brighter half of the
+land, with its luminance relative to the sky's.
 """
 
 from __future__ import annotations
@@ -44,14 +45,30 @@ def profile(picture: np.ndarray, scene: sw.Scene) -> np.ndarray:
     return found
 
 
+def of_land(picture: np.ndarray, scene: sw.Scene) -> np.ndarray:
+    """Return the land's luminance over the sky's, red and blue over green (log2), (3,)."""
+    light = srgb_to_linear(picture / 255) + FLOOR
+    level = light @ LUMINANCE
+    sky, land = np.asarray(scene.sky) > 0.95, np.asarray(scene.sky) < 0.02
+    if min(sky.sum(), land.sum()) < FEWEST:
+        return np.full(3, np.nan)
+    bright = land & (level >= np.median(level[land]))
+    red, green, blue = np.moveaxis(light[bright], -1, 0)
+    fall = np.log2(np.median(level[land]) / np.median(level[sky]))
+    return np.array([fall, np.median(np.log2(red / green)), np.median(np.log2(blue / green))])
+
+
 def analyzed(path: Path) -> sw.Scene:
     """Return the scene of a photo's small copy."""
     return sw.analyze(open_photo(sw.open(path).preview(SIDE)))
 
 
-def show(name: str, profiles: list[np.ndarray]) -> None:
+def show(name: str, pictures: list[tuple[np.ndarray, sw.Scene]]) -> None:
     """Print the medians."""
+    profiles = [profile(*each) for each in pictures]
+    lands = [of_land(*each) for each in pictures]
     print(f"{name}, {len(profiles)}")
+    print("  land over sky, red/green, blue/green", np.nanmedian(lands, 0).round(2))
     for label, values in zip(
         ("luminance", "red/green", "blue/green"), np.nanmedian(profiles, 0).T, strict=True
     ):
@@ -69,15 +86,15 @@ def main() -> None:
     for name in PHOTOS.read_text("utf-8").split():
         folder, file = name.split("/")
         scene = analyzed(options.data / "train" / folder / "images" / file)
-        real.append(profile(sw.render(scene, sw.Edit())[..., :3], scene))
+        real.append((sw.render(scene, sw.Edit())[..., :3], scene))
     show("photos of dusk", real)
     ours, day = [], []
     for _, path in photos(options.data, False, options.photos):
         scene = analyzed(path)
         if abs(scene.automatic["sun_azimuth"]) < AHEAD:
-            ours.append(profile(sw.render(scene, sw.Edit(sun_elevation=-4))[..., :3], scene))
+            ours.append((sw.render(scene, sw.Edit(sun_elevation=-4))[..., :3], scene))
         if scene.automatic["sun_elevation"] > HIGH:
-            day.append(profile(sw.render(scene, sw.Edit())[..., :3], scene))
+            day.append((sw.render(scene, sw.Edit())[..., :3], scene))
     show("edits", ours)
     show("photos of day", day)
 

@@ -5,6 +5,7 @@
 #include "camera/response.glsl"
 #include "land/land.glsl"
 #include "sky/tint.glsl"
+#include "sky/low_sun.glsl"
 #include "sky/sky_seen.glsl"
 
 // Scene-linear light from which the land's own color is known.
@@ -28,6 +29,9 @@ const vec2 kReddestLand = vec2(0.77, 1.6);
 // Share of that redness that leaves with an evening whose light itself was redder than daytime balances are.
 const float kEveningsRed = 0.6;
 
+// Largest blue of land over the stronger of red and green, in stops, whatever its light.
+const float kBluestLand = 1.1;
+
 uniform vec3 photo_land_linear_mean;
 uniform float land_strength;
 uniform float exposure;
@@ -49,6 +53,15 @@ vec3 RemoveGlow(vec3 land, vec3 lit, vec2 reddest) {
   own.gb += red - red * inversesqrt(1.0 + red * red / (reddest * reddest));
   vec3 color = lit * exp(own);
   return color * (GetLuminance(land) / max(GetLuminance(color), 1e-9));
+}
+
+// Limits the blue of land that air or a camera have made blue: under another light nothing else would be as blue.
+vec3 LimitBlue(vec3 land) {
+  float blue = max(log2(land.b / max(max(land.r, land.g), 1e-9)), 0.0);
+  float level = GetLuminance(land);
+  float kept = inversesqrt(1.0 + blue * blue / (kBluestLand * kBluestLand));
+  vec3 color = pow(max(land, vec3(1e-9)) / max(level, 1e-9), vec3(kept));
+  return color * (level / max(GetLuminance(color), 1e-9));
 }
 
 // Replaces unreliable color. The more the light's color changes, the less is known of the land's own; and dark pixels
@@ -76,6 +89,7 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
   usual = mix(usual / GetLuminance(usual), color / GetLuminance(color), changed);
   land += glare * (usual * level - land);
   land = mix(land, RemoveGlow(land, color, kReddestLand * (1.0 - kEveningsRed * evening)), unknown);
+  land = mix(land, LimitBlue(land), changed);
   float albedo = 3.14159265 * level / max(GetLuminance(lit), 1e-9);
   float beyond = max(albedo - kWhitePaint.x, 0.0) / (kWhitePaint.y - kWhitePaint.x);
   float most = kWhitePaint.x + (kWhitePaint.y - kWhitePaint.x) * beyond / (1.0 + beyond);
@@ -96,5 +110,6 @@ vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirr
       : GetColorLoss() * (vec3(luminance) - land);
   land = max(land + step(1e-9, abs(GetColorLoss())) * lost, vec3(0.0));
   land = ReplaceGuessedColor(land, max(clean, vec3(1e-6)), land_ratio, lit, glare);
+  land = TurnColor(land, GetSkySeen() * GetDuskLandTurn(GetSunBefore(), GetDescribedSun()));
   return land_strength * (GetExposureGain() * land - light);
 }

@@ -46,6 +46,7 @@ vec3 TurnColor(vec3 light, vec3 turn) {
 // luminance (log2) falls by kDuskFall. Medians of 96 photos (training/skies/dusk.py).
 const vec2 kDuskBelow = vec2(1.5, -1.15);
 const vec2 kDuskAbove = vec2(0.25, 1.2);
+const vec2 kDuskOpposite = vec2(0.2, 0.4);  // opposite the sun
 const float kDuskFall = 1.4;
 const float kDuskMean = 0.8;
 const float kDuskShare = 0.5;  // of the way to them
@@ -56,14 +57,31 @@ float GetDuskness(vec3 sun) {
   return (1.0 - smoothstep(-0.06, 0.01, sun.y)) * smoothstep(-0.17, -0.08, sun.y);
 }
 
+// How far it becomes dusk.
+float GetDuskens(vec3 sun_before, vec3 sun_now) {
+  return max(GetDuskness(sun_now) - GetDuskness(sun_before), 0.0) * (1.0 - GetMoon()) * (1.0 - photo_light);
+}
+
+// 1 towards the sun's azimuth, and 0 away from it.
+float GetTowards(vec3 view, vec3 sun) {
+  float lengths = dot(view.xz, view.xz) * dot(sun.xz, sun.xz);
+  return smoothstep(-0.2, 0.8, dot(view.xz, sun.xz) * inversesqrt(max(lengths, 1e-9)));
+}
+
+// A third to a half of what distinguishes land of such photos from that of edits: it is neutral, and darker.
+const vec3 kDuskLand = vec3(0.15, -0.25, -0.4);
+
+vec3 GetDuskLandTurn(vec3 sun_before, vec3 sun_now) {
+  return GetDuskens(sun_before, sun_now) * kDuskLand * vec3(1.0, 1.0, GetTowards(vec3(0.0, 0.0, 1.0), sun_now));
+}
+
 // The turn of a sky's `color` towards that of such photos as the sun sets.
 vec3 GetDuskTurn(vec2 color, vec3 view, vec3 sun_before, vec3 sun_now) {
-  float share = kDuskShare * max(GetDuskness(sun_now) - GetDuskness(sun_before), 0.0);
-  share *= (1.0 - GetMoon()) * (1.0 - photo_light);
-  float lengths = dot(view.xz, view.xz) * dot(sun_now.xz, sun_now.xz);
-  share *= smoothstep(-0.2, 0.8, dot(view.xz, sun_now.xz) * inversesqrt(max(lengths, 1e-9)));
+  float share = kDuskShare * GetDuskens(sun_before, sun_now);
+  float towards = GetTowards(view, sun_now);
+  share *= mix(0.5, 1.0, towards);
   float height = max(view.y, 0.0);
-  vec2 wanted = mix(kDuskAbove, kDuskBelow, exp(-kDuskHeight * height * height));
+  vec2 wanted = mix(kDuskAbove, mix(kDuskOpposite, kDuskBelow, towards), exp(-kDuskHeight * height * height));
   return share * vec3(wanted - color, kDuskFall * exp(-kDuskFade * height) - kDuskMean);
 }
 
