@@ -252,3 +252,13 @@ def test_blue_water_of_an_evening_stays_blue_by_day():
     evening = known_photo(sun=(8.0, 2.0), tint=(1.8, 0.9, 0.5), clouds=False)
     _, sea = sky_and_sea(evening, (0.002, 0.001, 0.12), -60, 35)
     assert sea[2] > 3 * sea[0]
+
+
+def test_water_has_the_dusk_of_the_sky_that_it_mirrors():
+    day = known_photo(sun=(8.0, 30.0), clouds=False)
+    sea_color = (0.1, 0.16, 0.24)
+    towards, away = (sky_and_sea(day, sea_color, azimuth, -4) for azimuth in (8, -172))
+    # Orange near the horizon towards the sun, as the sky above it.
+    assert np.log2(towards[0][0] / towards[0][2]) > 0.5
+    assert np.log2(towards[1][0] / towards[1][2]) > np.log2(away[1][0] / away[1][2]) + 1
+    assert np.log2(towards[1][0] / towards[1][2]) > -0.3

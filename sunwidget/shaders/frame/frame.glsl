@@ -111,7 +111,7 @@ void main() {
   vec3 horizon = GetHorizon(column);
   vec3 air = GetAirChange(column, horizon, land_marks.b, land, lifted + water * (mirror.rgb - lifted));
   vec3 land_change = GetLandChange(front, land, land_ratio, GetIrradianceNow(upright), shine, mirror.rgb, air, removed);
-  vec3 water_change = GetWaterChange(front, clean, land_marks.g, glare, mirror, air, horizon);
+  vec3 water_change = GetWaterChange(view, front, clean, land_marks.g, glare, mirror, air, horizon);
   land_change += water * (water_change - land_change);
   land_change += GetExposureGain()
       * GetLampLight(place, 3.14159265 * GetLuminance(land) / max(GetLuminance(lit_before), 1e-6));

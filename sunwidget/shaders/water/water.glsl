@@ -8,6 +8,7 @@
 
 // Share of the color of the sky at the horizon in water whose color has changed.
 const float kMirroredColor = 0.7;
+const float kMirroredAbove = 0.05;  // sine of the height
 const vec2 kBlueWater = vec2(-2.5, -1.2);  // log of red over blue, relative to the sky
 
 uniform float water_strength;
@@ -31,7 +32,7 @@ float GetGlitterChange() {
 // The change of the water's `light` under the new sun. `clean` is the water without the
 // old glints (water_behind.glsl), `mark` their place, `sparkle` the effect of waves on
 // the new ones, `mirror` the texel of mirror_ratio.glsl, `sky` the new sky at the horizon.
-vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirror, vec3 air, vec3 sky) {
+vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle, vec4 mirror, vec3 air, vec3 sky) {
   float changed = GetGlitterChange();
   vec3 calm = light + changed * mark * (clean - light);
   float shown = mirror.a * DecodeSparkle(sparkle);
@@ -45,8 +46,11 @@ vec3 GetWaterChange(vec3 light, vec3 clean, float mark, float sparkle, vec4 mirr
   float risen = GetRisen(GetSunBefore(), GetDescribedSun());
   float faded = max(kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))), risen * warmer);
   relit += faded * (sky * (GetLuminance(relit) / GetLuminance(sky)) - relit);
-  // It mirrors the sky near the horizon.
-  relit = TurnColor(relit, GetBlueDayTurn(GetLogColor(relit), 0.0, GetDescribedSun(), risen));
+  // It mirrors the sky near the horizon by day, and at dusk that as high as it is low, and somewhat above.
+  vec2 color = GetLogColor(relit);
+  vec3 mirrored = vec3(view.x, kMirroredAbove - view.y, view.z);
+  relit = TurnColor(relit, GetBlueDayTurn(color, 0.0, GetDescribedSun(), risen)
+      + GetDuskTurn(color, mirrored, GetSunBefore(), GetDescribedSun()));
   relit += glints;
   return land_strength * (GetExposureGain() * relit - light);
 }
