@@ -63,11 +63,16 @@ def analyzed(path: Path) -> sw.Scene:
     return sw.analyze(open_photo(sw.open(path).preview(SIDE)))
 
 
-def show(name: str, pictures: list[tuple[np.ndarray, sw.Scene]]) -> None:
+def measured(scene: sw.Scene, edit: sw.Edit) -> tuple[np.ndarray, np.ndarray]:
+    """Return ``profile`` and ``of_land`` of an edit."""
+    picture = sw.render(scene, edit)[..., :3]
+    return profile(picture, scene), of_land(picture, scene)
+
+
+def show(name: str, found: list[tuple[np.ndarray, np.ndarray]]) -> None:
     """Print the medians."""
-    profiles = [profile(*each) for each in pictures]
-    lands = [of_land(*each) for each in pictures]
-    print(f"{name}, {len(profiles)}")
+    profiles, lands = zip(*found, strict=True)
+    print(f"{name}, {len(found)}")
     print("  land over sky, red/green, blue/green", np.nanmedian(lands, 0).round(2))
     for label, values in zip(
         ("luminance", "red/green", "blue/green"), np.nanmedian(profiles, 0).T, strict=True
@@ -86,15 +91,15 @@ def main() -> None:
     for name in PHOTOS.read_text("utf-8").split():
         folder, file = name.split("/")
         scene = analyzed(options.data / "train" / folder / "images" / file)
-        real.append((sw.render(scene, sw.Edit())[..., :3], scene))
+        real.append(measured(scene, sw.Edit()))
     show("photos of dusk", real)
     ours, day = [], []
     for _, path in photos(options.data, False, options.photos):
         scene = analyzed(path)
         if abs(scene.automatic["sun_azimuth"]) < AHEAD:
-            ours.append((sw.render(scene, sw.Edit(sun_elevation=-4))[..., :3], scene))
+            ours.append(measured(scene, sw.Edit(sun_elevation=-4)))
         if scene.automatic["sun_elevation"] > HIGH:
-            day.append((sw.render(scene, sw.Edit())[..., :3], scene))
+            day.append(measured(scene, sw.Edit()))
     show("edits", ours)
     show("photos of day", day)
 

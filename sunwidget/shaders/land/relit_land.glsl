@@ -58,10 +58,9 @@ vec3 RemoveGlow(vec3 land, vec3 lit, vec2 reddest) {
 // Limits the blue of land that air or a camera have made blue: under another light nothing else would be as blue.
 vec3 LimitBlue(vec3 land) {
   float blue = max(log2(land.b / max(max(land.r, land.g), 1e-9)), 0.0);
-  float level = GetLuminance(land);
   float kept = inversesqrt(1.0 + blue * blue / (kBluestLand * kBluestLand));
-  vec3 color = pow(max(land, vec3(1e-9)) / max(level, 1e-9), vec3(kept));
-  return color * (level / max(GetLuminance(color), 1e-9));
+  vec3 color = pow(max(land, vec3(1e-9)), vec3(kept));
+  return color * (GetLuminance(land) / max(GetLuminance(color), 1e-9));
 }
 
 // Replaces unreliable color. The more the light's color changes, the less is known of the land's own; and dark pixels

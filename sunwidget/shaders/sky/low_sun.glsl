@@ -50,6 +50,7 @@ const vec2 kDuskOpposite = vec2(0.2, 0.4);  // opposite the sun
 const float kDuskFall = 1.4;
 const float kDuskMean = 0.8;
 const float kDuskShare = 0.5;  // of the way to them
+const float kOppositeShare = 0.25;
 const float kDuskHeight = 19.0;  // of the sky near the horizon: half at 11 degrees
 const float kDuskFade = 4.1;  // of the luminance
 
@@ -77,9 +78,8 @@ vec3 GetDuskLandTurn(vec3 sun_before, vec3 sun_now) {
 
 // The turn of a sky's `color` towards that of such photos as the sun sets.
 vec3 GetDuskTurn(vec2 color, vec3 view, vec3 sun_before, vec3 sun_now) {
-  float share = kDuskShare * GetDuskens(sun_before, sun_now);
   float towards = GetTowards(view, sun_now);
-  share *= mix(0.5, 1.0, towards);
+  float share = mix(kOppositeShare, kDuskShare, towards) * GetDuskens(sun_before, sun_now);
   float height = max(view.y, 0.0);
   vec2 wanted = mix(kDuskAbove, mix(kDuskOpposite, kDuskBelow, towards), exp(-kDuskHeight * height * height));
   return share * vec3(wanted - color, kDuskFall * exp(-kDuskFade * height) - kDuskMean);
@@ -97,4 +97,11 @@ vec3 GetBlueDayTurn(vec2 color, float view_y, vec3 sun_now, float risen) {
   float share = kDayShare * risen * smoothstep(kDayBegins.x, kDayBegins.y, sun_now.y);
   vec2 turn = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y)) - color;
   return share * vec3(min(turn.x, 0.0), max(turn.y, 0.0), 0.0);
+}
+
+// Turns light of the sky in the direction `view`, or of what mirrors it, as the sun sets and rises. `day_y` is the
+// height that counts by day.
+vec3 TurnToPhotos(vec3 light, vec3 view, float day_y, vec3 sun_before, vec3 sun_now, float risen) {
+  vec2 color = GetLogColor(light);
+  return TurnColor(light, GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now, risen));
 }

@@ -109,8 +109,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   local *= min(cloud_strength, 1.0);
   relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
-  vec2 color = GetLogColor(relit);
-  relit = TurnColor(relit, GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, view.y, sun_now, risen));
+  relit = TurnToPhotos(relit, view, view.y, sun_before, sun_now, risen);
   // Air brightened by the new sun is compressed to a camera's range, from a bright sky on, but less so
   // where the photo shows its own sun or moon, and so how bright that air is.
   float level = gain * GetLuminance(relit);

@@ -46,11 +46,10 @@ vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle
   float risen = GetRisen(GetSunBefore(), GetDescribedSun());
   float faded = max(kMirroredColor * GetTurned(mirror.rgb, max(calm, vec3(1e-6))), risen * warmer);
   relit += faded * (sky * (GetLuminance(relit) / GetLuminance(sky)) - relit);
-  // It mirrors the sky near the horizon by day, and at dusk that as high as it is low, and somewhat above.
-  vec2 color = GetLogColor(relit);
+  // By day it mirrors the sky near the horizon, at dusk that as high above the horizon as the water lies below it,
+  // and a little higher.
   vec3 mirrored = vec3(view.x, kMirroredAbove - view.y, view.z);
-  relit = TurnColor(relit, GetBlueDayTurn(color, 0.0, GetDescribedSun(), risen)
-      + GetDuskTurn(color, mirrored, GetSunBefore(), GetDescribedSun()));
+  relit = TurnToPhotos(relit, mirrored, 0.0, GetSunBefore(), GetDescribedSun(), risen);
   relit += glints;
   return land_strength * (GetExposureGain() * relit - light);
 }
