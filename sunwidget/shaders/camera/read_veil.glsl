@@ -9,14 +9,18 @@
 const float kMostTaken = 0.4;
 // Much of a glare is lit air, which lies behind the land: this share of it comes from the lens.
 const float kLensShare = 0.25;
+// Glare is uneven as the clouds that it passes are, by this power, within these limits (log). Chosen by eye.
+const float kUnevenGlow = 2.0;
+const vec2 kUneven = vec2(-1.5, 0.7);
 
-// `veil` (veil.glsl) has the exposure of `light`; `matte` is the pixel's share of sky. The old sun's glare
-// was already removed together with the veil that hid sky and land behind it.
-vec3 GetVeil(vec3 light, vec3 view, vec3 veil, float matte) {
+// `veil` (veil.glsl) has the exposure of `light`; `matte` is the pixel's share of sky, `uneven` as in `GetSkyChange`.
+// The old sun's glare was already removed together with the veil that hid sky and land behind it.
+vec3 GetVeil(vec3 light, vec3 view, vec3 veil, float matte, float uneven) {
   veil *= GetSkySeen();
   vec3 color = UnpackColor(described[0].w);
   float glare = GetSkySeen() * GetMoved() * described[3].y * GetCameraGlare(view, GetDescribedSun());
-  vec3 added = max(veil, vec3(0.0)) + glare * mix(kLensShare, 1.0, matte) * color;
+  float passes = exp(kUnevenGlow * clamp(uneven, kUneven.x, kUneven.y));
+  vec3 added = max(veil, vec3(0.0)) + glare * mix(kLensShare, passes, matte) * color;
   vec3 taken = mix(land_strength, sky_strength, matte) * min(veil, vec3(0.0));
   vec3 most = kMostTaken * max(light, vec3(1e-6));
   return mix(land_strength, sky_strength, matte) * added + taken * most / (most - taken);

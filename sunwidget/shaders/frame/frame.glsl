@@ -84,6 +84,7 @@ void main() {
 #endif
 
   vec3 change = vec3(0.0);
+  float uneven = 0.0;
 #ifndef LAND_ALONE
   vec3 sky_before = texelFetch(sky_source, texel, 0).rgb;
   // An unchanged sky stays the same to the bit, even if two programs round the same formula differently.
@@ -92,7 +93,7 @@ void main() {
   // A border in haze is wide; land hides the disc all the same.
   vec3 disc = smoothstep(0.2, 0.8, matte) * GetDisc(view, GetDescribedSun());
   change += matte
-      * GetSkyChange(behind, clean, opacity, glare, own, sky_before, sky_now, view, disc);
+      * GetSkyChange(behind, clean, opacity, glare, own, sky_before, sky_now, view, disc, uneven);
 #endif
 
 #ifndef SKY_ALONE
@@ -118,7 +119,7 @@ void main() {
   change += (1.0 - matte) * land_change;
 #endif
 
-  change += GetVeil(scene + change, view, ReadBilinear(veil, place).rgb, matte);
+  change += GetVeil(scene + change, view, ReadBilinear(veil, place).rgb, matte, uneven);
   change += mix(land_strength, sky_strength, matte) * GetNight() * GetRodShift(scene + change);
   // Sky filled in where the old sun hid it gets the photo's grain.
   float filled = matte * glare * GetMoved() * min(sky_strength, 1.0);

@@ -99,9 +99,29 @@ vec3 GetBlueDayTurn(vec2 color, float view_y, vec3 sun_now, float risen) {
   return share * vec3(min(turn.x, 0.0), max(turn.y, 0.0), 0.0);
 }
 
+// Red over green of skies of a low sun by their blue over green: in white light, its change with less blue than green,
+// and with more. Medians of 326 photos (training/skies/hues.py).
+const vec3 kLowReds = vec3(0.02, 0.72, -0.6);
+const float kLowShare = 0.5;  // of the way to them
+// The turn of clouds per log of their light over that around them: what is brighter becomes warmer, and brighter still.
+const vec3 kLowTexture = vec3(0.0, -0.8, 0.5);
+
+// How far the sun becomes low.
+float GetLowers(vec3 sun_before, vec3 sun_now) {
+  return max(GetLowness(sun_now) - (1.0 - photo_light) * GetLowness(sun_before), 0.0) * (1.0 - GetMoon());
+}
+
+// The turn of a sky's `color` to the reds of such photos.
+vec3 GetLowSkyTurn(vec2 color, vec3 sun_before, vec3 sun_now) {
+  float wanted = kLowReds.x + kLowReds.y * max(-color.y, 0.0) + kLowReds.z * max(color.y, 0.0);
+  return vec3(GetLowers(sun_before, sun_now) * kLowShare * max(wanted - color.x, 0.0), 0.0, 0.0);
+}
+
 // Turns light of the sky in the direction `view`, or of what mirrors it, as the sun sets and rises. `day_y` is the
 // height that counts by day.
 vec3 TurnToPhotos(vec3 light, vec3 view, float day_y, vec3 sun_before, vec3 sun_now, float risen) {
   vec2 color = GetLogColor(light);
-  return TurnColor(light, GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now, risen));
+  vec3 turn = GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now, risen)
+      + GetLowSkyTurn(color, sun_before, sun_now);
+  return TurnColor(light, turn);
 }

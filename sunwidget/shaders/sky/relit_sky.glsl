@@ -37,6 +37,7 @@ const float kFarthest = 1.8;  // stops
 const float kBrightAir = 0.3;  // scene-linear
 const float kAirRange = 0.3;
 const float kKnownAirRange = 0.9;
+const float kTextureKept = 0.7;  // share of the clouds' texture that stays in such air
 
 float GetBounded(float log_light, float most) {
   return log_light * inversesqrt(1.0 + log_light * log_light / (most * most));
@@ -60,9 +61,9 @@ float GetFadedLight(vec2 own, float local, float change, vec3 view, vec3 sun_bef
 
 // The change from `light` of the photo's sky to its light under the new sun. `clean` is the sky without
 // the old sun (sky_behind.glsl), `mark` the old sun's glare, `own` the sky's excess over the model
-// (own_sky.glsl), `disc` the new disc.
+// (own_sky.glsl), `disc` the new disc. `uneven` becomes the log of the light of the pixel's clouds over that around them.
 vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec3 sky_before, vec3 sky_now,
-                  vec3 view, vec3 disc) {
+                  vec3 view, vec3 disc, out float uneven) {
   float gain = GetExposureGain();
   float moved = GetMoved();
   float glare = mark * moved * step(1e-6, sky_strength);
@@ -107,13 +108,16 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   vec3 whole = mix(sky_before, cloud_before, opacity);
   float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
   local *= min(cloud_strength, 1.0);
+  uneven = opacity * local;
   relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
+  relit = TurnColor(relit, GetLowers(sun_before, sun_now) * GetBounded(uneven, 1.0) * kLowTexture);
   relit = TurnToPhotos(relit, view, view.y, sun_before, sun_now, risen);
   // Air brightened by the new sun is compressed to a camera's range, from a bright sky on, but less so
   // where the photo shows its own sun or moon, and so how bright that air is.
-  float level = gain * GetLuminance(relit);
-  float kept = max(kBrightAir, GetLuminance(light));
+  float mean = exp(-kTextureKept * uneven);
+  float level = gain * GetLuminance(relit) * mean;
+  float kept = max(kBrightAir, GetLuminance(light) * mean);
   relit *= level > kept ? pow(level / kept, mix(kAirRange, kKnownAirRange, max(sun_visible, photo_light)) - 1.0) : 1.0;
   // The new disc, behind clouds; the matte hides it behind land.
   relit += moved * (1.0 - cover) * (1.0 - cover) * disc;
