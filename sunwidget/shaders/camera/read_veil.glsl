@@ -9,9 +9,8 @@
 const float kMostTaken = 0.4;
 // Much of a glare is lit air, which lies behind the land: this share of it comes from the lens.
 const float kLensShare = 0.25;
-// Glare is uneven as the clouds that it passes are, by this power, within these limits (log). Chosen by eye.
+// Glare is uneven as the clouds that it passes are, by this power (chosen by eye).
 const float kUnevenGlow = 2.0;
-const vec2 kUneven = vec2(-1.5, 0.7);
 
 // `veil` (veil.glsl) has the exposure of `light`; `matte` is the pixel's share of sky, `uneven` as in `GetSkyChange`.
 // The old sun's glare was already removed together with the veil that hid sky and land behind it.
@@ -19,7 +18,7 @@ vec3 GetVeil(vec3 light, vec3 view, vec3 veil, float matte, float uneven) {
   veil *= GetSkySeen();
   vec3 color = UnpackColor(described[0].w);
   float glare = GetSkySeen() * GetMoved() * described[3].y * GetCameraGlare(view, GetDescribedSun());
-  float passes = exp(kUnevenGlow * clamp(uneven, kUneven.x, kUneven.y));
+  float passes = exp(kUnevenGlow * uneven);
   vec3 added = max(veil, vec3(0.0)) + glare * mix(kLensShare, passes, matte) * color;
   vec3 taken = mix(land_strength, sky_strength, matte) * min(veil, vec3(0.0));
   vec3 most = kMostTaken * max(light, vec3(1e-6));

@@ -104,7 +104,7 @@ vec3 GetBlueDayTurn(vec2 color, float view_y, vec3 sun_now, float risen) {
 const vec3 kLowReds = vec3(0.02, 0.72, -0.6);
 const float kLowShare = 0.5;  // of the way to them
 // The turn of clouds per log of their light over that around them: what is brighter becomes warmer, and brighter still.
-const vec3 kLowTexture = vec3(0.0, -0.8, 0.5);
+const vec3 kLowTexture = vec3(0.6, -0.5, 0.5);
 
 // How far the sun becomes low.
 float GetLowers(vec3 sun_before, vec3 sun_now) {

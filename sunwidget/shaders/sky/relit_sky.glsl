@@ -61,7 +61,7 @@ float GetFadedLight(vec2 own, float local, float change, vec3 view, vec3 sun_bef
 
 // The change from `light` of the photo's sky to its light under the new sun. `clean` is the sky without
 // the old sun (sky_behind.glsl), `mark` the old sun's glare, `own` the sky's excess over the model
-// (own_sky.glsl), `disc` the new disc. `uneven` becomes the log of the light of the pixel's clouds over that around them.
+// (own_sky.glsl), `disc` the new disc. `uneven` becomes the log, bounded, of the pixel's clouds' light over that around.
 vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec3 sky_before, vec3 sky_now,
                   vec3 view, vec3 disc, out float uneven) {
   float gain = GetExposureGain();
@@ -108,10 +108,10 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   vec3 whole = mix(sky_before, cloud_before, opacity);
   float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
   local *= min(cloud_strength, 1.0);
-  uneven = opacity * local;
+  uneven = GetBounded(opacity * local, 1.0);
   relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
-  relit = TurnColor(relit, GetLowers(sun_before, sun_now) * GetBounded(uneven, 1.0) * kLowTexture);
+  relit = TurnColor(relit, GetLowers(sun_before, sun_now) * uneven * kLowTexture);
   relit = TurnToPhotos(relit, view, view.y, sun_before, sun_now, risen);
   // Air brightened by the new sun is compressed to a camera's range, from a bright sky on, but less so
   // where the photo shows its own sun or moon, and so how bright that air is.
