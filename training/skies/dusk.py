@@ -11,7 +11,6 @@ land, with its luminance relative to the sky's.
 
 from __future__ import annotations
 
-import argparse
 from itertools import pairwise
 from pathlib import Path
 
@@ -21,7 +20,7 @@ import sunwidget as sw
 from sunwidget.analysis.fit.fit import view_angles
 from sunwidget.formats.color import LUMINANCE, srgb_to_linear
 from sunwidget.photo.photo import open_photo
-from training.skies.low_sun import photos
+from training.skies.low_sun import arguments, photos
 
 PHOTOS = Path(__file__).with_name("dusk.txt")
 HEIGHTS = (0, 3, 6, 10, 15, 22, 30, 45)  # degrees
@@ -81,12 +80,7 @@ def show(name: str, found: list[tuple[np.ndarray, np.ndarray]]) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("data", type=Path)
-    parser.add_argument("--photos", type=int, default=100, metavar="N", help="other photos")
-    options = parser.parse_args()
+    options = arguments(__doc__)
     real = []
     for name in PHOTOS.read_text("utf-8").split():
         folder, file = name.split("/")

@@ -9,7 +9,6 @@ in which our sun stands at 12 and 20 degrees.
 
 from __future__ import annotations
 
-import argparse
 from itertools import pairwise
 from pathlib import Path
 
@@ -18,7 +17,7 @@ import numpy as np
 
 import sunwidget as sw
 from sunwidget.formats.color import LUMINANCE, srgb_to_linear
-from training.skies.low_sun import LEAST_SKY, edit_profile, photos, profile, seen_suns
+from training.skies.low_sun import LEAST_SKY, arguments, edit_profile, photos, profile, seen_suns
 
 DISTANCES = (0.03, 0.06, 0.1, 0.14, 0.2, 0.28, 0.38, 0.5, 0.65)  # in widths of the picture
 HIGH = 0.3  # widths above the skyline: a sun by day
@@ -75,10 +74,7 @@ def show(name: str, profiles: list[np.ndarray]) -> None:
 
 def main() -> None:
     """Print both."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("data", type=Path)
-    parser.add_argument("--photos", type=int, default=100)
-    asked = parser.parse_args()
+    asked = arguments(__doc__)
     cv2.setNumThreads(1)
     show("photos", real(asked.data))
     for height, profiles in ours(asked.data, asked.photos).items():

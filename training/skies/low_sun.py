@@ -33,10 +33,20 @@ LEAST_SKY = 0.2  # of the picture
 SEED = 16
 
 
-def small(picture: np.ndarray) -> np.ndarray:
-    """The picture or mask, WIDTH pixels wide."""
-    height = round(picture.shape[0] * WIDTH / picture.shape[1])
-    return cv2.resize(picture, (WIDTH, height), interpolation=cv2.INTER_AREA)
+def arguments(description: str) -> argparse.Namespace:
+    """The folder of the data and the number of photos to edit, from the command line."""
+    parser = argparse.ArgumentParser(
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("data", type=Path)
+    parser.add_argument("--photos", type=int, default=100, metavar="N", help="photos to edit")
+    return parser.parse_args()
+
+
+def small(picture: np.ndarray, width: int = WIDTH) -> np.ndarray:
+    """The picture or mask, ``width`` pixels wide."""
+    height = round(picture.shape[0] * width / picture.shape[1])
+    return cv2.resize(picture, (width, height), interpolation=cv2.INTER_AREA)
 
 
 def profile(
@@ -94,6 +104,12 @@ def real(data: Path) -> dict[float, list[np.ndarray]]:
     return found
 
 
+def edited(scene: sw.Scene, sun: tuple[float, float]) -> np.ndarray:
+    """The edit (RGB) with its sun at an azimuth and elevation, degrees."""
+    edit = sw.Edit(sun_azimuth=sun[0], sun_elevation=sun[1])
+    return np.ascontiguousarray(sw.render(scene, edit)[..., :3])
+
+
 def edit_profile(
     scene: sw.Scene,
     sky: np.ndarray,
@@ -101,8 +117,7 @@ def edit_profile(
     distances: tuple[float, ...] = DISTANCES,
 ) -> np.ndarray:
     """``profile`` of the edit with its sun at an azimuth and elevation, degrees."""
-    edit = sw.Edit(sun_azimuth=sun[0], sun_elevation=sun[1])
-    frame = np.ascontiguousarray(sw.render(scene, edit)[..., :3])
+    frame = edited(scene, sun)
     x, y = scene.camera.pixel(*sun)
     place = (x / scene.camera.width, y / scene.camera.height)
     return profile(frame, cv2.resize(sky, frame.shape[1::-1]), *place, distances)
@@ -132,10 +147,7 @@ def fitted(lacks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def main() -> None:
     """Print what is lacking."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("data", type=Path)
-    parser.add_argument("--photos", type=int, default=100)
-    asked = parser.parse_args()
+    asked = arguments(__doc__)
     cv2.setNumThreads(1)
     true, edited = real(asked.data), ours(asked.data, asked.photos)
     for height in HEIGHTS:

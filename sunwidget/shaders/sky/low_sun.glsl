@@ -16,6 +16,11 @@ float GetLowness(vec3 sun) {
   return smoothstep(-0.02, 0.03, sun.y) * (1.0 - smoothstep(0.06, 0.17, sun.y));
 }
 
+// Of the photo's sun and of the new one; a moon is never low.
+vec2 GetLownesses(vec3 sun_before, vec3 sun_now) {
+  return vec2(GetLowness(sun_before) * (1.0 - photo_light), GetLowness(sun_now) * (1.0 - GetMoon()));
+}
+
 vec3 GetLowSunLight(float lowness, float cosine) {
   return lowness * mix(kFarFromLowSun - kDarker, kRoundLowSun, GetNearness(cosine));
 }
@@ -24,10 +29,9 @@ vec3 GetLowSunLight(float lowness, float cosine) {
 // the new sun adds: when its sun rises, sky/tint.glsl changes its colors.
 // `lit` is the share of the pixel that is sunlit cloud.
 vec3 GetLowSunChange(float lit, vec3 view, vec3 sun_before, vec3 sun_now) {
-  float before = GetLowness(sun_before) * (1.0 - photo_light);
-  float now = GetLowness(sun_now) * (1.0 - GetMoon());
-  if (before == now && sun_before == sun_now) return vec3(1.0);
-  vec3 change = GetLowSunLight(now, dot(view, sun_now)) - GetLowSunLight(min(before, now), dot(view, sun_before));
+  vec2 low = GetLownesses(sun_before, sun_now);
+  if (low.x == low.y && sun_before == sun_now) return vec3(1.0);
+  vec3 change = GetLowSunLight(low.y, dot(view, sun_now)) - GetLowSunLight(min(low.x, low.y), dot(view, sun_before));
   return exp2(mix(kFinest, kFinestClouds, lit) * change);
 }
 
@@ -100,28 +104,26 @@ vec3 GetBlueDayTurn(vec2 color, float view_y, vec3 sun_now, float risen) {
 }
 
 // Red over green of skies of a low sun by their blue over green: in white light, its change with less blue than green,
-// and with more. Medians of 326 photos (training/skies/hues.py).
+// and with more. Fits the medians of 326 photos; training/skies/hues.py prints those of 130 of them.
 const vec3 kLowReds = vec3(0.02, 0.72, -0.6);
 const float kLowShare = 0.5;  // of the way to them
 // The turn of clouds per log of their light over that around them: what is brighter becomes warmer, and brighter still.
 const vec3 kLowTexture = vec3(0.6, -0.5, 0.5);
 
-// How far the sun becomes low.
-float GetLowers(vec3 sun_before, vec3 sun_now) {
-  return max(GetLowness(sun_now) - (1.0 - photo_light) * GetLowness(sun_before), 0.0) * (1.0 - GetMoon());
-}
-
 // The turn of a sky's `color` to the reds of such photos.
-vec3 GetLowSkyTurn(vec2 color, vec3 sun_before, vec3 sun_now) {
+vec3 GetLowSkyTurn(vec2 color) {
   float wanted = kLowReds.x + kLowReds.y * max(-color.y, 0.0) + kLowReds.z * max(color.y, 0.0);
-  return vec3(GetLowers(sun_before, sun_now) * kLowShare * max(wanted - color.x, 0.0), 0.0, 0.0);
+  return vec3(kLowShare * max(wanted - color.x, 0.0), 0.0, 0.0);
 }
 
-// Turns light of the sky in the direction `view`, or of what mirrors it, as the sun sets and rises. `day_y` is the
-// height that counts by day.
-vec3 TurnToPhotos(vec3 light, vec3 view, float day_y, vec3 sun_before, vec3 sun_now, float risen) {
-  vec2 color = GetLogColor(light);
-  vec3 turn = GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now, risen)
-      + GetLowSkyTurn(color, sun_before, sun_now);
+// Turns light of the sky in the direction `view`, or of what mirrors it, as the sun sets and rises. `uneven` is the log
+// of its clouds' light over that around them, `day_y` the height that counts by day.
+vec3 TurnToPhotos(vec3 light, float uneven, vec3 view, float day_y, vec3 sun_before, vec3 sun_now, float risen) {
+  vec2 low = GetLownesses(sun_before, sun_now);
+  float lowers = max(low.y - low.x, 0.0);
+  vec3 turn = lowers * uneven * kLowTexture;
+  vec2 color = GetLogColor(light) + turn.xy;
+  turn += GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now, risen)
+      + lowers * GetLowSkyTurn(color);
   return TurnColor(light, turn);
 }

@@ -111,8 +111,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   uneven = GetBounded(opacity * local, 1.0);
   relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
-  relit = TurnColor(relit, GetLowers(sun_before, sun_now) * uneven * kLowTexture);
-  relit = TurnToPhotos(relit, view, view.y, sun_before, sun_now, risen);
+  relit = TurnToPhotos(relit, uneven, view, view.y, sun_before, sun_now, risen);
   // Air brightened by the new sun is compressed to a camera's range, from a bright sky on, but less so
   // where the photo shows its own sun or moon, and so how bright that air is.
   float mean = exp(-kTextureKept * uneven);

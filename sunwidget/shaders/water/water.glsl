@@ -49,7 +49,7 @@ vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle
   // By day it mirrors the sky near the horizon, at dusk that as high above the horizon as the water lies below it,
   // and a little higher.
   vec3 mirrored = vec3(view.x, kMirroredAbove - view.y, view.z);
-  relit = TurnToPhotos(relit, mirrored, 0.0, GetSunBefore(), GetDescribedSun(), risen);
+  relit = TurnToPhotos(relit, 0.0, mirrored, 0.0, GetSunBefore(), GetDescribedSun(), risen);
   relit += glints;
   return land_strength * (GetExposureGain() * relit - light);
 }
