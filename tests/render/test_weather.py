@@ -2,11 +2,14 @@
 
 import dataclasses
 
+import cv2
 import numpy as np
 from relight_scenes import known_photo, known_scene
 
 from sunwidget.analysis import frame_inputs
+from sunwidget.analysis.fit.fit import view_angles
 from sunwidget.edit.table import Edit
+from sunwidget.formats.color import LUMINANCE
 from sunwidget.renderer import render
 
 LOW = Edit(sun_azimuth=60, sun_elevation=3)
@@ -37,6 +40,32 @@ def test_a_low_sun_reddens_clouds_more_than_clear_sky_and_greens_nothing():
     assert cloud_red > 0.95
     assert cloud_green < 0.1
     assert clear_green < 0.02
+
+
+def test_a_greenish_sky_is_not_teal_under_a_low_sun():
+    photo = known_photo(sun=(8.0, 40.0), tint=(0.5, 1.0, 1.1), size=(240, 160), clouds=False)
+    sky = photo.sky > 0
+    red, green, _ = np.median(np.log2(rendered(photo.analyze(), LOW)[sky]), 0)
+    assert red - green > -0.4
+
+
+def test_clouds_keep_their_texture_in_the_glow_of_a_new_sun():
+    photo = known_photo(sun=(8.0, 40.0), size=(240, 160))
+    noise = np.random.default_rng(3).standard_normal((160, 240))
+    texture = cv2.GaussianBlur(noise, (0, 0), 3)
+    texture *= 0.4 / texture.std()
+    linear = photo.linear * np.exp2(texture * photo.opacity)[..., None].astype(np.float32)
+    scene = dataclasses.replace(photo, linear=np.clip(linear, 0, 1)).analyze()
+    # In the middle of the first cloud.
+    x, y = 48, 40
+    azimuth, elevation = (float(angle[y, x]) for angle in view_angles(photo.camera, 240, 160))
+    frame = rendered(scene, Edit(sun_azimuth=azimuth, sun_elevation=elevation)) @ LUMINANCE
+    rows, columns = np.mgrid[:160, :240]
+    apart = np.hypot(rows - y, columns - x)
+    around = (apart > 6) & (apart < 14) & (photo.opacity > 0.3) & (frame < 0.9)
+    known = np.stack([texture[around], np.log(apart[around]), np.ones(around.sum())], 1)
+    kept = np.linalg.lstsq(known, np.log2(frame[around]), rcond=None)[0][0]
+    assert kept > 0.18
 
 
 def test_the_colours_of_an_evening_go_as_the_sun_rises():
