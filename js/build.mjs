@@ -60,8 +60,8 @@ export function reachable(graph, files) {
 
 /**
  * Strip comments, indentation, empty lines, spaces around operators and zeros beside a decimal point from a
- * shader. Names and lines stay: a driver's error quotes a line, which can be found in the file. (Constants that are
- * used once become numbers: `inlined`.)
+ * shader. Names and lines stay: a driver's error quotes a line, which can be found in the file. (Some constants
+ * become numbers: `inlined`.)
  *
  * @param {string} text
  */
@@ -79,32 +79,35 @@ export function compact(text) {
     );
 }
 
-const CONSTANT = /^const (?:float|int) (\w+)=([\d.e]+);\n/gm;
+const CONSTANT = /^const (?:float|int|vec[234]) (\w+)=(-?[\d.e]+|vec[234]\([^();]*\));\n/gm;
 
 /**
- * Put the numbers of constants that are used only once in their place.
+ * Put the numbers of constants in their place where that is shorter: those used once, and those no longer than
+ * their names.
  *
  * @param {Record<string, string>} texts compact shaders by path
  */
 export function inlined(texts) {
   /** @type {Map<string, number>} */
   const uses = new Map();
+  /** @type {Map<string, string>} */
+  const values = new Map();
   for (const text of Object.values(texts)) {
     for (const [name] of text.matchAll(/\b[a-zA-Z_]\w*/g))
       uses.set(name, (uses.get(name) ?? 0) + 1);
+    // Of two constants with one name neither is known.
+    for (const [, name, value] of text.matchAll(CONSTANT))
+      values.set(name, values.has(name) ? "" : value.startsWith("-") ? `(${value})` : value);
   }
+  for (const [name, value] of values)
+    if (!value || (uses.get(name) !== 2 && value.length > name.length)) values.delete(name);
   return Object.fromEntries(
-    Object.entries(texts).map(([path, text]) => {
-      /** @type {Map<string, string>} */
-      const values = new Map();
-      const rest = text.replace(CONSTANT, (line, name, value) => {
-        const own = text.match(new RegExp(`\\b${name}\\b`, "g"))?.length;
-        if (uses.get(name) !== 2 || own !== 2) return line;
-        values.set(name, value);
-        return "";
-      });
-      return [path, rest.replace(/\bk[A-Z]\w*/g, (name) => values.get(name) ?? name)];
-    }),
+    Object.entries(texts).map(([path, text]) => [
+      path,
+      text
+        .replace(CONSTANT, (line, name) => (values.has(name) ? "" : line))
+        .replace(/\bk[A-Z]\w*/g, (name) => values.get(name) ?? name),
+    ]),
   );
 }
 

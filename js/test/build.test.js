@@ -33,15 +33,15 @@ return a - -b+.50*c10.0+20.05;
   );
 });
 
-test("a constant used once becomes its number; one used twice, elsewhere or negative stays", () => {
+test("constants become numbers where that is shorter; of two with one name neither does", () => {
   const texts = {
     "a.glsl":
-      "const float kOnce=.5;\nconst float kTwice=2.;\nconst float kElsewhere=3.;\nconst float kNegative=-1.;\nfloat f(float x){return x-kOnce*kTwice+kTwice*kNegative;}",
-    "b.glsl": "float g(){return kElsewhere;}",
+      "const float kOnce=.5;\nconst float kTwice=2.12345678;\nconst int kShort=3;\nconst float kNegative=-1.;\nconst vec2 kPair=vec2(1.,-2.);\nconst float kSame=1.;\nfloat f(vec2 x){return x.x-kOnce*kTwice+kTwice-kNegative*dot(kPair,x)+float(kShort)*kSame;}",
+    "b.glsl": "const float kSame=2.;\nfloat g(){return float(kShort)*kSame;}",
   };
   assert.deepEqual(inlined(texts), {
     "a.glsl":
-      "const float kTwice=2.;\nconst float kElsewhere=3.;\nconst float kNegative=-1.;\nfloat f(float x){return x-.5*kTwice+kTwice*kNegative;}",
-    "b.glsl": "float g(){return kElsewhere;}",
+      "const float kTwice=2.12345678;\nconst float kSame=1.;\nfloat f(vec2 x){return x.x-.5*kTwice+kTwice-(-1.)*dot(vec2(1.,-2.),x)+float(3)*kSame;}",
+    "b.glsl": "const float kSame=2.;\nfloat g(){return float(3)*kSame;}",
   });
 });

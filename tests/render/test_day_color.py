@@ -1,53 +1,104 @@
-"""A blue sky stays blue as the sun sinks by day (sky/day_color.glsl)."""
-
-import dataclasses
+"""Blue skies around a sun by day, as photos show them (sky/day_color, camera/bright_air)."""
 
 import numpy as np
 import pytest
 from relight_scenes import known_photo
 
+from sunwidget.analysis.fit.fit import view_angles
 from sunwidget.edit.table import Edit
-from sunwidget.renderer import render_pass
+from sunwidget.formats.color import LUMINANCE
+from sunwidget.renderer import render
 
-AZIMUTH = 120.0
-BLUE, GRAY = (0.6, 1.0, 1.9), (1.3, 1.0, 0.7)  # tints of the photo
+SIZE = (240, 160)
+AZIMUTH = -15.0
+BLUE, GRAY, VIOLET = (0.6, 1.0, 1.9), (1.3, 1.0, 0.7), (0.9, 0.7, 1.9)  # tints of the photo
+
+
+def photo_of(tint, **how):
+    return known_photo(sun=(150.0, 40.0), size=SIZE, clouds=False, tint=tint, **how)
 
 
 @pytest.fixture(scope="module")
 def day():
-    return known_photo(sun=(8.0, 40.0), clouds=False, tint=BLUE).analyze()
+    return photo_of(BLUE).analyze(sun="outside")
 
 
-def removed(scene, elevation):
-    """Log2 of red over blue that the sky ahead, at the horizon, has less than the model's."""
-    edit = Edit(sun_azimuth=AZIMUTH, sun_elevation=elevation)
-    air = render_pass(scene, edit, "air_edit")[0, :, :3]
-    fit = dataclasses.replace(scene.fitted, sun=(AZIMUTH, elevation))
-    model = fit.model(np.array([0.0]), np.array([0.573]))[0]
-    drawn = air[len(air) // 2]
-    return float(np.log2(model[0] / model[2]) - np.log2(drawn[0] / drawn[2]))
+def sky_of(scene, sun, edit):
+    """Log2 of red and blue over green, and luminance, of an edit's sky; degrees from ``sun``."""
+    light = np.maximum(render(scene, edit, dtype="float32"), 1e-5)
+    east, up = (np.radians(each) for each in view_angles(scene.camera, *SIZE))
+    azimuth, height = np.radians(sun)
+    cosine = np.sin(up) * np.sin(height) + np.cos(up) * np.cos(height) * np.cos(east - azimuth)
+    sky = scene.sky > 0.99
+    red, green, blue = np.log2(light[sky]).T
+    colors = np.stack([red - green, blue - green, np.log2(light[sky] @ LUMINANCE)])
+    return colors, np.degrees(np.arccos(cosine))[sky]
 
 
-def test_a_sun_that_sinks_by_day_leaves_a_blue_sky_bluer_than_the_model(day):
-    assert 0.4 < removed(day, 12) < 1.0
-    assert 0.1 < removed(day, 20) < removed(day, 12)
+def seen(scene, elevation):
+    sun = AZIMUTH, elevation
+    return sky_of(scene, sun, Edit(sun_azimuth=AZIMUTH, sun_elevation=elevation))
 
 
-def test_a_gray_sky_keeps_the_colors_of_the_model():
-    scene = known_photo(sun=(8.0, 40.0), clouds=False, tint=GRAY).analyze()
-    assert abs(removed(scene, 12) - removed(scene, 40)) < 0.02
+def unmoved(scene):
+    return sky_of(scene, (AZIMUTH, 12), Edit())
 
 
-def test_a_sunset_keeps_the_colors_of_the_model(day):
-    assert abs(removed(day, 4) - removed(day, 40)) < 0.02
-    assert abs(removed(day, -3) - removed(day, 40)) < 0.02
+def between(colors, away, near, far):
+    return np.median(colors[:, (away >= near) & (away < far)], axis=1)
 
 
-def test_a_sun_that_rises_by_day_gives_the_sky_the_models_colors():
-    scene = known_photo(sun=(8.0, 15.0), clouds=False, tint=BLUE).analyze()
-    assert abs(removed(scene, 40) - removed(scene, 15)) < 0.02
+def test_a_blue_sky_turns_white_beside_a_sun_by_day_and_is_blue_again_at_twice_that_distance(day):
+    own, away = unmoved(day)
+    colors, away = seen(day, 12)
+    own_red, own_blue, _ = between(own, away, 18, 30)
+    red, blue, _ = between(colors, away, 18, 30)
+    assert blue > 0.65 * own_blue
+    assert red < 0.6 * own_red
+    red, blue, _ = between(colors, away, 3, 5)
+    assert blue < 0.55 * own_blue
+    assert red > 0.55 * own_red
 
 
-def test_the_color_follows_the_height_without_a_step(day):
-    course = [removed(day, h) for h in np.arange(4, 15, 0.5)]
-    assert np.abs(np.diff(course)).max() < 0.25
+def test_a_blue_sky_is_hardly_darker_far_from_a_sun_in_view(day):
+    own, _ = unmoved(day)
+    colors, away = seen(day, 12)
+    fall = between(colors, away, 30, 60)[2] - between(own, away, 30, 60)[2]
+    assert -1.0 < fall < 0.3
+
+
+def test_a_gray_sky_and_one_of_a_low_sun_are_warm_beside_the_sun(day):
+    gray = photo_of(GRAY).analyze(sun="outside")
+    own, _ = unmoved(gray)
+    colors, away = seen(gray, 12)
+    assert between(colors, away, 9, 18)[0] > between(own, away, 9, 18)[0] + 0.03
+    colors, away = seen(day, 3)
+    red, blue, _ = between(colors, away, 5, 12)
+    assert red > 0.1
+    assert blue < -0.2
+
+
+def test_a_violet_sky_keeps_its_red_under_a_sun_by_day():
+    violet = photo_of(VIOLET).analyze(sun="outside")
+    own, _ = unmoved(violet)
+    colors, away = seen(violet, 12)
+    red, blue, _ = between(colors, away, 18, 30)
+    assert red > between(own, away, 18, 30)[0] - 0.1
+    assert blue > 0.5 * between(own, away, 18, 30)[1]
+
+
+def test_the_color_follows_the_suns_height_without_a_step(day):
+    course = []
+    for height in np.arange(4, 15, 0.5):
+        colors, away = seen(day, height)
+        course.append(between(colors, away, 18, 30))
+    assert np.abs(np.diff(course, axis=0)).max() < 0.3
+
+
+def test_light_around_a_new_sun_falls_without_an_arc(day):
+    frame = render(day, Edit(sun_azimuth=AZIMUTH, sun_elevation=12), dtype="float32")
+    x, y = (int(each) for each in day.camera.pixel(AZIMUTH, 12))
+    row = np.log2(frame[y - 1 : y + 2, x:].mean(0) @ LUMINANCE)
+    level = row[: len(row) // 6 * 6].reshape(-1, 6).mean(1)
+    bends = np.abs(np.diff(level, n=2))[4:]  # beyond the sun's own glow
+    assert bends.max() < 0.07

@@ -1,84 +1,108 @@
-"""Compare blue skies around high suns in photos and in edits (sky/day_color.glsl).
+"""Measure blue skies around suns by day, in photos and in edits (sky/day_color.glsl).
 
     python -m training.skies.high_sun DATA [--photos 100]
 
-prints, by distance from the sun, luminance (log2 of white) and log2 of red over blue: quartiles of
-photos of the training half whose sun is seen in a blue sky, and of edits of photos with a blue sky
-in which our sun stands at 12 and 20 degrees.
+prints, by the angle from the sun: log2 of red and of blue over green as shares of those far away,
+log2 of the luminance, and the same less that 11 degrees from the sun. Medians of photos of the
+training half whose sun is seen in a blue sky, and of edits of photos with a blue sky in which our
+sun stands at 12 degrees; the far color of these is that of their photos.
 """
 
 from __future__ import annotations
 
 from itertools import pairwise
-from pathlib import Path
 
 import cv2
 import numpy as np
 
 import sunwidget as sw
 from sunwidget.formats.color import LUMINANCE, srgb_to_linear
-from training.skies.low_sun import LEAST_SKY, arguments, edit_profile, photos, profile, seen_suns
+from training.skies.low_sun import arguments, edited, photos, small
 
-DISTANCES = (0.03, 0.06, 0.1, 0.14, 0.2, 0.28, 0.38, 0.5, 0.65)  # in widths of the picture
-HIGH = 0.3  # widths above the skyline: a sun by day
-BLUE = 20  # code values of blue over red, far from the sun or as the sky's median
-HEIGHTS = (12, 20)  # degrees
-AZIMUTH = -20
+WIDTH = 48
+ANGLES = (3, 6, 9, 13, 18, 25, 35, 50)  # degrees from the sun
+BESIDE, FAR = 2, slice(4, None)  # of these ranges
+BLUE = 0.8  # log2 of blue over red of the sky's mean
+FAINTEST = 0.3  # log2 of a color that has shares
+FEWEST = 8  # pixels
+SEEN = (7.0, 45.0)  # degrees: heights of the suns in photos
+SUN = (-20.0, 12.0)  # of the edits
+FLOOR = 2e-3
 
 
-def is_blue(color: np.ndarray) -> bool:
-    """Whether a color (3,), in code values, is a blue sky's."""
-    return bool(color[2] > color[0] + BLUE)
+def is_blue(picture: np.ndarray, sky: np.ndarray) -> bool:
+    """Whether the sky of a picture (RGB) is blue on average; ``sky`` is a matte, 0 to 255."""
+    inside = small(sky, WIDTH) > 242
+    if not inside.any():
+        return False
+    mean = srgb_to_linear(small(picture, WIDTH)[inside] / 255.0).mean(0)
+    return bool(np.log2((mean[2] + 1e-4) / (mean[0] + 1e-4)) > BLUE)
 
 
-def real(data: Path) -> list[np.ndarray]:
-    """Profiles of photos of a high sun in a blue sky."""
-    found = []
-    for height, picture, sky, photo in seen_suns(data):
-        if height < HIGH:
-            continue
-        colors = profile(picture, sky, photo.x, photo.y, DISTANCES)
-        known = colors[np.isfinite(colors).all(1)]
-        if len(known) and is_blue(known[-1]):
-            found.append(colors)
+def profile(
+    picture: np.ndarray, sky: np.ndarray, scene: sw.Scene, sun: tuple[float, float]
+) -> np.ndarray:
+    """Medians of log2 of red and blue over green and of luminance, (3, 7), by angle from a sun.
+
+    ``sun`` is its azimuth and elevation in degrees; NaN where there is no sky.
+    """
+    picture, sky = small(picture, WIDTH), small(sky, WIDTH)
+    light = srgb_to_linear(picture / 255.0) + FLOOR
+    red, green, blue = np.moveaxis(light, -1, 0)
+    logs = np.log2(np.stack([red / green, blue / green, light @ LUMINANCE]))
+    rows, columns = np.mgrid[: len(picture), :WIDTH] + 0.5
+    scale = scene.camera.width / WIDTH
+    azimuth, elevation = np.radians(scene.camera.angles(columns * scale, rows * scale))
+    east, up = np.radians(sun)
+    cosine = np.sin(elevation) * np.sin(up)
+    cosine += np.cos(elevation) * np.cos(up) * np.cos(azimuth - east)
+    away = np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+    found = np.full((3, len(ANGLES) - 1), np.nan)
+    for i, (near, far) in enumerate(pairwise(ANGLES)):
+        here = (sky > 242) & (away >= near) & (away < far)
+        if here.sum() >= FEWEST:
+            found[:, i] = np.median(logs[:, here], axis=1)
     return found
 
 
-def ours(data: Path, most: int) -> dict[int, list[np.ndarray]]:
-    """Profiles of edits of photos with a blue sky, by the sun's height."""
-    found: dict[int, list[np.ndarray]] = {height: [] for height in HEIGHTS}
-    for _, path in photos(data, False, most):
-        scene = sw.analyze(sw.open(path))
-        sky = np.uint8(255 * np.asarray(scene.sky))
-        before = sw.render(scene, sw.Edit())[..., :3]
-        inside = cv2.resize(sky, before.shape[1::-1]) > 247
-        if inside.mean() < LEAST_SKY or not is_blue(np.median(before[inside], 0)):
-            continue
-        for height in HEIGHTS:
-            found[height].append(edit_profile(scene, sky, (AZIMUTH, height), DISTANCES))
-    return found
-
-
-def show(name: str, profiles: list[np.ndarray]) -> None:
-    """Print quartiles by distance."""
-    light = srgb_to_linear(np.array(profiles) / 255)
-    level = np.log2(np.maximum(light @ LUMINANCE, 1e-4))
-    warmth = np.log2((light[..., 0] + 0.003) / (light[..., 2] + 0.003))
-    print(f"{name}: {len(profiles)}")
-    print("  widths     ", *(f"{low:.2f}-{high:.2f}" for low, high in pairwise(DISTANCES)))
-    for label, values in (("luminance", level), ("red over blue", warmth)):
-        for quarter in (25, 50, 75):
-            row = np.nanpercentile(values, quarter, axis=0)
-            print(f"  {label} {quarter} %", *row.round(1))
+def show(name: str, found: list[np.ndarray], own: list[np.ndarray]) -> None:
+    """Print the medians; the far colors are those of ``own``."""
+    known = [
+        (each, far)
+        for each, photo in zip(found, own, strict=True)
+        if np.isfinite(photo[0, FAR]).any()
+        and -(far := np.nanmedian(photo[:2, FAR], axis=1))[0] > FAINTEST < far[1]
+    ]
+    profiles = np.array([each for each, _ in known])
+    shares = profiles[:, :2] / np.array([far for _, far in known])[..., None]
+    print(f"{name}: {len(known)}")
+    print("  degrees       ", *(f"{low}-{high}" for low, high in pairwise(ANGLES)))
+    beside = profiles[:, 2] - profiles[:, 2, BESIDE, None]
+    rows = shares[:, 0], shares[:, 1], profiles[:, 2], beside
+    for label, values in zip(("red", "blue", "luminance", "less that at 11"), rows, strict=True):
+        print(f"  {label:15}", *np.nanmedian(values, axis=0).round(2))
 
 
 def main() -> None:
     """Print both."""
     asked = arguments(__doc__)
     cv2.setNumThreads(1)
-    show("photos", real(asked.data))
-    for height, profiles in ours(asked.data, asked.photos).items():
-        show(f"edits, sun at {height} degrees", profiles)
+    real, edits, before = [], [], []
+    for seen in (True, False):
+        for _, path in photos(asked.data, seen, 10**6 if seen else asked.photos):
+            scene = sw.analyze(sw.open(path))
+            sky = np.uint8(255 * np.asarray(scene.sky))
+            photo = np.ascontiguousarray(sw.render(scene, sw.Edit())[..., :3])
+            if (scene.sun is not None) != seen or not is_blue(photo, sky):
+                continue
+            if scene.sun is None:
+                edits.append(profile(edited(scene, SUN), sky, scene, SUN))
+                before.append(profile(photo, sky, scene, SUN))
+            elif SEEN[0] <= scene.sun.elevation < SEEN[1]:
+                sun = (scene.sun.azimuth, scene.sun.elevation)
+                real.append(profile(photo, sky, scene, sun))
+    show("photos", real, real)
+    show(f"edits, sun at {SUN[1]:.0f} degrees", edits, before)
 
 
 if __name__ == "__main__":

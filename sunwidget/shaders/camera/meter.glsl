@@ -11,6 +11,7 @@ uniform sampler2D sky_view;
 uniform sampler2D light;
 uniform sampler2D layers;
 uniform float sun_azimuth;
+uniform float sun_elevation;
 uniform float land_facing;
 
 out vec4 result;

@@ -17,6 +17,7 @@ uniform sampler2D visibility_edit;
 uniform sampler2D shafts_source;
 uniform sampler2D shafts_edit;
 uniform float sun_azimuth;
+uniform float sun_elevation;
 uniform float light_shafts;
 uniform float lens_flare;
 uniform vec2 pass_size;

@@ -1,10 +1,10 @@
 // The light of the photo's clouds under a sun, for relighting in the frame and for comparing photo and model.
 
+#include "sky/sun_visible.glsl"
 #include "frame/srgb.glsl"
 #include "clouds/forward_lobe.glsl"
 
 uniform float silver_lining;
-uniform float sun_visible;  // whether the photo shows its sun, 0 or 1
 
 // Heights of the sun (sines) at which clouds at two kilometers have lost it and still have it; high thin ones keep it.
 const float kLowCloudsUnlit = -0.045;

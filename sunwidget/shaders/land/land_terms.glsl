@@ -21,8 +21,10 @@ uniform sampler2D veil_opacity;
 uniform sampler2D visibility_source;
 uniform sampler2D visibility_edit;
 uniform float sun_azimuth;
+uniform float sun_elevation;
 uniform float sun_visibility;
 uniform float source_sun_azimuth;
+uniform float source_sun_elevation;
 uniform float source_sun_visibility;
 
 out vec4 result;

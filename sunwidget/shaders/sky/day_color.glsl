@@ -1,34 +1,45 @@
-// The color of a blue sky as the sun sinks by day, relative to the model's. Around suns of any height photos show
-// blue skies that turn white, for cameras balance white; the model's air turns beige. Measured on photos by
-// training/skies/high_sun.py. Low suns keep their warmth, gray and violet skies the model's colors, and so does a sky
-// whose sun rises.
+// The colors of blue skies by day, as photos show them. Learned by training/skies/high_sun.py and dusk.py.
 
-#include "sky/moonlight.glsl"
-
-uniform float sun_elevation;  // degrees, apparent
-uniform float source_sun_elevation;
 uniform vec3 photo_sky_linear_mean;
 
-const vec2 kDay = vec2(5.0, 11.0);  // degrees
-// 0.7 of the color of sunlight, log2 per air mass at constant luminance, in clear air (Rayleigh, aerosol of depth 0.1).
-const vec3 kSunColor = vec3(0.07, 0.0, -0.175);
-// Mean color of the photo's sky: log2 of blue over red, and of green over both, of gray or violet skies and of blue ones.
-const vec2 kBlue = vec2(0.8, 1.8);
-const vec2 kViolet = vec2(-0.3, -0.1);
+// Around a sun by day, whatever its height, blue skies turn white: red over green within 9 degrees (as 1 - cosine), blue
+// over green within 7. Farther away they are hardly darker than skies without a sun, while the model's air is beige, and
+// dark. Fits the medians of 76 photos.
+const vec2 kWhitens = vec2(0.0132, 0.0081);
+const vec2 kWhitensPower = vec2(0.95, 0.75);
+const vec2 kBlueLight = vec2(-0.35, 2.4);  // log2 of light over the photo's: far away, and how much more beside the sun
+const float kBlueLightFall = 4.1;  // per radian, of its square root
+const float kBlueShare = 0.7;  // of the way to them, in color and in light
+const float kBlueLightShare = 0.6;
+const vec2 kBlue = vec2(0.2, 1.0);  // log2 of blue over red: a gray pixel's and a blue one's
+const vec2 kBlueSky = vec2(0.6, 1.4);  // the same of the sky's mean
+const float kNotViolet = -3.0;  // over log2 of red over green: violet skies keep their red
+const vec2 kDay = vec2(0.1, 0.19);  // sine of the sun's height: lower suns keep their warmth
 
-float GetAirMass(float elevation) {
-  return 1.0 / (sin(radians(max(elevation, kDay.x))) + 0.03);
+// The turn, as of TurnColor, of light of this `color` towards a photo's `blue` as the sun, `cosine` away from it,
+// stands by day; `fall` is the log2 of its light over the photo's.
+vec3 GetOwnBlueTurn(vec2 color, vec2 blue, float fall, float cosine, float sun_y) {
+  float mean = log2(max(photo_sky_linear_mean.b, 1e-4) / max(photo_sky_linear_mean.r, 1e-4));
+  float share = smoothstep(kDay.x, kDay.y, sun_y) * smoothstep(kBlueSky.x, kBlueSky.y, mean);
+  vec2 kept = 1.0 - exp(-pow(max(1.0 - cosine, 0.0) / kWhitens, kWhitensPower));
+  vec2 turn = smoothstep(kBlue.x, kBlue.y, blue.y - blue.x) * (blue * kept - color);
+  // A brighter sky far away need not be near this sun.
+  float near = exp(-kBlueLightFall * sqrt(max(2.0 - 2.0 * cosine, 0.0)));
+  float light = kBlueLight.x + kBlueLight.y * near * near - fall;
+  turn.x *= clamp(kNotViolet * blue.x, 0.0, 1.0);
+  return share * vec3(kBlueShare * vec2(min(turn.x, 0.0), max(turn.y, 0.0)), kBlueLightShare * max(light, near * light));
 }
 
-vec3 GetDayColor() {
-#ifdef PHOTOS_OWN_LIGHT
-  return vec3(1.0);
-#else
-  vec3 sky = log2(max(photo_sky_linear_mean, vec3(1e-4)));
-  float day = smoothstep(kBlue.x, kBlue.y, sky.b - sky.r)
-      * smoothstep(kViolet.x, kViolet.y, sky.g - 0.5 * (sky.r + sky.b))
-      * smoothstep(kDay.x, kDay.y, sun_elevation) * (1.0 - photo_light) * (1.0 - GetMoon());
-  float gained = max(GetAirMass(sun_elevation) - GetAirMass(source_sun_elevation), 0.0);
-  return exp2(-day * gained * kSunColor);
-#endif
+// By day skies are at least this blue, near the horizon and high above it: medians of 1070 photos whose sun is assumed
+// above 15 degrees.
+const vec2 kDayBelow = vec2(-0.38, 0.32);
+const vec2 kDayAbove = vec2(-0.7, 0.7);
+const vec2 kDayBegins = vec2(0.2, 0.4);  // sine of the sun's height
+const float kDayShare = 0.45;  // of the way to them
+
+// The turn of a sky's `color` in the height `view_y` towards that of such photos as a low sun has `risen`.
+vec3 GetBlueDayTurn(vec2 color, float view_y, float sun_y, float risen) {
+  float share = kDayShare * risen * smoothstep(kDayBegins.x, kDayBegins.y, sun_y);
+  vec2 turn = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y)) - color;
+  return share * vec3(min(turn.x, 0.0), max(turn.y, 0.0), 0.0);
 }

@@ -2,6 +2,7 @@
 // cameras expose for the bright part. Learned by training/skies/low_sun.py.
 
 #include "sky/nearness.glsl"
+#include "sky/day_color.glsl"
 
 // Change of color at constant luminance (log2), around the sun and far from it.
 const vec3 kRoundLowSun = vec3(0.42, -0.08, -1.21);
@@ -80,6 +81,16 @@ vec3 GetDuskLandTurn(vec3 sun_before, vec3 sun_now) {
   return GetDuskens(sun_before, sun_now) * kDuskLand * vec3(1.0, 1.0, GetTowards(vec3(0.0, 0.0, 1.0), sun_now));
 }
 
+// Where no sky is visible, land lit by a low sun is darker than a meter makes it, and warmer, its brighter parts most:
+// `uneven` is the log of their light over the mean.
+const vec3 kLowLand = vec3(0.2, -0.4, -1.3);
+const vec3 kLowLandTexture = vec3(0.15, -0.25, 0.25);
+
+vec3 GetLowLandTurn(float uneven, vec3 sun_before, vec3 sun_now) {
+  vec2 low = GetLownesses(sun_before, sun_now);
+  return max(low.y - low.x, 0.0) * (kLowLand + clamp(uneven, -1.5, 1.5) * kLowLandTexture);
+}
+
 // The turn of a sky's `color` towards that of such photos as the sun sets.
 vec3 GetDuskTurn(vec2 color, vec3 view, vec3 sun_before, vec3 sun_now) {
   float towards = GetTowards(view, sun_now);
@@ -87,20 +98,6 @@ vec3 GetDuskTurn(vec2 color, vec3 view, vec3 sun_before, vec3 sun_now) {
   float height = max(view.y, 0.0);
   vec2 wanted = mix(kDuskAbove, mix(kDuskOpposite, kDuskBelow, towards), exp(-kDuskHeight * height * height));
   return share * vec3(wanted - color, kDuskFall * exp(-kDuskFade * height) - kDuskMean);
-}
-
-// By day skies are at least this blue, near the horizon and high above it: medians of 1070 photos whose sun is assumed
-// above 15 degrees (training/skies/dusk.py).
-const vec2 kDayBelow = vec2(-0.38, 0.32);
-const vec2 kDayAbove = vec2(-0.7, 0.7);
-const vec2 kDayBegins = vec2(0.2, 0.4);  // sine of the sun's height
-const float kDayShare = 0.45;  // of the way to them
-
-// The turn of a sky's `color` in the height `view_y` towards that of such photos as a low sun has `risen`.
-vec3 GetBlueDayTurn(vec2 color, float view_y, vec3 sun_now, float risen) {
-  float share = kDayShare * risen * smoothstep(kDayBegins.x, kDayBegins.y, sun_now.y);
-  vec2 turn = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y)) - color;
-  return share * vec3(min(turn.x, 0.0), max(turn.y, 0.0), 0.0);
 }
 
 // Red over green of skies of a low sun by their blue over green: in white light, its change with less blue than green,
@@ -116,14 +113,18 @@ vec3 GetLowSkyTurn(vec2 color) {
   return vec3(kLowShare * max(wanted - color.x, 0.0), 0.0, 0.0);
 }
 
-// Turns light of the sky in the direction `view`, or of what mirrors it, as the sun sets and rises. `uneven` is the log
-// of its clouds' light over that around them, `day_y` the height that counts by day.
-vec3 TurnToPhotos(vec3 light, float uneven, vec3 view, float day_y, vec3 sun_before, vec3 sun_now, float risen) {
+// Turns light of the sky in the direction `view`, or of what mirrors it, as the sun moves. `own` is the photo's light,
+// `uneven` the log of its clouds' light over that around them, `day_y` the height that counts by day.
+vec3 TurnToPhotos(vec3 light, vec3 own, float uneven, vec3 view, float day_y, vec3 sun_before, vec3 sun_now,
+                  float risen) {
   vec2 low = GetLownesses(sun_before, sun_now);
   float lowers = max(low.y - low.x, 0.0);
   vec3 turn = lowers * uneven * kLowTexture;
   vec2 color = GetLogColor(light) + turn.xy;
-  turn += GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now, risen)
+  turn += GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now.y, risen)
       + lowers * GetLowSkyTurn(color);
+  float fall = log2(max(GetExposureGain() * GetLuminance(light), 1e-9) / max(GetLuminance(own), 1e-9));
+  turn += GetMoved() * (1.0 - photo_light) * (1.0 - GetMoon())
+      * GetOwnBlueTurn(color, GetLogColor(own), fall, dot(view, sun_now), sun_now.y);
   return TurnColor(light, turn);
 }

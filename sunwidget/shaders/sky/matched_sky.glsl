@@ -1,7 +1,7 @@
 // The model's sky in the photo's colors: one gain per channel, fitted once at the photo's own
 // sun (analysis/fit/fit.py) and frozen, since a refit after a move would pull a sunset back to noon.
 
-#include "sky/day_color.glsl"
+#include "sky/moonlight.glsl"
 
 uniform vec3 sky_gain;
 
@@ -23,7 +23,7 @@ vec3 GetMatchedSky(sampler2D sky_view, SkyView view, vec3 direction) {
   // Saturated spectra leave Rec. 709: keep a small share of the luminance in each channel.
   float luminance = max(dot(sky, vec3(0.2126, 0.7152, 0.0722)), 1e-12);
   float moon = GetMoon();
-  return GetDayColor() * sky_gain * (GetLightScale(moon) * max(sky, vec3(0.02 * luminance)) + GetNightSky(moon));
+  return sky_gain * (GetLightScale(moon) * max(sky, vec3(0.02 * luminance)) + GetNightSky(moon));
 }
 
 vec3 GetMatchedSky(sampler2D sky_view, vec3 direction) {

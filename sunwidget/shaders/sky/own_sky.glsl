@@ -18,6 +18,7 @@ uniform sampler2D backdrop;
 uniform sampler2D sky_view;
 uniform sampler2D light_before;
 uniform float source_sun_azimuth;
+uniform float source_sun_elevation;
 uniform vec2 pass_size;
 
 out vec4 result;

@@ -3,6 +3,7 @@
 #include "frame/read_composite_constants.glsl"
 #include "sky/described_sky.glsl"
 #include "camera/response.glsl"
+#include "camera/bright_air.glsl"
 #include "clouds/cloud_light.glsl"
 #include "sky/tint.glsl"
 #include "sky/low_sun.glsl"
@@ -34,10 +35,7 @@ const float kMostGone = 1.2;  // log of light
 const float kShaded = 0.2;
 const float kShadesColor = 0.7;
 const float kFarthest = 1.8;  // stops
-const float kBrightAir = 0.3;  // scene-linear
-const float kAirRange = 0.3;
-const float kKnownAirRange = 0.9;
-const float kTextureKept = 0.7;  // share of the clouds' texture that stays in such air
+const float kTextureKept = 0.7;  // share of the clouds' texture that stays in air brightened by the new sun
 
 float GetBounded(float log_light, float most) {
   return log_light * inversesqrt(1.0 + log_light * log_light / (most * most));
@@ -111,13 +109,8 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   uneven = GetBounded(opacity * local, 1.0);
   relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
-  relit = TurnToPhotos(relit, uneven, view, view.y, sun_before, sun_now, risen);
-  // Air brightened by the new sun is compressed to a camera's range, from a bright sky on, but less so
-  // where the photo shows its own sun or moon, and so how bright that air is.
-  float mean = exp(-kTextureKept * uneven);
-  float level = gain * GetLuminance(relit) * mean;
-  float kept = max(kBrightAir, GetLuminance(light) * mean);
-  relit *= level > kept ? pow(level / kept, mix(kAirRange, kKnownAirRange, max(sun_visible, photo_light)) - 1.0) : 1.0;
+  relit = TurnToPhotos(relit, clean, uneven, view, view.y, sun_before, sun_now, risen);
+  relit = CompressBrightAir(relit, light, exp(-kTextureKept * uneven), opacity);
   // The new disc, behind clouds; the matte hides it behind land.
   relit += moved * (1.0 - cover) * (1.0 - cover) * disc;
   return sky_strength * (gain * relit - light);

@@ -9,6 +9,7 @@
 uniform sampler2D sky_view;
 uniform vec2 pass_size;
 uniform float sun_azimuth;
+uniform float sun_elevation;
 uniform float wind_speed;
 uniform float wind_direction;
 

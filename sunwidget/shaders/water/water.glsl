@@ -5,6 +5,7 @@
 #include "land/relit_land.glsl"
 #include "sky/tint.glsl"
 #include "sky/low_sun.glsl"
+#include "camera/bright_air.glsl"
 
 // Share of the color of the sky at the horizon in water whose color has changed.
 const float kMirroredColor = 0.7;
@@ -48,8 +49,8 @@ vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle
   relit += faded * (sky * (GetLuminance(relit) / GetLuminance(sky)) - relit);
   // By day it mirrors the sky near the horizon, at dusk that as high above the horizon as the water lies below it,
   // and a little higher.
-  vec3 mirrored = vec3(view.x, kMirroredAbove - view.y, view.z);
-  relit = TurnToPhotos(relit, 0.0, mirrored, 0.0, GetSunBefore(), GetDescribedSun(), risen);
-  relit += glints;
+  vec3 mirrored = normalize(vec3(view.x, kMirroredAbove - view.y, view.z));
+  relit = TurnToPhotos(relit, calm, 0.0, mirrored, 0.0, GetSunBefore(), GetDescribedSun(), risen);
+  relit = CompressBrightAir(relit, calm, 1.0, 0.0) + glints;
   return land_strength * (GetExposureGain() * relit - light);
 }
