@@ -1,5 +1,7 @@
 """Blue skies around a sun by day, as photos show them (sky/day_color, camera/bright_air)."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from relight_scenes import known_photo
@@ -102,3 +104,19 @@ def test_light_around_a_new_sun_falls_without_an_arc(day):
     level = row[: len(row) // 6 * 6].reshape(-1, 6).mean(1)
     bends = np.abs(np.diff(level, n=2))[4:]  # beyond the sun's own glow
     assert bends.max() < 0.07
+
+
+def test_whites_keep_the_hue_that_they_show():
+    """JPEG gives almost white pixels odd hues, which the inverse response would magnify."""
+    photo = photo_of((1.0, 1.0, 1.0))
+    linear = photo.linear.copy()
+    linear[10:40, 20:100] = np.array([0.93, 0.96, 1.0])
+    linear[10:40, 140:220] = 0.96
+    scene = dataclasses.replace(photo, linear=linear).analyze(sun="outside")
+    steep = {"response_shoulder": 0.99, "response_contrast": 0.7}
+    scene = dataclasses.replace(scene, response=scene.response | steep)
+    edit = Edit(sun_azimuth=60, sun_elevation=40, exposure=-4)
+    frame = render(scene, edit, dtype="float32")
+    odd, plain = frame[15:35, 30:90].mean((0, 1)), frame[15:35, 150:210].mean((0, 1))
+    bluer = np.log2(odd[2] / odd[0]) - np.log2(plain[2] / plain[0])
+    assert bluer < 0.5

@@ -29,6 +29,7 @@ uniform sampler2D mirror_ratio;
 uniform sampler2D veil;
 
 const float kBlackestAlbedo = 0.06;
+const vec2 kWhitish = vec2(0.45, 0.8);  // display-linear light of the darkest channel
 
 // Share of a pixel's light that is sky. Where the matte is soft a pixel shows both, and twigs
 // in front of a bright sky are mostly sky: the light behind is known (sky_behind.glsl), and the rest is
@@ -41,6 +42,13 @@ vec3 GetSkyShare(float matte, vec3 scene, vec3 behind, float glare, vec3 lit) {
   float excess = matte * GetLuminance(behind) / max(GetLuminance(scene), 1e-6);
   float plain = max(smoothstep(0.85, 1.0, matte), smoothstep(0.9, 1.6, excess));
   return mix(min(light / max(scene, vec3(1e-6)), vec3(1.0)), vec3(matte), max(plain, glare));
+}
+
+// Near white a step of a channel is a leap of light, and compression and clipping have changed its hue: as the picture
+// changes by `share`, such light keeps the hue that the picture shows.
+vec3 GetWhitesHue(vec3 scene, vec3 display, float share) {
+  vec3 color = display * (GetLuminance(scene) / max(GetLuminance(display), 1e-6));
+  return mix(scene, color, share * smoothstep(kWhitish.x, kWhitish.y, min(min(display.r, display.g), display.b)));
 }
 
 void main() {
@@ -63,27 +71,35 @@ void main() {
   vec3 scene = scene_texel.rgb;
   vec3 land_marks = UnpackLevels(scene_texel.a);
 #endif
+#if defined(SKY_ALONE)
+  float strength = sky_strength;
+#elif defined(LAND_ALONE)
+  float strength = land_strength;
+#else
+  float strength = mix(land_strength, sky_strength, sky_marks.r);
+#endif
+  vec3 light = GetWhitesHue(scene, display, GetMoved() * min(strength, 1.0));
 
   // The pixel's sky and land, each as if it filled the pixel.
 #if defined(SKY_ALONE)
   const float matte = 1.0;
   const float glare = 0.0;
-  vec3 behind = scene;
+  vec3 behind = light;
 #elif defined(LAND_ALONE)
   const float matte = 0.0;
   const float nearby = 0.0;
   float glare = sky_marks.b;
-  vec3 front = scene;
+  vec3 front = light;
 #else
   float matte = sky_marks.r;
   float glare = sky_marks.b;
   float nearby = own.b * step(1e-3, matte);
-  vec3 share = GetSkyShare(matte, scene, clean, glare, GetIrradianceBefore(GetUprightness(view)));
-  vec3 behind = scene * share / max(matte, 1e-4);
-  vec3 front = scene * (1.0 - share) / max(1.0 - matte, 1e-4);
+  vec3 share = GetSkyShare(matte, light, clean, glare, GetIrradianceBefore(GetUprightness(view)));
+  vec3 behind = light * share / max(matte, 1e-4);
+  vec3 front = light * (1.0 - share) / max(1.0 - matte, 1e-4);
 #endif
 
-  vec3 change = vec3(0.0);
+  vec3 change = light - scene;
   float uneven = 0.0;
 #ifndef LAND_ALONE
   vec3 sky_before = texelFetch(sky_source, texel, 0).rgb;
