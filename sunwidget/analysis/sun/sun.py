@@ -44,6 +44,7 @@ _EVEN = 0.3  # rise over run up to which the skyline beside a low sun continues 
 _LIMB_STEP = 0.15  # least difference of encoded luminance across a limb
 _LEAST_LIMB = 6.0  # radius in working pixels
 _RAYS = 4.0  # largest area of a core with rays, in areas of the largest circle inside it
+_SET = 0.2  # share above the skyline from which a detected sun that has half set is visible
 TOLERANCE = 0.03  # M of Algorithm 1: deviation of encoded luminance from the seed's
 
 
@@ -315,7 +316,9 @@ def observe(
         column = min(max(int(x), 0), working.width - 1)
         row = min(max(int(y), 0), working.height - 1)
         around = sky[max(row - 3, 0) : row + 4, max(column - 3, 0) : column + 4]
-        visible = bool(around.max() > 0.5) and bool(sun_mask.mask.any())
+        above = float((sun_mask.mask * sky).sum()) > _SET * float(sun_mask.mask.sum())
+        visible = bool(around.max() > 0.5 or (peak is not None and above))
+        visible &= bool(sun_mask.mask.any())
         if visible:
             mask, radius = sun_mask.mask, sun_mask.radius * zoom_y
     azimuth, elevation = camera.angles(x * zoom_x, y * zoom_y)

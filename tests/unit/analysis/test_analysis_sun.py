@@ -221,6 +221,18 @@ def test_the_observed_angles_are_those_of_the_camera_at_the_suns_pixel():
     assert seen.mask.shape == SIZE[::-1]
 
 
+@pytest.mark.parametrize(("depth", "visible"), [(2, True), (12, True), (40, False)])
+def test_a_detected_sun_is_visible_until_it_has_set(depth, visible):
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    mask = (np.hypot(columns - 90, rows - 150 - depth) < 30).astype(np.float32)
+    peak = sun.Peak(90.0, 150.0 + depth, 30.0, 0.9, 0.9)
+    sun_mask = sun.SunMask(peak.x, peak.y, peak.radius, mask)
+    seen = sun.observe(None, sun_mask, SKY, CAMERA, evening(), peak)
+    assert seen is not None
+    assert seen.visible == visible
+    assert (seen.radius_px > 0) == visible
+
+
 def test_a_hinted_sun_outside_the_picture_keeps_its_place_and_is_not_visible():
     seen = sun.observe((-500.0, 40.0), None, SKY, CAMERA, evening())
     assert seen is not None
