@@ -292,3 +292,11 @@ def test_an_evening_without_a_sky_is_dark_and_warm_where_it_is_bright():
     dark, bright = shade < 0.6, shade > 1.6
     assert warmth[dark].mean() > 0.2
     assert warmth[bright].mean() > warmth[dark].mean() + 0.15
+
+
+def test_an_evening_without_a_sky_darkens_without_a_bright_moment():
+    photo = known_photo()
+    scene = photo.analyze(sky=np.zeros_like(photo.sky), sun=photo.camera.pixel(60, 40))
+    heights = (12, 8, 5, 3, 2, 1, 0, -1, -2, -3, -4, -6)
+    light = [rendered(scene, Edit(sun_azimuth=8, sun_elevation=h)).mean() for h in heights]
+    assert np.diff(np.log2(light)).max() < 0.03

@@ -86,9 +86,14 @@ vec3 GetDuskLandTurn(vec3 sun_before, vec3 sun_now) {
 const vec3 kLowLand = vec3(0.2, -0.4, -1.3);
 const vec3 kLowLandTexture = vec3(0.15, -0.25, 0.25);
 
+// 1 at three degrees, fading by day, and below the horizon as dusk darkens the land.
+float GetEvening(vec3 sun) {
+  return smoothstep(-0.08, 0.05, sun.y) * (1.0 - smoothstep(0.06, 0.17, sun.y));
+}
+
 vec3 GetLowLandTurn(float uneven, vec3 sun_before, vec3 sun_now) {
-  vec2 low = GetLownesses(sun_before, sun_now);
-  return max(low.y - low.x, 0.0) * (kLowLand + clamp(uneven, -1.5, 1.5) * kLowLandTexture);
+  float falls = max(GetEvening(sun_now) * (1.0 - GetMoon()) - GetEvening(sun_before) * (1.0 - photo_light), 0.0);
+  return falls * (kLowLand + clamp(uneven, -1.5, 1.5) * kLowLandTexture);
 }
 
 // The turn of a sky's `color` towards that of such photos as the sun sets.
