@@ -79,7 +79,7 @@ export function compact(text) {
     );
 }
 
-const CONSTANT = /^const (?:float|int|vec[234]) (\w+)=(-?[\d.e]+|vec[234]\([^();]*\));\n/gm;
+const CONSTANT = /^const (?:float|int|vec[234]) (k[A-Z]\w*)=(-?[\d.e]+|vec[234]\([^();]*\));\n/gm;
 
 /**
  * Put the numbers of constants in their place where that is shorter: those used once, and those no longer than

@@ -120,3 +120,12 @@ def test_whites_keep_the_hue_that_they_show():
     odd, plain = frame[15:35, 30:90].mean((0, 1)), frame[15:35, 150:210].mean((0, 1))
     bluer = np.log2(odd[2] / odd[0]) - np.log2(plain[2] / plain[0])
     assert bluer < 0.5
+
+
+def test_the_users_exposure_is_not_taken_for_a_dark_sky(day):
+    edit = Edit(sun_azimuth=AZIMUTH, sun_elevation=12)
+    sun = AZIMUTH, 12
+    plain, away = sky_of(day, sun, edit)
+    darker, _ = sky_of(day, sun, edit.replace(exposure=-1))
+    change = between(darker, away, 25, 50)[2] - between(plain, away, 25, 50)[2]
+    assert abs(change + 1) < 0.1

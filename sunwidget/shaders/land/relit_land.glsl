@@ -34,7 +34,6 @@ const float kBluestLand = 1.1;
 
 uniform vec3 photo_land_linear_mean;
 uniform float land_strength;
-uniform float exposure;
 uniform int colour_loss;  // 0 preserves luminance, 1 follows eq. 3.8 of the thesis
 
 // Removes the old sun's glare in front of the land, but leaves at least dark land in its light, or land as

@@ -4,6 +4,9 @@
 #include "sky/nearness.glsl"
 #include "sky/day_color.glsl"
 
+uniform float exposure;
+uniform float auto_exposure;  // 0 to 1: with a locked exposure only colors turn
+
 // Change of color at constant luminance (log2), around the sun and far from it.
 const vec3 kRoundLowSun = vec3(0.42, -0.08, -1.21);
 const vec3 kFarFromLowSun = vec3(0.38, -0.12, -0.17);
@@ -93,7 +96,8 @@ float GetEvening(vec3 sun) {
 
 vec3 GetLowLandTurn(float uneven, vec3 sun_before, vec3 sun_now) {
   float falls = max(GetEvening(sun_now) * (1.0 - GetMoon()) - GetEvening(sun_before) * (1.0 - photo_light), 0.0);
-  return falls * (kLowLand + clamp(uneven, -1.5, 1.5) * kLowLandTexture);
+  vec3 turn = kLowLand + clamp(uneven, -1.5, 1.5) * kLowLandTexture;
+  return falls * turn * vec3(1.0, 1.0, auto_exposure);
 }
 
 // The turn of a sky's `color` towards that of such photos as the sun sets.
@@ -128,8 +132,8 @@ vec3 TurnToPhotos(vec3 light, vec3 own, float uneven, vec3 view, float day_y, ve
   vec2 color = GetLogColor(light) + turn.xy;
   turn += GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now.y, risen)
       + lowers * GetLowSkyTurn(color);
-  float fall = log2(max(GetExposureGain() * GetLuminance(light), 1e-9) / max(GetLuminance(own), 1e-9));
-  turn += GetMoved() * (1.0 - photo_light) * (1.0 - GetMoon())
+  float fall = log2(max(GetExposureGain() * GetLuminance(light), 1e-9) / max(GetLuminance(own), 1e-9)) - exposure;
+  turn += GetMoved() * (1.0 - photo_light) * (1.0 - GetMoon()) * vec3(1.0, 1.0, auto_exposure)
       * GetOwnBlueTurn(color, GetLogColor(own), fall, dot(view, sun_now), sun_now.y);
   return TurnColor(light, turn);
 }
