@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
-from sunwidget.analysis.fit.fit import view_angles
+from sunwidget.analysis.sun.camera_glare import angle_to_sun
 from sunwidget.edit.table import Edit
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.renderer import render
@@ -16,8 +16,8 @@ AZIMUTH = -15.0
 BLUE, GRAY, VIOLET = (0.6, 1.0, 1.9), (1.3, 1.0, 0.7), (0.9, 0.7, 1.9)  # tints of the photo
 
 
-def photo_of(tint, **how):
-    return known_photo(sun=(150.0, 40.0), size=SIZE, clouds=False, tint=tint, **how)
+def photo_of(tint):
+    return known_photo(sun=(150.0, 40.0), size=SIZE, clouds=False, tint=tint)
 
 
 @pytest.fixture(scope="module")
@@ -28,13 +28,10 @@ def day():
 def sky_of(scene, sun, edit):
     """Log2 of red and blue over green, and luminance, of an edit's sky; degrees from ``sun``."""
     light = np.maximum(render(scene, edit, dtype="float32"), 1e-5)
-    east, up = (np.radians(each) for each in view_angles(scene.camera, *SIZE))
-    azimuth, height = np.radians(sun)
-    cosine = np.sin(up) * np.sin(height) + np.cos(up) * np.cos(height) * np.cos(east - azimuth)
     sky = scene.sky > 0.99
     red, green, blue = np.log2(light[sky]).T
     colors = np.stack([red - green, blue - green, np.log2(light[sky] @ LUMINANCE)])
-    return colors, np.degrees(np.arccos(cosine))[sky]
+    return colors, angle_to_sun(scene.camera, SIZE, sun)[sky]
 
 
 def seen(scene, elevation):

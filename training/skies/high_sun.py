@@ -16,6 +16,7 @@ import cv2
 import numpy as np
 
 import sunwidget as sw
+from sunwidget.analysis.sun.camera_glare import angle_to_sun
 from sunwidget.formats.color import LUMINANCE, srgb_to_linear
 from training.skies.low_sun import arguments, edited, photos, small
 
@@ -50,13 +51,7 @@ def profile(
     light = srgb_to_linear(picture / 255.0) + FLOOR
     red, green, blue = np.moveaxis(light, -1, 0)
     logs = np.log2(np.stack([red / green, blue / green, light @ LUMINANCE]))
-    rows, columns = np.mgrid[: len(picture), :WIDTH] + 0.5
-    scale = scene.camera.width / WIDTH
-    azimuth, elevation = np.radians(scene.camera.angles(columns * scale, rows * scale))
-    east, up = np.radians(sun)
-    cosine = np.sin(elevation) * np.sin(up)
-    cosine += np.cos(elevation) * np.cos(up) * np.cos(azimuth - east)
-    away = np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+    away = angle_to_sun(scene.camera, (WIDTH, len(picture)), sun)
     found = np.full((3, len(ANGLES) - 1), np.nan)
     for i, (near, far) in enumerate(pairwise(ANGLES)):
         here = (sky > 242) & (away >= near) & (away < far)

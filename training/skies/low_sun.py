@@ -49,14 +49,8 @@ def small(picture: np.ndarray, width: int = WIDTH) -> np.ndarray:
     return cv2.resize(picture, (width, height), interpolation=cv2.INTER_AREA)
 
 
-def profile(
-    picture: np.ndarray,
-    sky: np.ndarray,
-    x: float,
-    y: float,
-    distances: tuple[float, ...] = DISTANCES,
-) -> np.ndarray:
-    """Median code values (n - 1, 3) of the sky between n distances; NaN where there is none.
+def profile(picture: np.ndarray, sky: np.ndarray, x: float, y: float) -> np.ndarray:
+    """Median code values (6, 3) of the sky between ``DISTANCES``; NaN where there is none.
 
     ``sky`` is a matte, 0 to 255; ``x`` and ``y`` are fractions of width and height.
     """
@@ -64,8 +58,8 @@ def profile(
     inside = cv2.erode((sky > 247).astype(np.uint8), np.ones((7, 7)), borderValue=1) > 0
     rows, columns = np.mgrid[: len(picture), :WIDTH] + 0.5
     away = np.hypot(columns / WIDTH - x, (rows - y * len(picture)) / WIDTH)
-    found = np.full((len(distances) - 1, 3), np.nan)
-    for i, (near, far) in enumerate(pairwise(distances)):
+    found = np.full((len(DISTANCES) - 1, 3), np.nan)
+    for i, (near, far) in enumerate(pairwise(DISTANCES)):
         here = inside & (away >= near) & (away < far)
         if here.sum() >= FEWEST:
             found[i] = np.median(picture[here], 0)
@@ -110,17 +104,12 @@ def edited(scene: sw.Scene, sun: tuple[float, float]) -> np.ndarray:
     return np.ascontiguousarray(sw.render(scene, edit)[..., :3])
 
 
-def edit_profile(
-    scene: sw.Scene,
-    sky: np.ndarray,
-    sun: tuple[float, float],
-    distances: tuple[float, ...] = DISTANCES,
-) -> np.ndarray:
+def edit_profile(scene: sw.Scene, sky: np.ndarray, sun: tuple[float, float]) -> np.ndarray:
     """``profile`` of the edit with its sun at an azimuth and elevation, degrees."""
     frame = edited(scene, sun)
     x, y = scene.camera.pixel(*sun)
     place = (x / scene.camera.width, y / scene.camera.height)
-    return profile(frame, cv2.resize(sky, frame.shape[1::-1]), *place, distances)
+    return profile(frame, cv2.resize(sky, frame.shape[1::-1]), *place)
 
 
 def ours(data: Path, most: int) -> dict[float, list[np.ndarray]]:

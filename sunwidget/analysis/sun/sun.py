@@ -316,9 +316,9 @@ def observe(
         column = min(max(int(x), 0), working.width - 1)
         row = min(max(int(y), 0), working.height - 1)
         around = sky[max(row - 3, 0) : row + 4, max(column - 3, 0) : column + 4]
-        above = float((sun_mask.mask * sky).sum()) > _SET * float(sun_mask.mask.sum())
-        visible = bool(around.max() > 0.5 or (peak is not None and above))
-        visible &= bool(sun_mask.mask.any())
+        area = float(sun_mask.mask.sum())
+        half_set = peak is not None and float((sun_mask.mask * sky).sum()) > _SET * area
+        visible = area > 0 and (half_set or bool(around.max() > 0.5))
         if visible:
             mask, radius = sun_mask.mask, sun_mask.radius * zoom_y
     azimuth, elevation = camera.angles(x * zoom_x, y * zoom_y)

@@ -72,26 +72,24 @@ void main() {
   vec3 land_marks = UnpackLevels(scene_texel.a);
 #endif
 #if defined(SKY_ALONE)
-  float strength = sky_strength;
+  const float matte = 1.0;
 #elif defined(LAND_ALONE)
-  float strength = land_strength;
+  const float matte = 0.0;
 #else
-  float strength = mix(land_strength, sky_strength, sky_marks.r);
+  float matte = sky_marks.r;
 #endif
+  float strength = mix(land_strength, sky_strength, matte);
   vec3 light = GetWhitesHue(scene, display, GetMoved() * min(strength, 1.0));
 
   // The pixel's sky and land, each as if it filled the pixel.
 #if defined(SKY_ALONE)
-  const float matte = 1.0;
   const float glare = 0.0;
   vec3 behind = light;
 #elif defined(LAND_ALONE)
-  const float matte = 0.0;
   const float nearby = 0.0;
   float glare = sky_marks.b;
   vec3 front = light;
 #else
-  float matte = sky_marks.r;
   float glare = sky_marks.b;
   float nearby = own.b * step(1e-3, matte);
   vec3 share = GetSkyShare(matte, light, clean, glare, GetIrradianceBefore(GetUprightness(view)));
@@ -136,7 +134,7 @@ void main() {
 #endif
 
   change += GetVeil(scene + change, view, ReadBilinear(veil, place).rgb, matte, uneven);
-  change += mix(land_strength, sky_strength, matte) * GetNight() * GetRodShift(scene + change);
+  change += strength * GetNight() * GetRodShift(scene + change);
   // Sky filled in where the old sun hid it gets the photo's grain.
   float filled = matte * glare * GetMoved() * min(sky_strength, 1.0);
   WriteChange(display, scene, change, filled, pixel);

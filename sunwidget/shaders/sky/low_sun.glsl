@@ -15,9 +15,14 @@ const float kDarker = 0.6;  // darkening far from it (log2); photos show 1
 const float kFinest = 0.3;
 const float kFinestClouds = 0.8;
 
+// 1 up to three degrees, 0 by day.
+float GetNotDay(vec3 sun) {
+  return 1.0 - smoothstep(0.06, 0.17, sun.y);
+}
+
 // Positive from one degree below the horizon to ten above, 1 between two and three.
 float GetLowness(vec3 sun) {
-  return smoothstep(-0.02, 0.03, sun.y) * (1.0 - smoothstep(0.06, 0.17, sun.y));
+  return smoothstep(-0.02, 0.03, sun.y) * GetNotDay(sun);
 }
 
 // Of the photo's sun and of the new one; a moon is never low.
@@ -68,7 +73,7 @@ float GetDuskness(vec3 sun) {
 
 // How far it becomes dusk.
 float GetDuskens(vec3 sun_before, vec3 sun_now) {
-  return max(GetDuskness(sun_now) - GetDuskness(sun_before), 0.0) * (1.0 - GetMoon()) * (1.0 - photo_light);
+  return max(GetDuskness(sun_now) - GetDuskness(sun_before), 0.0) * GetSunToSun();
 }
 
 // 1 towards the sun's azimuth, and 0 away from it.
@@ -91,7 +96,7 @@ const vec3 kLowLandTexture = vec3(0.15, -0.25, 0.25);
 
 // 1 at three degrees, fading by day, and below the horizon as dusk darkens the land.
 float GetEvening(vec3 sun) {
-  return smoothstep(-0.08, 0.05, sun.y) * (1.0 - smoothstep(0.06, 0.17, sun.y));
+  return smoothstep(-0.08, 0.05, sun.y) * GetNotDay(sun);
 }
 
 vec3 GetLowLandTurn(float uneven, vec3 sun_before, vec3 sun_now) {
@@ -133,7 +138,7 @@ vec3 TurnToPhotos(vec3 light, vec3 own, float uneven, vec3 view, float day_y, ve
   turn += GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now.y, risen)
       + lowers * GetLowSkyTurn(color);
   float fall = log2(max(GetExposureGain() * GetLuminance(light), 1e-9) / max(GetLuminance(own), 1e-9)) - exposure;
-  turn += GetMoved() * (1.0 - photo_light) * (1.0 - GetMoon()) * vec3(1.0, 1.0, auto_exposure)
+  turn += GetMoved() * GetSunToSun() * vec3(1.0, 1.0, auto_exposure)
       * GetOwnBlueTurn(color, GetLogColor(own), fall, dot(view, sun_now), sun_now.y);
   return TurnColor(light, turn);
 }

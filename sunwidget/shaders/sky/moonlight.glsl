@@ -20,6 +20,11 @@ float GetMoon() {
 #endif
 }
 
+// 1 when a sun lights the photo and this state's picture, 0 when either has a moon.
+float GetSunToSun() {
+  return (1.0 - photo_light) * (1.0 - GetMoon());
+}
+
 // The model is lit by the sun and matched to the photo (sky_gain), whichever source lit the photo. This
 // factor converts it to the source of this state; it is exactly one if that is the photo's own.
 vec3 GetLightScale(float moon) {

@@ -68,7 +68,7 @@ vec3 RemoveEvening(vec3 light, float lost, float evening) {
 // How far a low sun, or one below the horizon, has risen; otherwise 0.
 float GetRisen(vec3 sun_before, vec3 sun_now) {
   if (sun_now.y <= sun_before.y) return 0.0;
-  return (1.0 - photo_light) * (1.0 - GetMoon())
+  return GetSunToSun()
       * max(smoothstep(kRises.x, kRises.y, sun_now.y) - smoothstep(kRises.x, kRises.y, sun_before.y), 0.0);
 }
 
