@@ -10,6 +10,7 @@ uniform float photo_height;  // pixels: a smaller frame averages the noise
 // The noise to add to display-linear `light`. `filled` is the share of the photo, with its noise, that
 // was replaced. Where the frame is darker than the photo (`before`), its noise is weaker, too.
 vec3 GetGrain(vec3 light, vec3 before, float filled, vec2 pixel) {
+  if (filled == 0.0) return vec3(0.0);
   uvec2 at = uvec2(pixel);
   float kept = 1.0 - filled;
   float level = GetLuminance(light) / max(GetLuminance(before), 1e-4);

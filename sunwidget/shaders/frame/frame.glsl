@@ -82,18 +82,16 @@ void main() {
   vec3 light = GetWhitesHue(scene, display, GetMoved() * min(strength, 1.0));
 
   // The pixel's sky and land, each as if it filled the pixel.
+  float glare = sky_marks.b;
 #if defined(SKY_ALONE)
-  const float glare = 0.0;
   vec3 behind = light;
 #elif defined(LAND_ALONE)
   const float nearby = 0.0;
-  float glare = sky_marks.b;
   vec3 front = light;
 #else
-  float glare = sky_marks.b;
   float nearby = own.b * step(1e-3, matte);
   vec3 share = GetSkyShare(matte, light, clean, glare, GetIrradianceBefore(GetUprightness(view)));
-  vec3 behind = light * share / max(matte, 1e-4);
+  vec3 behind = matte == 1.0 ? light : light * share / max(matte, 1e-4);
   vec3 front = light * (1.0 - share) / max(1.0 - matte, 1e-4);
 #endif
 
@@ -136,6 +134,10 @@ void main() {
   change += GetVeil(scene + change, view, ReadBilinear(veil, place).rgb, matte, uneven);
   change += strength * GetNight() * GetRodShift(scene + change);
   // Sky filled in where the old sun hid it gets the photo's grain.
+#ifdef LAND_ALONE
+  const float filled = 0.0;
+#else
   float filled = matte * glare * GetMoved() * min(sky_strength, 1.0);
+#endif
   WriteChange(display, scene, change, filled, pixel);
 }

@@ -8,5 +8,5 @@ uniform sampler2D sky_behind;
 
 void main() {
   vec3 marks = UnpackLevels(texelFetch(sky_behind, ivec2(GetPixel() - tile_origin), 0).a);
-  SetPart(marks.r == 1.0 && marks.b == 0.0 ? 0 : marks.r == 0.0 ? 1 : 2);
+  SetPart(marks.r == 1.0 ? 0 : marks.r == 0.0 ? 1 : 2);
 }
