@@ -272,7 +272,8 @@ void main() {
     float moon = index == kLevelLandNow || index == kUprightLandNow || index == kCloudNow || index == kCloudLobeNow
         || index == kWaterSunNow ? GetMoon() : photo_light;
     float night = index <= kUprightLandNow ? kPi : index == kCloudBefore || index == kCloudNow ? 1.0 : 0.0;
-    result = index == kGlare ? vec4(light, 0.0)
+    float appears = texelFetch(visibility_edit, ivec2(0), 0).b - texelFetch(visibility_source, ivec2(0), 0).b;
+    result = index == kGlare ? vec4(light, max(appears, 0.0))
         : vec4(sky_gain * (GetLightScale(moon) * light + night * GetNightSky(moon)), disc);
   }
 }

@@ -6,6 +6,7 @@
 #include "sky/tint.glsl"
 #include "sky/low_sun.glsl"
 #include "camera/bright_air.glsl"
+#include "camera/beside_sun.glsl"
 
 // Share of the color of the sky at the horizon in water whose color has changed.
 const float kMirroredColor = 0.7;
@@ -51,6 +52,8 @@ vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle
   // and a little higher.
   vec3 mirrored = normalize(vec3(view.x, kMirroredAbove - view.y, view.z));
   relit = TurnToPhotos(relit, calm, 0.0, mirrored, 0.0, GetSunBefore(), GetDescribedSun(), risen);
-  relit = CompressBrightAir(relit, calm, 1.0, 0.0) + glints;
+  relit = CompressBrightAir(relit, calm, 1.0, 0.0);
+  relit = FitBesideSun(relit, calm, 0.0, dot(mirrored, GetDescribedSun()), GetDescribedSun());
+  relit += glints;
   return land_strength * (GetExposureGain() * relit - light);
 }
