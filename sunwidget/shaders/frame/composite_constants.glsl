@@ -8,6 +8,7 @@
 #include "camera/response.glsl"
 #include "camera/camera_glare.glsl"
 #include "sky/sky_seen.glsl"
+#include "sky/sun_visible.glsl"
 #include "sky/tint.glsl"
 
 uniform sampler2D columns;
@@ -33,6 +34,7 @@ uniform float exposure;
 uniform float auto_exposure;
 uniform float glow;
 uniform vec3 photo_land_linear_mean;
+uniform vec3 photo_sky_linear_mean;
 uniform float photo_key;  // mean log2 of the luminance of the photo without its sun, display-linear
 uniform float photo_sky_key;  // the same for its sky
 uniform vec3 own_disc;  // the photo's own sun: display-linear light of its disc or clipped core
@@ -62,6 +64,10 @@ const float kProtection = 0.9;
 // skies and lands of 45 photos of such suns compare with pictures whose sun was moved there. A sun that leaves the
 // picture does not brighten it: most photos that show one are dark for other reasons.
 const float kSunInView = 1.05;
+
+// Sine of the height at which a sun that appears lowers the sky's light, and the share of its glow that no cloud hides.
+const vec2 kAppearsByDay = vec2(0.1, 0.19);
+const vec2 kGlowSeen = vec2(0.35, 0.65);
 
 // Light in the mirrored glow of a hidden sun, as a share of that in the mirrored sun.
 const float kMirroredGlow = 0.5;
@@ -205,6 +211,13 @@ bool IsSkyUnchanged() {
   return same;
 }
 
+// How far a sun has come into a picture without one by day: then a camera stops down (beside_sun.glsl).
+float GetAppeared(vec3 sun) {
+  float seen = texelFetch(visibility_edit, ivec2(0), 0).b - texelFetch(visibility_source, ivec2(0), 0).b;
+  return auto_exposure * (1.0 - max(sun_visible, photo_light)) * smoothstep(kAppearsByDay.x, kAppearsByDay.y, sun.y)
+      * smoothstep(kGlowSeen.x, kGlowSeen.y, seen);
+}
+
 // Largest factor by which the photo's own disc becomes brighter.
 const float kBrightestDisc = 4.0;
 
@@ -254,6 +267,8 @@ void main() {
     result = vec4(sun_before, disc);
   } else if (index == kDisc) {
     result = vec4(radius, 0.5 * (low + high), 2.0 / (high - low), disc);
+  } else if (index == kBesideSun) {
+    result = vec4(GetAppeared(sun_now), log2(max(GetLuminance(GetSceneLight(photo_sky_linear_mean)), 1e-6)), 0.0, 0.0);
   } else if (index == kOwnDisc) {
     result = vec4(GetOwnDisc(), GetMoon() == photo_light ? own_disc_radius * sun_size : 0.0);
   } else {
@@ -272,8 +287,7 @@ void main() {
     float moon = index == kLevelLandNow || index == kUprightLandNow || index == kCloudNow || index == kCloudLobeNow
         || index == kWaterSunNow ? GetMoon() : photo_light;
     float night = index <= kUprightLandNow ? kPi : index == kCloudBefore || index == kCloudNow ? 1.0 : 0.0;
-    float appears = texelFetch(visibility_edit, ivec2(0), 0).b - texelFetch(visibility_source, ivec2(0), 0).b;
-    result = index == kGlare ? vec4(light, max(appears, 0.0))
+    result = index == kGlare ? vec4(light, 0.0)
         : vec4(sky_gain * (GetLightScale(moon) * light + night * GetNightSky(moon)), disc);
   }
 }
