@@ -2,6 +2,7 @@
 // air and lens, so that photos agree whatever their sky.
 
 #include "frame/read_composite_constants.glsl"
+#include "sky/bounded.glsl"
 #include "sky/low_sun.glsl"
 
 // Scene-linear light of such skies without the glare of the lens: beside the sun, its fall per radian, and the least.
@@ -24,8 +25,7 @@ vec3 FitBesideSun(vec3 relit, vec3 own, float opacity, float cosine) {
   float share = (kBesideRange - 1.0) * known.x * (1.0 - smoothstep(kCloudy.x, kCloudy.y, opacity));
   float square = max(2.0 - 2.0 * cosine, 0.0);
   float usual = max(kBeside - kBesideFall * sqrt(square), kLeastBeside);
-  float contrast = log2(max(GetLuminance(own), 1e-6)) - known.y;
-  contrast *= inversesqrt(1.0 + contrast * contrast / (kOwnContrast * kOwnContrast));
+  float contrast = GetBounded(log2(max(GetLuminance(own), 1e-6)) - known.y, kOwnContrast);
   float light = max(GetLuminance(relit), 1e-9);
   float stops = log2(max(GetExposureGain() * light, 1e-9) / usual) - exposure;
   float beyond = max(stops - contrast, 0.0);

@@ -7,6 +7,7 @@
 #include "sky/daylight.glsl"
 #include "camera/response.glsl"
 #include "camera/camera_glare.glsl"
+#include "sky/day_color.glsl"
 #include "sky/sky_seen.glsl"
 #include "sky/sun_visible.glsl"
 #include "sky/tint.glsl"
@@ -34,7 +35,6 @@ uniform float exposure;
 uniform float auto_exposure;
 uniform float glow;
 uniform vec3 photo_land_linear_mean;
-uniform vec3 photo_sky_linear_mean;
 uniform float photo_key;  // mean log2 of the luminance of the photo without its sun, display-linear
 uniform float photo_sky_key;  // the same for its sky
 uniform vec3 own_disc;  // the photo's own sun: display-linear light of its disc or clipped core
@@ -65,8 +65,7 @@ const float kProtection = 0.9;
 // picture does not brighten it: most photos that show one are dark for other reasons.
 const float kSunInView = 1.05;
 
-// Sine of the height at which a sun that appears lowers the sky's light, and the share of its glow that no cloud hides.
-const vec2 kAppearsByDay = vec2(0.1, 0.19);
+// Share of the glow of a sun that appears by day which no cloud hides: it lowers the sky's light from the first on.
 const vec2 kGlowSeen = vec2(0.35, 0.65);
 
 // Light in the mirrored glow of a hidden sun, as a share of that in the mirrored sun.
@@ -214,7 +213,7 @@ bool IsSkyUnchanged() {
 // How far a sun has come into a picture without one by day: then a camera stops down (beside_sun.glsl).
 float GetAppeared(vec3 sun) {
   float seen = texelFetch(visibility_edit, ivec2(0), 0).b - texelFetch(visibility_source, ivec2(0), 0).b;
-  return auto_exposure * (1.0 - max(sun_visible, photo_light)) * smoothstep(kAppearsByDay.x, kAppearsByDay.y, sun.y)
+  return auto_exposure * (1.0 - max(sun_visible, photo_light)) * smoothstep(kDay.x, kDay.y, sun.y)
       * smoothstep(kGlowSeen.x, kGlowSeen.y, seen);
 }
 

@@ -3,6 +3,7 @@
 #include "frame/read_composite_constants.glsl"
 #include "sky/described_sky.glsl"
 #include "camera/response.glsl"
+#include "sky/bounded.glsl"
 #include "camera/bright_air.glsl"
 #include "camera/beside_sun.glsl"
 #include "clouds/cloud_light.glsl"
@@ -37,10 +38,6 @@ const float kShaded = 0.2;
 const float kShadesColor = 0.7;
 const float kFarthest = 1.8;  // stops
 const float kTextureKept = 0.7;  // share of the clouds' texture that stays in air brightened by the new sun
-
-float GetBounded(float log_light, float most) {
-  return log_light * inversesqrt(1.0 + log_light * log_light / (most * most));
-}
 
 // The factor by which light fades as the model's light changes by `change` (log). `own.r` (own_sky.glsl), the excess
 // of the photo's sky over the model around the pixel, is haze that the model lacks or exaggerates; `own.g`, its
@@ -88,7 +85,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   vec3 veiled = GetRatio(mix(sky_now, cloud_now, opacity), mix(sky_before, cloud_before, opacity));
   // Where un-mixing errs, new light reveals a hard cloud edge: clouds differ from the sky by less than kFarthest.
   float parted = log2(GetLuminance(veiled) / GetLuminance(plain)) / kFarthest;
-  veiled *= exp2(kFarthest * (parted * inversesqrt(1.0 + parted * parted) - parted));
+  veiled *= exp2(kFarthest * (GetBounded(parted, 1.0) - parted));
   vec3 ratio = plain + cloud_strength * (veiled - plain);
   // Beyond 8x (or an eighth) noise and clipping would be amplified: trust the model there.
   float extreme = smoothstep(2.5, 4.0, abs(log2(GetLuminance(ratio) * gain)));
