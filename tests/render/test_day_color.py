@@ -1,4 +1,4 @@
-"""Blue skies around a sun by day, as photos show them (sky/day_color, camera/bright_air)."""
+"""Skies around a sun by day, as photos show them (sky/day_color, camera/bright_air)."""
 
 import dataclasses
 
@@ -84,6 +84,34 @@ def test_a_violet_sky_keeps_its_red_under_a_sun_by_day():
     red, blue, _ = between(colors, away, 18, 30)
     assert red > between(own, away, 18, 30)[0] - 0.1
     assert blue > 0.5 * between(own, away, 18, 30)[1]
+
+
+def test_a_pale_sky_is_not_tan_far_from_a_sun_by_day():
+    photo = photo_of((1.0, 1.0, 1.0))
+    linear = photo.linear.copy()
+    sky = photo.sky > 0.99
+    gray = (linear[sky] @ LUMINANCE)[:, None]
+    linear[sky] = 0.25 * (gray + linear[sky])
+    pale = dataclasses.replace(photo, linear=linear).analyze(sun="outside")
+    own, _ = unmoved(pale)
+    colors, away = seen(pale, 12)
+    own_red, own_blue, _ = between(own, away, 18, 30)
+    red, blue, _ = between(colors, away, 18, 30)
+    assert blue > 0.75 * own_blue
+    assert red < 0.7 * own_red
+    assert between(colors, away, 9, 18)[1] > 0.35 * own_blue
+    red, blue, _ = between(colors, away, 2, 4)  # it stays warm beside the sun
+    assert red > 0.1
+    assert blue < -0.1
+
+
+def test_an_evenings_violet_leaves_by_day():
+    sun = 25.0, 3.0
+    photo = known_photo(sun=sun, size=SIZE, clouds=False, tint=(1.6, 0.9, 1.9))
+    scene = photo.analyze()
+    own, away = unmoved(scene)
+    colors, away = seen(scene, 12)
+    assert between(colors, away, 9, 18)[1] < 0.3 * between(own, away, 9, 18)[1]
 
 
 def test_the_color_follows_the_suns_height_without_a_step(day):

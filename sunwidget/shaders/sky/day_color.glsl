@@ -1,33 +1,45 @@
-// The colors of blue skies by day, as photos show them. Learned by training/skies/high_sun.py and dusk.py.
+// The colors of skies by day, as photos show them. Learned by training/skies/high_sun.py and dusk.py.
 
 uniform vec3 photo_sky_linear_mean;
 
 // Around a sun by day, whatever its height, blue skies turn white: red over green within 9 degrees (as 1 - cosine), blue
 // over green within 7. Farther away they are hardly darker than skies without a sun, while the model's air is beige, and
-// dark. Fits the medians of 76 photos.
+// dark. Fits the medians of 76 photos. Pale skies and clouds keep their color as well: such photos are blue, gray or
+// golden, but rarely tan.
 const vec2 kWhitens = vec2(0.0132, 0.0081);
 const vec2 kWhitensPower = vec2(0.95, 0.75);
 const vec2 kBlueLight = vec2(-0.35, 2.4);  // log2 of light over the photo's: far away, and how much more beside the sun
 const float kBlueLightFall = 4.1;  // per radian, of its square root
-const float kBlueShare = 0.7;  // of the way to them, in color and in light
+const float kOwnShare = 0.7;  // of the way to them, in color and in light
 const float kBlueLightShare = 0.6;
 const vec2 kBlue = vec2(0.2, 1.0);  // log2 of blue over red: a gray pixel's and a blue one's
 const vec2 kBlueSky = vec2(0.6, 1.4);  // the same of the sky's mean
 const float kNotViolet = -3.0;  // over log2 of red over green: violet skies keep their red
+const vec2 kViolet = vec2(0.1, 0.4);  // log2 of blue over green: a gray pixel's and a violet one's
+const vec2 kEveningSky = vec2(0.0, 0.3);  // log2 of red over green of the sky's mean
 const vec2 kDay = vec2(0.1, 0.19);  // sine of the sun's height: lower suns keep their warmth
 
-// The turn, as of TurnColor, of light of this `color` towards a photo's `blue` as the sun, `cosine` away from it,
-// stands by day; `fall` is the log2 of its light over the photo's.
-vec3 GetOwnBlueTurn(vec2 color, vec2 blue, float fall, float cosine, float sun_y) {
-  float mean = log2(max(photo_sky_linear_mean.b, 1e-4) / max(photo_sky_linear_mean.r, 1e-4));
-  float share = smoothstep(kDay.x, kDay.y, sun_y) * smoothstep(kBlueSky.x, kBlueSky.y, mean);
+// Log2 of red over `channel` in the photo's mean sky.
+float GetMeanRed(float channel) {
+  return log2(max(photo_sky_linear_mean.r, 1e-4) / max(channel, 1e-4));
+}
+
+// The turn, as of TurnColor, of light of this `color` towards the photo's `own` as the sun, `cosine` away from it,
+// stands by day; `fall` is the log2 of its light over the photo's. As a low sun has `risen`, its evening's colors leave.
+vec3 GetOwnColorTurn(vec2 color, vec2 own, float fall, float cosine, float sun_y, float risen) {
+  float day = smoothstep(kDay.x, kDay.y, sun_y);
+  float blue_day = day * smoothstep(kBlueSky.x, kBlueSky.y, -GetMeanRed(photo_sky_linear_mean.b));
+  float evening = min(2.0 * risen, 1.0) * smoothstep(kEveningSky.x, kEveningSky.y, GetMeanRed(photo_sky_linear_mean.g));
   vec2 kept = 1.0 - exp(-pow(max(1.0 - cosine, 0.0) / kWhitens, kWhitensPower));
-  vec2 turn = smoothstep(kBlue.x, kBlue.y, blue.y - blue.x) * (blue * kept - color);
+  // What is not blue stays warm around the sun.
+  float gray_share = day * (1.0 - evening) * kept.x;
+  float share = mix(gray_share, mix(day, blue_day, evening), smoothstep(kBlue.x, kBlue.y, own.y - own.x));
+  vec2 turn = share * (own * kept - color);
+  turn.x *= clamp(kNotViolet * own.x + 1.0 - smoothstep(kViolet.x, kViolet.y, own.y), 0.0, 1.0);
   // A brighter sky far away need not be near this sun.
   float near = exp(-kBlueLightFall * sqrt(max(2.0 - 2.0 * cosine, 0.0)));
   float light = kBlueLight.x + kBlueLight.y * near * near - fall;
-  turn.x *= clamp(kNotViolet * blue.x, 0.0, 1.0);
-  return share * vec3(kBlueShare * vec2(min(turn.x, 0.0), max(turn.y, 0.0)), kBlueLightShare * max(light, near * light));
+  return vec3(kOwnShare * vec2(min(turn.x, 0.0), max(turn.y, 0.0)), kBlueLightShare * blue_day * max(light, near * light));
 }
 
 // By day skies are at least this blue, near the horizon and high above it: medians of 1070 photos whose sun is assumed

@@ -138,7 +138,7 @@ vec3 TurnToPhotos(vec3 light, vec3 own, float uneven, vec3 view, float day_y, ve
   turn += GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now.y, risen)
       + lowers * GetLowSkyTurn(color);
   float fall = log2(max(GetExposureGain() * GetLuminance(light), 1e-9) / max(GetLuminance(own), 1e-9)) - exposure;
-  turn += GetMoved() * GetSunToSun() * vec3(1.0, 1.0, auto_exposure)
-      * GetOwnBlueTurn(color, GetLogColor(own), fall, dot(view, sun_now), sun_now.y);
+  turn += GetMoved() * vec3(vec2(GetMoon() == photo_light), GetSunToSun() * auto_exposure)
+      * GetOwnColorTurn(color, GetLogColor(own), fall, dot(view, sun_now), sun_now.y, risen);
   return TurnColor(light, turn);
 }
