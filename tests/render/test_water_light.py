@@ -155,6 +155,16 @@ def test_glints_fade_as_the_sun_sets_and_follow_their_slider():
     assert np.array_equal(sw.render(scene, night), without)
 
 
+def test_the_brightest_glints_are_almost_white():
+    scene = sunny()
+    azimuth, _ = scene.camera.angles(60, ROW)
+    light = sw.render(scene, sw.Edit(sun_azimuth=azimuth, sun_elevation=6))[ROW + 10 :, 40:80]
+    darkest = light.min(axis=-1)  # of the channels
+    middle, brightest = np.percentile(darkest, (50, 97))
+    assert brightest > 205
+    assert middle < 0.7 * brightest
+
+
 def test_wind_widens_the_glints():
     scene = sunny()
     azimuth, _ = scene.camera.angles(60, ROW)

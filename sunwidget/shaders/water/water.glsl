@@ -23,7 +23,7 @@ uniform float source_wind_direction;
 
 // Largest light of a pixel of glints, as radiance per unit of the sun's light, 1/sr. A single facet that mirrors the
 // sun is far brighter, but no pixel is as small, and a camera would show no more.
-const float kBrightest = 0.4;
+const float kBrightest = 1.0;
 
 // How far new glints replace the photo's, 0 to 1, after changes of the sun, the wind or the slider.
 float GetGlitterChange() {
