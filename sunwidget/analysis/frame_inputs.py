@@ -25,6 +25,7 @@ from sunwidget.analysis.segmentation.feather import softening
 from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
 from sunwidget.analysis.sun.search import GLOW_SPREAD
 from sunwidget.analysis.water.glitter import azimuth_column, glitter, roughness
+from sunwidget.analysis.water.mirror import mirror_roughness
 from sunwidget.analysis.windows import panes
 
 T = TypeVar("T")
@@ -97,7 +98,7 @@ def _sun_located(scene: Scene) -> bool:
 
 def _water_roughness(scene: Scene) -> float:
     if scene.sun is None or not scene.sun.visible:
-        return 1.0
+        return mirror_roughness(scene.working, scene.small_water, scene.camera)
     sun = scene.sun.azimuth, scene.sun.elevation
     return roughness(scene.working, scene.small_water, scene.camera, sun)
 
