@@ -26,7 +26,7 @@ Strips = Iterable[tuple[slice, NDArray[Any], NDArray[Any]]]
 _OFFSET = 1 / 1024  # linear light: keeps the logarithm finite, and the map's steps small, at black
 _INVISIBLE = 0.01  # stops: the eye sees no smaller difference
 _DARKEST = -1.0  # stops: a color that gains saturation as it brightens loses light in a channel
-_EXACT, _PLAIN = 98, 95  # JPEG qualities of a map
+_QUALITY = 98  # of a map as JPEG: glints are a pixel small
 
 
 def gain_map_of(
@@ -128,8 +128,7 @@ def map_between(
         other_offset=(_OFFSET,) * 3,
         headroom=high,
     )
-    quality = _PLAIN if read is None else _EXACT
-    return dataclasses.replace(gain_map, jpeg=packed(levels, gain_map, quality))
+    return dataclasses.replace(gain_map, jpeg=packed(levels, gain_map, _QUALITY))
 
 
 def _decoded(codes: NDArray[Any], profile: ColorProfile) -> NDArray[np.float32]:
