@@ -134,16 +134,21 @@ def roughness(
     return float(np.clip(deviation**2 / STANDARD_VARIANCE, 0.05, 2))
 
 
+def small_copy(working: Working, water: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return linear light (h, w, 3) and water (h, w) at most ``SIDE`` pixels long."""
+    scale = min(1.0, SIDE / max(working.width, working.height))
+    linear = np.asarray(resize(working.linear, working.width * scale, working.height * scale))
+    return linear, np.asarray(resize(water, linear.shape[1], linear.shape[0]), np.float32)
+
+
 def _away(width: int, column: float) -> np.ndarray:
     return np.asarray(np.abs((np.arange(width) + 0.5) / width - column) / _WIDTH)
 
 
 def _excess(working: Working, water: np.ndarray, column: float) -> tuple[np.ndarray, np.ndarray]:
     """Return water, and log luminance relative to the rest of the row, on a small copy."""
-    scale = min(1.0, SIDE / max(working.width, working.height))
-    linear = np.asarray(resize(working.linear, working.width * scale, working.height * scale))
-    height, width = linear.shape[:2]
-    mask = np.asarray(resize(water, width, height), np.float32)
+    linear, mask = small_copy(working, water)
+    width = mask.shape[1]
     light = np.log(linear @ LUMINANCE + 0.004)
     away = _away(width, column)
     excess = np.zeros_like(light)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
+from sunwidget.analysis.images.working_copy import Working, smoothstep
+from sunwidget.analysis.water.glitter import small_copy
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
-_SIDE = 256  # px of the longer side
 _FLOOR = 0.003  # display-linear light below which all is black
 _SHIFT = 0.08  # of the height: largest error of the horizon
 _FEWEST = 0.05  # share of the picture that must be mirrored
@@ -39,10 +39,9 @@ def mirror_roughness(working: Working, water: np.ndarray, camera: Camera) -> flo
     """
     import cv2
 
-    scale = min(1.0, _SIDE / max(working.width, working.height))
-    light = np.asarray(resize(working.linear, working.width * scale, working.height * scale))
-    height, width = light.shape[:2]
-    wet = np.asarray(resize(water, width, height)) > 0.6
+    light, wet = small_copy(working, water)
+    height, width = wet.shape
+    wet = wet > 0.6
     if wet.mean() < _FEWEST:
         return 1.0
     logs = np.log2(np.maximum(light @ LUMINANCE, _FLOOR)).astype(np.float32)
