@@ -205,11 +205,8 @@ def haze_limit_of(scene: Scene) -> np.ndarray | None:
 
 @_cache_per_scene
 def _glitter(scene: Scene) -> np.ndarray:
-    # If the photo does not show its sun, only a low sun ahead would cause glints.
-    azimuth, elevation = scene.assumed_sun
-    column = None if elevation > 15 else azimuth_column(scene.camera, azimuth)
-    if scene.sun is not None:
-        column = azimuth_column(scene.camera, scene.sun.azimuth)
+    # Below a sun that the photo does not show, bright water may as well be foam or a mirror image.
+    column = None if scene.sun is None else azimuth_column(scene.camera, scene.sun.azimuth)
     zone = glitter(scene.working, scene.small_sky, scene.small_water, column)
     # Glare over water counts as glints; glare over land does not. White land without a sun in
     # front is snow.

@@ -138,6 +138,18 @@ def test_a_dark_post_in_the_old_glints_stays_dark():
     assert moved[:, 148:151].mean() < 0.4 * moved[:, 120:140].mean()
 
 
+@pytest.mark.parametrize("sun", [(150, 40), None])
+def test_foam_away_from_the_suns_column_stays_white(sun):
+    foam = glittering().copy()
+    foam[ROW + 30 : ROW + 44, 20:60] = 245
+    if sun is None:  # nor does the photo have glints
+        foam[:, 110:190] = foam[:, 70:71]
+    scene = sw.analyze(foam, sun=sun, **TOLD)
+    moved = sw.render(scene, sw.Edit(sun_azimuth=90, sun_elevation=35))
+    white, beside = moved[ROW + 33 : ROW + 41, 25:55], moved[ROW + 33 : ROW + 41, 65:85]
+    assert white.mean() > beside.mean() + 80
+
+
 def test_glints_fade_as_the_sun_sets_and_follow_their_slider():
     scene = sunny()
     azimuth, _ = scene.camera.angles(60, ROW)

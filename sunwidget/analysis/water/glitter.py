@@ -22,9 +22,10 @@ def glitter(
 ) -> np.ndarray:
     """Return the zone of the old sun's glints.
 
-    It surrounds clipped pixels on land or water, and pixels of water below the sun that are
-    brighter than the rest of their row. It is a zone, since clipped and almost clipped pixels must
-    be relit alike, or the brightest would become darker than their rim.
+    It surrounds clipped pixels on land, and on water those around the sun's column, together with
+    water below the sun that is brighter than the rest of its row. Other white water is foam. It is
+    a zone, since clipped and almost clipped pixels must be relit alike, or the brightest would
+    become darker than their rim.
 
     Parameters
     ----------
@@ -33,7 +34,8 @@ def glitter(
     sky, water : (h, w) float32
         Maps at its size; None means no water.
     sun_column : float, optional
-        Column where the sun's azimuth meets the horizon, in fractions of the width.
+        Column where the azimuth of the photo's sun meets the horizon, in fractions of the width;
+        None if the photo does not show its sun.
 
     Returns
     -------
@@ -44,6 +46,8 @@ def glitter(
     red, green, blue = np.moveaxis(working.linear, -1, 0)
     white = np.minimum(np.minimum(red, green), blue)  # ten times as fast as min(-1)
     burnt = np.clip((white - 0.5) / 0.4, 0, 1).astype(np.float32) * (1 - sky)
+    if water is not None:
+        burnt = burnt * (1 - water * (1 - _near(water.shape[1], sun_column)))
     reach = 2 * max(2, round(0.012 * max(sky.shape))) + 1
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
     # In bytes: a fifth of the time, and as precise as the frame's texture.
@@ -67,11 +71,10 @@ def _under_sun(working: Working, water: np.ndarray, column: float) -> np.ndarray
 
     mask, excess = _excess(working, water, column)
     width = mask.shape[1]
-    near = np.clip(2 - 2 * _away(width, column), 0, 1).astype(np.float32)
     soft = cv2.GaussianBlur(excess * mask, (0, 0), 1.5) / np.maximum(
         cv2.GaussianBlur(mask, (0, 0), 1.5), 0.1
     )
-    found = np.clip((soft - 0.15) / 0.35, 0, 1) * near
+    found = np.clip((soft - 0.15) / 0.35, 0, 1) * _near(width, column)
     found = cv2.GaussianBlur(cv2.dilate(found.astype(np.float32), np.ones((3, 5))), (0, 0), 2.0)
     return np.asarray(resize(found, working.width, working.height)) * (water > 0)
 
@@ -139,6 +142,13 @@ def small_copy(working: Working, water: np.ndarray) -> tuple[np.ndarray, np.ndar
     scale = min(1.0, SIDE / max(working.width, working.height))
     linear = np.asarray(resize(working.linear, working.width * scale, working.height * scale))
     return linear, np.asarray(resize(water, linear.shape[1], linear.shape[0]), np.float32)
+
+
+def _near(width: int, column: float | None) -> np.ndarray:
+    """Return how near each column is to the sun's, (width,) float32 in [0, 1]."""
+    if column is None:
+        return np.zeros(width, np.float32)
+    return np.clip(2 - 2 * _away(width, column), 0, 1).astype(np.float32)
 
 
 def _away(width: int, column: float) -> np.ndarray:
