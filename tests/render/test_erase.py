@@ -121,6 +121,22 @@ def test_a_red_glow_before_dark_land_counts_though_it_is_hardly_brighter():
     assert erase(working, maps(clean), above, light(sun_mask())).on_land[66, 80] > 0.4
 
 
+def test_a_purely_red_glow_before_black_land_counts_where_the_network_sees_none():
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    near = np.exp(-np.square(np.hypot(columns - 80, rows - 66) / 40))
+    above = np.broadcast_to(rows < 60, near.shape).astype(np.float32)
+    shares = []
+    for glow_color in ((1.0, 0.03, 0.01), (1.0, 0.5, 0.3)):
+        red = 0.002 + 0.08 * near[..., None] * np.array(glow_color)
+        linear = np.where(above[..., None] > 0, 0.3, red)
+        working = Working.of(open_photo(linear.astype(np.float32)))
+        erased = erase(working, maps(np.zeros((*SMALL, 3))), above, light(0 * sun_mask()))
+        shares.append(erased.on_land)
+    assert shares[0][80, 80] > 0.7
+    assert shares[0][120, 5] < 0.1
+    assert shares[1][66:].max() < 0.1  # land of that color is lit
+
+
 def hill(glowing):
     """Dark land from row 60 on, with glare before it below the sun, and the sky's weight."""
     rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5

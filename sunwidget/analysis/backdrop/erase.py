@@ -15,6 +15,7 @@ import numpy as np
 from sunwidget.analysis.backdrop.rays import find_rays
 from sunwidget.analysis.backdrop.sky_detail import sky_detail
 from sunwidget.analysis.images.fill import fill_by_layers, fill_by_pyramid
+from sunwidget.analysis.images.rings import all_round, interpolated
 from sunwidget.analysis.images.working_copy import Working, encode, resize, smoothstep
 from sunwidget.analysis.networks.sun import LIGHT_FLOOR, SunMaps
 from sunwidget.analysis.sun.sun import SunObservation
@@ -28,7 +29,11 @@ _HIDES = (0.3, 0.9)  # less keeps the sky's clouds, more hides them
 _GAP = 0.03  # in longer sides: half of the widest gap in the glare
 _WHITE, _LARGEST_RIM = 0.97, 0.03  # encoded; longer sides
 _REACH, _REACH_OF_DISC = 0.2, 4.5  # widths, and radii: farther out the glow belongs to the sky
-_RINGS, _FEWEST = 16, 12  # around the sun up to the reach; pixels of sky in one
+_RINGS = 16  # around the sun up to the reach
+_RED_REACH = 1.5, 3.0  # of the reach: where a red glow on land ends
+_GREEN = 0.1, 0.25  # over red, linear: less is glow alone, more has a color of its own
+_LIT = 0.2, 0.35  # luminance: less is a silhouette, more is lit
+_DARKEST, _NOISE = 0.2, 0.002  # share of the land; linear light
 _NEAREST = 0.25  # of the reach: how far beyond it the glow is compared
 
 
@@ -133,24 +138,11 @@ def _risen(maps: SunMaps, seen: np.ndarray, sky: np.ndarray, light: SunObservati
     excess = np.maximum(seen - fill_by_layers(seen, beyond), 0)
     brighter = excess @ LUMINANCE
     share = np.minimum(brighter / np.maximum(glare @ LUMINANCE, 1e-6), 1)
-    halo = _all_round(excess, sky, light)
-    return np.asarray(np.maximum(glare * share[..., None], halo) * near[..., None])
-
-
-def _all_round(excess: np.ndarray, sky: np.ndarray, light: SunObservation) -> np.ndarray:
-    """Return the part of an excess (h, w, 3) that is alike all round the sun: its halo.
-
-    That is what two in three pixels of the sky at the same distance exceed; clouds are brighter.
-    """
+    # A halo is alike all round the sun; clouds are brighter.
     away, reach = _distance(light, sky.shape)
-    ring = (_RINGS * away / reach).astype(int)
-    profile = np.zeros((_RINGS, 3))
-    for i in range(_RINGS):
-        inside = excess[(ring == i) & (sky > 0.95)]
-        if len(inside) >= _FEWEST:
-            profile[i] = np.quantile(inside, 1 / 3, axis=0)
-    middles = (np.arange(_RINGS) + 0.5) * reach / _RINGS
-    return np.stack([np.interp(away, middles, channel) for channel in profile.T], -1)
+    rings = all_round(excess, (sky > 0.95) & (away < reach), away, reach / _RINGS)
+    halo = interpolated(away, *rings)
+    return np.asarray(np.maximum(glare * share[..., None], halo) * near[..., None])
 
 
 def _without_gaps(felt: np.ndarray) -> np.ndarray:
@@ -179,6 +171,7 @@ def find_glare_on_land(
     brighter = np.log(small + LIGHT_FLOOR) - np.log(plain + LIGHT_FLOOR)
     # An evening's glare is red: it shows in the channel with most of it.
     glare = np.maximum(np.minimum(-maps.clean * near[..., None], brighter), 0).max(-1)
+    glare = np.maximum(glare, _red_glow(small, land, light))
     level = np.log(plain @ LUMINANCE + LIGHT_FLOOR)
 
     size = working.width, working.height
@@ -190,6 +183,24 @@ def find_glare_on_land(
     there = np.log(working.luminance + LIGHT_FLOOR)
     burnt = _round_about(light.blot) * np.maximum(there - level, 0)
     return np.asarray(1 - np.exp(-np.maximum(glare, burnt)), np.float32)
+
+
+def _red_glow(linear: np.ndarray, land: np.ndarray, light: SunObservation) -> np.ndarray:
+    """Return how far dark, purely red land exceeds the darkest, (h, w), log of light.
+
+    In front of a red sunset lens and air add red light to silhouettes, farther from the sun than
+    the network was trained for. Land that is lit reflects some green, too.
+    """
+    away, reach = _distance(light, land.shape)
+    seen = land > 0.9
+    if not seen.any():
+        return np.zeros(land.shape, np.float32)
+    red, green, _ = np.moveaxis(linear, -1, 0)
+    pure = 1 - smoothstep(*_GREEN, green / np.maximum(red, _NOISE))
+    dark = 1 - smoothstep(*_LIT, linear @ LUMINANCE)
+    near = 1 - smoothstep(*_RED_REACH, away / reach)
+    excess = np.log((red + _NOISE) / (np.quantile(red[seen], _DARKEST) + _NOISE))
+    return np.asarray(np.maximum(excess, 0) * pure * dark * near * land, np.float32)
 
 
 def _parts(light: SunObservation, part: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

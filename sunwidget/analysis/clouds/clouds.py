@@ -19,6 +19,7 @@ from sunwidget.analysis.clouds.unmix import cloud_white, unmix
 from sunwidget.analysis.depth.field import guided
 from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.fit.overcast import limit_balance, overcast
+from sunwidget.analysis.images.rings import all_round, interpolated
 from sunwidget.analysis.images.working_copy import LONG_SIDE, Working, saturation
 from sunwidget.edit.table import parameter
 from sunwidget.errors import AnalysisError
@@ -35,6 +36,8 @@ _REACH, _REACH_OF_SHADE = 0.015, 0.004  # longer sides: files store color more c
 LARGEST_RADIUS = round(_REACH * LONG_SIDE)
 """Largest result of ``smoothing_radius``."""
 _SHOWS_GLOW = 1.5  # how much worse a sky without an assumed sun's glow fits a photo that shows it
+_COARSE = 256  # px: longer side of the grid of pixels on which a glow is measured
+_RING, _DARK = 0.02, 1e-3  # in the picture's widths; scene-linear light
 _NO_EDGE = 1e-3  # squared contrast of the encoded picture
 
 # Logistic regression on (red / blue, (B - R) / (B + R), saturation, blue), encoded values: bias
@@ -185,6 +188,8 @@ def veil(
     if expected is not None:
         shown = _misfit(light, expected, sky) >= _SHOWS_GLOW * _misfit(light, clear, sky)
         clear = clear if shown else expected
+    if sun_seen:
+        clear = _with_glow(clear, light, sky, camera, fit)
     everywhere, shade = unmix(light, clear, cloud_white(blue), np.ones_like(sky))
     if not sun_seen:
         everywhere = np.maximum(everywhere, overcast(working, sky))
@@ -199,6 +204,25 @@ def veil(
         Clouds((smooth * sky).astype(np.float32), none, level / weight),
         Clouds(everywhere, none, shade),
     )
+
+
+def _with_glow(
+    clear: np.ndarray, light: np.ndarray, sky: np.ndarray, camera: Camera, fit: SkyFit
+) -> np.ndarray:
+    """Return the clear sky (h, w, 3), as bright as the photo's ``light`` is all round its sun.
+
+    The model's glow is often too small or too weak, but clouds are not alike on all sides.
+    """
+    rows, columns = sky.shape
+    x, y = camera.pixel(*fit.sun)
+    across = (np.arange(columns) + 0.5) / columns - x / camera.width
+    down = ((np.arange(rows)[:, None] + 0.5) / rows - y / camera.height) * rows / columns
+    away = np.hypot(across, down)
+    step = max(1, round(max(rows, columns) / _COARSE))
+    few = np.s_[::step, ::step]
+    excess = np.log(np.maximum(light[few], _DARK)) - np.log(np.maximum(clear[few], _DARK))
+    middles, profile = all_round(excess, sky[few] > 0.98, away[few], _RING)
+    return clear * np.exp(np.maximum(interpolated(away, middles, profile), 0))
 
 
 def _misfit(light: np.ndarray, model: np.ndarray, sky: np.ndarray) -> float:

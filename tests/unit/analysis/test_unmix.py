@@ -76,6 +76,39 @@ def test_a_dark_base_and_a_bright_top_are_both_opaque_where_red_over_blue_differ
     assert min(base, top) > 0.8
 
 
+def around_sun(glow=0.0, cloud=0.0):
+    """Return the opacity that is found in a clear sky with a wide glow, and with a cloud beside."""
+    from sunwidget.analysis.backdrop.backdrop import matched_sky
+    from sunwidget.analysis.clouds.clouds import veil
+    from sunwidget.analysis.fit.fit import SkyFit
+    from sunwidget.analysis.images.working_copy import Working
+
+    photo = known_photo(clouds=False, noise=0)
+    fit = SkyFit(photo.atmosphere, photo.response, tuple(photo.gain), (0.0, 3.0, 2.0), photo.sun)
+    height, width = photo.sky.shape
+    light = matched_sky(fit, photo.camera, (width, height))
+    x, y = photo.camera.pixel(*photo.sun)
+    rows, columns = np.mgrid[:height, :width] + 0.5
+    away = np.hypot(columns - x, rows - y) / width
+    light = light * np.exp(glow * np.exp(-np.square(away / 0.2)))[..., None]
+    beside = (np.hypot(columns - x + 0.25 * width, rows - y) < 0.05 * width)[..., None]
+    light = light + cloud * beside * (3 * light.mean() - light)
+    linear = np.clip(photo.response.display_light(light), 0, 1).astype(np.float32)
+    working = Working(linear, linear ** np.float32(1 / 2.2), linear, (width, height))
+    found = veil(working, photo.sky, photo.camera, fit, sun_seen=True)[0].opacity
+    return found, beside[..., 0] & (photo.sky > 0)
+
+
+def test_a_glow_all_round_the_sun_that_the_model_lacks_is_no_cloud():
+    assert around_sun(glow=1.0)[0].max() < 0.1
+
+
+def test_a_cloud_on_one_side_of_the_sun_is_one_in_its_glow_too():
+    found, beside = around_sun(glow=0.5, cloud=0.9)
+    assert np.median(found[beside]) > 0.5
+    assert np.quantile(found[~beside], 0.9) < 0.2
+
+
 def test_the_clouds_white_is_nearly_white_by_day_and_follows_the_sky_at_dusk():
     by_day = cloud_white_of(known_photo(sun=(8.0, 40.0), clouds=False))
     assert by_day.max() / by_day.min() < 1.5
