@@ -164,7 +164,7 @@ SHOWN = {
     "auto_exposure": {"sun_elevation": 2},
     "shading": {"land_facing": 1},
     "cast_shadows": {"sun_azimuth": 20, "sun_elevation": 2},
-    "cloud_shadows": {"sun_azimuth": -25, "sun_elevation": 20},
+    "cloud_shadows": {"sun_azimuth": -15, "sun_elevation": 25},  # behind the thickest cloud
     "light_shafts": {"aerosol_optical_depth": 0.5, "sun_azimuth": -20, "sun_elevation": 14},
     "grain": {"auto_exposure": 0},
     "window_lights": {"sun_elevation": -4},
