@@ -21,6 +21,7 @@ from sunwidget.analysis.fit.fit import SkyFit
 from sunwidget.analysis.fit.overcast import limit_balance, overcast
 from sunwidget.analysis.images.rings import all_round, interpolated
 from sunwidget.analysis.images.working_copy import LONG_SIDE, Working, saturation
+from sunwidget.analysis.sun.sun import away_from
 from sunwidget.edit.table import parameter
 from sunwidget.errors import AnalysisError
 from sunwidget.formats.color import LUMINANCE
@@ -214,10 +215,7 @@ def _with_glow(
     The model's glow is often too small or too weak, but clouds are not alike on all sides.
     """
     rows, columns = sky.shape
-    x, y = camera.pixel(*fit.sun)
-    across = (np.arange(columns) + 0.5) / columns - x / camera.width
-    down = ((np.arange(rows)[:, None] + 0.5) / rows - y / camera.height) * rows / columns
-    away = np.hypot(across, down)
+    away = away_from(sky.shape, *camera.resized(columns, rows).pixel(*fit.sun)) / columns
     step = max(1, round(max(rows, columns) / _COARSE))
     few = np.s_[::step, ::step]
     excess = np.log(np.maximum(light[few], _DARK)) - np.log(np.maximum(clear[few], _DARK))

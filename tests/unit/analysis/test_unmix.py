@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from relight_scenes import known_photo, known_scene
+from relight_scenes import exact_fit, known_photo, known_scene
 
 import sunwidget as sw
 from sunwidget.analysis.clouds.unmix import cloud_white, unmix
@@ -80,11 +80,10 @@ def around_sun(glow=0.0, cloud=0.0):
     """Return the opacity that is found in a clear sky with a wide glow, and with a cloud beside."""
     from sunwidget.analysis.backdrop.backdrop import matched_sky
     from sunwidget.analysis.clouds.clouds import veil
-    from sunwidget.analysis.fit.fit import SkyFit
     from sunwidget.analysis.images.working_copy import Working
 
     photo = known_photo(clouds=False, noise=0)
-    fit = SkyFit(photo.atmosphere, photo.response, tuple(photo.gain), (0.0, 3.0, 2.0), photo.sun)
+    fit = exact_fit(photo)
     height, width = photo.sky.shape
     light = matched_sky(fit, photo.camera, (width, height))
     x, y = photo.camera.pixel(*photo.sun)
@@ -115,10 +114,7 @@ def test_the_clouds_white_is_nearly_white_by_day_and_follows_the_sky_at_dusk():
 
 
 def cloud_white_of(photo):
-    from sunwidget.analysis.fit.fit import SkyFit
-
-    fit = SkyFit(photo.atmosphere, photo.response, tuple(photo.gain), (0.0, 3.0, 2.0), photo.sun)
-    return cloud_white(fit)
+    return cloud_white(exact_fit(photo))
 
 
 def test_the_drawn_clouds_are_found_and_little_else():
