@@ -224,3 +224,20 @@ def test_no_note_speaks_of_code(page):
     page.locator(".sw-note").first.wait_for()
     assert len(notes(page)) == 4
     assert not any("=" in note or "pass " in note.lower() for note in notes(page))
+
+
+@pytest.mark.parametrize("by", [(60, 5), (-60, 5), (45, 40)])
+def test_the_label_lies_beside_the_sun_that_was_dragged_near_its_mark(editor, by):
+    x, y = middle(editor, RING)
+    editor.mouse.move(x, y)
+    editor.mouse.down()
+    editor.mouse.move(x + by[0], y + by[1], steps=4)
+    editor.mouse.up()
+    hover(editor, middle(editor, RING))
+    editor.locator(LABEL).wait_for()
+    handle = middle(editor, ".sw-sun-ring")
+    assert handle == pytest.approx((x + by[0], y + by[1]), abs=2)
+    on = editor.evaluate(
+        "at => document.elementFromPoint(...at).closest('.sw-overlay')?.tagName", handle
+    )
+    assert on is not None

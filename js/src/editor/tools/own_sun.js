@@ -81,23 +81,30 @@ export function ownSun({ hand, kernel, picture, root, stage, state }, signal) {
     } else timer ??= setTimeout(() => setOpen(open), open ? OPEN_MS : CLOSE_MS);
   };
 
-  /** Place the label beside the ring, where there is room. */
+  /** Place the label beside the ring, else below or above it, where it covers neither ring nor handle. */
   const place = () => {
     if (!at || label.hidden) return;
+    const [x, y] = at;
     const { stageWidth, stageHeight } = stage.rectangle();
     const { offsetWidth: width, offsetHeight: height } = label;
-    const right = at[0] + RADIUS + MARGIN;
-    const fits = right + width + MARGIN <= stageWidth;
-    const left = fits ? right : at[0] - RADIUS - MARGIN - width;
     const within = (/** @type {number} */ start, /** @type {number} */ room) =>
       Math.max(MARGIN, Math.min(start, room - MARGIN));
-    const x = within(left, stageWidth - width);
-    // If neither side has room, as on a phone, place it below or above.
-    const beside = fits || left >= MARGIN;
-    const below = at[1] + RADIUS + MARGIN;
-    const aside = below + height <= stageHeight ? below : at[1] - RADIUS - MARGIN - height;
-    const y = within(beside ? at[1] - height / 2 : aside, stageHeight - height);
-    label.style.transform = `translate(${x}px, ${y}px)`;
+    const apart = RADIUS + MARGIN;
+    const spots = [
+      [x + apart, y - height / 2],
+      [x - apart - width, y - height / 2],
+      [x + apart, y + apart],
+      [x + apart, y - apart - height],
+    ].map(([left, top]) => [within(left, stageWidth - width), within(top, stageHeight - height)]);
+    /** @type {(spot: number[], point: { x: number, y: number }) => boolean} */
+    const clearOf = ([left, top], point) =>
+      Math.abs(point.x - left - width / 2) >= width / 2 + RADIUS ||
+      Math.abs(point.y - top - height / 2) >= height / 2 + RADIUS;
+    const clear = spots.filter((spot) => clearOf(spot, { x, y }));
+    const handle = hand.tools.sun.spot?.();
+    const best = clear.find((spot) => !handle || clearOf(spot, handle));
+    const [left, top] = best ?? clear[0] ?? spots[0];
+    label.style.transform = `translate(${left}px, ${top}px)`;
   };
 
   /** The mark's current position, or null if it is hidden. @returns {Point | null} */
