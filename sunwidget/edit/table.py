@@ -267,7 +267,7 @@ class Edit:
         "Strength of the sun's glints on water; 1 matches the waves of this wind.")
     glow: float = _number(1.0, (0, 3), 0.05, "", "Glow", "effects",
         "Camera glare around the moved sun, over sky and land; 1 matches real cameras.")
-    light_shafts: float = _number(0.25, (0, 1), 0.01, "", "Light shafts", "effects",
+    light_shafts: float = _number(0.0, (0, 1), 0.01, "", "Light shafts", "effects",
         "Beams in the haze where land and clouds let the sun through.")
     lens_flare: float = _number(0.0, (0, 1), 0.01, "", "Lens flare", "effects",
         "Reflections in the lens, on the line from the sun through the picture's center.")

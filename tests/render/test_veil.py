@@ -17,7 +17,7 @@ ALONE = {
     "lens_flare": {"glow": 0.0, "light_shafts": 0.0},
 }
 OFF = {"glow": 0.0, "light_shafts": 0.0, "lens_flare": 0.0}
-LOW = Edit(sun_azimuth=-6, sun_elevation=7)
+LOW = Edit(sun_azimuth=-6, sun_elevation=7, light_shafts=1)
 
 
 def veil(scene, edit):
@@ -120,7 +120,7 @@ def test_clear_air_shows_no_shafts_and_haze_does():
 
 def test_a_pillar_throws_a_shadow_into_the_haze_and_the_gap_beside_it_a_beam():
     scene = with_pillar(known_photo(clouds=False).analyze(), slice(52, 62))
-    edit = Edit(sun_azimuth=-10, sun_elevation=9, aerosol_optical_depth=0.4)
+    edit = LOW.replace(sun_azimuth=-10, sun_elevation=9, aerosol_optical_depth=0.4)
     shafts = render_pass(scene, edit, "shafts_edit")[..., 0]
     azimuth, elevation = angles(scene, shafts.shape)
     far = (azimuth > 8) & (elevation > 0)
@@ -130,15 +130,17 @@ def test_a_pillar_throws_a_shadow_into_the_haze_and_the_gap_beside_it_a_beam():
     assert shafts[behind].mean() < shafts[above].mean()
 
 
-def test_where_the_old_suns_shadows_in_the_haze_go_no_light_comes_instead():
+def test_the_photos_own_shadows_in_the_haze_stay_and_new_ones_come_with_the_move():
     scene = with_pillar(known_photo(clouds=False).analyze(), slice(52, 62))
-    far = Edit(sun_azimuth=-100, sun_elevation=40)
-    with_shafts, without = (
-        render(scene, far.replace(light_shafts=strength), dtype="float32") for strength in (1, 0)
-    )
-    old = render_pass(scene, far, "shafts_source")[..., 0]
-    assert old.min() < -1e-4
-    assert (with_shafts - without).max() < 1e-5
+    away = Edit(sun_azimuth=180, sun_elevation=40, lens_flare=0)
+    assert not veil(scene, away.replace(light_shafts=1))[..., :3].any()
+    start = scene.automatic["sun_azimuth"]
+    added = [
+        np.abs(veil(scene, LOW.replace(sun_azimuth=start + by, sun_elevation=None))[..., :3]).max()
+        for by in (0, 0.02, 2)
+    ]
+    assert added[0] == 0
+    assert 0 < added[1] < added[2]
 
 
 def test_round_a_sun_behind_something_the_air_is_as_beside_it():

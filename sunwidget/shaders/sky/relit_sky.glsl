@@ -33,9 +33,8 @@ const float kNotAway = 0.99;
 const float kLeft = 0.94;
 const float kNotLeft = 0.998;
 const float kMostGone = 1.2;  // log of light
-// A cloud darker than this share of the model's light is all shade; the share of the sky's color that shade takes on.
+// A cloud darker than this share of the model's light is all shade.
 const float kShaded = 0.2;
-const float kShadesColor = 0.7;
 const float kFarthest = 1.8;  // stops
 const float kTextureKept = 0.7;  // share of the clouds' texture that stays in air brightened by the new sun
 
@@ -95,11 +94,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   vec3 model = mix(sky_before, cloud_before, cloud);
   float risen = GetRisen(sun_before, sun_now);
   relit = ShiftToModelColor(relit, sky, model, ratio, opacity, cloud, sky_before, sky_now, risen);
-  // A cloud's shaded part takes on the sky's color, the more so the more the ratio turns the model's color.
   float shaded = cloud * (1.0 - smoothstep(kShaded, 0.8, GetLuminance(clean) / GetLuminance(cloud_before)));
-  vec3 shade = RemoveBalance(GetCloudAmbientNow(), max(GetVividness(), risen * GetEveningBalance()));
-  shade *= GetLuminance(relit) / GetLuminance(shade);
-  relit += kShadesColor * shaded * GetTurned(ratio, model) * (shade - relit);
   // Measured on the relit pixel, not on the photo: where the model replaces the photo there is no rim to fade.
   vec3 whole = mix(sky_before, cloud_before, opacity);
   float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
