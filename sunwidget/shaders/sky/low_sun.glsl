@@ -58,7 +58,7 @@ vec3 TurnColor(vec3 light, vec3 turn) {
 // How photos of dusk look towards a sun of about 4 degrees below the horizon, near the horizon and high above it; their
 // luminance (log2) falls by kDuskFall. Medians of 96 photos (training/skies/dusk.py).
 const vec2 kDuskBelow = vec2(1.5, -1.15);
-const vec2 kDuskAbove = vec2(0.25, 1.2);
+const vec2 kDuskAbove = vec2(-0.5, 1.2);  // less violet than photos (2^0.25), as readers prefer
 const vec2 kDuskOpposite = vec2(0.2, 0.4);  // opposite the sun
 const float kDuskFall = 1.4;
 const float kDuskMean = 0.8;
