@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from chromium import LOSE_ONCE, open_page, picture_of, widget_state
+from chromium import LOSE_ONCE, at_rest, open_page, picture_of, widget_state
 
 from sunwidget.atmosphere.parameters import Atmosphere
 from sunwidget.atmosphere.presets import PRESETS
@@ -19,7 +19,6 @@ def shared(browser):
     """One page for all tests: its shaders take longer to compile than most tests to run."""
     context = browser.new_context(viewport={"width": 1180, "height": 1200})
     page = open_page(context, "explorer.html")
-    page.set_default_timeout(30_000)
     page.evaluate("(state) => showExplorer(state)", widget_state(SkyExplorer()))
     page.locator(".sunwidget.sw-live").wait_for()
     yield page
@@ -442,7 +441,8 @@ def test_the_reference_gathers_paths_until_it_is_paused(explorer):
         "Number.parseInt(document.querySelector('.sw-readout-note').textContent) > 2"
     )
     page.get_by_role("button", name="Pause").click()
-    page.wait_for_timeout(300)
+    page.locator(".sw-readout-note", has_text="paused").wait_for()
+    at_rest(page)  # a frame that was on its way is drawn
     count = paths()
     before = canvas_of(page)
     page.mouse.move(*centre(page.locator(".sw-sky-picture").bounding_box()))
