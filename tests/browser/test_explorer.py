@@ -445,11 +445,15 @@ def test_the_reference_gathers_paths_until_it_is_paused(explorer):
     at_rest(page)  # a frame that was on its way is drawn
     count = paths()
     before = canvas_of(page)
+    resume = page.get_by_role("button", name="Resume")
+    place = resume.bounding_box()
     page.mouse.move(*centre(page.locator(".sw-sky-picture").bounding_box()))
     page.wait_for_timeout(300)
+    assert page.locator(".sw-readout", has_text="from the sun").is_visible()
+    assert resume.bounding_box() == place  # or it would move away from a pointer that comes from the sky
     assert paths() == count
     assert np.array_equal(canvas_of(page), before)
-    page.get_by_role("button", name="Resume").click()
+    resume.click()
     page.wait_for_function(
         f"Number.parseInt(document.querySelector('.sw-readout-note').textContent) > {count}"
     )
