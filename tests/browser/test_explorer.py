@@ -450,7 +450,8 @@ def test_the_reference_gathers_paths_until_it_is_paused(explorer):
     page.mouse.move(*centre(page.locator(".sw-sky-picture").bounding_box()))
     page.wait_for_timeout(300)
     assert page.locator(".sw-readout", has_text="from the sun").is_visible()
-    assert resume.bounding_box() == place  # or it would move away from a pointer that comes from the sky
+    # Otherwise it would move away from a pointer that comes from the sky.
+    assert resume.bounding_box() == place
     assert paths() == count
     assert np.array_equal(canvas_of(page), before)
     resume.click()

@@ -180,6 +180,20 @@ def test_clouds_in_a_deep_blue_sky_are_grey_at_dusk():
     assert -1.4 < balance(rendered(scene, DUSK)[cloud])[0] < -0.3
 
 
+def test_clouds_at_dusk_follow_the_model_halfway():
+    photo = known_photo(sun=(8.0, 40.0), tint=(0.4, 1.0, 2.0), size=(240, 160))
+    scene = photo.analyze()
+    cloud, clear = photo.opacity > 0.85, (photo.opacity < 0.02) & (photo.sky > 0)
+
+    def over_the_sky(edit):
+        light = np.log2(rendered(scene, edit) @ LUMINANCE)
+        return light[cloud].mean() - light[clear].mean()
+
+    alone = over_the_sky(DUSK.replace(cloud_strength=0))
+    # The model's clouds are half a stop darker than the sky; these stay brighter, as in the photo.
+    assert 0.2 < over_the_sky(DUSK) < alone - 0.3
+
+
 def test_a_gray_evening_turns_blue_by_day_but_a_blue_sky_no_bluer():
     gray = known_photo(sun=(8.0, 4.0), tint=(2.0, 1.0, 0.5), clouds=False, size=(240, 160))
     blue = known_photo(sun=(8.0, 4.0), tint=(0.7, 1.0, 2.0), clouds=False, size=(240, 160))
