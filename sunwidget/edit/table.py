@@ -208,8 +208,8 @@ class Edit:
     scattering_orders: float = _number(0.0, (0, 16), 1, "", "Scattering orders", "sky",
         "How often light may be scattered: 0 any number of times, n up to n times.",
         advanced=True)
-    cloud_strength: float = _number(1.0, (0, 1), 0.01, "", "Cloud strength", "clouds",
-        "How much the clouds follow the moved sun; 0 turns it off exactly.")
+    cloud_strength: float = _number(0.5, (0, 1), 0.01, "", "Cloud strength", "clouds",
+        "How much the clouds follow the model; 0 turns it off exactly, and 1 flattens them.")
     silver_lining: float = _number(1.0, (0, 3), 0.05, "", "Silver lining", "clouds",
         "Forward scattering in thin cloud edges near the sun.")
     cloud_method: str = _choice("analysed", CLOUD_METHODS, "Cloud detection", "clouds",

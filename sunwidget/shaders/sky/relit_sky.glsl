@@ -36,8 +36,6 @@ const float kMostGone = 1.2;  // log of light
 // A cloud darker than this share of the model's light is all shade.
 const float kShaded = 0.2;
 const float kFarthest = 1.8;  // stops
-// By how much clouds follow the model less as it becomes dusk: there its clouds lose their detail.
-const float kDuskClouds = 0.5;
 const float kTextureKept = 0.7;  // share of the clouds' texture that stays in air brightened by the new sun
 
 // The factor by which light fades as the model's light changes by `change` (log). `own.r` (own_sky.glsl), the excess
@@ -68,7 +66,6 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   vec3 ambient = GetCloudAmbientBefore();
   vec3 sun_before = GetSunBefore();
   vec3 sun_now = GetDescribedSun();
-  float strength = cloud_strength * (1.0 - kDuskClouds * GetDuskens(sun_before, sun_now));
   // Clouds that the user added are certain.
   float opacity = mix(GetKnownOpacity(cover, sun_before), cover, smoothstep(0.0, 0.05, added_clouds));
   // Where clouds hide the photo's sun there is no peak that could leave with it. At dusk it goes with the daylight.
@@ -88,12 +85,12 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   // Where un-mixing errs, new light reveals a hard cloud edge: clouds differ from the sky by less than kFarthest.
   float parted = log2(GetLuminance(veiled) / GetLuminance(plain)) / kFarthest;
   veiled *= exp2(kFarthest * (GetBounded(parted, 1.0) - parted));
-  vec3 ratio = plain + strength * (veiled - plain);
+  vec3 ratio = plain + cloud_strength * (veiled - plain);
   // Beyond 8x (or an eighth) noise and clipping would be amplified: trust the model there.
   float extreme = smoothstep(2.5, 4.0, abs(log2(GetLuminance(ratio) * gain)));
   vec3 relit = sky * ratio;
   relit += extreme * moved * (clean * ratio - relit);
-  float cloud = opacity * min(strength, 1.0);
+  float cloud = opacity * min(cloud_strength, 1.0);
   vec3 model = mix(sky_before, cloud_before, cloud);
   float risen = GetRisen(sun_before, sun_now);
   relit = ShiftToModelColor(relit, sky, model, ratio, opacity, cloud, sky_before, sky_now, risen);
@@ -101,7 +98,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   // Measured on the relit pixel, not on the photo: where the model replaces the photo there is no rim to fade.
   vec3 whole = mix(sky_before, cloud_before, opacity);
   float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
-  local *= min(strength, 1.0);
+  local *= min(cloud_strength, 1.0);
   uneven = GetBounded(opacity * local, 1.0);
   relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
