@@ -267,6 +267,8 @@ class Edit:
         "Strength of the sun's glints on water; 1 matches the waves of this wind.")
     glow: float = _number(1.0, (0, 3), 0.05, "", "Glow", "effects",
         "Camera glare around the moved sun, over sky and land; 1 matches real cameras.")
+    starburst: float = _number(1.0, (0, 1), 0.01, "", "Starburst", "effects",
+        "Rays that the lens draws around a new sun in a blue sky by day.")
     light_shafts: float = _number(0.0, (0, 1), 0.01, "", "Light shafts", "effects",
         "Beams in the haze where land and clouds let the sun through.")
     lens_flare: float = _number(0.0, (0, 1), 0.01, "", "Lens flare", "effects",

@@ -39,8 +39,8 @@ def test_a_pale_sky_falls_off_from_the_sun_on(haze):
 
 
 def test_a_sun_behind_thick_cloud_dims_nothing(haze):
-    (shown,) = levels(haze, moved(), SUN, (8, 10))
-    (veiled,) = levels(haze, moved(sun_visibility=0.3), SUN, (8, 10))
+    (shown,) = levels(haze, moved(cloud_strength=1), SUN, (8, 10))
+    (veiled,) = levels(haze, moved(cloud_strength=1, sun_visibility=0.3), SUN, (8, 10))
     assert veiled > 1.04 * shown
 
 

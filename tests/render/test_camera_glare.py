@@ -7,11 +7,17 @@ import pytest
 from relight_scenes import known_photo, known_scene
 
 from sunwidget.analysis.fit.fit import Response, SkyFit
-from sunwidget.analysis.sun.camera_glare import beam, glare_profile, measured_glare, strength
+from sunwidget.analysis.sun.camera_glare import (
+    angle_to_sun,
+    beam,
+    glare_profile,
+    measured_glare,
+    strength,
+)
 from sunwidget.edit.table import Edit
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
-from sunwidget.renderer import render_pass
+from sunwidget.renderer import render, render_pass
 
 ANGLE = np.linspace(0, 40, 12000).reshape(100, 120).astype(np.float32)
 
@@ -92,3 +98,36 @@ def test_kernel_and_shader_draw_the_same_glare():
     visible = render_pass(scene, Edit(), "visibility_edit")[0, 0, 1]
     expected = visible * drawn(fit, 0.0) / 1.5 * sun_color(fit)
     assert np.allclose(light, expected, rtol=0.03)
+
+
+def uneven(scene, edit, low, high):
+    """Range of the light (log2) in the ring from ``low`` to ``high`` degrees from the sun."""
+    light = render(scene, edit, dtype="float32") @ LUMINANCE
+    sun = edit.sun_azimuth, edit.sun_elevation
+    away = angle_to_sun(scene.camera, light.shape[::-1], sun)
+    ring = (scene.sky > 0.99) & (away > low) & (away < high)
+    return np.ptp(np.percentile(np.log2(light[ring]), [5, 95]))
+
+
+def test_a_new_sun_in_a_blue_sky_has_rays_which_fade_with_distance():
+    photo = known_photo(sun=(150.0, 40.0), clouds=False, tint=(0.6, 1.0, 1.9))
+    scene = photo.analyze(sun="outside")
+    with_rays = Edit(sun_azimuth=-10, sun_elevation=14)
+    without = with_rays.replace(starburst=0)
+    near, far = [
+        uneven(scene, with_rays, *ring) - uneven(scene, without, *ring)
+        for ring in ((5, 5.5), (24, 24.5))
+    ]
+    assert near > 0.15
+    assert abs(far) < 0.05
+
+
+@pytest.mark.parametrize("why", ["gray", "evening", "hidden", "own"])
+def test_a_sun_in_haze_at_evening_behind_cloud_or_in_the_photo_has_no_rays(why):
+    tint = (1.3, 1.0, 0.7) if why == "gray" else (0.6, 1.0, 1.9)
+    photo = known_photo(sun=(8.0, 20.0), clouds=False, tint=tint)
+    scene = photo.analyze() if why == "own" else photo.analyze(sun="outside")
+    edit = Edit(sun_azimuth=-10, sun_elevation=3 if why == "evening" else 14)
+    if why == "hidden":
+        edit = edit.replace(sun_visibility=0)
+    assert np.array_equal(render(scene, edit), render(scene, edit.replace(starburst=0)))

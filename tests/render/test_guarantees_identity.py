@@ -175,6 +175,7 @@ SHOWN = {
     "wind_speed": {"added_clouds": 0.5, "wind_time": 30},
     "wind_direction": {"added_clouds": 0.5, "wind_time": 30},
     "wind_time": {"added_clouds": 0.5},
+    "starburst": {"sun_elevation": 14},  # by day
 }
 
 
@@ -189,6 +190,8 @@ def test_every_slider_changes_some_picture(parameter):
     scene = sample_scene(sample) if sample else known_scene()
     if parameter.name.startswith("window"):
         scene = house_scene()
+    if parameter.name == "starburst":  # only where the photo shows no sun
+        scene = known_photo(tint=(0.4, 1.0, 2.0)).analyze(sun="outside")
     base = {"sun_azimuth": -12.0, "sun_elevation": 8.0, **SHOWN.get(parameter.name, {})}
     low, high = parameter.minimum, parameter.maximum
     values = [low + share * (high - low) for share in (0.1, 0.9)]

@@ -2,13 +2,20 @@
 // and land alike. It adds light of the sun's color: the glow in a deep blue sky is white.
 // `glare_profile` (analysis/sun/camera_glare.py) is the profile for a sun in a well exposed picture.
 
+#include "camera/starburst.glsl"
+
 uniform vec3 glare_profile;  // a (scene-linear luminance), b (degrees), c
 
+const float kRayLength = 40.0;  // squared angle, in units of b, at which half of the rays' stretching is gone
+
 // G(angle) = a / (1 + (angle / b)^2)^c. The chord stands in for the angle: they differ only where glare is gone.
-float GetCameraGlare(vec3 view, vec3 sun) {
+// `rays` stretches it along the rays of a starburst, by this many stops (of the squared angle) close to the sun.
+float GetCameraGlare(vec3 view, vec3 sun, float rays) {
   vec3 chord = view - sun;
   float x = degrees(1.0) / max(glare_profile.y, 0.05);
-  return glare_profile.x * pow(1.0 + x * x * dot(chord, chord), -glare_profile.z);
+  float square = x * x * dot(chord, chord);
+  if (rays > 0.0) square *= exp2(-rays * GetStarburst(chord, sun) / (1.0 + square / kRayLength));
+  return glare_profile.x * pow(1.0 + square, -glare_profile.z);
 }
 
 // A camera exposes for a visible sun, so its glare grows more slowly than the sun's light.

@@ -17,7 +17,9 @@ const float kUnevenGlow = 2.0;
 vec3 GetVeil(vec3 light, vec3 view, vec3 veil, float matte, float uneven) {
   veil *= GetSkySeen();
   vec3 color = UnpackColor(described[0].w);
-  float glare = GetSkySeen() * GetMoved() * described[3].y * GetCameraGlare(view, GetDescribedSun());
+  // Rays are seen before the sky only: readers took those before land for a fault.
+  float rays = matte * texelFetch(composite_constants, ivec2(kBesideSun, 0), 0).z;
+  float glare = GetSkySeen() * GetMoved() * described[3].y * GetCameraGlare(view, GetDescribedSun(), rays);
   float passes = exp(kUnevenGlow * uneven);
   vec3 added = max(veil, vec3(0.0)) + glare * mix(kLensShare, passes, matte) * color;
   vec3 taken = mix(land_strength, sky_strength, matte) * min(veil, vec3(0.0));
