@@ -2,19 +2,26 @@
 // and land alike. It adds light of the sun's color: the glow in a deep blue sky is white.
 // `glare_profile` (analysis/sun/camera_glare.py) is the profile for a sun in a well exposed picture.
 
-#include "camera/starburst.glsl"
-
 uniform vec3 glare_profile;  // a (scene-linear luminance), b (degrees), c
 
 const float kRayLength = 40.0;  // squared angle, in units of b, at which half of the rays' stretching is gone
 
 // G(angle) = a / (1 + (angle / b)^2)^c. The chord stands in for the angle: they differ only where glare is gone.
-// `rays` stretches it along the rays of a starburst, by this many stops (of the squared angle) close to the sun.
+// `rays` stretches it along the rays of a starburst, by this many stops (of the squared angle) close to the sun: the
+// edges of an aperture of seven blades diffract light into fourteen directions (Hecht, Optics, ch. 10), and scratches on
+// the glass into finer ones between.
 float GetCameraGlare(vec3 view, vec3 sun, float rays) {
   vec3 chord = view - sun;
   float x = degrees(1.0) / max(glare_profile.y, 0.05);
   float square = x * x * dot(chord, chord);
-  if (rays > 0.0) square *= exp2(-rays * GetStarburst(chord, sun) / (1.0 + square / kRayLength));
+  if (rays > 0.0) {
+    vec3 right = normalize(vec3(sun.z, 0.0, -sun.x));
+    float turn = atan(dot(chord, cross(sun, right)), dot(chord, right) + 1e-9);
+    vec2 ray = 0.5 + 0.5 * cos(turn * vec2(14.0, 31.0) - vec2(0.4, 1.37));
+    ray *= ray;
+    ray *= vec2(ray.x, 0.35) * (0.7 + 0.3 * cos(3.0 * turn - 0.93));
+    square *= exp2(rays * (0.3 - max(ray.x, ray.y)) / (1.0 + square / kRayLength));
+  }
   return glare_profile.x * pow(1.0 + square, -glare_profile.z);
 }
 

@@ -218,14 +218,9 @@ float GetAppeared(vec3 sun) {
       * smoothstep(kGlowSeen.x, kGlowSeen.y, seen);
 }
 
-// How far the rays of a full starburst stretch the glare, in stops of the squared angle (chosen by eye).
+// How far the rays of a full starburst stretch the glare, in stops of the squared angle (chosen by eye). Lenses draw
+// them around a hard, bright sun in a clear sky. A photo that shows its own sun shows its own rays.
 const float kRays = 1.6;
-
-// Lenses draw rays around a hard, bright sun in a clear sky. A photo that shows its own sun shows its own rays.
-float GetRays(float sun_y) {
-  return kRays * starburst * (1.0 - max(sun_visible, photo_light)) * GetBlueDay(sun_y)
-      * texelFetch(visibility_edit, ivec2(0), 0).r;
-}
 
 // Largest factor by which the photo's own disc becomes brighter.
 const float kBrightestDisc = 4.0;
@@ -277,7 +272,9 @@ void main() {
   } else if (index == kDisc) {
     result = vec4(radius, 0.5 * (low + high), 2.0 / (high - low), disc);
   } else if (index == kBesideSun) {
-    result = vec4(GetAppeared(sun_now), log2(max(GetLuminance(GetSceneLight(photo_sky_linear_mean)), 1e-6)), GetRays(sun_now.y), 0.0);
+    float rays = kRays * starburst * (1.0 - max(sun_visible, photo_light)) * smoothstep(kDay.x, kDay.y, sun_now.y)
+        * GetBlueSky() * visible_now;
+    result = vec4(GetAppeared(sun_now), log2(max(GetLuminance(GetSceneLight(photo_sky_linear_mean)), 1e-6)), rays, 0.0);
   } else if (index == kOwnDisc) {
     result = vec4(GetOwnDisc(), GetMoon() == photo_light ? own_disc_radius * sun_size : 0.0);
   } else {

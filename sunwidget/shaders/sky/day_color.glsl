@@ -24,16 +24,16 @@ float GetMeanRed(float channel) {
   return log2(max(photo_sky_linear_mean.r, 1e-4) / max(channel, 1e-4));
 }
 
-// How far it is day in a blue sky, under a sun of this height (sine).
-float GetBlueDay(float sun_y) {
-  return smoothstep(kDay.x, kDay.y, sun_y) * smoothstep(kBlueSky.x, kBlueSky.y, -GetMeanRed(photo_sky_linear_mean.b));
+// How far the photo's sky is blue.
+float GetBlueSky() {
+  return smoothstep(kBlueSky.x, kBlueSky.y, -GetMeanRed(photo_sky_linear_mean.b));
 }
 
 // The turn, as of TurnColor, of light of this `color` towards the photo's `own` as the sun, `cosine` away from it,
 // stands by day; `fall` is the log2 of its light over the photo's. As a low sun has `risen`, its evening's colors leave.
 vec3 GetOwnColorTurn(vec2 color, vec2 own, float fall, float cosine, float sun_y, float risen) {
   float day = smoothstep(kDay.x, kDay.y, sun_y);
-  float blue_day = GetBlueDay(sun_y);
+  float blue_day = day * GetBlueSky();
   float evening = min(2.0 * risen, 1.0) * smoothstep(kEveningSky.x, kEveningSky.y, GetMeanRed(photo_sky_linear_mean.g));
   vec2 kept = 1.0 - exp(-pow(max(1.0 - cosine, 0.0) / kWhitens, kWhitensPower));
   // What is not blue stays warm around the sun.

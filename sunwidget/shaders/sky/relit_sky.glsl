@@ -15,10 +15,6 @@ uniform float cloud_strength;
 uniform float added_clouds;
 uniform float sun_located;  // whether the photo shows its sun or the glow of a hidden one, 0 or 1
 
-// Sine of the sun's elevation below which it lights clouds from below.
-const float kGrazing = 0.05;
-// The clouds' sunlit share when the sun is at the horizon.
-const float kUnderlit = 0.7;
 // Logs of light: the change of the model's light at which half of the photo's excess over the model has faded,
 // and the most that fades.
 const float kLightFades = 1.0;
@@ -61,8 +57,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
                   vec3 view, vec3 disc, out float uneven) {
   float gain = GetExposureGain();
   float moved = GetMoved();
-  float glare = mark * moved * step(1e-6, sky_strength);
-  vec3 sky = light + glare * (clean - light);
+  vec3 sky = light + mark * moved * (clean - light);
   vec3 ambient = GetCloudAmbientBefore();
   vec3 sun_before = GetSunBefore();
   vec3 sun_now = GetDescribedSun();
@@ -75,22 +70,16 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   sky_now = GetSkyBehindClouds(sky_now, GetCloudAmbientNow(), hidden * (1.0 - moved));
   own.rg += (1.0 - day) * own.a;
   float share = GetSunlitShare(clean, sky_before, ambient, GetCloudLobeBefore(), opacity);
-  // A sun at the horizon lights, from below, parts that were in shade.
-  float grazing = smoothstep(0.0, kGrazing, sun_before.y) - smoothstep(0.0, kGrazing, sun_now.y);
-  float share_now = share + 0.5 * max(grazing, 0.0) * max(kUnderlit - share, 0.0);
   vec3 cloud_before = GetCloud(ambient, GetCloudLobeBefore(), share, sky_before, sun_before, view, opacity);
-  vec3 cloud_now = GetCloud(GetCloudAmbientNow(), GetCloudLobeNow(), share_now, sky_now, sun_now, view, opacity);
+  vec3 cloud_now = GetCloud(GetCloudAmbientNow(), GetCloudLobeNow(), share, sky_now, sun_now, view, opacity);
   vec3 plain = GetRatio(sky_now, sky_before);
   vec3 veiled = GetRatio(mix(sky_now, cloud_now, opacity), mix(sky_before, cloud_before, opacity));
   // Where un-mixing errs, new light reveals a hard cloud edge: clouds differ from the sky by less than kFarthest.
   float parted = log2(GetLuminance(veiled) / GetLuminance(plain)) / kFarthest;
   veiled *= exp2(kFarthest * (GetBounded(parted, 1.0) - parted));
   vec3 ratio = plain + cloud_strength * (veiled - plain);
-  // Beyond 8x (or an eighth) noise and clipping would be amplified: trust the model there.
-  float extreme = smoothstep(2.5, 4.0, abs(log2(GetLuminance(ratio) * gain)));
   vec3 relit = sky * ratio;
-  relit += extreme * moved * (clean * ratio - relit);
-  float cloud = opacity * min(cloud_strength, 1.0);
+  float cloud = opacity * cloud_strength;
   vec3 model = mix(sky_before, cloud_before, cloud);
   float risen = GetRisen(sun_before, sun_now);
   relit = ShiftToModelColor(relit, sky, model, ratio, opacity, cloud, sky_before, sky_now, risen);
@@ -98,7 +87,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   // Measured on the relit pixel, not on the photo: where the model replaces the photo there is no rim to fade.
   vec3 whole = mix(sky_before, cloud_before, opacity);
   float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
-  local *= min(cloud_strength, 1.0);
+  local *= cloud_strength;
   uneven = GetBounded(opacity * local, 1.0);
   relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
