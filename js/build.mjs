@@ -60,8 +60,8 @@ export function reachable(graph, files) {
 
 /**
  * Strip comments, indentation, empty lines, spaces around operators and zeros beside a decimal point from a
- * shader. Names and lines stay: a driver's error quotes a line, which can be found in the file. (Some constants
- * become numbers: `inlined`.)
+ * shader, and declare neighboring uniforms of one type together. Names and other lines stay: a driver's error quotes a
+ * line, which can be found in the file. (Some constants become numbers: `inlined`.)
  *
  * @param {string} text
  */
@@ -76,6 +76,9 @@ export function compact(text) {
         .replace(/(?<![+-]) ([+-]) (?![+-])/g, "$1")
         .replace(/(?<![\w.])0(?=\.\d)/g, "") // 0.5 is .5, and 1.0 is 1.
         .replace(/(?<=(?<![\w.])\d+\.)0(?!\d)/g, ""),
+    )
+    .replace(/^(uniform \w+ )\w+(;\n\1\w+)+/gm, (lines, type) =>
+      lines.replaceAll(`;\n${type}`, ","),
     );
 }
 

@@ -33,6 +33,12 @@ return a - -b+.50*c10.0+20.05;
   );
 });
 
+test("neighboring uniforms of one type are declared together", () => {
+  const text =
+    "uniform float a;\nuniform float b;  // meters\nuniform vec2 c;\nuniform vec2 d;\nuniform vec2 e;\n#if A\nuniform vec2 f;\n";
+  assert.equal(compact(text), "uniform float a,b;\nuniform vec2 c,d,e;\n#if A\nuniform vec2 f;");
+});
+
 test("constants become numbers where that is shorter; of two with one name neither does", () => {
   const texts = {
     "a.glsl":

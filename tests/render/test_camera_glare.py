@@ -131,3 +131,27 @@ def test_a_sun_in_haze_at_evening_behind_cloud_or_in_the_photo_has_no_rays(why):
     if why == "hidden":
         edit = edit.replace(sun_visibility=0)
     assert np.array_equal(render(scene, edit), render(scene, edit.replace(starburst=0)))
+
+
+def passing(why):
+    """A row of the share of glare that passes a sky with a dark band in its middle, (w,)."""
+    tint = (0.6, 1.0, 1.9) if why == "blue" else (1.1, 1.0, 0.9)
+    photo = known_photo(sun=(8.0, 20.0), clouds=False, tint=tint)
+    picture = photo.bytes.copy()
+    picture[:50, 56:64] = (0.6 * picture[:50, 56:64]).astype(np.uint8)
+    scene = photo.analyze(picture) if why == "own" else photo.analyze(picture, sun="outside")
+    edit = Edit(sun_azimuth=-3, sun_elevation=3 if why == "evening" else 14)
+    return render_pass(scene, edit, "veil")[3, :, 3]
+
+
+def test_dark_gray_cloud_holds_back_the_glare_of_a_new_sun():
+    row = passing("gray")
+    middle = len(row) // 2
+    assert row[middle] < 0.5
+    assert 1.02 < row.max() < 2
+    assert np.allclose(row[[5, -6]], 1, atol=0.15)
+
+
+@pytest.mark.parametrize("why", ["blue", "evening", "own"])
+def test_neither_blue_sky_nor_a_low_sun_nor_the_photos_own_is_held_back(why):
+    assert np.array_equal(passing(why), np.ones(30))

@@ -12,16 +12,16 @@ const float kLensShare = 0.25;
 // Glare is uneven as the clouds that it passes are, by this power (chosen by eye).
 const float kUnevenGlow = 2.0;
 
-// `veil` (veil.glsl) has the exposure of `light`; `matte` is the pixel's share of sky, `uneven` as in `GetSkyChange`.
+// `map` is the pixel of veil.glsl, in the exposure of `light`, `matte` the pixel's share of sky, `uneven` as in
+// `GetSkyChange`.
 // The old sun's glare was already removed together with the veil that hid sky and land behind it.
-vec3 GetVeil(vec3 light, vec3 view, vec3 veil, float matte, float uneven) {
-  veil *= GetSkySeen();
+vec3 GetVeil(vec3 light, vec3 view, vec4 map, float matte, float uneven) {
+  vec3 veil = map.rgb * GetSkySeen();
   vec3 color = UnpackColor(described[0].w);
   // Rays are seen before the sky only: readers took those before land for a fault.
   float rays = matte * texelFetch(composite_constants, ivec2(kBesideSun, 0), 0).z;
   float glare = GetSkySeen() * GetMoved() * described[3].y * GetCameraGlare(view, GetDescribedSun(), rays);
-  float passes = exp(kUnevenGlow * uneven);
-  vec3 added = max(veil, vec3(0.0)) + glare * mix(kLensShare, passes, matte) * color;
+  vec3 added = max(veil, vec3(0.0)) + glare * mix(kLensShare, map.a * exp(kUnevenGlow * uneven), matte) * color;
   vec3 taken = mix(land_strength, sky_strength, matte) * min(veil, vec3(0.0));
   vec3 most = kMostTaken * max(light, vec3(1e-6));
   return mix(land_strength, sky_strength, matte) * added + taken * most / (most - taken);

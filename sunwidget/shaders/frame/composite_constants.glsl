@@ -53,8 +53,11 @@ const float kGlareFade = 4.0;
 const float kNightKey = 1.6;
 const vec2 kNightBegins = vec2(5.9, -5.06);
 
-// The amount (EV) by which dusk is darker than a meter makes it where no sky is visible.
-const float kDuskStops = 1.4;
+// The amounts (EV) by which dusk is darker than a meter makes it where no sky is visible, and where it is: there a photo
+// of the dusk that becomes a day is exposed like others of the day.
+const vec2 kDuskStops = vec2(1.4, 0.55);
+// Photos as dark as the first (mean log2 of display-linear luminance) are dark enough, the second are not.
+const vec2 kDarkEnough = vec2(-3.5, -2.5);
 
 // If a visible sun would clip the sky, a camera exposes for the sky: it reduces the exposure by kProtection
 // of the amount by which the sky's mean exceeds kBrightSky (display-linear).
@@ -151,7 +154,9 @@ float GetSkyLift() {
 float GetStops() {
   float night = GetNightStops(GetMeter(meter_edit).r) - GetNightStops(GetMeter(meter_source).r);
   // A meter that sees no bright sky restores the land's daylight, but dusk must look like dusk.
-  float dusk = kDuskStops * (1.0 - GetSkySeen()) * (GetDusk(sun_elevation) - GetDusk(source_sun_elevation));
+  float dusk = GetDusk(sun_elevation) - GetDusk(source_sun_elevation);
+  dusk *= mix(kDuskStops.x, kDuskStops.y * max(dusk, 0.0) * smoothstep(kDarkEnough.x, kDarkEnough.y, photo_key),
+              GetSkySeen());
   return exposure + auto_exposure * (GetRestraint(sun_elevation) * (GetDayStops() - night) - dusk) + GetSkyLift();
 }
 
@@ -211,11 +216,10 @@ bool IsSkyUnchanged() {
   return same;
 }
 
-// How far a sun has come into a picture without one by day: then a camera stops down (beside_sun.glsl).
-float GetAppeared(vec3 sun) {
+// How far a sun has come into the picture: then a camera stops down (beside_sun.glsl).
+float GetAppeared() {
   float seen = texelFetch(visibility_edit, ivec2(0), 0).b - texelFetch(visibility_source, ivec2(0), 0).b;
-  return auto_exposure * (1.0 - max(sun_visible, photo_light)) * smoothstep(kDay.x, kDay.y, sun.y)
-      * smoothstep(kGlowSeen.x, kGlowSeen.y, seen);
+  return auto_exposure * smoothstep(kGlowSeen.x, kGlowSeen.y, seen);
 }
 
 // How far the rays of a full starburst stretch the glare, in stops of the squared angle (chosen by eye). Lenses draw
@@ -272,9 +276,10 @@ void main() {
   } else if (index == kDisc) {
     result = vec4(radius, 0.5 * (low + high), 2.0 / (high - low), disc);
   } else if (index == kBesideSun) {
-    float rays = kRays * starburst * (1.0 - max(sun_visible, photo_light)) * smoothstep(kDay.x, kDay.y, sun_now.y)
-        * GetBlueSky() * visible_now;
-    result = vec4(GetAppeared(sun_now), log2(max(GetLuminance(GetSceneLight(photo_sky_linear_mean)), 1e-6)), rays, 0.0);
+    // A high sun in a photo that shows none.
+    float day = (1.0 - max(sun_visible, photo_light)) * smoothstep(kDay.x, kDay.y, sun_now.y);
+    float rays = kRays * starburst * day * GetBlueSky() * visible_now;
+    result = vec4(day * GetAppeared(), log2(max(GetLuminance(GetSceneLight(photo_sky_linear_mean)), 1e-6)), rays, day);
   } else if (index == kOwnDisc) {
     result = vec4(GetOwnDisc(), GetMoon() == photo_light ? own_disc_radius * sun_size : 0.0);
   } else {

@@ -131,7 +131,7 @@ void main() {
   change += (1.0 - matte) * land_change;
 #endif
 
-  change += GetVeil(scene + change, view, ReadBilinear(veil, place).rgb, matte, uneven);
+  change += GetVeil(scene + change, view, ReadBilinear(veil, place), matte, uneven);
   change += strength * GetNight() * GetRodShift(scene + change);
   // Sky filled in where the old sun hid it gets the photo's grain.
 #ifdef LAND_ALONE
