@@ -93,7 +93,10 @@ def test_a_dark_evening_is_exposed_as_a_day_when_its_sun_has_risen():
 
     assert -3.5 < told < -1.5
     assert key(dark, HIGH) > key(scene, HIGH) + 0.25
-    assert key(dark, DUSK) == key(scene, DUSK)
+    # Nor is it darkened at dusk; the brightness of others does not matter then.
+    assert 0.2 < key(dark, DUSK) - key(scene, DUSK) < 0.5
+    dim = dataclasses.replace(scene, response=scene.response | {"photo_key": -2.4})
+    assert key(dim, DUSK) == key(scene, DUSK)
 
 
 def test_a_dark_evenings_sky_is_lifted_and_its_land_is_not():

@@ -34,6 +34,12 @@ _STRIP = 0.005  # of the width: half of the gap above the horizon
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
 _SHORE = 0.04  # of the width: greatest distance of the shore from the network's edge
 _SHORE_SIDE = 384  # px of the copy on which the shore is searched
+_GAPS = (0.0005, 0.08)  # of the picture: areas of gaps that may be water
+_RIM = 2  # px of the working copy, left out on both sides of a gap's rim
+_DRY = 0.1  # share of a gap's surroundings that may be land
+# CIE 1976 color difference (Mahy 1994). Of 24 gaps in the water of 400 photos five differ from
+# what is around by 0.3 to 2.1, the others by 5.8 and more.
+_JUST_NOTICED = 2.3
 _RADIUS = 5  # px of the working copy: distance over which the mask's edge follows the picture
 _EPSILON = 1e-4
 
@@ -76,7 +82,8 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
         return np.zeros_like(sky)
     water = _to_the_shore(working, sky, water)
     water = _with_glints(working, sky, ground, water, maps)
-    return soft_edged(working, sky, _along_rows(working, possible, water, maps))
+    water = _along_rows(working, possible, water, maps)
+    return soft_edged(working, sky, without_seamless_gaps(working, sky, water))
 
 
 METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]] = {
@@ -187,6 +194,34 @@ def _along_rows(
     _, labels = cv2.connectedComponents((alike | wet).astype(np.uint8), connectivity=4)
     added = alike & np.isin(labels, np.unique(labels[wet]))
     return np.asarray(np.maximum(water, added * possible), np.float32)
+
+
+def without_seamless_gaps(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:
+    """Fill gaps (h, w) in the water that nobody could outline: both sides of the rim look alike."""
+    import cv2
+
+    found = water.copy()
+    lab = cv2.cvtColor(working.encoded, cv2.COLOR_RGB2LAB)
+    dry = ((water < 0.5) & (sky < 0.5)).astype(np.uint8)
+    count, labels, boxes, _ = cv2.connectedComponentsWithStats(dry, connectivity=4)
+    for label in range(1, count):
+        left, top, width, height, area = boxes[label]
+        if not _GAPS[0] < area / dry.size < _GAPS[1]:
+            continue
+        # With a margin, and without the rim itself, where the colors of both sides mix.
+        margin = 3 * _RIM
+        rows = slice(max(top - margin, 0), top + height + margin)
+        columns = slice(max(left - margin, 0), left + width + margin)
+        gap = (labels[rows, columns] == label).astype(np.uint8)
+        narrow, broad = (np.ones((2 * side + 1,) * 2, np.uint8) for side in (_RIM, 3 * _RIM))
+        around = (cv2.dilate(gap, broad) - cv2.dilate(gap, narrow)) > 0
+        inside = (cv2.erode(gap, narrow) - cv2.erode(gap, broad)) > 0
+        if not inside.any() or (water[rows, columns][around] < 0.5).mean() > _DRY:
+            continue
+        here = lab[rows, columns]
+        if np.linalg.norm(here[inside].mean(0) - here[around].mean(0)) < _JUST_NOTICED:
+            found[rows, columns][gap > 0] = 1
+    return found
 
 
 def _below_sun(maps: SunMaps, width: int) -> np.ndarray:

@@ -55,7 +55,7 @@ const vec2 kNightBegins = vec2(5.9, -5.06);
 
 // The amounts (EV) by which dusk is darker than a meter makes it where no sky is visible, and where it is: there a photo
 // of the dusk that becomes a day is exposed like others of the day.
-const vec2 kDuskStops = vec2(1.4, 0.55);
+const vec2 kDuskStops = vec2(1.4, 0.5);
 // Photos as dark as the first (mean log2 of display-linear luminance) are dark enough, the second are not.
 const vec2 kDarkEnough = vec2(-3.5, -2.5);
 
