@@ -203,17 +203,17 @@ def without_seamless_gaps(working: Working, sky: np.ndarray, water: np.ndarray) 
     found = water.copy()
     lab = cv2.cvtColor(working.encoded, cv2.COLOR_RGB2LAB)
     dry = ((water < 0.5) & (sky < 0.5)).astype(np.uint8)
+    margin = 3 * _RIM
+    narrow, broad = (np.ones((2 * side + 1,) * 2, np.uint8) for side in (_RIM, margin))
     count, labels, boxes, _ = cv2.connectedComponentsWithStats(dry, connectivity=4)
     for label in range(1, count):
         left, top, width, height, area = boxes[label]
         if not _GAPS[0] < area / dry.size < _GAPS[1]:
             continue
-        # With a margin, and without the rim itself, where the colors of both sides mix.
-        margin = 3 * _RIM
+        # Without the rim itself, where the colors of both sides mix.
         rows = slice(max(top - margin, 0), top + height + margin)
         columns = slice(max(left - margin, 0), left + width + margin)
         gap = (labels[rows, columns] == label).astype(np.uint8)
-        narrow, broad = (np.ones((2 * side + 1,) * 2, np.uint8) for side in (_RIM, 3 * _RIM))
         around = (cv2.dilate(gap, broad) - cv2.dilate(gap, narrow)) > 0
         inside = (cv2.erode(gap, narrow) - cv2.erode(gap, broad)) > 0
         if not inside.any() or (water[rows, columns][around] < 0.5).mean() > _DRY:
