@@ -73,7 +73,7 @@ export function compact(text) {
     .replace(/^[^#].*/gm, (line) =>
       line
         .replace(/ *([*/=<>(){}[\],;?:&|!]) */g, "$1")
-        .replace(/(?<![+-]) ([+-]) (?![+-])/g, "$1")
+        .replace(/(?<=[\w).\]]) ?([+-]) ?(?![+-])/g, "$1")
         .replace(/(?<![\w.])0(?=\.\d)/g, "") // 0.5 is .5, and 1.0 is 1.
         .replace(/(?<=(?<![\w.])\d+\.)0(?!\d)/g, ""),
     )

@@ -21,14 +21,14 @@ test("a shader loses comments, blanks and zeros at the point; what it says, and 
 
   /* three
      lines */ vec3 a = vec3(1.0, -2.0,  3.0) / b;
-    return a - -b + 0.50 * c10.0 + 20.05;  // four
+    return a - -b + 0.50 * c10.0 + (20.05) - d;  // four
 #include "lib/c.glsl"
 `;
   assert.equal(
     compact(text),
     `#define TWICE(x) (2.0 * x)
 vec3 a=vec3(1.,-2.,3.)/b;
-return a - -b+.50*c10.0+20.05;
+return a- -b+.50*c10.0+(20.05)-d;
 #include "lib/c.glsl"`,
   );
 });

@@ -144,13 +144,25 @@ def test_leaves_that_glowed_before_a_low_sun_are_not_red_by_day():
     assert red / green < 3.5
 
 
-def test_orange_land_of_an_evening_is_paler_by_day_than_orange_land_of_a_day():
+def test_orange_land_of_an_evening_is_paler_by_day_than_orange_land_under_a_blue_sky():
     def redness(tint):
         photo = known_photo(sun=(8.0, 4.0), tint=tint, clouds=False)
         photo.linear[photo.sky == 0] = (0.3, 0.12, 0.03)
         return balance(rendered(photo.analyze(), HIGH)[photo.sky == 0])[0]
 
-    assert redness((6.0, 1.0, 0.05)) < redness((1.0, 1.0, 1.0)) - 0.1
+    evening, balanced, blue = (
+        redness(tint) for tint in ((6.0, 1.0, 0.05), (1.0, 1.0, 1.0), (0.7, 1.0, 2.0))
+    )
+    assert max(evening, balanced) < blue - 0.4
+
+
+def test_an_evening_leaves_no_orange_rim_along_a_soft_skyline_by_day():
+    photo = known_photo(sun=(8.0, 4.0), tint=(2.0, 1.0, 0.5), clouds=False, size=(240, 160))
+    picture = cv2.GaussianBlur(photo.linear, (0, 0), 2)
+    sky = cv2.GaussianBlur(photo.sky.astype(np.float32), (0, 0), 2)
+    frame = rendered(photo.analyze(np.uint8(255 * picture ** (1 / 2.2))), HIGH)
+    rim, land = (sky > 0.05) & (sky < 0.4), sky < 1e-3
+    assert balance(frame[rim])[0] < balance(frame[land])[0] + 0.1
 
 
 def test_round_a_seen_low_sun_clouds_change_as_the_sky_does_and_by_day_as_clouds():

@@ -115,7 +115,9 @@ void main() {
   vec3 lit_before = GetIrradianceBefore(upright);
   float removed = glare * GetMoved() * (1.0 - wet);
   vec3 land = RemoveGlare(front, removed, lit_before, nearby);
-  removed = min(removed, max(1.0 - GetLuminance(land) / max(GetLuminance(front), 1e-6), 0.0));
+  // Along the skyline land has the sky's color, which it loses with the evening.
+  removed = max(min(removed, 1.0 - GetLuminance(land) / max(GetLuminance(front), 1e-6)),
+                min(9.0 * matte, 1.0) * GetEveningOffLand());
   float shine = GetSkySeen() * (1.0 - upright / kMostUpright) * GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);

@@ -26,8 +26,8 @@ const vec2 kWhitePaint = vec2(0.5, 0.9);
 // Largest redness of land relative to its light: log of red over green, and over blue. Three in four warm land pixels
 // of daytime photos are below it.
 const vec2 kReddestLand = vec2(0.77, 1.6);
-// Share of that redness that leaves with an evening whose light itself was redder than daytime balances are.
-const float kEveningsRed = 0.6;
+// Shares of that redness that leave with an evening.
+const vec2 kEveningsRed = vec2(0.9, 0.75);
 
 // Largest blue of land over the stronger of red and green, in stops, whatever its light.
 const float kBluestLand = 1.1;
@@ -62,6 +62,12 @@ vec3 LimitBlue(vec3 land) {
   return color * (GetLuminance(land) / max(GetLuminance(color), 1e-9));
 }
 
+// How far an evening's colors leave the land.
+float GetEveningOffLand() {
+  vec3 sun = GetDescribedSun();
+  return GetSkySeen() * GetEveningLeft(GetDayBegun(sun.y, GetRisen(GetSunBefore(), sun)));
+}
+
 // Replaces unreliable color. The more the light's color changes, the less is known of the land's own; and dark pixels
 // of the photo are half noise and half lens glare: both take on the color of their light, `lit`, and dark pixels
 // brighten less. Land colored by the old sun's glare (`glare` is its share) gets the average land color.
@@ -86,7 +92,8 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
   // As the light changes, its own color replaces the average: that of an evening's land was the evening's.
   usual = mix(usual / GetLuminance(usual), color / GetLuminance(color), changed);
   land += glare * (usual * level - land);
-  land = mix(land, RemoveGlow(land, color, kReddestLand * (1.0 - kEveningsRed * evening)), unknown);
+  vec2 reddest = kReddestLand * (1.0 - kEveningsRed * max(evening, GetEveningOffLand()));
+  land = mix(land, RemoveGlow(land, color, reddest), unknown);
   land = mix(land, LimitBlue(land), changed);
   float albedo = 3.14159265 * level / max(GetLuminance(lit), 1e-9);
   float beyond = max(albedo - kWhitePaint.x, 0.0) / (kWhitePaint.y - kWhitePaint.x);

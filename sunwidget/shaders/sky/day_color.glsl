@@ -29,12 +29,17 @@ float GetBlueSky() {
   return smoothstep(kBlueSky.x, kBlueSky.y, -GetMeanRed(photo_sky_linear_mean.b));
 }
 
+// How far the colors of the photo's evening leave as its low sun has `risen`.
+float GetEveningLeft(float risen) {
+  return min(2.0 * risen, 1.0) * smoothstep(kEveningSky.x, kEveningSky.y, GetMeanRed(photo_sky_linear_mean.g));
+}
+
 // The turn, as of TurnColor, of light of this `color` towards the photo's `own` as the sun, `cosine` away from it,
 // stands by day; `fall` is the log2 of its light over the photo's. As a low sun has `risen`, its evening's colors leave.
 vec3 GetOwnColorTurn(vec2 color, vec2 own, float fall, float cosine, float sun_y, float risen) {
   float day = smoothstep(kDay.x, kDay.y, sun_y);
   float blue_day = day * GetBlueSky();
-  float evening = min(2.0 * risen, 1.0) * smoothstep(kEveningSky.x, kEveningSky.y, GetMeanRed(photo_sky_linear_mean.g));
+  float evening = GetEveningLeft(risen);
   vec2 kept = 1.0 - exp(-pow(max(1.0 - cosine, 0.0) / kWhitens, kWhitensPower));
   // What is not blue stays warm around the sun.
   float gray_share = day * (1.0 - evening) * kept.x;
@@ -49,14 +54,18 @@ vec3 GetOwnColorTurn(vec2 color, vec2 own, float fall, float cosine, float sun_y
 
 // By day skies are at least this blue, near the horizon and high above it: medians of 1070 photos whose sun is assumed
 // above 15 degrees.
-const vec2 kDayBelow = vec2(-0.38, 0.32);
-const vec2 kDayAbove = vec2(-0.7, 0.7);
+const vec2 kDayBelow = vec2(-0.5, 0.43);
+const vec2 kDayAbove = vec2(-0.95, 0.95);
 const vec2 kDayBegins = vec2(0.2, 0.4);  // sine of the sun's height
-const float kDayShare = 0.45;  // of the way to them
+const float kDayShare = 1.0;  // of the way to them
 
-// The turn of a sky's `color` in the height `view_y` towards that of such photos as a low sun has `risen`.
+// How far day begins as a low sun has `risen` to this height.
+float GetDayBegun(float sun_y, float risen) {
+  return risen * smoothstep(kDayBegins.x, kDayBegins.y, sun_y);
+}
+
+// The turn of a sky's `color` in the height `view_y` towards that of such photos as day begins.
 vec3 GetBlueDayTurn(vec2 color, float view_y, float sun_y, float risen) {
-  float share = kDayShare * risen * smoothstep(kDayBegins.x, kDayBegins.y, sun_y);
   vec2 turn = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y)) - color;
-  return share * vec3(min(turn.x, 0.0), max(turn.y, 0.0), 0.0);
+  return kDayShare * GetDayBegun(sun_y, risen) * vec3(min(turn.x, 0.0), max(turn.y, 0.0), 0.0);
 }
