@@ -211,7 +211,7 @@ def test_clouds_follow_the_model_halfway():
 
 def test_a_gray_evening_turns_blue_by_day_but_a_blue_sky_no_bluer():
     gray = known_photo(sun=(8.0, 4.0), tint=(2.0, 1.0, 0.5), clouds=False, size=(240, 160))
-    blue = known_photo(sun=(8.0, 4.0), tint=(0.7, 1.0, 2.0), clouds=False, size=(240, 160))
+    blue = known_photo(sun=(8.0, 4.0), tint=(0.4, 1.0, 3.0), clouds=False, size=(240, 160))
     colors = []
     for photo in (gray, blue):
         scene = photo.analyze()

@@ -52,12 +52,11 @@ vec3 GetOwnColorTurn(vec2 color, vec2 own, float fall, float cosine, float sun_y
   return vec3(kOwnShare * vec2(min(turn.x, 0.0), max(turn.y, 0.0)), kBlueLightShare * blue_day * max(light, near * light));
 }
 
-// By day skies are at least this blue, near the horizon and high above it: medians of 1070 photos whose sun is assumed
-// above 15 degrees.
-const vec2 kDayBelow = vec2(-0.5, 0.43);
-const vec2 kDayAbove = vec2(-0.95, 0.95);
+// By day skies are at least this blue, near the horizon and high above it: 1.7 times the medians of 1070 photos whose
+// sun is assumed above 15 degrees, in stops, since readers prefer each of these steps (docs/methods/effects.md).
+const vec2 kDayBelow = vec2(-0.62, 0.54);
+const vec2 kDayAbove = vec2(-1.2, 1.2);
 const vec2 kDayBegins = vec2(0.2, 0.4);  // sine of the sun's height
-const float kDayShare = 1.0;  // of the way to them
 
 // How far day begins as a low sun has `risen` to this height.
 float GetDayBegun(float sun_y, float risen) {
@@ -67,5 +66,5 @@ float GetDayBegun(float sun_y, float risen) {
 // The turn of a sky's `color` in the height `view_y` towards that of such photos as day begins.
 vec3 GetBlueDayTurn(vec2 color, float view_y, float sun_y, float risen) {
   vec2 turn = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y)) - color;
-  return kDayShare * GetDayBegun(sun_y, risen) * vec3(min(turn.x, 0.0), max(turn.y, 0.0), 0.0);
+  return GetDayBegun(sun_y, risen) * vec3(min(turn.x, 0.0), max(turn.y, 0.0), 0.0);
 }
