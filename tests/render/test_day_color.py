@@ -157,3 +157,15 @@ def test_the_users_exposure_is_not_taken_for_a_dark_sky(day):
     darker, _ = sky_of(day, sun, edit.replace(exposure=-1))
     change = between(darker, away, 25, 50)[2] - between(plain, away, 25, 50)[2]
     assert abs(change + 1) < 0.1
+
+
+@pytest.mark.parametrize("sun", [(8.0, 40.0), (20.0, 18.0)])
+def test_an_azure_sky_is_not_lilac_as_the_sun_moves(sun):
+    photo = known_photo(sun=sun, tint=(0.5, 1.2, 3.0), clouds=False, size=SIZE)
+    scene = photo.analyze()
+    before, after = (
+        np.median(render(scene, edit, dtype="float32")[photo.sky > 0], 0)
+        for edit in (Edit(), Edit(sun_azimuth=80))
+    )
+    assert after[2] > 0.5  # where blue rolls off
+    assert np.log2(after[0] / after[1]) < np.log2(before[0] / before[1]) - 0.2

@@ -12,10 +12,10 @@ const float kToe = 0.0035;
 const float kOvershoot = 1.06;  // asymptote, in units of the distance from knee to white: the sun itself clips
 
 // Display-linear light with the highlights of a good camera. Pixels that became `brighter`, 0 to 1, leave the
-// response at the knee and approach white slowly, without a flat plate. Warm colors do so channel by channel, which
-// turns a sunset's orange yellow, as film does; cold colors keep their hue, because they would end in cyan. The
-// core is white. The effect scales with how far the pixel has `changed`, 0 to 1. With a higher `output_white` highlights
-// rise further, by the same curve from the same knee.
+// response at the knee and approach white slowly, without a flat plate. Warm and blue colors do so channel by channel,
+// which turns a sunset's orange yellow, as film does, and keeps a sky azure, which mixed with white would be lilac;
+// others keep their hue. The core is white. The effect scales with how far the pixel has `changed`, 0 to 1. With a
+// higher `output_white` highlights rise further, by the same curve from the same knee.
 vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
   float w = max(response_shoulder, 1e-4);
   float luminance = max(GetLuminance(scene), 1e-9);
@@ -29,9 +29,9 @@ vec3 GetRolledOff(vec3 scene, float brighter, float changed) {
   color.g -= smoothstep(0.5, 0.8, level.a) * max(color.g - max(color.r, color.b), 0.0);  // no light is green
   float x = max(color.r, max(color.g, color.b)) * level.a / (output_white - level.a);
   vec3 same_hue = level.a + level.a * inversesqrt(1.0 + x * x) * color;
-  float warm = smoothstep(0.0, 0.8, color.r - color.b) * (1.0 - smoothstep(0.75, 1.0, level.a / output_white));
+  float vivid = smoothstep(0.0, 0.8, abs(color.r - color.b)) * (1.0 - smoothstep(0.75, 1.0, level.a / output_white));
   float bright = smoothstep(0.4, 0.8, max(plain.r, max(plain.g, plain.b)));
-  return plain.rgb + changed * bright * (mix(same_hue, level.rgb, warm) - plain.rgb);
+  return plain.rgb + changed * bright * (mix(same_hue, level.rgb, vivid) - plain.rgb);
 }
 
 // Keeps darkened pixels from black, as a good print does: display-linear light to add, more for darker pixels, up to
