@@ -115,9 +115,7 @@ void main() {
   vec3 lit_before = GetIrradianceBefore(upright);
   float removed = glare * GetMoved() * (1.0 - wet);
   vec3 land = RemoveGlare(front, removed, lit_before, nearby);
-  // Along the skyline land has the sky's color, which it loses with the evening.
-  removed = max(min(removed, 1.0 - GetLuminance(land) / max(GetLuminance(front), 1e-6)),
-                min(9.0 * matte, 1.0) * GetEveningOffLand());
+  removed = min(removed, max(1.0 - GetLuminance(land) / max(GetLuminance(front), 1e-6), 0.0));
   float shine = GetSkySeen() * (1.0 - upright / kMostUpright) * GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
@@ -125,7 +123,8 @@ void main() {
   int column = GetAirColumn(place);
   vec3 horizon = GetHorizon(column);
   vec3 air = GetAirChange(column, horizon, land_marks.b, land, lifted + water * (mirror.rgb - lifted));
-  vec3 land_change = GetLandChange(front, land, land_ratio, GetIrradianceNow(upright), shine, mirror.rgb, air, removed);
+  vec3 land_change = GetLandChange(front, land, land_ratio, GetIrradianceNow(upright), shine, mirror.rgb, air, removed,
+                                   min(9.0 * matte, 1.0));
   vec3 water_change = GetWaterChange(view, front, clean, land_marks.g, glare, mirror, air, horizon);
   land_change += water * (water_change - land_change);
   land_change += GetExposureGain()

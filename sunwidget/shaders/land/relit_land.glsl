@@ -62,22 +62,19 @@ vec3 LimitBlue(vec3 land) {
   return color * (GetLuminance(land) / max(GetLuminance(color), 1e-9));
 }
 
-// How far an evening's colors leave the land.
-float GetEveningOffLand() {
-  vec3 sun = GetDescribedSun();
-  return GetSkySeen() * GetEveningLeft(GetDayBegun(sun.y, GetRisen(GetSunBefore(), sun)));
-}
-
 // Replaces unreliable color. The more the light's color changes, the less is known of the land's own; and dark pixels
 // of the photo are half noise and half lens glare: both take on the color of their light, `lit`, and dark pixels
-// brighten less. Land colored by the old sun's glare (`glare` is its share) gets the average land color.
-vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare) {
+// brighten less. Land colored by the old sun's glare (`glare` is its share) gets the average land color, and so does land
+// at the skyline (1 there), colored by an evening's sky, as the evening ends.
+vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float glare, float skyline) {
   float level = GetLuminance(land);
   float dark = 1.0 - smoothstep(0.0, kDarkLand, GetLuminance(before));
   float lift = max(log2(max(GetExposureGain() * level, 1e-9) / max(GetLuminance(before), 1e-9)) - exposure, 0.0);
   // Without a sky the light on the land is unknown.
-  float turned = GetSkySeen() * GetTurned(ratio, before);
-  float risen = GetSkySeen() * GetRisen(GetSunBefore(), GetDescribedSun());
+  float known = GetSkySeen();
+  float turned = known * GetTurned(ratio, before);
+  float rises = GetRisen(GetSunBefore(), GetDescribedSun());
+  float risen = known * rises;
   float evening = risen * GetEveningBalance();
   float changed = max(turned, risen);  // how far the light has become another
   float day = smoothstep(kRises.x, kRises.y, GetSunBefore().y);
@@ -91,8 +88,9 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
                    smoothstep(0.0, kDarkLand, GetLuminance(mean)));
   // As the light changes, its own color replaces the average: that of an evening's land was the evening's.
   usual = mix(usual / GetLuminance(usual), color / GetLuminance(color), changed);
-  land += glare * (usual * level - land);
-  vec2 reddest = kReddestLand * (1.0 - kEveningsRed * max(evening, GetEveningOffLand()));
+  float ends = known * GetEveningsEnd(GetDayBegun(GetDescribedSun().y, rises));
+  land += max(glare, skyline * ends) * (usual * level - land);
+  vec2 reddest = kReddestLand * (1.0 - kEveningsRed * max(evening, ends));
   land = mix(land, RemoveGlow(land, color, reddest), unknown);
   land = mix(land, LimitBlue(land), changed);
   float albedo = 3.14159265 * level / max(GetLuminance(lit), 1e-9);
@@ -103,9 +101,10 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
 }
 
 // `clean` is the land's light without the old sun's glare, `lit` its irradiance now, `mirror` the share of mirrored
-// light, which follows `mirror_ratio`, `air` the light added by the air (read_air.glsl), `glare` the removed share.
+// light, which follows `mirror_ratio`, `air` the light added by the air (read_air.glsl), `glare` the removed share,
+// `skyline` 1 where the pixel shows sky, too.
 vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirror, vec3 mirror_ratio, vec3 air,
-                   float glare) {
+                   float glare, float skyline) {
   land_ratio += mirror * (mirror_ratio - land_ratio);
   vec3 land = max(GetLandGain() * land_ratio * clean + air, vec3(0.0));
   float luminance = GetLuminance(land);
@@ -114,7 +113,7 @@ vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirr
   vec3 lost = colour_loss == 1 ? luminance * (pow(color, vec3(1.0 - GetColorLoss())) - color)
       : GetColorLoss() * (vec3(luminance) - land);
   land = max(land + step(1e-9, abs(GetColorLoss())) * lost, vec3(0.0));
-  land = ReplaceGuessedColor(land, max(clean, vec3(1e-6)), land_ratio, lit, glare);
+  land = ReplaceGuessedColor(land, max(clean, vec3(1e-6)), land_ratio, lit, glare, skyline);
   float uneven = log2(max(GetLuminance(clean), 1e-4) / max(GetLuminance(GetSceneLight(photo_land_linear_mean)), 1e-4));
   land = TurnColor(land, GetSkySeen() * GetDuskLandTurn(GetSunBefore(), GetDescribedSun())
       + (1.0 - GetSkySeen()) * GetLowLandTurn(uneven, GetSunBefore(), GetDescribedSun()));

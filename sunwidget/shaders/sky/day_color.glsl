@@ -29,8 +29,8 @@ float GetBlueSky() {
   return smoothstep(kBlueSky.x, kBlueSky.y, -GetMeanRed(photo_sky_linear_mean.b));
 }
 
-// How far the colors of the photo's evening leave as its low sun has `risen`.
-float GetEveningLeft(float risen) {
+// How far the photo's evening, if it is one, ends as its low sun has `risen`.
+float GetEveningsEnd(float risen) {
   return min(2.0 * risen, 1.0) * smoothstep(kEveningSky.x, kEveningSky.y, GetMeanRed(photo_sky_linear_mean.g));
 }
 
@@ -39,7 +39,7 @@ float GetEveningLeft(float risen) {
 vec3 GetOwnColorTurn(vec2 color, vec2 own, float fall, float cosine, float sun_y, float risen) {
   float day = smoothstep(kDay.x, kDay.y, sun_y);
   float blue_day = day * GetBlueSky();
-  float evening = GetEveningLeft(risen);
+  float evening = GetEveningsEnd(risen);
   vec2 kept = 1.0 - exp(-pow(max(1.0 - cosine, 0.0) / kWhitens, kWhitensPower));
   // What is not blue stays warm around the sun.
   float gray_share = day * (1.0 - evening) * kept.x;
@@ -53,7 +53,7 @@ vec3 GetOwnColorTurn(vec2 color, vec2 own, float fall, float cosine, float sun_y
 }
 
 // By day skies are at least this blue, near the horizon and high above it: 1.7 times the medians of 1070 photos whose
-// sun is assumed above 15 degrees, in stops, since readers prefer each of these steps (docs/methods/effects.md).
+// sun is assumed above 15 degrees, in stops; of several multiples readers preferred this one (docs/methods/effects.md).
 const vec2 kDayBelow = vec2(-0.62, 0.54);
 const vec2 kDayAbove = vec2(-1.2, 1.2);
 const vec2 kDayBegins = vec2(0.2, 0.4);  // sine of the sun's height
