@@ -74,3 +74,24 @@ def run(
         outputs, {"image": np.ascontiguousarray(image, np.float32)}
     )
     return [output[0] for output in found]
+
+
+def run_twice(
+    path: Path, finds: str, outputs: list[str], picture: np.ndarray, size: tuple[int, int]
+) -> list[np.ndarray]:
+    """Run a network on a picture and on its mirror image, like ``run``.
+
+    What a network is unsure of differs between the two, so their mean is more often right
+    (Krizhevsky et al., "ImageNet classification", 2012, section 4.1).
+
+    Returns
+    -------
+    list of np.ndarray
+        For each output two results, (2, c, h, w) where they are maps. The mirror image's maps are
+        turned back, their values are not.
+    """
+    plain, mirrored = (run(path, finds, outputs, p, size) for p in (picture, picture[:, ::-1]))
+    return [
+        np.stack([a, b[..., ::-1] if b.ndim == 3 else b])
+        for a, b in zip(plain, mirrored, strict=True)
+    ]

@@ -16,12 +16,12 @@ from sunwidget.geometry.camera import Camera
 LEAST_CONFIDENCE = 0.45  # from which a peak counts as the sun
 SURE = 0.7  # the same in a sky as dark as at night
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate
-WEIGHTS = (-2.251, 1.846, -0.495, -0.611)
-RADIUS_SCALE = 0.766  # from the network's radius to the radius that people draw
+WEIGHTS = (-2.694, 2.156, -0.734, -0.972)
+RADIUS_SCALE = 0.758  # from the network's radius to the radius that people draw
 LEAST_GLOW = 0.3  # confidence from which a glow tells where the sun is
 GLOW_SPREAD = 8.0  # degrees: how exactly it does
 # Bias, then the weights of ``features_of_glow``: python -m training.suns.calibrate
-GLOW_WEIGHTS = (-0.476, 1.222, -0.109)
+GLOW_WEIGHTS = (-0.501, 1.327, -0.267)
 _APART = 0.15  # of the width: beyond it a glow is another one
 _NIGHT = 0.5  # encoded luminance of the sky's brightest tenth: with a sun above, with a moon below
 

@@ -24,7 +24,7 @@ def test_the_coast_has_sky_above_and_water_below():
 def test_a_photo_is_looked_at_once(monkeypatch):
     working = Working.of(sw.sample("meadow"))
     first = sky.look_at_sky(working)
-    monkeypatch.setattr(sky, "run", None)
+    monkeypatch.setattr(sky, "run_twice", None)
     assert sky.look_at_sky(working) is first
 
 
