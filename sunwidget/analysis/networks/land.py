@@ -96,9 +96,7 @@ def look_at_land(working: Working) -> LandMaps:
     size = working.width, working.height
     scale = (AREA / (working.width * working.height)) ** 0.5
     outputs = ["sky", "sunlit", "depth", "normal", "facing", "transfer", "matter", "view", "sun"]
-    both = run_twice(
-        BUNDLED, "land", outputs, working.encoded, strided(*size, scale)
-    )
+    both = run_twice(BUNDLED, "land", outputs, working.encoded, strided(*size, scale))
     _mirror_values(*(both[outputs.index(name)][1] for name in ("normal", "transfer", "sun")))
     sky, sunlit, octaves, normal, facing, transfer, matter, view, sun = (
         values.mean(axis=0) for values in both
