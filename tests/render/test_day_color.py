@@ -116,6 +116,13 @@ def test_an_evenings_violet_leaves_by_day():
     assert between(colors, away, 9, 18)[1] < 0.3 * between(own, away, 9, 18)[1]
 
 
+def test_a_day_after_an_evening_is_not_violet():
+    scene = known_photo(sun=(25.0, 3.0), size=SIZE, clouds=False, tint=(0.6, 1.0, 3.0)).analyze()
+    (red, blue, _), _ = seen(scene, 35)
+    assert np.median(blue) > 0.35
+    assert np.quantile(blue + red, 0.9) < 0.05  # what is bluer has less red
+
+
 def test_the_color_follows_the_suns_height_without_a_step(day):
     course = []
     for height in np.arange(4, 15, 0.5):

@@ -23,6 +23,8 @@ GLOW_SPREAD = 8.0  # degrees: how exactly it does
 # Bias, then the weights of ``features_of_glow``: python -m training.suns.calibrate
 GLOW_WEIGHTS = (-0.501, 1.327, -0.267)
 _APART = 0.15  # of the width: beyond it a glow is another one
+_NEAR_SKY = 0.04  # of the width; a sun has some sky within it, or within
+_NEAR_RADII = 2.0  # of its radius
 _NIGHT = 0.5  # encoded luminance of the sky's brightest tenth: with a sun above, with a moon below
 
 
@@ -149,12 +151,22 @@ def find_glow(working: Working, maps: SunMaps) -> Glow | None:
 def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:
     """Return the sun that the photo shows, or None; a disc in a dark sky is likely the moon."""
     peak = peak_of(maps, working)
+    if not _beside_sky(peak, sky):
+        return None
     if not night(working.encoded @ LUMINANCE, sky):
         return peak if peak.confidence >= LEAST_CONFIDENCE else None
     # A sky this dark is red around the sun; a blue one is lit by the moon.
     red, _, blue = np.median(working.encoded[sky > 0.5], axis=0)
     moonlit = red <= blue and find_moon(working, sky) is not None
     return peak if peak.confidence >= SURE and not moonlit else None
+
+
+def _beside_sky(peak: Peak, sky: np.ndarray) -> bool:
+    """Return whether there is sky (h, w) near a peak: sunlit snow shines like a sun, too."""
+    reach = max(_NEAR_SKY * sky.shape[1], _NEAR_RADII * peak.radius)
+    y, x = np.ogrid[: sky.shape[0], : sky.shape[1]]
+    near = np.hypot(x + 0.5 - peak.x, y + 0.5 - peak.y) <= reach
+    return bool((sky[near] > 0.1).any())
 
 
 def night(luminance: np.ndarray, sky: np.ndarray) -> bool:

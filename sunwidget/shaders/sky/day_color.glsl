@@ -14,8 +14,6 @@ const float kOwnShare = 0.7;  // of the way to them, in color and in light
 const float kBlueLightShare = 0.6;
 const vec2 kBlue = vec2(0.2, 1.0);  // log2 of blue over red: a gray pixel's and a blue one's
 const vec2 kBlueSky = vec2(0.6, 1.4);  // the same of the sky's mean
-const float kNotViolet = -3.0;  // over log2 of red over green: violet skies keep their red
-const vec2 kViolet = vec2(0.1, 0.4);  // log2 of blue over green: a gray pixel's and a violet one's
 const vec2 kEveningSky = vec2(0.0, 0.3);  // log2 of red over green of the sky's mean
 const vec2 kDay = vec2(0.1, 0.19);  // sine of the sun's height: lower suns keep their warmth
 
@@ -45,7 +43,6 @@ vec3 GetOwnColorTurn(vec2 color, vec2 own, float fall, float cosine, float sun_y
   float gray_share = day * (1.0 - evening) * kept.x;
   float share = mix(gray_share, mix(day, blue_day, evening), smoothstep(kBlue.x, kBlue.y, own.y - own.x));
   vec2 turn = share * (own * kept - color);
-  turn.x *= clamp(kNotViolet * own.x + 1.0 - smoothstep(kViolet.x, kViolet.y, own.y), 0.0, 1.0);
   // A brighter sky far away need not be near this sun.
   float near = exp(-kBlueLightFall * sqrt(max(2.0 - 2.0 * cosine, 0.0)));
   float light = kBlueLight.x + kBlueLight.y * near * near - fall;
@@ -65,6 +62,9 @@ float GetDayBegun(float sun_y, float risen) {
 
 // The turn of a sky's `color` in the height `view_y` towards that of such photos as day begins.
 vec3 GetBlueDayTurn(vec2 color, float view_y, float sun_y, float risen) {
-  vec2 turn = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y)) - color;
-  return GetDayBegun(sun_y, risen) * vec3(min(turn.x, 0.0), max(turn.y, 0.0), 0.0);
+  vec2 wanted = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y));
+  wanted.x = min(wanted.x, color.x);
+  // Bluer skies have less red, or they would be violet.
+  wanted.y = max(wanted.y, min(color.y, -wanted.x));
+  return GetDayBegun(sun_y, risen) * vec3(wanted - color, 0.0);
 }
