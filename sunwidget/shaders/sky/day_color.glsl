@@ -63,8 +63,8 @@ float GetDayBegun(float sun_y, float risen) {
 // The turn of a sky's `color` in the height `view_y` towards that of such photos as day begins.
 vec3 GetBlueDayTurn(vec2 color, float view_y, float sun_y, float risen) {
   vec2 wanted = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y));
-  wanted.x = min(wanted.x, color.x);
-  // Bluer skies have less red, or they would be violet.
-  wanted.y = max(wanted.y, min(color.y, -wanted.x));
+  wanted = vec2(min(wanted.x, color.x), max(wanted.y, color.y));
+  // What would be violet becomes blue, with as much blue over red.
+  wanted -= 0.5 * max(wanted.x + wanted.y, 0.0);
   return GetDayBegun(sun_y, risen) * vec3(wanted - color, 0.0);
 }
