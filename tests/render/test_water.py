@@ -78,15 +78,6 @@ def test_a_wide_column_is_water_below_a_sun_only(sea):
     assert found(sea, sun_column=2)[middle].max() < 0.3
 
 
-def test_doubtful_ground_is_water_where_it_looks_like_the_water_beside_it(sea):
-    sea[ROW // 4 :, :20] = 0.25  # a third of the width, to the edge
-    part = slice(ROW + 10, -10), slice(8, 64)
-    assert found(sea)[part].mean() > 0.9
-    beach = shore().copy()
-    beach[ROW:, :80] = shore("sand")[ROW:, :80]
-    assert found(sea, beach)[part].mean() < 0.1
-
-
 @pytest.mark.parametrize("columns", [slice(96, 128), slice(0, 32)], ids=["middle", "side"])
 def test_a_gap_without_a_visible_rim_is_water_and_a_rock_or_a_strip_of_land_is_not(columns):
     even = shore().copy()

@@ -19,16 +19,11 @@ from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 _EDGE = (0.45, 0.55)  # probabilities between which a pixel is partly water
-_POSSIBLE = 0.2  # probability below which looks do not make a pixel water
 _BELIEF = 0.6  # mean probability from which a patch is water
 WEIGHTS = (0.35, 0.55, 0.1)  # of the log odds of the networks of suns, sky and land
 _BURNT = 0.9  # linear light from which a pixel has lost its color
 _COLUMN = 0.08  # of the width: half of the widest column of glints that hides the water
 _SUN = 0.3  # probability of a sun from which its column may be twice as wide
-_ROW = 0.4  # of a row's possible water: the least that tells how the rest looks
-_ALIKE = (0.1, 2.0)  # encoded color, and deviations of the row's water from its mean
-_DARKER = 0.7  # share of that water's luminance below which a pixel is unlike it
-_CLIPPED = 0.8  # linear light of the darkest channel, below a sun
 _GAP = 0.02  # of the width: half of the gap between water and sky
 _STRIP = 0.005  # of the width: half of the gap above the horizon
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
@@ -75,14 +70,12 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     others = (resize(look(working).water, *small) for look in (look_at_sky, look_at_land))
     likely = water_odds(maps.water, *others)
     likely *= resize(1 - sky, *small)
-    possible = (resize(likely, width, height) > _POSSIBLE) * ground
     likely = _believed(likely)
     water = smoothstep(*_EDGE, resize(likely, width, height)) * ground
     if water.mean() < _LEAST:
         return np.zeros_like(sky)
     water = _to_the_shore(working, sky, water)
     water = _with_glints(working, sky, ground, water, maps)
-    water = _along_rows(working, possible, water, maps)
     return soft_edged(working, sky, without_seamless_gaps(working, sky, water))
 
 
@@ -170,30 +163,6 @@ def _with_glints(
     # The horizon is known to a few rows; gaps between sky and sky are not water.
     strip = closed(np.maximum(found, sky), 0, _STRIP) - closed(sky, 0, _STRIP)
     return np.asarray(np.maximum(found, np.maximum(strip, 0) * as_bright), np.float32)
-
-
-def _along_rows(
-    working: Working, possible: np.ndarray, water: np.ndarray, maps: SunMaps
-) -> np.ndarray:
-    """Add possible water that looks like the water in its rows, as far away, and touches it.
-
-    Below a sun it may be clipped.
-    """
-    import cv2
-
-    color, land, wet = working.encoded, possible > 0.5, water > 0.5
-    count = wet.sum(1)
-    told = (count > _ROW * land.sum(1)) & (count > 0)
-    mean = (color * wet[..., None]).sum(1) / np.maximum(count, 1)[:, None]
-    apart = np.linalg.norm(color - mean[:, None], axis=-1)
-    spread = np.sqrt((apart**2 * wet).sum(1) / np.maximum(count, 1))
-    alike = apart < np.maximum(_ALIKE[0], _ALIKE[1] * spread)[:, None]
-    alike &= color @ LUMINANCE > _DARKER * (mean @ LUMINANCE)[:, None]
-    alike |= _below_sun(maps, water.shape[1]) & (working.linear.min(-1) > _CLIPPED)
-    alike &= land & told[:, None]
-    _, labels = cv2.connectedComponents((alike | wet).astype(np.uint8), connectivity=4)
-    added = alike & np.isin(labels, np.unique(labels[wet]))
-    return np.asarray(np.maximum(water, added * possible), np.float32)
 
 
 def without_seamless_gaps(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:
