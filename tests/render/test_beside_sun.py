@@ -39,9 +39,10 @@ def test_a_pale_sky_falls_off_from_the_sun_on(haze):
 
 
 def test_a_sun_behind_thick_cloud_dims_nothing(haze):
-    (shown,) = levels(haze, moved(cloud_strength=1), SUN, (8, 10))
-    (veiled,) = levels(haze, moved(cloud_strength=1, sun_visibility=0.3), SUN, (8, 10))
-    assert veiled > 1.04 * shown
+    # Beyond the sun's own glow, which the cloud takes.
+    (shown,) = levels(haze, moved(cloud_strength=1), SUN, (13, 20))
+    (veiled,) = levels(haze, moved(cloud_strength=1, sun_visibility=0.3), SUN, (13, 20))
+    assert veiled > 1.08 * shown
 
 
 def test_a_locked_exposure_dims_nothing(haze):
