@@ -77,21 +77,28 @@ def run(
 
 
 def run_twice(
-    path: Path, finds: str, outputs: list[str], picture: np.ndarray, size: tuple[int, int]
+    path: Path,
+    finds: str,
+    outputs: list[str],
+    picture: np.ndarray,
+    size: tuple[int, int],
+    turn_back: Callable[[dict[str, np.ndarray]], None] | None = None,
 ) -> list[np.ndarray]:
-    """Run a network on a picture and on its mirror image, like ``run``.
+    """Return the means of what ``run`` finds in a picture and in its mirror image.
 
     What a network is unsure of differs between the two, so their mean is more often right
     (Krizhevsky et al., "ImageNet classification", 2012, section 4.1).
 
-    Returns
-    -------
-    list of np.ndarray
-        For each output two results, (2, c, h, w) where they are maps. The mirror image's maps are
-        turned back, their values are not.
+    Parameters
+    ----------
+    turn_back : callable, optional
+        Exchanges left and right, in place, in the values of the mirror image's outputs by name.
+        Maps are mirrored back as maps in any case.
     """
     plain, mirrored = (run(path, finds, outputs, p, size) for p in (picture, picture[:, ::-1]))
+    if turn_back is not None:
+        turn_back(dict(zip(outputs, mirrored, strict=True)))
     return [
-        np.stack([a, b[..., ::-1] if b.ndim == 3 else b])
-        for a, b in zip(plain, mirrored, strict=True)
+        (one + (other[..., ::-1] if other.ndim == 3 else other)) / 2
+        for one, other in zip(plain, mirrored, strict=True)
     ]

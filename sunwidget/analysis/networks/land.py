@@ -96,10 +96,8 @@ def look_at_land(working: Working) -> LandMaps:
     size = working.width, working.height
     scale = (AREA / (working.width * working.height)) ** 0.5
     outputs = ["sky", "sunlit", "depth", "normal", "facing", "transfer", "matter", "view", "sun"]
-    both = run_twice(BUNDLED, "land", outputs, working.encoded, strided(*size, scale))
-    _mirror_values(*(both[outputs.index(name)][1] for name in ("normal", "transfer", "sun")))
-    sky, sunlit, octaves, normal, facing, transfer, matter, view, sun = (
-        values.mean(axis=0) for values in both
+    sky, sunlit, octaves, normal, facing, transfer, matter, view, sun = run_twice(
+        BUNDLED, "land", outputs, working.encoded, strided(*size, scale), _exchange_sides
     )
     normal /= np.linalg.norm(normal, axis=0)
     return LandMaps(
@@ -115,9 +113,9 @@ def look_at_land(working: Working) -> LandMaps:
     )
 
 
-def _mirror_values(normal: np.ndarray, transfer: np.ndarray, sun: np.ndarray) -> None:
-    """Turn what a mirror image says of left and right back, in place."""
-    normal[0] *= -1
-    transfer[_MIRRORED] *= -1
-    turns = sun.reshape(HEIGHTS.size, TURNS.size)
+def _exchange_sides(found: dict[str, np.ndarray]) -> None:
+    """Exchange left and right in the values of outputs by name, in place."""
+    found["normal"][0] *= -1
+    found["transfer"][_MIRRORED] *= -1
+    turns = found["sun"].reshape(HEIGHTS.size, TURNS.size)
     turns[:, :-1] = turns[:, -2::-1].copy()  # the last, straight back, stays

@@ -38,6 +38,5 @@ def look_at_sky(working: Working) -> SkyMaps:
     AnalysisError
         If onnxruntime is missing.
     """
-    found = run_twice(BUNDLED, "sky", ["sky", "water"], working.encoded, (SIDE, SIDE))
-    sky, water = (maps.mean(axis=0)[0] for maps in found)
-    return SkyMaps(sky, water)
+    sky, water = run_twice(BUNDLED, "sky", ["sky", "water"], working.encoded, (SIDE, SIDE))
+    return SkyMaps(sky[0], water[0])

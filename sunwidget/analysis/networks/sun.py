@@ -52,14 +52,13 @@ def look_for_sun(working: Working) -> SunMaps:
         If onnxruntime is missing.
     """
     size = working.width, working.height
-    both = run_twice(
+    found, clean, water, glow = run_twice(
         BUNDLED,
         "sun",
         ["sun", "clean", "water", "glow"],
         working.encoded,
         strided(*size, LONG_SIDE / max(size)),
     )
-    found, clean, water, glow = (maps.mean(axis=0) for maps in both)
     probability, radius, sharpness = found
     log_ratio = np.minimum(clean, 0).transpose(1, 2, 0)
     return SunMaps(probability, radius, sharpness, log_ratio, water[0], glow[0])

@@ -141,4 +141,5 @@ def test_a_moved_sun_draws_no_line_in_fog(foggy):
 
     assert line(foggy, 2.0) < min(2.9, line(hard, 2.0))
     assert line(foggy, 3.0) < 2.45 < 0.6 * line(hard, 3.0)
+    assert line(foggy, 5.0) < 0.35 * line(hard, 5.0)
     assert np.array_equal(sw.render(foggy, sw.Edit()), foggy.photo.encoded)
