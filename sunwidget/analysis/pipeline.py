@@ -156,7 +156,7 @@ def complete(
         light = sun_stage.observe(seed, sun_mask, sky, camera, working)
 
     erased = erased_for(working, maps, sky, light, sun_mask)
-    glow = sun_stage.find_glow(working, maps) if searched and light is None else None
+    glow = sun_stage.find_glow(working, maps, sky) if searched and light is None else None
 
     step("clouds", 0.81, "Finding clouds")
     covers = clouds_by_color(erased.working, sky, hints, sun_mask and sun_mask.mask)

@@ -195,7 +195,7 @@ def with_a_glow(monkeypatch, code):
     code[160:] = 0.12
     picture = np.round(255 * code).astype(np.uint8)
     monkeypatch.setattr(
-        pipeline.sun_stage, "find_glow", lambda w, _: Glow(0.5 * w.width, 0.45 * w.height, 0.9)
+        pipeline.sun_stage, "find_glow", lambda w, *_: Glow(0.5 * w.width, 0.45 * w.height, 0.9)
     )
     scene = sw.analyze(picture)
     assert scene.sun is None

@@ -142,10 +142,10 @@ def glow_of(maps: SunMaps, working: Working) -> Glow:
     )
 
 
-def find_glow(working: Working, maps: SunMaps) -> Glow | None:
+def find_glow(working: Working, maps: SunMaps, sky: np.ndarray) -> Glow | None:
     """Return where a sun that the photo does not show must be, by its glow, or None."""
     glow = glow_of(maps, working)
-    return glow if glow.confidence >= LEAST_GLOW else None
+    return glow if glow.confidence >= LEAST_GLOW and _beside_sky(glow, sky) else None
 
 
 def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:
@@ -161,11 +161,12 @@ def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:
     return peak if peak.confidence >= SURE and not moonlit else None
 
 
-def _beside_sky(peak: Peak, sky: np.ndarray) -> bool:
-    """Return whether there is sky (h, w) near a peak: sunlit snow shines like a sun, too."""
-    reach = max(_NEAR_SKY * sky.shape[1], _NEAR_RADII * peak.radius)
+def _beside_sky(place: Peak | Glow, sky: np.ndarray) -> bool:
+    """Return whether there is sky (h, w) near a place: sunlit snow shines like a sun, too."""
+    radius = place.radius if isinstance(place, Peak) else 0.0
+    reach = max(_NEAR_SKY * sky.shape[1], _NEAR_RADII * radius)
     y, x = np.ogrid[: sky.shape[0], : sky.shape[1]]
-    near = np.hypot(x + 0.5 - peak.x, y + 0.5 - peak.y) <= reach
+    near = np.hypot(x + 0.5 - place.x, y + 0.5 - place.y) <= reach
     return bool((sky[near] > 0.1).any())
 
 

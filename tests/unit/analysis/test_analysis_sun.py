@@ -339,14 +339,23 @@ def dusk(column: float) -> Working:
 def test_a_glow_tells_where_a_hidden_sun_is(column):
     working = dusk(column)
     assert find(working) is None
-    glow = sun.find_glow(working, look_for_sun(working))
+    glow = sun.find_glow(working, look_for_sun(working), SKY)
     assert glow is not None
     assert abs(glow.x - column) < 0.06 * SIZE[0]
 
 
+def test_a_glow_without_sky_beside_it_tells_nothing():
+    # Sunlit snow and mist on land: 5 of 6 such glows of 375 labeled photos are not there.
+    working = dusk(80)
+    assert sun.find_glow(working, look_for_sun(working), SKY) is not None
+    beside = SKY.copy()
+    beside[:, :120] = 0
+    assert sun.find_glow(working, look_for_sun(working), beside) is None
+
+
 def test_an_even_blue_sky_has_no_glow():
     working = evening()
-    assert sun.find_glow(working, look_for_sun(working)) is None
+    assert sun.find_glow(working, look_for_sun(working), SKY) is None
 
 
 def test_the_sky_is_fitted_with_the_sun_where_its_glow_is():
