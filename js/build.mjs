@@ -85,8 +85,7 @@ export function compact(text) {
 const CONSTANT = /^const (?:float|int|vec[234]) (k[A-Z]\w*)=(-?[\d.e]+|vec[234]\([^();]*\));\n/gm;
 
 /**
- * Put the numbers of constants in their place where that is shorter: those used once, and those no longer than
- * their names.
+ * Put the numbers of constants in their place where that is shorter.
  *
  * @param {Record<string, string>} texts compact shaders by path
  */
@@ -95,15 +94,27 @@ export function inlined(texts) {
   const uses = new Map();
   /** @type {Map<string, string>} */
   const values = new Map();
+  /** @type {Set<string>} */
+  const declared = new Set();
+  /** @type {Set<string>} */
+  const twice = new Set();
   for (const text of Object.values(texts)) {
     for (const [name] of text.matchAll(/\b[a-zA-Z_]\w*/g))
       uses.set(name, (uses.get(name) ?? 0) + 1);
-    // Of two constants with one name neither is known.
     for (const [, name, value] of text.matchAll(CONSTANT))
-      values.set(name, values.has(name) ? "" : value.startsWith("-") ? `(${value})` : value);
+      values.set(name, value.startsWith("-") ? `(${value})` : value);
+    for (const [, name] of text.matchAll(/^const \w+ (k[A-Z]\w*)/gm)) {
+      // Of two constants with one name neither is known.
+      if (declared.has(name)) twice.add(name);
+      declared.add(name);
+    }
   }
-  for (const [name, value] of values)
-    if (!value || (uses.get(name) !== 2 && value.length > name.length)) values.delete(name);
+  for (const name of twice) values.delete(name);
+  for (const [name, value] of values) {
+    const places = Number(uses.get(name)) - 1;
+    const line = `const float ${name}=${value};\n`.length;
+    if (places * value.length > places * name.length + line) values.delete(name);
+  }
   return Object.fromEntries(
     Object.entries(texts).map(([path, text]) => [
       path,

@@ -42,12 +42,16 @@ test("neighboring uniforms of one type are declared together", () => {
 test("constants become numbers where that is shorter; of two with one name neither does", () => {
   const texts = {
     "a.glsl":
-      "const float kOnce=.5;\nconst float kTwice=2.12345678;\nconst int kShort=3;\nconst float kNegative=-1.;\nconst vec2 kPair=vec2(1.,-2.);\nconst float kSame=1.;\nfloat f(vec2 x){\nconst float local=1.;\nreturn local*x.x-kOnce*kTwice+kTwice-kNegative*dot(kPair,x)+float(kShort)*kSame;}",
-    "b.glsl": "const float kSame=2.;\nfloat g(){return float(kShort)*kSame;}",
+      "const float kOnce=.5;\nconst float kTwice=2.12345678;\nconst float kOften=2.123456789;\nconst int kShort=3;\nconst float kNegative=-1.;\nconst vec2 kPair=vec2(1.,-2.);\nconst float kSame=1.;\nfloat f(vec2 x){\nconst float local=1.;\nreturn local*x.x-kOnce*kTwice+kTwice-kNegative*dot(kPair,x)+float(kShort)*kSame+kOften+kOften*kOften-kOften*kOften*kOften*kOften*kOften;}",
+    "b.glsl":
+      "const float kSame=2.;\nconst float kList[2]=float[2](1.,2.);\nfloat g(){return float(kShort)*kSame*kList[1];}",
+    "c.glsl": "const float kList=4.;\nfloat h(){return kList;}",
   };
   assert.deepEqual(inlined(texts), {
     "a.glsl":
-      "const float kTwice=2.12345678;\nconst float kSame=1.;\nfloat f(vec2 x){\nconst float local=1.;\nreturn local*x.x-.5*kTwice+kTwice-(-1.)*dot(vec2(1.,-2.),x)+float(3)*kSame;}",
-    "b.glsl": "const float kSame=2.;\nfloat g(){return float(3)*kSame;}",
+      "const float kOften=2.123456789;\nconst float kSame=1.;\nfloat f(vec2 x){\nconst float local=1.;\nreturn local*x.x-.5*2.12345678+2.12345678-(-1.)*dot(vec2(1.,-2.),x)+float(3)*kSame+kOften+kOften*kOften-kOften*kOften*kOften*kOften*kOften;}",
+    "b.glsl":
+      "const float kSame=2.;\nconst float kList[2]=float[2](1.,2.);\nfloat g(){return float(3)*kSame*kList[1];}",
+    "c.glsl": "const float kList=4.;\nfloat h(){return kList;}",
   });
 });

@@ -22,7 +22,7 @@ from sunwidget.renderer.shader_source import (
 from sunwidget.renderer.values import uniform_value
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
+    from collections.abc import Collection, Mapping, Sequence
 
     import moderngl
     import numpy.typing as npt
@@ -115,6 +115,8 @@ class FrameGraph:
         self.versions: dict[str, int] = {}
         self.runs: dict[str, int] = {}
         self.drawn: set[str] = set()
+        # What stands in for a pass that is not drawn.
+        self.set_texture("nothing", np.zeros((1, 1, 4), np.uint8))
         for name, image in textures.items():
             self.set_texture(name, image)
 
@@ -174,15 +176,38 @@ class FrameGraph:
         x, y, width, height = tile
         host = {**host_values, "tile_origin": (float(x), float(y))}
         host["picture_strip"] = self.picture_strip
+        rows = self._wanted(methods, until)
+        for row in rows:
+            size = self._size(row["size"], (width, height), host_values["frame_size"], sizes or {})
+            self._run_pass(row, size, state_values[row["state"]], scene_values, host)
+        return self.targets[rows[-1]["name"]]
+
+    def compile(self, frame: Sequence[Any], part: int, parts: int) -> None:
+        """Draw every ``parts``-th pass of a run from its end, so that its shader is compiled.
+
+        ``frame`` are the arguments of ``run``, ``part`` is the first pass's number. Inputs that
+        are not drawn yet are black.
+        """
+        state_values, scene_values, host_values, tile, methods = frame
+        host = {**host_values, "tile_origin": (0.0, 0.0), "picture_strip": self.picture_strip}
+        draws = [
+            (row, self._size(row["size"], tile[2:], host["frame_size"], {}))
+            for row in self._wanted(methods)
+        ]
+        for row, size in draws:
+            self._target(row, size, "f1" if row["format"] == "output" else "f4")
+        for row, size in draws[::-1][part::parts]:
+            self._run_pass(row, size, state_values[row["state"]], scene_values, host)
+            self.context.finish()
+
+    def _wanted(self, methods: Collection[str], until: str | None = None) -> list[dict[str, Any]]:
+        """Return the rows that a run draws, in order; the last is ``until``, or the picture."""
         rows = [row for row in self.passes if "when" not in row or set(row["when"]) & set(methods)]
         if until is None:
             until = next(row["name"] for row in rows if row["format"] == "output")
         if all(row["name"] != until for row in rows):
             raise KeyError(f"The frame graph has no pass {until!r} for {' and '.join(methods)}.")
-        for row in self._ancestors(rows, until):
-            size = self._size(row["size"], (width, height), host_values["frame_size"], sizes or {})
-            self._run_pass(row, size, state_values[row["state"]], scene_values, host)
-        return self.targets[until]
+        return self._ancestors(rows, until)
 
     def _ancestors(self, rows: list[dict[str, Any]], until: str) -> list[dict[str, Any]]:
         """Return the rows that ``until`` depends on, directly or indirectly, and its own."""
@@ -243,7 +268,7 @@ class FrameGraph:
                     values[uniform] = uniform_value(shader, uniform, state, scene, host)
                     keys[-1].append(values[uniform])
         levels = "f1" if row["format"] == "output" and host.get("output_levels") == 255 else "f4"
-        target = self._target(name, size, levels, "parts" in row)
+        target = self._target(row, size, levels)
         key = [size, keys]
         if row.get("history"):
             self._swap_history(target, key)
@@ -330,8 +355,9 @@ class FrameGraph:
             self._draw(shader, values, textures)
         self.context.disable(moderngl.DEPTH_TEST)
 
-    def _target(self, name: str, size: tuple[int, int], dtype: str, parts: bool) -> Target:
+    def _target(self, row: Mapping[str, Any], size: tuple[int, int], dtype: str) -> Target:
         """Return the target of a pass, a new one if the present one does not fit."""
+        name, parts = row["name"], "parts" in row
         target = self.targets.get(name)
         if target is not None:
             fits = (target.texture.size, target.texture.dtype) == (size, dtype)

@@ -18,6 +18,7 @@ from sunwidget.edit.table import METHODS, Edit
 from sunwidget.errors import EditError
 from sunwidget.formats.pixels import MAX_PIXELS
 from sunwidget.messages import short_repr
+from sunwidget.renderer.compile_ahead import helped
 from sunwidget.renderer.gl_thread import on_gl_thread
 from sunwidget.renderer.graph import FrameGraph, Programs, largest_texture
 from sunwidget.renderer.shader_source import frame_graph
@@ -30,7 +31,7 @@ from sunwidget.renderer.tiles import (
     pieces,
     scene_textures,
 )
-from sunwidget.renderer.values import states
+from sunwidget.renderer.values import drawn_for, states
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -265,7 +266,10 @@ def draw_part(
     values = states(edit, scene.automatic)
     tile = (left, top, right - left, bottom - top)
     host = _host_values(size, dtype, white)
-    target = graph.run(values, _scene_values(scene), host, tile, (edit.method,))
+    asked = drawn_for(edit.method, values["edit"])
+    frame = (values, _scene_values(scene), host, tile, asked)
+    with helped(graph, *frame):
+        target = graph.run(*frame)
     shape = (bottom - top, right - left, 3)
     if dtype == "uint8":  # the shader has rounded already
         levels = np.empty(shape, np.uint8)
@@ -289,12 +293,13 @@ def render_pass(
         drawing = _renderer(context).drawing(scene, size, lit=edit.window_lights > 0)
         if drawing.strips is not None:
             drawing.load(slice(0, size[1]), largest_texture(context))
+        values = states(edit, scene.automatic)
         target = drawing.graph.run(
-            states(edit, scene.automatic),
+            values,
             _scene_values(scene),
             _host_values(size, "float32"),
             (0, 0, *size),
-            (edit.method,),
+            drawn_for(edit.method, values["edit"]),
             until=name,
         )
         width, height = target.texture.size

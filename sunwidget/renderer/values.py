@@ -39,6 +39,11 @@ def states(edit: Edit, automatic: Mapping[str, float]) -> dict[str, dict[str, Va
     return {"source": {**source, **fixed}, "edit": {**current, **fixed}}
 
 
+def drawn_for(method: str, values: Mapping[str, Value]) -> tuple[str, ...]:
+    """Return what a row of the graph can be drawn for: the method, and parameters above zero."""
+    return method, *(name for name, value in values.items() if value)
+
+
 def uniform_value(shader: str, name: str, *tables: Mapping[str, Any]) -> Any:
     """Look up ``name`` in ``tables`` in order; the error names shader and uniform."""
     for table in tables:

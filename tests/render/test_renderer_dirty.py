@@ -23,8 +23,6 @@ SUN_PASSES = {
     "land_terms",
     "land_shade",
     "land_sunshine",
-    "shaft_rings_edit",
-    "shafts_edit",
     "veil",
     "composite_constants",
     "frame",
@@ -61,6 +59,23 @@ def test_the_same_edit_again_runs_no_pass(passes_run_by):
 def test_moving_the_sun_runs_neither_the_source_nor_multiple_scattering(passes_run_by):
     passes_run_by(Edit(sun_elevation=5))
     assert passes_run_by(Edit(sun_elevation=6)) == SUN_PASSES
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "passes"),
+    [
+        ("light_shafts", 0.5, {"shaft_rings_edit", "shafts_edit"}),
+        ("added_clouds", 0.4, {"added_layer"}),
+        ("cloud_softness", 0.5, {"soft_sky"}),
+    ],
+)
+def test_a_pass_runs_only_where_its_parameter_is_above_zero(passes_run_by, name, value, passes):
+    first = passes_run_by(Edit(sun_elevation=5))
+    assert not first & passes
+    plain = module.render(known_scene(), Edit(sun_elevation=5))
+    assert passes_run_by(Edit(sun_elevation=5, **{name: value})) >= passes
+    assert not passes_run_by(Edit(sun_elevation=5)) & passes
+    assert np.array_equal(module.render(known_scene(), Edit(sun_elevation=5)), plain)
 
 
 def test_more_haze_runs_the_edits_air_and_no_source(passes_run_by):
@@ -131,7 +146,7 @@ def test_a_new_texture_is_drawn(passes_run_by):
     try:
         on_gl_thread(lambda _: graph.set_texture("photo", textures["photo"] * np.float32(0.5)))
         assert passes_run_by(edit) == {
-            *("soft_sky", "retouched", "sky_behind", "water_level", "water_behind"),
+            *("retouched", "sky_behind", "water_level", "water_behind"),
             *("scene_light", "own_sky", "frame"),
         }
         assert module.render(scene, edit).mean() < 0.9 * first.mean()

@@ -163,13 +163,25 @@ def test_no_two_shader_files_share_a_name():
 
 @pytest.mark.parametrize("method", METHODS)
 def test_every_input_is_a_scene_texture_or_drawn_before(method):
-    ready = set(SCENE_TEXTURES)
+    ready = {*SCENE_TEXTURES, "nothing"}
     for row in frame_graph()["passes"]:
         if method in row.get("when", METHODS):
-            assert set(row["inputs"].values()) <= ready, row["name"]
+            for names in row["inputs"].values():
+                assert ready & ({names} if isinstance(names, str) else set(names)), row["name"]
             assert row["name"] not in ready, f"{row['name']} is drawn twice for {method}"
             ready.add(row["name"])
     assert "frame" in ready
+
+
+def test_a_row_that_is_not_always_drawn_has_nothing_in_its_place():
+    optional = {r["name"] for r in frame_graph()["passes"] if set(r.get("when", ())) - set(METHODS)}
+    assert optional == {"soft_sky", "added_layer", "shaft_rings_edit", "shafts_edit"}
+    for row in frame_graph()["passes"]:
+        if row["name"] in optional:
+            continue
+        for names in row["inputs"].values():
+            read = {names} if isinstance(names, str) else set(names)
+            assert not read & optional or names[-1] == "nothing", row["name"]
 
 
 @pytest.mark.parametrize("asked", sorted(ASKED))
@@ -190,7 +202,7 @@ def test_only_known_states_formats_methods_and_sizes_occur():
     for row in frame_graph()["passes"]:
         assert row["state"] in ("source", "edit"), row["name"]
         assert row["format"] == ("output" if row["name"] == "frame" else "rgba32f")
-        assert set(row.get("when", METHODS)) <= set(METHODS)
+        assert set(row.get("when", METHODS)) <= {*METHODS, *(p.name for p in PARAMETERS)}
         assert row["size"] == "frame" or len(row["size"]) == 2
     for row in frame_graph("explorer")["passes"]:
         assert row["state"] in ("edit", "single"), row["name"]

@@ -62,12 +62,15 @@ export class Frame extends Surface {
    */
   describe(edit, size) {
     if (!this.scene) return null;
+    const values = states(this.parameters, edit, this.scene.automatic);
+    // Rows are drawn for a method, or for a parameter that is not zero.
+    const used = Object.keys(values.edit).filter((name) => values.edit[name]);
     return {
-      states: states(this.parameters, edit, this.scene.automatic),
+      states: values,
       scene: this.scene.uniforms,
       host: this.host,
       size,
-      methods: [String(edit.method ?? "ratio")],
+      methods: [String(edit.method ?? "ratio"), ...used],
     };
   }
 

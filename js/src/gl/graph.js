@@ -57,6 +57,8 @@ export class Graph {
     /** @type {Set<string>} passes that the current run may draw */
     this.drawn = new Set();
     this.versions = 0; // of all textures: two sizes of one pass must also differ
+    // What stands in for a pass that is not drawn.
+    this.setTexture("nothing", { data: new Uint8Array(4), width: 1, height: 1 });
   }
 
   /**

@@ -27,7 +27,7 @@ void main() {
   // The meter averages, so a half-visible sun represents any state of the disc: a twig that hides
   // the sun must not change the exposure.
   vec3 land = sky_gain * kLandAlbedo * (GetNightSky(GetMoon()) + GetLightScale(GetMoon()) / 3.14159265
-      * GetLandIrradiance(light, 0.5, land_facing, sun));
+      * GetLandIrradiance(ReadDaylight(light), 0.5, land_facing, sun));
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       vec2 place = (vec2(column, row) + 0.5) / vec2(kColumns, kRows);

@@ -6,7 +6,6 @@
 uniform sampler2D rings;
 uniform sampler2D layers;
 uniform sampler2D surface;
-uniform float light_shafts;
 uniform vec2 pass_size;
 
 out vec4 result;
@@ -16,10 +15,6 @@ const float kLeastAir = 0.3;
 const float kMuchAir = 500.0;  // m
 
 void main() {
-  if (light_shafts == 0.0) {
-    result = vec4(0.0);
-    return;
-  }
   vec2 place = gl_FragCoord.xy / pass_size;
   vec3 sun = GetShaftSun();
   float count = float(textureSize(rings, 0).x);

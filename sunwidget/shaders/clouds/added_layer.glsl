@@ -104,7 +104,7 @@ void main() {
   vec3 light = vec3(0.0);
   float through = 1.0;
   for (int i = 0; i < kSteps; ++i) {
-    if (added_clouds <= 0.0 || view.y < -0.01 || through < 0.01) break;
+    if (view.y < -0.01 || through < 0.01) break;
     float part = (float(i) + offset) / float(kSteps);
     vec3 at = vec3(start + part * path * view.xz, part * climb).xzy;
     vec2 warp = GetWarp(at.xz);

@@ -2,6 +2,7 @@
 
 #include "frame/composite_texels.glsl"
 #include "frame/picture.glsl"
+#include "frame/rolled.glsl"
 #include "atmosphere/read_sky_view.glsl"
 #include "sky/matched_sky.glsl"
 #include "sky/daylight.glsl"
@@ -130,12 +131,19 @@ float GetSunStops(sampler2D visibility, float height) {
 }
 
 // The share of the sun's light that water mirrors: a sun behind clouds leaves its glow, in the same place.
-float GetMirroredShare(sampler2D visibility) {
-  vec2 visible = texelFetch(visibility, ivec2(0), 0).rg;
+float GetMirroredShare(vec4 visible) {
   return max(visible.r, kMirroredGlow * visible.g);
 }
 
-// Stops of a fully automatic exposure by day: it follows the mean, less the reduction for a bright sky.
+// Stops of the picture's exposure: `day` those of a fully automatic one by day, `sky` those by which the sky, and what
+// mirrors it, is lifted more than the land, `all` with the user's.
+struct Stops {
+  float day;
+  float sky;
+  float all;
+};
+
+// It follows the mean, less the reduction for a bright sky.
 float GetDayStops() {
   vec2 before = GetMeter(meter_source);
   vec2 now = GetMeter(meter_edit);
@@ -145,29 +153,30 @@ float GetDayStops() {
   return stops - max(sun, 0.0);
 }
 
-// Stops by which the sky, and what mirrors it, is lifted more than the land.
-float GetSkyLift() {
-  float level = photo_sky_key + GetMeter(meter_edit).g - GetMeter(meter_source).g + GetDayStops();
+float GetSkyLift(float day) {
+  float level = photo_sky_key + GetMeter(meter_edit).g - GetMeter(meter_source).g + day;
   return GetSkySeen() * auto_exposure * GetRisen() * clamp(kDaySky - level, 0.0, kMaxSkyLift);
 }
 
-float GetStops() {
+Stops GetStops() {
+  float day = GetDayStops();
+  float sky = GetSkyLift(day);
   float night = GetNightStops(GetMeter(meter_edit).r) - GetNightStops(GetMeter(meter_source).r);
   // A meter that sees no bright sky restores the land's daylight, but dusk must look like dusk.
   float dusk = GetDusk(sun_elevation) - GetDusk(source_sun_elevation);
   dusk *= mix(kDuskStops.x, kDuskStops.y * max(dusk, 0.0) * smoothstep(kDarkEnough.x, kDarkEnough.y, photo_key),
               GetSkySeen());
-  return exposure + auto_exposure * (GetRestraint(sun_elevation) * (GetDayStops() - night) - dusk) + GetSkyLift();
+  return Stops(day, sky, exposure + auto_exposure * (GetRestraint(sun_elevation) * (day - night) - dusk) + sky);
 }
 
 // The glare of a sun in a picture that is exposed for it, scaled with any other exposure.
-vec3 GetGlare() {
+vec3 GetGlare(Stops stops) {
   vec3 beam = GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
   float light = GetLuminance(beam);
   float visible = texelFetch(visibility_edit, ivec2(0), 0).g;
   // Cameras balance white half way. A red tint of the photo colors the sun's light, a blue one only its sky.
   vec3 color = sqrt(beam * (sky_gain.r > sky_gain.b ? sky_gain : vec3(1.0)));
-  return glow * visible * exp2(GetStops() - GetSkyLift() - GetDayStops()) * GetGlareStrength(light)
+  return glow * visible * exp2(stops.all - stops.sky - stops.day) * GetGlareStrength(light)
       * color / GetLuminance(color);
 }
 
@@ -186,23 +195,23 @@ float GetLandExcess(float level) {
 }
 
 // Stops by which a camera lifts land that has become dark and reduces land that has become bright.
-float GetLift() {
+float GetLift(Stops exposed) {
   vec4 share = texelFetch(land_terms, ivec2(16, 0), 0);
-  float stops = auto_exposure * GetDayStops() + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
+  float stops = auto_exposure * exposed.day + log2(GetLandLevel(8, share.zw) / GetLandLevel(0, share.xy));
   stops *= GetRestraint(sun_elevation);
   float lift = kLift * (GetExcess(kDark - stops) - GetExcess(kDark));
   float level = log2(max(GetLuminance(photo_land_linear_mean), 1e-4));
   return auto_exposure * (lift - kBrightLandReduction * (GetLandExcess(level + stops) - GetLandExcess(level)))
-      - GetSkyLift();
+      - exposed.sky;
 }
 
 // log2 of the radiance at the center of a disc at this height, before limb darkening.
-vec4 GetDiscRadiance(float sine_of_elevation) {
+vec4 GetDiscRadiance(float sine_of_elevation, Stops stops) {
   vec4 path = log2(max(GetTransmittanceToTop(columns, altitude, sine_of_elevation), vec4(1e-30)));
   vec4 sun = log2(kSolarIrradiance / (kPi * kSunAngularRadius * kSunAngularRadius)
       * (0.5 * kLimbDarkening + 1.0)) + path;
   float level = GetSceneLight(vec3(kMoonLevel)).g / GetLuminance(sky_gain * SpectralToRec709(kSolarIrradiance));
-  vec4 moon = log2(kSolarIrradiance * level) - GetStops() + exposure + kMoonDimming * path;
+  vec4 moon = log2(kSolarIrradiance * level) - stops.all + exposure + kMoonDimming * path;
   return mix(sun, moon, GetMoon()) + log2(max(sun_visibility, 1e-9));
 }
 
@@ -210,7 +219,7 @@ vec4 GetDiscRadiance(float sine_of_elevation) {
 bool IsSkyUnchanged() {
   bool same = sun_azimuth == source_sun_azimuth && sun_elevation == source_sun_elevation
       && GetMoon() == photo_light && sun_visibility == source_sun_visibility;
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < GetSteps(9, frame_size); ++i) {
     same = same && texelFetch(light_before, ivec2(i, 0), 0) == texelFetch(light_edit, ivec2(i, 0), 0);
   }
   return same;
@@ -240,24 +249,20 @@ vec3 GetOwnDisc() {
       * min(pow(level, kGlareGrowth), kBrightestDisc);
 }
 
-vec3 GetForwardLight(sampler2D light) {
-  return GetCloudRadiance(light, 1.0) - GetCloudRadiance(light, 0.0);
-}
-
 void main() {
   int index = int(gl_FragCoord.x);
   vec3 sun_before = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   vec3 sun_now = GetSunDirection(sun_azimuth, sun_elevation);
-  float visible_before = texelFetch(visibility_source, ivec2(0), 0).r;
-  float visible_now = texelFetch(visibility_edit, ivec2(0), 0).r;
+  vec4 visible_before = texelFetch(visibility_source, ivec2(0), 0);
+  vec4 visible_now = texelFetch(visibility_edit, ivec2(0), 0);
   float radius = kSunAngularRadius * sun_size;
   // Sines of the elevations of the disc's lower edge, or of the horizon if that is higher, and of its upper edge.
   float low = max(sun_now.y - radius, GetCosineOfHorizon(altitude));
   float high = max(sun_now.y + radius, low + 1e-4);
-  vec4 middle = GetDiscRadiance(0.5 * (low + high));
-  vec4 lower = GetDiscRadiance(low);
-  vec4 upper = GetDiscRadiance(high);
-  mat3x4 parabola = mat3x4(middle, 0.5 * (upper - lower), 0.5 * (upper + lower) - middle);
+  Stops stops = GetStops();
+  mat3x4 at;  // the disc's lower edge, middle and upper edge
+  for (int i = 0; i < GetSteps(3, frame_size); ++i) at[i] = GetDiscRadiance(mix(low, high, 0.5 * float(i)), stops);
+  mat3x4 parabola = mat3x4(at[1], 0.5 * (at[2] - at[0]), 0.5 * (at[2] + at[0]) - at[1]);
   int part = max(index - 1, 0);
   float disc = parabola[part / 4][part % 4];
   if (index == kGains) {
@@ -265,12 +270,12 @@ void main() {
     // Mean over the landscape, not the sun at the camera alone. A sun that comes out restores the color.
     vec4 reached = texelFetch(land_terms, ivec2(16, 0), 0);
     float hidden = reached.x * reached.y * source_sun_visibility - reached.z * reached.w * sun_visibility;
-    bool same = visible_before == visible_now && IsSkyUnchanged();
+    bool same = visible_before.r == visible_now.r && IsSkyUnchanged();
     // A different light source has a different disc and glow even in the same place.
     // A removed sun reveals the sky behind it, as a moved one does.
     float moved = GetMoon() == photo_light
         ? max(smoothstep(0.0, kGlareFade, turn), source_sun_visibility - sun_visibility) : 1.0;
-    result = vec4(exp2(GetStops()), moved, 0.5 * hidden * colourfulness, (same ? -1.0 : 1.0) * exp2(GetLift()));
+    result = vec4(exp2(stops.all), moved, 0.5 * hidden * colourfulness, (same ? -1.0 : 1.0) * exp2(GetLift(stops)));
   } else if (index == kSunBefore) {
     result = vec4(sun_before, disc);
   } else if (index == kDisc) {
@@ -278,27 +283,29 @@ void main() {
   } else if (index == kBesideSun) {
     // A high sun in a photo that shows none.
     float day = (1.0 - max(sun_visible, photo_light)) * smoothstep(kDay.x, kDay.y, sun_now.y);
-    float rays = kRays * starburst * day * GetBlueSky() * visible_now;
+    float rays = kRays * starburst * day * GetBlueSky() * visible_now.r;
     result = vec4(day * GetAppeared(), log2(max(GetLuminance(GetSceneLight(photo_sky_linear_mean)), 1e-6)), rays, day);
+  } else if (index == kGlare) {
+    result = vec4(GetGlare(stops), 0.0);
   } else if (index == kOwnDisc) {
     result = vec4(GetOwnDisc(), GetMoon() == photo_light ? own_disc_radius * sun_size : 0.0);
   } else {
-    vec3 light = index == kLevelLandBefore ? GetLandIrradiance(light_before, visible_before, source_land_facing, sun_before)
-        : index == kUprightLandBefore ? GetLandIrradiance(light_before, visible_before, 1.0, sun_before)
-        : index == kLevelLandNow ? GetLandIrradiance(light_edit, visible_now, land_facing, sun_now)
-        : index == kUprightLandNow ? GetLandIrradiance(light_edit, visible_now, 1.0, sun_now)
-        : index == kCloudBefore ? GetCloudRadiance(light_before, 0.0)
-        : index == kCloudLobeBefore ? GetForwardLight(light_before)
-        : index == kCloudNow ? GetCloudRadiance(light_edit, 0.0)
-        : index == kCloudLobeNow ? GetForwardLight(light_edit)
-        : index == kGlare ? GetGlare()
-        : index == kWaterSunBefore ? GetMirroredShare(visibility_source) * GetLightTexel(light_before, 1)
-        : GetMirroredShare(visibility_edit) * GetLightTexel(light_edit, 1);
+    bool now = index == kLevelLandNow || index == kUprightLandNow || index == kCloudNow || index == kCloudLobeNow
+        || index == kWaterSunNow;
+    Daylight daylight = ReadDaylight(light_before);
+    if (now) daylight = ReadDaylight(light_edit);
+    float upright = index == kUprightLandBefore || index == kUprightLandNow ? 1.0
+        : now ? land_facing : source_land_facing;
+    vec4 visible = now ? visible_now : visible_before;
+    vec3 cloud = GetCloudRadiance(daylight, 0.0);
+    vec3 light = index <= kUprightLandNow
+        ? GetLandIrradiance(daylight, visible.r, upright, now ? sun_now : sun_before)
+        : index == kCloudBefore || index == kCloudNow ? cloud
+        : index == kCloudLobeBefore || index == kCloudLobeNow ? GetCloudRadiance(daylight, 1.0) - cloud
+        : GetMirroredShare(visible) * daylight.sun;
     // Without a moon a surface receives only the night sky's light, from half the sphere.
-    float moon = index == kLevelLandNow || index == kUprightLandNow || index == kCloudNow || index == kCloudLobeNow
-        || index == kWaterSunNow ? GetMoon() : photo_light;
+    float moon = now ? GetMoon() : photo_light;
     float night = index <= kUprightLandNow ? kPi : index == kCloudBefore || index == kCloudNow ? 1.0 : 0.0;
-    result = index == kGlare ? vec4(light, 0.0)
-        : vec4(sky_gain * (GetLightScale(moon) * light + night * GetNightSky(moon)), disc);
+    result = vec4(sky_gain * (GetLightScale(moon) * light + night * GetNightSky(moon)), disc);
   }
 }

@@ -7,6 +7,7 @@
 // shadows (shadow.glsl).
 
 #include "frame/picture.glsl"
+#include "frame/rolled.glsl"
 #include "camera/response.glsl"
 #include "land/soft_cosine.glsl"
 #include "land/land.glsl"
@@ -85,14 +86,12 @@ vec3 GetSunShare(ivec2 texel, float level) {
   ivec2 last = ivec2(pass_size) - 1;
   vec3 sum = vec3(0.0);
   float total = 0.0;
-  for (int row = -1; row <= 1; ++row) {
-    for (int column = -1; column <= 1; ++column) {
-      ivec2 at = clamp(texel + 2 * ivec2(column, row), ivec2(0), last);
-      float apart = 32.0 * (ReadPicture(surface, (vec2(at) + 0.5) / pass_size).a - level);
-      float weight = 1.0 / (1.0 + apart * apart * apart * apart);
-      sum += weight * vec3(texelFetch(shadow_source, at, 0).g, texelFetch(shadow_edit, at, 0).rg);
-      total += weight;
-    }
+  for (int i = 0; i < GetSteps(9, pass_size); ++i) {
+    ivec2 at = clamp(texel + 2 * (ivec2(i % 3, i / 3) - 1), ivec2(0), last);
+    float apart = 32.0 * (ReadPicture(surface, (vec2(at) + 0.5) / pass_size).a - level);
+    float weight = 1.0 / (1.0 + apart * apart * apart * apart);
+    sum += weight * vec3(texelFetch(shadow_source, at, 0).g, texelFetch(shadow_edit, at, 0).rg);
+    total += weight;
   }
   return sum / total;
 }

@@ -57,8 +57,9 @@ vec2 GetLogExcess(vec2 tap, vec3 ambient, vec3 direct) {
 void main() {
   vec3 sun = GetSunDirection(source_sun_azimuth, source_sun_elevation);
   vec3 scale = sky_gain * GetLightScale(photo_light);
-  vec3 white = scale * GetCloudRadiance(light_before, 0.0);
-  vec3 direct = scale * GetCloudRadiance(light_before, 1.0) - white;
+  Daylight light = ReadDaylight(light_before);
+  vec3 white = scale * GetCloudRadiance(light, 0.0);
+  vec3 direct = scale * GetCloudRadiance(light, 1.0) - white;
   vec3 ambient = white - direct;
   vec2 place = gl_FragCoord.xy / pass_size;
   vec2 pace = kReach / float(kTaps) * max(frame_size.x, frame_size.y) / frame_size;

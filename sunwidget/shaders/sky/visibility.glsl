@@ -8,6 +8,7 @@
 // and fades to 0 within half of it outside.
 
 #include "frame/picture.glsl"
+#include "frame/rolled.glsl"
 #include "clouds/cloud_cover.glsl"
 #include "atmosphere/read_sky_view.glsl"
 #include "camera/response.glsl"
@@ -58,20 +59,21 @@ void main() {
   vec2 open = vec2(0.0);
   vec2 above = vec2(0.0);
   float shaded = 0.0;
-  for (int ring = 0; ring < kRings; ++ring) {
+  int samples = GetSteps(kRings * kSpokes, frame_size);
+  for (int i = 0; i < samples; ++i) {
+    float ring = float(i / kSpokes);
     // Rings of equal area.
-    float radius = kDiscRadius * sqrt((float(ring) + 0.5) / float(kRings));
-    for (int spoke = 0; spoke < kSpokes; ++spoke) {
-      float turn = 6.28318531 * (float(spoke) + 0.5 * float(ring)) / float(kSpokes);
-      vec2 aside = radius * vec2(cos(turn), sin(turn));
-      vec2 elevation = sun_elevation + vec2(1.0, kAureole) * aside.y;
-      vec2 weight = smoothstep(-0.05, 0.05, elevation) + 1e-4;
-      open += weight * vec2(GetOpening(GetSunDirection(sun_azimuth + aside.x, elevation.x)).x,
-                            GetOpening(GetSunDirection(sun_azimuth + kAureole * aside.x, elevation.y)).y);
-      above += weight;
-      vec2 wide = kCloudPenumbra * aside;
-      shaded += GetAddedCover(GetSunDirection(sun_azimuth + wide.x, sun_elevation + wide.y));
+    float radius = kDiscRadius * sqrt((ring + 0.5) / float(kRings));
+    float turn = 6.28318531 * (float(i % kSpokes) + 0.5 * ring) / float(kSpokes);
+    vec2 aside = radius * vec2(cos(turn), sin(turn));
+    for (int part = 0; part < GetSteps(2, frame_size); ++part) {
+      vec2 at = vec2(sun_azimuth, sun_elevation) + (part == 0 ? 1.0 : kAureole) * aside;
+      float weight = smoothstep(-0.05, 0.05, at.y) + 1e-4;
+      open[part] += weight * GetOpening(GetSunDirection(at.x, at.y))[part];
+      above[part] += weight;
     }
+    vec2 wide = kCloudPenumbra * aside;
+    shaded += GetAddedCover(GetSunDirection(sun_azimuth + wide.x, sun_elevation + wide.y));
   }
   float added = 1.0 - kCloudShade * shaded / float(kRings * kSpokes);
   vec2 visible = sun_visibility * added * open / above;
