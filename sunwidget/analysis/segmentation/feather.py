@@ -1,4 +1,4 @@
-"""Soften the sky's border where the photo shows no edge: fog, haze before mountains, clouds.
+"""Soften borders where the photo shows no edge: fog, haze before mountains, clouds, wet sand.
 
 A mask has a border everywhere, and a moved sun changes both of its sides differently. An
 edge-preserving smoother (Min et al., "Fast global image smoothing based on weighted least squares",
@@ -16,6 +16,10 @@ _LONG_SIDE = 256  # pixels: in a larger copy, blurred edges are ramps that do no
 _REACH = 0.06  # of the longer side: how far a border spreads where the photo is uniform
 _EDGE = 4.0  # code values between neighbors, at which e times less spreads
 _FOG = (0.1, 0.4)  # change of the matte at which the border is no edge of the photo at all
+# The same for water, whose border the networks know less well: twice as wide.
+_WATER_REACH = 0.12
+_WATER_EDGE = 9.0
+_THERE = (0.05, 0.25)  # probability of water from which it may spread, and spreads as far as it can
 _LEAST = 0.01  # subtracted from any change, so that most pixels stay sky or land alone
 
 
@@ -41,27 +45,67 @@ def softening(
     """
     import cv2
 
-    guide = shrink(working.encoded, _LONG_SIDE)
-    height, width = guide.shape[:2]
-    levels = np.clip(guide * 255 + 0.5, 0, 255).astype(np.uint8)
+    levels = _guide(working)
+    height, width = levels.shape[:2]
     sky, clouds, glare = (resize(image, width, height) for image in (sky, clouds, glare))
-    spread = _smooth(levels, sky)
-    change = spread - sky
-    change = np.sign(change) * np.maximum(np.abs(change) - _LEAST, 0) * (1 - _widened(glare))
+    spread = _smoothed(levels, sky)
+    change = _beyond_least(spread - sky) * (1 - _widened(glare))
     # Lost sky takes its share of cloud along; new sky is as cloudy as the sky beside it.
     here = clouds / np.maximum(sky, _LEAST)
-    beside = _smooth(levels, clouds) / np.maximum(spread, _LEAST)
+    beside = _smoothed(levels, clouds) / np.maximum(spread, _LEAST)
     cloudy = change * np.clip(np.where(change > 0, beside, here), 0, 1)
     fog = smoothstep(*_FOG, cv2.dilate(np.abs(change), np.ones((5, 5), np.uint8)))
     return np.stack([change + fog * sky, cloudy + fog * clouds, 1 - fog], -1).astype(np.float32)
 
 
-def _smooth(levels: np.ndarray, image: np.ndarray) -> np.ndarray:
+def softened_water(
+    working: Working, sky: np.ndarray, water: np.ndarray, odds: np.ndarray
+) -> np.ndarray:
+    """Return water with an edge as wide as the photo is smooth.
+
+    On wet sand, in mist and on a bank before its mirror image nobody can tell where water begins.
+
+    Parameters
+    ----------
+    working : Working
+        The small copy of the photo.
+    sky, water : (h, w) float32
+        Sky matte, and share of water, [0, 1], at its size.
+    odds : (H, W) float32
+        Probability of water by the networks, of any size: it spreads only where they doubt.
+
+    Returns
+    -------
+    (h, w) float32
+    """
+    levels = _guide(working)
+    size = levels.shape[1], levels.shape[0]
+    small, ground = resize(water, *size), resize(1 - sky, *size)
+    # Relative to what is not sky: far water may be as white as the sky above it.
+    spread, seen = (_smoothed(levels, i, _WATER_REACH, _WATER_EDGE) for i in (small, ground))
+    change = _beyond_least(ground * (spread / np.maximum(seen, _LEAST) - small))
+    change *= np.where(change > 0, smoothstep(*_THERE, resize(odds, *size)), 1)
+    return np.clip(water + resize(change.astype(np.float32), *water.shape[::-1]), 0, 1)
+
+
+def _smoothed(
+    levels: np.ndarray, image: np.ndarray, reach: float = _REACH, edge: float = _EDGE
+) -> np.ndarray:
+    """Return ``image`` (h, w) smoothed where ``levels``, (h, w, 3) uint8, has no edge."""
     import cv2
 
-    strength = (_REACH * max(image.shape)) ** 2
+    strength = (reach * max(image.shape)) ** 2
     image = np.ascontiguousarray(image, np.float32)
-    return np.asarray(cv2.ximgproc.fastGlobalSmootherFilter(levels, image, strength, _EDGE))
+    return np.asarray(cv2.ximgproc.fastGlobalSmootherFilter(levels, image, strength, edge))
+
+
+def _guide(working: Working) -> np.ndarray:
+    guide = shrink(working.encoded, _LONG_SIDE)
+    return np.clip(guide * 255 + 0.5, 0, 255).astype(np.uint8)
+
+
+def _beyond_least(change: np.ndarray) -> np.ndarray:
+    return np.sign(change) * np.maximum(np.abs(change) - _LEAST, 0)
 
 
 def _widened(glare: np.ndarray) -> np.ndarray:

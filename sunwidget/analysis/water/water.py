@@ -15,6 +15,7 @@ from sunwidget.analysis.images.working_copy import Working, log_odds, resize, sm
 from sunwidget.analysis.networks.land import look_at_land
 from sunwidget.analysis.networks.sky import look_at_sky
 from sunwidget.analysis.networks.sun import SunMaps
+from sunwidget.analysis.segmentation.feather import softened_water
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
@@ -68,15 +69,15 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     ground = (1 - sky) * (1 - above(camera, width, height))
     small = (maps.water.shape[1], maps.water.shape[0])
     others = (resize(look(working).water, *small) for look in (look_at_sky, look_at_land))
-    likely = water_odds(maps.water, *others)
-    likely *= resize(1 - sky, *small)
-    likely = _believed(likely)
+    odds = water_odds(maps.water, *others)
+    likely = _believed(odds * resize(1 - sky, *small))
     water = smoothstep(*_EDGE, resize(likely, width, height)) * ground
     if water.mean() < _LEAST:
         return np.zeros_like(sky)
     water = _to_the_shore(working, sky, water)
     water = _with_glints(working, sky, ground, water, maps)
-    return soft_edged(working, sky, without_seamless_gaps(working, sky, water))
+    water = soft_edged(working, sky, without_seamless_gaps(working, sky, water))
+    return softened_water(working, sky, water, odds) * (1 - sky)
 
 
 METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]] = {

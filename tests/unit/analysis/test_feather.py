@@ -10,7 +10,7 @@ from relight_scenes import known_photo
 
 import sunwidget as sw
 from sunwidget.analysis import correct, frame_inputs
-from sunwidget.analysis.segmentation.feather import softening
+from sunwidget.analysis.segmentation.feather import softened_water, softening
 
 HEIGHT, WIDTH, ROW = 180, 240, 100
 
@@ -143,3 +143,27 @@ def test_a_moved_sun_draws_no_line_in_fog(foggy):
     assert line(foggy, 3.0) < 2.45 < 0.6 * line(hard, 3.0)
     assert line(foggy, 5.0) < 0.35 * line(hard, 5.0)
     assert np.array_equal(sw.render(foggy, sw.Edit()), foggy.photo.encoded)
+
+
+def shore_of(photo, odds, sky=NOTHING):
+    """Water below the row, softened; its mean in each row."""
+    water = 1 - mask()
+    return softened_water(photo, sky, water, np.where(water > 0, 0.9, odds)).mean(1)
+
+
+def test_water_without_a_visible_shore_begins_slowly_where_networks_doubt():
+    even, edged = picture(0.5, 0.5), picture(0.4, 0.6)
+    slow, sharp = shore_of(even, 0.3), shore_of(edged, 0.3)
+    assert ((slow > 0.1) & (slow < 0.9)).sum() > 20
+    assert ((sharp > 0.1) & (sharp < 0.9)).sum() <= 4
+    assert 0.2 < slow[ROW - 5] < slow[ROW + 5] < 0.8
+
+
+def test_water_spreads_to_no_land_of_which_the_networks_are_sure():
+    sure = shore_of(picture(0.5, 0.5), 0.01)
+    assert sure[: ROW - 4].max() == 0
+    assert 0.3 < sure[ROW + 5] < 0.8
+
+
+def test_water_as_white_as_the_sky_above_it_stays_water():
+    assert shore_of(picture(0.9, 0.9), 0.3, sky=mask())[ROW + 1 :].min() > 0.97
