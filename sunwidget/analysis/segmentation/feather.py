@@ -11,8 +11,8 @@ import numpy as np
 
 from sunwidget.analysis.images.working_copy import Working, resize, shrink, smoothstep
 
-# Chosen by eye on a few pictures; of others, on 60 photos, twice the reach and its edge were worse by far (8 to 37 pairs),
-# and half of them a little (21 to 27).
+# Chosen by eye on a few pictures. Of others, on 60 photos, twice the reach and its edge were worse
+# by far (8 to 37 pairs), and half of them a little (21 to 27).
 _LONG_SIDE = 256  # pixels: in a larger copy, blurred edges are ramps that do not stop the smoother
 _REACH = 0.06  # of the longer side: how far a border spreads where the photo is uniform
 _EDGE = 4.0  # code values between neighbors, at which e times less spreads
