@@ -49,7 +49,7 @@ def rows(effort: Effort) -> Rows:
         seconds = in_lab(folder, photo)
     yield Row("first picture", f"JupyterLab: open {what} → first picture", seconds["picture"], "s")
     yield Row(
-        "editable", f"JupyterLab: open {what} → analysed and editable", seconds["editable"], "s"
+        "editable", f"JupyterLab: open {what} → analyzed and editable", seconds["editable"], "s"
     )
     yield Row("run again", "JupyterLab: the cell again → editable", seconds["again"], "s")
 

@@ -37,6 +37,8 @@ GOALS: dict[str, Goal] = {
     "bundle standalone": Goal(120),
     "network file": Goal(5),
     "network": Goal(0.15),
+    "first frame ever": Goal(8),
+    "first frame": Goal(1.5),
     "canvas sun drag": Goal(33),
     "canvas sun drag, graphics card": Goal(2),
     "canvas turbidity drag": Goal(120),

@@ -40,7 +40,7 @@ def rows(effort: Effort) -> Rows:
             yield of_times(f"kernel {step} {what}", f"kernel {step} {what}", times, "s")
         yield Row(
             f"peak memory {what}",
-            f"peak memory of opening, analysing and drawing {what}",
+            f"peak memory of opening, analyzing and drawing {what}",
             row["frame memory"],
             "GB",
             note=f"{row['begin memory']:.2f} GB before; after analysis {row['analyse memory']:.2f}",

@@ -17,7 +17,10 @@ from .timing import Times
 
 PACKAGE = Path(sunwidget.__file__).parent
 BUNDLES = ("sun_editor", "sky_explorer", "compare", "study", "standalone")
-KEYS = ("import", *(f"bundle {name}" for name in BUNDLES), "network file")
+KEYS = (
+    *("import", *(f"bundle {name}" for name in BUNDLES), "network file"),
+    *("first frame ever", "first frame"),
+)
 _FRAME = """
 import sys, time
 import sunwidget as sw
