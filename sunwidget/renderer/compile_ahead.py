@@ -12,7 +12,7 @@ import os
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -43,7 +43,7 @@ def helped(
     """
     helpers = min((os.cpu_count() or 1) - 1, MOST_HELPERS)
     drawn_by = str(graph.context.info["GL_RENDERER"])
-    if graph.programs.programs or not helpers or "llvmpipe" not in drawn_by:
+    if graph.programs.programs or not (helpers and sys.executable and "llvmpipe" in drawn_by):
         yield
         return
     frame = (state_values, scene_values, host_values, tile, methods)
@@ -62,20 +62,27 @@ def helped(
         yield
     finally:
         for process in started:
-            process.kill()
-            process.wait()
+            if process is not None:
+                process.kill()
+                process.wait()
 
 
-def _start(work: dict[str, Any]) -> subprocess.Popen[bytes]:
-    process = subprocess.Popen(  # noqa: S603 - no shell, no word of a photo
-        [sys.executable, "-m", __name__],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
+def _start(work: dict[str, Any]) -> subprocess.Popen[bytes] | None:
+    """Start a helper, or return None where no process can be started."""
+    text = json.dumps(work, default=lambda value: np.asarray(value).tolist())
+    try:
+        process = subprocess.Popen(  # noqa: S603 - no shell, no word of a photo
+            [sys.executable, "-m", __name__],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+    except OSError:
+        return None
     assert process.stdin is not None
-    process.stdin.write(json.dumps(work, default=list).encode())
-    process.stdin.close()
+    with suppress(OSError):  # it may have ended already
+        process.stdin.write(text.encode())
+        process.stdin.close()
     return process
 
 

@@ -81,6 +81,34 @@ def test_no_helper_where_it_would_not_help(why, started, monkeypatch):
     assert not started
 
 
+@pytest.mark.parametrize("fails", ["start", "pipe"])
+def test_a_helper_that_fails_is_missed_by_nobody(fails, monkeypatch):
+    class Process:
+        def __init__(self, *_arguments, **_options):
+            if fails == "start":
+                raise BlockingIOError("no more processes")
+            self.stdin = self
+
+        def write(self, text):
+            work = json.loads(text)
+            assert work["frame"][1]["photo_key"] == 0.5
+            raise BrokenPipeError
+
+        def kill(self):
+            pass
+
+        wait = kill
+
+    monkeypatch.setattr(compile_ahead, "COMPILED", 0.0)
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    monkeypatch.setattr("subprocess.Popen", Process)
+    known = offscreen._scene_values
+    monkeypatch.setattr(
+        offscreen, "_scene_values", lambda scene: {**known(scene), "photo_key": np.float32(0.5)}
+    )
+    assert first_frame() == {"columns_source": 1, "frame": 1}
+
+
 def test_helpers_draw_every_pass_once_on_black_inputs(started, monkeypatch):
     monkeypatch.setattr(compile_ahead, "COMPILED", 0.0)
     first_frame()
