@@ -74,7 +74,7 @@ PRESETS: tuple[Preset, ...] = (
     _preset("dusk_lights", "Lights on", "Dusk, and lamps behind the windows that the photo "
         "shows.", -4.5, exposure=-0.6, windows=1.0),
     _preset("moonlight", "Moonlight", "Night, with a full moon where the sun would be.", 18.0,
-        light="moon"),
+        exposure=-0.2, light="moon"),
 )
 # fmt: on
 

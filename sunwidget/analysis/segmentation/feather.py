@@ -79,6 +79,10 @@ def softened_water(
     -------
     (h, w) float32
     """
+    import cv2
+
+    if not hasattr(cv2, "ximgproc"):  # another package replaced opencv-contrib-python-headless
+        return water
     levels = _guide(working)
     size = levels.shape[1], levels.shape[0]
     small, ground = resize(water, *size), resize(1 - sky, *size)
