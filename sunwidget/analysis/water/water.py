@@ -77,7 +77,7 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     water = _to_the_shore(working, sky, water)
     water = _with_glints(working, sky, ground, water, maps)
     water = soft_edged(working, sky, without_seamless_gaps(working, sky, water))
-    return softened_water(working, sky, water, odds) * (1 - sky)
+    return softened_water(working, sky, water, odds * resize(ground, *small)) * (1 - sky)
 
 
 METHODS: dict[str, Callable[[Working, np.ndarray, Horizon, SunMaps], np.ndarray]] = {
