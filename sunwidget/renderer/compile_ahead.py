@@ -20,33 +20,25 @@ import numpy as np
 from sunwidget.renderer.graph import FrameGraph, Programs
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping
+    from collections.abc import Iterator
 
 MOST_HELPERS = 3
 COMPILED = 0.06  # s that the first pass takes if it is on disk; to compile it takes twice as long
 
 
 @contextmanager
-def helped(
-    graph: FrameGraph,
-    state_values: Mapping[str, Mapping[str, Any]],
-    scene_values: Mapping[str, Any],
-    host_values: Mapping[str, Any],
-    tile: tuple[int, int, int, int],
-    methods: Collection[str],
-) -> Iterator[None]:
+def helped(graph: FrameGraph, frame: tuple[Any, Any, Any, Any, Any]) -> Iterator[None]:
     """Let other processes compile what a context's first frame needs, while the block draws it.
 
-    The arguments are those of ``graph.run``. Nothing happens on a graphics card, on one core, and
-    where the driver has compiled the shaders before. Helpers end with the block; without them it
-    only takes longer.
+    ``frame`` are the arguments of ``graph.run``. Nothing happens on a graphics card, on one core,
+    and where the driver has compiled the shaders before. Helpers end with the block; without them
+    it only takes longer.
     """
     helpers = min((os.cpu_count() or 1) - 1, MOST_HELPERS)
     drawn_by = str(graph.context.info["GL_RENDERER"])
     if graph.programs.programs or not (helpers and sys.executable and "llvmpipe" in drawn_by):
         yield
         return
-    frame = (state_values, scene_values, host_values, tile, methods)
     begin = time.perf_counter()
     graph.run(*frame, until=graph.passes[0]["name"])
     graph.context.finish()

@@ -195,7 +195,7 @@ class FrameGraph:
             for row in self._wanted(methods)
         ]
         for row, size in draws:
-            self._target(row, size, "f1" if row["format"] == "output" else "f4")
+            self._target(row, size, host)
         for row, size in draws[::-1][part::parts]:
             self._run_pass(row, size, state_values[row["state"]], scene_values, host)
             self.context.finish()
@@ -267,8 +267,7 @@ class FrameGraph:
                 elif uniform not in ("history", "sample_index"):
                     values[uniform] = uniform_value(shader, uniform, state, scene, host)
                     keys[-1].append(values[uniform])
-        levels = "f1" if row["format"] == "output" and host.get("output_levels") == 255 else "f4"
-        target = self._target(row, size, levels)
+        target = self._target(row, size, host)
         key = [size, keys]
         if row.get("history"):
             self._swap_history(target, key)
@@ -355,9 +354,12 @@ class FrameGraph:
             self._draw(shader, values, textures)
         self.context.disable(moderngl.DEPTH_TEST)
 
-    def _target(self, row: Mapping[str, Any], size: tuple[int, int], dtype: str) -> Target:
+    def _target(
+        self, row: Mapping[str, Any], size: tuple[int, int], host: Mapping[str, Any]
+    ) -> Target:
         """Return the target of a pass, a new one if the present one does not fit."""
         name, parts = row["name"], "parts" in row
+        dtype = "f1" if row["format"] == "output" and host.get("output_levels") == 255 else "f4"
         target = self.targets.get(name)
         if target is not None:
             fits = (target.texture.size, target.texture.dtype) == (size, dtype)

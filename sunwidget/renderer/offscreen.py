@@ -268,7 +268,7 @@ def draw_part(
     host = _host_values(size, dtype, white)
     asked = drawn_for(edit.method, values["edit"])
     frame = (values, _scene_values(scene), host, tile, asked)
-    with helped(graph, *frame):
+    with helped(graph, frame):
         target = graph.run(*frame)
     shape = (bottom - top, right - left, 3)
     if dtype == "uint8":  # the shader has rounded already

@@ -58,7 +58,7 @@ def first_frame():
             pytest.skip("a graphics card draws here")
         graph = graph_of(scene, context)
         for _ in range(2):
-            with compile_ahead.helped(graph, *frame_of(scene)):
+            with compile_ahead.helped(graph, frame_of(scene)):
                 graph.run(*frame_of(scene))
         return {name: graph.runs[name] for name in ("columns_source", "frame")}
 

@@ -56,11 +56,6 @@ vec3 GetSunInPhoto(float visible) {
   return sum.xyz / sum.w;
 }
 
-Daylight GetDaylight(bool now) {
-  if (now) return ReadDaylight(light_edit);
-  return ReadDaylight(light_before);
-}
-
 vec3 GetIrradiance(bool now, int index) {
   float moon = now ? GetMoon() : photo_light;
   vec3 light = now ? GetLightTexel(light_edit, index) : GetLightTexel(light_before, index);
@@ -73,7 +68,9 @@ vec3 GetIrradiance(bool now, int index) {
 vec3 GetSkyIrradiance(bool now, int part) {
   // light.glsl's order is up, sun, facing the camera, right, left, away.
   vec3 clear = GetIrradiance(now, part == 0 ? 0 : part == 4 ? 2 : part + 2);
-  vec3 white = sky_gain * GetLightScale(now ? GetMoon() : photo_light) * GetCloudRadiance(GetDaylight(now), 0.0);
+  vec3 light = GetCloudRadiance(ReadDaylight(light_before), 0.0);
+  if (now) light = GetCloudRadiance(ReadDaylight(light_edit), 0.0);
+  vec3 white = sky_gain * GetLightScale(now ? GetMoon() : photo_light) * light;
   vec3 cloud = kCloudLight * (part == 0 ? kPi : 0.5 * kPi) * white;
   float veil = texelFetch(veil_opacity, ivec2(0), 0).r;
   float cover = now ? GetMeanCover(openness_edit, veil) : GetMeanCover(openness_source, veil);
