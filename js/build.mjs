@@ -60,8 +60,8 @@ export function reachable(graph, files) {
 
 /**
  * Strip comments, indentation, empty lines, spaces around operators and zeros beside a decimal point from a
- * shader, and declare neighboring uniforms of one type together. Names and other lines stay: a driver's error quotes a
- * line, which can be found in the file. (Some constants become numbers: `inlined`.)
+ * shader, make wrapped statements one line, and declare neighboring uniforms of one type together. Names and other lines
+ * stay: a driver's error quotes a line, which can be found in the file. (Some constants become numbers: `inlined`.)
  *
  * @param {string} text
  */
@@ -69,6 +69,7 @@ export function compact(text) {
   return text
     .replace(/\/\*[\s\S]*?\*\/|\/\/.*/g, " ")
     .replace(/\s*\n\s*/g, "\n")
+    .replace(/(?<=^(?!#).*[^;{}\n])\n(?!#)/gm, " ")
     .trim()
     .replace(/^[^#].*/gm, (line) =>
       line

@@ -25,7 +25,7 @@ from sunwidget.analysis.segmentation.feather import softening
 from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
 from sunwidget.analysis.sun.search import GLOW_SPREAD
 from sunwidget.analysis.water.glitter import azimuth_column, glitter, roughness
-from sunwidget.analysis.water.mirror import mirror_roughness
+from sunwidget.analysis.water.mirror import Mirror, find_mirror
 from sunwidget.analysis.windows import panes
 
 T = TypeVar("T")
@@ -96,9 +96,17 @@ def _sun_located(scene: Scene) -> bool:
     return scene.sun.visible
 
 
+@_cache_per_scene
+def _mirror(scene: Scene) -> Mirror:
+    glints = scene.sun is not None and scene.sun.visible
+    return find_mirror(
+        scene.working, scene.small_sky, scene.small_water, scene.camera, glints=glints
+    )
+
+
 def _water_roughness(scene: Scene) -> float:
     if scene.sun is None or not scene.sun.visible:
-        return mirror_roughness(scene.working, scene.small_water, scene.camera)
+        return _mirror(scene).roughness
     sun = scene.sun.azimuth, scene.sun.elevation
     return roughness(scene.working, scene.small_water, scene.camera, sun)
 
@@ -110,13 +118,13 @@ def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float
 
 
 def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -> np.ndarray:
-    """Return sky matte, cloud opacity, cloud softness: (H, W, 3) float32 in [0, 1].
+    """Return sky matte, cloud opacity, land mirrored by water: (H, W, 3) float32 in [0, 1].
 
     Matte and opacity are softened where the photo shows no edge (segmentation/feather.py).
     ``size`` (width, height) selects another size than the photo's, ``rows`` only some rows.
     """
     width, height = size or (scene.width, scene.height)
-    maps = (scene.sky, scene.cloud_map, scene.softness_map)
+    maps = (scene.sky, scene.cloud_map, _mirror(scene).land)
     found = [resize_rows(image, width, height, rows) for image in maps]
     softer = _softening(scene)
     if softer is not None:

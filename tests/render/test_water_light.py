@@ -138,6 +138,15 @@ def test_a_dark_post_in_the_old_glints_stays_dark():
     assert moved[:, 148:151].mean() < 0.4 * moved[:, 120:140].mean()
 
 
+def test_somebody_in_front_of_the_old_glints_does_not_fade_with_them():
+    walker = glittering().copy()
+    walker[ROW + 20 : ROW + 50, 146:153] = (30, 26, 22)
+    scene = sw.analyze(walker, sun=(150, 40), **TOLD)
+    away = sw.render(scene, sw.Edit(sun_azimuth=90, sun_elevation=35, auto_exposure=0))
+    before, after = (p[ROW + 25 : ROW + 45, 148:151].mean() for p in (walker, away))
+    assert after < before + 5  # levels of 255
+
+
 @pytest.mark.parametrize("sun", [(150, 40), None])
 def test_foam_away_from_the_suns_column_stays_white(sun):
     foam = glittering().copy()

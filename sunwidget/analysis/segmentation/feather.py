@@ -21,6 +21,7 @@ _FOG = (0.1, 0.4)  # change of the matte at which the border is no edge of the p
 _WATER_REACH = 0.12
 _WATER_EDGE = 9.0
 _THERE = (0.05, 0.25)  # probability of water from which it may spread, and spreads as far as it can
+_SHARE_EDGE = 6.0  # of a map that is placed to within a few pixels
 _LEAST = 0.01  # subtracted from any change, so that most pixels stay sky or land alone
 
 
@@ -91,6 +92,31 @@ def softened_water(
     change = _beyond_least(ground * (spread / np.maximum(seen, _LEAST) - small))
     change *= np.where(change > 0, smoothstep(*_THERE, resize(odds, *size)), 1)
     return np.clip(water + resize(change.astype(np.float32), *water.shape[::-1]), 0, 1)
+
+
+def share_along_edges(working: Working, part: np.ndarray, whole: np.ndarray) -> np.ndarray:
+    """Return the share of ``whole`` that ``part`` has, ending at the photo's edges.
+
+    Parameters
+    ----------
+    working : Working
+        The small copy of the photo.
+    part, whole : (h, w) float32
+        Maps of any size, the first nowhere above the second.
+
+    Returns
+    -------
+    (h, w) float32 in [0, 1]
+    """
+    import cv2
+
+    if not hasattr(cv2, "ximgproc"):
+        return part / np.maximum(whole, _LEAST)
+    levels = _guide(working)
+    size = levels.shape[1], levels.shape[0]
+    some, all_ = (_smoothed(levels, resize(i, *size), edge=_SHARE_EDGE) for i in (part, whole))
+    share = np.clip(some / np.maximum(all_, _LEAST), 0, 1).astype(np.float32)
+    return np.asarray(resize(share, *part.shape[::-1]))
 
 
 def _smoothed(

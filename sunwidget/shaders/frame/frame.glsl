@@ -125,7 +125,12 @@ void main() {
   vec3 air = GetAirChange(column, horizon, land_marks.b, land, lifted + water * (mirror.rgb - lifted));
   vec3 land_change = GetLandChange(front, land, land_ratio, GetIrradianceNow(upright), shine, mirror.rgb, air, removed,
                                    min(9.0 * matte, 1.0));
+  // Only what is certainly water glints. What mirrors land does not, and changes as land where it would become brighter.
+  float mirrored = UnpackSecond(scene_texel.a);
+  mirror.a *= smoothstep(0.5, 0.95, land_marks.r) * (1.0 - mirrored);
   vec3 water_change = GetWaterChange(view, front, clean, land_marks.g, glare, mirror, air, horizon);
+  float brighter = GetLuminance(water_change - land_change) / max(GetLuminance(front + land_change), 1e-6);
+  water *= 1.0 - mirrored * smoothstep(0.0, 0.3, brighter);
   land_change += water * (water_change - land_change);
   land_change += GetExposureGain()
       * GetLampLight(place, 3.14159265 * GetLuminance(land) / max(GetLuminance(lit_before), 1e-6));

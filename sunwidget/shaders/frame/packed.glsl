@@ -5,8 +5,14 @@ float PackLevels(vec3 levels) {
 }
 
 vec3 UnpackLevels(float code) {
-  float high = floor(code / 65536.0);
-  float rest = code - 65536.0 * high;
-  float middle = floor(rest / 256.0);
-  return vec3(rest - 256.0 * middle, middle, high) / 255.0;
+  return floor(256.0 * fract(code / vec3(256.0, 65536.0, 16777216.0))) / 255.0;
+}
+
+// A second map in the last 3 bits of the first level, which keeps 5.
+float PackSecond(float first, float second) {
+  return dot(floor(vec2(31.0, 7.0) * vec2(first, second) + 0.5), vec2(8.0, 1.0)) / 255.0;
+}
+
+float UnpackSecond(float code) {
+  return fract(code / 8.0) * 8.0 / 7.0;
 }

@@ -19,7 +19,6 @@ const int kPlaces = 6;
 const float kHighestWave = 0.35;  // natural logarithm of brightness, in new glints
 const float kRock = 2.0;  // in heights of the waves: a deviation from the water's light that gets half the weight
 const float kBeside = 0.006;  // longer sides; in the same row, since a strip of a large picture has no other
-const vec3 kDark = vec3(1.5, 2.5, 7.0);  // darker than the water by 7 heights of waves and 1.5 to 2.5 more
 
 // Inside the picture, mirrored at its sides.
 float Reflect(float x) {
@@ -71,10 +70,8 @@ void main() {
   }
   // Waves summed over several places, scaled to the height of one place's.
   float wave = sum * inversesqrt(squares);
-  // What is far darker than the waves does not glint: boats and branches keep their brightness.
-  float dark = smoothstep(kDark.x, kDark.y, -seen - kDark.z * level.a);
   // Without water free of glints, the pixel's own light is the best estimate.
-  vec3 water = mix(own, level.rgb * exp(mix(wave, seen, dark)), smoothstep(0.0, kLowestWave, level.a));
+  vec3 water = mix(own, level.rgb * exp(wave), smoothstep(0.0, kLowestWave, level.a));
   wave = mix(seen, wave, ReadPixel(surface, place).b);
   result = vec4(water, GetSparkle(place, wave));
 #endif
