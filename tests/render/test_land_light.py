@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
+from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.networks.land import sun_basis
 from sunwidget.edit.table import Edit
+from sunwidget.formats.color import srgb_to_linear
 from sunwidget.geometry.camera import Camera
 from sunwidget.renderer import render, render_pass
 
@@ -218,6 +220,22 @@ def test_land_that_glowed_before_a_low_sun_is_not_burnt_by_day():
     day = render(known.analyze(picture), noon, dtype="float32")[land]
     assert 0.8 < day.mean() < 0.95
     assert day.max() < 0.99
+
+
+def test_orange_land_keeps_more_of_its_color_by_day_where_the_evenings_sun_is_only_assumed():
+    known = known_photo(sun=(8.0, 3.0), clouds=False, size=SIZE)
+    picture, land = known.bytes.copy(), known.sky < 0.5
+    picture[land] = (200, 110, 40)
+    noon = Edit(sun_azimuth=70, sun_elevation=35)
+    red = {}
+    for located in (True, False):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(frame_inputs, "_sun_located", lambda _, known=located: known)
+            frame = render(known.analyze(picture), noon, dtype="float32")[land]
+        red[located] = np.log2(frame[:, 0].mean() / frame[:, 2].mean())
+    assert red[False] > red[True] + 0.3
+    own = np.log2(srgb_to_linear(200 / 255) / srgb_to_linear(40 / 255))
+    assert red[False] < own - 0.3  # the light was red, too
 
 
 def test_no_dark_line_is_left_along_bright_land_before_the_old_sun():

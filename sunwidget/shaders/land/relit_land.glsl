@@ -7,6 +7,7 @@
 #include "sky/tint.glsl"
 #include "sky/low_sun.glsl"
 #include "sky/sky_seen.glsl"
+#include "sky/sun_visible.glsl"
 
 // Scene-linear light from which the land's own color is known.
 const float kDarkLand = 0.15;
@@ -28,6 +29,9 @@ const vec2 kWhitePaint = vec2(0.5, 0.9);
 const vec2 kReddestLand = vec2(0.77, 1.6);
 // Shares of that redness that leave with an evening.
 const vec2 kEveningsRed = vec2(0.9, 0.75);
+
+// Share of what an evening's end takes that applies where its sun is only assumed: the land may be red or yellow itself.
+const float kAssumed = 0.55;
 
 // Largest blue of land over the stronger of red and green, in stops, whatever its light.
 const float kBluestLand = 1.1;
@@ -74,7 +78,7 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
   float known = GetSkySeen();
   float turned = known * GetTurned(ratio, before);
   float rises = GetRisen(GetSunBefore(), GetDescribedSun());
-  float risen = known * rises;
+  float risen = known * rises * mix(kAssumed, 1.0, sun_located);
   float evening = risen * GetEveningBalance();
   float changed = max(turned, risen);  // how far the light has become another
   float day = smoothstep(kRises.x, kRises.y, GetSunBefore().y);

@@ -13,7 +13,6 @@
 uniform float sky_strength;
 uniform float cloud_strength;
 uniform float added_clouds;
-uniform float sun_located;  // whether the photo shows its sun or the glow of a hidden one, 0 or 1
 
 // Logs of light: the change of the model's light at which half of the photo's excess over the model has faded,
 // and the most that fades.
