@@ -33,6 +33,15 @@ return a- -b+.50*c10.0+(20.05)-d;
   );
 });
 
+test("a wrapped statement becomes one line, and preprocessor lines stay lines", () => {
+  const text =
+    "#if A\nfloat f(float a,\n        float b) {\n  return a\n      + b;  // sum\n}\n#endif\nvec2 c\n#if B\n= d\n#endif\n;";
+  assert.equal(
+    compact(text),
+    "#if A\nfloat f(float a,float b){\nreturn a+b;\n}\n#endif\nvec2 c\n#if B\n=d\n#endif\n;",
+  );
+});
+
 test("neighboring uniforms of one type are declared together", () => {
   const text =
     "uniform float a;\nuniform float b;  // meters\nuniform vec2 c;\nuniform vec2 d;\nuniform vec2 e;\n#if A\nuniform vec2 f;\n";

@@ -62,7 +62,7 @@ def uniforms(scene: Scene) -> dict[str, Any]:
         "camera_up": scene.camera.up,
         "camera_forward": scene.camera.forward,
         "camera_focal": scene.camera.focal / scene.camera.height,
-        "sun_visible": float(scene.sun is not None and scene.sun.visible),
+        "sun_visible": float(_shows_sun(scene)),
         "sun_located": float(_sun_located(scene)),
         "depth_told": float(scene.hints.depth is not None),
         "photo_light": float(scene.lit_by_moon),
@@ -89,6 +89,10 @@ def uniforms(scene: Scene) -> dict[str, Any]:
     return found
 
 
+def _shows_sun(scene: Scene) -> bool:
+    return scene.sun is not None and scene.sun.visible
+
+
 def _sun_located(scene: Scene) -> bool:
     """Return whether the photo shows its sun, or a glow that tells where it is."""
     if scene.sun is None:
@@ -98,10 +102,8 @@ def _sun_located(scene: Scene) -> bool:
 
 @_cache_per_scene
 def _mirror(scene: Scene) -> Mirror:
-    glints = scene.sun is not None and scene.sun.visible
-    return find_mirror(
-        scene.working, scene.small_sky, scene.small_water, scene.camera, glints=glints
-    )
+    seen = scene.working, scene.small_sky, scene.small_water
+    return find_mirror(*seen, scene.camera, glints=_shows_sun(scene))
 
 
 def _water_roughness(scene: Scene) -> float:

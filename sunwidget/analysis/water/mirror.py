@@ -73,11 +73,9 @@ def find_mirror(
     height, width = wet.shape
     logs = np.log2(np.maximum(light @ LUMINANCE, _FLOOR)).astype(np.float32)
     bright = resize(sky, width, height) > 0.5
-    best, score = None, 0.0
-    for each in _likenesses(logs, bright, wet, camera, glints):
-        if each.clear > 0 and each.detail + each.outline > score:
-            best, score = each, each.detail + each.outline
-    if best is None:
+    found = [each for each in _likenesses(logs, bright, wet, camera, glints) if each.clear > 0]
+    best = max(found, key=lambda each: each.score, default=None)
+    if best is None or best.score <= 0:
         return nothing
     mirrored = water * _mirrored_land(sky, water, best.row / height)
     land = smoothstep(*_SURE, share_along_edges(working, mirrored, water))
@@ -90,8 +88,7 @@ class _Likeness(NamedTuple):
     """How alike water and the picture above an axis are."""
 
     row: int
-    detail: float  # correlation of both sides' light
-    outline: float  # that of the water's light and the sky it would mirror; 0 if all or nothing
+    score: float  # sum of the correlations of detail and of outline
     clear: float  # how clear a mirror that makes it, [0, 1]
     land: float  # how far water that would mirror land does so, [0, 1]
 
@@ -110,9 +107,7 @@ def _likenesses(
     first = round(horizon - _SHIFT * height)
     last = round(max(horizon + _SHIFT * height, shore + _BELOW * height))
     for axis in range(first, last + 1):
-        above = 2 * axis - np.arange(height)
-        row = np.clip(above, 0, height - 1)
-        pairs = wet & ~wet[row] & (above == row)[:, None]
+        row, pairs = _pairs(wet, axis)
         if pairs.mean() < _FEWEST:
             continue
         here, there = (_without_rows(values, pairs)[pairs] for values in (fine, fine[row]))
@@ -126,7 +121,21 @@ def _likenesses(
         # Ripples wash out the skyline's contrast.
         known = abs(rise_above) > _RISE
         calm = float(smoothstep(*_WASHED, rise / rise_above)) if known else alike
-        yield _Likeness(axis, detail, outline, max(alike, calm * seen), calm * max(alike, seen))
+        clear, land = max(alike, calm * seen), calm * max(alike, seen)
+        yield _Likeness(axis, detail + outline, clear, land)
+
+
+def _mirrored_rows(height: int, axis: float) -> np.ndarray:
+    """Return the row that each of ``height`` rows mirrors, the first or last if it is outside."""
+    above = np.round(2 * axis - np.arange(height)).astype(int)
+    return np.clip(above, 0, height - 1)
+
+
+def _pairs(wet: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the mirrored rows, and where water (h, w) would mirror what is inside and dry."""
+    row = _mirrored_rows(len(wet), axis)
+    inside = row == 2 * axis - np.arange(len(wet))
+    return row, wet & ~wet[row] & inside[:, None]
 
 
 def _without_rows(values: np.ndarray, inside: np.ndarray) -> np.ndarray:
@@ -167,9 +176,7 @@ def _darkness(logs: np.ndarray, sky: np.ndarray, wet: np.ndarray, axis: int) -> 
     """
     import cv2
 
-    above = 2 * axis - np.arange(len(logs))
-    row = np.clip(above, 0, len(logs) - 1)
-    pairs = wet & ~wet[row] & (above == row)[:, None]
+    row, pairs = _pairs(wet, axis)
     logs = cv2.GaussianBlur(logs, (0, 0), 1.5)
     beyond = _dry(logs, wet)[row]
     (_, rise, level), (_, _, level_above) = (
@@ -188,9 +195,8 @@ def _mirrored_land(sky: np.ndarray, water: np.ndarray, axis: float) -> np.ndarra
 
     What would be mirrored from outside the picture is that at its upper border.
     """
-    height = len(sky)
-    above = np.round(2 * axis * height - np.arange(height)).astype(int)
-    return _dry(1 - sky, water >= 0.5)[np.clip(above, 0, height - 1)]
+    row = _mirrored_rows(len(sky), axis * len(sky))
+    return _dry(1 - sky, water >= 0.5)[row]
 
 
 def _dry(image: np.ndarray, wet: np.ndarray) -> np.ndarray:
