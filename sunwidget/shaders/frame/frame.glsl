@@ -116,7 +116,9 @@ void main() {
   float removed = glare * GetMoved() * (1.0 - wet);
   vec3 land = RemoveGlare(front, removed, lit_before, nearby);
   removed = min(removed, max(1.0 - GetLuminance(land) / max(GetLuminance(front), 1e-6), 0.0));
-  float shine = GetSkySeen() * (1.0 - upright / kMostUpright) * GetMirrorShare(land, lit_before, land_marks.g);
+  // Land that is bright without a sun in front is snow, sand or foam.
+  float shine = sun_visible * GetSkySeen() * (1.0 - upright / kMostUpright)
+      * GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
   vec3 lifted = GetLandGain() * land_ratio;

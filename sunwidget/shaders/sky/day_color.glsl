@@ -27,9 +27,14 @@ float GetBlueSky() {
   return smoothstep(kBlueSky.x, kBlueSky.y, -GetMeanRed(photo_sky_linear_mean.b));
 }
 
+// How far the photo's sky is an evening's.
+float GetEveningSky() {
+  return smoothstep(kEveningSky.x, kEveningSky.y, GetMeanRed(photo_sky_linear_mean.g));
+}
+
 // How far the photo's evening, if it is one, ends as its low sun has `risen`.
 float GetEveningsEnd(float risen) {
-  return min(2.0 * risen, 1.0) * smoothstep(kEveningSky.x, kEveningSky.y, GetMeanRed(photo_sky_linear_mean.g));
+  return min(2.0 * risen, 1.0) * GetEveningSky();
 }
 
 // The turn, as of TurnColor, of light of this `color` towards the photo's `own` as the sun, `cosine` away from it,
@@ -54,15 +59,19 @@ vec3 GetOwnColorTurn(vec2 color, vec2 own, float fall, float cosine, float sun_y
 const vec2 kDayBelow = vec2(-0.62, 0.54);
 const vec2 kDayAbove = vec2(-1.2, 1.2);
 const vec2 kDayBegins = vec2(0.2, 0.4);  // sine of the sun's height
+// Clouds that no evening colors are gray, at noon as well: the share of that blue which they hide.
+const float kGrayClouds = 0.8;
 
 // How far day begins as a low sun has `risen` to this height.
 float GetDayBegun(float sun_y, float risen) {
   return risen * smoothstep(kDayBegins.x, kDayBegins.y, sun_y);
 }
 
-// The turn of a sky's `color` in the height `view_y` towards that of such photos as day begins.
-vec3 GetBlueDayTurn(vec2 color, float view_y, float sun_y, float risen) {
-  vec2 wanted = mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y));
+// The turn of a sky's `color` in the height `view_y`, behind a `cloud` of this opacity, towards that of such photos as
+// day begins.
+vec3 GetBlueDayTurn(vec2 color, float cloud, float view_y, float sun_y, float risen) {
+  float blue = 1.0 - kGrayClouds * cloud * (1.0 - GetEveningSky());
+  vec2 wanted = blue * mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y));
   wanted = vec2(min(wanted.x, color.x), max(wanted.y, color.y));
   // What would be violet becomes blue, with as much blue over red.
   wanted -= 0.5 * max(wanted.x + wanted.y, 0.0);

@@ -128,14 +128,15 @@ vec3 GetLowSkyTurn(vec2 color) {
 }
 
 // Turns light of the sky in the direction `view`, or of what mirrors it, as the sun moves. `own` is the photo's light,
-// `uneven` the log of its clouds' light over that around them, `day_y` the height that counts by day.
-vec3 TurnToPhotos(vec3 light, vec3 own, float uneven, vec3 view, float day_y, vec3 sun_before, vec3 sun_now,
+// `cloud` the opacity of its clouds, `uneven` the log of their light over that around them, `day_y` the height that counts
+// by day.
+vec3 TurnToPhotos(vec3 light, vec3 own, float cloud, float uneven, vec3 view, float day_y, vec3 sun_before, vec3 sun_now,
                   float risen) {
   vec2 low = GetLownesses(sun_before, sun_now);
   float lowers = max(low.y - low.x, 0.0);
   vec3 turn = lowers * uneven * kLowTexture;
   vec2 color = GetLogColor(light) + turn.xy;
-  turn += GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, day_y, sun_now.y, risen)
+  turn += GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, cloud, day_y, sun_now.y, risen)
       + lowers * GetLowSkyTurn(color);
   float fall = log2(max(GetExposureGain() * GetLuminance(light), 1e-9) / max(GetLuminance(own), 1e-9)) - exposure;
   turn += GetMoved() * vec3(vec2(GetMoon() == photo_light), GetSunToSun() * auto_exposure)

@@ -52,7 +52,7 @@ vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle
   // By day it mirrors the sky near the horizon, at dusk that as high above the horizon as the water lies below it,
   // and a little higher.
   vec3 mirrored = normalize(vec3(view.x, kMirroredAbove - view.y, view.z));
-  relit = TurnToPhotos(relit, calm, 0.0, mirrored, 0.0, GetSunBefore(), GetDescribedSun(), risen);
+  relit = TurnToPhotos(relit, calm, 0.0, 0.0, mirrored, 0.0, GetSunBefore(), GetDescribedSun(), risen);
   relit = CompressBrightAir(relit, calm, 1.0, 0.0);
   relit = FitBesideSun(relit, calm, 0.0, dot(mirrored, GetDescribedSun()));
   relit += glints;
