@@ -64,6 +64,7 @@ def uniforms(scene: Scene) -> dict[str, Any]:
         "camera_focal": scene.camera.focal / scene.camera.height,
         "sun_visible": float(_shows_sun(scene)),
         "sun_located": float(_sun_located(scene)),
+        "sun_known": float(_sun_known(scene)),
         "depth_told": float(scene.hints.depth is not None),
         "photo_light": float(scene.lit_by_moon),
         "water_roughness": _water_roughness(scene),
@@ -98,6 +99,11 @@ def _sun_located(scene: Scene) -> bool:
     if scene.sun is None:
         return scene.sun_spread <= GLOW_SPREAD
     return scene.sun.visible
+
+
+def _sun_known(scene: Scene) -> bool:
+    """Return whether the photo or the user tells where its sun, or how far its land, is."""
+    return scene.sun is not None or scene.hints.depth is not None or _sun_located(scene)
 
 
 @_cache_per_scene

@@ -1,5 +1,6 @@
 """Light on the land: slope, shadows, gleam, clouds' shadows, and the air before it."""
 
+import dataclasses
 import functools
 
 import cv2
@@ -230,12 +231,26 @@ def test_orange_land_keeps_more_of_its_color_by_day_where_the_evenings_sun_is_on
     red = {}
     for located in (True, False):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(frame_inputs, "_sun_located", lambda _, known=located: known)
+            patch.setattr(frame_inputs, "_sun_known", lambda _, known=located: known)
             frame = render(known.analyze(picture), noon, dtype="float32")[land]
         red[located] = np.log2(frame[:, 0].mean() / frame[:, 2].mean())
     assert red[False] > red[True] + 0.3
     own = np.log2(srgb_to_linear(200 / 255) / srgb_to_linear(40 / 255))
     assert red[False] < own - 0.3  # the light was red, too
+
+
+def test_places_differ_half_as_much_where_the_sun_is_supposed_but_lose_it_at_dusk():
+    scene = street()[0]
+    spread = {}
+    for known in (True, False):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(frame_inputs, "_sun_known", lambda _, known=known: known)
+            for elevation in (30, -5):
+                moved = Edit(sun_azimuth=80, sun_elevation=elevation)
+                ratio = render_pass(dataclasses.replace(scene), moved, "land_sunshine")[..., 1]
+                spread[elevation, known] = ratio.std()
+    assert spread[30, False] == pytest.approx(0.5 * spread[30, True], rel=1e-3)
+    assert spread[-5, False] == pytest.approx(spread[-5, True], rel=1e-3)
 
 
 def test_no_dark_line_is_left_along_bright_land_before_the_old_sun():

@@ -4,6 +4,7 @@ import dataclasses
 
 import cv2
 import numpy as np
+import pytest
 from relight_scenes import known_photo, known_scene
 
 from sunwidget.analysis import frame_inputs
@@ -188,6 +189,23 @@ def test_white_land_glints_only_before_a_low_sun():
     assert frame_inputs.surface(seen)[..., 2][snow].max() > 0.5
 
 
+def test_what_is_whiter_than_paint_without_a_sun_in_front_darkens_as_land_does():
+    photo = known_photo(sun=(8.0, 40.0), clouds=False)
+    picture, land = photo.linear.copy(), photo.sky == 0
+    snow = land & (np.arange(120) > 60)
+    picture[land] = 0.1
+    picture[snow] = 1.0
+    scene = photo.analyze(np.uint8(255 * picture ** (1 / 2.2)), water="none")
+    light = {}
+    for shown in (True, False):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(frame_inputs, "_shows_sun", lambda _, known=shown: known)
+            light[shown] = rendered(dataclasses.replace(scene), DUSK) @ LUMINANCE
+    dark = land & ~snow
+    assert light[False][dark] == pytest.approx(light[True][dark], rel=0.1)
+    assert light[False][snow].mean() < 0.8 * light[True][snow].mean()
+
+
 def test_clouds_in_a_deep_blue_sky_are_grey_at_dusk():
     photo = known_photo(sun=(8.0, 40.0), tint=(0.4, 1.0, 2.0), size=(240, 160))
     scene = photo.analyze()
@@ -226,6 +244,17 @@ def test_a_gray_evening_turns_blue_by_day_but_a_blue_sky_no_bluer():
     assert gray_low > -0.1
     assert gray_high < -0.5
     assert abs(blue_high - blue_low) < 0.1
+
+
+def test_gray_clouds_turn_less_blue_by_day_unless_an_evening_colors_the_sky():
+    for tint, apart in (((0.75, 1.0, 1.4), 0.45), ((2.0, 1.0, 0.5), 0.0)):
+        photo = known_photo(sun=(8.0, 4.0), tint=tint, clouds=False, size=(240, 160))
+        scene = photo.analyze()
+        clear, cloudy = (
+            balance(rendered(dataclasses.replace(scene, cloud_map=map_), HIGH)[photo.sky > 0])[0]
+            for map_ in (np.zeros_like(scene.cloud_map), np.ones_like(scene.cloud_map))
+        )
+        assert cloudy - clear == pytest.approx(apart, abs=0.1)
 
 
 def test_dusk_is_orange_below_and_blue_above_towards_the_sun_only():

@@ -31,6 +31,7 @@ uniform float source_land_facing;
 const float kWallRoughness = 0.04;
 const float kExpected = 0.4;  // weight of the predicted light of the photo's sun against the visible one
 const float kEqual = 1e-6;     // relative difference below which irradiances count as equal
+const float kSunLeaves = 0.8;  // share of a place's own change at dusk without a sky
 const float kLeastOpen = 0.2;  // smallest open share of a slope's sky: no visible place is walled in all round
 
 vec3 GetTerm(int index) {
@@ -130,8 +131,11 @@ LandLight GetLandLight(float lit) {
   SunShare all_now = SunShare(mean.z, mean.w, 0.0);
   vec3 plain_before = GetIrradiance(0, land, 1.0, 0.0, 0.5, source_land_facing, down, all_before);
   vec3 plain_now = GetIrradiance(8, land, 1.0, 0.0, 0.5, land_facing, down, all_now);
-  // Without a sky all land changes alike.
+  // Where the photo's sun is only supposed, its light on each place is half believed, and without a sky all land changes
+  // alike. At dusk sunlit places lose their sun, wherever it was.
   vec3 common_ratio = GetRatio(plain_now, plain_before);
-  common_ratio = mix(pow(common_ratio, vec3(GetRestraint(degrees(asin(GetTerm(15).y))))), vec3(1.0), equal(common_ratio, vec3(1.0)));
-  return LandLight(before, common_ratio + GetSkySeen() * (ratio - common_ratio), level);
+  float height = degrees(asin(GetTerm(15).y));
+  common_ratio = mix(pow(common_ratio, vec3(GetRestraint(height))), vec3(1.0), equal(common_ratio, vec3(1.0)));
+  float own = mix(GetSkySeen() * GetBelief(), max(GetSkySeen(), kSunLeaves), GetDusk(height));
+  return LandLight(before, common_ratio + own * (ratio - common_ratio), level);
 }

@@ -30,9 +30,6 @@ const vec2 kReddestLand = vec2(0.77, 1.6);
 // Shares of that redness that leave with an evening.
 const vec2 kEveningsRed = vec2(0.9, 0.75);
 
-// Share of what an evening's end takes that applies where its sun is only assumed: the land may be red or yellow itself.
-const float kAssumed = 0.55;
-
 // Largest blue of land over the stronger of red and green, in stops, whatever its light.
 const float kBluestLand = 1.1;
 
@@ -78,7 +75,8 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
   float known = GetSkySeen();
   float turned = known * GetTurned(ratio, before);
   float rises = GetRisen(GetSunBefore(), GetDescribedSun());
-  float risen = known * rises * mix(kAssumed, 1.0, sun_located);
+  // Where an evening is only supposed the land may be red or yellow itself.
+  float risen = known * rises * GetBelief();
   float evening = risen * GetEveningBalance();
   float changed = max(turned, risen);  // how far the light has become another
   float day = smoothstep(kRises.x, kRises.y, GetSunBefore().y);
