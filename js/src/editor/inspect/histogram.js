@@ -117,9 +117,9 @@ export function histogram({ drawing, panel, stage, state }, signal) {
       const label = `${word} clipped: ${percent(share)}${was}`;
       setAttributes(marks[end], { "aria-label": label, title: label });
       marks[end].classList.toggle("sw-on", share > CLIPPED_FROM);
-      return share > CLIPPED_FROM ? `${word} ${percent(share)}` : "";
+      return share > CLIPPED_FROM ? `${percent(share)} ${end}` : "";
     });
-    text.textContent = texts.filter(Boolean).join(" · ");
+    text.textContent = texts.filter(Boolean).join(", ");
     svg.setAttribute("aria-label", `Histogram. ${text.textContent || "Nothing is clipped"}.`);
   };
   const idle = () => {
