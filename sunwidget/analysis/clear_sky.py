@@ -66,8 +66,7 @@ def _residual(scene: Scene, matte: np.ndarray, opacity: np.ndarray) -> np.ndarra
     trust *= 1 - resize(scene.without_sun.hidden, width, height)
     trust = trust.astype(np.float32)
 
-    seen = scene.sun is not None and scene.sun.visible
-    blue = fit if seen else limit_balance(fit, scene.working, scene.small_sky)
+    blue = fit if scene.shows_sun else limit_balance(fit, scene.working, scene.small_sky)
     expected = np.log(np.array(blue.gain) / np.array(fit.gain))
     slow = _surface(residual - expected, trust) + expected
     around = fill_by_pyramid((residual - slow).astype(np.float32), trust)

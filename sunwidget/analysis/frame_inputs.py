@@ -62,7 +62,7 @@ def uniforms(scene: Scene) -> dict[str, Any]:
         "camera_up": scene.camera.up,
         "camera_forward": scene.camera.forward,
         "camera_focal": scene.camera.focal / scene.camera.height,
-        "sun_visible": float(_shows_sun(scene)),
+        "sun_visible": float(scene.shows_sun),
         "sun_located": float(_sun_located(scene)),
         "sun_known": float(_sun_known(scene)),
         "depth_told": float(scene.hints.depth is not None),
@@ -90,10 +90,6 @@ def uniforms(scene: Scene) -> dict[str, Any]:
     return found
 
 
-def _shows_sun(scene: Scene) -> bool:
-    return scene.sun is not None and scene.sun.visible
-
-
 def _sun_located(scene: Scene) -> bool:
     """Return whether the photo shows its sun, or a glow that tells where it is."""
     if scene.sun is None:
@@ -109,7 +105,7 @@ def _sun_known(scene: Scene) -> bool:
 @_cache_per_scene
 def _mirror(scene: Scene) -> Mirror:
     seen = scene.working, scene.small_sky, scene.small_water
-    return find_mirror(*seen, scene.camera, glints=_shows_sun(scene))
+    return find_mirror(*seen, scene.camera, glints=scene.shows_sun)
 
 
 def _water_roughness(scene: Scene) -> float:

@@ -74,8 +74,7 @@ def heading_by_sun(scene: Scene, place: Place) -> HeadingMatch:
             "heading, degrees clockwise from north."
         )
     found = scene.automatic
-    seen = scene.sun is not None and scene.sun.visible
-    return match(place, found["sun_azimuth"], found["sun_elevation"], seen=seen)
+    return match(place, found["sun_azimuth"], found["sun_elevation"], seen=scene.shows_sun)
 
 
 def match(place: Place, azimuth: float, elevation: float, *, seen: bool = True) -> HeadingMatch:

@@ -197,6 +197,11 @@ class Scene:
         return self.erased or erase_nothing(self.working)
 
     @property
+    def shows_sun(self) -> bool:
+        """Whether the photo shows its sun, or the moon that was hinted as the sun."""
+        return self.sun is not None and self.sun.visible
+
+    @property
     def lit_by_moon(self) -> bool:
         """Whether the moon lights the photo: a detected one, or one hinted as the sun."""
         return self.moon is not None or (self.sun is not None and self.sun.kind == "moon")

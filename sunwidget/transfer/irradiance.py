@@ -66,7 +66,7 @@ def sun_share(scene: Scene) -> float:
     weight = resize(scene.sky, small.width, small.height)
     if is_night(scene):
         return 0.0
-    if scene.sun is not None and scene.sun.visible:
+    if scene.shows_sun:
         return 1.0  # unmixing may take the visible sun's glare for cloud
     total = float(weight.sum())
     return 1.0 - float((opacity * weight).sum()) / total if total > 1 else 1.0

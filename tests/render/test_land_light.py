@@ -229,17 +229,17 @@ def test_orange_land_keeps_more_of_its_color_by_day_where_the_evenings_sun_is_on
     picture[land] = (200, 110, 40)
     noon = Edit(sun_azimuth=70, sun_elevation=35)
     red = {}
-    for located in (True, False):
+    for told in (True, False):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(frame_inputs, "_sun_known", lambda _, known=located: known)
+            patch.setattr(frame_inputs, "_sun_known", lambda _, told=told: told)
             frame = render(known.analyze(picture), noon, dtype="float32")[land]
-        red[located] = np.log2(frame[:, 0].mean() / frame[:, 2].mean())
+        red[told] = np.log2(frame[:, 0].mean() / frame[:, 2].mean())
     assert red[False] > red[True] + 0.3
     own = np.log2(srgb_to_linear(200 / 255) / srgb_to_linear(40 / 255))
     assert red[False] < own - 0.3  # the light was red, too
 
 
-def test_places_differ_half_as_much_where_the_sun_is_supposed_but_lose_it_at_dusk():
+def test_places_differ_half_as_much_where_the_sun_is_only_assumed_but_lose_it_at_dusk():
     scene = street()[0]
     spread = {}
     for known in (True, False):

@@ -9,6 +9,7 @@ from relight_scenes import known_photo, known_scene
 
 from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.fit.fit import view_angles
+from sunwidget.analysis.scene import Scene
 from sunwidget.edit.table import Edit
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.renderer import render
@@ -199,7 +200,7 @@ def test_what_is_whiter_than_paint_without_a_sun_in_front_darkens_as_land_does()
     light = {}
     for shown in (True, False):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(frame_inputs, "_shows_sun", lambda _, known=shown: known)
+            patch.setattr(Scene, "shows_sun", property(lambda _, known=shown: known))
             light[shown] = rendered(dataclasses.replace(scene), DUSK) @ LUMINANCE
     dark = land & ~snow
     assert light[False][dark] == pytest.approx(light[True][dark], rel=0.1)

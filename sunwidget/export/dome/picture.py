@@ -163,14 +163,13 @@ def picture_of(scene: Scene, edit: Edit, sun: tuple[float, float], width: int) -
         kept = off_sun * known * smoothstep(0.55, 0.95, soft)
         opacity, clouds = opacity * kept, clouds * kept[..., None]
         weight = np.ones_like(known)
-    visible = scene.sun is not None and scene.sun.visible
     fields = {
         "ratio": ratio,
         "clouds": fill_by_pyramid(clouds, weight),
         "opacity": fill_by_pyramid(opacity[..., None], weight)[..., 0],
         "light": light,
         "known": known,
-        "veil": np.zeros_like(matte) if visible and not moved else veil,
+        "veil": np.zeros_like(matte) if scene.shows_sun and not moved else veil,
     }
     return Picture(
         {name: np.ascontiguousarray(field) for name, field in fields.items()},

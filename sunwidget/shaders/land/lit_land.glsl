@@ -14,6 +14,7 @@
 #include "land/relief.glsl"
 #include "land/gloss.glsl"
 #include "sky/sky_seen.glsl"
+#include "sky/sun_visible.glsl"
 
 uniform sampler2D land_terms;
 uniform sampler2D surface;
@@ -131,7 +132,7 @@ LandLight GetLandLight(float lit) {
   SunShare all_now = SunShare(mean.z, mean.w, 0.0);
   vec3 plain_before = GetIrradiance(0, land, 1.0, 0.0, 0.5, source_land_facing, down, all_before);
   vec3 plain_now = GetIrradiance(8, land, 1.0, 0.0, 0.5, land_facing, down, all_now);
-  // Where the photo's sun is only supposed, its light on each place is half believed, and without a sky all land changes
+  // Where the photo's sun is only assumed, its light on each place is half believed, and without a sky all land changes
   // alike. At dusk sunlit places lose their sun, wherever it was.
   vec3 common_ratio = GetRatio(plain_now, plain_before);
   float height = degrees(asin(GetTerm(15).y));

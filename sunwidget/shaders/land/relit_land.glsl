@@ -75,7 +75,7 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
   float known = GetSkySeen();
   float turned = known * GetTurned(ratio, before);
   float rises = GetRisen(GetSunBefore(), GetDescribedSun());
-  // Where an evening is only supposed the land may be red or yellow itself.
+  // Where an evening is only assumed the land may be red or yellow itself.
   float risen = known * rises * GetBelief();
   float evening = risen * GetEveningBalance();
   float changed = max(turned, risen);  // how far the light has become another

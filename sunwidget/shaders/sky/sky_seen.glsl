@@ -1,10 +1,6 @@
 // Whether the photo shows enough sky to reveal its light.
 
 uniform float sky_share;  // of the picture
-uniform float sun_known;  // whether the photo or the user tells where its sun is, 0 or 1
-
-// How far the land's light is believed whose sun is only supposed.
-const float kSupposed = 0.5;
 
 // Without a visible sky, the land changes uniformly: by day, when its light is a guess, by this share of the stops,
 // and fully at dusk, when no sun is left to guess.
@@ -16,10 +12,6 @@ const float kSomeSky = 0.03;
 
 float GetSkySeen() {
   return smoothstep(kNoSky, kSomeSky, sky_share);
-}
-
-float GetBelief() {
-  return mix(kSupposed, 1.0, sun_known);
 }
 
 // 0 by day, 1 when the sun is well below the horizon.
