@@ -240,7 +240,7 @@ class Edit:
     land_facing: float = _number(0.15, (0, 1), 0.01, "", "Upright surfaces", "land",
         "Share of the land's surfaces that face the camera; the rest face the zenith.",
         advanced=True)
-    colourfulness: float = _number(0.5, (0, 1), 0.01, "", "Color loss in shade", "land",
+    colourfulness: float = _number(0.25, (0, 1), 0.01, "", "Color loss in shade", "land",
         "How much color the land loses when the sun's disc is hidden (thesis eq. 3.8).")
     colour_loss: str = _choice("luminance", COLOUR_LOSSES, "Color loss by", "land",
         "luminance, which keeps the luminance, or power, as in eq. 3.8 of the thesis.",

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from relight_scenes import known_photo
 
+import sunwidget as sw
 from sunwidget.edit.table import Edit
 from sunwidget.formats.color import srgb_to_linear
 from sunwidget.renderer import render, render_pass
@@ -52,6 +53,17 @@ def test_the_halo_in_a_blue_sky_is_not_cyan(elevation):
     light, away = seen(scene, Edit(sun_azimuth=-8, sun_elevation=elevation))
     red, green, blue = np.moveaxis(light[(scene.sky == 1) & (away < 15)], -1, 0)
     assert ((green - red) < 0.85 * (blue - red).clip(0.05)).all()
+
+
+def test_a_deep_blue_sky_turns_warm_around_a_low_sun_without_a_dome():
+    fade = np.linspace(0, 1, 140)[:, None, None]
+    photo = np.full((200, 300, 3), 25, np.uint8)
+    photo[:140] = np.round((1 - fade) * (0, 60, 160) + fade * (10, 110, 215))
+    scene = sw.analyze(photo, sun="outside", horizon=140)
+    light = srgb_to_linear(render(scene, Edit(sun_azimuth=0, sun_elevation=3)) / 255)
+    red, _, blue = np.maximum(light[5:80:12, 140:160], 2e-3).mean(1).T
+    steps = np.diff(np.log2(red / blue))  # towards the sun, in row 128
+    assert 0 < steps.max() < 2 * steps.min()
 
 
 def test_the_sky_away_from_the_sun_keeps_its_tone():

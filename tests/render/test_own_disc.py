@@ -8,6 +8,7 @@ import sunwidget as sw
 from sunwidget.analysis import frame_inputs
 from sunwidget.analysis.sun.camera_glare import own_disc
 from sunwidget.formats.color import LUMINANCE
+from sunwidget.renderer import render_pass
 
 HEIGHT, WIDTH, X, Y = 240, 360, 120, 110
 
@@ -61,6 +62,18 @@ def test_a_red_disc_that_did_not_burn_stays_red():
     x, y = scene.camera.pixel(edit.sun_azimuth, scene.sun.elevation)[:2]
     red, green, blue = sw.render(scene, edit)[int(y), int(x)].astype(int)
     assert red > green + 60 > blue
+
+
+@pytest.mark.parametrize("elevation", [1.5, 8])
+def test_a_white_disc_in_a_red_sky_turns_neither_violet_nor_blue(elevation):
+    y, x = np.mgrid[:HEIGHT, :WIDTH] + 0.5
+    sky = np.where(y[..., None] < 180, evening(0) * (1.1, 0.3, 0.05), evening(0)).clip(0, 255)
+    inside = np.clip(10.5 - np.hypot(x - X, y - 165), 0, 1)[..., None]
+    photo = np.rint(sky + inside * (255 - sky)).astype(np.uint8)
+    scene = sw.analyze(photo, sun=(X, 165), horizon=180)
+    edit = sw.Edit(sun_azimuth=8, sun_elevation=elevation)
+    disc = render_pass(scene, edit, "composite_constants")[0, 14]
+    assert disc[0] >= disc[1] >= disc[2]
 
 
 def test_a_blot_that_grew_into_the_sky_is_no_disc():

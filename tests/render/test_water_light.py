@@ -129,6 +129,15 @@ def test_water_under_a_wide_column_is_as_bright_as_beside_it():
     assert moved[:, 140:160].mean() > 0.96 * beside
 
 
+def test_orange_glints_leave_blue_water_not_green():
+    glints = glittering().astype(int) - shore()
+    photo = np.round(shore() + glints * (1.0, 0.55, -0.3)).clip(0, 255).astype(np.uint8)
+    scene = sw.analyze(photo, sun=(150, 40), **TOLD)
+    moved = srgb_to_linear(sw.render(scene, sw.Edit(sun_azimuth=90, sun_elevation=35)) / 255)
+    column, beside = (moved[ROW + 10 :, a:b].mean((0, 1)) for a, b in ((144, 156), (90, 110)))
+    assert column[2] / column[1] == pytest.approx(beside[2] / beside[1], rel=0.1)
+
+
 def test_a_dark_post_in_the_old_glints_stays_dark():
     post = glittering().copy()
     post[ROW + 20 : ROW + 50, 146:153] = 8

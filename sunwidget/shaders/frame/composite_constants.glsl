@@ -245,8 +245,11 @@ vec3 GetOwnDisc() {
   vec3 now = max(GetLightTexel(light_edit, 1), vec3(0.0));
   float level = GetLuminance(now) / GetLuminance(before);
   vec3 hue = now / before / max(level, 1e-9);
-  return sun_visibility * GetSceneLight(own_disc) * min(hue, vec3(kBrightestDisc))
-      * min(pow(level, kGlareGrowth), kBrightestDisc);
+  vec3 disc = GetSceneLight(own_disc) * min(hue, vec3(kBrightestDisc));
+  // Where the photo clips it, it is whiter than its light: it becomes no bluer than white, nor violet.
+  disc.g = min(disc.g, disc.r);
+  disc.b = min(disc.b, disc.g);
+  return sun_visibility * min(pow(level, kGlareGrowth), kBrightestDisc) * disc;
 }
 
 void main() {

@@ -3,6 +3,7 @@
 // that tint in proportion, or it would turn teal.
 
 #include "sky/matched_sky.glsl"
+#include "sky/bounded.glsl"
 #include "frame/srgb.glsl"
 
 // Sunsets are only partly red: some of the tint stays where they would turn gray.
@@ -38,7 +39,7 @@ float GetLostTint(vec3 sky_before, vec3 sky_now) {
   float lost = before - side * GetBlueness(sky_now);
   float most = side > 0.0 ? 1.0 : kMostOfRed;
   vec2 from = side > 0.0 ? kBlueBefore : kRedBefore;
-  return most * clamp(lost / max(before, 0.3), 0.0, 1.0) * smoothstep(from.x, from.y, before);
+  return most * GetBounded(max(lost, 0.0) / max(before, 0.3), 1.0) * smoothstep(from.x, from.y, before);
 }
 
 // Removes a share of the photo's balance from a light, which also changes its brightness.
@@ -121,9 +122,5 @@ vec3 ShiftToModelColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opac
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
   faded = max(faded, risen * GetWarmth(relit, model));
-  vec3 turned = relit + faded * (model - relit);
-  // A sky never turns greener than it was.
-  float greenest = max(sky.g / max(max(sky.r, sky.b), 1e-6), 1.0);
-  turned.g -= smoothstep(0.0, 0.1, faded) * max(turned.g - greenest * max(turned.r, turned.b), 0.0);
-  return turned;
+  return relit + faded * (model - relit);
 }

@@ -37,7 +37,8 @@ float GetGlitterChange() {
 vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle, vec4 mirror, vec3 air, vec3 sky) {
   float changed = GetGlitterChange();
   // Glints are added light: what is darker than the water behind them stands in front of it.
-  vec3 calm = light + changed * mark * min(clean - light, vec3(0.0));
+  float dark = min(GetLuminance(light) / max(GetLuminance(clean), 1e-6), 1.0);
+  vec3 calm = light + changed * mark * (dark * clean - light);
   float shown = mirror.a * DecodeSparkle(sparkle);
   // The sun's own color: the tint of the photo's sky would color glints that are nearly white.
   vec3 sun = texelFetch(composite_constants, ivec2(kWaterSunNow, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
