@@ -91,7 +91,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
   relit = TurnToPhotos(relit, sky, cover, uneven, view, view.y, sun_before, sun_now, risen);
-  relit = CompressBrightAir(relit, light, exp(-kTextureKept * uneven), opacity);
+  relit = CompressBrightAir(relit, light, exp(-kTextureKept * uneven));
   relit = FitBesideSun(relit, clean, opacity, dot(view, sun_now));
   // The new disc, behind clouds; the matte hides it behind land.
   relit += moved * (1.0 - cover) * (1.0 - cover) * disc;

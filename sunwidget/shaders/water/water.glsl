@@ -54,7 +54,7 @@ vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle
   // and a little higher.
   vec3 mirrored = normalize(vec3(view.x, kMirroredAbove - view.y, view.z));
   relit = TurnToPhotos(relit, calm, 0.0, 0.0, mirrored, 0.0, GetSunBefore(), GetDescribedSun(), risen);
-  relit = CompressBrightAir(relit, calm, 1.0, 0.0);
+  relit = CompressBrightAir(relit, calm, 1.0);
   relit = FitBesideSun(relit, calm, 0.0, dot(mirrored, GetDescribedSun()));
   relit += glints;
   return land_strength * (GetExposureGain() * relit - light);
