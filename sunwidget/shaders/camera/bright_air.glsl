@@ -2,7 +2,7 @@
 // mirrors it.
 
 const float kBrightAir = 0.25;  // scene-linear
-const float kAirRange = 0.7;    // of the stops beyond it; chosen by pairs (docs/methods/effects.md)
+const float kAirRange = 0.5;    // of the stops beyond it; chosen by pairs (docs/methods/effects.md)
 const float kBend = 0.2;        // stops over which it sets in, or it would show as an arc
 
 // `relit` was `light` in the photo. What is `mean` as bright as it decides, so that a cloud's texture stays.
