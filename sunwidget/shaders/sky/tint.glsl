@@ -122,5 +122,9 @@ vec3 ShiftToModelColor(vec3 relit, vec3 sky, vec3 before, vec3 ratio, float opac
   day += kPale * risen * (GetLuminance(day) - day);
   vec3 model = day * (GetLuminance(now) / GetLuminance(day) * GetLuminance(sky) / GetLuminance(before));
   faded = max(faded, risen * GetWarmth(relit, model));
-  return relit + faded * (model - relit);
+  vec3 turned = relit + faded * (model - relit);
+  // A sky never turns greener than it was.
+  float greenest = max(sky.g / max(max(sky.r, sky.b), 1e-6), 1.0);
+  turned.g -= smoothstep(0.0, 0.1, faded) * max(turned.g - greenest * max(turned.r, turned.b), 0.0);
+  return turned;
 }
