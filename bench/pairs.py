@@ -14,12 +14,12 @@
     old = "kAirRange = 0.5"
     new = "kAirRange = 0.75"
 
-`draw` chooses photos by the seed, none of those that a file named in `--seen` lists, analyses them
-once (`OUT/scenes`), and sets one sun into each, in turn, with and without each change. Pairs that
-differ by less than `--least` levels are left out. `OUT/less_glow` then holds the sheets and
-`task.txt` for a reader who knows nothing of the code and writes `marks.txt` beside it; `count`
-compares these with `OUT/keys`. A result of one set of photos needs a second one: of 48 changes,
-one was 15 to 8 on the first and 8 to 18 on the next.
+`draw` chooses photos by the seed, none of those that a file named in `--seen` lists (`photos.txt`
+of an earlier OUT), analyses them once (`OUT/scenes`), and sets one sun into each, in turn, with and
+without each change. Pairs that differ by less than `--least` levels are left out. `OUT/less_glow`
+then holds the sheets and `task.txt` for a reader who knows nothing of the code and writes
+`marks.txt` beside it; `count` compares these with `OUT/keys`. A result of one set of photos needs a
+second one: of 75 changes, one was 15 to 8 on the first and 8 to 18 on the next.
 """
 
 import argparse
@@ -80,6 +80,7 @@ class Changes:
 
     def __init__(self) -> None:
         self.compiled: dict[str, dict[str, dict[str, Any]]] = {}
+        self.affected: dict[str, set[str]] = {}
 
     def render(self, scene: sw.Scene, edit: sw.Edit, name: str, change: dict[str, Any]) -> Any:
         """Return the picture with the change of this name; one without must be drawn before."""
@@ -95,19 +96,25 @@ class Changes:
                 raise ValueError(f"{name}: {path} does not contain {change['old']!r}.")
             return text.replace(change["old"], change["new"])
 
-        before = shader_texts()
+        before = {} if name in self.affected else shader_texts()
         shader_source.read_shader = changed
         try:
-            affected = {shader for shader, text in shader_texts().items() if text != before[shader]}
-            on_gl_thread(partial(self._swap, name, affected))
-            picture = sw.render(scene, edit)
+            if name not in self.affected:
+                after = shader_texts()
+                self.affected[name] = {
+                    shader for shader in before if before[shader] != after[shader]
+                }
+            on_gl_thread(partial(self._swap, name))
+            try:
+                return sw.render(scene, edit)
+            finally:
+                on_gl_thread(partial(self._swap, name))
         finally:
             shader_source.read_shader = read
-        on_gl_thread(partial(self._swap, name, affected))
-        return picture
 
-    def _swap(self, name: str, affected: set[str], context: Any) -> None:
+    def _swap(self, name: str, context: Any) -> None:
         """Exchange the programs of the affected shaders for those of the change, or back."""
+        affected = self.affected[name]
         renderer = offscreen._renderer(context)  # noqa: SLF001 - its programs are nobody else's
         kept = self.compiled.setdefault(name, {})
         for kind in ("programs", "arrays", "uniforms"):
@@ -168,12 +175,16 @@ def draw(args: argparse.Namespace) -> None:
     sides, drawer = random.Random(args.seed), Changes()
     keys: dict[str, dict[int, Any]] = {name: {} for name in changes}
     for number, path in enumerate(photos):
-        scene = scene_of(path, args.out / "scenes" / f"{args.seed}-{number}.pickle")
+        file = path.resolve().as_posix().replace("/", "_")
+        scene = scene_of(path, args.out / "scenes" / f"{file}.pickle")
         photo = sw.render(scene)
+        olds: dict[str, np.ndarray] = {}
         for name, change in changes.items():
             suns = change.get("suns", list(SUNS))
             sun = suns[number % len(suns)]
-            old = sw.render(scene, edit_of(sun))
+            if sun not in olds:
+                olds[sun] = sw.render(scene, edit_of(sun))
+            old = olds[sun]
             new = drawer.render(scene, edit_of(sun), name, change)
             if np.abs(new.astype(int) - old).max(-1).mean() < args.least:
                 continue

@@ -36,7 +36,8 @@ float GetGlitterChange() {
 // the new ones, `mirror` the texel of mirror_ratio.glsl, `sky` the new sky at the horizon.
 vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle, vec4 mirror, vec3 air, vec3 sky) {
   float changed = GetGlitterChange();
-  // Glints are added light: what is darker than the water behind them stands in front of it.
+  // Glints are added light: what is darker than the water behind them stands in front of it. It takes the water's
+  // color, since channel by channel orange glints leave a green sea.
   float dark = min(GetLuminance(light) / max(GetLuminance(clean), 1e-6), 1.0);
   vec3 calm = light + changed * mark * (dark * clean - light);
   float shown = mirror.a * DecodeSparkle(sparkle);
