@@ -4,8 +4,7 @@
 
 Contract: ``image`` float32 ``(1, 3, H, W)``, RGB, sRGB-encoded in [0, 1] -> ``sky`` and ``water``
 float32 ``(1, 1, H, W)`` in [0, 1].
-Made for 384 x 384; other multiples of 32 work. Weights are stored as float16 and cast when the
-session is created.
+Made for 384 x 384; other multiples of 32 work. How weights are stored: ``training/weights.py``.
 """
 
 from __future__ import annotations
@@ -17,16 +16,16 @@ from pathlib import Path
 import numpy as np
 import onnx
 import torch
-from onnx import helper, numpy_helper
 from torch import nn
 from torch.nn.utils.fusion import fuse_conv_bn_eval
 
 from training.model import STRIDE, SkyMaps, SkyNet
+from training.weights import store_weights
 
 SIZE = 384
-LIMIT = 5_000_000
-TOLERANCE = 0.02
-"""Largest difference of any pixel between PyTorch in float32 and the file with float16 weights."""
+LIMIT = 3_000_000
+TOLERANCE, TOLERANCE_OF_BYTES = 0.02, 0.2
+"""Largest difference of any pixel between PyTorch in float32 and the file."""
 
 
 def fold(module: nn.Module) -> None:
@@ -60,34 +59,17 @@ def load(checkpoints: list[Path], shares: list[float]) -> SkyNet:
     return network.eval()
 
 
-def rounded(values: np.ndarray, bits: int) -> np.ndarray:
-    """Numbers with so many significant bits: float16 has 11; fewer need less room in a wheel."""
-    fraction, power = np.frexp(values)
-    return np.asarray(np.ldexp(np.round(fraction * 2.0**bits) / 2.0**bits, power), values.dtype)
-
-
-def halve(model: onnx.ModelProto, bits: int = 11) -> None:
-    """Stores large float32 initialisers as float16 followed by a cast, in place."""
-    graph = model.graph
-    casts = []
-    for weight in graph.initializer:
-        if weight.data_type != onnx.TensorProto.FLOAT or np.prod(weight.dims) < 64:
-            continue
-        name, values = weight.name, numpy_helper.to_array(weight)
-        weight.CopyFrom(
-            numpy_helper.from_array(rounded(values, bits).astype(np.float16), f"{name}_half")
-        )
-        casts.append(helper.make_node("Cast", [f"{name}_half"], [name], to=onnx.TensorProto.FLOAT))
-    for cast in reversed(casts):
-        graph.node.insert(0, cast)
-
-
 def to_onnx(
-    network: nn.Module, image: torch.Tensor, outputs: list[str], about: str, bits: int = 11
+    network: nn.Module,
+    image: torch.Tensor,
+    outputs: list[str],
+    about: str,
+    as_bytes: bool = False,
 ) -> bytes:
-    """A network of one picture, (N, 3, H, W) of any multiple of 32, as the bytes of an ONNX file.
+    """A network of one picture, (N, 3, H, W) of any multiple of 32, as the content of an ONNX file.
 
-    Weights have ``bits`` significant bits. Refuses a result that differs too much from PyTorch.
+    Large weights are stored as float16 or as bytes. Refuses a result that differs too much from
+    PyTorch's.
     """
     import onnxruntime
 
@@ -110,7 +92,7 @@ def to_onnx(
                 external_data=False,
             )
             model = onnx.load(full)
-    halve(model, bits)
+    store_weights(model, as_bytes)
     for node in model.graph.node:  # the exporter notes source lines of this machine
         del node.metadata_props[:]
         node.doc_string = ""
@@ -121,8 +103,9 @@ def to_onnx(
     session = onnxruntime.InferenceSession(data, providers=["CPUExecutionProvider"])
     results = session.run(None, {"image": image.numpy()})
     off = max(float(np.abs(r - e.numpy()).max()) for r, e in zip(results, expected, strict=True))
-    if off > TOLERANCE:
-        raise SystemExit(f"off by {off:.4f} (limit {TOLERANCE}): not written")
+    limit = TOLERANCE_OF_BYTES if as_bytes else TOLERANCE
+    if off > limit:
+        raise SystemExit(f"off by {off:.4f} (limit {limit}): not written")
     print(f"{len(data) / 1e6:.2f} MB, differs from PyTorch by at most {off:.5f}")
     return bytes(data)
 
@@ -131,7 +114,7 @@ def export(checkpoints: list[Path], shares: list[float], out: Path) -> None:
     """Exports, and refuses a file that is too large."""
     network = SkyMaps(load(checkpoints, shares)).eval()
     about = "Probability of sky and of water"
-    data = to_onnx(network, torch.rand(1, 3, SIZE, SIZE), list(SkyMaps.OUTPUTS), about)
+    data = to_onnx(network, torch.rand(1, 3, SIZE, SIZE), list(SkyMaps.OUTPUTS), about, True)
     if len(data) > LIMIT:
         raise SystemExit(f"{len(data)} bytes (limit {LIMIT}): not written")
     out.parent.mkdir(parents=True, exist_ok=True)

@@ -2,7 +2,7 @@
 
 EfficientNet-Lite's first stages (``encoder.py``) know the world from ImageNet; strip pooling (Hou
 et al. 2020) gives every pixel its whole row and column; a decoder of plain 3x3 convolutions brings
-the result back to full resolution. The size budget (5 MB) is kept by storing weights as float16.
+the result back to full resolution. Bytes for the weights (``weights.py``) keep the file small.
 """
 
 from __future__ import annotations

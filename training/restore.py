@@ -12,8 +12,9 @@ from pathlib import Path
 
 import onnx
 import torch
-from onnx import numpy_helper
 from torch import Tensor, nn
+
+from training.weights import read_weights
 
 
 def restore(network: nn.Module, path: Path, photos: list[tuple[Tensor, ...]]) -> None:
@@ -25,10 +26,8 @@ def restore(network: nn.Module, path: Path, photos: list[tuple[Tensor, ...]]) ->
     do layers of another shape: a network may begin from the file of another one.
     """
     values = {
-        i.name.removesuffix("_half").removeprefix("network."): torch.tensor(
-            numpy_helper.to_array(i)
-        ).float()
-        for i in onnx.load(path).graph.initializer
+        name.removeprefix("network."): torch.tensor(weight).float()
+        for name, weight in read_weights(onnx.load(path)).items()
     }
     state = network.state_dict()
     known = {k: v for k, v in values.items() if k in state and state[k].shape == v.shape}

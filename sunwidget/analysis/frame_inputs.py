@@ -24,7 +24,7 @@ from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.segmentation.feather import softening
 from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
 from sunwidget.analysis.sun.search import GLOW_SPREAD
-from sunwidget.analysis.water.glitter import azimuth_column, glitter, roughness
+from sunwidget.analysis.water.glitter import azimuth_column, glints_on_land, glitter, roughness
 from sunwidget.analysis.water.mirror import Mirror, find_mirror
 from sunwidget.analysis.windows import panes
 
@@ -220,11 +220,11 @@ def _glitter(scene: Scene) -> np.ndarray:
     # Below a sun that the photo does not show, bright water may as well be foam or a mirror image.
     column = None if scene.sun is None else azimuth_column(scene.camera, scene.sun.azimuth)
     zone = glitter(scene.working, scene.small_sky, scene.small_water, column)
-    # Glare over water counts as glints; glare over land does not. White land without a sun in
-    # front is snow.
+    # Glare over water counts as glints; glare over land does not.
     glare = resize(scene.glare, scene.working.width, scene.working.height) * (1 - scene.small_sky)
     wet = np.maximum(zone, glare)
-    dry = zone * (1 - glare) * (column is not None)
+    shiny = glints_on_land(scene.working, scene.small_sky, scene.small_water)
+    dry = zone * (1 - glare) * (shiny if column is not None else 0.0)
     return (dry + scene.small_water * (wet - dry)).astype(np.float32)
 
 

@@ -73,3 +73,9 @@ def test_importing_takes_at_most_half_a_second():
     code = "import time; t = time.perf_counter(); import sunwidget; print(time.perf_counter() - t)"
     # The best of three: the machine is shared, the goal is for a quiet one.
     assert min(float(fresh(code)) for _ in range(3)) < 0.5
+
+
+def test_the_networks_are_small(root):
+    files = list((root / "sunwidget" / "analysis" / "models").glob("*.onnx"))
+    assert len(files) == 4
+    assert sum(file.stat().st_size for file in files) < 12e6

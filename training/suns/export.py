@@ -18,7 +18,6 @@ from training.export import to_onnx
 from training.suns.model import SunMaps, SunNet
 
 OUT = Path("sunwidget/analysis/models/suns.onnx")
-BITS = 10  # of the weights: the wheel is smaller, and what the network says stays the same
 
 
 def load(checkpoint: Path) -> SunNet:
@@ -40,7 +39,7 @@ def main() -> None:
     picture = torch.rand(1, 3, 224, 320)
     names = ["sun", "clean", "water", "glow"]
     about = "Suns, clean skies and water"
-    options.out.write_bytes(to_onnx(network, picture, names, about, BITS))
+    options.out.write_bytes(to_onnx(network, picture, names, about, as_bytes=True))
 
 
 if __name__ == "__main__":

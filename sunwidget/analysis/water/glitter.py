@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import Working, resize
+from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
 
 SIDE = 256  # px: waves average out
 STANDARD_VARIANCE = 0.5 * (1e-3 + 3.16e-3 * 5 + 3e-3 + 1.92e-3 * 5)  # water/glint.glsl at 5 m/s
 _FALL = 300.0
+_WHITE_LAND = 0.3, 0.15  # median light of land that does not glint, and that may (display-linear)
 _WIDTH = 0.3  # of the picture's width: greatest distance of glints from the sun's column
 
 
@@ -56,6 +57,18 @@ def glitter(
     if water is not None and sun_column is not None and water.any():
         zone = np.maximum(zone, _under_sun(working, water, sun_column))
     return np.clip(zone * (1 - sky), 0, 1).astype(np.float32)
+
+
+def glints_on_land(working: Working, sky: np.ndarray, water: np.ndarray) -> float:
+    """Return whether what is white on dry land may be glints, [0, 1].
+
+    Wet streets and wet sand outshine the rest of the land by far. Land that is bright all over is
+    snow or shingle, and would have dark holes where its brightest parts counted as a mirror image.
+    Parameters as for ``glitter``.
+    """
+    dry = (sky < 0.5) & (water < 0.5)
+    median = float(np.median(working.luminance[dry])) if dry.any() else 1.0
+    return float(smoothstep(*_WHITE_LAND, median))
 
 
 def azimuth_column(camera: Camera, azimuth: float) -> float | None:
