@@ -2,7 +2,7 @@
 
 ``python -m training.weights FILE`` stores a file's large weights as bytes, in place.
 
-The networks of the sky and of suns are stored as bytes (no map changes by more than .002 on
+The networks of the sky and of suns are stored as bytes (no map changes by more than .001 on
 average); depth and the unseen sun of the land network would change too much.
 """
 
@@ -19,8 +19,8 @@ from training.quantize import from_bytes, to_bytes
 
 SMALLEST = 64
 """Weights of fewer numbers stay float32."""
-SMALLEST_AS_BYTES = 2048
-"""Weights of fewer numbers, and those of one axis, stay float16: they need little room."""
+SMALLEST_AS_BYTES = 40_000
+"""Weights of fewer numbers, and those of one axis, stay float16: of little room, they decide most."""
 _HALF, _BYTES, _SCALES, _WHOLE = "_half", "_bytes", "_scales", "_whole"
 
 
