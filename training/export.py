@@ -24,7 +24,7 @@ from training.weights import store_weights
 
 SIZE = 384
 LIMIT = 3_500_000
-TOLERANCE, TOLERANCE_OF_BYTES = 0.02, 0.2
+TOLERANCE, TOLERANCE_OF_BYTES = 0.02, 0.1
 """Largest difference of any pixel between PyTorch in float32 and the file."""
 
 

@@ -20,7 +20,7 @@ from training.quantize import from_bytes, to_bytes
 SMALLEST = 64
 """Weights of fewer numbers stay float32."""
 SMALLEST_AS_BYTES = 40_000
-"""Weights of fewer numbers, and those of one axis, stay float16: of little room, they decide most."""
+"""Weights of fewer numbers, and those of one axis, stay float16: they decide most per byte."""
 _HALF, _BYTES, _SCALES, _WHOLE = "_half", "_bytes", "_scales", "_whole"
 
 
