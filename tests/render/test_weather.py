@@ -339,7 +339,7 @@ def test_dusk_without_a_sky_is_dark():
     assert rendered(scene, Edit(sun_elevation=8)).mean() / before > 0.6
 
 
-def test_an_evening_without_a_sky_is_dark_and_warm_where_it_is_bright():
+def test_an_evening_without_a_sky_is_darker_and_has_contrast_and_warmth_where_it_is_bright():
     photo = known_photo(noise=0)
     random = np.random.default_rng(4)
     shade = np.exp2(random.uniform(-1, 1, photo.linear.shape[:2])).astype(np.float32)
@@ -347,9 +347,10 @@ def test_an_evening_without_a_sky_is_dark_and_warm_where_it_is_bright():
     scene = scene.analyze(sky=np.zeros_like(photo.sky), sun=photo.camera.pixel(60, 40))
     before, now = rendered(scene, Edit()), rendered(scene, LOW)
     change = np.log2(now / before)
-    assert -1.6 < np.median(change @ LUMINANCE) < -0.6
+    assert -0.6 < np.median(change @ LUMINANCE) < -0.05
     warmth = change[..., 0] - change[..., 2]
     dark, bright = shade < 0.6, shade > 1.6
+    assert (change @ LUMINANCE)[bright].mean() > (change @ LUMINANCE)[dark].mean() + 0.3
     assert warmth[dark].mean() > 0.2
     assert warmth[bright].mean() > warmth[dark].mean() + 0.15
 

@@ -117,7 +117,8 @@ vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirr
   land = max(land + step(1e-9, abs(GetColorLoss())) * lost, vec3(0.0));
   land = ReplaceGuessedColor(land, max(clean, vec3(1e-6)), land_ratio, lit, glare, skyline);
   float uneven = log2(max(GetLuminance(clean), 1e-4) / max(GetLuminance(GetSceneLight(photo_land_linear_mean)), 1e-4));
+  // Under a sun that is only assumed, more contrast would light land that is before the new sun from the front.
   land = TurnColor(land, GetSkySeen() * GetDuskLandTurn(GetSunBefore(), GetDescribedSun())
-      + (1.0 - GetSkySeen()) * GetLowLandTurn(uneven, GetSunBefore(), GetDescribedSun()));
+      + GetLowLandTurn(max(1.0 - GetSkySeen(), sun_visible) * uneven, GetSkySeen(), GetSunBefore(), GetDescribedSun()));
   return land_strength * (GetExposureGain() * land - light);
 }

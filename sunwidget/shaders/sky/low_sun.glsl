@@ -3,6 +3,7 @@
 
 #include "sky/nearness.glsl"
 #include "sky/day_color.glsl"
+#include "sky/bounded.glsl"
 
 uniform float exposure;
 uniform float auto_exposure;  // 0 to 1: with a locked exposure only colors turn
@@ -89,19 +90,19 @@ vec3 GetDuskLandTurn(vec3 sun_before, vec3 sun_now) {
   return GetDuskens(sun_before, sun_now) * kDuskLand * vec3(1.0, 1.0, GetTowards(vec3(0.0, 0.0, 1.0), sun_now));
 }
 
-// Where no sky is visible, land lit by a low sun is darker than a meter makes it, and warmer, its brighter parts most:
-// `uneven` is the log of their light over the mean.
-const vec3 kLowLand = vec3(0.2, -0.4, -1.3);
-const vec3 kLowLandTexture = vec3(0.15, -0.25, 0.25);
+// Where no sky is `seen`, land lit by a low sun is darker than a meter makes it, and warmer. Contrast rises, and brighter
+// parts are warmer: `uneven` is the log of their light over the mean.
+const vec3 kLowLand = vec3(0.2, -0.4, -0.6);
+const vec3 kLowLandTexture = vec3(0.15, -0.25, 0.45);
 
 // 1 at three degrees, fading by day, and below the horizon as dusk darkens the land.
 float GetEvening(vec3 sun) {
   return smoothstep(-0.08, 0.05, sun.y) * GetNotDay(sun);
 }
 
-vec3 GetLowLandTurn(float uneven, vec3 sun_before, vec3 sun_now) {
+vec3 GetLowLandTurn(float uneven, float seen, vec3 sun_before, vec3 sun_now) {
   float falls = max(GetEvening(sun_now) * (1.0 - GetMoon()) - GetEvening(sun_before) * (1.0 - photo_light), 0.0);
-  vec3 turn = kLowLand + clamp(uneven, -1.5, 1.5) * kLowLandTexture;
+  vec3 turn = (1.0 - seen) * kLowLand + GetBounded(uneven, 2.0) * kLowLandTexture;
   return falls * turn * vec3(1.0, 1.0, auto_exposure);
 }
 
