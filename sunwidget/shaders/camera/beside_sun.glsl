@@ -2,7 +2,6 @@
 // air and lens, so that photos agree whatever their sky.
 
 #include "frame/read_composite_constants.glsl"
-#include "sky/bounded.glsl"
 #include "sky/low_sun.glsl"
 
 // Scene-linear light of such skies without the glare of the lens: beside the sun, its fall per radian, and the least.

@@ -3,7 +3,6 @@
 #include "frame/read_composite_constants.glsl"
 #include "sky/described_sky.glsl"
 #include "camera/response.glsl"
-#include "sky/bounded.glsl"
 #include "camera/bright_air.glsl"
 #include "camera/beside_sun.glsl"
 #include "clouds/cloud_light.glsl"
