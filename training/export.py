@@ -114,7 +114,9 @@ def export(checkpoints: list[Path], shares: list[float], out: Path) -> None:
     """Exports, and refuses a file that is too large."""
     network = SkyMaps(load(checkpoints, shares)).eval()
     about = "Probability of sky and of water"
-    data = to_onnx(network, torch.rand(1, 3, SIZE, SIZE), list(SkyMaps.OUTPUTS), about, True)
+    data = to_onnx(
+        network, torch.rand(1, 3, SIZE, SIZE), list(SkyMaps.OUTPUTS), about, as_bytes=True
+    )
     if len(data) > LIMIT:
         raise SystemExit(f"{len(data)} bytes (limit {LIMIT}): not written")
     out.parent.mkdir(parents=True, exist_ok=True)

@@ -25,14 +25,10 @@ def to_bytes(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     flat = values.reshape(len(values), -1).astype(np.float32)
     largest = np.abs(flat).max(1, keepdims=True)
     largest = np.where(largest > 0, largest, 1)
-    best = np.full_like(largest, np.inf)
-    scales = largest / LARGEST
-    for cut in _CUTS:
-        tried = cut * largest / LARGEST
-        error = ((_rounded(flat, tried) * tried - flat) ** 2).sum(1, keepdims=True)
-        scales = np.where(error < best, tried, scales)
-        best = np.minimum(error, best)
-    scales = scales.astype(np.float32)
+    tried = [cut * largest / LARGEST for cut in _CUTS]
+    errors = [((_rounded(flat, scales) * scales - flat) ** 2).sum(1) for scales in tried]
+    best = np.argmin(errors, axis=0)[:, None]
+    scales = np.take_along_axis(np.hstack(tried), best, 1).astype(np.float32)
     whole = _rounded(flat, scales).astype(np.int8).reshape(values.shape)
     return whole, scales.reshape(-1, *(1,) * (values.ndim - 1))
 

@@ -25,16 +25,19 @@ _HALF, _BYTES, _SCALES, _WHOLE = "_half", "_bytes", "_scales", "_whole"
 
 
 def read_weights(model: onnx.ModelProto) -> dict[str, np.ndarray]:
-    """Return a file's weights as float32, by the names that they had in training."""
+    """Return a file's weights by the names that they had in training; large ones as float32."""
     stored = {i.name: numpy_helper.to_array(i) for i in model.graph.initializer}
     weights = {}
     for name, values in stored.items():
         if name.endswith(_BYTES):
             name = name.removesuffix(_BYTES)
             values = from_bytes(values, stored[name + _SCALES])
+        elif name.endswith(_HALF):
+            name = name.removesuffix(_HALF)
+            values = values.astype(np.float32)
         elif name.endswith(_SCALES):
             continue
-        weights[name.removesuffix(_HALF)] = np.asarray(values)
+        weights[name] = np.asarray(values)
     return weights
 
 
@@ -42,9 +45,8 @@ def store_weights(model: onnx.ModelProto, as_bytes: bool = False) -> None:
     """Store large weights as float16, or the largest as bytes, in place; either may be there."""
     graph = model.graph
     weights = read_weights(model)
-    for node in [n for n in graph.node if n.op_type in ("Cast", "Mul") and n.output[0] in weights]:
-        graph.node.remove(node)
-    for node in [n for n in graph.node if n.output[0].endswith(_WHOLE)]:
+    casted = {*weights, *(name + _WHOLE for name in weights)}
+    for node in [n for n in graph.node if n.output[0] in casted]:
         graph.node.remove(node)
     del graph.initializer[:]
     casts = []
@@ -66,7 +68,6 @@ def store_weights(model: onnx.ModelProto, as_bytes: bool = False) -> None:
             casts.append(_cast(name + _HALF, name))
     for cast in reversed(casts):
         graph.node.insert(0, cast)
-    onnx.checker.check_model(model, full_check=True)
 
 
 def _cast(stored: str, name: str) -> onnx.NodeProto:
@@ -81,6 +82,7 @@ def main() -> None:
     path = parser.parse_args().file
     model = onnx.load(path)
     store_weights(model, as_bytes=True)
+    onnx.checker.check_model(model, full_check=True)
     path.write_bytes(model.SerializeToString())
     print(f"{path}: {path.stat().st_size / 1e6:.2f} MB")
 

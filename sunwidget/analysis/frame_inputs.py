@@ -220,11 +220,14 @@ def _glitter(scene: Scene) -> np.ndarray:
     # Below a sun that the photo does not show, bright water may as well be foam or a mirror image.
     column = None if scene.sun is None else azimuth_column(scene.camera, scene.sun.azimuth)
     zone = glitter(scene.working, scene.small_sky, scene.small_water, column)
-    # Glare over water counts as glints; glare over land does not.
+    # Glare over water counts as glints; glare over land does not. White land without a sun in
+    # front is snow.
     glare = resize(scene.glare, scene.working.width, scene.working.height) * (1 - scene.small_sky)
     wet = np.maximum(zone, glare)
-    shiny = glints_on_land(scene.working, scene.small_sky, scene.small_water)
-    dry = zone * (1 - glare) * (shiny if column is not None else 0.0)
+    dry = np.zeros_like(zone)
+    if column is not None:
+        shiny = glints_on_land(scene.working, scene.small_sky, scene.small_water)
+        dry = zone * (1 - glare) * shiny
     return (dry + scene.small_water * (wet - dry)).astype(np.float32)
 
 
