@@ -24,9 +24,10 @@ class Seen(NamedTuple):
     """What the other two networks say."""
 
     water: np.ndarray
+    sky: np.ndarray
 
 
-def found(probability, picture=None, sun_column=None, horizon=ROW):
+def found(probability, picture=None, sun_column=None, horizon=ROW, sky=None):
     """What becomes of the networks' probabilities (h, w) at a quarter of the size."""
     plain = np.zeros(probability.shape, np.float32)
     clean = np.zeros((*probability.shape, 3), np.float32)
@@ -37,7 +38,7 @@ def found(probability, picture=None, sun_column=None, horizon=ROW):
     working = Working.of(open_photo(shore() if picture is None else picture))
     with pytest.MonkeyPatch.context() as patch:
         for look in ("look_at_sky", "look_at_land"):
-            patch.setattr(water, look, lambda _: Seen(probability))
+            patch.setattr(water, look, lambda _: Seen(probability, plain if sky is None else sky))
         return water.METHODS["network"](working, SKY, Horizon(float(horizon)), maps)
 
 
@@ -108,6 +109,17 @@ def test_a_horizon_a_row_too_low_leaves_no_strip_of_land(sea):
     picture = shore().copy()
     picture[: ROW + 6] = 240  # sky and far water burnt alike
     assert found(sea, picture, horizon=ROW + 1)[ROW:].min() > 0.7
+
+
+def test_a_bright_strip_above_a_guessed_horizon_is_water_where_no_network_sees_land(sea):
+    strip = slice(ROW + 1, ROW + 5)
+    hazy, dark = shore().copy(), shore().copy()
+    hazy[ROW : ROW + 6], dark[ROW : ROW + 6] = 200, 10
+    sea[: ROW // 4 + 2] = 0.05
+    sky = np.where(sea < 0.5, np.float32(0.7), 0)
+    assert found(sea, hazy, horizon=ROW + 8)[strip].mean() < 0.3
+    assert found(sea, hazy, horizon=ROW + 8, sky=sky)[strip].mean() > 0.7
+    assert found(sea, dark, horizon=ROW + 8, sky=sky)[strip].mean() < 0.3
 
 
 def test_a_cleft_in_the_sky_is_no_water(sea, monkeypatch):

@@ -11,12 +11,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sunwidget.analysis.images.working_copy import Working, channel_sum, resize, shrink
+from sunwidget.analysis.images.working_copy import (
+    Working,
+    channel_sum,
+    resize,
+    shrink,
+    smoothstep,
+)
+from sunwidget.analysis.networks.sky import look_at_sky
 from sunwidget.analysis.segmentation.dense_crf import mean_field
 from sunwidget.analysis.segmentation.edges import snap
 
 SIDE = 384
 MINIMUM_SIDE = 4  # smaller pictures have no neighborhood for refinement
+_WATER = (0.5, 0.9)  # share of water in what is not sky: less is land, more is water
 
 
 class Decision(NamedTuple):
@@ -58,7 +66,8 @@ def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
 
     The trimap is sure where the network is sure and away from its skyline. GrabCut's smooth
     contour loses details thinner than its grid (twigs, pylons, the sky between leaves); the colors
-    of sky and land near each pixel recover them.
+    of sky and land near each pixel recover them. Water has the sky's colors: between these two the
+    bundled network decides alone.
     """
     image, coarse = _small(working, probability)
     sky = cut(image, trimap(coarse), iterations=2)
@@ -70,6 +79,8 @@ def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
     # spread by color.
     trust = float(coarse[coarse > 0.5].mean()) if (coarse > 0.5).any() else 0.0
     weight = 0.8 * min(max((trust - 0.65) / 0.1, 0.0), 1.0)
+    seen = look_at_sky(working)
+    dry = 1 - smoothstep(*_WATER, seen.water / np.maximum(1 - seen.sky, 1e-3))
     # The second round, at working size, learns from the result of the first.
     rounds = (shrink(working.guide, SIDE), 0.4), (working.guide, 0.1)
     for guide, doubt in rounds:
@@ -77,8 +88,8 @@ def grabcut_mask(working: Working, probability: np.ndarray) -> Decision:
         certain = np.clip(resize(probability, width, height), 0.01, 0.99)
         cutout = resize(cutout, width, height)
         colors = local_evidence(guide, cutout > 0.5, certain, doubt)
-        evidence = np.log(certain / (1 - certain)) + 0.4 * (2 * cutout - 1)
-        evidence += weight * np.clip(colors, -6, 6)
+        seen_here = 0.4 * (2 * cutout - 1) + weight * np.clip(colors, -6, 6)
+        evidence = np.log(certain / (1 - certain)) + resize(dry, width, height) * seen_here
         cutout = (evidence > 0).astype(np.float32)
     confidence = np.clip(np.abs(evidence) / 4, 0.02, 1)
     return Decision(cutout, confidence.astype(np.float32))

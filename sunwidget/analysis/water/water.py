@@ -27,6 +27,7 @@ _COLUMN = 0.08  # of the width: half of the widest column of glints that hides t
 _SUN = 0.3  # probability of a sun from which its column may be twice as wide
 _GAP = 0.02  # of the width: half of the gap between water and sky
 _STRIP = 0.005  # of the width: half of the gap above the horizon
+_NO_LAND = 0.6  # probability of sky or water from which a gap as wide as below it is no land
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
 _SHORE = 0.04  # of the width: greatest distance of the shore from the network's edge
 _SHORE_SIDE = 384  # px of the copy on which the shore is searched
@@ -75,7 +76,9 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     if water.mean() < _LEAST:
         return np.zeros_like(sky)
     water = _to_the_shore(working, sky, water)
-    water = _with_glints(working, sky, ground, water, maps)
+    seen = look_at_sky(working)
+    no_land = resize(seen.sky + seen.water, width, height) > _NO_LAND
+    water = _with_glints(working, sky, ground, no_land, water, maps)
     water = soft_edged(working, sky, without_seamless_gaps(working, sky, water))
     return softened_water(working, sky, water, odds * resize(ground, *small)) * (1 - sky)
 
@@ -136,7 +139,12 @@ def _to_the_shore(working: Working, sky: np.ndarray, water: np.ndarray) -> np.nd
 
 
 def _with_glints(
-    working: Working, sky: np.ndarray, ground: np.ndarray, water: np.ndarray, maps: SunMaps
+    working: Working,
+    sky: np.ndarray,
+    ground: np.ndarray,
+    no_land: np.ndarray,
+    water: np.ndarray,
+    maps: SunMaps,
 ) -> np.ndarray:
     """Add bright pixels between water and water, or between water and sky.
 
@@ -161,9 +169,14 @@ def _with_glints(
     below = _below_sun(maps, water.shape[1])
     found = np.maximum(found, closed(found, 2 * _COLUMN, 0) * below * as_bright * ground)
     found = np.maximum(found, closed(np.maximum(found, sky), 0, _GAP) * as_bright * ground)
+
     # The horizon is known to a few rows; gaps between sky and sky are not water.
-    strip = closed(np.maximum(found, sky), 0, _STRIP) - closed(sky, 0, _STRIP)
-    return np.asarray(np.maximum(found, np.maximum(strip, 0) * as_bright), np.float32)
+    def strip(reach: float) -> np.ndarray:
+        gap = closed(np.maximum(found, sky), 0, reach) - closed(sky, 0, reach)
+        return np.maximum(gap, 0) * as_bright
+
+    found = np.maximum(found, np.maximum(strip(_STRIP), strip(_GAP) * no_land))
+    return np.asarray(found, np.float32)
 
 
 def without_seamless_gaps(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from sunwidget.analysis.images.working_copy import Working
+from sunwidget.analysis.networks.sky import SkyMaps
 from sunwidget.analysis.segmentation import matting, refine
 from sunwidget.analysis.strokes import brush
 from sunwidget.analysis.strokes.sky import Painting
@@ -57,6 +58,20 @@ def test_refinement_finds_the_sky_between_the_twigs():
     after = overlap(refined(photo, blurred(truth)), truth)
     assert before < 0.85
     assert after > 0.98
+
+
+@pytest.mark.parametrize("wet", [True, False])
+def test_water_of_the_skys_color_is_no_sky_if_the_network_says_so(wet, monkeypatch):
+    picture = np.full((HEIGHT, WIDTH, 3), (190, 205, 225), np.uint8)
+    picture[200:] = (60, 50, 40)
+    probability = np.full((48, 64), 0.95, np.float32)
+    probability[30:] = 0.3  # below: a mirror of the sky, or a cloud
+    probability[40:] = 0.02
+    water = (probability < 0.5) * np.float32(0.65 if wet else 0.05)
+    seen = SkyMaps(cv2.resize(probability, (48, 48)), cv2.resize(water, (48, 48)))
+    monkeypatch.setattr(refine, "look_at_sky", lambda _: seen)
+    mirror = refined(open_photo(picture), probability)[160:190]
+    assert mirror.max() < 0.2 if wet else mirror.min() > 0.8
 
 
 def test_no_method_leaves_zero_to_one_or_changes_the_size():
