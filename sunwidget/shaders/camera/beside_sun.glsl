@@ -12,24 +12,18 @@ const float kBesideFall = 0.42;
 const float kLeastBeside = 0.25;
 const float kBesideRange = 0.35;  // share that remains of the stops beyond them
 const float kBesideBend = 0.3;    // stops over which this sets in
-const float kFainter = 0.8;       // stops below them from which darker skies are lifted, close to the sun
-const float kLiftFall = 10.0;     // of the lift, per square of the angle
 const float kOwnContrast = 2.0;   // most stops
 const vec2 kCloudy = vec2(0.3, 0.9);  // opacity: clouds stay as bright
 
 // Sky that was `own` in the photo and is `relit`, in a direction with this cosine to the new `sun`. As it is dimmed, its
-// contrast to the photo's mean sky stays, and the user's exposure counts in neither direction. What is added is half white.
+// contrast to the photo's mean sky stays, and the user's exposure does not count.
 vec3 FitBesideSun(vec3 relit, vec3 own, float opacity, float cosine) {
   vec2 known = texelFetch(composite_constants, ivec2(kBesideSun, 0), 0).xy;
   float share = (kBesideRange - 1.0) * known.x * (1.0 - smoothstep(kCloudy.x, kCloudy.y, opacity));
-  float square = max(2.0 - 2.0 * cosine, 0.0);
-  float usual = max(kBeside - kBesideFall * sqrt(square), kLeastBeside);
+  float usual = max(kBeside - kBesideFall * sqrt(max(2.0 - 2.0 * cosine, 0.0)), kLeastBeside);
   float contrast = GetBounded(log2(max(GetLuminance(own), 1e-6)) - known.y, kOwnContrast);
-  float light = max(GetLuminance(relit), 1e-9);
-  float stops = log2(max(GetExposureGain() * light, 1e-9) / usual) - exposure;
+  float stops = log2(max(GetExposureGain() * GetLuminance(relit), 1e-9) / usual) - exposure;
   float beyond = max(stops - contrast, 0.0);
   beyond *= beyond / (beyond + kBesideBend);
-  float lacking = max(-stops - kFainter, 0.0) / (1.0 + kLiftFall * square);
-  float lift = exp2(-share * lacking) - 1.0;
-  return exp2(share * beyond) * (relit + 0.5 * lift * (relit + light));
+  return exp2(share * beyond) * relit;
 }
