@@ -275,7 +275,7 @@ def test_the_histogram_follows_the_canvas_and_marks_what_is_clipped(panel):
         path = panel.locator(f".sw-levels-{channel}").get_attribute("d")
         return np.array([float(point.split()[1]) for point in path.split("L")[1:-1]])
 
-    receive(panel, exposure=2.5)
+    receive(panel, exposure=3.25)
     panel.wait_for_function(
         "/([\\d.]+) % white/.exec(document.querySelector('.sw-levels-text').textContent)?.[1] > 5"
     )

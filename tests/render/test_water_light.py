@@ -255,11 +255,12 @@ def test_water_that_is_black_is_finite():
     working = Working.of(open_photo(picture))
     sky, ground, wet = (np.zeros((24, 32), np.float32) for _ in range(3))
     sky[:12], ground[12:], wet[12:, 4:28] = 1, 1, 1
+    no_land = np.ones((24, 32), bool)
     empty = np.zeros((6, 8), np.float32)
     empty[2, 4] = 0.9
     shown = dict.fromkeys(SunMaps._fields, empty) | {"clean": np.zeros((6, 8, 3), np.float32)}
     with np.errstate(all="raise"):
-        found = water._with_glints(working, sky, ground, wet, SunMaps(**shown))
+        found = water._with_glints(working, sky, ground, no_land, wet, SunMaps(**shown))
     assert np.isfinite(found).all()
     np.testing.assert_array_equal(found[12:, 4:28], 1)
 

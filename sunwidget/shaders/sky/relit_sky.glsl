@@ -23,6 +23,9 @@ const float kShadeFades = 0.5;
 // Cosines of the angles between old and new sun at which the old sun's glow is gone, and at which it is unchanged.
 const float kFarAway = 0.77;
 const float kNotAway = 0.99;
+// The same for the model's own glow, which is narrower.
+const float kLeft = 0.94;
+const float kNotLeft = 0.998;
 const float kMostGone = 1.2;  // log of light
 // A cloud darker than this share of the model's light is all shade.
 const float kShaded = 0.2;
@@ -33,13 +36,16 @@ const float kTextureKept = 0.7;  // share of the clouds' texture that stays in a
 // of the photo's sky over the model around the pixel, is haze that the model lacks or exaggerates; `own.g`, its
 // excess over the rest of the sky, disappears with the sun. `local` is the pixel's excess beyond both: sunlight on
 // a cloud's edge, which would remain as a rim, and what un-mixing mistook for cloud. Each excess is bounded to a
-// plausible size, and what fades by `share` does not fade again by `away`.
-float GetFadedLight(vec2 own, float local, float change, vec3 sun_before, vec3 sun_now) {
+// plausible size, and what fades by `share` does not fade again by `away`. Around an unseen sun the photo may
+// lack the model's glow, and a missing glow cannot fade, however little the sun has moved on from it.
+float GetFadedLight(vec2 own, float local, float change, vec3 view, vec3 sun_before, vec3 sun_now) {
   float share = change * change / (change * change + kLightFades * kLightFades);
   float away = 1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now));
   float gone = sun_located * max(away - share, 0.0) * GetBounded(own.g, kMostGone);
-  float fades = GetBounded(own.r, kMostFaded) + (local > 0.0 ? kRimsFade : kShadeFades) * GetBounded(local, 1.0);
-  return exp(-share * fades - gone);
+  float lacking = (1.0 - sun_visible) * GetNearness(dot(view, sun_before)) * min(own.g, 0.0);
+  float fades = GetBounded(own.r - lacking, kMostFaded) + (local > 0.0 ? kRimsFade : kShadeFades) * GetBounded(local, 1.0);
+  float left = 1.0 - smoothstep(kLeft, kNotLeft, dot(sun_before, sun_now));
+  return exp(-share * fades - gone - left * lacking);
 }
 
 // The change from `light` of the photo's sky to its light under the new sun. `clean` is the sky without
@@ -81,7 +87,7 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   float local = log(max(GetLuminance(relit), 1e-15) / max(GetLuminance(whole * ratio), 1e-15)) - own.r;
   local *= cloud_strength;
   uneven = GetBounded(opacity * local, 1.0);
-  relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), sun_before, sun_now);
+  relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
   relit = TurnToPhotos(relit, sky, cover, uneven, view, view.y, sun_before, sun_now, risen);
   relit = CompressBrightAir(relit, light, exp(-kTextureKept * uneven));
