@@ -137,6 +137,22 @@ def test_a_purely_red_glow_before_black_land_counts_where_the_network_sees_none(
     assert shares[1][66:].max() < 0.1  # land of that color is lit
 
 
+def test_land_that_is_lit_besides_keeps_its_reds():
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+    away = np.hypot(columns - 80, rows - 60)
+    above = np.broadcast_to(rows < 60, away.shape).astype(np.float32)
+    shares = []
+    for lit in (0, 30):  # how far from the sun the road is yellow
+        color = np.where((away < lit)[..., None], (0.3, 0.2, 0.02), (0.06, 0.004, 0.002))
+        color = np.where((away < 45)[..., None], color, (0.002, 0.002, 0.002))
+        linear = np.where(above[..., None] > 0, 0.3, color)
+        working = Working.of(open_photo(linear.astype(np.float32)))
+        erased = erase(working, maps(np.zeros((*SMALL, 3))), above, light(0 * sun_mask()))
+        shares.append(erased.on_land[100, 80])
+    assert shares[0] > 0.7
+    assert shares[1] < 0.05  # or a hole would surround the lit part
+
+
 def hill(glowing):
     """Dark land from row 60 on, with glare before it below the sun, and the sky's weight."""
     rows, columns = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5

@@ -33,6 +33,7 @@ _RINGS = 16  # around the sun up to the reach
 _RED_REACH = 1.5, 3.0  # of the reach: where a red glow on land ends
 _GREEN = 0.1, 0.25  # over red, linear: less is glow alone, more has a color of its own
 _LIT = 0.2, 0.35  # luminance: less is a silhouette, more is lit
+_MOSTLY = 0.4, 0.6  # of the excess of light: less is no glow, more is nothing else
 _DARKEST, _NOISE = 0.2, 0.002  # share of the land; linear light
 _NEAREST = 0.25  # of the reach: how far beyond it the glow is compared
 
@@ -189,7 +190,8 @@ def _red_glow(linear: np.ndarray, land: np.ndarray, light: SunObservation) -> np
     """Return how far dark, purely red land exceeds the darkest, (h, w), log of light.
 
     In front of a red sunset lens and air add red light to silhouettes, farther from the sun than
-    the network was trained for. Land that is lit reflects some green, too.
+    the network was trained for. Land that is lit reflects some green, too; in a picture where most
+    of the brighter land does, nothing counts as glow.
     """
     away, reach = _distance(light, land.shape)
     seen = land > 0.9
@@ -200,7 +202,12 @@ def _red_glow(linear: np.ndarray, land: np.ndarray, light: SunObservation) -> np
     dark = 1 - smoothstep(*_LIT, linear @ LUMINANCE)
     near = 1 - smoothstep(*_RED_REACH, away / reach)
     excess = np.log((red + _NOISE) / (np.quantile(red[seen], _DARKEST) + _NOISE))
-    return np.asarray(np.maximum(excess, 0) * pure * dark * near * land, np.float32)
+    excess = np.maximum(excess, 0) * near * land
+    glow = excess * pure * dark
+    # If more of what is brighter has a color of its own, the red part is no glow: it would be torn
+    # out of a road or of hills.
+    share = float(glow.sum()) / max(float(excess.sum()), 1e-6)
+    return np.asarray(glow * smoothstep(*_MOSTLY, share), np.float32)
 
 
 def _parts(light: SunObservation, part: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
