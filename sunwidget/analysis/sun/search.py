@@ -25,6 +25,7 @@ GLOW_WEIGHTS = (-0.501, 1.327, -0.267)
 _APART = 0.15  # of the width: beyond it a glow is another one
 _NEAR_SKY = 0.04  # of the width; a sun has some sky within it, or within
 _NEAR_RADII = 2.0  # of its radius
+_ALONE = 0.97  # confidence from which a sun needs none, as one between leaves
 _NIGHT = 0.5  # encoded luminance of the sky's brightest tenth: with a sun above, with a moon below
 
 
@@ -151,7 +152,7 @@ def find_glow(working: Working, maps: SunMaps, sky: np.ndarray) -> Glow | None:
 def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:
     """Return the sun that the photo shows, or None; a disc in a dark sky is likely the moon."""
     peak = peak_of(maps, working)
-    if not _beside_sky(peak, sky):
+    if peak.confidence < _ALONE and not _beside_sky(peak, sky):
         return None
     if not night(working.encoded @ LUMINANCE, sky):
         return peak if peak.confidence >= LEAST_CONFIDENCE else None

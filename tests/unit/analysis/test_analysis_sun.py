@@ -12,7 +12,7 @@ from sunwidget.analysis import correct
 from sunwidget.analysis.hints import Hints
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import look_for_sun
-from sunwidget.analysis.sun import sun
+from sunwidget.analysis.sun import search, sun
 from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
 from sunwidget.geometry.camera import Camera
 from sunwidget.photo.photo import open_photo
@@ -315,13 +315,15 @@ def test_a_setting_sun_on_the_skyline_is_found_in_its_orange_sky():
     assert math.dist(found[:2], (180.5, 146.5)) < 3
 
 
-def test_no_sun_is_found_where_there_is_no_sky():
-    # A network sees suns in sunlit snow, too: 1 of 618 labeled photos, with a confidence of 0.89.
+@pytest.mark.parametrize(("confidence", "certain"), [(0.9, False), (0.98, True)])
+def test_a_sun_without_sky_beside_it_must_be_certain(monkeypatch, confidence, certain):
+    # Sunlit snow shines like a sun (0.89), and so does one between leaves (0.99).
     working = evening(disc=(90.5, 60.5))
     beside = np.zeros_like(SKY)
     beside[:, 110:] = 1
-    assert find(working) is not None
-    assert find(working, beside) is None
+    peak = search.peak_of(look_for_sun(working), working)._replace(confidence=confidence)
+    monkeypatch.setattr(search, "peak_of", lambda *_: peak)
+    assert (find(working, beside) is not None) == certain
     beside[:, 98:] = 1
     assert find(working, beside) is not None
 
