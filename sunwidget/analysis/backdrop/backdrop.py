@@ -12,6 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from sunwidget.analysis.backdrop.aureole import find_aureole
 from sunwidget.analysis.backdrop.erase import Erased
 from sunwidget.analysis.backdrop.sky_detail import DETAILED
 from sunwidget.analysis.fit.fit import SkyFit, view_angles
@@ -60,6 +61,7 @@ def to_light(code: np.ndarray) -> np.ndarray:
 LONG_SIDE = 256
 _MODEL_SIDE = 80
 _TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # in spreads of the sun
+_COUNTS = 0.01, 0.05  # logs of light: less of an aureole stays, more goes completely
 _NARROWEST, _WIDEST = 40.0, 90.0  # degrees: clouds that hide a sun scatter its glow
 
 
@@ -103,12 +105,17 @@ def behind_sun(
     known = 1 - np.asarray(resize(erased.hidden, *size), np.float32)
     weight = np.asarray((matte > 0.98) * (1 - clipped) * known, np.float32)
     detail = resize(erased.detail, *size)
+    hides = (weight < 0.5) & (mark > 0.5)
+    at = camera.resized(*size).pixel(*fit.sun)
+    aureole = find_aureole(log_residual - detail, weight, hides, at)
+    log_residual, seen = log_residual - aureole, seen * np.exp(-aureole)
     filled = fill_by_layers(log_residual - detail, weight) + detail
     beyond = model * np.exp(filled)
     sky_light = beyond + weight[..., None] * (seen - beyond)
     # A pixel of the skyline also shows sky, and has one mark for both.
     on_land = np.asarray(resize(erased.on_land, *size), np.float32)
-    glare = np.where(matte > 0.98, mark, np.maximum(mark * smoothstep(0.0, 0.2, matte), on_land))
+    in_sky = np.maximum(mark, smoothstep(*_COUNTS, aureole.max(-1)))
+    glare = np.where(matte > 0.98, in_sky, np.maximum(mark * smoothstep(0.0, 0.2, matte), on_land))
     return Backdrop(_dithered(to_code(sky_light)), glare)
 
 

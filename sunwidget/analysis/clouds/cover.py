@@ -7,10 +7,12 @@ import numpy as np
 from sunwidget.analysis.backdrop.erase import Erased
 from sunwidget.analysis.clouds.clouds import Clouds, veil
 from sunwidget.analysis.fit.fit import SkyFit
-from sunwidget.analysis.images.fill import fill_by_pyramid
+from sunwidget.analysis.images.fill import fill_by_layers, fill_by_pyramid
 from sunwidget.analysis.images.working_copy import smoothstep
 from sunwidget.geometry.camera import Camera
 
+_STRIPES = 0.08  # of the longer side: gaps are smoothed that widely, as far inside
+_MOSTLY = 0.25, 0.75  # share of the surroundings that is clear
 _SURROUNDINGS = 0.05  # of the longer side: width of the sky used around a glow
 
 
@@ -33,17 +35,32 @@ def unmix_clouds(
     weight = np.asarray(_inner(sky > 0.98), np.float32)
     filled = fill_by_pyramid(np.dstack([of_sky.opacity, of_sky.shade]), weight)
     if erased.glow.any():
-        # The clearer the surroundings, the more the clear sky alone is continued.
+        # If most of the surroundings are clear, the clear sky alone is continued.
         weight *= 1 - erased.glow
         clear = weight * _clearness(of_sky.opacity, weight > 0.5)
-        cloudy, open_ = (fill_by_pyramid(of_sky.opacity[..., None], w) for w in (weight, clear))
-        share = _round_glow(erased.glow, weight, clear)
-        behind = (cloudy + share * (open_ - cloudy))[..., 0]
+        cloudy, open_ = (_continued(of_sky.opacity, w) for w in (weight, clear))
+        share = float(smoothstep(*_MOSTLY, _round_glow(erased.glow, weight, clear)))
+        behind = cloudy + share * (open_ - cloudy)
         filled[..., 0] += erased.glow * (behind - filled[..., 0])
     return (
         Clouds(filled[..., 0] * sky, covers[0].softness, filled[..., 1]),
         Clouds(of_all.opacity * (1 - erased.glow), covers[1].softness, of_all.shade),
     )
+
+
+def _continued(opacity: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Continue an opacity (h, w) over gaps along the rows, as the light there is continued.
+
+    Inside the gaps it is smooth, or fragments of clouds at their rim would become stripes.
+    """
+    import cv2
+
+    longest = max(weight.shape)
+    filled = fill_by_layers(opacity[..., None], weight.astype(np.float32))[..., 0]
+    smooth = cv2.GaussianBlur(filled, (0, 0), _STRIPES * longest)
+    inside = cv2.distanceTransform((weight < 0.5).astype(np.uint8), cv2.DIST_L2, 5)
+    share = smoothstep(0.0, _STRIPES * longest, inside)
+    return np.clip(filled + share * (smooth - filled), 0, 1).astype(np.float32)
 
 
 def _clearness(opacity: np.ndarray, sky: np.ndarray) -> np.ndarray:
