@@ -27,7 +27,7 @@ ARGUMENTS = [
     "--disable-sync",
 ]
 PATIENCE = 120_000  # ms: two shared cores may take their time
-VIEWPORT = {"width": 1180, "height": 860}
+VIEWPORT = {"width": 960, "height": 720}
 # What a page runs so that its graphics context is lost in the next pass that it draws.
 LOSE_ONCE = """(() => {
   const { prototype } = WebGL2RenderingContext;
@@ -97,7 +97,8 @@ def start_anew(page):
         page.keyboard.up(key)
     page.mouse.move(1, 1)
     page.set_viewport_size(VIEWPORT)
-    page.emulate_media(color_scheme="light")
+    # What fades in would be waited for, a third of a second a test.
+    page.emulate_media(color_scheme="light", reduced_motion="reduce")
     page.evaluate("startAnew()")
     page.errors.clear()
 

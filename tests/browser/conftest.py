@@ -57,10 +57,9 @@ def used_pages(browser):
 @pytest.fixture
 def page(request, browser, used_pages):
     """A page without a view. A new one for every test would be half of what a test costs."""
-    if used_pages:
-        start_anew(used_pages[0])
-    else:
+    if not used_pages:
         used_pages.append(open_page(browser.new_context(viewport=VIEWPORT)))
+    start_anew(used_pages[0])
     yield used_pages[0]
     if request.node.stash.get(FAILED, False):
         used_pages.pop().context.close()
