@@ -130,6 +130,9 @@ def complete(
         glare = sun_stage.find_land_glare(sun_mask, sky)
         sky = sky * (1 - glare)
         take_from(matte, glare, working.zoom)
+        risen = sun_stage.find_risen_sea(sun_mask, sky, working.encoded)
+        sky = np.maximum(sky, risen)
+        raise_to(matte, risen, working.zoom)
 
     if peak is not None and sun_mask is not None and _lens_unknown(photo, hints):
         lens = sun_stage.field_of_view_of(sun_mask, peak, working, camera.fov_vertical_deg)

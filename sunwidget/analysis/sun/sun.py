@@ -32,6 +32,7 @@ __all__ = [
     "find_glow",
     "find_land_glare",
     "find_moon",
+    "find_risen_sea",
     "flood_fill",
     "in_sky",
     "limit_to_core",
@@ -253,6 +254,8 @@ def in_sky(
 
 
 _BURNS = 0.75  # radii beyond the disc
+_GLINTS, _SEA = 0.1, 0.08  # widths: from the sun to where the skyline counts, and how much of it
+_TILT, _RISES = 0.03, 0.05  # rise over run; heights of the picture
 
 
 def find_land_glare(sun_mask: SunMask, sky: np.ndarray) -> np.ndarray:
@@ -288,6 +291,38 @@ def find_land_glare(sun_mask: SunMask, sky: np.ndarray) -> np.ndarray:
         burnt = cv2.dilate(sun_mask.mask, np.ones((side, side), np.uint8))
         no_sky *= cv2.GaussianBlur(burnt, (0, 0), 1.0)
     return no_sky
+
+
+def find_risen_sea(sun_mask: SunMask, sky: np.ndarray, encoded: np.ndarray) -> np.ndarray:
+    """Return where a low sun's glare lifts a level skyline, though it is sky, (h, w) in [0, 1].
+
+    The glints of a sun above the sea grow together with its glow in the sky: what lies above the
+    line between the skylines left and right of it, and is as bright as the sky there, is sky.
+    """
+    is_sky = np.zeros_like(sky)
+    height, width = sky.shape
+    wide, beside = math.ceil(max(3 * sun_mask.radius + 3, _GLINTS * width)), math.ceil(_SEA * width)
+    first, last = round(sun_mask.x) - wide, round(sun_mask.x) + wide
+    if first - beside < 0 or last + beside > width:
+        return is_sky
+    ends = (sky[:, first - beside : last + beside] > 0.5) * np.arange(1, height + 1)[:, None]
+    skyline = ends.max(axis=0)
+    left, right = skyline[:beside], skyline[-beside:]
+    level = max(np.ptp(left), np.ptp(right)) <= 2
+    tilted = abs(float(left.mean() - right.mean())) > 1 + _TILT * (last - first)
+    if not level or tilted or min(left.min(), right.min()) <= sun_mask.y:
+        return is_sky
+    line = np.interp(np.arange(first, last), [first, last], [left.mean(), right.mean()])
+    up = line - np.arange(height)[:, None] - 0.5
+    part = sky[:, first:last]
+    luminance = encoded[:, first:last] @ LUMINANCE
+    above = (part > 0.9) & (up > 0) & (up < 2 * _RISES * height)
+    if not above.any():
+        return is_sky
+    bright = smoothstep(0.6, 0.8, luminance / max(float(np.median(luminance[above])), 1e-3))
+    near = np.clip(up + 0.5, 0, 1) * (up < _RISES * height)
+    is_sky[:, first:last] = near * bright
+    return is_sky
 
 
 def observe(

@@ -178,6 +178,33 @@ def test_the_notch_that_a_setting_sun_burns_into_an_even_skyline_is_no_sky():
         assert np.abs(notched - skyline(left, right, notch=False)).sum() > 40
 
 
+def sea(lifted):
+    """The sky (200, 300) above a level sea, which the glints of the sun seem to lift."""
+    rows, columns = np.mgrid[:200, :300] + 0.5
+    return np.float32(rows < 120 - lifted * np.clip(1 - np.abs(columns - 150) / 20, 0, 1))
+
+
+@pytest.mark.parametrize(("light", "mended"), [(0.9, True), (0.1, False)])
+def test_bright_land_above_a_level_sea_is_sky_and_a_dark_ship_is_none(light, mended):
+    seen, level = sea(lifted=6), sea(lifted=0)
+    disc = np.zeros_like(seen)
+    disc[80:90, 145:155] = 1
+    encoded = np.where(level > 0, 0.9, 0.3)
+    encoded = np.where((level > 0) & (seen == 0), light, encoded)
+    encoded = np.repeat(encoded[..., None], 3, -1).astype(np.float32)
+    found = np.maximum(seen, sun.find_risen_sea(sun.SunMask(150, 85, 5.0, disc), seen, encoded))
+    assert (np.abs(found - level).sum() < 30) == mended
+    assert np.abs(seen - level).sum() > 90
+
+
+def test_above_hills_no_sea_is_lifted():
+    rows, columns = np.mgrid[:200, :300] + 0.5
+    hills = np.float32(rows < 120 + 8 * np.sin(columns / 9))
+    white = np.ones((200, 300, 3), np.float32)
+    disc = np.float32(np.hypot(columns - 150, rows - 85) < 5)
+    assert not sun.find_risen_sea(sun.SunMask(150, 85, 5.0, disc), hills, white).any()
+
+
 def test_a_sun_in_a_gap_of_the_skyline_keeps_its_sky():
     high = skyline(40, 40, notch=True)  # hills left and right of it
     assert not sun.find_land_glare(sun.SunMask(80, 50, 6.0, high), high).any()
