@@ -61,8 +61,8 @@ def to_light(code: np.ndarray) -> np.ndarray:
 LONG_SIDE = 256
 _MODEL_SIDE = 80
 _TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # in spreads of the sun
-_COUNTS = 0.01, 0.05  # logs of light: less of an aureole stays, more goes completely
 _NARROWEST, _WIDEST = 40.0, 90.0  # degrees: clouds that hide a sun scatter its glow
+_COUNTS = 0.01, 0.05  # logs of light: less of an aureole stays, more goes completely
 
 
 def behind_sun(
@@ -74,7 +74,7 @@ def behind_sun(
     ----------
     working : Working
         The small photo. Beside the glare its own light counts: the frame removes the bright air
-        there, and light erased as well would be missing in a ring.
+        there, and light erased as well would be missing in a ring. Only its aureole goes.
     erased : Erased
         The same without its sun: where that is a guess, and its clouds.
     sky : (h, w) float32
@@ -99,7 +99,6 @@ def behind_sun(
     clipped = smoothstep(0.90, 0.97, display.max(-1)) * (not mark.any())
     model = matched_sky(fit, camera, size)
     seen = fit.response.scene_light(display)
-    log_residual = _log_residual(seen, model)
     # Behind the glare the model continues the sky, with the bright air around the sun, which the
     # frame removes together with the old sun. The clouds there continue those beside it.
     known = 1 - np.asarray(resize(erased.hidden, *size), np.float32)
@@ -107,9 +106,10 @@ def behind_sun(
     detail = resize(erased.detail, *size)
     hides = (weight < 0.5) & (mark > 0.5)
     at = camera.resized(*size).pixel(*fit.sun)
-    aureole = find_aureole(log_residual - detail, weight, hides, at)
-    log_residual, seen = log_residual - aureole, seen * np.exp(-aureole)
-    filled = fill_by_layers(log_residual - detail, weight) + detail
+    excess = _log_residual(seen, model) - detail
+    aureole = find_aureole(excess, weight, hides, at)
+    seen = seen * np.exp(-aureole)
+    filled = fill_by_layers(excess - aureole, weight) + detail
     beyond = model * np.exp(filled)
     sky_light = beyond + weight[..., None] * (seen - beyond)
     # A pixel of the skyline also shows sky, and has one mark for both.

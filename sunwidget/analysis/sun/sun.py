@@ -256,6 +256,7 @@ def in_sky(
 _BURNS = 0.75  # radii beyond the disc
 _GLINTS, _SEA = 0.1, 0.08  # widths: from the sun to where the skyline counts, and how much of it
 _TILT, _RISES = 0.03, 0.05  # rise over run; heights of the picture
+_AS_BRIGHT = 0.6, 0.8  # of the sky's encoded luminance
 
 
 def find_land_glare(sun_mask: SunMask, sky: np.ndarray) -> np.ndarray:
@@ -272,10 +273,7 @@ def find_land_glare(sun_mask: SunMask, sky: np.ndarray) -> np.ndarray:
     first, last = math.floor(sun_mask.x) - wide, math.ceil(sun_mask.x) + wide
     if first - wide < 0 or last + wide > sky.shape[1]:
         return no_sky
-    # In each column, the row below its last pixel of sky.
-    ends = (sky[:, first - wide : last + wide] > 0.5) * np.arange(1, sky.shape[0] + 1)[:, None]
-    skyline = ends.max(axis=0)
-    left, right = skyline[:wide], skyline[-wide:]
+    left, right = _skyline(sky[:, first - wide : first]), _skyline(sky[:, last : last + wide])
     uneven = max(np.ptp(left), np.ptp(right)) > max(2, _EVEN * wide)
     steep = abs(float(left.mean() - right.mean())) > _EVEN * (last - first)
     if uneven or steep:
@@ -293,6 +291,11 @@ def find_land_glare(sun_mask: SunMask, sky: np.ndarray) -> np.ndarray:
     return no_sky
 
 
+def _skyline(sky: np.ndarray) -> np.ndarray:
+    """Return in each column the row below its last pixel of sky, (w,); 0 where there is none."""
+    return np.asarray(((sky > 0.5) * np.arange(1, sky.shape[0] + 1)[:, None]).max(axis=0))
+
+
 def find_risen_sea(sun_mask: SunMask, sky: np.ndarray, encoded: np.ndarray) -> np.ndarray:
     """Return where a low sun's glare lifts a level skyline, though it is sky, (h, w) in [0, 1].
 
@@ -305,21 +308,18 @@ def find_risen_sea(sun_mask: SunMask, sky: np.ndarray, encoded: np.ndarray) -> n
     first, last = round(sun_mask.x) - wide, round(sun_mask.x) + wide
     if first - beside < 0 or last + beside > width:
         return is_sky
-    ends = (sky[:, first - beside : last + beside] > 0.5) * np.arange(1, height + 1)[:, None]
-    skyline = ends.max(axis=0)
-    left, right = skyline[:beside], skyline[-beside:]
+    left, right = _skyline(sky[:, first - beside : first]), _skyline(sky[:, last : last + beside])
     level = max(np.ptp(left), np.ptp(right)) <= 2
     tilted = abs(float(left.mean() - right.mean())) > 1 + _TILT * (last - first)
     if not level or tilted or min(left.min(), right.min()) <= sun_mask.y:
         return is_sky
     line = np.interp(np.arange(first, last), [first, last], [left.mean(), right.mean()])
     up = line - np.arange(height)[:, None] - 0.5
-    part = sky[:, first:last]
     luminance = encoded[:, first:last] @ LUMINANCE
-    above = (part > 0.9) & (up > 0) & (up < 2 * _RISES * height)
+    above = (sky[:, first:last] > 0.9) & (up > 0) & (up < 2 * _RISES * height)
     if not above.any():
         return is_sky
-    bright = smoothstep(0.6, 0.8, luminance / max(float(np.median(luminance[above])), 1e-3))
+    bright = smoothstep(*_AS_BRIGHT, luminance / max(float(np.median(luminance[above])), 1e-3))
     near = np.clip(up + 0.5, 0, 1) * (up < _RISES * height)
     is_sky[:, first:last] = near * bright
     return is_sky

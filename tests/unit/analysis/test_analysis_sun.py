@@ -348,6 +348,7 @@ def test_a_sun_without_sky_beside_it_must_be_certain(monkeypatch, confidence, ce
     working = evening(disc=(90.5, 60.5))
     beside = np.zeros_like(SKY)
     beside[:, 110:] = 1
+    assert find(working) is not None
     peak = search.peak_of(look_for_sun(working), working)._replace(confidence=confidence)
     monkeypatch.setattr(search, "peak_of", lambda *_: peak)
     assert (find(working, beside) is not None) == certain
