@@ -23,7 +23,6 @@ from sunwidget.analysis.images.working_copy import resize
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.segmentation.feather import softening
 from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
-from sunwidget.analysis.sun.search import GLOW_SPREAD
 from sunwidget.analysis.water.glitter import azimuth_column, glints_on_land, glitter, roughness
 from sunwidget.analysis.water.mirror import Mirror, find_mirror
 from sunwidget.analysis.windows import panes
@@ -63,7 +62,6 @@ def uniforms(scene: Scene) -> dict[str, Any]:
         "camera_forward": scene.camera.forward,
         "camera_focal": scene.camera.focal / scene.camera.height,
         "sun_visible": float(scene.shows_sun),
-        "sun_located": float(_sun_located(scene)),
         "sun_known": float(_sun_known(scene)),
         "depth_told": float(scene.hints.depth is not None),
         "photo_light": float(scene.lit_by_moon),
@@ -90,16 +88,9 @@ def uniforms(scene: Scene) -> dict[str, Any]:
     return found
 
 
-def _sun_located(scene: Scene) -> bool:
-    """Return whether the photo shows its sun, or a glow that tells where it is."""
-    if scene.sun is None:
-        return scene.sun_spread <= GLOW_SPREAD
-    return scene.sun.visible
-
-
 def _sun_known(scene: Scene) -> bool:
     """Return whether the photo or the user tells where its sun, or how far its land, is."""
-    return scene.sun is not None or scene.hints.depth is not None or _sun_located(scene)
+    return scene.sun is not None or scene.hints.depth is not None
 
 
 @_cache_per_scene

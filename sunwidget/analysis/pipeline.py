@@ -36,7 +36,7 @@ from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import matting, refine
 from sunwidget.analysis.sun import sun as sun_stage
 from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
-from sunwidget.analysis.sun.search import GLOW_SPREAD, Glow, Peak
+from sunwidget.analysis.sun.search import Peak
 from sunwidget.analysis.sun.sun import SunMask, SunObservation
 from sunwidget.analysis.water import water as water_stage
 from sunwidget.errors import AnalysisError
@@ -159,7 +159,6 @@ def complete(
         light = sun_stage.observe(seed, sun_mask, sky, camera, working)
 
     erased = erased_for(working, maps, sky, light, sun_mask)
-    glow = sun_stage.find_glow(working, maps, sky) if searched and light is None else None
 
     step("clouds", 0.81, "Finding clouds")
     covers = clouds_by_color(erased.working, sky, hints, sun_mask and sun_mask.mask)
@@ -169,7 +168,7 @@ def complete(
     with ThreadPoolExecutor(1) as pool:  # the two are independent
         water_search = pool.submit(_water, working, sky, small_horizon, maps, hints)
         fitted, behind, (cover, everywhere) = fit_atmosphere(
-            working, erased, sky, covers, camera, light or glow, hints, step
+            working, erased, sky, covers, camera, light, hints, step
         )
         step("water", 0.95, "Looking for water")
         water = water_search.result()
@@ -308,7 +307,7 @@ def fit_atmosphere(
     sky: np.ndarray,
     covers: tuple[Clouds, Clouds],
     camera: Camera,
-    sun: SunObservation | Glow | None,
+    sun: SunObservation | None,
     hints: Hints,
     step: Steps,
 ) -> tuple[SkyFit, Backdrop, tuple[Clouds, Clouds]]:
@@ -316,12 +315,8 @@ def fit_atmosphere(
 
     The clouds are returned twice: for the sky, and for the whole picture as if it were sky.
     """
-    at, sure, spread = None, 1.0, 0.0
-    if isinstance(sun, Glow):
-        at, sure, spread = sun.direction(working, camera), sun.confidence, GLOW_SPREAD
-    elif sun is not None:
-        at = sun.azimuth, sun.elevation
-    visible = isinstance(sun, SunObservation) and sun.visible
+    at = None if sun is None else (sun.azimuth, sun.elevation)
+    visible = sun is not None and sun.visible
     unmixed = hints.method("clouds") == "unmix"
     # The fit uses a few hundred pixels, which are less noisy on a small copy.
     small = erased.working.shrunk(FIT_SIDE)
@@ -336,8 +331,6 @@ def fit_atmosphere(
         at,
         expected,
         done=step.between(0.82, 0.87),
-        sure_of_sun=sure,
-        spread=spread,
     )
     if unmixed:
         # The clear sky's color reveals the clouds; without them the fit is more accurate.

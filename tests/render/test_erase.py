@@ -24,7 +24,7 @@ def picture(strength=0.0):
 
 def maps(clean):
     plain = np.zeros(SMALL, np.float32)
-    return SunMaps(plain, plain + 0.02, plain, np.asarray(clean, np.float32), plain, plain)
+    return SunMaps(plain, plain + 0.02, plain, np.asarray(clean, np.float32), plain)
 
 
 def light(sun_mask):

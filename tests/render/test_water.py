@@ -34,7 +34,7 @@ def found(probability, picture=None, sun_column=None, horizon=ROW, sky=None):
     sun = plain.copy()
     if sun_column is not None:
         sun[ROW // 8, sun_column] = 0.9
-    maps = SunMaps(sun, plain, plain, clean, probability, plain)
+    maps = SunMaps(sun, plain, plain, clean, probability)
     working = Working.of(open_photo(shore() if picture is None else picture))
     with pytest.MonkeyPatch.context() as patch:
         for look in ("look_at_sky", "look_at_land"):

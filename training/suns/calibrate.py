@@ -1,4 +1,4 @@
-"""Fits ``WEIGHTS``, ``GLOW_WEIGHTS`` and ``RADIUS_SCALE`` of sunwidget/analysis/sun/search.py.
+"""Fits ``WEIGHTS`` and ``RADIUS_SCALE`` of sunwidget/analysis/sun/search.py.
 
 ``python -m training.suns.calibrate --data ../shared/data/train`` fits them on every second of the
 labelled photos that only judge, and measures them on the others: a network is too sure of photos
@@ -19,10 +19,7 @@ from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import look_for_sun
 from sunwidget.analysis.sun.search import (
     LEAST_CONFIDENCE,
-    LEAST_GLOW,
     features_of,
-    features_of_glow,
-    glow_of,
     peak_of,
 )
 from sunwidget.photo.photo import open_photo
@@ -56,9 +53,6 @@ def fit(features: np.ndarray, truth: np.ndarray) -> np.ndarray:
     return np.array([w[0] - slopes @ mean, *slopes])
 
 
-NEAR_GLOW = 0.1  # widths
-
-
 @dataclass
 class Seen:
     """What the network says of one photo: features, and whether the likeliest place is right."""
@@ -68,8 +62,6 @@ class Seen:
     near_sun: bool
     near_glow: bool  # of a glow, the likeliest sun
     size: float  # the label's radius over the network's
-    glow: np.ndarray
-    at_glow: bool
 
 
 def look(photo: Photo, data: Path) -> Seen:
@@ -77,7 +69,7 @@ def look(photo: Photo, data: Path) -> Seen:
     folder, name = photo.file.split("/")
     working = Working.of(open_photo(data / folder / "images" / name))
     maps = look_for_sun(working)
-    peak, glow = peak_of(maps, working), glow_of(maps, working)
+    peak = peak_of(maps, working)
     off = miss(photo, peak.x, peak.y, working)
     is_glow = photo.kind == "glow"
     return Seen(
@@ -86,8 +78,6 @@ def look(photo: Photo, data: Path) -> Seen:
         near(photo, off),
         is_glow and off <= 0.06,
         photo.r / float(maps.radius.flat[maps.probability.argmax()]),
-        features_of_glow(maps),
-        is_glow and miss(photo, glow.x, glow.y, working) <= NEAR_GLOW,
     )
 
 
@@ -113,22 +103,6 @@ def fit_suns(photos: list[Seen]) -> None:
             print(f"{least}, {name}: recall {recall:.3f}, precision {right[said].mean():.3f}")
 
 
-def fit_glows(photos: list[Seen]) -> None:
-    """Print the weights of a hidden sun's confidence, and what they find."""
-    photos = [p for p in photos if p.photo.kind in ("glow", "none", "bait")]
-    x, right = np.array([p.glow for p in photos]), np.array([p.at_glow for p in photos])
-    weights = fit(x[::2], right[::2].astype(float))
-    print("GLOW_WEIGHTS =", tuple(float(w) for w in weights.round(3)))
-    found = odds(weights, x) > np.log(LEAST_GLOW / (1 - LEAST_GLOW))
-    glow = np.array([p.photo.kind == "glow" for p in photos])
-    for name, part in PARTS.items():
-        print(
-            f"{name}: likeliest place at {right[part].sum() / glow[part].sum():.2f} of the glows, "
-            f"found {(found & right)[part].sum() / glow[part].sum():.2f}, "
-            f"precision {right[part][found[part]].mean():.2f}"
-        )
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -138,7 +112,6 @@ def main() -> None:
     cv2.setNumThreads(1)
     photos = [look(p, options.data) for p in labels() if p.test and p.kind != "drop"]
     fit_suns(photos)
-    fit_glows(photos)
 
 
 if __name__ == "__main__":

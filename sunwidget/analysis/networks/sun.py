@@ -31,8 +31,6 @@ class SunMaps(NamedTuple):
         same without the sun, its halo and its lens artifacts; at most 0.
     water : (h, w) float32
         Probability of water, which may mirror the sun.
-    glow : (h, w) float32
-        Probability that the center of a sun is there that clouds or land may hide.
     """
 
     probability: np.ndarray
@@ -40,7 +38,6 @@ class SunMaps(NamedTuple):
     sharpness: np.ndarray
     clean: np.ndarray
     water: np.ndarray
-    glow: np.ndarray
 
 
 def look_for_sun(working: Working) -> SunMaps:
@@ -52,13 +49,13 @@ def look_for_sun(working: Working) -> SunMaps:
         If onnxruntime is missing.
     """
     size = working.width, working.height
-    found, clean, water, glow = run_twice(
+    found, clean, water = run_twice(
         BUNDLED,
         "sun",
-        ["sun", "clean", "water", "glow"],
+        ["sun", "clean", "water"],
         working.encoded,
         strided(*size, LONG_SIDE / max(size)),
     )
     probability, radius, sharpness = found
     log_ratio = np.minimum(clean, 0).transpose(1, 2, 0)
-    return SunMaps(probability, radius, sharpness, log_ratio, water[0], glow[0])
+    return SunMaps(probability, radius, sharpness, log_ratio, water[0])

@@ -11,18 +11,12 @@ from sunwidget.analysis.fit.confidence import probability
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.sun import SunMaps
 from sunwidget.formats.color import LUMINANCE
-from sunwidget.geometry.camera import Camera
 
 LEAST_CONFIDENCE = 0.45  # from which a peak counts as the sun
 SURE = 0.7  # the same in a sky as dark as at night
 # Bias, then the weights of ``features_of``: python -m training.suns.calibrate
 WEIGHTS = (-2.694, 2.156, -0.734, -0.972)
 RADIUS_SCALE = 0.758  # from the network's radius to the radius that people draw
-LEAST_GLOW = 0.3  # confidence from which a glow tells where the sun is
-GLOW_SPREAD = 8.0  # degrees: how exactly it does
-# Bias, then the weights of ``features_of_glow``: python -m training.suns.calibrate
-GLOW_WEIGHTS = (-0.501, 1.327, -0.267)
-_APART = 0.15  # of the width: beyond it a glow is another one
 _NEAR_SKY = 0.04  # of the width; a sun has some sky within it, or within
 _NEAR_RADII = 2.0  # of its radius
 _ALONE = 0.97  # confidence from which a sun needs none, as one between leaves
@@ -50,27 +44,6 @@ class Peak(NamedTuple):
     radius: float
     confidence: float
     sharpness: float
-
-
-class Glow(NamedTuple):
-    """The light around a sun that clouds or land hide, in working pixels.
-
-    Parameters
-    ----------
-    x, y : float
-        Where the sun is.
-    confidence : float
-        Probability that it is near there, [0, 1], fitted as that of ``Peak``.
-    """
-
-    x: float
-    y: float
-    confidence: float
-
-    def direction(self, working: Working, camera: Camera) -> tuple[float, float]:
-        """Return azimuth and elevation in degrees, by the photo's camera."""
-        zoom_x, zoom_y = working.zoom
-        return camera.angles(self.x * zoom_x, self.y * zoom_y)
 
 
 def _likeliest(probability: np.ndarray) -> tuple[int, int]:
@@ -124,31 +97,6 @@ def peak_of(maps: SunMaps, working: Working) -> Peak:
     )
 
 
-def features_of_glow(maps: SunMaps) -> np.ndarray:
-    """Return the log odds of a hidden sun at the likeliest place and the best elsewhere, (2,)."""
-    height, width = maps.glow.shape
-    row, column = _likeliest(maps.glow)
-    away = np.hypot(np.arange(width) - column, np.arange(height)[:, None] - row) / width
-    return _log_odds(maps.glow[row, column], maps.glow[away > _APART].max(initial=0.0))
-
-
-def glow_of(maps: SunMaps, working: Working) -> Glow:
-    """Return the likeliest place of a sun that may be hidden, even if it is unlikely."""
-    height, width = maps.glow.shape
-    row, column = _likeliest(maps.glow)
-    return Glow(
-        (column + 0.5) * working.width / width,
-        (row + 0.5) * working.height / height,
-        probability(GLOW_WEIGHTS, features_of_glow(maps)),
-    )
-
-
-def find_glow(working: Working, maps: SunMaps, sky: np.ndarray) -> Glow | None:
-    """Return where a sun that the photo does not show must be, by its glow, or None."""
-    glow = glow_of(maps, working)
-    return glow if glow.confidence >= LEAST_GLOW and _beside_sky(glow, sky) else None
-
-
 def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:
     """Return the sun that the photo shows, or None; a disc in a dark sky is likely the moon."""
     peak = peak_of(maps, working)
@@ -162,10 +110,9 @@ def find(working: Working, maps: SunMaps, sky: np.ndarray) -> Peak | None:
     return peak if peak.confidence >= SURE and not moonlit else None
 
 
-def _beside_sky(place: Peak | Glow, sky: np.ndarray) -> bool:
+def _beside_sky(place: Peak, sky: np.ndarray) -> bool:
     """Return whether there is sky (h, w) near a place: sunlit snow shines like a sun, too."""
-    radius = place.radius if isinstance(place, Peak) else 0.0
-    reach = max(_NEAR_SKY * sky.shape[1], _NEAR_RADII * radius)
+    reach = max(_NEAR_SKY * sky.shape[1], _NEAR_RADII * place.radius)
     y, x = np.ogrid[: sky.shape[0], : sky.shape[1]]
     near = np.hypot(x + 0.5 - place.x, y + 0.5 - place.y) <= reach
     return bool((sky[near] > 0.1).any())

@@ -14,14 +14,13 @@ from typing import NamedTuple
 import numpy as np
 
 from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
-from sunwidget.analysis.sun.search import Glow, Peak, find, find_glow, find_moon, night
+from sunwidget.analysis.sun.search import Peak, find, find_moon, night
 from sunwidget.atmosphere.constants import SUN_ANGULAR_RADIUS_DEG
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera, Point
 
 __all__ = [
     "METHODS",
-    "Glow",
     "Peak",
     "SunMask",
     "SunObservation",
@@ -29,7 +28,6 @@ __all__ = [
     "disc_fit",
     "field_of_view_of",
     "find",
-    "find_glow",
     "find_land_glare",
     "find_moon",
     "find_risen_sea",
