@@ -35,7 +35,7 @@ FOLDERS = {
 TEXTURES = "opensky"
 WORLDS = 0.35
 """How much of the samples are rendered worlds, where these are used."""
-CORRECTED = 3.0
+CORRECTED = 5.0
 """How often a photo with corrections by hand is drawn, relative to others of its folder."""
 NON_COMMERCIAL = re.compile(r"\bNC\b|non-?commercial", re.IGNORECASE)
 HELD_OUT = 16

@@ -5,9 +5,9 @@ build/rooms --minutes 9 --workers 15 --out build/sky``, then
 ``… --start build/sky/last.pt --worlds build/worlds --minutes 20 --out build/sky-worlds``
 
 Begins from an encoder that knows ImageNet (``encoder.py``). ``--start`` goes on from a checkpoint
-at a tenth of the rate and with its batch statistics as they are, to learn from rendered worlds
-too. The learning rate follows elapsed time; running it again with the same ``--out`` resumes. What
-is validated and exported is a moving average of the weights.
+or the shipped file at a tenth of the rate and with its batch statistics as they are, to learn from
+rendered worlds or new corrections, too. The learning rate follows elapsed time; running it again
+with the same ``--out`` resumes. What is validated and exported is a moving average of the weights.
 """
 
 from __future__ import annotations
@@ -21,9 +21,10 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from training.data import Batches, Pack, validation
+from training.data import Batches, Pack, typical, validation
 from training.loop import Run, batches, device_options, prepare, rate, save
 from training.model import SkyNet
+from training.restore import restore
 from training.suns.water import UNKNOWN
 from training.world_samples import WorldSamples
 
@@ -33,7 +34,7 @@ STAGES = ((0.45, 320), (1.0, FULL_SIZE))
 """Until which share of the time squares have which size (pixels)."""
 STAGES_ON = ((1.0, FULL_SIZE),)
 PEAK_RATE, PEAK_RATE_ON = 2e-3, 1.5e-4
-KEPT, KEPT_ON = 0.998, 0.98  # of the moving average of the weights, each step
+KEPT, KEPT_ON = 0.998, 0.995  # of the moving average of the weights, each step
 WATER, WATER_COARSE = 0.6, 0.2  # weights of the losses of water
 
 
@@ -98,7 +99,11 @@ class Training:
     def __init__(self, options: argparse.Namespace) -> None:
         self.options, self.going_on = options, options.start is not None
         self.network = SkyNet()
-        if self.going_on:
+        if self.going_on and options.start.suffix == ".onnx":
+            restore(
+                self.network, options.start, typical(options.data, options.cache, FULL_SIZE, 96)
+            )
+        elif self.going_on:
             state = torch.load(options.start, weights_only=True, map_location="cpu")
             self.network.load_state_dict(state["average"])
         elif options.encoder is not None:
@@ -116,6 +121,8 @@ class Training:
     def train(self) -> None:
         """Learn in stages until the time is spent."""
         peak = PEAK_RATE_ON if self.going_on else PEAK_RATE
+        if self.going_on and self.run.step == 0:  # for means of old and new weights
+            save(self.options.out / "at-0.pt", average=self.run.average.state)
         for until, size in STAGES_ON if self.going_on else STAGES:
             if self.run.spent >= until * self.run.limit:
                 continue
@@ -176,7 +183,7 @@ def main() -> None:
     add("--out", type=Path, default=Path("build/sky"), help="checkpoints")
     add("--cache", type=Path, help="packed photos (default: OUT/cache)")
     add("--encoder", type=Path, help="EfficientNet-Lite2's weights on ImageNet (.pth)")
-    add("--start", type=Path, help="a checkpoint to go on from")
+    add("--start", type=Path, help="a checkpoint or an .onnx file to go on from")
     add("--rooms", type=Path, help="folder of interior panoramas (*.hdr, see rooms.py)")
     add("--worlds", type=Path, help="folder of rendered worlds (*.npz, see worlds/make.py)")
     add("--minutes", type=float, default=9)

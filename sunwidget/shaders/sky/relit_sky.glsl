@@ -41,7 +41,7 @@ const float kTextureKept = 0.7;  // share of the clouds' texture that stays in a
 float GetFadedLight(vec2 own, float local, float change, vec3 view, vec3 sun_before, vec3 sun_now) {
   float share = change * change / (change * change + kLightFades * kLightFades);
   float away = 1.0 - smoothstep(kFarAway, kNotAway, dot(sun_before, sun_now));
-  float gone = sun_visible * max(away - share, 0.0) * GetBounded(own.g, kMostGone);
+  float gone = sun_located * max(away - share, 0.0) * GetBounded(own.g, kMostGone);
   float lacking = (1.0 - sun_visible) * GetNearness(dot(view, sun_before)) * min(own.g, 0.0);
   float fades = GetBounded(own.r - lacking, kMostFaded) + (local > 0.0 ? kRimsFade : kShadeFades) * GetBounded(local, 1.0);
   float left = 1.0 - smoothstep(kLeft, kNotLeft, dot(sun_before, sun_now));

@@ -95,7 +95,7 @@ def test_a_hinted_sun_leaves_the_white_clouds_that_it_touches():
     whole = sun.disc_fit(Working.of(open_photo(picture)), SKY, 90.5, 60.5, CAMERA.focal)
     assert sun.limit_to_core(whole, (90.5, 60.5)) is whole
     cv2.rectangle(picture, (20, 60), (300, 80), (255, 255, 255), -1)
-    shown = sw.analyze(picture, sun=(90.5, 60.5)).sun
+    shown = sw.analyze(picture, sky=SKY, sun=(90.5, 60.5)).sun
     assert shown.visible
     assert (shown.x, shown.y) == (90.5, 60.5)
     assert shown.mask[70, 200:300].max() == 0

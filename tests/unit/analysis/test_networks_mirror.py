@@ -22,7 +22,7 @@ def both():
     ("look", "names"),
     [
         (look_at_sky, ["sky", "water"]),
-        (look_for_sun, ["probability", "radius", "sharpness", "clean", "water", "glow"]),
+        (look_for_sun, ["probability", "radius", "sharpness", "clean", "water"]),
         (look_at_land, ["sky", "sunlit", "log_depth", "facing", "water"]),
     ],
 )
