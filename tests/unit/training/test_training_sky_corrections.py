@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from training import sky_corrections
-from training.sky_corrections import CORRECTIONS, corrected, judges
+from training.sky_corrections import CORRECTIONS, JUDGED, corrected, judges
 
 FJORD = "landscape-pseudo/fjord.jpg"
 
@@ -19,7 +19,11 @@ def by_hand(tmp_path, monkeypatch):
         f'file,sky,land,unknown\n{FJORD},"{sky}","{land}","80,0 100,0 100,100 80,100"\n'
     )
     known = sky_corrections.corrections(path)
-    monkeypatch.setattr(sky_corrections, "corrections", lambda: known)
+    monkeypatch.setattr(
+        sky_corrections,
+        "corrections",
+        lambda path=CORRECTIONS: known if path == CORRECTIONS else {},
+    )
 
 
 def test_regions_replace_the_mask_and_leave_the_rest(by_hand):
@@ -43,8 +47,18 @@ def test_other_photos_keep_their_masks(by_hand):
     assert corrected("landscape-pseudo/other.jpg", mask) is mask
 
 
-def test_a_quarter_of_the_corrected_photos_judges_and_no_other_does():
-    found = sky_corrections.corrections(CORRECTIONS)
+def test_photos_of_the_judged_list_never_train():
+    judged = sky_corrections.corrections(JUDGED)
+    assert len(judged) == 299
+    assert all(map(judges, judged))
+    file, regions = next((f, r) for f, r in judged.items() if r)
+    assert any(level != 77 for level, _ in regions)
+    assert (corrected(file, np.full((100, 200), 77, np.uint8)) != 77).any()
+
+
+def test_a_quarter_of_the_other_corrected_photos_judges_and_no_other_does():
+    judged = sky_corrections.corrections(JUDGED)
+    found = [f for f in sky_corrections.corrections(CORRECTIONS) if f not in judged]
     assert 0.2 < sum(map(judges, found)) / len(found) < 0.3
     others = [f"landscape-pseudo/other-{i}.jpg" for i in range(100)]
     assert not any(map(judges, others))

@@ -1,0 +1,81 @@
+"""Count skies that the analysis gets wrong, on photos whose masks were corrected by eye.
+
+usage: python bench/masks.py ../shared/data/train [--every 4] [--to NEW.json] [--from OLD.json]
+
+The photos are those of ``training/sky_judged.csv``, which train no network of this repository from
+November 2026 on. Wrong places narrower than 1.5 % of the width do not count: outlines drawn by eye
+are not more exact, and the eyes saw the masks of that month. ``--from`` names the figures of
+another version, and lists the photos that differ.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+import sunwidget as sw
+from training.sky_corrections import JUDGED, corrected, corrections
+
+WIDTH = 480  # pixels of the compared masks
+NARROWEST = 7  # of them
+DIFFERS = 0.002  # of the picture
+WRONG = (0.003, 0.01)
+
+
+def wrong_share(sky: np.ndarray, mask: np.ndarray) -> float:
+    """Return the share of the picture that is wrong.
+
+    Parameters
+    ----------
+    sky : (h, w) float32
+        The matte to judge, 1 = sky.
+    mask : (H, W) uint8
+        255 sky, 0 land, 128 unknown.
+    """
+    size = WIDTH, max(1, round(WIDTH * mask.shape[0] / mask.shape[1]))
+    mask = cv2.resize(mask, size, interpolation=cv2.INTER_NEAREST)
+    found = cv2.resize(sky.astype(np.float32), size) > 0.5
+    wrong = ((found & (mask < 64)) | (~found & (mask > 191))).astype(np.uint8)
+    round_ = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (NARROWEST, NARROWEST))
+    return float(cv2.morphologyEx(wrong, cv2.MORPH_OPEN, round_).mean())
+
+
+def judge(root: Path, file: str) -> float:
+    """Return the wrong share of the sky of a photo, ``folder/name.jpg`` below ``root``."""
+    folder, name = file.split("/")
+    path = root / folder / "masks" / f"{Path(name).stem}.png"
+    mask = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
+    if mask is None:
+        raise SystemExit(f"{path} is missing.")
+    scene = sw.analyze(root / folder / "images" / name)
+    return wrong_share(scene.small_sky, corrected(file, mask))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("root", type=Path, help="folder that holds landscape-pseudo/ …")
+    parser.add_argument("--every", type=int, default=1, help="judge every so many photos")
+    parser.add_argument("--to", type=Path, help="write the figures (JSON)")
+    parser.add_argument("--from", dest="old", type=Path, help="figures to compare with")
+    options = parser.parse_args()
+    found = {f: judge(options.root, f) for f in sorted(corrections(JUDGED))[:: options.every]}
+    shares = np.array(list(found.values()))
+    counts = ", ".join(f"{(shares > least).sum()} by more than {least:.1%}" for least in WRONG)
+    print(f"{len(shares)} photos: {shares.mean():.2%} of the pixels wrong; {counts}")
+    if options.to:
+        options.to.write_text(json.dumps(found))
+    if options.old:
+        old = json.loads(options.old.read_text())
+        for name, sign in (("better", -1), ("worse", 1)):
+            changed = [f for f in found if f in old and sign * (found[f] - old[f]) > DIFFERS]
+            print(f"{len(changed)} {name}:", *changed, sep="\n  ")
+
+
+if __name__ == "__main__":
+    main()
