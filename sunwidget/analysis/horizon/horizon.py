@@ -18,6 +18,7 @@ from sunwidget.geometry.camera import Camera, Point
 
 TOLERANCE = 0.004  # of the height: deviation of a sea horizon from a line
 MAXIMUM_ROLL = 20.0
+_BELOW = 0.05  # share of the columns that may contradict a sea's horizon
 _WET = 0.6  # probability of water below the sky from which the sky ends at water
 LEVEL_ROW = 0.52  # of the height: assumed horizon of a level camera
 
@@ -176,7 +177,9 @@ def behind_water(found: Horizon, sky: np.ndarray, water: np.ndarray) -> Horizon:
         return found
     columns, border = columns[wet] - width / 2, border[wet]
     row, slope, share = _best_line(columns, border, height, width)
-    if share * width < 0.6 * columns.size:
+    # Sky below a sea's horizon contradicts the line: a low sun's glare lifts part of a skyline.
+    below = border - row - slope * columns > max(1.0, TOLERANCE * height)
+    if share * width < 0.6 * columns.size or below.mean() > _BELOW:
         return found
     roll = math.degrees(math.atan(slope))
     return Horizon(row, roll, max(0.8, found.confidence), "water_line")

@@ -135,6 +135,20 @@ def test_where_sky_lies_on_water_is_the_horizon_whatever_rises_beside_it():
     assert horizon.behind_water(guess, sky, pond) is guess
 
 
+def test_a_sea_with_sky_below_its_line_tells_nothing():
+    # Between a cliff and a strip of cloud that counts as land a low sun's glare lifts the skyline
+    # of a level sea: a slope fits part of both sides, and has sky below it.
+    across = (np.arange(WIDTH) + 0.5) / WIDTH
+    border = np.select([across < 0.46, across < 0.64, across < 0.77], [60.0, 211.4, 200.0], 217.7)
+    border[(across > 0.77) & (across < 0.79)] = 214
+    rows = np.arange(HEIGHT)[:, None]
+    sky = np.clip(border - rows, 0, 1).astype(np.float32)
+    beside = (across > 0.46) & ((across < 0.64) | (across > 0.77))
+    sea = np.where((rows >= border) & beside, 0.9, 0).astype(np.float32)
+    guess = horizon.Horizon(230.0)
+    assert horizon.behind_water(guess, sky, sea) is guess
+
+
 def test_less_of_a_line_and_more_roll_are_less_sure():
     def confidence(width, roll):
         sky = sky_above(200, roll)
