@@ -62,7 +62,7 @@ def uniforms(scene: Scene) -> dict[str, Any]:
         "camera_forward": scene.camera.forward,
         "camera_focal": scene.camera.focal / scene.camera.height,
         "sun_visible": float(scene.shows_sun),
-        "sun_located": float(_sun_located(scene)),
+        "sun_located": float(scene.shows_sun or scene.moon is not None),
         "sun_known": float(_sun_known(scene)),
         "depth_told": float(scene.hints.depth is not None),
         "photo_light": float(scene.lit_by_moon),
@@ -89,14 +89,9 @@ def uniforms(scene: Scene) -> dict[str, Any]:
     return found
 
 
-def _sun_located(scene: Scene) -> bool:
-    """Return whether the photo shows its sun or moon."""
-    return scene.shows_sun or (scene.sun is None and scene.moon is not None)
-
-
 def _sun_known(scene: Scene) -> bool:
     """Return whether the photo or the user tells where its sun, or how far its land, is."""
-    return scene.sun is not None or scene.hints.depth is not None or _sun_located(scene)
+    return any(known is not None for known in (scene.sun, scene.moon, scene.hints.depth))
 
 
 @_cache_per_scene

@@ -17,11 +17,7 @@ import numpy as np
 
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import look_for_sun
-from sunwidget.analysis.sun.search import (
-    LEAST_CONFIDENCE,
-    features_of,
-    peak_of,
-)
+from sunwidget.analysis.sun.search import LEAST_CONFIDENCE, features_of, peak_of
 from sunwidget.photo.photo import open_photo
 from training.suns.labels import Photo, labels
 

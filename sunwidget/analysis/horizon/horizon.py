@@ -178,7 +178,7 @@ def behind_water(found: Horizon, sky: np.ndarray, water: np.ndarray) -> Horizon:
     columns, border = columns[wet] - width / 2, border[wet]
     row, slope, share = _best_line(columns, border, height, width)
     # Sky below a sea's horizon contradicts the line: a low sun's glare lifts part of a skyline.
-    below = border - row - slope * columns > max(1.0, TOLERANCE * height)
+    below = border - row - slope * columns > _tolerance(height)
     if share * width < 0.6 * columns.size or below.mean() > _BELOW:
         return found
     roll = math.degrees(math.atan(slope))
@@ -276,9 +276,14 @@ def _unseen(sky: np.ndarray) -> Horizon:
     return Horizon(height * (1.1 if full else LEVEL_ROW), 0.0, 0.0, "assumed")
 
 
+def _tolerance(height: int) -> float:
+    """Return how far a pixel of the skyline may be off a sea's horizon, in pixels."""
+    return max(1.0, TOLERANCE * height)
+
+
 def _best_line(x: np.ndarray, y: np.ndarray, height: int, width: int) -> tuple[float, float, float]:
     """Return row at x = 0, slope, and the share of all columns that agree with the line."""
-    tolerance = max(1.0, TOLERANCE * height)
+    tolerance = _tolerance(height)
     anchors = np.unique(np.linspace(0, x.size - 1, 72).round().astype(int))
     first, second = np.triu_indices(anchors.size, k=1)
     run = x[anchors[second]] - x[anchors[first]]
