@@ -23,8 +23,6 @@ FOLDERS = ("landscape-pseudo", "weather-pseudo", "camvid", "sea-sky", "skyreplac
 TEXTURES = "opensky"
 SIZES = ((224, 320), (256, 256), (320, 224), (192, 352), (288, 288))
 """(height, width) of the pictures of a batch, in pixels: every shape of photo in turn."""
-_UNSURE = 0.03  # of the width: how exactly the place of a hidden sun is known
-_FELT = 0.15  # log of light: a drawn sun that adds less everywhere is not to be found
 
 
 @dataclass
@@ -121,16 +119,13 @@ def example(
     clean: np.ndarray | None,
     seen: float = 1.0,
     water: np.ndarray | None = None,
-    *,
-    sunless: bool = True,
 ) -> dict[str, np.ndarray]:
     """Image (uint8) and targets; ``clean`` None where the sky without the sun is not known.
 
-    ``water`` (h, w) uint8: 255, 0, or what lies between where it is not known. Without a ``place``,
-    ``sunless`` says whether it is known that no sun hides anywhere.
+    ``water`` (h, w) uint8: 255, 0, or what lies between where it is not known.
     """
     height, width = image.shape[0] // QUARTER, image.shape[1] // QUARTER
-    heat, glow = np.zeros((2, height, width), np.float32)
+    heat = np.zeros((height, width), np.float32)
     weight = np.ones((height, width), np.float32)
     if place is not None:
         column, row = int(place[0] / QUARTER), int(place[1] / QUARTER)
@@ -138,12 +133,10 @@ def example(
         sigma = max(1.0, 0.4 * radius * width)
         d2 = (np.arange(width) - column) ** 2 + (np.arange(height)[:, None] - row) ** 2
         heat = np.exp(-0.5 * d2 / sigma**2).astype(np.float32)
-        glow = np.exp(-0.5 * d2 / (_UNSURE * width) ** 2).astype(np.float32)
-        heat[row, column] = glow[row, column] = 1.0
+        heat[row, column] = 1.0
         if seen < 0.25:  # hardly to be seen: neither a sun nor none
             weight = (heat < 0.02).astype(np.float32)
             heat *= 0
-    felt = 0.0 if clean is not None else _FELT
     if clean is None:
         target = np.zeros((image.shape[0] // HALF, image.shape[1] // HALF, 3), np.float32)
         clean_weight = target[..., 0]
@@ -151,7 +144,6 @@ def example(
         target = small_log(clean) - small_log(image.astype(np.float32) / 255)
         size = target.shape[1::-1]
         small = cv2.resize(sky.astype(np.float32), size, interpolation=cv2.INTER_AREA)
-        felt = max(felt, float(-target.mean(-1).min()))
         clean_weight = (0.15 + 0.85 * small) * (1 + 2 * np.minimum(np.abs(target).mean(-1), 1))
     water = np.full(sky.shape, UNKNOWN, np.uint8) if water is None else water
     wet, dry = (
@@ -162,8 +154,6 @@ def example(
         "image": image.transpose(2, 0, 1),
         "heat": heat[None],
         "heat_weight": weight[None],
-        "glow": glow[None],
-        "glow_weight": np.full_like(weight, felt >= _FELT if place else sunless)[None],
         "radius": np.full(
             (1, 1, 1), np.log(max(radius, 1e-3)) if radius > 0 else np.nan, np.float32
         ),
@@ -196,7 +186,6 @@ def drawn(photo: np.ndarray, size: tuple[int, int], random: np.random.Generator)
         result.clean,
         result.seen,
         water,
-        sunless=False,  # the photo may have had a hidden one
     )
 
 
@@ -219,18 +208,17 @@ def real(
         part, x = part[:, ::-1], 1 - x
     image = tone(part[..., :3], random)
     sky, water = (part[..., 3] > 127).astype(np.float32), part[..., 4]
-    if not has_sun:  # a moon or a drawing may be anywhere, a hidden sun where no one looked
-        nowhere = label is not None and label.kind in ("none", "bait")
+    if not has_sun:
         clean = image.astype(np.float32) / 255
-        return example(image, sky, None, 0.0, np.nan, clean, water=water, sunless=nowhere)
+        return example(image, sky, None, 0.0, np.nan, clean, water=water)
     if label.kind == "glow":  # its place is neither a sun nor none, elsewhere there is none
         if not (0 < x < 1 and 0 < y < 1):
-            return example(image, sky, None, 0.0, np.nan, None, water=water, sunless=False)
+            return example(image, sky, None, 0.0, np.nan, None, water=water)
         place = x * size[1], y * size[0]
         return example(image, sky, place, 0.1, np.nan, None, 0.0, water)
     radius = label.r * width / w
     if not (-2 * radius < x < 1 + 2 * radius and -2 * radius < y < 1 + 2 * radius):
-        return example(image, sky, None, 0.0, np.nan, None, water=water, sunless=False)
+        return example(image, sky, None, 0.0, np.nan, None, water=water)
     inside = 0 < x < 1 and 0 < y < 1
     place = x * size[1], y * size[0]
     return example(image, sky, place, radius, np.nan, None, 1.0 if inside else 0.0, water)

@@ -3,7 +3,7 @@
 ``python -m training.suns.export --checkpoint build/suns/last.pt``
 
 Contract: ``image`` float32 ``(1, 3, H, W)``, RGB, sRGB-encoded in [0, 1] -> ``sun`` and ``clean``,
-float32 ``(1, 3, H/4, W/4)`` and ``(1, 3, H/2, W/2)``, ``water`` and ``glow``, ``(1, 1, H/4, W/4)``
+float32 ``(1, 3, H/4, W/4)`` and ``(1, 3, H/2, W/2)``, and ``water``, ``(1, 1, H/4, W/4)``
 (training/suns/model.py). H and W are multiples of 32.
 """
 
@@ -37,7 +37,7 @@ def main() -> None:
     torch.set_num_threads(1)
     network = SunMaps(load(options.checkpoint)).eval()
     picture = torch.rand(1, 3, 224, 320)
-    names = ["sun", "clean", "water", "glow"]
+    names = ["sun", "clean", "water"]
     about = "Suns, clean skies and water"
     options.out.write_bytes(to_onnx(network, picture, names, about, as_bytes=True))
 

@@ -25,12 +25,11 @@ LIGHT_FLOOR = 0.01
 
 
 class SunNet(nn.Module):
-    """``(N, 3, H, W)`` sRGB in [0, 1] -> four maps; H, W multiples of 32.
+    """``(N, 3, H, W)`` sRGB in [0, 1] -> three maps; H, W multiples of 32.
 
     ``(N, 3, H/4, W/4)``: logit of the sun's centre; log radius of its core in widths of the
     picture; logit of a sharp limb. ``(N, 3, H/2, W/2)``: log(clean + floor) - log(photo + floor)
     of display-linear R, G, B. ``(N, 1, H/4, W/4)``: logit of water, which mirrors the sun.
-    ``(N, 1, H/4, W/4)``: logit of the centre of a sun that cloud or land may hide.
     """
 
     def __init__(self) -> None:
@@ -46,34 +45,32 @@ class SunNet(nn.Module):
         self.sun = nn.Sequential(conv(48, 32), nn.Conv2d(32, 3, 1))
         self.clean = nn.Sequential(conv(32, 32), nn.Conv2d(32, 3, 1))
         self.water = nn.Sequential(conv(48, 24), nn.Conv2d(24, 1, 1))
-        self.glow = nn.Sequential(conv(48, 24), nn.Conv2d(24, 1, 1))
         nn.init.constant_(self.sun[1].bias, -4.0)
-        nn.init.constant_(self.glow[1].bias, -4.0)
         nn.init.zeros_(self.clean[1].weight)  # starts as: nothing to erase
         nn.init.zeros_(self.clean[1].bias)
 
-    def forward(self, image: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+    def forward(self, image: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         half, quarter, eighth, sixteenth = self.encoder(image)
         x = self.to_quarter(self.to_eighth(self.context(sixteenth), eighth), quarter)
-        return self.sun(x), self.clean(self.to_half(x, half)), self.water(x), self.glow(x)
+        return self.sun(x), self.clean(self.to_half(x, half)), self.water(x)
 
 
 class SunMaps(nn.Module):
-    """The shipped graph: ``image`` in; ``sun``, ``clean``, ``water`` and ``glow`` out.
+    """The shipped graph: ``image`` in; ``sun``, ``clean`` and ``water`` out.
 
     ``sun`` is ``(N, 3, H/4, W/4)``: probability, radius in widths, probability of a sharp limb.
     ``clean`` is ``(N, 3, H/2, W/2)``: log of clean over photo, display-linear with the floor.
-    ``water`` and ``glow`` are ``(N, 1, H/4, W/4)``: probabilities.
+    ``water`` is ``(N, 1, H/4, W/4)``: probability.
     """
 
     def __init__(self, network: SunNet) -> None:
         super().__init__()
         self.network = network
 
-    def forward(self, image: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
-        out, clean, water, glow = self.network(image)
+    def forward(self, image: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        out, clean, water = self.network(image)
         sun = torch.cat([out[:, :1].sigmoid(), out[:, 1:2].exp(), out[:, 2:].sigmoid()], 1)
-        return sun, clean, water.sigmoid(), glow.sigmoid()
+        return sun, clean, water.sigmoid()
 
 
 def _mean(error: Tensor, weight: Tensor) -> Tensor:
@@ -110,16 +107,15 @@ def losses(maps: tuple[Tensor, ...], target: dict[str, Tensor]) -> dict[str, Ten
 
     Parameters
     ----------
-    maps : (N, 3, h, w), (N, 3, 2h, 2w), (N, 1, h, w), (N, 1, h, w)
+    maps : (N, 3, h, w), (N, 3, 2h, 2w), (N, 1, h, w)
         What the network returns.
     target : dict
-        ``heat`` (N, 1, h, w) in [0, 1], exactly 1 at a centre; ``heat_weight`` alike; ``glow``
-        and ``glow_weight`` the same for suns that may be hidden;
+        ``heat`` (N, 1, h, w) in [0, 1], exactly 1 at a centre; ``heat_weight`` alike;
         ``radius``, ``sharp`` (N, 1, 1, 1), NaN where unknown; ``clean`` (N, 3, 2h, 2w) and
         ``clean_weight`` (N, 1, 2h, 2w); ``water`` (N, 1, h, w) in [0, 1] and ``water_weight``
         alike.
     """
-    out, clean, water, glow = maps
+    out, clean, water = maps
     heat, weight = target["heat"], target["heat_weight"]
     near = (heat > 0.6).float() * weight
     radius, sharp = target["radius"], target["sharp"]
@@ -135,7 +131,6 @@ def losses(maps: tuple[Tensor, ...], target: dict[str, Tensor]) -> dict[str, Ten
     wet = F.binary_cross_entropy_with_logits(water, target["water"], reduction="none")
     return {
         "centre": _focal(out[:, :1], heat, weight),
-        "glow": 0.5 * _focal(glow, target["glow"], target["glow_weight"]),
         "radius": (off * known_radius).sum() / known_radius.sum().clamp(min=1),
         "sharp": 0.3 * (limb * known_sharp).sum() / known_sharp.sum().clamp(min=1),
         "clean": 6 * _mean(wrong, target["clean_weight"]),
