@@ -85,7 +85,7 @@ def _branch(
 def draw_thin_things(
     image: np.ndarray, target: np.ndarray, random: Random
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Bare trees, wires or a lattice mast over image and mask; same shapes, uint8."""
+    """Bare trees, wires, a lattice mast or a wheel over image and mask; same shapes, uint8."""
     size = image.shape[0]
     cover = np.zeros((size, size), np.uint8)
     kind = random.random()
@@ -117,9 +117,13 @@ def draw_thin_things(
                 cv2.LINE_AA,
                 4,
             )
-    else:
+    elif kind < 0.9:
         _mast(cover, random)
-    dark = random.uniform(0, 90) * np.exp(random.normal(0, 0.15, 3))
+    else:
+        _wheel(cover, random)
+    dark = random.uniform(0, 90 if random.random() < 0.8 else 200) * np.exp(
+        random.normal(0, 0.15, 3)
+    )
     shade = (dark * (1 + 0.12 * random.standard_normal((size, size, 1)))).clip(0, 255)
     alpha = cover.astype(np.float32)[..., None] / 255.0
     drawn = image * (1 - alpha) + shade * alpha
@@ -145,6 +149,36 @@ def _mast(canvas: np.ndarray, random: Random) -> None:
     other[0::2], other[1::2] = right, left
     for line in (left, right, cross, other):
         cv2.polylines(canvas, [(line * 16).astype(np.int32)], False, 255.0, width, cv2.LINE_AA, 4)
+
+
+def _wheel(canvas: np.ndarray, random: Random) -> None:
+    """A wheel of rims, spokes and cabins on a stand, more or less from the side."""
+    size = canvas.shape[0]
+    high = size * random.uniform(0.12, 0.4)
+    radii = np.array([high * random.uniform(0.5, 1.0), high])
+    hub = np.array([random.uniform(0.1, 0.9) * size, random.uniform(0.2, 0.8) * size])
+    width, spokes = int(random.integers(1, 3)), int(random.integers(10, 40))
+    around = np.linspace(0, 2 * np.pi, spokes, endpoint=False) + random.uniform(0, 1)
+    tips = hub + radii * np.stack([np.cos(around), np.sin(around)], 1)
+    feet = [hub + np.array([side * high * random.uniform(0.3, 0.7), size]) for side in (-1, 1)]
+
+    def fixed(points: np.ndarray) -> np.ndarray:
+        return np.round(points * 16).astype(np.int32)
+
+    def line(start: np.ndarray, end: np.ndarray, level: float, wide: int) -> None:
+        cv2.line(canvas, fixed(start), fixed(end), level, wide, cv2.LINE_AA, 4)
+
+    level = float(random.uniform(100, 255))
+    for tip in tips:
+        line(hub, tip, level, 1)
+    for share in (1.0, random.uniform(0.75, 0.95)):
+        axes = fixed(radii * share)
+        cv2.ellipse(canvas, fixed(hub), axes, 0, 0, 360, 255.0, width, cv2.LINE_AA, 4)
+    for foot in feet:
+        line(hub, foot, 255.0, width + 1)
+    cabin = round(16 * high * random.uniform(0.0, 0.08))
+    for tip in tips[:: int(random.integers(1, 3))]:
+        cv2.circle(canvas, fixed(tip), cabin, 255.0, -1, cv2.LINE_AA, 4)
 
 
 def surface(

@@ -1,8 +1,9 @@
 """Hand-drawn outlines of water: which pixels of a photo are sea, lake or river.
 
-``water.csv`` beside this file: file, water, without. Both are polygons, parted by ``;``, of
-corners ``x,y`` in per cent of width and height; ``without`` are rocks, boats and piers in the
-water. A photo that is listed without a polygon has none. The photos are not in this repository.
+``water.csv`` beside this file: file, water, without, unknown. The last three are polygons, parted
+by ``;``, of corners ``x,y`` in per cent of width and height; ``without`` are rocks, boats and piers
+in the water, ``unknown`` is what nobody can tell, as wet sand that mirrors. A photo that is listed
+without a polygon has none. The photos are not in this repository.
 """
 
 from __future__ import annotations
@@ -22,11 +23,11 @@ _BLUR = 0.015  # of the longer side: how exactly outlines were drawn
 
 
 @cache
-def outlines(path: Path = LABELS) -> dict[str, tuple[list[np.ndarray], list[np.ndarray]]]:
-    """Water and what stands in it, by file: polygons (n, 2) in fractions of width and height."""
+def outlines(path: Path = LABELS) -> dict[str, tuple[list[np.ndarray], ...]]:
+    """By file polygons (n, 2) in fractions of width and height: water, what is not, and unknown."""
     with path.open(encoding="utf-8", newline="") as file:
         return {
-            r["file"]: (outlines_of(r["water"]), outlines_of(r["without"]))
+            r["file"]: tuple(outlines_of(r[name]) for name in ("water", "without", "unknown"))
             for r in csv.DictReader(file)
         }
 
@@ -43,7 +44,7 @@ def water_map(file: str, sky: np.ndarray) -> np.ndarray:
         return found
     size = sky.shape[::-1]
     drawn = np.zeros(sky.shape, np.uint8)
-    for value, polygons in zip((255, 0), outlines()[file], strict=True):
+    for value, polygons in zip((255, 0, UNKNOWN), outlines()[file], strict=True):
         for polygon in polygons:
             cv2.fillPoly(drawn, [np.round(polygon * size).astype(np.int32)], value)
     kernel = np.ones((2 * max(1, round(_BLUR * max(size))) + 1,) * 2, np.uint8)

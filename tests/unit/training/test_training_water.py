@@ -10,10 +10,10 @@ SEA = "landscape-pseudo/sea.jpg"
 
 @pytest.fixture
 def outlined(tmp_path, monkeypatch):
-    """Two outlined photos: a sea with a rock in it, and a meadow."""
+    """Two outlined photos: a sea with a rock in it before wet sand, and a meadow."""
     path = tmp_path / "water.csv"
-    sea = f'{SEA},"0,50 100,50 100,100 0,100","40,70 60,70 60,90 40,90"'
-    path.write_text(f"file,water,without\n{sea}\nlandscape-pseudo/dry.jpg,,\n")
+    sea = f'{SEA},"0,50 100,50 100,100 0,100","40,70 60,70 60,90 40,90","0,97 100,97 100,100 0,100"'
+    path.write_text(f"file,water,without,unknown\n{sea}\nlandscape-pseudo/dry.jpg,,,\n")
     known = water.outlines(path)
     monkeypatch.setattr(water, "outlines", lambda: known)
 
@@ -22,10 +22,11 @@ def sky(rows):
     return np.repeat((np.arange(100) < rows)[:, None] * np.uint8(255), 200, axis=1)
 
 
-def test_inside_of_an_outline_is_water_but_for_what_stands_in_it(outlined):
+def test_inside_of_an_outline_is_water_but_for_what_stands_in_it_and_what_nobody_can_tell(outlined):
     found = water.water_map(SEA, sky(40))
-    assert found[60, 20] == found[95, 199] == 255
+    assert found[60, 20] == found[90, 199] == 255
     assert found[80, 100] == 0
+    assert (found[98] == water.UNKNOWN).all()
     assert found[45, 100] == 0
 
 
