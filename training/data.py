@@ -21,8 +21,7 @@ from training.augment import Augment, Random, Sample, crop
 from training.loop import numbers
 from training.rooms import Rooms
 from training.sky_corrections import corrected, corrections, judges
-from training.suns.labels import judging
-from training.suns.water import UNKNOWN, water_map
+from training.suns.water import water_to_learn
 
 FOLDERS = {
     "landscape-pseudo": 1.0,
@@ -106,10 +105,7 @@ class Pack:
                     )
                     file = f"{folder}/{path.name}"
                     photo[..., 3] = corrected(file, photo[..., 3])
-                    water = water_map(file, photo[..., 3])
-                    if file in judging():
-                        water[:] = UNKNOWN
-                    photo = np.dstack([photo, water])
+                    photo = np.dstack([photo, water_to_learn(file, photo[..., 3])])
                     out.write(photo.tobytes())
                     offset.append(position)
                     shape.append(photo.shape[:2])

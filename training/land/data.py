@@ -18,8 +18,7 @@ from training.land import photograph
 from training.land.model import SUN_HEIGHTS, SUN_TURNS
 from training.loop import numbers
 from training.sky_corrections import corrected, judges
-from training.suns.labels import judging
-from training.suns.water import UNKNOWN, water_map
+from training.suns.water import UNKNOWN, water_to_learn
 from training.worlds import CLASSES
 
 Random = np.random.Generator
@@ -252,9 +251,7 @@ def _photo(
     pair, file = read_pair(image, mask), f"{folder}/{image.name}"
     box = photograph.box(random, pair.shape[:2], rows, columns)
     sky = corrected(file, pair[..., 3])
-    water = water_map(file, sky)
-    if file in judging():
-        water[:] = UNKNOWN
+    water = water_to_learn(file, sky)
     picture = box.of(pair[..., :3], cv2.INTER_AREA)
     if random.random() < 0.5:
         gain = np.exp(random.normal(0, 0.12, 3) + random.normal(0, 0.25))

@@ -17,7 +17,7 @@ from training.suns.compose import compose, spoil
 from training.suns.labels import Photo, labels
 from training.suns.light import LUMINANCE, to_linear
 from training.suns.model import HALF, LIGHT_FLOOR, QUARTER
-from training.suns.water import UNKNOWN, outlines, water_map
+from training.suns.water import UNKNOWN, outlines, water_to_learn
 
 FOLDERS = ("landscape-pseudo", "weather-pseudo", "camvid", "sea-sky", "skyreplace-example")
 TEXTURES = "opensky"
@@ -68,7 +68,7 @@ def read(root: Path, file: str) -> np.ndarray:
     else:
         mask = root / folder / "masks" / f"{Path(name).stem}.png"
         photo = read_pair(root / folder / "images" / name, mask)
-    return np.dstack([photo, water_map(file, photo[..., 3])])
+    return np.dstack([photo, water_to_learn(file, photo[..., 3])])
 
 
 def random_box(

@@ -15,7 +15,7 @@ def outlined(tmp_path, monkeypatch):
     sea = f'{SEA},"0,50 100,50 100,100 0,100","40,70 60,70 60,90 40,90","0,97 100,97 100,100 0,100"'
     path.write_text(f"file,water,without,unknown\n{sea}\nlandscape-pseudo/dry.jpg,,,\n")
     known = water.outlines(path)
-    monkeypatch.setattr(water, "outlines", lambda: known)
+    monkeypatch.setattr(water, "outlines", lambda _: known)
 
 
 def sky(rows):
