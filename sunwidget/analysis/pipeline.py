@@ -272,7 +272,7 @@ def _horizon(
     found: Horizon = find(sky, working.encoded, water)
     if found.source == "assumed":
         row = look_at_land(working).horizon * working.height
-        found = horizon_stage.expected(found, sky, row)
+        found = horizon_stage.expected(found, sky, row, water)
     found = found.scaled(*working.zoom)
     if sun_mask is None or (seed is not None and found.confidence >= SURE_HORIZON):
         return found

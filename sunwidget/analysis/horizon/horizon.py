@@ -20,6 +20,13 @@ TOLERANCE = 0.004  # of the height: deviation of a sea horizon from a line
 MAXIMUM_ROLL = 20.0
 _BELOW = 0.05  # share of the columns that may contradict a sea's horizon
 _WET = 0.6  # probability of water below the sky from which the sky ends at water
+_SURELY_WET = 0.8  # probability of water from which a guess is not below it
+_WIDE = 0.01  # of the picture: less of it is a puddle or a mistake
+_STRAY = 0.02  # share of it that may be above
+_SOFT = (
+    0.004,
+    0.012,
+)  # of the height below the horizon: where what is above it begins to end, ends
 LEVEL_ROW = 0.52  # of the height: assumed horizon of a level camera
 
 
@@ -72,13 +79,20 @@ def below_sun(found: Horizon, x: float, y: float, radius: float, width: int) -> 
     return Horizon(found.row + beneath + radius, found.roll, min(found.confidence, 0.2), "assumed")
 
 
-def expected(found: Horizon, sky: np.ndarray, row: float) -> Horizon:
-    """Use the land network's guess, but not above the lowest sky; all in pixels."""
+def expected(found: Horizon, sky: np.ndarray, row: float, water: np.ndarray) -> Horizon:
+    """Use the land network's guess, but not above the lowest sky; all in pixels.
+
+    Nor below ``water``, the probability (h, w) of some: a level surface that is seen from above.
+    """
     _, border = skyline(sky)
     if not border.size and sky.mean() > 0.5:
         return found  # only sky: the horizon is below the picture
-    lowest = float(np.quantile(border, 0.98)) if border.size else row
-    return replace(found, row=max(row, lowest))
+    wet = np.nonzero((water > _SURELY_WET) & (sky < 0.5))[0]
+    if wet.size > _WIDE * water.size:
+        row = min(row, float(np.quantile(wet, _STRAY)) - _SOFT[1] * len(sky))
+    if border.size:
+        row = max(row, float(np.quantile(border, 0.98)))
+    return replace(found, row=row)
 
 
 def row_argmax(
@@ -332,7 +346,8 @@ def above(camera: Camera, width: int, height: int, rows: slice = slice(None)) ->
     sky. ``rows`` selects only some rows.
     """
     line, at = _line_and_rows(camera, width, height)
-    return np.clip((line + 0.012 - at[rows]) / 0.008, 0, 1).astype(np.float32)
+    whole, none = _SOFT
+    return np.clip((line + none - at[rows]) / (none - whole), 0, 1).astype(np.float32)
 
 
 def cut_below(matte: np.ndarray, camera: Camera) -> None:
@@ -340,8 +355,8 @@ def cut_below(matte: np.ndarray, camera: Camera) -> None:
     height, width = matte.shape
     line, _ = _line_and_rows(camera, width, height)
     # Outside these rows the factor is 1 or 0 in all columns.
-    first = int(np.clip((line.min() + 0.004) * height - 1, 0, height))
-    last = int(np.clip((line.max() + 0.012) * height + 1, 0, height))
+    first = int(np.clip((line.min() + _SOFT[0]) * height - 1, 0, height))
+    last = int(np.clip((line.max() + _SOFT[1]) * height + 1, 0, height))
     for strip in strips((last - first, width)):
         rows = slice(first + strip.start, first + strip.stop)
         matte[rows] *= above(camera, width, height, rows)

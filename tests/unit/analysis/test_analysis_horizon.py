@@ -42,13 +42,27 @@ def test_ships_and_islands_do_not_lift_the_horizon():
 def test_an_unseen_horizon_is_where_it_is_expected_but_not_above_the_lowest_sky():
     rows = np.where(np.arange(WIDTH) % 9 < 5, 150, 60)  # no line: teeth
     sky = (np.arange(HEIGHT)[:, None] < rows).astype(np.float32)
-    guess = horizon.Horizon(187.2, confidence=0.1)
-    assert horizon.expected(guess, sky, 230.0).row == 230
-    assert horizon.expected(guess, sky, 90.0).row == pytest.approx(150, abs=1)
-    assert horizon.expected(guess, sky, 90.0).source == "assumed"
+    guess, dry = horizon.Horizon(187.2, confidence=0.1), np.zeros_like(sky)
+    assert horizon.expected(guess, sky, 230.0, dry).row == 230
+    assert horizon.expected(guess, sky, 90.0, dry).row == pytest.approx(150, abs=1)
+    assert horizon.expected(guess, sky, 90.0, dry).source == "assumed"
     nothing_but_sky = np.ones((HEIGHT, WIDTH), np.float32)
-    assert horizon.expected(guess, nothing_but_sky, 90.0) == guess
-    assert horizon.expected(guess, 0 * nothing_but_sky, 90.0).row == 90
+    assert horizon.expected(guess, nothing_but_sky, 90.0, dry) == guess
+    assert horizon.expected(guess, 0 * nothing_but_sky, 90.0, dry).row == 90
+
+
+def test_an_unseen_horizon_is_not_below_water_that_is_seen():
+    no_sky, water = np.zeros((2, HEIGHT, WIDTH), np.float32)
+    water[100:160, 20:120] = 0.9
+    guess = horizon.Horizon(187.2, confidence=0.1)
+    found = horizon.expected(guess, no_sky, 230.0, water)
+    assert found.row == pytest.approx(100, abs=4)
+    camera = Camera.from_horizon(WIDTH, HEIGHT, 50.0, found.row)
+    assert (horizon.above(camera, WIDTH, HEIGHT)[102:] == 0).all()
+    assert horizon.expected(guess, no_sky, 60.0, water).row == 60
+    assert horizon.expected(guess, no_sky, 230.0, 0.8 * water).row == 230
+    puddle = np.where(np.arange(WIDTH) < 22, water, 0)
+    assert horizon.expected(guess, no_sky, 230.0, puddle).row == 230
 
 
 def shore(mirrored: bool = False) -> tuple[np.ndarray, np.ndarray]:
