@@ -36,7 +36,7 @@ from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import matting, refine
 from sunwidget.analysis.sun import sun as sun_stage
 from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
-from sunwidget.analysis.sun.search import Peak
+from sunwidget.analysis.sun.search import Peak, may_be_night, on_dark_land
 from sunwidget.analysis.sun.sun import SunMask, SunObservation
 from sunwidget.analysis.water import water as water_stage
 from sunwidget.errors import AnalysisError
@@ -194,7 +194,9 @@ def complete(
             "cloud_gain": cloud_gain(fitted),
             "glare_profile": fitted.glare,
         },
-        warnings=notices(photo, sky, sun, horizon, camera, hints, moon, fitted),
+        warnings=notices(
+            photo, sky, sun, horizon, camera, hints, moon, fitted, dark=may_be_night(working, sky)
+        ),
         hints=hints,
         timings=step.timings,
         backdrop=behind.field,
@@ -263,7 +265,8 @@ def _horizon(
 ) -> Horizon:
     """Return the hinted horizon, or the detected one, below a visible sun; in photo pixels.
 
-    A confident horizon takes precedence over a hinted sun (``seed``).
+    A confident horizon takes precedence over a hinted sun (``seed``), and any over one that is
+    hinted on dark land, where none can be seen.
     """
     if hints.horizon is not None:
         return horizon_stage.from_hint(hints.horizon, width)
@@ -274,7 +277,10 @@ def _horizon(
         row = look_at_land(working).horizon * working.height
         found = horizon_stage.expected(found, sky, row, water)
     found = found.scaled(*working.zoom)
-    if sun_mask is None or (seed is not None and found.confidence >= SURE_HORIZON):
+    hidden = seed is not None and (
+        found.confidence >= SURE_HORIZON or on_dark_land(working, sky, seed)
+    )
+    if sun_mask is None or hidden:
         return found
     (x, y), (zoom_x, zoom_y) = seed or (sun_mask.x, sun_mask.y), working.zoom
     return horizon_stage.below_sun(found, x * zoom_x, y * zoom_y, sun_mask.radius * zoom_y, width)

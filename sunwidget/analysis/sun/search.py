@@ -11,6 +11,7 @@ from sunwidget.analysis.fit.confidence import probability
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.networks.sun import SunMaps
 from sunwidget.formats.color import LUMINANCE
+from sunwidget.geometry.camera import Point
 
 LEAST_CONFIDENCE = 0.45  # from which a peak counts as the sun
 SURE = 0.7  # the same in a sky as dark as at night
@@ -20,6 +21,7 @@ RADIUS_SCALE = 0.758  # from the network's radius to the radius that people draw
 _NEAR_SKY = 0.04  # of the width; a sun has some sky within it, or within
 _NEAR_RADII = 2.0  # of its radius
 _ALONE = 0.97  # confidence from which a sun needs none, as one between leaves
+_NIGHT_LAND = 0.08  # encoded luminance: median of land that no sun lights
 _NIGHT = 0.5  # encoded luminance of the sky's brightest tenth: with a sun above, with a moon below
 
 
@@ -126,6 +128,28 @@ def night(luminance: np.ndarray, sky: np.ndarray) -> bool:
     """
     inside = sky > 0.5
     return bool(inside.any()) and float(np.quantile(luminance[inside], 0.9)) < _NIGHT
+
+
+def may_be_night(working: Working, sky: np.ndarray) -> bool:
+    """Return whether sky (h, w) and land are so dark that no sun may have been up.
+
+    Of 284 dark photos judged by eye these are 14 of 43 by night or in the blue hour, 28 of 88
+    evenings, and 3 of 153 by day.
+    """
+    luminance, land = working.encoded @ LUMINANCE, sky < 0.5
+    dark = not land.any() or float(np.median(luminance[land])) < _NIGHT_LAND
+    return night(luminance, sky) and dark
+
+
+def on_dark_land(working: Working, sky: np.ndarray, place: Point) -> bool:
+    """Return whether a place in the pixels of ``sky`` (h, w) is neither sky nor as bright as one.
+
+    No sun can be seen there: it is behind land, or below the horizon.
+    """
+    column, row = int(place[0]), int(place[1])
+    if not (0 <= row < sky.shape[0] and 0 <= column < sky.shape[1]):
+        return False
+    return bool(sky[row, column] < 0.5 and working.encoded[row, column] @ LUMINANCE < _NIGHT)
 
 
 def find_moon(working: Working, sky: np.ndarray) -> tuple[float, float] | None:
