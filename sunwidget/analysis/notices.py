@@ -16,7 +16,6 @@ from sunwidget.geometry.camera import Camera, Point
 from sunwidget.photo.photo import Photo
 
 UNSURE = 0.3  # confidence of the fit below which the user gets a notice
-_NIGHT_SUN = 12  # degrees: depth of a sun below the horizon that makes days of nights
 NO_SKY = 0.005  # share of the picture below which the photo counts as without sky
 
 
@@ -60,19 +59,16 @@ def notices(
     hints: Hints,
     moon: Point | None = None,
     fit: SkyFit | None = None,
-    *,
-    dark: bool = False,
 ) -> tuple[Notice, ...]:
     """Return a notice for each uncertain result.
 
     ``sky`` is the matte at working size, ``moon`` the position of a detected moon in fractions of
-    the picture, ``fit`` the fit to the sky, ``dark`` whether the sky may be that of a night.
+    the picture, ``fit`` the fit to the sky.
     """
     share = float(np.mean(sky > 0.5))
     notes = [
         _about_sky(photo, share),
         _about_sun(photo, sun, camera, hints, moon, fit),
-        _about_night(photo, horizon, camera) if dark and sun is None and moon is None else None,
         _about_air(photo, share, sun, fit),
         _about_horizon(photo, sky, horizon, camera),
     ]
@@ -165,23 +161,6 @@ def _about_unseen_sun(photo: Photo, hints: Hints, moon: Point | None, fit: SkyFi
     pixels = "in pixels (outside the picture is fine)."
     text = f"{fact} click the sun, or pass sun=(x, y) {pixels}"
     return Notice(text, "unseen_sun", text, f"{fact} pass --sun X,Y {pixels}")
-
-
-def _about_night(photo: Photo, horizon: Horizon, camera: Camera) -> Notice:
-    """Return how to tell that it is night, which colors do not: by a sun below the horizon."""
-    x, y = camera.width / 2, horizon.row + camera.focal * np.tan(np.radians(_NIGHT_SUN))
-    point = f"{x:.0f}, {y:.0f}"
-    fact = f"The sky of {photo.name} is dark, but its assumed sun is that of a day or an evening."
-    where = f"about {_NIGHT_SUN}° below the horizon, so that day breaks when it rises."
-    return _notice(
-        fact,
-        f"If it was taken at night, pass sun=({point}), {where}",
-        "night",
-        "The sky is dark, but its assumed sun is that of a day or an evening. If the photo was "
-        "taken at night, mark the sun on the ground well below the horizon: then day breaks when "
-        "you raise it.",
-        f"If it was taken at night, pass --sun {point.replace(' ', '')}, {where}",
-    )
 
 
 def _about_air(

@@ -36,7 +36,7 @@ from sunwidget.analysis.scene import Scene, Segmentation
 from sunwidget.analysis.segmentation import matting, refine
 from sunwidget.analysis.sun import sun as sun_stage
 from sunwidget.analysis.sun.camera_glare import angle_to_sun, measured_glare
-from sunwidget.analysis.sun.search import Peak, may_be_night, on_dark_land
+from sunwidget.analysis.sun.search import Peak, on_dark_land
 from sunwidget.analysis.sun.sun import SunMask, SunObservation
 from sunwidget.analysis.water import water as water_stage
 from sunwidget.errors import AnalysisError
@@ -194,9 +194,7 @@ def complete(
             "cloud_gain": cloud_gain(fitted),
             "glare_profile": fitted.glare,
         },
-        warnings=notices(
-            photo, sky, sun, horizon, camera, hints, moon, fitted, dark=may_be_night(working, sky)
-        ),
+        warnings=notices(photo, sky, sun, horizon, camera, hints, moon, fitted),
         hints=hints,
         timings=step.timings,
         backdrop=behind.field,

@@ -33,7 +33,6 @@ from sunwidget.analysis.strokes.brush import set_strokes
 from sunwidget.analysis.strokes.sky import Painting
 from sunwidget.analysis.strokes.water import LABELS as WATER
 from sunwidget.analysis.strokes.water import with_water
-from sunwidget.analysis.sun.search import may_be_night
 from sunwidget.progress import Progress
 
 if TYPE_CHECKING:
@@ -148,15 +147,7 @@ def _retouch(
         decision=decision,
         hints=hints,
         warnings=notices(
-            photo,
-            sky,
-            sun,
-            source.horizon,
-            source.camera,
-            hints,
-            source.moon,
-            fitted,
-            dark=may_be_night(working, sky),
+            photo, sky, sun, source.horizon, source.camera, hints, source.moon, fitted
         ),
         unstroked=base,
         memory=Memory(),

@@ -21,7 +21,6 @@ RADIUS_SCALE = 0.758  # from the network's radius to the radius that people draw
 _NEAR_SKY = 0.04  # of the width; a sun has some sky within it, or within
 _NEAR_RADII = 2.0  # of its radius
 _ALONE = 0.97  # confidence from which a sun needs none, as one between leaves
-_NIGHT_LAND = 0.08  # encoded luminance: median of land that no sun lights
 _NIGHT = 0.5  # encoded luminance of the sky's brightest tenth: with a sun above, with a moon below
 
 
@@ -128,17 +127,6 @@ def night(luminance: np.ndarray, sky: np.ndarray) -> bool:
     """
     inside = sky > 0.5
     return bool(inside.any()) and float(np.quantile(luminance[inside], 0.9)) < _NIGHT
-
-
-def may_be_night(working: Working, sky: np.ndarray) -> bool:
-    """Return whether sky (h, w) and land are so dark that no sun may have been up.
-
-    Of 284 dark photos judged by eye these are 14 of 43 by night or in the blue hour, 28 of 88
-    evenings, and 3 of 153 by day.
-    """
-    luminance, land = working.encoded @ LUMINANCE, sky < 0.5
-    dark = not land.any() or float(np.median(luminance[land])) < _NIGHT_LAND
-    return night(luminance, sky) and dark
 
 
 def on_dark_land(working: Working, sky: np.ndarray, place: Point) -> bool:

@@ -85,6 +85,23 @@ def test_a_sun_hinted_outside_is_known_but_not_visible():
     assert frame_inputs.uniforms(outside)["sun_visible"] == 0
 
 
+def test_a_sun_hinted_on_dark_land_is_below_an_unsure_horizon_and_leaves_it():
+    random = np.random.default_rng(1)
+    roofs = np.repeat(random.integers(15, 55, 30), 6)
+    sky = np.arange(120)[:, None] < roofs
+    picture = np.where(sky[..., None], 80, 14) + random.normal(0, 2, (120, 180, 3))
+    picture = picture.astype(np.uint8)
+    picture[87:94, 87:94] = 90
+    known = {"sky": sky, "refine": "none", "horizon_method": "row_argmax"}
+    unsure = sw.analyze(picture, **known).horizon
+    assert unsure.confidence < 0.5
+    told = sw.analyze(picture, **known, sun=(90.0, 90.0))
+    assert told.horizon == unsure
+    assert told.sun.elevation < -5
+    picture[87:94, 87:94] = 255  # a sun that is seen
+    assert sw.analyze(picture, **known, sun=(90.0, 90.0)).horizon.row > 80
+
+
 def test_every_automatic_parameter_has_a_value_within_its_range(scene):
     automatic = {p.name: p for p in sw.PARAMETERS if p.kind == "number" and p.default is None}
     assert scene.automatic.keys() == automatic.keys()

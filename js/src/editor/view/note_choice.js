@@ -20,11 +20,10 @@ const ACTIONS = {
   doubtful_sun: ["not_sun", "pick"],
   moon: ["moon_is_sun"],
   night_sun: ["take_back"],
-  night: ["pick"],
   sun_mask: ["pick", "not_sun"],
   horizon: ["horizon"],
 };
-const SUN_NOTES = ["unseen_sun", "told_outside", "doubtful_sun", "moon", "night_sun", "night", "sun_mask"];
+const SUN_NOTES = ["unseen_sun", "told_outside", "doubtful_sun", "moon", "night_sun", "sun_mask"];
 
 /** @type {Note} */
 const PICKING = {
