@@ -23,10 +23,7 @@ _WET = 0.6  # probability of water below the sky from which the sky ends at wate
 _SURELY_WET = 0.8  # probability of water from which a guess is not below it
 _WIDE = 0.01  # of the picture: less of it is a puddle or a mistake
 _STRAY = 0.02  # share of it that may be above
-_SOFT = (
-    0.004,
-    0.012,
-)  # of the height below the horizon: where what is above it begins to end, ends
+_SOFT = (0.004, 0.012)  # of the height below the horizon: what is above it fades out there
 LEVEL_ROW = 0.52  # of the height: assumed horizon of a level camera
 
 
