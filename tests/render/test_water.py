@@ -79,24 +79,6 @@ def test_a_wide_column_is_water_below_a_sun_only(sea):
     assert found(sea, sun_column=2)[middle].max() < 0.3
 
 
-@pytest.mark.parametrize("columns", [slice(96, 128), slice(0, 32)], ids=["middle", "side"])
-def test_a_gap_without_a_visible_rim_is_water_and_a_rock_or_a_strip_of_land_is_not(columns):
-    even = shore().copy()
-    even[ROW:] = (40, 80, 110)
-    gapped = 1 - SKY
-    gapped[112:136, columns] = 0
-
-    def filled(picture):
-        return water.without_seamless_gaps(Working.of(open_photo(picture)), SKY, gapped)
-
-    assert np.array_equal(filled(even), 1 - SKY)
-    gapped[: ROW + 22, columns] = 0  # up to the horizon
-    assert np.array_equal(filled(even), gapped)
-    gapped[ROW:112, columns] = 1
-    even[112:136, columns] = (46, 86, 110)
-    assert np.array_equal(filled(even), gapped)
-
-
 def test_the_last_of_the_water_reaches_the_sky_and_a_dark_shore_does_not(sea):
     sea[: ROW // 4 + 2] = 0.05
     assert found(sea)[ROW + 1 : ROW + 5].mean() > 0.7

@@ -29,14 +29,6 @@ _GAP = 0.02  # of the width: half of the gap between water and sky
 _STRIP = 0.005  # of the width: half of the gap above the horizon
 _NO_LAND = 0.6  # probability of sky or water from which a gap as wide as below it is no land
 _LEAST = 0.004  # of the picture: less is a puddle, or nothing
-_SHORE = 0.04  # of the width: greatest distance of the shore from the network's edge
-_SHORE_SIDE = 384  # px of the copy on which the shore is searched
-_GAPS = (0.0005, 0.08)  # of the picture: areas of gaps that may be water
-_RIM = 2  # px of the working copy, left out on both sides of a gap's rim
-_DRY = 0.1  # share of a gap's surroundings that may be land
-# CIE 1976 color difference (Mahy 1994). Of 24 gaps in the water of 400 photos five differ from
-# what is around by 0.3 to 2.1, the others by 5.8 and more.
-_JUST_NOTICED = 2.3
 _RADIUS = 5  # px of the working copy: distance over which the mask's edge follows the picture
 _EPSILON = 1e-4
 
@@ -75,11 +67,9 @@ def network(working: Working, sky: np.ndarray, horizon: Horizon, maps: SunMaps) 
     water = smoothstep(*_EDGE, resize(likely, width, height)) * ground
     if water.mean() < _LEAST:
         return np.zeros_like(sky)
-    water = _to_the_shore(working, sky, water)
     seen = look_at_sky(working)
     no_land = resize(seen.sky + seen.water, width, height) > _NO_LAND
-    water = _with_glints(working, sky, ground, no_land, water, maps)
-    water = soft_edged(working, sky, without_seamless_gaps(working, sky, water))
+    water = soft_edged(working, sky, _with_glints(working, sky, ground, no_land, water, maps))
     return softened_water(working, sky, water, odds * resize(ground, *small)) * (1 - sky)
 
 
@@ -108,34 +98,6 @@ def water_odds(*seen: np.ndarray) -> np.ndarray:
     """
     score = sum(weight * log_odds(one) for weight, one in zip(WEIGHTS, seen, strict=True))
     return np.asarray(1 / (1 + np.exp(-score)), np.float32)
-
-
-def _to_the_shore(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:
-    """Move the water's edges to changes of color, within a band around the network's edges.
-
-    GrabCut (Rother et al. 2004) on a small copy. The network's map is coarse, and dark water that
-    it misses along a bank would be lit as land in shade.
-    """
-    import cv2
-
-    small = working.shrunk(_SHORE_SIDE)
-    columns, rows = small.width, small.height
-    wet = resize(water, columns, rows) > 0.5
-    radius = max(2, round(_SHORE * columns))
-    round_ = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1,) * 2)
-    inside = cv2.erode(wet.astype(np.uint8), round_[::2, ::2]) > 0
-    outside = (cv2.dilate(wet.astype(np.uint8), round_) == 0) | (resize(sky, columns, rows) > 0.5)
-    if not inside.any() or not outside.any():
-        return water
-    label = np.where(wet, cv2.GC_PR_FGD, cv2.GC_PR_BGD).astype(np.uint8)
-    label[inside], label[outside] = cv2.GC_FGD, cv2.GC_BGD
-    cv2.setRNGSeed(1)
-    picture = np.rint(255 * np.clip(small.encoded[..., ::-1], 0, 1)).astype(np.uint8)
-    cv2.grabCut(
-        picture, label, None, np.zeros((1, 65)), np.zeros((1, 65)), 2, cv2.GC_INIT_WITH_MASK
-    )
-    found = np.isin(label, (cv2.GC_FGD, cv2.GC_PR_FGD)).astype(np.float32)
-    return resize(found, working.width, working.height) * (1 - sky)
 
 
 def _with_glints(
@@ -177,34 +139,6 @@ def _with_glints(
 
     found = np.maximum(found, np.maximum(strip(_STRIP), strip(_GAP) * no_land))
     return np.asarray(found, np.float32)
-
-
-def without_seamless_gaps(working: Working, sky: np.ndarray, water: np.ndarray) -> np.ndarray:
-    """Fill gaps (h, w) in the water that nobody could outline: both sides of the rim look alike."""
-    import cv2
-
-    found = water.copy()
-    lab = cv2.cvtColor(working.encoded, cv2.COLOR_RGB2LAB)
-    dry = ((water < 0.5) & (sky < 0.5)).astype(np.uint8)
-    margin = 3 * _RIM
-    narrow, broad = (np.ones((2 * side + 1,) * 2, np.uint8) for side in (_RIM, margin))
-    count, labels, boxes, _ = cv2.connectedComponentsWithStats(dry, connectivity=4)
-    for label in range(1, count):
-        left, top, width, height, area = boxes[label]
-        if not _GAPS[0] < area / dry.size < _GAPS[1]:
-            continue
-        # Without the rim itself, where the colors of both sides mix.
-        rows = slice(max(top - margin, 0), top + height + margin)
-        columns = slice(max(left - margin, 0), left + width + margin)
-        gap = (labels[rows, columns] == label).astype(np.uint8)
-        around = (cv2.dilate(gap, broad) - cv2.dilate(gap, narrow)) > 0
-        inside = (cv2.erode(gap, narrow) - cv2.erode(gap, broad)) > 0
-        if not inside.any() or (water[rows, columns][around] < 0.5).mean() > _DRY:
-            continue
-        here = lab[rows, columns]
-        if np.linalg.norm(here[inside].mean(0) - here[around].mean(0)) < _JUST_NOTICED:
-            found[rows, columns][gap > 0] = 1
-    return found
 
 
 def _below_sun(maps: SunMaps, width: int) -> np.ndarray:
