@@ -275,10 +275,10 @@ def _horizon(
         row = look_at_land(working).horizon * working.height
         found = horizon_stage.expected(found, sky, row, water)
     found = found.scaled(*working.zoom)
-    hidden = seed is not None and (
-        found.confidence >= SURE_HORIZON or on_dark_land(working, sky, seed)
-    )
-    if sun_mask is None or hidden:
+    if sun_mask is None:
+        return found
+    sure = found.confidence >= SURE_HORIZON
+    if seed is not None and (sure or on_dark_land(working, sky, seed)):
         return found
     (x, y), (zoom_x, zoom_y) = seed or (sun_mask.x, sun_mask.y), working.zoom
     return horizon_stage.below_sun(found, x * zoom_x, y * zoom_y, sun_mask.radius * zoom_y, width)

@@ -130,13 +130,11 @@ def night(luminance: np.ndarray, sky: np.ndarray) -> bool:
 
 
 def on_dark_land(working: Working, sky: np.ndarray, place: Point) -> bool:
-    """Return whether a place in the pixels of ``sky`` (h, w) is neither sky nor as bright as one.
+    """Return whether a place inside the picture is neither sky (h, w) nor as bright as one.
 
     No sun can be seen there: it is behind land, or below the horizon.
     """
     column, row = int(place[0]), int(place[1])
-    if not (0 <= row < sky.shape[0] and 0 <= column < sky.shape[1]):
-        return False
     return bool(sky[row, column] < 0.5 and working.encoded[row, column] @ LUMINANCE < _NIGHT)
 
 

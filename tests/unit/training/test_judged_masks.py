@@ -1,4 +1,4 @@
-"""Photos whose skies were corrected by eye: what counts as wrong."""
+"""Photos whose skies and waters were corrected by eye: what counts as wrong."""
 
 import numpy as np
 import pytest

@@ -42,3 +42,13 @@ def test_a_photo_without_a_polygon_has_none_and_one_not_listed_is_unknown(outlin
     assert other[:30].max() == 0
     assert (other[30:] == water.UNKNOWN).all()
     assert (water.water_map("sea-sky/1.jpg", sky(30))[30:] == 255).all()
+
+
+def test_the_water_of_the_judged_list_is_never_learned():
+    judged = water.outlines(water.JUDGED)
+    wet = next(file for file, (polygons, *_) in judged.items() if polygons)
+    no_sky = np.zeros((100, 200), np.uint8)
+    assert (water.water_to_learn(wet, no_sky) == water.UNKNOWN).all()
+    assert (water.water_map(wet, no_sky, water.JUDGED) == 255).any()
+    learned = next(f for f in water.outlines() if f not in judged and f not in water.judging())
+    assert np.array_equal(water.water_to_learn(learned, no_sky), water.water_map(learned, no_sky))
