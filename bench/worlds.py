@@ -22,7 +22,7 @@ from ablation import load_score
 from skimage.metrics import structural_similarity
 
 import sunwidget as sw
-from training.land.photograph import with_air
+from training.land.air import with_air
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)
 KEY = 0.16  # geometric mean of the scene's light after exposure
@@ -30,15 +30,10 @@ KEY = 0.16  # geometric mean of the scene's light after exposure
 
 def pictures(world: dict[str, np.ndarray], name: str) -> list[np.ndarray]:
     """Return a world's photos, uint8 sRGB: one camera, one air, exposed each for itself."""
-    depth = world["depth"].astype(np.float32)
     found = []
-    count = len(
-        world["light"]
-    )  # suns that are photographed; of the others the light on land is known
-    airs, scales = world["air"][:count], world["scale"][:count]
-    for light, air, scale in zip(world["light"], airs, scales, strict=True):
-        chance = np.random.default_rng(zlib.crc32(name.encode()))
-        seen = with_air(light.astype(np.float32), depth, air / scale, chance)
+    # Of the suns after those that are photographed only the light on land is known.
+    for sun in range(len(world["light"])):
+        seen, _ = with_air(world, sun, np.random.default_rng(zlib.crc32(name.encode())))
         level = np.exp(np.log(np.maximum(seen @ LUMINANCE, 1e-6)).mean())
         linear = 1 - np.exp(-1.15 * KEY / level * seen)
         encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sunwidget.analysis.clear_sky import clear_sky
-from sunwidget.analysis.depth import haze_limit, levels
+from sunwidget.analysis.depth import levels
+from sunwidget.analysis.haze import air_share, cover_of_low_sky
 from sunwidget.analysis.images import color_transfer
 from sunwidget.analysis.images.enlarge import resize_rows
 from sunwidget.analysis.images.noise import noise_level
@@ -80,6 +81,7 @@ def uniforms(scene: Scene) -> dict[str, Any]:
         "glare_profile": (0.0, 3.0, 2.0),
         "noise_level": noise_level(scene.photo, scene.sky),
         "photo_height": float(scene.height),
+        "cover_of_low_sky": cover_of_low_sky(sky, scene.cloud_map),
         "lamp_scale": panes.BRIGHTEST,
         "sky_gain": (1.0, 1.0, 1.0),
     }
@@ -114,13 +116,14 @@ def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float
 
 
 def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -> np.ndarray:
-    """Return sky matte, cloud opacity, land mirrored by water: (H, W, 3) float32 in [0, 1].
+    """Return sky matte, clouds, land mirrored by water, air: (H, W, 4) float32 in [0, 1].
 
-    Matte and opacity are softened where the photo shows no edge (segmentation/feather.py).
-    ``size`` (width, height) selects another size than the photo's, ``rows`` only some rows.
+    Matte and opacity are softened where the photo shows no edge (segmentation/feather.py); the air
+    is its share of the land's light (haze.py). ``size`` (width, height) selects another size than
+    the photo's, ``rows`` only some rows.
     """
     width, height = size or (scene.width, scene.height)
-    maps = (scene.sky, scene.cloud_map, _mirror(scene).land)
+    maps = (scene.sky, scene.cloud_map, _mirror(scene).land, _air_share(scene))
     found = [resize_rows(image, width, height, rows) for image in maps]
     softer = _softening(scene)
     if softer is not None:
@@ -145,6 +148,11 @@ def _softened_rows(softer: np.ndarray, height: int, rows: slice) -> tuple[int, i
     scale = height / softer.shape[0]
     top = min(max(first, int((touched[0] - 1) * scale)), end - 1)
     return top, max(min(end, math.ceil((touched[-1] + 2) * scale)), top + 1)
+
+
+@_cache_per_scene
+def _air_share(scene: Scene) -> np.ndarray:
+    return air_share(scene.working, scene.small_sky)
 
 
 @_cache_per_scene
@@ -173,7 +181,7 @@ def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -
     sky it is that of the nearest land. ``size`` and ``rows`` as for ``layers``.
     """
     width, height = size or (scene.width, scene.height)
-    level = levels.to_level(_log_depth(scene, width, height, rows))
+    level = levels.to_level(scene.log_depth(width, height, rows))
     return np.stack(
         [
             resize_rows(scene.glare, width, height, rows),
@@ -183,28 +191,6 @@ def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -
         ],
         axis=-1,
     )
-
-
-def _log_depth(scene: Scene, width: int, height: int, rows: slice) -> np.ndarray:
-    """Return ln(metres), limited by the haze: (height, width) float32, or ``rows`` of it."""
-    log_depth = scene.log_depth(width, height, rows)
-    limit = haze_limit_of(scene)
-    if limit is None:
-        return log_depth
-    return np.minimum(log_depth, resize_rows(limit, width, height, rows))
-
-
-@_cache_per_scene
-def haze_limit_of(scene: Scene) -> np.ndarray | None:
-    """Return ln(metres) of the greatest distance by the haze, (h, w) float32, or None.
-
-    A given or known depth is never limited.
-    """
-    known = scene.hints.depth is not None or scene.known_depth is not None
-    if known or scene.fitted is None:
-        return None
-    land = scene.small_sky < 0.5
-    return haze_limit.log_limit(scene.without_sun.working, land, scene.camera, scene.fitted)
 
 
 @_cache_per_scene

@@ -18,7 +18,6 @@ import numpy as np
 from sunwidget.analysis.analyze import analyze
 from sunwidget.analysis.correct import corrected
 from sunwidget.analysis.depth.field import DepthField
-from sunwidget.analysis.frame_inputs import haze_limit_of
 from sunwidget.analysis.images.noise import noise_level
 from sunwidget.analysis.images.working_copy import Working, resize
 from sunwidget.analysis.memory import Memory
@@ -177,9 +176,6 @@ def _depth_as_it_is(scene: Scene) -> DepthField:
     field = scene.depth_field
     size = scene.working.width, scene.working.height
     log_depth = field.log_metres(*size, scene.working)
-    limit = haze_limit_of(scene)
-    if limit is not None:
-        log_depth = np.minimum(log_depth, resize(limit, *size))
     return DepthField(
         np.ones_like(log_depth),
         log_depth,

@@ -53,6 +53,7 @@ STAGES = [
     "water",
     "clouds",
     "windows",
+    "haze",
     "hints",
     "notices",
     "memory",

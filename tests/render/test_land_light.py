@@ -157,15 +157,41 @@ def test_each_effect_shows_in_a_moved_picture(name):
     assert np.abs(off - on).max() >= 3
 
 
-def test_the_air_reddens_distant_land_at_sunset_and_leaves_near_land():
-    scene, depth = street()
-    moved = Edit(sun_azimuth=-10, sun_elevation=1, colourfulness=0)
-    air = render(scene, moved, dtype="float32") - render(
-        scene, moved.replace(aerial_perspective=0), dtype="float32"
-    )
-    far, near = (depth == RIDGE) & (scene.sky < 0.01), depth < 10
-    assert far.any()
-    assert np.abs(air[near]).max() < 0.1 * np.abs(air[far]).max()
+def foggy(share):
+    """The picture of a photo whose air has these shares of the land's light, by the moved sun."""
+    photo = known_photo(size=SIZE, clouds=False)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(frame_inputs, "air_share", lambda *_: share * np.ones_like(photo.sky))
+
+        def frame(**edit):
+            return render(photo.analyze(), Edit(**edit), dtype="float32")
+
+        unmoved, low, dusk = (frame(sun_elevation=e) for e in (14, 2, -6))
+        return unmoved, low, dusk, frame(sun_elevation=2, aerial_perspective=0)
+
+
+def test_air_before_land_reddens_with_the_sky_by_its_share_and_by_day_alone():
+    land = known_photo(size=SIZE, clouds=False).sky < 0.01
+    clear, half, fog = (foggy(share) for share in (0.0, 0.5, 1.0))
+    red = [np.log2(p[1][land].mean(0)[0] / p[1][land].mean(0)[2]) for p in (clear, half, fog)]
+    assert red[0] < red[1] - 0.1 < red[2] - 0.2
+    for unmoved, _, dusk, without in (half, fog):
+        assert np.array_equal(unmoved, clear[0])
+        assert np.abs(dusk - clear[2])[land].max() < 0.004
+        assert np.array_equal(without, clear[3])
+
+
+def test_water_mirrors_the_sky_whatever_air_is_before_it():
+    photo = known_photo(size=SIZE, clouds=False)
+    frames = []
+    for share in (0.0, 1.0):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(frame_inputs, "air_share", lambda *_, s=share: s * np.ones_like(photo.sky))
+            scene = photo.analyze(water=np.where(photo.sky > 0, 0, 255).astype(np.uint8))
+            frames.append(render(scene, Edit(sun_elevation=3), dtype="float32"))
+    inside = scene.water > 0.99
+    assert inside.any()
+    assert np.abs(frames[1] - frames[0])[inside].max() < 0.004
 
 
 def test_more_haze_veils_distant_land_and_never_darkens_below_zero():
@@ -217,7 +243,9 @@ def test_land_that_glowed_before_a_low_sun_is_not_burnt_by_day():
     known = known_photo(sun=(8.0, 2.0), clouds=False)
     picture, land = known.bytes.copy(), known.sky < 0.5
     picture[land] = 220
-    noon = Edit(sun_azimuth=70, sun_elevation=35, auto_exposure=0, glow=0)
+    noon = Edit(
+        sun_azimuth=70, sun_elevation=35, auto_exposure=0, glow=0, aerial_perspective=0
+    )
     day = render(known.analyze(picture), noon, dtype="float32")[land]
     assert 0.8 < day.mean() < 0.95
     assert day.max() < 0.99
@@ -260,7 +288,8 @@ def test_no_dark_line_is_left_along_bright_land_before_the_old_sun():
     matte = cv2.GaussianBlur((photo.sky > 0).astype(np.float32), (0, 0), 1.2)
     code = np.uint8(np.clip(255 * picture ** (1 / 2.2), 0, 255))
     scene = photo.analyze(code, sky=np.uint8(np.round(255 * matte)))
-    frame = render(scene, Edit(sun_azimuth=70, sun_elevation=35), dtype="float32") @ LUMINANCE
+    noon = Edit(sun_azimuth=70, sun_elevation=35, aerial_perspective=0)
+    frame = render(scene, noon, dtype="float32") @ LUMINANCE
     column = round(photo.camera.pixel(*photo.sun)[0])
     skyline = int(np.argmax(photo.sky[:, column] == 0))
     near = frame[skyline - 6 : skyline + 7, column - 5 : column + 5]

@@ -17,6 +17,7 @@ from sunwidget.renderer import render
 LOW = Edit(sun_azimuth=60, sun_elevation=3)
 DUSK = Edit(sun_azimuth=8, sun_elevation=-4)
 HIGH = Edit(sun_azimuth=70, sun_elevation=40)
+AIRLESS = HIGH.replace(aerial_perspective=0)
 
 
 def balance(light):
@@ -150,7 +151,7 @@ def test_orange_land_of_an_evening_is_paler_by_day_than_orange_land_under_a_blue
     def redness(tint):
         photo = known_photo(sun=(8.0, 4.0), tint=tint, clouds=False)
         photo.linear[photo.sky == 0] = (0.3, 0.12, 0.03)
-        return balance(rendered(photo.analyze(), HIGH)[photo.sky == 0])[0]
+        return balance(rendered(photo.analyze(), AIRLESS)[photo.sky == 0])[0]
 
     evening, balanced, blue = (
         redness(tint) for tint in ((6.0, 1.0, 0.05), (1.0, 1.0, 1.0), (0.7, 1.0, 2.0))
@@ -162,7 +163,7 @@ def test_an_evening_leaves_no_orange_rim_along_a_soft_skyline_by_day():
     photo = known_photo(sun=(8.0, 4.0), tint=(2.0, 1.0, 0.5), clouds=False, size=(240, 160))
     picture = cv2.GaussianBlur(photo.linear, (0, 0), 2)
     sky = cv2.GaussianBlur(photo.sky.astype(np.float32), (0, 0), 2)
-    frame = rendered(photo.analyze(np.uint8(255 * picture ** (1 / 2.2))), HIGH)
+    frame = rendered(photo.analyze(np.uint8(255 * picture ** (1 / 2.2))), AIRLESS)
     rim, land = (sky > 0.05) & (sky < 0.4), sky < 1e-3
     assert balance(frame[rim])[0] < balance(frame[land])[0] + 0.1
 

@@ -60,7 +60,7 @@ def thesis_frame(scene, edit, *, literal=None, sky="model"):
     known = frame_inputs.uniforms(scene)
     response = Response(known["response_shoulder"], known["response_contrast"])
     photo = scene.photo.pixels.astype(np.float64)
-    matte, opacity, _ = np.moveaxis(quantised(frame_inputs.layers(scene)), -1, 0)
+    matte, opacity, _, _ = np.moveaxis(quantised(frame_inputs.layers(scene)), -1, 0)
 
     states = ((source, "source"), (now, "edit"))
 

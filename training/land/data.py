@@ -15,6 +15,7 @@ from torch.utils.data import IterableDataset
 from training.augment import relight
 from training.data import FOLDERS, barred, held_out, read_pair
 from training.land import photograph
+from training.land.air import with_air
 from training.land.model import SUN_HEIGHTS, SUN_TURNS
 from training.loop import numbers
 from training.sky_corrections import corrected, judges
@@ -26,6 +27,7 @@ Batch = dict[str, Tensor]
 
 SHAPES = ((2, 3), (2, 3), (3, 4), (1, 1), (3, 2), (4, 3), (3, 5))  # rows to columns
 _KEPT = 400  # worlds in memory
+_LOW = 0.2  # radians: lower suns are photographed twice as often
 
 
 def sizes(area: int) -> list[tuple[int, int]]:
@@ -73,12 +75,12 @@ class Worlds:
 
 def sample(world: dict[str, np.ndarray], rows: int, columns: int, random: Random) -> dict:
     """Return one photo of a world with its truth, as arrays."""
-    sun = int(random.integers(len(world["light"])))
+    low = np.where(world["suns"][: len(world["light"]), 1] < _LOW, 2.0, 1.0)
+    sun = int(random.choice(len(low), p=low / low.sum()))
     shape = world["depth"].shape
     box = photograph.box(random, shape, rows, columns)
     depth = world["depth"].astype(np.float32)
-    light = world["light"][sun].astype(np.float32)
-    light = photograph.with_air(light, depth, world["air"][sun] / world["scale"][sun], random)
+    light, air = with_air(world, sun, random)
     light = photograph.glare(light, random)
     image = photograph.develop(box.of(light, cv2.INTER_AREA), random)
     sky = (world["matter"] == 0).astype(np.float32)
@@ -86,6 +88,7 @@ def sample(world: dict[str, np.ndarray], rows: int, columns: int, random: Random
         box.top, box.left, box.height, box.width, rows // 2, columns // 2, box.mirrored
     )
     solid = half.of(1 - sky, cv2.INTER_AREA)
+    air = half.of(air * (1 - sky), cv2.INTER_AREA) / np.maximum(solid, 0.05)
     matter = half.of(world["matter"], cv2.INTER_NEAREST)
     normal = world["normal"].astype(np.float32) / 127
     water = world["matter"] == 1
@@ -104,6 +107,7 @@ def sample(world: dict[str, np.ndarray], rows: int, columns: int, random: Random
         "solid": (solid > 0.95)[None],
         "normal": normal.transpose(2, 0, 1),
         "depth": (level / np.maximum(solid, 0.5))[None],
+        "air": air[None],
         "openness": half.of(world["openness"].astype(np.float32) / 255, cv2.INTER_AREA)[None],
         "matter": matter,
         "view": _view(world, sun, box),

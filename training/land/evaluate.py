@@ -48,6 +48,7 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
             "depth within 25 %": float((np.abs(level) < np.log2(1.25)).mean()),
             "openness, mean error": float(np.abs(open_ - truth["openness"][0])[solid].mean()),
             "light of other suns, squared error": _of_others(found["transfer"], truth, solid),
+            "air, mean error": float(np.abs(found["air"] - truth["air"])[0][solid].mean()),
             "matter right": float((found["matter"].argmax(0) == truth["matter"])[solid].mean()),
             "horizon, rows of 1": float(abs(view[0] - truth["view"][0])),
             "focal length, log2": float(abs(view[2] - truth["view"][2])),

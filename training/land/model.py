@@ -21,6 +21,8 @@ HALF = 2
 TRANSFER = 12
 """Functions of a sun's direction of which ``transfer`` holds the shares (``sun_basis``)."""
 MATTER = len(CLASSES)
+AIR = 48
+"""Channels of the head of the air's light."""
 SUN_TURNS = torch.arange(-150.0, 181, 30)
 SUN_HEIGHTS = torch.tensor([-2.0, 2.0, 8.0, 18.0, 35.0, 60.0])
 """Azimuths from the camera's heading and elevations of ``sun``, degrees; as in
@@ -36,6 +38,7 @@ class LandNet(nn.Module):
     constant; ``transfer`` (N, 12, h, w), whose product with ``sun_basis`` is the expected share of
     any sun's light on the place, relative to the light on a surface that faces it; ``facing``
     (N, 1, h, w) logits of the cosine between the normal and the photo's sun, where it shines;
+    ``air`` (N, 1, h, w) logits of the air's share of the light;
     ``matter`` (N, 8, h, w) logits; ``view`` (N, 4): row of the horizon in heights from the middle
     down, its slope, log2 of the focal length in heights, and logit of sunshine; ``sun`` (N, 72)
     logits of where the photo's sun is, by ``SUN_HEIGHTS`` and within each by ``SUN_TURNS``.
@@ -57,6 +60,9 @@ class LandNet(nn.Module):
         self.transfer = nn.Sequential(conv(64, 64), nn.Conv2d(64, 4 * TRANSFER, 3, padding=1))
         self.lit = nn.Sequential(conv(32, 32), nn.Conv2d(32, 4, 3, padding=1))
         self.facing = nn.Sequential(conv(64, 32), nn.Conv2d(32, 4, 3, padding=1))
+        self.air = nn.Sequential(
+            conv(64, AIR), Residual(AIR, AIR), Residual(AIR, AIR), nn.Conv2d(AIR, 4, 3, padding=1)
+        )
         self.view = nn.Sequential(
             nn.Linear(4 * 96 + 2 * deep, 64), nn.ReLU(), nn.Dropout(0.5), nn.Linear(64, 4)
         )
@@ -69,6 +75,11 @@ class LandNet(nn.Module):
         half, quarter, eighth, sixteenth, deep = self.encoder(image)
         deep = self.context(deep)
         return half, quarter, eighth, self.wide(self.to_sixteenth(deep, sixteenth)), deep
+
+    def fine(self, image: Tensor) -> Tensor:
+        """Return the features at 1/4, (N, 64, h, w), which the heads of maps see."""
+        _, quarter, eighth, x16, _ = self.features(image)
+        return self.to_quarter(self.to_eighth(x16, eighth), quarter)
 
     def seen(self, image: Tensor) -> tuple[Tensor, Tensor]:
         """Return what the heads of the horizon and of the sun see, (N, 800) and (N, 1008)."""
@@ -88,6 +99,7 @@ class LandNet(nn.Module):
             "transfer": F.pixel_shuffle(self.transfer(x4), 2),
             "facing": F.pixel_shuffle(self.facing(x4), 2),
             "matter": F.pixel_shuffle(self.kind(x4), 2),
+            "air": F.pixel_shuffle(self.air(x4), 2),
             "view": self.view(moments(x16, deep)),
             "sun": self.sun(sides(x16, deep)),
         }
@@ -132,6 +144,7 @@ class LandMaps(nn.Module):
 
     OUTPUTS = (
         "sky", "sunlit", "normal", "depth", "transfer", "facing", "matter", "view", "sun",
+        "air",
     )  # fmt: skip
 
     def __init__(self, network: LandNet) -> None:
@@ -143,7 +156,7 @@ class LandMaps(nn.Module):
         return (
             m["sky"].sigmoid(), m["sunlit"].sigmoid(), m["normal"], m["depth"],
             m["transfer"], m["facing"].sigmoid(), m["matter"].softmax(1), m["view"],
-            m["sun"].softmax(1),
+            m["sun"].softmax(1), m["air"].sigmoid(),
         )  # fmt: skip
 
 
@@ -177,8 +190,8 @@ def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tenso
 
     ``target`` holds, at the input's size: ``sky``, ``sunlit`` (N, 1, H, W) in [0, 1]; ``land``
     alike, 1 where light is asked for; at half of it ``solid`` (N, 1, h, w), 1 on land, ``normal``,
-    ``depth`` (0 in the sky), ``openness``, ``facing``, ``faced`` (weight of ``facing``, [0, 1]),
-    ``matter`` (N, h, w) int; ``view`` (N, 4), of sunshine 0 or 1; ``sun`` (N, 72) shares.
+    ``depth`` (0 in the sky), ``openness``, ``air``, ``facing``, ``faced`` (weight of ``facing``,
+    [0, 1]), ``matter`` (N, h, w) int; ``view`` (N, 4), of sunshine 0 or 1; ``sun`` (N, 72) shares.
     ``passed`` (N, 2, 1, h, w) is what of two suns falls on each place, ``suns`` (N, 2, 4) their
     directions, and whether anything is known of them.
     """
@@ -220,4 +233,12 @@ def losses(out: dict[str, Tensor], target: dict[str, Tensor]) -> dict[str, Tenso
         + 0.1 * F.binary_cross_entropy_with_logits(view[:, 3], shining),
         "facing": (cosine_ * target["faced"]).sum() / target["faced"].sum().clamp(min=1),
         "sun": 0.3 * (shining * where).sum() / shining.sum().clamp(min=1),
+        "air": air_loss(out["air"], target["air"], solid),
     }
+
+
+def air_loss(air: Tensor, share: Tensor, solid: Tensor) -> Tensor:
+    """Return the loss of the air's share of the light, logits against [0, 1], (N, 1, h, w)."""
+    miss = F.binary_cross_entropy_with_logits(air, share.clamp(0, 1), reduction="none")
+    miss = miss + 2 * (air.sigmoid() - share).abs()
+    return (miss * solid).sum() / solid.sum().clamp(min=1)

@@ -1,4 +1,4 @@
-"""From a world's radiance to its photo: air, white balance, exposure, a camera's curve, noise."""
+"""From a world's radiance to its photo: white balance, exposure, a camera's curve, noise."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import numpy as np
 
 Random = np.random.Generator
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)
-_RAYLEIGH = np.array([0.0058, 0.0135, 0.0331], np.float32)  # 1 / km
 
 
 @dataclass(frozen=True)
@@ -46,21 +45,6 @@ def box(random: Random, shape: tuple[int, int], rows: int, columns: int) -> Box:
     return Box(top, left, high, wide, rows, columns, bool(random.random() < 0.5))
 
 
-def with_air(
-    light: np.ndarray, depth: np.ndarray, horizon: np.ndarray, random: Random
-) -> np.ndarray:
-    """Return radiance (H, W, 3) with the air before it: towards ``horizon`` (C, 3) with distance.
-
-    ``depth`` is log2 of metres, inf in the sky.
-    """
-    visibility = np.exp(random.uniform(np.log(6), np.log(150)))  # km
-    rate = _RAYLEIGH + np.float32(3.0 / visibility)
-    away = np.where(np.isfinite(depth), 2.0 ** np.minimum(depth.astype(np.float32), 20), 0) / 1000
-    through = np.exp(-away[..., None] * rate)
-    air = cv2.resize(horizon[None], (light.shape[1], 1), interpolation=cv2.INTER_LINEAR)
-    return light * through + air * (1 - through)
-
-
 def glare(light: np.ndarray, random: Random) -> np.ndarray:
     """Return the light spread by a lens round what is very bright."""
     share = np.exp(random.uniform(np.log(3e-4), np.log(8e-3)))
@@ -77,6 +61,9 @@ def develop(light: np.ndarray, random: Random) -> np.ndarray:
     grey = np.exp(np.log(mean).mean())
     balance = (grey / mean) ** random.uniform(0.15, 0.85) * np.exp(random.normal(0, 0.06, 3))
     light = light * balance.astype(np.float32)
+    if random.random() < 0.35:  # evenings warmer, or colder, than any model's
+        tint = random.normal(0, 0.3) * np.array([1, 0, -1]) + random.normal(0, 0.08, 3)
+        light = light * np.exp(tint).astype(np.float32)
     luminance = light @ _LUMINANCE
     key = 0.16 * 2 ** random.normal(0.1, 0.75)
     if random.random() < 0.5:

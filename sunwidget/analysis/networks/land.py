@@ -42,6 +42,8 @@ class LandMaps(NamedTuple):
         Row of the horizon at the center column, as a share of the height; may lie outside [0, 1].
     sun : (6, 12) float32
         Probability of each sun position, by ``confidence.HEIGHTS`` and ``TURNS``.
+    air : (h/2, w/2) float32
+        Share of the air's light in that of a pixel of land, [0, 1].
     """
 
     sky: np.ndarray
@@ -53,6 +55,7 @@ class LandMaps(NamedTuple):
     water: np.ndarray
     horizon: float
     sun: np.ndarray
+    air: np.ndarray
 
 
 def sun_basis(direction: np.ndarray) -> np.ndarray:
@@ -96,8 +99,8 @@ def look_at_land(working: Working) -> LandMaps:
     size = working.width, working.height
     scale = (AREA / (working.width * working.height)) ** 0.5
     outputs = ["sky", "sunlit", "depth", "normal", "facing", "transfer", "matter", "view", "sun"]
-    sky, sunlit, octaves, normal, facing, transfer, matter, view, sun = run_twice(
-        BUNDLED, "land", outputs, working.encoded, strided(*size, scale), _exchange_sides
+    sky, sunlit, octaves, normal, facing, transfer, matter, view, sun, air = run_twice(
+        BUNDLED, "land", [*outputs, "air"], working.encoded, strided(*size, scale), _exchange_sides
     )
     normal /= np.linalg.norm(normal, axis=0)
     return LandMaps(
@@ -110,6 +113,7 @@ def look_at_land(working: Working) -> LandMaps:
         matter[_WATER],
         0.5 + float(view[0]),
         sun.reshape(HEIGHTS.size, TURNS.size),
+        air[0],
     )
 
 

@@ -9,6 +9,7 @@
 
 #include "frame/picture.glsl"
 #include "frame/packed.glsl"
+#include "frame/strip.glsl"
 #include "sky/relit_sky.glsl"
 #include "land/relit_land.glsl"
 #include "water/water.glsl"
@@ -27,6 +28,8 @@ uniform sampler2D sky_behind;
 uniform sampler2D own_sky;
 uniform sampler2D mirror_ratio;
 uniform sampler2D veil;
+uniform sampler2D layers;
+uniform float cover_of_low_sky;
 
 const float kBlackestAlbedo = 0.06;
 const vec2 kWhitish = vec2(0.45, 0.8);  // display-linear light of the darkest channel
@@ -104,7 +107,7 @@ void main() {
   float opacity = min(sky_marks.g / max(matte, 1.0 / 255.0), 1.0);  // of the sky's share
   // A border in haze is wide; land hides the disc all the same.
   vec3 disc = smoothstep(0.2, 0.8, matte) * GetDisc(view, GetDescribedSun());
-  change += matte
+  change += matte * sky_strength
       * GetSkyChange(behind, clean, opacity, glare, own, sky_before, sky_now, view, disc, uneven);
 #endif
 
@@ -121,21 +124,34 @@ void main() {
       * GetMirrorShare(land, lit_before, land_marks.g);
   vec4 mirror = ReadBilinear(mirror_ratio, place);
   vec3 land_ratio = GetLandLight(place, land_marks.b);
-  vec3 lifted = GetLandGain() * land_ratio;
   int column = GetAirColumn(place);
   vec3 horizon = GetHorizon(column);
-  vec3 air = GetAirChange(column, horizon, land_marks.b, land, lifted + water * (mirror.rgb - lifted));
-  vec3 land_change = GetLandChange(front, land, land_ratio, GetIrradianceNow(upright), shine, mirror.rgb, air, removed,
+  vec3 land_change = GetLandChange(front, land, land_ratio, GetIrradianceNow(upright), shine, mirror.rgb, removed,
                                    min(9.0 * matte, 1.0));
   // Only what is certainly water glints. What mirrors land does not, and changes as land where it would become brighter.
   float mirrored = UnpackSecond(scene_texel.a);
   mirror.a *= smoothstep(0.5, 0.95, land_marks.r) * (1.0 - mirrored);
-  vec3 water_change = GetWaterChange(view, front, clean, land_marks.g, glare, mirror, air, horizon);
+  vec3 water_change = GetWaterChange(view, front, clean, land_marks.g, glare, mirror, horizon);
   float brighter = GetLuminance(water_change - land_change) / max(GetLuminance(front + land_change), 1e-6);
   water *= 1.0 - mirrored * smoothstep(0.0, 0.3, brighter);
   land_change += water * (water_change - land_change);
   land_change += GetExposureGain()
       * GetLampLight(place, 3.14159265 * GetLuminance(land) / max(GetLuminance(lit_before), 1e-6));
+  if (!IsSkyUnchanged()) {
+    // Fog and haze are air, lit as the sky at the horizon. Water mirrors it all the same.
+    float air = ReadPixel(layers, place).a;
+    vec3 air_before = texelFetch(air_source, ivec2(column, 0), 0).rgb;
+    float airy = (1.0 - water) * GetAirShare(air, GetLuminance(land) / GetLuminance(air_before));
+    if (airy > 0.0) {
+      float even;
+      vec3 level = normalize(vec3(view.x, kLevelAir, view.z));
+      vec3 air_change = GetSkyChange(land, land, cover_of_low_sky, 0.0, ReadBilinear(own_sky, place), air_before,
+          texelFetch(air_edit, ivec2(column, 0), 0).rgb, level, vec3(0.0), even);
+      land_change += airy * (land_strength * (air_change + land - front) - land_change);
+    }
+    land_change += land_strength
+        * GetHazeChange(GetExposureGain() * horizon, land_marks.b, front + land_change, air);
+  }
   change += (1.0 - matte) * land_change;
 #endif
 

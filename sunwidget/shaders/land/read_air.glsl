@@ -1,4 +1,5 @@
-// The air in front of distant land (aerial perspective), from the strips of air.glsl.
+// The air in front of the land (aerial perspective): how its light changes with the sun, and how more or less haze
+// changes all land. Its share of a pixel's light is seen in the photo (analysis/haze.py).
 
 #include "atmosphere/atmosphere.glsl"
 #include "atmosphere/extinction.glsl"
@@ -11,12 +12,15 @@ uniform float aerial_perspective;
 
 // Large depths are guesses: distances are compressed to at most this.
 const float kFarthestAir = 15000.0;  // m
-// A pixel is no darker than the air in front of it, so at most this share of it is air.
+// Most of the air's light that less haze takes away.
 const float kLargestShare = 0.9;
+// Light of the air, relative to the sky at the horizon, from which it counts in full.
+const float kLittleAir = 0.1;
+// Sine of the height at which air in front of land is lit as the sky.
+const float kLevelAir = 0.01;
 
 int GetAirColumn(vec2 place) {
-  int columns = textureSize(air_edit, 0).x;
-  return clamp(int(place.x * float(columns)), 0, columns - 1);
+  return int(place.x * float(textureSize(air_edit, 0).x));
 }
 
 // The new sky at the horizon, without the tint that it loses and, by day, without the evening's balance.
@@ -29,24 +33,23 @@ vec3 GetHorizon(int column) {
   return sky * (GetLuminance(now) / GetLuminance(sky));
 }
 
-// Light that the air adds to relit land when sun or haze change. `light` is the pixel's light, `gain` the
-// land's own ratio, `horizon` the new sky there. Koschmieder 1924: I = J t + A (1 - t) with
-// t = exp(-extinction * distance). The land without its air, I - A (1 - t), takes the ratio, and the new air is
-// added: I gain - A (1 - t) gain + A' (1 - t'). Nothing is divided by t.
-vec3 GetAirChange(int column, vec3 horizon, float log_depth, vec3 light, vec3 gain) {
+// Weight of the air's own change: its share of the light, `share`, less where that is little light in itself (`light` is the
+// land's relative to the sky at the horizon): what is near and dark is easily taken for hazy. Below the
+// horizon the sun leaves the near air dark while the far sky glows, so that the air changes as the land.
+float GetAirShare(float share, float light) {
+  float day = 1.0 - GetDusk(degrees(asin(GetDescribedSun().y)));
+  return GetSkySeen() * aerial_perspective * day * share * smoothstep(0.0, kLittleAir, share * light);
+}
+
+// Light that relit land, `light`, gains with more haze than the photo's: with t = exp(-extinction * distance) (Koschmieder
+// 1924), light = J t + A (1 - t) becomes J t' + A (1 - t'). `horizon` is A, the new sky there. Less haze
+// takes away at most what `share` says is air.
+vec3 GetHazeChange(vec3 horizon, float log_depth, vec3 light, float share) {
   float distance = exp2(16.0 * log_depth);
   distance = distance * kFarthestAir / (distance + kFarthestAir);
-  vec3 share_before = 1.0 - exp(-distance * GetExtinction(source_air_density, source_aerosol_optical_depth,
-      source_aerosol_scale_height, source_angstrom_exponent));
-  vec3 share_now = 1.0 - exp(-distance * GetExtinction(air_density, aerosol_optical_depth,
-      aerosol_scale_height, angstrom_exponent));
-  vec3 air_before = texelFetch(air_source, ivec2(column, 0), 0).rgb;
-  vec3 before = share_before * air_before;
-  float believed = min(kLargestShare * GetLuminance(light) / max(GetLuminance(before), 1e-12), 1.0);
-  // If the photo's air has another color than the model's, only as much is removed as the pixel holds.
-  vec3 held = min(believed * before, kLargestShare * light);
-  vec3 change = share_now * horizon / max(before, vec3(1e-12));
-  vec3 added = held * change + (believed * before - held) * max(change - 1.0, 0.0);
-  vec3 removed = gain * held;
-  return GetSkySeen() * aerial_perspective * mix(added - removed, vec3(0.0), equal(added, removed));
+  vec3 more = GetExtinction(air_density, aerosol_optical_depth, aerosol_scale_height, angstrom_exponent)
+      - GetExtinction(source_air_density, source_aerosol_optical_depth, source_aerosol_scale_height,
+                      source_angstrom_exponent);
+  vec3 kept = min(exp(-distance * more), vec3(1.0 / (1.0 - kLargestShare * share)));
+  return GetSkySeen() * aerial_perspective * (1.0 - kept) * (horizon - light);
 }

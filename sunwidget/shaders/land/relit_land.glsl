@@ -103,12 +103,12 @@ vec3 ReplaceGuessedColor(vec3 land, vec3 before, vec3 ratio, vec3 lit, float gla
 }
 
 // `clean` is the land's light without the old sun's glare, `lit` its irradiance now, `mirror` the share of mirrored
-// light, which follows `mirror_ratio`, `air` the light added by the air (read_air.glsl), `glare` the removed share,
+// light, which follows `mirror_ratio`, `glare` the removed share,
 // `skyline` 1 where the pixel shows sky, too.
-vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirror, vec3 mirror_ratio, vec3 air,
-                   float glare, float skyline) {
+vec3 GetLandChange(vec3 light, vec3 clean, vec3 land_ratio, vec3 lit, float mirror, vec3 mirror_ratio, float glare,
+                   float skyline) {
   land_ratio += mirror * (mirror_ratio - land_ratio);
-  vec3 land = max(GetLandGain() * land_ratio * clean + air, vec3(0.0));
+  vec3 land = max(GetLandGain() * land_ratio * clean, vec3(0.0));
   float luminance = GetLuminance(land);
   // (C / L - 1) s + 1, or (C / L)^s, times L with s = 1 - GetColorLoss().
   vec3 color = max(land / max(luminance, 1e-9), vec3(1e-4));

@@ -94,5 +94,5 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   relit = FitBesideSun(relit, clean, opacity, dot(view, sun_now));
   // The new disc, behind clouds; the matte hides it behind land.
   relit += moved * (1.0 - cover) * (1.0 - cover) * disc;
-  return sky_strength * (gain * relit - light);
+  return gain * relit - light;
 }

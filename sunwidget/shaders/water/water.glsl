@@ -34,7 +34,7 @@ float GetGlitterChange() {
 // The change of the water's `light` under the new sun. `clean` is the water without the
 // old glints (water_behind.glsl), `mark` their place, `sparkle` the effect of waves on
 // the new ones, `mirror` the texel of mirror_ratio.glsl, `sky` the new sky at the horizon.
-vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle, vec4 mirror, vec3 air, vec3 sky) {
+vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle, vec4 mirror, vec3 sky) {
   float changed = GetGlitterChange();
   // Glints are added light: what is darker than the water behind them stands in front of it. It takes the water's
   // color, since channel by channel orange glints leave a green sea.
@@ -44,7 +44,7 @@ vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle
   // The sun's own color: the tint of the photo's sky would color glints that are nearly white.
   vec3 sun = texelFetch(composite_constants, ivec2(kWaterSunNow, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
   vec3 glints = changed * shown / (1.0 + shown / kBrightest) * sun;
-  vec3 relit = max(calm * mirror.rgb + air, vec3(0.0));
+  vec3 relit = max(calm * mirror.rgb, vec3(0.0));
   // As in the sky (sky/tint.glsl), the water's excess color over the model fades. Blue is the water's own.
   float redder = log(max(relit.r * sky.b, 1e-9) / max(relit.b * sky.r, 1e-9));
   float warmer = GetWarmth(relit, sky) * smoothstep(kBlueWater.x, kBlueWater.y, redder);

@@ -18,7 +18,7 @@ def scene():
 
 
 def test_layers_and_surface_are_stacks_in_range(scene):
-    for stack, channels in ((frame_inputs.layers(scene), 3), (frame_inputs.surface(scene), 4)):
+    for stack, channels in ((frame_inputs.layers(scene), 4), (frame_inputs.surface(scene), 4)):
         assert stack.shape == (*SIZE[::-1], channels)
         assert stack.dtype == np.float32
         assert 0 <= stack.min() <= stack.max() <= 1

@@ -37,7 +37,7 @@ def test_maps_have_the_photos_size_type_and_range(scene):
         assert found.dtype == np.float32, name
         assert 0 <= found.min() <= found.max() <= 1, name
     assert scene.depth.shape == (HEIGHT, WIDTH)
-    assert frame_inputs.layers(scene).shape == (HEIGHT, WIDTH, 3)
+    assert frame_inputs.layers(scene).shape == (HEIGHT, WIDTH, 4)
     assert frame_inputs.surface(scene).shape == (HEIGHT, WIDTH, 4)
 
 

@@ -66,36 +66,3 @@ def test_glare_takes_no_light_away_and_spreads_from_what_is_bright():
     found = photograph.glare(light, chance())
     assert (found >= light).all()
     assert found[20, 33].mean() > found[20, 55].mean() > 0.1
-
-
-def hazy(log_depth, seed=0):
-    """Grey land at these depths (log2 of metres) under a horizon red on its left, blue right."""
-    light = np.full((4, 60, 3), 0.5, np.float32)
-    depth = np.full((4, 60), log_depth, np.float16)
-    depth[0] = np.inf
-    horizon = np.repeat([[4, 1, 0.5], [0.5, 1, 4]], 12, 0).astype(np.float32)
-    return light, photograph.with_air(light, depth, horizon, chance(seed))
-
-
-def test_air_leaves_the_sky_and_what_is_near_alone():
-    for seed in range(8):
-        light, found = hazy(1.0, seed)
-        assert np.array_equal(found[0], light[0])
-        assert found == pytest.approx(light, rel=0.02)
-
-
-def test_air_pulls_far_land_towards_the_horizon_s_colour():
-    for seed in range(8):
-        _, found = hazy(15.99, seed)  # 65 km
-        before = np.abs(0.5 - np.array([4, 1, 0.5]))
-        after = np.abs(found[2, 2] - (4, 1, 0.5))
-        assert (after <= 0.75 * before + 1e-6).all()
-        assert found[2, 2, 0] > found[2, 2, 2]
-        assert found[2, -3, 2] > found[2, -3, 0]
-
-
-def test_more_air_lies_before_what_is_farther():
-    for seed in range(8):
-        reds = [hazy(depth, seed)[1][2, 2, 0] for depth in (3, 7, 10, 13, 15)]
-        assert reds == sorted(reds)
-        assert reds[-1] > reds[0] + 0.3

@@ -1,0 +1,100 @@
+"""Fits LandNet's head of the air's light alone, on worlds; everything else stays as it is.
+
+``python -m training.land.fit_air --start sunwidget/analysis/models/land.onnx --worlds
+build/worlds/train --data ../shared/data/train --out build/land/air.pt``
+
+The trunk's features are computed once, so this takes minutes on two cores. ``training.land.export``
+writes the result.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections import defaultdict
+from pathlib import Path
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+import torch
+import torch.nn.functional as F
+from torch import Tensor
+
+from training.data import typical
+from training.land.data import Random, Worlds, sample, size_of
+from training.land.export import AREA
+from training.land.model import LandNet, air_loss
+from training.loop import save
+from training.restore import restore
+
+SHAPES = ((2, 3), (3, 4), (1, 1), (3, 2))  # rows to columns
+EACH_WORLD = 15  # pictures
+STEPS, BATCH, RATE, DECAY = 2500, 8, 2e-3, 0.01
+
+
+class Pictures(NamedTuple):
+    """Pictures of one size: features (n, 64, h/2, w/2), ``air`` and ``solid`` (n, 1, h, w)."""
+
+    features: Tensor
+    air: Tensor
+    solid: Tensor
+
+
+@torch.no_grad()
+def look(network: LandNet, worlds: Worlds, random: Random) -> list[Pictures]:
+    """Return pictures of all worlds, by size."""
+    found: dict[tuple[int, int], list[tuple[Tensor, Tensor, Tensor]]] = defaultdict(list)
+    for i in range(EACH_WORLD * len(worlds)):
+        size = size_of(SHAPES[random.integers(len(SHAPES))], AREA)
+        one = sample(worlds[i % len(worlds)], *size, random)
+        seen = network.fine(torch.from_numpy(one["image"][None].copy()).float() / 255)[0]
+        truth = (torch.from_numpy(one[key].astype(np.float32)).half() for key in ("air", "solid"))
+        found[size].append((seen.half(), *truth))
+    return [Pictures(*map(torch.stack, zip(*rows, strict=True))) for rows in found.values()]
+
+
+def fit(head: torch.nn.Sequential, groups: list[Pictures], random: Random) -> None:
+    """Train the head anew, in place."""
+    share = np.array([len(group.air) for group in groups], float)
+    optimise = torch.optim.AdamW(head.parameters(), lr=RATE, weight_decay=DECAY)
+    head.train()
+    for step in range(STEPS):
+        optimise.param_groups[0]["lr"] = RATE * (1 - step / STEPS) + 1e-5
+        group = groups[random.choice(len(groups), p=share / share.sum())]
+        rows = torch.from_numpy(random.integers(len(group.air), size=BATCH))
+        air = F.pixel_shuffle(head(group.features[rows].float()), 2)
+        loss = air_loss(air, group.air[rows].float(), group.solid[rows].float())
+        optimise.zero_grad()
+        loss.backward()
+        optimise.step()
+        if step % 250 == 249:
+            print(f"step {step + 1}: {loss.item():.3f}", flush=True)
+    head.eval()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    for name in ("start", "worlds", "data", "out"):
+        parser.add_argument(f"--{name}", type=Path, required=True)
+    parser.add_argument("--cache", type=Path, default=Path("build/pack"))
+    options = parser.parse_args()
+    cv2.setNumThreads(1)
+    torch.manual_seed(0)
+    network = LandNet()
+    if options.start.suffix == ".onnx":
+        options.cache.mkdir(parents=True, exist_ok=True)
+        restore(network, options.start, typical(options.data, options.cache, 192, 96))
+    else:
+        state = torch.load(options.start, weights_only=True, map_location="cpu")["average"]
+        network.load_state_dict(state, strict=False)
+    network.eval()
+    random = np.random.default_rng(9)
+    groups = look(network, Worlds(options.worlds), random)
+    fit(network.air, groups, random)
+    save(options.out, average=network.state_dict())
+
+
+if __name__ == "__main__":
+    main()
