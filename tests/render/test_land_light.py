@@ -186,7 +186,9 @@ def test_water_mirrors_the_sky_whatever_air_is_before_it():
     frames = []
     for share in (0.0, 1.0):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(frame_inputs, "air_share", lambda *_, s=share: s * np.ones_like(photo.sky))
+            patch.setattr(
+                frame_inputs, "air_share", lambda *_, s=share: s * np.ones_like(photo.sky)
+            )
             scene = photo.analyze(water=np.where(photo.sky > 0, 0, 255).astype(np.uint8))
             frames.append(render(scene, Edit(sun_elevation=3), dtype="float32"))
     inside = scene.water > 0.99
@@ -243,9 +245,7 @@ def test_land_that_glowed_before_a_low_sun_is_not_burnt_by_day():
     known = known_photo(sun=(8.0, 2.0), clouds=False)
     picture, land = known.bytes.copy(), known.sky < 0.5
     picture[land] = 220
-    noon = Edit(
-        sun_azimuth=70, sun_elevation=35, auto_exposure=0, glow=0, aerial_perspective=0
-    )
+    noon = Edit(sun_azimuth=70, sun_elevation=35, auto_exposure=0, glow=0, aerial_perspective=0)
     day = render(known.analyze(picture), noon, dtype="float32")[land]
     assert 0.8 < day.mean() < 0.95
     assert day.max() < 0.99

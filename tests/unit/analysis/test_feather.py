@@ -136,7 +136,11 @@ def test_a_moved_sun_draws_no_line_in_fog(foggy):
     hard = dataclasses.replace(foggy, decision=foggy.decision._replace(final=True))
 
     def line(scene, elevation):
-        rows = sw.render(scene, sw.Edit(sun_elevation=elevation, aerial_perspective=0)).astype(float).mean((1, 2))
+        rows = (
+            sw.render(scene, sw.Edit(sun_elevation=elevation, aerial_perspective=0))
+            .astype(float)
+            .mean((1, 2))
+        )
         return np.abs(np.diff(rows))[40:70].max()
 
     assert line(foggy, 2.0) < min(2.9, line(hard, 2.0))
