@@ -106,7 +106,7 @@ def test_a_dark_evenings_sky_is_lifted_and_its_land_is_not():
     scene = known_photo(sun=(8.0, 4.0)).analyze()
     dark = dataclasses.replace(scene, response=scene.response | {"photo_sky_key": -4.0})
     sky, land = scene.sky > 0.98, scene.sky < 0.02
-    ratio = rendered(dark, HIGH) / rendered(scene, HIGH)
+    ratio = rendered(dark, AIRLESS) / rendered(scene, AIRLESS)
     assert np.median(ratio[sky]) > 1.1
     assert np.median(ratio[land]) < 1.05
     assert np.array_equal(rendered(dark, DUSK), rendered(scene, DUSK))

@@ -9,13 +9,17 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+import cv2
 import numpy as np
 import onnxruntime
 import torch
 
+from training.data import read_pair
+from training.land import haze
 from training.land.data import WATER, Worlds, sample, size_of
 from training.land.export import AREA, OUT
 from training.land.model import SUN_HEIGHTS, SUN_TURNS, openness, sun_basis
+from training.sky_corrections import corrected
 
 
 def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) -> dict[str, float]:
@@ -76,6 +80,25 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
     return figures
 
 
+def haze_errors(session: onnxruntime.InferenceSession, data: Path, area: int) -> dict[str, float]:
+    """Return errors of the air's share in outlined photos that judge, means over the photos."""
+    rows: dict[str, list[float]] = {}
+    for file in filter(haze.judges, haze.outlines()):
+        folder, name = file.split("/")
+        mask = data / folder / "masks" / f"{Path(name).stem}.png"
+        pair = read_pair(data / folder / "images" / name, mask)
+        share, known = haze.haze_map(file, corrected(file, pair[..., 3]))
+        high, wide = size_of(share.shape, area)
+        image = cv2.resize(pair[..., :3], (wide, high), interpolation=cv2.INTER_AREA)
+        tensor = (image.transpose(2, 0, 1)[None] / 255).astype(np.float32)
+        air = cv2.resize(session.run(["air"], {"image": tensor})[0][0, 0], share.shape[::-1])
+        for kind, where in (("clear", share == 0), ("hazy", share > 0)):
+            if (here := known & where).mean() > 0.02:
+                key = f"air of {kind} land in photos"
+                rows.setdefault(key, []).append(float(np.abs(air - share)[here].mean()))
+    return {name: float(np.mean(values)) for name, values in rows.items()}
+
+
 def _of_others(transfer: np.ndarray, truth: dict, solid: np.ndarray) -> float:
     errors = []
     for sun, light in zip(truth["suns"], truth["passed"], strict=True):
@@ -108,11 +131,15 @@ def _overlap(found: np.ndarray, truth: np.ndarray, where: np.ndarray | bool) -> 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--worlds", type=Path, required=True)
+    parser.add_argument("--data", type=Path, help="photos of training/land/haze.csv")
     parser.add_argument("--network", type=Path, default=OUT)
     parser.add_argument("--area", type=int, default=AREA)
     options = parser.parse_args()
     session = onnxruntime.InferenceSession(options.network, providers=["CPUExecutionProvider"])
-    for name, value in measure(session, Worlds(options.worlds), options.area).items():
+    figures = measure(session, Worlds(options.worlds), options.area)
+    if options.data:
+        figures |= haze_errors(session, options.data, options.area)
+    for name, value in figures.items():
         print(f"{name:26} {value:.3f}")
 
 

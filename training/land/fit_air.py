@@ -1,15 +1,17 @@
-"""Fits LandNet's head of the air's light alone, on worlds; everything else stays as it is.
+"""Fits LandNet's head of the air's light alone; everything else stays as it is.
 
 ``python -m training.land.fit_air --start sunwidget/analysis/models/land.onnx --worlds
 build/worlds/train --data ../shared/data/train --out build/land/air.pt``
 
-The trunk's features are computed once, so this takes minutes on two cores. ``training.land.export``
+Worlds in drawn air say it exactly, photos with outlined haze (``haze.py``) look as photos do. The
+trunk's features are computed once, so this takes minutes on two cores. ``training.land.export``
 writes the result.
 """
 
 from __future__ import annotations
 
 import argparse
+import dataclasses
 from collections import defaultdict
 from pathlib import Path
 from typing import NamedTuple
@@ -20,15 +22,18 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor
 
-from training.data import typical
+from training.data import read_pair, typical
+from training.land import haze, photograph
 from training.land.data import Random, Worlds, sample, size_of
 from training.land.export import AREA
 from training.land.model import LandNet, air_loss
 from training.loop import save
 from training.restore import restore
+from training.sky_corrections import corrected
 
 SHAPES = ((2, 3), (3, 4), (1, 1), (3, 2))  # rows to columns
-EACH_WORLD = 15  # pictures
+EACH_WORLD, EACH_PHOTO = 15, 10  # pictures
+PHOTOS = 0.4  # of the batches
 STEPS, BATCH, RATE, DECAY = 2500, 8, 2e-3, 0.01
 
 
@@ -53,9 +58,40 @@ def look(network: LandNet, worlds: Worlds, random: Random) -> list[Pictures]:
     return [Pictures(*map(torch.stack, zip(*rows, strict=True))) for rows in found.values()]
 
 
-def fit(head: torch.nn.Sequential, groups: list[Pictures], random: Random) -> None:
+@torch.no_grad()
+def look_at_photos(network: LandNet, data: Path, random: Random) -> list[Pictures]:
+    """Return parts of the outlined photos that do not judge, by size."""
+    found: dict[tuple[int, int], list[tuple[Tensor, Tensor, Tensor]]] = defaultdict(list)
+    for file in haze.outlines():
+        if haze.judges(file):
+            continue
+        folder, name = file.split("/")
+        mask = data / folder / "masks" / f"{Path(name).stem}.png"
+        pair = read_pair(data / folder / "images" / name, mask)
+        share, known = haze.haze_map(file, corrected(file, pair[..., 3]))
+        for _ in range(EACH_PHOTO):
+            size = size_of(SHAPES[random.integers(len(SHAPES))], AREA)
+            box = photograph.box(random, share.shape, *size)
+            half = dataclasses.replace(box, rows=size[0] // 2, columns=size[1] // 2)
+            gain = np.exp(random.normal(0, 0.08, 3) + random.normal(0, 0.2))
+            image = np.clip(box.of(pair[..., :3], cv2.INTER_AREA) * gain, 0, 255)
+            tensor = torch.from_numpy(image.transpose(2, 0, 1)[None].copy()).float() / 255
+            air = half.of(share, cv2.INTER_AREA)
+            solid = (half.of(known.astype(np.float32), cv2.INTER_AREA) > 0.95).astype(np.float32)
+            truth = (torch.from_numpy(values[None]).half() for values in (air, solid))
+            found[size].append((network.fine(tensor)[0].half(), *truth))
+    return [Pictures(*map(torch.stack, zip(*rows, strict=True))) for rows in found.values()]
+
+
+def fit(
+    head: torch.nn.Sequential, worlds: list[Pictures], photos: list[Pictures], random: Random
+) -> None:
     """Train the head anew, in place."""
-    share = np.array([len(group.air) for group in groups], float)
+    groups = worlds + photos
+    parts = ((worlds, 1 - PHOTOS), (photos, PHOTOS))
+    share = np.concatenate(
+        [weight * _sizes(part) / max(_sizes(part).sum(), 1) for part, weight in parts]
+    )
     optimise = torch.optim.AdamW(head.parameters(), lr=RATE, weight_decay=DECAY)
     head.train()
     for step in range(STEPS):
@@ -70,6 +106,10 @@ def fit(head: torch.nn.Sequential, groups: list[Pictures], random: Random) -> No
         if step % 250 == 249:
             print(f"step {step + 1}: {loss.item():.3f}", flush=True)
     head.eval()
+
+
+def _sizes(groups: list[Pictures]) -> np.ndarray:
+    return np.array([len(group.air) for group in groups], float)
 
 
 def main() -> None:
@@ -91,8 +131,8 @@ def main() -> None:
         network.load_state_dict(state, strict=False)
     network.eval()
     random = np.random.default_rng(9)
-    groups = look(network, Worlds(options.worlds), random)
-    fit(network.air, groups, random)
+    worlds = look(network, Worlds(options.worlds), random)
+    fit(network.air, worlds, look_at_photos(network, options.data, random), random)
     save(options.out, average=network.state_dict())
 
 

@@ -140,13 +140,13 @@ void main() {
   if (!IsSkyUnchanged()) {
     // Fog and haze are air, lit as the sky at the horizon. Water mirrors it all the same.
     float air = ReadPixel(layers, place).a;
-    vec3 air_before = texelFetch(air_source, ivec2(column, 0), 0).rgb;
-    float airy = (1.0 - water) * GetAirShare(air, GetLuminance(land) / GetLuminance(air_before));
+    float airy = (1.0 - water) * GetAirShare(air);
     if (airy > 0.0) {
       float even;
       vec3 level = normalize(vec3(view.x, kLevelAir, view.z));
-      vec3 air_change = GetSkyChange(land, land, cover_of_low_sky, 0.0, ReadBilinear(own_sky, place), air_before,
-          texelFetch(air_edit, ivec2(column, 0), 0).rgb, level, vec3(0.0), even);
+      vec3 air_change = GetSkyChange(land, land, cover_of_low_sky, 0.0, ReadBilinear(own_sky, place),
+          texelFetch(air_source, ivec2(column, 0), 0).rgb, texelFetch(air_edit, ivec2(column, 0), 0).rgb, level,
+          vec3(0.0), even);
       land_change += airy * (land_strength * (air_change + land - front) - land_change);
     }
     land_change += land_strength

@@ -14,8 +14,6 @@ uniform float aerial_perspective;
 const float kFarthestAir = 15000.0;  // m
 // Most of the air's light that less haze takes away.
 const float kLargestShare = 0.9;
-// Light of the air, relative to the sky at the horizon, from which it counts in full.
-const float kLittleAir = 0.1;
 // Sine of the height at which air in front of land is lit as the sky.
 const float kLevelAir = 0.01;
 
@@ -33,12 +31,10 @@ vec3 GetHorizon(int column) {
   return sky * (GetLuminance(now) / GetLuminance(sky));
 }
 
-// Weight of the air's own change: its share of the light, `share`, less where that is little light in itself (`light` is the
-// land's relative to the sky at the horizon): what is near and dark is easily taken for hazy. Below the
-// horizon the sun leaves the near air dark while the far sky glows, so that the air changes as the land.
-float GetAirShare(float share, float light) {
-  float day = 1.0 - GetDusk(degrees(asin(GetDescribedSun().y)));
-  return GetSkySeen() * aerial_perspective * day * share * smoothstep(0.0, kLittleAir, share * light);
+// Weight of the air's own change: its share of the light, `share`. Below the horizon the sun leaves the near air dark
+// while the far sky glows, so that the air changes as the land.
+float GetAirShare(float share) {
+  return GetSkySeen() * aerial_perspective * share * (1.0 - GetDusk(degrees(asin(GetDescribedSun().y))));
 }
 
 // Light that relit land, `light`, gains with more haze than the photo's: with t = exp(-extinction * distance) (Koschmieder
