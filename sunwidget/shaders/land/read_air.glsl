@@ -16,6 +16,8 @@ const float kFarthestAir = 15000.0;  // m
 const float kLargestShare = 0.9;
 // Sine of the height at which air in front of land is lit as the sky.
 const float kLevelAir = 0.01;
+// Sine of the sun's height below which the near air is as dark as the land.
+const float kAirDark = -0.05;
 
 int GetAirColumn(vec2 place) {
   return int(place.x * float(textureSize(air_edit, 0).x));
@@ -34,7 +36,7 @@ vec3 GetHorizon(int column) {
 // Weight of the air's own change: its share of the light, `share`. Below the horizon the sun leaves the near air dark
 // while the far sky glows, so that the air changes as the land.
 float GetAirShare(float share) {
-  return GetSkySeen() * aerial_perspective * share * (1.0 - GetDusk(degrees(asin(GetDescribedSun().y))));
+  return GetSkySeen() * aerial_perspective * share * smoothstep(kAirDark, 0.0, GetDescribedSun().y);
 }
 
 // Light that relit land, `light`, gains with more haze than the photo's: with t = exp(-extinction * distance) (Koschmieder
