@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from sunwidget.formats.color import LUMINANCE
+from training.land.camera import rays, to_sun, up
+
 Random = np.random.Generator
-_LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)
 _RAYLEIGH = np.array([0.0058, 0.0135, 0.0331], np.float32)  # 1 / km
 _VISIBILITIES = ((40.0, 300.0), (3.0, 40.0), (0.06, 3.0))  # km: clear, hazy, foggy
 _ODDS = (0.55, 0.28, 0.17)  # of the three; with more fog the network sees it everywhere
@@ -80,37 +82,21 @@ def with_air(
     """
     light, log_depth = (world[key].astype(np.float32) for key in ("light", "depth"))
     light = light[sun]
-    ahead, length = _rays(world["camera"], log_depth.shape)
+    camera = world["camera"]
+    view, length = rays(camera, log_depth.shape)
     sky = ~np.isfinite(log_depth)
     away = np.where(sky, np.inf, 2.0 ** np.minimum(log_depth, 20) / 1000 * length)
-    through = Air.drawn(random).through(away, ahead[..., 2]).astype(np.float32)
+    through = Air.drawn(random).through(away, view @ up(camera)).astype(np.float32)
     horizon = (world["air"][sun] / world["scale"][sun]).astype(np.float32)
     air = cv2.resize(horizon[None], (light.shape[1], 1), interpolation=cv2.INTER_LINEAR)
     air = air * np.float32(np.exp(random.normal(0, 0.2)))
-    azimuth, elevation, covered = (float(v) for v in world["suns"][sun])
+    _, elevation, covered = (float(v) for v in world["suns"][sun])
     if not covered and elevation > -0.03 and random.random() < _GLOWS:
-        flat = np.cos(elevation)
-        to_sun = np.array([flat * np.sin(azimuth), flat * np.cos(azimuth), np.sin(elevation)])
-        angle = np.arccos(np.clip(ahead @ to_sun, -1, 1))
+        angle = np.arccos(np.clip(view @ to_sun(camera, world["suns"][sun]), -1, 1))
         width = np.exp(random.uniform(np.log(0.1), np.log(0.6)))
         glow = 1 + random.uniform(0, 3) * np.exp(-angle / width)
         air = air * glow[..., None].astype(np.float32)
     added = air * (1 - through)
     hazy = (light * through + added).astype(np.float32)
-    share = (added @ _LUMINANCE) / np.maximum(hazy @ _LUMINANCE, 1e-9)
+    share = (added @ LUMINANCE) / np.maximum(hazy @ LUMINANCE, 1e-9)
     return hazy, np.where(sky, 1, share).astype(np.float32)
-
-
-def _rays(camera: np.ndarray, shape: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Return unit vectors (right, ahead, up), (H, W, 3), and lengths over depths, (H, W)."""
-    fov, pitch, roll, _ = (float(v) for v in camera)
-    rows, columns = shape
-    focal = 0.5 * rows / np.tan(fov / 2)
-    x = (np.arange(columns)[None] + 0.5 - columns / 2) / focal
-    y = -(np.arange(rows)[:, None] + 0.5 - rows / 2) / focal
-    right = np.cos(roll) * x - np.sin(roll) * y
-    above = np.cos(roll) * y + np.sin(roll) * x
-    forward = np.cos(pitch) - np.sin(pitch) * above
-    up = np.sin(pitch) + np.cos(pitch) * above
-    length = np.sqrt(1 + x * x + y * y)
-    return np.stack([right, forward, up], -1) / length[..., None], length

@@ -14,8 +14,9 @@ from torch.utils.data import IterableDataset
 
 from training.augment import relight
 from training.data import FOLDERS, barred, held_out, read_pair
-from training.land import photograph
+from training.land import haze, photograph
 from training.land.air import with_air
+from training.land.camera import to_sun, up
 from training.land.model import SUN_HEIGHTS, SUN_TURNS
 from training.loop import numbers
 from training.sky_corrections import corrected, judges
@@ -92,7 +93,7 @@ def sample(world: dict[str, np.ndarray], rows: int, columns: int, random: Random
     matter = half.of(world["matter"], cv2.INTER_NEAREST)
     normal = world["normal"].astype(np.float32) / 127
     water = world["matter"] == 1
-    normal[water] = _up(world["camera"])
+    normal[water] = up(world["camera"])
     normal = half.of(normal, cv2.INTER_AREA)
     if box.mirrored:
         normal = normal * np.float32([-1, 1, 1])
@@ -139,13 +140,6 @@ def _cosine(world: dict[str, np.ndarray], sun: int) -> np.ndarray:
     return np.maximum(normal @ to_sun(world["camera"], world["suns"][sun]), 0)
 
 
-def _up(camera: np.ndarray) -> np.ndarray:
-    """Return the world's up in the camera's right, up and towards it."""
-    _, pitch, roll, _ = camera
-    up, towards = np.cos(pitch), -np.sin(pitch)  # before the roll
-    return np.float32([np.sin(roll) * up, np.cos(roll) * up, towards])
-
-
 def _view(world: dict[str, np.ndarray], sun: int, box: photograph.Box) -> np.ndarray:
     fov, pitch, roll, _ = (float(v) for v in world["camera"])
     rows, columns = world["depth"].shape
@@ -176,17 +170,6 @@ def _facing(world: dict[str, np.ndarray], sun: int, half: photograph.Box) -> dic
     lit = half.of(world["sunlit"][sun].astype(np.float32) / 255, cv2.INTER_AREA)
     facing = half.of(_cosine(world, sun), cv2.INTER_AREA)
     return {"facing": facing[None], "faced": np.maximum(2 * lit - 1, 0)[None]}
-
-
-def to_sun(camera: np.ndarray, sun: np.ndarray) -> np.ndarray:
-    """Return the unit vector to a sun in the camera's right, up and towards it."""
-    (_, pitch, roll, _), (azimuth, elevation) = camera, sun[:2]
-    right = np.cos(elevation) * np.sin(azimuth)
-    ahead, high = np.cos(elevation) * np.cos(azimuth), np.sin(elevation)
-    up = np.cos(pitch) * high - np.sin(pitch) * ahead
-    towards = -np.cos(pitch) * ahead - np.sin(pitch) * high
-    turn, aside = np.cos(roll), np.sin(roll)
-    return np.float32([turn * right + aside * up, turn * up - aside * right, towards])
 
 
 class WorldBatches(IterableDataset):
@@ -247,6 +230,19 @@ def photos(root: Path, *, held: bool = False) -> list[tuple[str, Path, Path]]:
             if (held_out(folder, image.stem) or judges(f"{folder}/{image.name}")) == held:
                 found.append((folder, image, mask))
     return found
+
+
+def outlined(root: Path, *, judging: bool) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Yield picture (h, w, 3) uint8, and haze as ``haze_map``, of outlined photos.
+
+    ``judging`` selects those that only judge, or the others.
+    """
+    for file in haze.outlines():
+        if haze.judges(file) == judging:
+            folder, name = file.split("/")
+            mask = root / folder / "masks" / f"{Path(name).stem}.png"
+            pair = read_pair(root / folder / "images" / name, mask)
+            yield pair[..., :3], *haze.haze_map(file, corrected(file, pair[..., 3]))
 
 
 def _photo(

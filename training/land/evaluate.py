@@ -14,12 +14,9 @@ import numpy as np
 import onnxruntime
 import torch
 
-from training.data import read_pair
-from training.land import haze
-from training.land.data import WATER, Worlds, sample, size_of
+from training.land.data import WATER, Worlds, outlined, sample, size_of
 from training.land.export import AREA, OUT
 from training.land.model import SUN_HEIGHTS, SUN_TURNS, openness, sun_basis
-from training.sky_corrections import corrected
 
 
 def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) -> dict[str, float]:
@@ -83,13 +80,9 @@ def measure(session: onnxruntime.InferenceSession, worlds: Worlds, area: int) ->
 def haze_errors(session: onnxruntime.InferenceSession, data: Path, area: int) -> dict[str, float]:
     """Return errors of the air's share in outlined photos that judge, means over the photos."""
     rows: dict[str, list[float]] = {}
-    for file in filter(haze.judges, haze.outlines()):
-        folder, name = file.split("/")
-        mask = data / folder / "masks" / f"{Path(name).stem}.png"
-        pair = read_pair(data / folder / "images" / name, mask)
-        share, known = haze.haze_map(file, corrected(file, pair[..., 3]))
+    for picture, share, known in outlined(data, judging=True):
         high, wide = size_of(share.shape, area)
-        image = cv2.resize(pair[..., :3], (wide, high), interpolation=cv2.INTER_AREA)
+        image = cv2.resize(picture, (wide, high), interpolation=cv2.INTER_AREA)
         tensor = (image.transpose(2, 0, 1)[None] / 255).astype(np.float32)
         air = cv2.resize(session.run(["air"], {"image": tensor})[0][0, 0], share.shape[::-1])
         for kind, where in (("clear", share == 0), ("hazy", share > 0)):

@@ -22,14 +22,12 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor
 
-from training.data import read_pair, typical
-from training.land import haze, photograph
-from training.land.data import Random, Worlds, sample, size_of
+from training.land import photograph
+from training.land.data import Random, Worlds, outlined, sample, size_of
 from training.land.export import AREA
 from training.land.model import LandNet, air_loss
+from training.land.train import take_over
 from training.loop import save
-from training.restore import restore
-from training.sky_corrections import corrected
 
 SHAPES = ((2, 3), (3, 4), (1, 1), (3, 2))  # rows to columns
 EACH_WORLD, EACH_PHOTO = 15, 10  # pictures
@@ -62,19 +60,13 @@ def look(network: LandNet, worlds: Worlds, random: Random) -> list[Pictures]:
 def look_at_photos(network: LandNet, data: Path, random: Random) -> list[Pictures]:
     """Return parts of the outlined photos that do not judge, by size."""
     found: dict[tuple[int, int], list[tuple[Tensor, Tensor, Tensor]]] = defaultdict(list)
-    for file in haze.outlines():
-        if haze.judges(file):
-            continue
-        folder, name = file.split("/")
-        mask = data / folder / "masks" / f"{Path(name).stem}.png"
-        pair = read_pair(data / folder / "images" / name, mask)
-        share, known = haze.haze_map(file, corrected(file, pair[..., 3]))
+    for picture, share, known in outlined(data, judging=False):
         for _ in range(EACH_PHOTO):
             size = size_of(SHAPES[random.integers(len(SHAPES))], AREA)
             box = photograph.box(random, share.shape, *size)
             half = dataclasses.replace(box, rows=size[0] // 2, columns=size[1] // 2)
             gain = np.exp(random.normal(0, 0.08, 3) + random.normal(0, 0.2))
-            image = np.clip(box.of(pair[..., :3], cv2.INTER_AREA) * gain, 0, 255)
+            image = np.clip(box.of(picture, cv2.INTER_AREA) * gain, 0, 255)
             tensor = torch.from_numpy(image.transpose(2, 0, 1)[None].copy()).float() / 255
             air = half.of(share, cv2.INTER_AREA)
             solid = (half.of(known.astype(np.float32), cv2.INTER_AREA) > 0.95).astype(np.float32)
@@ -123,12 +115,7 @@ def main() -> None:
     cv2.setNumThreads(1)
     torch.manual_seed(0)
     network = LandNet()
-    if options.start.suffix == ".onnx":
-        options.cache.mkdir(parents=True, exist_ok=True)
-        restore(network, options.start, typical(options.data, options.cache, 192, 96))
-    else:
-        state = torch.load(options.start, weights_only=True, map_location="cpu")["average"]
-        network.load_state_dict(state, strict=False)
+    take_over(network, options.start, options.data, options.cache)
     network.eval()
     random = np.random.default_rng(9)
     worlds = look(network, Worlds(options.worlds), random)

@@ -83,6 +83,16 @@ def consistency(student: dict[str, Tensor], teacher: dict[str, Tensor]) -> Tenso
     return lit + normal.mean() + 0.2 * (level.abs() * solid).mean() + share.mean()
 
 
+def take_over(network: LandNet, start: Path, data: Path, cache: Path) -> None:
+    """Take over what a shipped file or a checkpoint knows; heads that it lacks begin anew."""
+    if start.suffix == ".onnx":
+        cache.mkdir(parents=True, exist_ok=True)
+        restore(network, start, typical(data, cache, 192, 96))
+    else:
+        state = torch.load(start, weights_only=True, map_location="cpu")["average"]
+        network.load_state_dict(state, strict=False)
+
+
 class Training:
     """One run: network, moving average, optimiser and clock."""
 
@@ -90,7 +100,7 @@ class Training:
         self.options = options
         self.network = LandNet()
         if not begun(options.out):
-            self._begin(options.start)
+            take_over(self.network, options.start, options.data, options.cache)
         self.network.to(options.device, memory_format=torch.channels_last)
         self.run = Run(
             self.network, options.out, options.minutes, kept=KEPT, on_checkpoint=self._report
@@ -98,15 +108,6 @@ class Training:
         self.teacher = LandNet().to(options.device).eval()
         self.kind = torch.device(options.device).type
         self.sums: dict[str, Tensor] = {}
-
-    def _begin(self, start: Path) -> None:
-        """Take over what a shipped file or a checkpoint knows; heads that it lacks begin anew."""
-        if start.suffix == ".onnx":
-            photos = typical(self.options.data, self.options.cache, 192, 96)
-            restore(self.network, start, photos)
-        else:
-            state = torch.load(start, weights_only=True, map_location="cpu")["average"]
-            self.network.load_state_dict(state, strict=False)
 
     def train(self) -> None:
         """Learn in stages until the time is spent."""
@@ -173,7 +174,6 @@ def main() -> None:
     device_options(parser, batch=6)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    options.cache.mkdir(parents=True, exist_ok=True)
     torch.set_num_threads(options.threads)
     torch.manual_seed(1)
     Training(options).train()

@@ -98,9 +98,14 @@ def look_at_land(working: Working) -> LandMaps:
     """
     size = working.width, working.height
     scale = (AREA / (working.width * working.height)) ** 0.5
-    outputs = ["sky", "sunlit", "depth", "normal", "facing", "transfer", "matter", "view", "sun"]
+    maps = ["sky", "sunlit", "depth", "normal", "facing", "transfer", "matter"]
     sky, sunlit, octaves, normal, facing, transfer, matter, view, sun, air = run_twice(
-        BUNDLED, "land", [*outputs, "air"], working.encoded, strided(*size, scale), _exchange_sides
+        BUNDLED,
+        "land",
+        [*maps, "view", "sun", "air"],
+        working.encoded,
+        strided(*size, scale),
+        _exchange_sides,
     )
     normal /= np.linalg.norm(normal, axis=0)
     return LandMaps(

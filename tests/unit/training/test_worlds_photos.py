@@ -1,4 +1,4 @@
-"""Photos taken of worlds: what part of the picture, exposure, glare, air."""
+"""Photos taken of worlds: what part of the picture, exposure, glare."""
 
 import numpy as np
 import pytest
