@@ -127,12 +127,13 @@ def complete(
         disc = sun_stage.in_sky(sun_mask, sky, working.encoded, least)
         sky = np.maximum(sky, disc)
         raise_to(matte, disc, working.zoom)
-        glare = sun_stage.find_land_glare(sun_mask, sky)
-        sky = sky * (1 - glare)
-        take_from(matte, glare, working.zoom)
-        risen = sun_stage.find_risen_sea(sun_mask, sky, working.encoded)
-        sky = np.maximum(sky, risen)
-        raise_to(matte, risen, working.zoom)
+        sea = sun_stage.find_sea(sun_mask, sky, working.encoded)
+        is_sky, no_sky = sea or (None, sun_stage.find_land_glare(sun_mask, sky))
+        if is_sky is not None:
+            sky = np.maximum(sky, is_sky)
+            raise_to(matte, is_sky, working.zoom)
+        sky = sky * (1 - no_sky)
+        take_from(matte, no_sky, working.zoom)
 
     if peak is not None and sun_mask is not None and _lens_unknown(photo, hints):
         lens = sun_stage.field_of_view_of(sun_mask, peak, working, camera.fov_vertical_deg)

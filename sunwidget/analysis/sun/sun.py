@@ -30,7 +30,7 @@ __all__ = [
     "find",
     "find_land_glare",
     "find_moon",
-    "find_risen_sea",
+    "find_sea",
     "flood_fill",
     "in_sky",
     "limit_to_core",
@@ -254,6 +254,8 @@ def in_sky(
 _BURNS = 0.75  # radii beyond the disc
 _GLINTS, _SEA = 0.1, 0.08  # widths: from the sun to where the skyline counts, and how much of it
 _TILT, _RISES = 0.03, 0.05  # rise over run; heights of the picture
+_STRAIGHT, _MOST = 1.5, 0.8  # rows; share of the columns
+_FADES = 6  # columns
 _AS_BRIGHT = 0.6, 0.8  # of the sky's encoded luminance
 
 
@@ -294,33 +296,47 @@ def _skyline(sky: np.ndarray) -> np.ndarray:
     return np.asarray(((sky > 0.5) * np.arange(1, sky.shape[0] + 1)[:, None]).max(axis=0))
 
 
-def find_risen_sea(sun_mask: SunMask, sky: np.ndarray, encoded: np.ndarray) -> np.ndarray:
-    """Return where a low sun's glare lifts a level skyline, though it is sky, (h, w) in [0, 1].
+def find_sea(
+    sun_mask: SunMask, sky: np.ndarray, encoded: np.ndarray
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return what is sky and what is not around the horizon of a sea below a low sun.
 
-    The glints of a sun above the sea grow together with its glow in the sky: what lies above the
-    line between the skylines left and right of it, and is as bright as the sky there, is sky.
+    The glints of a sun above the sea grow together with its glow in the sky, and clip a notch into
+    the sea. If the skylines left and right of them lie on one line, what is above that line and as
+    bright as the sky there is sky, and nothing below it is.
+
+    Returns
+    -------
+    two arrays (h, w) float32 in [0, 1], or None
+        Weights of sky and of no sky; None without a straight horizon.
     """
-    is_sky = np.zeros_like(sky)
     height, width = sky.shape
     wide, beside = math.ceil(max(3 * sun_mask.radius + 3, _GLINTS * width)), math.ceil(_SEA * width)
     first, last = round(sun_mask.x) - wide, round(sun_mask.x) + wide
     if first - beside < 0 or last + beside > width:
-        return is_sky
-    left, right = _skyline(sky[:, first - beside : first]), _skyline(sky[:, last : last + beside])
-    level = max(np.ptp(left), np.ptp(right)) <= 2
-    tilted = abs(float(left.mean() - right.mean())) > 1 + _TILT * (last - first)
-    if not level or tilted or min(left.min(), right.min()) <= sun_mask.y:
-        return is_sky
-    line = np.interp(np.arange(first, last), [first, last], [left.mean(), right.mean()])
-    up = line - np.arange(height)[:, None] - 0.5
+        return None
+    columns = np.concatenate([np.arange(first - beside, first), np.arange(last, last + beside)])
+    rows = _skyline(sky[:, columns])
+    fits = np.ones(columns.size, bool)
+    for _ in range(2):  # without what stands out, such as boats and waves
+        slope, offset = np.polyfit(columns[fits], rows[fits], 1)
+        away = np.abs(rows - slope * columns - offset)
+        fits = away <= np.quantile(away, _MOST)
+    if np.quantile(away, _MOST) > _STRAIGHT or abs(slope) > _TILT or rows.min() <= sun_mask.y:
+        return None
+    up = offset + slope * np.arange(first, last) - np.arange(height)[:, None]
     luminance = encoded[:, first:last] @ LUMINANCE
-    above = (sky[:, first:last] > 0.9) & (up > 0) & (up < 2 * _RISES * height)
+    above = (sky[:, first:last] > 0.9) & (up > 0.5) & (up < 2 * _RISES * height)
     if not above.any():
-        return is_sky
+        return None
     bright = smoothstep(*_AS_BRIGHT, luminance / max(float(np.median(luminance[above])), 1e-3))
-    near = np.clip(up + 0.5, 0, 1) * (up < _RISES * height)
-    is_sky[:, first:last] = near * bright
-    return is_sky
+    is_sky, no_sky = np.zeros_like(sky), np.zeros_like(sky)
+    # As soft as a matte beside it, also where the sun's part of the horizon ends.
+    share = np.clip(0.5 * up + 0.25, 0, 1)
+    ends = np.minimum(np.arange(last - first) + 1, np.arange(last - first, 0, -1)) / _FADES
+    is_sky[:, first:last] = np.minimum(ends, 1) * bright * share * (up < _RISES * height)
+    no_sky[:, first:last] = np.minimum(ends, 1) * (1 - share)
+    return is_sky, no_sky
 
 
 def observe(

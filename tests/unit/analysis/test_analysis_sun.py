@@ -192,9 +192,24 @@ def test_bright_land_above_a_level_sea_is_sky_and_a_dark_ship_is_none(light, men
     encoded = np.where(level > 0, 0.9, 0.3)
     encoded = np.where((level > 0) & (seen == 0), light, encoded)
     encoded = np.repeat(encoded[..., None], 3, -1).astype(np.float32)
-    found = np.maximum(seen, sun.find_risen_sea(sun.SunMask(150, 85, 5.0, disc), seen, encoded))
+    is_sky, no_sky = sun.find_sea(sun.SunMask(150, 85, 5.0, disc), seen, encoded)
+    found = np.maximum(seen, is_sky) * (1 - no_sky)
     assert (np.abs(found - level).sum() < 30) == mended
     assert np.abs(seen - level).sum() > 90
+
+
+def test_a_notch_in_a_tilted_sea_is_straightened_and_a_boat_beside_it_is_ignored():
+    rows, columns = np.mgrid[:200, :300] + 0.5
+    level = np.float32(rows < 120 + 0.02 * (columns - 150))
+    seen = level.copy()
+    seen[118:126, 140:160] = 1
+    seen[105:, 110:114] = 0  # a boat
+    disc = np.float32(np.hypot(columns - 150, rows - 85) < 5)
+    white = np.ones((200, 300, 3), np.float32)
+    is_sky, no_sky = sun.find_sea(sun.SunMask(150, 85, 5.0, disc), seen, white)
+    found = np.maximum(seen, is_sky) * (1 - no_sky)
+    assert np.abs(seen - level)[:, 130:170].sum() > 90
+    assert np.abs(found - level)[:, 130:170].sum() < 30
 
 
 def test_above_hills_no_sea_is_lifted():
@@ -202,7 +217,7 @@ def test_above_hills_no_sea_is_lifted():
     hills = np.float32(rows < 120 + 8 * np.sin(columns / 9))
     white = np.ones((200, 300, 3), np.float32)
     disc = np.float32(np.hypot(columns - 150, rows - 85) < 5)
-    assert not sun.find_risen_sea(sun.SunMask(150, 85, 5.0, disc), hills, white).any()
+    assert sun.find_sea(sun.SunMask(150, 85, 5.0, disc), hills, white) is None
 
 
 def test_a_sun_in_a_gap_of_the_skyline_keeps_its_sky():
