@@ -22,6 +22,7 @@ _COARSE = 0.04  # coarser detail is the sky's slow light
 _SKYLINE = 0.006  # so near to the skyline, which has twigs, detail is not cloud
 _FADE, _FADE_AT_SIDE = 0.01, 0.06  # width over which the mirrored texture fades out
 
+_USUAL = 2.0  # standard deviations of detail beside the glare
 _GRAIN = 1.0  # pixels of the map: blur that removes the grain of the mirrored texture
 
 
@@ -73,8 +74,12 @@ def sky_detail(
         return np.where(beside[..., None] > 0, found, plain)
 
     inside = np.asarray(sky > 0.98, np.float32)
-    own = (inside[..., None] * clouds(_FINE, inside) - without_glare(_FINE)) @ LUMINANCE
-    kept = keep * hidden * own
+    found = without_glare(_FINE)
+    own = (inside[..., None] * clouds(_FINE, inside) - found) @ LUMINANCE
+    # Rims of the disc and what a JPEG file makes of them stand out more than clouds do.
+    seen = clear * beside
+    most = _USUAL * float(np.sqrt((seen * (found @ LUMINANCE) ** 2).sum() / max(seen.sum(), 1.0)))
+    kept = keep * hidden * np.clip(own, -most, most)
     return np.asarray(without_glare(_COARSE) + kept[..., None], np.float32)
 
 

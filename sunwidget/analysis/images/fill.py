@@ -118,7 +118,8 @@ def mirror_texture(values: np.ndarray, beside: np.ndarray, known: np.ndarray) ->
     # Independent textures add in squares, equal ones linearly.
     squares = of_left**2 + of_right**2 + 2 * alike * of_left * of_right
     whole = np.minimum(of_left + of_right, 1) / np.maximum(np.sqrt(squares), 1e-3)
-    layered = np.where(between, smoothstep(0.0, _LAYERED, alike), _streaks(values, known))
+    streaks = _streaks(values, known)
+    layered = np.where(between, max(float(smoothstep(0.0, _LAYERED, alike)), streaks), streaks)
     texture = np.asarray(layered[..., None] * whole * (left + right), np.float32)
     # Above and below the gap, mirrored rows meet the original: the step between them fades into
     # the gap (Perez et al. 2003, "Poisson image editing").

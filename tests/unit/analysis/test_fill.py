@@ -82,6 +82,14 @@ def test_layers_go_on_through_a_gap(radius):
     assert 0.75 < continued[gap].std() / bands()[gap].std() < 1.3
 
 
+def test_streaks_go_on_through_a_gap_even_if_its_sides_differ():
+    slanting = np.sin((ROWS + 0.12 * COLUMNS) / 1.6)  # one side is shifted against the other
+    slanting = np.repeat(slanting[..., None], 3, -1).astype(np.float32)
+    beside = hole(14)
+    inside = np.hypot(COLUMNS - 40, ROWS - 30) < 8
+    assert mirror_texture(slanting, beside, beside)[inside].std() > 0.5 * slanting[inside].std()
+
+
 def test_single_clouds_are_not_copied():
     clouds = np.sin(COLUMNS / 1.3) * np.sin(ROWS / 1.7) * np.where(COLUMNS < 40, 1, -1)
     clouds = np.repeat(clouds[..., None], 3, -1).astype(np.float32)
