@@ -82,6 +82,16 @@ def test_a_blot_that_grew_into_the_sky_is_no_disc():
     assert frame_inputs.uniforms(scene)["own_disc_radius"] == 0
 
 
+def test_a_white_disc_in_a_glow_as_bright_is_seen_in_blue():
+    photo = evening(8, color=(1.0, 0.98, 0.9))
+    y, x = np.mgrid[:HEIGHT, :WIDTH] + 0.5
+    glow = np.exp(-(((np.hypot(x - X, y - Y)) / 160) ** 2))[..., None] * (y[..., None] < 180)
+    photo = np.maximum(photo, np.rint(255 * glow * (1.0, 0.97, 0.2)).astype(np.uint8))
+    found = frame_inputs.uniforms(scene_of(photo))
+    assert found["own_disc_radius"] > 0
+    assert found["own_disc"][2] > 0.5
+
+
 def test_another_light_has_its_own_disc():
     photo = evening(11)
     scene = scene_of(photo)

@@ -36,6 +36,7 @@ _CORE, _LEVEL, _POWER = 0.02, 23.0, 1.4
 _LEAST, _MOST = 0.1, 3.0  # limits of a measured glare relative to that
 _BURNT = (0.6, 0.9)  # display-linear light of the least channel: a colored disc, a white one
 _LARGEST_DISC, _DISC_STEP = 0.08, 0.08  # widths; encoded luminance above the surroundings
+_GLOWS = 0.95  # encoded: a channel of a disc whose glow may be as bright
 _RIM = (1.1, 1.9)  # radii: of a sharp disc, and of the softest glow
 _WIDTHS = (0.4, 0.7, 1.1, 1.6, 2.4, 3.6, 5.5)  # degrees
 # Between clouds and rays the sky shows: the darker third of a ring is sky and glare only.
@@ -90,7 +91,7 @@ def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> di
         shows no sun; ``own_disc_burnt``, its degree of clipping, [0, 1]; ``own_disc_rim``, the
         distance in radii at which its light has fallen half way to the surroundings.
     """
-    color, radius, rim = np.zeros(3), 0.0, _RIM[0]
+    color, radius, rim, seen = np.zeros(3), 0.0, _RIM[0], False
     if sun is not None and sun.visible and 0 < sun.radius_px < _LARGEST_DISC * sun.size[0]:
         scale = working.width / sun.size[0]
         shape = working.height, working.width
@@ -98,10 +99,13 @@ def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> di
         above = np.arange(working.height)[:, None] + 0.5 < scale * sun.y
         inside = (resize(sun.blot, working.width, working.height) > 0.5) & (away < 1.5)
         beside = (away > 2.5) & (away < 3.5) & above
-        light = working.encoded @ LUMINANCE
-        # A disc that is no brighter than the sky beside it has grown into the sky.
-        seen = inside.any() and beside.any()
-        if seen and np.median(light[inside]) > np.median(light[beside]) + _DISC_STEP:
+        # A disc that is no brighter than the sky beside it has grown into the sky. In a glow as
+        # bright as that a white disc is brighter in blue alone.
+        if inside.any() and beside.any():
+            disc, sky = (np.median(working.encoded[part], axis=0) for part in (inside, beside))
+            step = disc - sky if disc.max() > _GLOWS else (disc - sky) @ LUMINANCE
+            seen = np.max(step) > _DISC_STEP
+        if seen:
             color = np.median(working.linear[inside], axis=0)
             radius = sun.radius_px * camera.width / sun.size[0] / camera.focal
             rim = _rim(working.linear @ LUMINANCE, away, above)
