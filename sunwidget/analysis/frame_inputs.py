@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from sunwidget.analysis.clear_sky import clear_sky
 from sunwidget.analysis.depth import levels
+from sunwidget.analysis.depth.levels import fill_sky
 from sunwidget.analysis.haze import air_share, cover_of_low_sky
 from sunwidget.analysis.images import color_transfer
 from sunwidget.analysis.images.enlarge import resize_rows
 from sunwidget.analysis.images.noise import noise_level
-from sunwidget.analysis.images.working_copy import resize
+from sunwidget.analysis.images.working_copy import resize, smoothstep
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.segmentation.feather import softening
 from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
@@ -32,6 +33,7 @@ T = TypeVar("T")
 Size = tuple[int, int]
 Map = NDArray[np.float32]
 
+_NO_SKY, _ALL_SKY = 0.02, 0.99  # a pixel between them is of the skyline
 _SAME = 1 / 255  # a change of the matte below its 8-bit levels
 _SHADOW = 2.0**-7  # display-linear luminance at which a picture's key stops falling
 
@@ -182,15 +184,34 @@ def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -
     """
     width, height = size or (scene.width, scene.height)
     level = levels.to_level(scene.log_depth(width, height, rows))
-    return np.stack(
-        [
-            resize_rows(scene.glare, width, height, rows),
-            scene.water_at((width, height), rows),
-            resize_rows(_glitter(scene), width, height, rows),
-            levels.dithered(level, rows.indices(height)[0]),
-        ],
-        axis=-1,
+
+    def resized(image: np.ndarray) -> np.ndarray:
+        return resize_rows(image, width, height, rows)
+
+    sky = resized(scene.sky)
+    at_skyline = smoothstep(0.0, 0.1, sky) * (sky < _ALL_SKY)
+    wet = scene.water_at((width, height), rows), resized(_glitter(scene))
+    water, glitter = (
+        here + at_skyline * (resized(below) - here)
+        for here, below in zip(wet, _below_skyline(scene), strict=True)
     )
+    marks = resized(scene.glare), water, glitter, levels.dithered(level, rows.indices(height)[0])
+    return np.stack(marks, axis=-1)
+
+
+@_cache_per_scene
+def _below_skyline(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """Return water and glitter, with those below the skyline in its pixels.
+
+    What a pixel of the skyline holds beside sky is what lies below it. The maps are soft there, and
+    a little of burnt glints would outshine the sea.
+    """
+    import cv2
+
+    land = scene.small_sky < _NO_SKY
+    near = cv2.dilate(land.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0
+    water, glitter = (fill_sky(x, land) for x in (scene.small_water, _glitter(scene)))
+    return np.where(near, water, np.float32(0)), np.where(near, glitter, np.float32(0))
 
 
 @_cache_per_scene
@@ -206,7 +227,8 @@ def _glitter(scene: Scene) -> np.ndarray:
     if column is not None:
         shiny = glints_on_land(scene.working, scene.small_sky, scene.small_water)
         dry = zone * (1 - glare) * shiny
-    return (dry + scene.small_water * (wet - dry)).astype(np.float32)
+    water = smoothstep(0.2, 0.8, scene.small_water)  # as in frame.glsl
+    return (dry + water * (wet - dry)).astype(np.float32)
 
 
 _READ: dict[str, Callable[[Scene, Size], np.ndarray]] = {

@@ -42,6 +42,17 @@ def sunny():
     return sw.analyze(glittering(), sun=(150, 40), **TOLD)
 
 
+def test_a_pixel_of_the_skyline_has_the_water_below_it_with_its_glints():
+    matte = TOLD["sky"].copy()
+    matte[ROW] = 0.6
+    told = TOLD | {"sky": matte, "water": np.where(matte > 0, 0, 1).astype(np.float32)}
+    scene = sw.analyze(glittering(), sun=(150, 40), **told)
+    marks = frame_inputs.surface(scene)[..., 1:3]
+    assert marks[ROW, 150].min() > 0.9
+    assert marks[ROW, 40] == pytest.approx(marks[ROW + 1, 40], abs=0.05)
+    assert marks[: ROW - 1].max() == 0
+
+
 def column_light(picture, left, right):
     """Mean code value of the water between two columns."""
     return float(picture[ROW + 10 :, left:right].mean())
