@@ -115,8 +115,7 @@ def behind_sun(
     # A pixel of the skyline also shows sky, and has one mark for both.
     on_land = np.asarray(resize(erased.on_land, *size), np.float32)
     in_sky = np.maximum(mark, smoothstep(*_COUNTS, aureole.max(-1)))
-    at_skyline = np.maximum(in_sky * smoothstep(0.0, 0.2, matte), on_land)
-    glare = np.where(matte > 0.98, in_sky, at_skyline)
+    glare = np.where(matte > 0.98, in_sky, np.maximum(mark * smoothstep(0.0, 0.2, matte), on_land))
     return Backdrop(_dithered(to_code(sky_light)), glare)
 
 
