@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from sunwidget.analysis.clear_sky import clear_sky
 from sunwidget.analysis.depth import levels
-from sunwidget.analysis.depth.levels import fill_sky
 from sunwidget.analysis.haze import air_share, cover_of_low_sky
 from sunwidget.analysis.images import color_transfer
 from sunwidget.analysis.images.enlarge import resize_rows
@@ -129,7 +128,7 @@ def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) ->
     found = [resize_rows(image, width, height, rows) for image in maps]
     softer = _softening(scene)
     if softer is not None:
-        first, end = _softened_rows(softer, height, rows)
+        first, end = _touched_rows((softer != (0, 0, 1)).any(axis=(1, 2)), height, rows)
         # Channel by channel: NumPy is several times slower where channels alternate.
         change = [resize_rows(softer[..., i], width, height, slice(first, end)) for i in range(3)]
         top = rows.indices(height)[0]
@@ -142,12 +141,12 @@ def layers(scene: Scene, size: Size | None = None, rows: slice = slice(None)) ->
     return np.stack(found, axis=-1)
 
 
-def _softened_rows(softer: np.ndarray, height: int, rows: slice) -> tuple[int, int]:
-    """Return first and end of those ``rows`` that are softened; at least one row, if none is."""
-    touched = np.flatnonzero((softer != (0, 0, 1)).any(axis=(1, 2)))
+def _touched_rows(small: np.ndarray, height: int, rows: slice) -> tuple[int, int]:
+    """Return first and end of ``rows`` that a small map's change (h,) touches; at least one row."""
+    touched = np.flatnonzero(small)
     first, end, _ = rows.indices(height)
     # Interpolation spreads the values by a row.
-    scale = height / softer.shape[0]
+    scale = height / small.size
     top = min(max(first, int((touched[0] - 1) * scale)), end - 1)
     return top, max(min(end, math.ceil((touched[-1] + 2) * scale)), top + 1)
 
@@ -185,33 +184,51 @@ def surface(scene: Scene, size: Size | None = None, rows: slice = slice(None)) -
     width, height = size or (scene.width, scene.height)
     level = levels.to_level(scene.log_depth(width, height, rows))
 
-    def resized(image: np.ndarray) -> np.ndarray:
-        return resize_rows(image, width, height, rows)
+    wet = [
+        scene.water_at((width, height), rows),
+        resize_rows(_glitter(scene), width, height, rows),
+    ]
+    below = _below_skyline(scene)
+    if below is not None:
+        first, end = _touched_rows(below.rows, height, rows)
+        top = rows.indices(height)[0]
+        sky = resize_rows(scene.sky, width, height, slice(first, end))
+        at_skyline = smoothstep(0.0, 0.1, sky) * (sky < _ALL_SKY)
+        for i, image in enumerate((below.water, below.glitter)):
+            wet[i] = np.array(wet[i])  # it may be the scene's own
+            part = wet[i][first - top : end - top]
+            part += at_skyline * (resize_rows(image, width, height, slice(first, end)) - part)
+    glare = resize_rows(scene.glare, width, height, rows)
+    return np.stack([glare, *wet, levels.dithered(level, rows.indices(height)[0])], axis=-1)
 
-    sky = resized(scene.sky)
-    at_skyline = smoothstep(0.0, 0.1, sky) * (sky < _ALL_SKY)
-    wet = scene.water_at((width, height), rows), resized(_glitter(scene))
-    water, glitter = (
-        here + at_skyline * (resized(below) - here)
-        for here, below in zip(wet, _below_skyline(scene), strict=True)
-    )
-    marks = resized(scene.glare), water, glitter, levels.dithered(level, rows.indices(height)[0])
-    return np.stack(marks, axis=-1)
+
+class _Below(NamedTuple):
+    """What lies below the skyline, and the rows (h,) bool where that differs from the maps."""
+
+    water: np.ndarray
+    glitter: np.ndarray
+    rows: np.ndarray
 
 
 @_cache_per_scene
-def _below_skyline(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """Return water and glitter, with those below the skyline in its pixels.
+def _below_skyline(scene: Scene) -> _Below | None:
+    """Return water and glitter with those below the skyline in its pixels, None without any.
 
     What a pixel of the skyline holds beside sky is what lies below it. The maps are soft there, and
     a little of burnt glints would outshine the sea.
     """
     import cv2
 
-    land = scene.small_sky < _NO_SKY
-    near = cv2.dilate(land.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0
-    water, glitter = (fill_sky(x, land) for x in (scene.small_water, _glitter(scene)))
-    return np.where(near, water, np.float32(0)), np.where(near, glitter, np.float32(0))
+    sky = scene.small_sky
+    marks = np.dstack([scene.small_water, _glitter(scene)])
+    land = sky < _NO_SKY
+    near = cv2.dilate(land.astype(np.float32), np.ones((9, 9), np.uint8))
+    below = levels.fill_sky(marks, land) * near[..., None]
+    changed = (sky > 0) & (sky < 1) & (below != marks).any(-1)
+    if not changed.any():
+        return None
+    water, glitter = (np.ascontiguousarray(below[..., i]) for i in range(2))
+    return _Below(water, glitter, changed.any(axis=1))
 
 
 @_cache_per_scene

@@ -128,11 +128,9 @@ def complete(
         sky = np.maximum(sky, disc)
         raise_to(matte, disc, working.zoom)
         sea = sun_stage.find_sea(sun_mask, sky, working.encoded)
-        is_sky, no_sky = sea or (None, sun_stage.find_land_glare(sun_mask, sky))
-        if is_sky is not None:
-            sky = np.maximum(sky, is_sky)
-            raise_to(matte, is_sky, working.zoom)
-        sky = sky * (1 - no_sky)
+        is_sky, no_sky = sea or (np.zeros_like(sky), sun_stage.find_land_glare(sun_mask, sky))
+        sky = np.maximum(sky, is_sky) * (1 - no_sky)
+        raise_to(matte, is_sky, working.zoom)
         take_from(matte, no_sky, working.zoom)
 
     if peak is not None and sun_mask is not None and _lens_unknown(photo, hints):

@@ -91,7 +91,7 @@ def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> di
         shows no sun; ``own_disc_burnt``, its degree of clipping, [0, 1]; ``own_disc_rim``, the
         distance in radii at which its light has fallen half way to the surroundings.
     """
-    color, radius, rim, seen = np.zeros(3), 0.0, _RIM[0], False
+    color, radius, rim = np.zeros(3), 0.0, _RIM[0]
     if sun is not None and sun.visible and 0 < sun.radius_px < _LARGEST_DISC * sun.size[0]:
         scale = working.width / sun.size[0]
         shape = working.height, working.width
@@ -99,13 +99,7 @@ def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> di
         above = np.arange(working.height)[:, None] + 0.5 < scale * sun.y
         inside = (resize(sun.blot, working.width, working.height) > 0.5) & (away < 1.5)
         beside = (away > 2.5) & (away < 3.5) & above
-        # A disc that is no brighter than the sky beside it has grown into the sky. In a glow as
-        # bright as that a white disc is brighter in blue alone.
-        if inside.any() and beside.any():
-            disc, sky = (np.median(working.encoded[part], axis=0) for part in (inside, beside))
-            step = disc - sky if disc.max() > _GLOWS else (disc - sky) @ LUMINANCE
-            seen = np.max(step) > _DISC_STEP
-        if seen:
+        if inside.any() and beside.any() and _stands_out(working.encoded, inside, beside):
             color = np.median(working.linear[inside], axis=0)
             radius = sun.radius_px * camera.width / sun.size[0] / camera.focal
             rim = _rim(working.linear @ LUMINANCE, away, above)
@@ -115,6 +109,16 @@ def own_disc(sun: SunObservation | None, camera: Camera, working: Working) -> di
         "own_disc_burnt": float(smoothstep(*_BURNT, color.min())),
         "own_disc_rim": rim,
     }
+
+
+def _stands_out(encoded: np.ndarray, inside: np.ndarray, beside: np.ndarray) -> bool:
+    """Return whether a disc is brighter than the sky beside it, or has grown into the sky.
+
+    In a glow as bright as the disc, a white one is brighter in blue alone.
+    """
+    disc, sky = (np.median(encoded[part], axis=0) for part in (inside, beside))
+    step = disc - sky if disc.max() > _GLOWS else (disc - sky) @ LUMINANCE
+    return bool(np.max(step) > _DISC_STEP)
 
 
 def _rim(light: np.ndarray, away: np.ndarray, above: np.ndarray) -> float:

@@ -39,7 +39,7 @@ vec4 GetWater(vec2 place, vec3 level, float known, out float waves) {
       float inside = step(0.0, at.y) * step(at.y, 1.0);
       vec2 marks = ReadPicture(surface, at).gb;
       float weight = inside * row_weight * marks.x * (1.0 - marks.y) * (1.0 - marks.y);
-      // By the inverse square of the distance (Shepard 1968), with a share for all.
+      // By the inverse square of the distance (Shepard 1968) beyond 2 % of the width, with a share for all.
       weight *= 10.0 + 1.0 / (across * across + 4e-4);
       vec3 light = log(max(GetSceneLight(ReadPicture(photo, at).rgb), vec3(1e-5))) - GetMirrored(at);
       float deviation = known * length(light - level);

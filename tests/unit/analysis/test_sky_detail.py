@@ -35,11 +35,11 @@ def test_what_is_hidden_has_the_clouds_beside_it_and_nothing_of_its_own():
 
 
 def test_the_photos_own_detail_counts_where_glare_only_brightens_it():
-    blobs = 0.2 * np.sin(COLUMNS / 2.0) * np.where(FAR < 30, 1, np.sin(COLUMNS))
+    blobs = 0.2 * np.sin(COLUMNS / 2.0) * ((FAR < 30) | (ROWS > 140))  # low down as strong
     kept, lost = (detail(SLOW + blobs, keep=EVERYWHERE * share) for share in (1, 0))
     inside = FAR < 20
     assert np.corrcoef(kept[inside][:, 0], blobs[inside])[0, 1] > 0.95
-    assert np.abs(lost[inside]).max() < 0.5 * np.abs(kept[inside]).max()
+    assert np.abs(lost[inside]).max() < 0.03
 
 
 def test_the_rim_of_a_disc_stands_out_no_more_than_clouds_do():
