@@ -60,7 +60,7 @@ export function reachable(graph, files) {
 
 /**
  * Strip comments, indentation, empty lines, spaces around operators and zeros beside a decimal point from a
- * shader, make wrapped statements one line, and declare neighboring uniforms of one type together. Names and other lines
+ * shader, make wrapped statements one line, put braces on the lines beside them, and declare neighbors of one type together. Names and other lines
  * stay: a driver's error quotes a line, which can be found in the file. (Some constants become numbers: `inlined`.)
  *
  * @param {string} text
@@ -70,6 +70,7 @@ export function compact(text) {
     .replace(/\/\*[\s\S]*?\*\/|\/\/.*/g, " ")
     .replace(/\s*\n\s*/g, "\n")
     .replace(/(?<=^(?!#).*[^;{}\n])\n(?!#)/gm, " ")
+    .replace(/(?<=^(?!#).*)\n(?=\})/gm, "")
     .trim()
     .replace(/^[^#].*/gm, (line) =>
       line
@@ -78,8 +79,9 @@ export function compact(text) {
         .replace(/(?<![\w.])0(?=\.\d)/g, "") // 0.5 is .5, and 1.0 is 1.
         .replace(/(?<=(?<![\w.])\d+\.)0(?!\d)/g, ""),
     )
-    .replace(/^(uniform \w+ )\w+(;\n\1\w+)+/gm, (lines, type) =>
-      lines.replaceAll(`;\n${type}`, ","),
+    .replace(
+      /^((?:uniform )?(?:float|int|[iu]?vec[234]|sampler2D) )\w+(?:=[^;]+)?(;\n\1\w+(?:=[^;]+)?)+(?=;)/gm,
+      (lines, type) => lines.replaceAll(`;\n${type}`, ","),
     );
 }
 

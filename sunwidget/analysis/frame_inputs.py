@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from sunwidget.analysis.clear_sky import clear_sky
 from sunwidget.analysis.depth import levels
+from sunwidget.analysis.fit.fit import Response
 from sunwidget.analysis.haze import air_share, cover_of_low_sky
 from sunwidget.analysis.images import color_transfer
 from sunwidget.analysis.images.enlarge import resize_rows
@@ -24,7 +25,13 @@ from sunwidget.analysis.images.working_copy import resize, smoothstep
 from sunwidget.analysis.scene import Scene
 from sunwidget.analysis.segmentation.feather import softening
 from sunwidget.analysis.sun.camera_glare import glare_profile, own_disc
-from sunwidget.analysis.water.glitter import azimuth_column, glints_on_land, glitter, roughness
+from sunwidget.analysis.water.glitter import (
+    azimuth_column,
+    glints_on_land,
+    glitter,
+    own_glints,
+    roughness,
+)
 from sunwidget.analysis.water.mirror import Mirror, find_mirror
 from sunwidget.analysis.windows import panes
 
@@ -80,6 +87,7 @@ def uniforms(scene: Scene) -> dict[str, Any]:
         "response_shoulder": 0.0,
         "response_contrast": 1.0,
         "glare_profile": (0.0, 3.0, 2.0),
+        "own_glints": 0.0,
         "noise_level": noise_level(scene.photo, scene.sky),
         "photo_height": float(scene.height),
         "cover_of_low_sky": cover_of_low_sky(sky, scene.cloud_map),
@@ -89,6 +97,7 @@ def uniforms(scene: Scene) -> dict[str, Any]:
     found |= scene.response | own_disc(scene.sun, scene.camera, small)
     if scene.fitted is not None:
         found["glare_profile"] = glare_profile(scene.fitted, scene.camera)
+        found["own_glints"] = _own_glints(scene, scene.fitted.response, found["water_roughness"])
     return found
 
 
@@ -108,6 +117,13 @@ def _water_roughness(scene: Scene) -> float:
         return _mirror(scene).roughness
     sun = scene.sun.azimuth, scene.sun.elevation
     return roughness(scene.working, scene.small_water, scene.camera, sun)
+
+
+def _own_glints(scene: Scene, response: Response, rough: float) -> float:
+    if scene.sun is None or not scene.sun.visible:
+        return 0.0
+    sun = scene.sun.azimuth, scene.sun.elevation
+    return own_glints(scene.working, scene.small_water, scene.camera, sun, response, rough)
 
 
 def _weighted_mean(linear: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:

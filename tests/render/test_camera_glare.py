@@ -100,6 +100,24 @@ def test_kernel_and_shader_draw_the_same_glare():
     assert np.allclose(light, expected, rtol=0.03)
 
 
+def test_the_glare_of_a_photos_own_sun_is_held_as_it_sinks():
+    def fading(scene):
+        heights = scene.fitted.sun[1], 2.0
+        edits = [Edit(sun_azimuth=scene.fitted.sun[0], sun_elevation=h) for h in heights]
+        seen = [
+            (
+                render_pass(scene, edit, "composite_constants")[0, 13, :3]
+                @ LUMINANCE
+                / render_pass(scene, edit, "visibility_edit")[0, 0, 1]
+            )
+            for edit in edits
+        ]
+        return seen[1] / seen[0]
+
+    scene = known_scene()
+    assert fading(scene) > 1.3 * fading(dataclasses.replace(scene, sun=None))
+
+
 def uneven(scene, edit, low, high):
     """Range of the light (log2) in the ring from ``low`` to ``high`` degrees from the sun."""
     light = render(scene, edit, dtype="float32") @ LUMINANCE

@@ -76,6 +76,17 @@ def test_a_white_disc_in_a_red_sky_turns_neither_violet_nor_blue(elevation):
     assert disc[0] >= disc[1] >= disc[2]
 
 
+@pytest.mark.parametrize(("color", "stays"), [((1.0, 0.98, 0.9), True), ((0.8, 0.7, 0.5), False)])
+def test_a_clipped_disc_stays_white_as_it_sinks_and_another_reddens(color, stays):
+    scene = scene_of(evening(10, color=color, dim=0.6))
+    own = np.array(frame_inputs.uniforms(scene)["own_disc"])
+    low = sw.Edit(sun_azimuth=scene.sun.azimuth + 20, sun_elevation=scene.sun.elevation - 8)
+    disc = render_pass(scene, low, "composite_constants")[0, 14, :3]
+    own = scene.fitted.response.scene_light(own)
+    assert (disc[1] > 0.8 * own[1]) == stays
+    assert disc[2] < 0.9 * own[2]
+
+
 def test_a_blot_that_grew_into_the_sky_is_no_disc():
     scene = scene_of(evening(10, color=(0.95, 0.3, 0.2)))  # as bright as the sky beside it
     assert scene.sun.radius_px > 60

@@ -11,12 +11,15 @@ from water_scenes import ROW, SIZE, TOLD, shore
 
 import sunwidget as sw
 from sunwidget.analysis import frame_inputs
+from sunwidget.analysis.fit.fit import Response
 from sunwidget.analysis.images.working_copy import Working
 from sunwidget.analysis.networks.sun import SunMaps
 from sunwidget.analysis.water import water
+from sunwidget.analysis.water.glitter import mirrored, own_glints
 from sunwidget.formats.color import srgb_to_linear
 from sunwidget.geometry.camera import Camera
 from sunwidget.photo.photo import open_photo
+from sunwidget.renderer import render_pass
 
 MOVES = [(25, 10), (8, 2), (-20, 30)]
 
@@ -246,6 +249,58 @@ def test_water_is_rougher_where_it_glitters_wider():
     assert rough[0] < 0.5 * rough[1]
     flat = Working(np.full((160, 240, 3), 0.2, np.float32), linear, linear, (1, 1))
     assert roughness(flat, water.astype(np.float32), camera, (0.0, 12.0)) == 1
+
+
+def lit_by(light, elevation, rough):
+    """A photo of dark water below a sun of this light, and what ``own_glints`` takes."""
+    camera = Camera.from_horizon(240, 160, 40.0, 80.0)
+    sun = (0.0, elevation)
+    linear = np.full((160, 240, 3), 0.02, np.float32)
+    linear[80:] += light * mirrored(camera, sun, rough)[80:, :, None]
+    linear = Response().display_light(linear).astype(np.float32)
+    working = Working(linear, linear, linear, (1, 1))
+    water = (np.arange(160)[:, None] >= 80) * np.ones(240, np.float32)
+    return working, water.astype(np.float32), camera, sun, Response(), rough
+
+
+@pytest.mark.parametrize("elevation", [0.5, 3.0, 9.0])
+def test_the_photos_glints_tell_how_bright_their_sun_is(elevation):
+    faint, bright = (own_glints(*lit_by(light, elevation, 0.3)) for light in (0.05, 0.15))
+    assert 0.01 < faint < 0.05
+    assert bright == pytest.approx(3 * faint, rel=0.05)
+
+
+def test_without_water_below_the_sun_its_glints_are_unknown():
+    working, water, *told = lit_by(0.5, 6.0, 0.3)
+    water[:, 90:150] = 0
+    assert own_glints(working, water, *told) == 0
+    assert own_glints(working, np.zeros_like(water), *told) == 0
+
+
+def test_kernel_and_shader_have_the_same_glints():
+    scene = sunny()
+    edit = sw.Edit(sun_azimuth=4.0, sun_elevation=8.0)
+    drawn = render_pass(scene, edit, "mirror_edit")[..., 3]
+    height, width = drawn.shape
+    rough = frame_inputs.uniforms(scene)["water_roughness"]
+    found = mirrored(scene.camera.resized(width, height), (4.0, 8.0), rough)
+    below = slice(int(ROW * height / SIZE[1]) + 3, None)
+    drawn, found = (drawn / (1 + drawn))[below], found[below]
+    # The shader's waves are longer across the wind than along it, the kernel's alike.
+    assert found.sum() == pytest.approx(drawn.sum(), rel=0.15)
+    assert np.corrcoef(found.ravel(), drawn.ravel())[0, 1] > 0.97
+
+
+def test_a_photos_column_stays_as_its_sun_sinks_in_haze(monkeypatch):
+    scene = sunny()
+    hazy = scene.fitted.atmosphere.replace(aerosol_optical_depth=0.5)
+    edit = sw.Edit(sun_azimuth=scene.sun.azimuth - 12, sun_elevation=2)
+    middle = scene.camera.pixel(edit.sun_azimuth, 0)[0]
+    columns = int(middle) - 8, int(middle) + 8
+    known = sw.render(dataclasses.replace(scene, atmosphere=hazy), edit)
+    monkeypatch.setattr(frame_inputs, "own_glints", lambda *_: 0.0)
+    unknown = sw.render(dataclasses.replace(scene, atmosphere=hazy), edit)
+    assert column_light(known, *columns) > column_light(unknown, *columns) + 5
 
 
 def test_a_large_picture_has_the_water_of_its_preview():

@@ -259,6 +259,18 @@ def test_gray_clouds_turn_less_blue_by_day_unless_an_evening_colors_the_sky():
         assert cloudy - clear == pytest.approx(apart, abs=0.1)
 
 
+def test_what_is_brighter_in_an_evenings_sky_is_white_cloud_by_day():
+    photo = known_photo(sun=(8.0, 4.0), tint=(2.0, 1.0, 0.5), clouds=False, size=(240, 160))
+    streak = np.zeros((160, 240), np.float32)
+    streak[30:36, 40:200] = 1
+    linear = np.clip(photo.linear * (1 + 0.8 * streak[..., None]), 0, 1)
+    scene = dataclasses.replace(photo, linear=linear).analyze()
+    day = rendered(scene, HIGH)
+    inside, beside = day[31:35, 60:180], day[20:26, 60:180]
+    assert balance(inside)[0] > balance(beside)[0] + 0.4
+    assert balance(beside)[0] < -0.5
+
+
 def test_dusk_is_orange_below_and_blue_above_towards_the_sun_only():
     photo = known_photo(sun=(8.0, 14.0), clouds=False, size=(240, 160))
     scene = photo.analyze()

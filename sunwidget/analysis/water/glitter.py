@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from sunwidget.analysis.fit.fit import Response
 from sunwidget.analysis.images.working_copy import Working, resize, smoothstep
 from sunwidget.formats.color import LUMINANCE
 from sunwidget.geometry.camera import Camera
@@ -12,6 +13,11 @@ SIDE = 256  # px: waves average out
 STANDARD_VARIANCE = 0.5 * (1e-3 + 3.16e-3 * 5 + 3e-3 + 1.92e-3 * 5)  # water/glint.glsl at 5 m/s
 _FALL = 300.0
 _WHITE_LAND = 0.3, 0.15  # median light of land that does not glint, and that may (display-linear)
+_STEEP_SHARE, _STEEP_VARIANCE = 0.1, 6.0  # as in water/glint.glsl
+_BELOW = 0.06  # widths: from the sun's column
+_DRAWN = 0.5  # so that as much is drawn: the column's light over that beside it in 23 photos
+_BRIGHTEST = 1.5  # scene-linear: beyond it, what is seen below the sun is not these waves' glints
+_LOWEST = 0.5  # degrees: the photo's own sun on the horizon
 _WIDTH = 0.3  # of the picture's width: greatest distance of glints from the sun's column
 
 
@@ -148,6 +154,81 @@ def roughness(
         return 1.0
     deviation = float(np.median(slopes)) / np.sqrt(2 * np.log(_FALL))
     return float(np.clip(deviation**2 / STANDARD_VARIANCE, 0.05, 2))
+
+
+def own_glints(
+    working: Working,
+    water: np.ndarray,
+    camera: Camera,
+    sun: tuple[float, float],
+    response: Response,
+    rough: float,
+) -> float:
+    """Return how bright the sun is whose glints the photo shows on its water.
+
+    The light of the water under the sun beyond that beside it, over what level water with these
+    waves would mirror of a sun of light 1 (water/glint.glsl).
+
+    Parameters
+    ----------
+    working, water, camera, sun
+        As for ``roughness``.
+    response : Response
+        Of the photo's fit.
+    rough : float
+        From ``roughness``.
+
+    Returns
+    -------
+    float
+        Luminance of its light, scene-linear; 0 if no water lies below the sun.
+    """
+    column = azimuth_column(camera, sun[0])
+    if column is None or not water.any():
+        return 0.0
+    linear, mask = small_copy(working, water)
+    light = response.scene_light(linear) @ LUMINANCE
+    height, width = mask.shape
+    drawn = mirrored(camera.resized(width, height), (sun[0], max(sun[1], _LOWEST)), rough)
+    away = np.abs((np.arange(width) + 0.5) / width - column)
+    below, beside = away < _BELOW, (away > 2 * _BELOW) & (away < 5 * _BELOW)
+    seen = mask > 0.6
+    sums = np.zeros(2)
+    rows = 0
+    for row in range(height):
+        under, side = seen[row] & below, seen[row] & beside
+        if under.sum() < 0.6 * below.sum() or side.sum() < 8:
+            continue
+        for i, part in enumerate((light[row], drawn[row])):
+            sums[i] += np.maximum(part[under] - np.quantile(part[side], 0.4), 0).sum()
+        rows += 1
+    found = _DRAWN * float(sums[0] / max(sums[1], 1e-9))
+    return min(found, _BRIGHTEST) if rows >= 4 else 0.0
+
+
+def mirrored(camera: Camera, sun: tuple[float, float], rough: float) -> np.ndarray:
+    """Return the light (h, w) of glints everywhere, per light of the sun: ``GetGlint``'s twin."""
+    rows, columns = np.mgrid[: camera.height, : camera.width] + 0.5
+    azimuth, elevation = np.radians(camera.angles(columns, rows))
+    view = _direction(azimuth, np.minimum(elevation, -0.002))
+    to_sun = _direction(*np.radians(sun))
+    facet = to_sun - view
+    facet /= np.linalg.norm(facet, axis=-1, keepdims=True)
+    rise = np.maximum(facet[..., 1], 1e-3)
+    total = STANDARD_VARIANCE * rough
+    variance = total / (1 + _STEEP_SHARE * (_STEEP_VARIANCE - 1))
+    square = (facet[..., 0] ** 2 + facet[..., 2] ** 2) / rise**2 / variance
+    steep = np.exp(-0.5 * square / _STEEP_VARIANCE) / _STEEP_VARIANCE
+    density = (1 - _STEEP_SHARE) * np.exp(-0.5 * square) + _STEEP_SHARE * steep
+    fresnel = 0.02 + 0.98 * (1 - np.clip(facet @ to_sun, 0, 1)) ** 5
+    facing = np.sqrt(view[..., 1] ** 2 + total)
+    shown = fresnel * density / (2 * np.pi * variance) / (4 * facing * rise**4)
+    return np.asarray(shown / (1 + shown))
+
+
+def _direction(azimuth: np.ndarray, elevation: np.ndarray) -> np.ndarray:
+    level = np.cos(elevation)
+    return np.stack([np.sin(azimuth) * level, np.sin(elevation), np.cos(azimuth) * level], -1)
 
 
 def small_copy(working: Working, water: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

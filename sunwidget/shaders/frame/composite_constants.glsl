@@ -40,6 +40,7 @@ uniform vec3 photo_land_linear_mean;
 uniform float photo_key;  // mean log2 of the luminance of the photo without its sun, display-linear
 uniform float photo_sky_key;  // the same for its sky
 uniform vec3 own_disc;  // the photo's own sun: display-linear light of its disc or clipped core
+uniform float own_glints;  // luminance of the light that its glints on water tell of, scene-linear; 0 without glints
 uniform float own_disc_radius;  // tangent of its angular radius, 0 if no sun is visible
 
 out vec4 result;
@@ -172,12 +173,14 @@ Stops GetStops() {
 // The glare of a sun in a picture that is exposed for it, scaled with any other exposure.
 vec3 GetGlare(Stops stops) {
   vec3 beam = GetLightScale(GetMoon()) * GetLightTexel(light_edit, 1);
-  float light = GetLuminance(beam);
+  // A camera is exposed for the sun that it shows: as that sun sinks, its glare stays as strong.
+  float before = GetLuminance(GetLightScale(photo_light) * GetLightTexel(light_before, 1));
+  float light = max(GetLuminance(beam), sun_visible * before);
   float visible = texelFetch(visibility_edit, ivec2(0), 0).g;
   // Cameras balance white half way. A red tint of the photo colors the sun's light, a blue one only its sky.
   vec3 color = sqrt(beam * (sky_gain.r > sky_gain.b ? sky_gain : vec3(1.0)));
   return glow * visible * exp2(stops.all - stops.sky - stops.day) * GetGlareStrength(light)
-      * color / GetLuminance(color);
+      * LimitRed(color / GetLuminance(color));
 }
 
 // Luminance of the light on land, level and upright, from its texels of land_terms.glsl. `share` is the share of the
@@ -237,19 +240,36 @@ const float kRays = 1.6;
 
 // Largest factor by which the photo's own disc becomes brighter.
 const float kBrightestDisc = 4.0;
+// Stops by which a disc that the photo clips is brighter than white.
+const float kBeyondWhite = 2.0;
 
-// The photo's own disc under the new sun's light. The true light of a clipped disc is unknown, and a camera exposes
-// for a visible sun, so the disc's luminance changes as the glare does and its color as the sunlight does.
+// Light of the sun now over that of the photo's.
+float GetLevel() {
+  return GetLuminance(GetLightTexel(light_edit, 1)) / GetLuminance(GetLightTexel(light_before, 1));
+}
+
+// The factor of the photo's own sun in the picture. Its true light is unknown where it clips, and a camera exposes for a
+// visible sun, so it changes as the glare does.
+float GetOwnChange() {
+  return pow(GetLevel(), kGlareGrowth);
+}
+
+// The photo's own disc under the new sun's light: its luminance changes as the glare's, and its color as the sunlight's.
 vec3 GetOwnDisc() {
-  vec3 before = max(GetLightTexel(light_before, 1), vec3(1e-9));
-  vec3 now = max(GetLightTexel(light_edit, 1), vec3(0.0));
-  float level = GetLuminance(now) / GetLuminance(before);
-  vec3 hue = now / before / max(level, 1e-9);
-  vec3 disc = GetSceneLight(own_disc) * min(hue, vec3(kBrightestDisc));
+  vec3 hue = GetLightTexel(light_edit, 1) / GetLightTexel(light_before, 1) / GetLevel();
+  vec3 change = min(GetOwnChange(), kBrightestDisc) * min(hue, vec3(kBrightestDisc));
+  // As a clipped disc dims it stays white at first.
+  float beyond = exp2(kBeyondWhite * smoothstep(0.9, 0.98, max(own_disc.r, own_disc.g)));
+  vec3 disc = GetSceneLight(own_disc) * max(change, min(beyond * change, vec3(1.0)));
   // Where the photo clips it, it is whiter than its light: it becomes no bluer than white, nor violet.
   disc.g = min(disc.g, disc.r);
   disc.b = min(disc.b, disc.g);
-  return sun_visibility * min(pow(level, kGlareGrowth), kBrightestDisc) * disc;
+  return sun_visibility * disc;
+}
+
+// Least luminance of the new sun's light on water, by the glints of the photo's own.
+float GetOwnGlints() {
+  return own_glints * GetMirroredShare(texelFetch(visibility_edit, ivec2(0), 0)) * min(GetOwnChange(), 1.0);
 }
 
 void main() {
@@ -289,7 +309,7 @@ void main() {
     float rays = kRays * starburst * day * GetBlueSky() * visible_now.r;
     result = vec4(day * GetAppeared(), log2(max(GetLuminance(GetSceneLight(photo_sky_linear_mean)), 1e-6)), rays, day);
   } else if (index == kGlare) {
-    result = vec4(GetGlare(stops), 0.0);
+    result = vec4(GetGlare(stops), GetMoon() == photo_light ? GetOwnGlints() : 0.0);
   } else if (index == kOwnDisc) {
     result = vec4(GetOwnDisc(), GetMoon() == photo_light ? own_disc_radius * sun_size : 0.0);
   } else {

@@ -14,7 +14,8 @@ const int kSunBefore = 9;         // direction of the photo's sun
 const int kDisc = 10;             // sky/disc.glsl: radius, sine of its center's elevation, inverse of half its height
 const int kWaterSunBefore = 11;   // the sun's light on water
 const int kWaterSunNow = 12;
-const int kGlare = 13;            // factor for the profile of camera/camera_glare.glsl
+const int kGlare = 13;            // factor for the profile of camera/camera_glare.glsl; alpha: least luminance of the
+                                  // light of glints
 const int kOwnDisc = 14;          // the photo's own disc under the new light; alpha: its radius, 0 for none
 const int kBesideSun = 15;        // camera/beside_sun.glsl: how far a sun has appeared by day, log2 of the photo's mean sky, rays, day
 // Alphas of 1-4, 5-8, 9-12: log2 of the disc's radiance at its center, its slope and its curvature over the height.

@@ -59,7 +59,7 @@ vec3 GetOwnColorTurn(vec2 color, vec2 own, float fall, float cosine, float sun_y
 const vec2 kDayBelow = vec2(-0.62, 0.54);
 const vec2 kDayAbove = vec2(-1.2, 1.2);
 const vec2 kDayBegins = vec2(0.2, 0.4);  // sine of the sun's height
-// Clouds that no evening colors are gray, at noon as well: the share of that blue which they hide.
+// Clouds are gray by day: the share of that blue which they hide.
 const float kGrayClouds = 0.8;
 
 // How far day begins as a low sun has `risen` to this height.
@@ -70,7 +70,7 @@ float GetDayBegun(float sun_y, float risen) {
 // The turn of a sky's `color` in the height `view_y`, behind a `cloud` of this opacity, towards that of such photos as
 // day begins.
 vec3 GetBlueDayTurn(vec2 color, float cloud, float view_y, float sun_y, float risen) {
-  float blue = 1.0 - kGrayClouds * cloud * (1.0 - GetEveningSky());
+  float blue = 1.0 - kGrayClouds * cloud;
   vec2 wanted = blue * mix(kDayBelow, kDayAbove, smoothstep(0.0, 0.6, view_y));
   wanted = vec2(min(wanted.x, color.x), max(wanted.y, color.y));
   // What would be violet becomes blue, with as much blue over red.

@@ -129,8 +129,8 @@ vec3 GetLowSkyTurn(vec2 color) {
 }
 
 // Turns light of the sky in the direction `view`, or of what mirrors it, as the sun moves. `own` is the photo's light,
-// `cloud` the opacity of its clouds, `uneven` the log of their light over that around them, `day_y` the height that counts
-// by day.
+// `cloud` how far it is cloud, which is gray by day, `uneven` the log of its light over that around it, `day_y` the height
+// that counts by day.
 vec3 TurnToPhotos(vec3 light, vec3 own, float cloud, float uneven, vec3 view, float day_y, vec3 sun_before, vec3 sun_now,
                   float risen) {
   vec2 low = GetLownesses(sun_before, sun_now);

@@ -30,6 +30,7 @@ const float kMostGone = 1.2;  // log of light
 // A cloud darker than this share of the model's light is all shade.
 const float kShaded = 0.2;
 const float kFarthest = 1.8;  // stops
+const float kCloudBrighter = 0.33;  // log of the light of an evening's cloud over that around it
 const float kTextureKept = 0.7;  // share of the clouds' texture that stays in air brightened by the new sun
 
 // The factor by which light fades as the model's light changes by `change` (log). `own.r` (own_sky.glsl), the excess
@@ -89,7 +90,9 @@ vec3 GetSkyChange(vec3 light, vec3 clean, float cover, float mark, vec4 own, vec
   uneven = GetBounded(opacity * local, 1.0);
   relit *= GetFadedLight(own.rg, local, log(GetLuminance(model * ratio) / GetLuminance(model)), view, sun_before, sun_now);
   relit *= GetLowSunChange(cloud - shaded, view, sun_before, sun_now);
-  relit = TurnToPhotos(relit, sky, cover, uneven, view, view.y, sun_before, sun_now, risen);
+  // Colors tell an evening's clouds from its sky badly; what is brighter than the sky around it is cloud.
+  float white = mix(cover, clamp(local / kCloudBrighter, 0.0, 1.0), GetEveningSky());
+  relit = TurnToPhotos(relit, sky, white, uneven, view, view.y, sun_before, sun_now, risen);
   relit = CompressBrightAir(relit, light, exp(-kTextureKept * uneven));
   relit = FitBesideSun(relit, clean, opacity, dot(view, sun_now));
   // The new disc, behind clouds; the matte hides it behind land.

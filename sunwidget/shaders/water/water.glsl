@@ -43,6 +43,9 @@ vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle
   float shown = mirror.a * DecodeSparkle(sparkle);
   // The sun's own color: the tint of the photo's sky would color glints that are nearly white.
   vec3 sun = texelFetch(composite_constants, ivec2(kWaterSunNow, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
+  // The photo's own glints tell how bright they are at least: they are far brighter than white, however low the sun.
+  float level = GetLuminance(sun);
+  sun = LimitRed(sun / level) * max(level, texelFetch(composite_constants, ivec2(kGlare, 0), 0).a);
   vec3 glints = changed * shown / (1.0 + shown / kBrightest) * sun;
   vec3 relit = max(calm * mirror.rgb, vec3(0.0));
   // As in the sky (sky/tint.glsl), the water's excess color over the model fades. Blue is the water's own.
