@@ -33,13 +33,9 @@ float GetGlareStrength(float illuminance) {
   return pow(max(illuminance, 1e-9) / kSunOfProfile, kGlareGrowth);
 }
 
-// The reddest glare and glints, of luminance 1: seven in ten photos of suns have none redder (chosen by eye: the median
-// of 56, 2, .8 and .2, looks olive in red skies).
-const vec3 kReddestGlare = vec3(2.4, 0.65, 0.15);
-
-// Keeps the color of a sun's light, whose luminance is 1, as pale as cameras show what burns.
-vec3 LimitRed(vec3 color) {
-  return vec3(min(color.r, kReddestGlare.r), max(color.gb, kReddestGlare.gb));
+// Keeps the color of a sun's light, whose luminance is 1, no redder than `reddest`: cameras show as pale what burns.
+vec3 LimitRed(vec3 color, vec3 reddest) {
+  return vec3(min(color.r, reddest.r), max(color.gb, reddest.gb));
 }
 
 // Packs the sun's color into one float: shares of red and blue in 12 bits each.

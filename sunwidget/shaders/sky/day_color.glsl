@@ -61,6 +61,7 @@ const vec2 kDayAbove = vec2(-1.2, 1.2);
 const vec2 kDayBegins = vec2(0.2, 0.4);  // sine of the sun's height
 // Clouds are gray by day: the share of that blue which they hide.
 const float kGrayClouds = 0.8;
+const float kWhiteClouds = 0.4;  // stops by which the sun lights them
 
 // How far day begins as a low sun has `risen` to this height.
 float GetDayBegun(float sun_y, float risen) {
@@ -75,5 +76,5 @@ vec3 GetBlueDayTurn(vec2 color, float cloud, float view_y, float sun_y, float ri
   wanted = vec2(min(wanted.x, color.x), max(wanted.y, color.y));
   // What would be violet becomes blue, with as much blue over red.
   wanted -= 0.5 * max(wanted.x + wanted.y, 0.0);
-  return GetDayBegun(sun_y, risen) * vec3(wanted - color, 0.0);
+  return GetDayBegun(sun_y, risen) * vec3(wanted - color, kWhiteClouds * cloud);
 }

@@ -121,6 +121,8 @@ const vec3 kLowReds = vec3(0.02, 0.72, -0.6);
 const float kLowShare = 0.5;  // of the way to them
 // The turn of clouds per log of their light over that around them: what is brighter becomes warmer, and brighter still.
 const vec3 kLowTexture = vec3(0.6, -0.5, 0.5);
+// The same at dusk, where they are less bright: by day the sun lit them.
+const vec3 kDuskTexture = vec3(1.2, -1.0, -0.4);
 
 // The turn of a sky's `color` to the reds of such photos.
 vec3 GetLowSkyTurn(vec2 color) {
@@ -135,7 +137,7 @@ vec3 TurnToPhotos(vec3 light, vec3 own, float cloud, float uneven, vec3 view, fl
                   float risen) {
   vec2 low = GetLownesses(sun_before, sun_now);
   float lowers = max(low.y - low.x, 0.0);
-  vec3 turn = lowers * uneven * kLowTexture;
+  vec3 turn = uneven * (lowers * kLowTexture + GetDuskens(sun_before, sun_now) * kDuskTexture);
   vec2 color = GetLogColor(light) + turn.xy;
   turn += GetDuskTurn(color, view, sun_before, sun_now) + GetBlueDayTurn(color, cloud, day_y, sun_now.y, risen)
       + lowers * GetLowSkyTurn(color);

@@ -21,9 +21,8 @@ uniform float source_wind_speed;
 uniform float wind_direction;
 uniform float source_wind_direction;
 
-// Largest light of a pixel of glints, as radiance per unit of the sun's light, 1/sr. A single facet that mirrors the
-// sun is far brighter, but no pixel is as small, and a camera would show no more.
-const float kBrightest = 1.0;
+// Median color of the glare of 56 photos' suns, of luminance 1, and less blue, as readers prefer: glints are no redder.
+const vec3 kReddestGlints = vec3(2.0, 0.8, 0.12);
 
 // How far new glints replace the photo's, 0 to 1, after changes of the sun, the wind or the slider.
 float GetGlitterChange() {
@@ -40,13 +39,13 @@ vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle
   // color, since channel by channel orange glints leave a green sea.
   float dark = min(GetLuminance(light) / max(GetLuminance(clean), 1e-6), 1.0);
   vec3 calm = light + changed * mark * (dark * clean - light);
-  float shown = mirror.a * DecodeSparkle(sparkle);
+  float bright = DecodeSparkle(sparkle);
   // The sun's own color: the tint of the photo's sky would color glints that are nearly white.
   vec3 sun = texelFetch(composite_constants, ivec2(kWaterSunNow, 0), 0).rgb / sky_gain * GetLuminance(sky_gain);
   // The photo's own glints tell how bright they are at least: they are far brighter than white, however low the sun.
   float level = GetLuminance(sun);
-  sun = LimitRed(sun / level) * max(level, texelFetch(composite_constants, ivec2(kGlare, 0), 0).a);
-  vec3 glints = changed * shown / (1.0 + shown / kBrightest) * sun;
+  sun = LimitRed(sun / level, kReddestGlints) * max(level, texelFetch(composite_constants, ivec2(kGlare, 0), 0).a);
+  vec3 glints = changed * mirror.a * bright / (1.0 + mirror.a * sqrt(bright)) * sun;
   vec3 relit = max(calm * mirror.rgb, vec3(0.0));
   // As in the sky (sky/tint.glsl), the water's excess color over the model fades. Blue is the water's own.
   float redder = log(max(relit.r * sky.b, 1e-9) / max(relit.b * sky.r, 1e-9));
