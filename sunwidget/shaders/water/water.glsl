@@ -24,6 +24,12 @@ uniform float source_wind_direction;
 // Median color of the glare of 56 photos' suns, of luminance 1, and less blue, as readers prefer: glints are no redder.
 const vec3 kReddestGlints = vec3(2.0, 0.8, 0.12);
 
+// Where facets that mirror the sun are common, a pixel shows their light only bounded, or it would burn: its sparkle
+// to the power 1 - kEven, times kSparse / kCommon. With all of it bounded alike (a power of 0), a column is a flat bar.
+const float kEven = 0.65;
+const float kSparse = 1.2;
+const float kCommon = 1.8;
+
 // How far new glints replace the photo's, 0 to 1, after changes of the sun, the wind or the slider.
 float GetGlitterChange() {
   float wind = 0.5 * abs(wind_speed - source_wind_speed) + 0.05 * abs(wind_direction - source_wind_direction);
@@ -45,7 +51,7 @@ vec3 GetWaterChange(vec3 view, vec3 light, vec3 clean, float mark, float sparkle
   // The photo's own glints tell how bright they are at least: they are far brighter than white, however low the sun.
   float level = GetLuminance(sun);
   sun = LimitRed(sun / level, kReddestGlints) * max(level, texelFetch(composite_constants, ivec2(kGlare, 0), 0).a);
-  vec3 glints = changed * mirror.a * bright / (1.0 + mirror.a * sqrt(bright)) * sun;
+  vec3 glints = changed * kSparse * mirror.a * bright / (1.0 + kCommon * mirror.a * pow(bright, kEven)) * sun;
   vec3 relit = max(calm * mirror.rgb, vec3(0.0));
   // As in the sky (sky/tint.glsl), the water's excess color over the model fades. Blue is the water's own.
   float redder = log(max(relit.r * sky.b, 1e-9) / max(relit.b * sky.r, 1e-9));
