@@ -38,7 +38,7 @@ test("a wrapped statement becomes one line, and preprocessor lines stay lines", 
     "#if A\nfloat f(float a,\n        float b) {\n  return a\n      + b;  // sum\n}\n#endif\nvec2 c\n#if B\n= d\n#endif\n;";
   assert.equal(
     compact(text),
-    "#if A\nfloat f(float a,float b){\nreturn a+b;\n}\n#endif\nvec2 c\n#if B\n=d\n#endif\n;",
+    "#if A\nfloat f(float a,float b){\nreturn a+b;}\n#endif\nvec2 c\n#if B\n=d\n#endif\n;",
   );
 });
 
@@ -46,6 +46,22 @@ test("neighboring uniforms of one type are declared together", () => {
   const text =
     "uniform float a;\nuniform float b;  // meters\nuniform vec2 c;\nuniform vec2 d;\nuniform vec2 e;\n#if A\nuniform vec2 f;\n";
   assert.equal(compact(text), "uniform float a,b;\nuniform vec2 c,d,e;\n#if A\nuniform vec2 f;");
+});
+
+test("a closing brace stays below a preprocessor line", () => {
+  assert.equal(
+    compact("void f() {\n#if A\n  g();\n#endif\n}\n"),
+    "void f(){\n#if A\ng();\n#endif\n}",
+  );
+});
+
+test("neighboring variables of one type are declared together, whatever they begin with", () => {
+  const text =
+    "void f() {\n  float a = g(1.0, 2.0);\n  float b = a;\n  vec2 c = vec2(b);\n  vec2 d;\n  a = b;\n  float e = a;\n}\nfloat g(float a);\n";
+  assert.equal(
+    compact(text),
+    "void f(){\nfloat a=g(1.,2.),b=a;\nvec2 c=vec2(b),d;\na=b;\nfloat e=a;}\nfloat g(float a);",
+  );
 });
 
 test("constants become numbers where that is shorter; of two with one name neither does", () => {
