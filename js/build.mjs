@@ -60,8 +60,9 @@ export function reachable(graph, files) {
 
 /**
  * Strip comments, indentation, empty lines, spaces around operators and zeros beside a decimal point from a
- * shader, make wrapped statements one line, put braces on the lines beside them, and declare neighbors of one type together. Names and other lines
- * stay: a driver's error quotes a line, which can be found in the file. (Some constants become numbers: `inlined`.)
+ * shader, make wrapped statements one line, put braces on the lines beside them, and declare neighbors of one type together. Other lines
+ * stay: a driver's error quotes a line, which can be found in the file. (Some constants become numbers: `inlined`; functions get short
+ * names: `renamed`.)
  *
  * @param {string} text
  */
@@ -128,6 +129,35 @@ export function inlined(texts) {
   );
 }
 
+const FUNCTION = /^\w+ ([A-Z]\w{3,})\((?=[^;{]*\)\{)/gm;
+const WORD = /\b[A-Za-z_]\w*/g;
+
+/**
+ * Give functions short names, the same in every file. Uniforms and constants keep theirs.
+ *
+ * @param {Record<string, string>} texts compact shaders by path
+ */
+export function renamed(texts) {
+  const all = Object.values(texts).join("\n");
+  const taken = new Set(all.match(WORD));
+  const names = new Set([...all.matchAll(FUNCTION)].map(([, name]) => name));
+  /** @type {Map<string, string>} */
+  const short = new Map();
+  let count = 0;
+  for (const name of names) {
+    let next;
+    do next = `F${(count++).toString(36)}`;
+    while (taken.has(next));
+    short.set(name, next);
+  }
+  return Object.fromEntries(
+    Object.entries(texts).map(([path, text]) => [
+      path,
+      text.replace(WORD, (word) => short.get(word) ?? word),
+    ]),
+  );
+}
+
 /** @type {import("esbuild").Plugin} */
 export const shaderPlugin = {
   name: "sunwidget-shaders",
@@ -146,8 +176,10 @@ export const shaderPlugin = {
       // Keep comments while working on shaders.
       const texts = watching
         ? reached
-        : inlined(
-            Object.fromEntries(Object.entries(reached).map(([p, text]) => [p, compact(text)])),
+        : renamed(
+            inlined(
+              Object.fromEntries(Object.entries(reached).map(([p, text]) => [p, compact(text)])),
+            ),
           );
       return {
         contents:

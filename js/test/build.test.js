@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { compact, inlined, reachable } from "../build.mjs";
+import { compact, inlined, reachable, renamed } from "../build.mjs";
 
 test("a bundle holds what its graph reaches, libraries of libraries too, and no more", () => {
   const files = {
@@ -78,5 +78,19 @@ test("constants become numbers where that is shorter; of two with one name neith
     "b.glsl":
       "const float kSame=2.;\nconst float kList[2]=float[2](1.,2.);\nfloat g(){return float(3)*kSame*kList[1];}",
     "c.glsl": "const float kList=4.;\nfloat h(){return kList;}",
+  });
+});
+
+test("functions get short names, the same in every file; structs, uniforms and names in use stay", () => {
+  const texts = {
+    "lib.glsl":
+      "uniform float Level;\nstruct Stops{\nfloat day;};\nfloat GetDay(float F0){\nreturn F0*Level;}",
+    "a.glsl":
+      '#include "lib.glsl"\nStops GetStops(){\nreturn Stops(GetDay(1.));}\nvoid main(){\nGetStops();}',
+  };
+  assert.deepEqual(renamed(texts), {
+    "lib.glsl":
+      "uniform float Level;\nstruct Stops{\nfloat day;};\nfloat F1(float F0){\nreturn F0*Level;}",
+    "a.glsl": '#include "lib.glsl"\nStops F2(){\nreturn Stops(F1(1.));}\nvoid main(){\nF2();}',
   });
 });
