@@ -220,9 +220,15 @@ def test_clouds_follow_the_model_halfway():
     scene = photo.analyze()
     cloud, clear = photo.opacity > 0.85, (photo.opacity < 0.02) & (photo.sky > 0)
 
+    columns, rows = np.meshgrid(np.arange(240) + 0.5, np.arange(160) + 0.5)
+    height = scene.camera.angles(columns, rows)[1]
+    bands = [(height >= low) & (height < low + 4) for low in range(0, 60, 4)]
+    bands = [band for band in bands if min((cloud & band).sum(), (clear & band).sum()) > 50]
+    assert len(bands) > 2
+
     def over_the_sky(edit):
         light = np.log2(rendered(scene, edit) @ LUMINANCE)
-        return light[cloud].mean() - light[clear].mean()
+        return np.mean([light[cloud & band].mean() - light[clear & band].mean() for band in bands])
 
     alone, all_the_way = (over_the_sky(DUSK.replace(cloud_strength=x)) for x in (0, 1))
     assert all_the_way < -0.3  # the model's clouds of dusk are darker than the sky

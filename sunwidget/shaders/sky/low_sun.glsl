@@ -56,13 +56,15 @@ vec3 TurnColor(vec3 light, vec3 turn) {
   return turned * (GetLuminance(light) / max(GetLuminance(turned), 1e-9)) * exp2(turn.z);
 }
 
-// How photos of dusk look towards a sun of about 4 degrees below the horizon, near the horizon and high above it; their
-// luminance (log2) falls by kDuskFall. Medians of 96 photos (training/skies/dusk.py).
+// How photos of dusk look towards a sun of about 4 degrees below the horizon, near the horizon and high above it. Medians
+// of 96 photos (training/skies/dusk.py).
 const vec2 kDuskBelow = vec2(1.5, -1.15);
 const vec2 kDuskAbove = vec2(-0.5, 1.2);  // less violet than photos (2^0.25), as readers prefer
 const vec2 kDuskOpposite = vec2(0.2, 0.4);  // opposite the sun
-const float kDuskFall = 1.4;
-const float kDuskMean = 0.8;
+// Their luminance (log2) falls by 2.2 from the horizon to 40 degrees above it, that of edits by a day's sky only by .7 to 1.
+const float kDuskFall = 2.2;
+const float kDuskMean = 1.2;
+const vec2 kDuskFalls = vec2(-0.07, -0.035);  // from 2 degrees below the horizon to 4: until then the model's fall is right
 const float kDuskShare = 0.5;  // of the way to them
 const float kOppositeShare = 0.25;
 const float kDuskHeight = 19.0;  // of the sky near the horizon: half at 11 degrees
@@ -109,10 +111,12 @@ vec3 GetLowLandTurn(float uneven, float seen, vec3 sun_before, vec3 sun_now) {
 // The turn of a sky's `color` towards that of such photos as the sun sets.
 vec3 GetDuskTurn(vec2 color, vec3 view, vec3 sun_before, vec3 sun_now) {
   float towards = GetTowards(view, sun_now);
-  float share = mix(kOppositeShare, kDuskShare, towards) * GetDuskens(sun_before, sun_now);
+  float share = mix(kOppositeShare, kDuskShare, towards);
   float height = max(view.y, 0.0);
   vec2 wanted = mix(kDuskAbove, mix(kDuskOpposite, kDuskBelow, towards), exp(-kDuskHeight * height * height));
-  return share * vec3(wanted - color, kDuskFall * exp(-kDuskFade * height) - kDuskMean);
+  float falls = 1.0 - smoothstep(kDuskFalls.x, kDuskFalls.y, sun_now.y);
+  return GetDuskens(sun_before, sun_now)
+      * vec3(share * (wanted - color), falls * (kDuskFall * exp(-kDuskFade * height) - kDuskMean));
 }
 
 // Red over green of skies of a low sun by their blue over green: in white light, its change with less blue than green,
