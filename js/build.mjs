@@ -131,9 +131,11 @@ export function inlined(texts) {
 
 const FUNCTION = /^\w+ ([A-Z]\w{3,})\((?=[^;{]*\)\{)/gm;
 const WORD = /\b[A-Za-z_]\w*/g;
+/** `gl/program.js` calls it by name. */
+const CALLED = "SetConstants";
 
 /**
- * Give functions short names, the same in every file. Uniforms and constants keep theirs.
+ * Give functions short names, the same in every file. Uniforms, constants and what the front end calls keep theirs.
  *
  * @param {Record<string, string>} texts compact shaders by path
  */
@@ -141,6 +143,7 @@ export function renamed(texts) {
   const all = Object.values(texts).join("\n");
   const taken = new Set(all.match(WORD));
   const names = new Set([...all.matchAll(FUNCTION)].map(([, name]) => name));
+  names.delete(CALLED);
   /** @type {Map<string, string>} */
   const short = new Map();
   let count = 0;

@@ -86,11 +86,12 @@ test("functions get short names, the same in every file; structs, uniforms and n
     "lib.glsl":
       "uniform float Level;\nstruct Stops{\nfloat day;};\nfloat GetDay(float F0){\nreturn F0*Level;}",
     "a.glsl":
-      '#include "lib.glsl"\nStops GetStops(){\nreturn Stops(GetDay(1.));}\nvoid main(){\nGetStops();}',
+      '#include "lib.glsl"\nStops GetStops(){\nreturn Stops(GetDay(1.));}\nvoid SetConstants(){\nGetStops();}',
   };
   assert.deepEqual(renamed(texts), {
     "lib.glsl":
       "uniform float Level;\nstruct Stops{\nfloat day;};\nfloat F1(float F0){\nreturn F0*Level;}",
-    "a.glsl": '#include "lib.glsl"\nStops F2(){\nreturn Stops(F1(1.));}\nvoid main(){\nF2();}',
+    "a.glsl":
+      '#include "lib.glsl"\nStops F2(){\nreturn Stops(F1(1.));}\nvoid SetConstants(){\nF2();}',
   });
 });
