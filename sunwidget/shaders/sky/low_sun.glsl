@@ -63,7 +63,7 @@ const vec2 kDuskAbove = vec2(-0.5, 1.2);  // less violet than photos (2^0.25), a
 const vec2 kDuskOpposite = vec2(0.2, 0.4);  // opposite the sun
 // Their luminance (log2) falls by 2.2 from the horizon to 40 degrees above it, that of edits by a day's sky only by .7 to 1.
 const float kDuskFall = 2.2;
-const float kDuskMean = 1.2;
+const float kDuskMean = 1.1;
 const vec2 kDuskFalls = vec2(-0.07, -0.035);  // from 2 degrees below the horizon to 4: until then the model's fall is right
 const float kDuskShare = 0.5;  // of the way to them
 const float kOppositeShare = 0.25;
